@@ -1,0 +1,167 @@
+//! From evenly spaced samples back to the velocity at any time.
+
+use super::Turbulence;
+use crate::lanes::Lanes;
+use crate::vec3::Vec3;
+use std::f64::consts::PI;
+
+/// How many samples an interpolated value rests on.
+pub(super) const SPREAD: usize = 8;
+/// Cells of a cubic per sample spacing.
+const CELLS: usize = 16;
+
+/// The Kaiser-Bessel taper `φ(x) = I₀(β √(1−(2x/w)²))/I₀(β)`, |x| ≤ w/2 = SPREAD/2 sample spacings.
+///
+/// A signal of frequencies up to a quarter of the sampling rate, each divided by the taper's transform
+/// there, is restored by a sum over the eight nearest samples to 1e-7 of its rms. theory.md (19)
+pub(super) struct Taper {
+    beta: f64,
+}
+
+impl Taper {
+    pub(super) fn new() -> Self {
+        // The widest main lobe that still ends before the first image, at ¾ of the sampling rate.
+        Self { beta: PI * SPREAD as f64 * 0.75 }
+    }
+
+    /// Fourier transform at a frequency in turns per sample, `w sinh(s)/(s I₀(β))`, `s² = β²−(πwν)²`.
+    pub(super) fn transform(&self, frequency: f64) -> f64 {
+        let w = SPREAD as f64;
+        let a = PI * w * frequency;
+        let s = (self.beta * self.beta - a * a).sqrt();
+        w * libm::sinh(s) / (s * bessel_i0_and_slope(self.beta).0)
+    }
+
+    /// `φ` and `dφ/dx` at `x` sample spacings.
+    fn value_and_slope(&self, x: f64) -> (f64, f64) {
+        let w = SPREAD as f64;
+        let inside = 1.0 - (2.0 * x / w).powi(2);
+        if inside < 0.0 {
+            return (0.0, 0.0);
+        }
+        let scale = bessel_i0_and_slope(self.beta).0;
+        let (value, slope_over_z) = bessel_i0_and_slope(self.beta * inside.sqrt());
+        // dφ/dx = I₁(z) dz/dx with z = β√inside: dz/dx = −β² 4x/(w² z).
+        let slope = -slope_over_z * self.beta * self.beta * 4.0 * x / (w * w);
+        (value / scale, slope / scale)
+    }
+}
+
+/// Modified Bessel function `I₀(z)` and `I₁(z)/z`, by their series.
+fn bessel_i0_and_slope(z: f64) -> (f64, f64) {
+    let quarter = z * z / 4.0;
+    let (mut i0, mut i1_over_z) = (0.0, 0.0);
+    let mut term = 1.0;
+    let mut k = 0.0;
+    while term > 1e-20 * i0 {
+        i0 += term;
+        i1_over_z += 0.5 * term / (k + 1.0);
+        k += 1.0;
+        term *= quarter / (k * k);
+    }
+    (i0, i1_over_z)
+}
+
+/// The wind along eight fibres as time goes on: each velocity component a cubic in time within a cell,
+/// through values and slopes at the cell's two ends.
+///
+/// The cubic is 64 or more cells to the shortest period: error `(π/32)⁴/384 · u/3 < 1e-7 u`. theory.md (19)
+#[derive(Clone, Debug)]
+pub struct Wind<'a> {
+    turbulence: &'a Turbulence,
+    /// Weights of the `SPREAD` samples for value and slope (per cell) at the `CELLS` cell ends.
+    weights: Vec<[(f64, f64); SPREAD]>,
+    cell: Option<u64>,
+    /// Value and slope at the two ends of the cell, `[eddy][component]`.
+    start: Vec<(Lanes, Lanes)>,
+    end: Vec<(Lanes, Lanes)>,
+    /// Coefficients of the cubic in the cell's own time from 0 to 1.
+    cubic: Vec<[Lanes; 4]>,
+    velocity: Vec<Vec3<Lanes>>,
+}
+
+impl<'a> Wind<'a> {
+    /// The wind of some turbulence and its mean flow.
+    pub fn new(turbulence: &'a Turbulence) -> Self {
+        let taper = Taper::new();
+        let weights = (0..CELLS)
+            .map(|cell| {
+                std::array::from_fn(|tap| {
+                    let fraction = cell as f64 / CELLS as f64;
+                    let x = fraction - (tap as f64 - (SPREAD as f64 / 2.0 - 1.0));
+                    let (value, slope) = taper.value_and_slope(x);
+                    (value, slope / CELLS as f64)
+                })
+            })
+            .collect();
+        let columns = 3 * turbulence.eddies;
+        Self {
+            turbulence,
+            weights,
+            cell: None,
+            start: vec![(Lanes::ZERO, Lanes::ZERO); columns],
+            end: vec![(Lanes::ZERO, Lanes::ZERO); columns],
+            cubic: vec![[Lanes::ZERO; 4]; columns],
+            velocity: vec![Vec3::ZERO; turbulence.eddies],
+        }
+    }
+
+    /// Velocity of the air in each eddy [m/s] at time `t` [s] of the run, mean flow included.
+    ///
+    /// Fastest when times come in order.
+    #[inline(always)]
+    pub fn at(&mut self, t: f64) -> &[Vec3<Lanes>] {
+        let cells = t / self.turbulence.spacing * CELLS as f64;
+        let cell = cells as u64;
+        if self.cell != Some(cell) {
+            self.enter(cell);
+        }
+        let s = Lanes::splat(cells - cell as f64);
+        let along = |c: &[Lanes; 4]| c[3].mul_add(s, c[2]).mul_add(s, c[1]).mul_add(s, c[0]);
+        for (v, cubic) in self.velocity.iter_mut().zip(self.cubic.chunks_exact(3)) {
+            *v = Vec3::new(along(&cubic[0]), along(&cubic[1]), along(&cubic[2]));
+        }
+        &self.velocity
+    }
+
+    #[inline(always)]
+    fn enter(&mut self, cell: u64) {
+        if cell == 0 || self.cell != Some(cell - 1) {
+            self.move_end(cell);
+        }
+        std::mem::swap(&mut self.start, &mut self.end);
+        self.move_end(cell + 1);
+        let (two, three) = (Lanes::splat(2.0), Lanes::splat(3.0));
+        for (column, (cubic, (a, b))) in
+            self.cubic.iter_mut().zip(self.start.iter().zip(&self.end)).enumerate()
+        {
+            let rise = b.0 - a.0;
+            let mean = if column % 3 == 0 { self.turbulence.mean } else { Lanes::ZERO };
+            *cubic = [
+                a.0 + mean,
+                a.1,
+                three.mul_add(rise, -(two * a.1 + b.1)),
+                a.1 + b.1 - two * rise,
+            ];
+        }
+        self.cell = Some(cell);
+    }
+
+    /// Puts the value and slope at a cell's start into `end`.
+    #[inline(always)]
+    fn move_end(&mut self, cell: u64) {
+        let columns = self.end.len();
+        let first = (cell / CELLS as u64) as usize;
+        let weights = &self.weights[(cell % CELLS as u64) as usize];
+        let samples = &self.turbulence.samples[first * columns..][..SPREAD * columns];
+        for (column, end) in self.end.iter_mut().enumerate() {
+            let (mut value, mut slope) = (Lanes::ZERO, Lanes::ZERO);
+            for (tap, &(for_value, for_slope)) in weights.iter().enumerate() {
+                let sample = samples[tap * columns + column];
+                value = sample.mul_add(Lanes::splat(for_value), value);
+                slope = sample.mul_add(Lanes::splat(for_slope), slope);
+            }
+            *end = (value, slope);
+        }
+    }
+}

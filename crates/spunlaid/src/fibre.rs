@@ -1,0 +1,90 @@
+//! The fibre: geometry, material, mesh and how it is held.
+
+use crate::vec3::Vec3;
+use std::f64::consts::PI;
+
+/// How the fibre's first node is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Root {
+    /// Held in place, free to turn.
+    Pinned,
+    /// Held in place and direction, by a rotational spring of half a cell, `2EI/l`, which makes static
+    /// deflection second order in the element length.
+    Clamped,
+}
+
+/// A fibre cut into elements of equal rest length, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fibre {
+    /// Length `L` [m].
+    pub length: f64,
+    /// Diameter `d` [m].
+    pub diameter: f64,
+    /// Density of the polymer `ρ_f` [kg/m³].
+    pub density: f64,
+    /// Young's modulus `E` [Pa].
+    pub youngs_modulus: f64,
+    /// Number of elements `N`; the chain has `N+1` nodes.
+    pub elements: usize,
+    /// How node 1 is held.
+    pub root: Root,
+    /// Unit vector along which the straight fibre starts, and in which a clamped root holds it.
+    pub direction: Vec3<f64>,
+}
+
+impl Fibre {
+    /// Rest length of an element `l = L/N` [m].
+    pub fn rest_length(&self) -> f64 {
+        self.length / self.elements as f64
+    }
+
+    /// Cross-section `A = πd²/4` [m²].
+    pub fn cross_section(&self) -> f64 {
+        PI * self.diameter * self.diameter / 4.0
+    }
+
+    /// Second moment of area `I = πd⁴/64` [m⁴].
+    pub fn second_moment(&self) -> f64 {
+        PI * self.diameter.powi(4) / 64.0
+    }
+
+    /// Mass of an element `Δm = ρ_f l A` [kg]; a node carries as much, the two ends half.
+    pub fn element_mass(&self) -> f64 {
+        self.density * self.rest_length() * self.cross_section()
+    }
+
+    /// Mass of node `i` of `0..=N` [kg].
+    pub fn node_mass(&self, i: usize) -> f64 {
+        let end = i == 0 || i == self.elements;
+        self.element_mass() * if end { 0.5 } else { 1.0 }
+    }
+
+    /// Axial stiffness of an element `k_a = EA/l` [N/m].                     theory.md (10)
+    pub fn axial_stiffness(&self) -> f64 {
+        self.youngs_modulus * self.cross_section() / self.rest_length()
+    }
+
+    /// Rotational stiffness of an interior node `k_θ = EI/l` [N·m].          theory.md (12)
+    pub fn rotational_stiffness(&self) -> f64 {
+        self.youngs_modulus * self.second_moment() / self.rest_length()
+    }
+
+    /// Rotational stiffness of the root [N·m]: 0 pinned, `2EI/l` clamped.
+    pub fn root_stiffness(&self) -> f64 {
+        match self.root {
+            Root::Pinned => 0.0,
+            Root::Clamped => 2.0 * self.rotational_stiffness(),
+        }
+    }
+
+    /// Longest stable explicit step of the axial waves, `l √(ρ_f/E)` [s].    theory.md (30)
+    pub fn axial_step_limit(&self) -> f64 {
+        self.rest_length() * (self.density / self.youngs_modulus).sqrt()
+    }
+
+    /// Longest stable explicit step of the bending waves, `2l²/(d √(E/ρ_f))` [s]. theory.md (31)
+    pub fn bending_step_limit(&self) -> f64 {
+        let wave_speed = (self.youngs_modulus / self.density).sqrt();
+        2.0 * self.rest_length().powi(2) / (self.diameter * wave_speed)
+    }
+}

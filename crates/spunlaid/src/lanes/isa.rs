@@ -1,0 +1,92 @@
+//! Run-time choice of the instruction set.
+
+/// An instruction set the kernel is compiled for. All give the same bits; they differ in speed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Isa {
+    /// x86-64 with AVX-512 F, DQ and VL: eight lanes in one register.
+    Avx512,
+    /// x86-64 with AVX2 and FMA: eight lanes in two registers.
+    Avx2,
+    /// What every machine of the target has. On x86-64 that excludes fused multiply-add, which is then
+    /// computed in software: exact, and slow.
+    Baseline,
+}
+
+impl Isa {
+    /// Every instruction set this machine can run, the fastest first.
+    pub fn available() -> Vec<Self> {
+        let mut found = Vec::new();
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512vl")
+                && is_x86_feature_detected!("fma")
+            {
+                found.push(Self::Avx512);
+            }
+            if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+                found.push(Self::Avx2);
+            }
+        }
+        found.push(Self::Baseline);
+        found
+    }
+
+    /// The fastest this machine can run.
+    pub fn detect() -> Self {
+        Self::available()[0]
+    }
+
+    /// A short name: `AVX-512`, `AVX2`, `baseline`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Avx512 => "AVX-512",
+            Self::Avx2 => "AVX2",
+            Self::Baseline => "baseline",
+        }
+    }
+
+    /// Runs `task` compiled for this instruction set; where the machine lacks it, for the baseline.
+    ///
+    /// Only what is inlined into the task's `call` is compiled so.
+    #[inline]
+    pub fn run<T: Task>(self, task: T) -> T::Output {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if self != Self::Baseline && Self::available().contains(&self) {
+                // SAFETY: the features each function is compiled for were just found on this machine.
+                return unsafe {
+                    match self {
+                        Self::Avx512 => x86::avx512(task),
+                        _ => x86::avx2(task),
+                    }
+                };
+            }
+        }
+        task.call()
+    }
+}
+
+/// Work that [`Isa::run`] compiles once for every instruction set.
+pub trait Task {
+    /// What the work returns.
+    type Output;
+    /// Does the work. Mark it and all it calls `#[inline(always)]`.
+    fn call(self) -> Self::Output;
+}
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use super::Task;
+
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+    pub(super) fn avx512<T: Task>(task: T) -> T::Output {
+        task.call()
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    pub(super) fn avx2<T: Task>(task: T) -> T::Output {
+        task.call()
+    }
+}

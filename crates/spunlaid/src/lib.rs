@@ -1,0 +1,10 @@
+//! Simulator of fibres in turbulent air.
+pub mod air;
+pub mod chain;
+pub mod drag;
+pub mod energy;
+pub mod ensemble;
+pub mod fibre;
+pub mod lanes;
+pub mod observe;
+pub mod vec3;
