@@ -1,6 +1,6 @@
 //! Fourier transform of eight signals side by side.
 
-use crate::lanes::{Lanes, cos_sin_turn};
+use crate::lanes::{Lanes, cos_sin_turn, one_at_a_time};
 
 /// Complex numbers of eight lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -74,6 +74,7 @@ impl InverseTransform {
                 let lower = &data[stride * (p + half)..][..stride];
                 let (even, odd) = scratch[2 * stride * p..][..2 * stride].split_at_mut(stride);
                 for q in 0..stride {
+                    one_at_a_time();
                     even[q] = upper[q].plus(lower[q]);
                     odd[q] = upper[q].minus(lower[q]).times(root);
                 }

@@ -1,7 +1,7 @@
 //! From evenly spaced samples back to the velocity at any time.
 
 use super::Turbulence;
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, one_at_a_time};
 use crate::vec3::Vec3;
 use std::f64::consts::PI;
 
@@ -119,6 +119,7 @@ impl<'a> Wind<'a> {
         let s = Lanes::splat(cells - cell as f64);
         let along = |c: &[Lanes; 4]| c[3].mul_add(s, c[2]).mul_add(s, c[1]).mul_add(s, c[0]);
         for (v, cubic) in self.velocity.iter_mut().zip(self.cubic.chunks_exact(3)) {
+            one_at_a_time();
             *v = Vec3::new(along(&cubic[0]), along(&cubic[1]), along(&cubic[2]));
         }
         &self.velocity
@@ -135,6 +136,7 @@ impl<'a> Wind<'a> {
         for (column, (cubic, (a, b))) in
             self.cubic.iter_mut().zip(self.start.iter().zip(&self.end)).enumerate()
         {
+            one_at_a_time();
             let rise = b.0 - a.0;
             let mean = if column % 3 == 0 { self.turbulence.mean } else { Lanes::ZERO };
             *cubic = [
@@ -157,6 +159,7 @@ impl<'a> Wind<'a> {
         for (column, end) in self.end.iter_mut().enumerate() {
             let (mut value, mut slope) = (Lanes::ZERO, Lanes::ZERO);
             for (tap, &(for_value, for_slope)) in weights.iter().enumerate() {
+                one_at_a_time();
                 let sample = samples[tap * columns + column];
                 value = sample.mul_add(Lanes::splat(for_value), value);
                 slope = sample.mul_add(Lanes::splat(for_slope), slope);

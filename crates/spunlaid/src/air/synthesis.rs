@@ -4,7 +4,7 @@ use super::Air;
 use super::fft::{Complex, InverseTransform};
 use super::interpolation::{SPREAD, Taper};
 use crate::lanes::isa::Task;
-use crate::lanes::{Isa, Lanes, WIDTH, cos_sin_turn};
+use crate::lanes::{Isa, Lanes, WIDTH, cos_sin_turn, one_at_a_time};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -106,6 +106,7 @@ impl Task for Synthesis<'_> {
                 std::array::from_fn(|i| pick(i).1.phases(column / 3, column % 3));
             bins.fill(Complex::default());
             for (n, &a) in amplitude.iter().enumerate() {
+                one_at_a_time();
                 let (cos, sin) = cos_sin_turn(Lanes::from_fn(|i| phases[i]()));
                 // Half the size for a real signal of half-odd frequencies: theory.md (18).
                 let (bin, sign) = if n % 2 == 0 { ((half - n / 2) % half, -1.0) } else { (n / 2 + 1, 1.0) };
@@ -117,6 +118,7 @@ impl Task for Synthesis<'_> {
             transform.run(&mut bins, &mut scratch);
             let wave: Vec<Complex> = bins.iter().zip(&turn_back).map(|(&z, &t)| z.times(t)).collect();
             for (k, row) in samples.chunks_exact_mut(columns).enumerate() {
+                one_at_a_time();
                 // The signal changes sign from one repeat time to the next.
                 let m = k as isize - (SPREAD as isize / 2 - 1);
                 let (laps, m) = (m.div_euclid(period as isize), m.rem_euclid(period as isize) as usize);

@@ -3,7 +3,7 @@
 use super::forces::{Element, bending};
 use super::{Chain, Constants};
 use crate::energy::Work;
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, one_at_a_time};
 use crate::vec3::Vec3;
 
 /// How the equations of motion are advanced in time.
@@ -37,7 +37,9 @@ pub(crate) fn step<const LEAPFROG: bool, const DAMPED: bool>(
     let c = chain.constants;
     let half = Lanes::splat(0.5);
     let elements = chain.elements();
-    let mut mover = Mover::<LEAPFROG, DAMPED> { chain, c: &c, kick, drift, work };
+    // A copy, so that its sums stay in registers.
+    let mut sums = *work;
+    let mut mover = Mover::<LEAPFROG, DAMPED> { chain, c: &c, kick, drift, work: &mut sums };
 
     let mut above = Element { tangent: c.root_direction, inverse_length: Lanes::ZERO, length: Lanes::ZERO };
     let mut stiffness = c.root_stiffness;
@@ -46,6 +48,7 @@ pub(crate) fn step<const LEAPFROG: bool, const DAMPED: bool>(
     let mut force = [Vec3::ZERO; 2];
     let mut drag = [Vec3::ZERO; 2];
     for j in 0..elements {
+        one_at_a_time();
         let lower = (mover.chain.position[j + 1], mover.drag_velocity(j + 1));
         let element = Element::between(upper.0, lower.0);
         let pull = element.tangent * element.tension(c.axial_stiffness, c.rest_length);
@@ -66,6 +69,7 @@ pub(crate) fn step<const LEAPFROG: bool, const DAMPED: bool>(
         mover.advance(elements - 1, force[0], drag[0], c.mass, c.inverse_mass);
     }
     mover.advance(elements, force[1], drag[1], c.mass * half, c.inverse_mass * 2.0);
+    *work = sums;
 }
 
 /// Moves nodes on and keeps the ledger.

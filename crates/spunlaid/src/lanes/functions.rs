@@ -6,14 +6,18 @@
 use super::{Lanes, WIDTH};
 use std::array::from_fn;
 
-/// `Σ cᵢ xⁱ` by Horner's rule.
+/// `Σ cᵢ xⁱ` of up to 16 terms by Estrin's scheme: pairs, pairs of pairs, …, so that few operations wait
+/// for one another.
 #[inline(always)]
 fn polynomial<const N: usize>(x: Lanes, coefficients: &[f64; N]) -> Lanes {
-    let mut sum = Lanes::splat(coefficients[N - 1]);
-    for &c in coefficients[..N - 1].iter().rev() {
-        sum = sum.mul_add(x, Lanes::splat(c));
-    }
-    sum
+    const { assert!(N >= 2 && N <= 16) };
+    let x2 = x * x;
+    let x4 = x2 * x2;
+    let term = |i: usize| Lanes::splat(coefficients[i]);
+    let two = |i: usize| if i + 1 < N { term(i + 1).mul_add(x, term(i)) } else { term(i) };
+    let four = |i: usize| if i + 2 < N { two(i + 2).mul_add(x2, two(i)) } else { two(i) };
+    let eight = |i: usize| if i + 4 < N { four(i + 4).mul_add(x4, four(i)) } else { four(i) };
+    if N > 8 { eight(8).mul_add(x4 * x4, eight(0)) } else { eight(0) }
 }
 
 /// `log2(1+f)/f` for `1+f` in [√½, √2], to 3.2e-11.
