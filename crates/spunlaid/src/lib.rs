@@ -8,3 +8,4 @@ pub mod fibre;
 pub mod lanes;
 pub mod observe;
 pub mod vec3;
+pub mod case;

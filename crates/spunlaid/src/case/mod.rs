@@ -1,0 +1,89 @@
+//! A case: everything a run needs, validated, in SI units.
+
+use crate::air::Air;
+use crate::chain::Strand;
+use crate::chain::schemes::Scheme;
+use crate::drag::Drag;
+use crate::fibre::Fibre;
+
+/// A fibre, the air it flies in and how the flight is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case {
+    /// The fibre and its mesh.
+    pub fibre: Fibre,
+    /// The air.
+    pub air: Air,
+    /// The drag laws.
+    pub drag: Drag,
+    /// Time, integration and ensemble.
+    pub run: Run,
+}
+
+/// Time, integration and ensemble of a case. Times are whole numbers of steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    /// Time step `h` [s].
+    pub time_step: f64,
+    /// Number of steps.
+    pub steps: u64,
+    /// Steps at the start that the statistics leave out.
+    pub spin_up_steps: u64,
+    /// Steps from one recorded instant to the next.
+    pub output_steps: u64,
+    /// Number of fibres with different turbulence.
+    pub replicates: u64,
+    /// Master seed of the random phases.
+    pub seed: u64,
+    /// Time integration.
+    pub scheme: Scheme,
+    /// Acceleration of gravity along x [m/s²].
+    pub gravity: f64,
+    /// Mass-proportional damping [1/s].
+    pub damping: f64,
+}
+
+impl Run {
+    /// Simulated time [s].
+    pub fn duration(&self) -> f64 {
+        self.steps as f64 * self.time_step
+    }
+
+    /// Time the statistics leave out [s].
+    pub fn spin_up(&self) -> f64 {
+        self.spin_up_steps as f64 * self.time_step
+    }
+
+    /// Time from one recorded instant to the next [s].
+    pub fn output_interval(&self) -> f64 {
+        self.output_steps as f64 * self.time_step
+    }
+}
+
+/// A limit on the time step, with its cause.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepLimit {
+    /// What sets it: `axial waves` or `bending waves`.
+    pub cause: &'static str,
+    /// The longest stable step [s]; steps must stay below it.
+    pub limit: f64,
+}
+
+impl Case {
+    /// Limits on the time step of the explicit schemes on this mesh.
+    pub fn step_limits(&self) -> [StepLimit; 2] {
+        [
+            StepLimit { cause: "axial waves", limit: self.fibre.axial_step_limit() },
+            StepLimit { cause: "bending waves", limit: self.fibre.bending_step_limit() },
+        ]
+    }
+
+    /// The fibre and what acts on it, as the chain takes it.
+    pub fn strand(&self) -> Strand {
+        Strand {
+            fibre: self.fibre,
+            drag: self.drag.of_element(&self.fibre, self.air.density, self.air.kinematic_viscosity),
+            gravity: self.run.gravity,
+            damping: self.run.damping,
+        }
+    }
+}
