@@ -9,3 +9,6 @@ pub mod lanes;
 pub mod observe;
 pub mod vec3;
 pub mod case;
+pub mod fft;
+pub mod statistics;
+pub mod error;

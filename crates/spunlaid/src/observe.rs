@@ -63,3 +63,54 @@ impl EndNodeObserver {
         }
     }
 }
+
+/// Running mean and spread of every node of eight fibres, taken at the recorded instants.
+#[derive(Clone, Debug)]
+pub struct SpreadObserver {
+    count: f64,
+    nodes: Vec<(Vec3<Lanes>, [Lanes; 2])>,
+}
+
+/// Motion of a node over time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NodeSpread {
+    /// Mean position [m].
+    pub mean: Vec3<f64>,
+    /// Standard deviation of y [m].
+    pub amplitude_y: f64,
+    /// Standard deviation of z [m].
+    pub amplitude_z: f64,
+}
+
+impl SpreadObserver {
+    /// For chains of so many nodes.
+    pub fn new(nodes: usize) -> Self {
+        Self { count: 0.0, nodes: vec![Default::default(); nodes] }
+    }
+
+    /// Takes in the positions of all nodes at one more instant.
+    pub fn see(&mut self, position: &[Vec3<Lanes>]) {
+        self.count += 1.0;
+        let share = Lanes::splat(1.0 / self.count);
+        for ((mean, squares), &p) in self.nodes.iter_mut().zip(position) {
+            let off = p - *mean;
+            *mean = off.mul_add(share, *mean);
+            let rest = p - *mean;
+            squares[0] = off.y.mul_add(rest.y, squares[0]);
+            squares[1] = off.z.mul_add(rest.z, squares[1]);
+        }
+    }
+
+    /// The nodes' motion in one lane.
+    pub fn nodes(&self, lane: usize) -> Vec<NodeSpread> {
+        let deviation = |squares: Lanes| (squares.0[lane] / self.count).sqrt();
+        self.nodes
+            .iter()
+            .map(|&(mean, squares)| NodeSpread {
+                mean: mean.lane(lane),
+                amplitude_y: deviation(squares[0]),
+                amplitude_z: deviation(squares[1]),
+            })
+            .collect()
+    }
+}

@@ -1,7 +1,6 @@
 //! The air: mean flow, and turbulence synthesised along the fibre.
 
 mod eddies;
-pub mod fft;
 mod interpolation;
 pub mod spectrum;
 mod synthesis;

@@ -1,8 +1,8 @@
 //! Turbulence by random-phase synthesis.
 
 use super::Air;
-use super::fft::{Complex, InverseTransform};
 use super::interpolation::{SPREAD, Taper};
+use crate::fft::{Complex, InverseTransform};
 use crate::lanes::isa::Task;
 use crate::lanes::{Isa, Lanes, WIDTH, cos_sin_turn, one_at_a_time};
 use rand_chacha::ChaCha8Rng;

@@ -86,4 +86,18 @@ impl Case {
             damping: self.run.damping,
         }
     }
+
+    /// Why a fibre of this case would stop being finite, as far as the case itself tells.
+    pub fn likely_cause_of_divergence(&self) -> String {
+        let h = self.run.time_step;
+        let tightest = self.step_limits().into_iter().min_by(|a, b| a.limit.total_cmp(&b.limit));
+        match tightest {
+            Some(StepLimit { cause, limit }) if h > 0.5 * limit => format!(
+                "the time step {h:e} s is close to the stability limit {limit:e} s of the {cause}; lower run.time_step"
+            ),
+            _ => format!(
+                "the drag is too stiff for the time step {h:e} s (a thin fibre in fast air); lower run.time_step"
+            ),
+        }
+    }
 }

@@ -1,2 +1,65 @@
-//! Ensembles.
+//! Ensembles: replicates packed eight to a bundle, bundles shared out to threads.
+
 pub mod bundle;
+mod flight;
+mod order;
+mod results;
+mod turbulence;
+
+pub use flight::{Flight, Job, Sample};
+pub use order::in_order;
+pub use turbulence::{SpectrumPoint, turbulence_spectrum};
+pub use results::{Collector, EndNodeResults, ErrorOverTime, LedgerError, NodeResults, Results};
+
+use crate::case::Case;
+use crate::error::Error;
+use crate::lanes::{Isa, WIDTH};
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+/// How an ensemble is computed. None of it changes a bit of the results.
+#[derive(Clone, Copy, Debug)]
+pub struct Computing<'a> {
+    /// Number of threads.
+    pub threads: usize,
+    /// Instruction set.
+    pub isa: Isa,
+    /// Set from elsewhere to stop early.
+    pub stop: &'a AtomicBool,
+    /// Counts fibre steps done, for a progress display.
+    pub fibre_steps: &'a AtomicU64,
+}
+
+/// Flies the replicates of a case and hands each flight over, in the order of the replicates.
+///
+/// * `keep_shapes` – how many of the first replicates record the whole fibre over time
+/// * `take` – receives the flights; an error it returns ends the ensemble
+///
+/// # Errors
+/// A fibre that stops being finite, a stop from elsewhere, and what `take` returns.
+pub fn fly<E: From<Error>>(
+    case: &Case,
+    keep_shapes: u64,
+    computing: Computing<'_>,
+    mut take: impl FnMut(Flight) -> Result<(), E>,
+) -> Result<(), E> {
+    let bundles = case.run.replicates.div_ceil(WIDTH as u64);
+    in_order(
+        bundles as usize,
+        computing.threads,
+        |bundle| {
+            let first = bundle as u64 * WIDTH as u64;
+            let last = case.run.replicates.min(first + WIDTH as u64);
+            let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
+            flight::fly_bundle(&jobs, first < keep_shapes, computing)
+        },
+        |flights| {
+            for mut flight in flights? {
+                if flight.replicate >= keep_shapes {
+                    flight.shapes = Vec::new();
+                }
+                take(flight)?;
+            }
+            Ok(())
+        },
+    )
+}

@@ -1,0 +1,176 @@
+//! The flight of one replicate: what is kept of it.
+
+use super::Computing;
+use super::bundle::{Bundle, Snapshot};
+use crate::air::{Air, Eddies, StreamKey, Turbulence};
+use crate::case::Case;
+use crate::chain::Strand;
+use crate::energy::Energy;
+use crate::error::Error;
+use crate::observe::{EndNodeMotion, NodeSpread, SpreadObserver};
+use crate::vec3::Vec3;
+use std::sync::atomic::Ordering;
+
+/// One replicate of a case: the unit of work, fully described by data.
+#[derive(Clone, Copy, Debug)]
+pub struct Job<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// Which replicate of it.
+    pub replicate: u64,
+}
+
+/// What is kept of one replicate.
+#[derive(Clone, Debug, Default)]
+pub struct Flight {
+    /// Which replicate of its case.
+    pub replicate: u64,
+    /// Motion of the end node, from every step after the spin-up.
+    pub end_node: EndNodeMotion,
+    /// Largest strain of an element at the recorded instants, by size [-].
+    pub max_strain: f64,
+    /// End node and energies at the recorded instants, the start included.
+    pub samples: Vec<Sample>,
+    /// Mean position and spread of the `N+1` nodes over the recorded instants after the spin-up.
+    pub nodes: Vec<NodeSpread>,
+    /// Positions of the `N+1` nodes at each recorded instant [m]; empty unless asked for.
+    pub shapes: Vec<Vec<Vec3<f64>>>,
+}
+
+/// One recorded instant of a fibre.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// Time [s].
+    pub time: f64,
+    /// Position of the end node [m].
+    pub end: Vec3<f64>,
+    /// Kinetic energy [J].
+    pub kinetic: f64,
+    /// Energy stored in stretch [J].
+    pub axial: f64,
+    /// Energy stored in bending [J].
+    pub bending: f64,
+    /// Work of all forces on the nodes by the trapezoidal rule [J].
+    pub work: f64,
+    /// Work of gravity [J].
+    pub gravity_work: f64,
+    /// Work of the air [J].
+    pub air_work: f64,
+    /// Work of the damping [J].
+    pub damping_work: f64,
+    /// What the energy balance leaves over [J].
+    pub imbalance: f64,
+}
+
+impl Sample {
+    fn of(snapshot: &Snapshot, lane: usize) -> Self {
+        let e: &Energy = &snapshot.energy;
+        Self {
+            time: snapshot.time,
+            end: snapshot.position.last().map_or_else(Vec3::default, |p| p.lane(lane)),
+            kinetic: e.kinetic.0[lane],
+            axial: e.axial.0[lane],
+            bending: e.bending.0[lane],
+            work: e.work.0[lane],
+            gravity_work: e.gravity_work.0[lane],
+            air_work: e.drag_work.0[lane],
+            damping_work: e.damping_work.0[lane],
+            imbalance: e.imbalance().0[lane],
+        }
+    }
+
+    /// The work check `100 |W − T|/T` [%]; NaN at rest.                      theory.md (35)
+    pub fn work_error_percent(&self) -> f64 {
+        percent(self.work - self.kinetic, self.kinetic)
+    }
+
+    /// What the energy balance leaves over, by the work of the air [%]; without air by that of gravity,
+    /// without either by the kinetic energy; NaN while that is zero.         theory.md (36)
+    pub fn balance_error_percent(&self) -> f64 {
+        let scales = [self.air_work, self.gravity_work, self.kinetic];
+        percent(self.imbalance, scales.into_iter().find(|&w| w != 0.0).unwrap_or(0.0))
+    }
+}
+
+fn percent(part: f64, whole: f64) -> f64 {
+    if whole == 0.0 { f64::NAN } else { 100.0 * (part / whole).abs() }
+}
+
+/// Flies up to eight replicates that share mesh, time axis, eddies and turbulence grid.
+pub(super) fn fly_bundle(
+    jobs: &[Job<'_>],
+    keep_shapes: bool,
+    computing: Computing<'_>,
+) -> Result<Vec<Flight>, Error> {
+    let case = jobs[0].case;
+    let run = &case.run;
+    let eddies = Eddies::along(case.fibre.length, case.fibre.elements, case.air.length_scale);
+    let streams: Vec<(Air, StreamKey)> = jobs
+        .iter()
+        .map(|job| (job.case.air, StreamKey { seed: job.case.run.seed, replicate: job.replicate }))
+        .collect();
+    // One step more than the run: the last instant's energies look one step ahead.
+    let horizon = run.duration() + run.time_step;
+    let turbulence = Turbulence::synthesise(computing.isa, &streams, eddies.count(), horizon);
+    let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
+    let mut bundle = Bundle::new(
+        computing.isa,
+        &strands,
+        &eddies,
+        &turbulence,
+        run.scheme,
+        run.time_step,
+        run.spin_up_steps,
+    );
+
+    let mut flights: Vec<Flight> =
+        jobs.iter().map(|job| Flight { replicate: job.replicate, ..Flight::default() }).collect();
+    let mut spread = SpreadObserver::new(case.fibre.elements + 1);
+    let mut step = 0;
+    loop {
+        let snapshot = bundle.snapshot();
+        check_finite(jobs, &snapshot)?;
+        if step >= run.spin_up_steps {
+            spread.see(&snapshot.position);
+        }
+        for (lane, flight) in flights.iter_mut().enumerate() {
+            flight.samples.push(Sample::of(&snapshot, lane));
+            flight.max_strain = flight.max_strain.max(snapshot.energy.strain.0[lane]);
+            if keep_shapes {
+                flight.shapes.push(snapshot.position.iter().map(|p| p.lane(lane)).collect());
+            }
+        }
+        if step >= run.steps {
+            break;
+        }
+        let steps = run.output_steps.min(run.steps - step);
+        bundle.advance(steps);
+        step += steps;
+        computing.fibre_steps.fetch_add(steps * jobs.len() as u64, Ordering::Relaxed);
+        if computing.stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
+    }
+    let observed = run.duration() - run.spin_up();
+    for (lane, flight) in flights.iter_mut().enumerate() {
+        flight.end_node = bundle.end_node().motion(lane, observed);
+        flight.nodes = spread.nodes(lane);
+    }
+    Ok(flights)
+}
+
+/// Refuses positions that are no longer numbers, naming the node and the time.
+fn check_finite(jobs: &[Job<'_>], snapshot: &Snapshot) -> Result<(), Error> {
+    for (lane, job) in jobs.iter().enumerate() {
+        let lost = |p: &Vec3<crate::lanes::Lanes>| !p.lane(lane).norm().is_finite();
+        if let Some(node) = snapshot.position.iter().position(lost) {
+            return Err(Error::NotFinite {
+                replicate: job.replicate,
+                node: node + 1,
+                time: snapshot.time,
+                cause: job.case.likely_cause_of_divergence(),
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,60 @@
+//! The turbulence the fibres fly in, measured as a hot wire would.
+
+use super::Computing;
+use crate::air::{Air, Eddies, StreamKey, Turbulence, Wind};
+use crate::case::Case;
+use crate::lanes::WIDTH;
+use crate::statistics::PowerSpectrum;
+
+/// A point of the spectrum of the turbulence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpectrumPoint {
+    /// Frequency [Hz].
+    pub frequency: f64,
+    /// Density realised by the synthesis [(m/s)²/Hz].
+    pub realised: f64,
+    /// Density asked for [(m/s)²/Hz].
+    pub wanted: f64,
+}
+
+/// One-sided spectrum of the velocity fluctuation along the first replicates, up to four times the cut-off.
+///
+/// Averaged over components, eddies and up to eight replicates (Welch). Empty without turbulence.
+pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<SpectrumPoint> {
+    if case.air.rms() == 0.0 {
+        return Vec::new();
+    }
+    let duration = case.run.duration();
+    let eddies = Eddies::along(case.fibre.length, case.fibre.elements, case.air.length_scale);
+    let lanes = case.run.replicates.min(WIDTH as u64) as usize;
+    let streams: Vec<(Air, StreamKey)> = (0..lanes)
+        .map(|i| (case.air, StreamKey { seed: case.run.seed, replicate: i as u64 }))
+        .collect();
+    let turbulence = Turbulence::synthesise(computing.isa, &streams, eddies.count(), duration);
+    let mut wind = Wind::new(&turbulence);
+    let interval = 1.0 / (8.0 * case.air.cutoff_frequency);
+    let samples = ((duration / interval) as usize).min(1 << 16);
+    let mut spectrum = PowerSpectrum::new(interval, PowerSpectrum::segment_length(samples));
+    let mut records = vec![Vec::with_capacity(samples); eddies.count() * 3 * lanes];
+    for i in 0..samples {
+        let velocities = wind.at(i as f64 * interval);
+        let values = velocities.iter().flat_map(|v| [v.x, v.y, v.z]).flat_map(|c| c.0[..lanes].to_vec());
+        for (record, value) in records.iter_mut().zip(values) {
+            record.push(value);
+        }
+    }
+    for record in &records {
+        spectrum.add(record);
+    }
+    let wanted = case.air.spectrum();
+    let density = spectrum.density();
+    density
+        .into_iter()
+        .map(|(frequency, realised)| {
+            let omega = 2.0 * std::f64::consts::PI * frequency;
+            // Per hertz instead of per radian a second.
+            let wanted = wanted.energy(omega) * 2.0 * std::f64::consts::PI;
+            SpectrumPoint { frequency, realised, wanted }
+        })
+        .collect()
+}

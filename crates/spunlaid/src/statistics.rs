@@ -1,0 +1,127 @@
+//! Statistics over replicates and over time.
+
+use crate::fft::{Complex, InverseTransform};
+use crate::lanes::{Lanes, WIDTH};
+use std::f64::consts::PI;
+
+/// A result over the replicates of an ensemble.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Estimate {
+    /// Mean over the replicates.
+    pub mean: f64,
+    /// Standard error of the mean; none from a single replicate.
+    pub standard_error: Option<f64>,
+    /// The replicates' own values, in their order.
+    pub values: Vec<f64>,
+}
+
+impl Estimate {
+    /// Mean and standard error `s/√n`, summed in the order given.
+    pub fn of(values: Vec<f64>) -> Self {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
+        let standard_error = (values.len() > 1).then(|| (squares / (n - 1.0) / n).sqrt());
+        Self { mean, standard_error, values }
+    }
+}
+
+/// The value below which a share of the finite values lies, linear between neighbours; NaN of none.
+pub fn quantile(values: &[f64], share: f64) -> f64 {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
+    if sorted.is_empty() {
+        return f64::NAN;
+    }
+    sorted.sort_by(f64::total_cmp);
+    let place = share.clamp(0.0, 1.0) * (sorted.len() - 1) as f64;
+    let below = place.floor() as usize;
+    let above = (below + 1).min(sorted.len() - 1);
+    sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
+}
+
+/// The middle value of the finite ones.
+pub fn median(values: &[f64]) -> f64 {
+    quantile(values, 0.5)
+}
+
+/// One-sided power spectral density per frequency, averaged over records and overlapping segments.
+///
+/// Welch's method: Hann window, half overlap, each segment's mean removed. `∫ P df` is the variance of
+/// what the segments resolve.
+#[derive(Clone, Debug)]
+pub struct PowerSpectrum {
+    interval: f64,
+    window: Vec<f64>,
+    transform: InverseTransform,
+    sum: Vec<f64>,
+    segments: u64,
+    waiting: Vec<Vec<f64>>,
+}
+
+impl PowerSpectrum {
+    /// For records of samples `interval` [s] apart, cut into segments of `length` (a power of two).
+    pub fn new(interval: f64, length: usize) -> Self {
+        let window = (0..length).map(|i| libm::sin(PI * (i as f64 + 0.5) / length as f64).powi(2)).collect();
+        Self {
+            interval,
+            window,
+            transform: InverseTransform::new(length),
+            sum: vec![0.0; length / 2],
+            segments: 0,
+            waiting: Vec::new(),
+        }
+    }
+
+    /// The longest power of two that gives a record of `samples` about eight half-overlapping segments.
+    pub fn segment_length(samples: usize) -> usize {
+        (samples / 4).max(2).next_power_of_two()
+    }
+
+    /// Takes in a record; what is left over at its end is not used.
+    pub fn add(&mut self, record: &[f64]) {
+        let length = self.window.len();
+        let mut start = 0;
+        while start + length <= record.len() {
+            let segment = &record[start..start + length];
+            let mean = segment.iter().sum::<f64>() / length as f64;
+            self.waiting.push(segment.iter().zip(&self.window).map(|(x, w)| (x - mean) * w).collect());
+            if self.waiting.len() == WIDTH {
+                self.flush();
+            }
+            start += length / 2;
+        }
+    }
+
+    fn flush(&mut self) {
+        let length = self.window.len();
+        let segments = std::mem::take(&mut self.waiting);
+        let at = |i: usize, t: usize| segments.get(i).map_or(0.0, |s| s[t]);
+        let mut data: Vec<Complex> = (0..length)
+            .map(|t| Complex { re: Lanes::from_fn(|i| at(i, t)), im: Lanes::ZERO })
+            .collect();
+        let mut scratch = data.clone();
+        self.transform.run(&mut data, &mut scratch);
+        for (sum, y) in self.sum.iter_mut().zip(&data) {
+            let power = y.re * y.re + y.im * y.im;
+            for p in &power.0[..segments.len()] {
+                *sum += p;
+            }
+        }
+        self.segments += segments.len() as u64;
+    }
+
+    /// Frequencies above zero [Hz] and the density there [(unit)²/Hz]; empty without a whole segment.
+    pub fn density(mut self) -> Vec<(f64, f64)> {
+        if !self.waiting.is_empty() {
+            self.flush();
+        }
+        if self.segments == 0 {
+            return Vec::new();
+        }
+        let length = self.window.len() as f64;
+        let energy: f64 = self.window.iter().map(|w| w * w).sum();
+        let scale = 2.0 * self.interval / (energy * self.segments as f64);
+        let step = 1.0 / (length * self.interval);
+        self.sum.iter().enumerate().skip(1).map(|(k, p)| (k as f64 * step, p * scale)).collect()
+    }
+}
