@@ -12,6 +12,15 @@ pub enum FrictionLaw {
     Matsui,
 }
 
+impl FrictionLaw {
+    /// Name in the case file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Matsui => "matsui",
+        }
+    }
+}
+
 /// Law of the drag across the fibre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NormalLaw {
@@ -37,6 +46,13 @@ const MATSUI: f64 = 0.61;
 const JU_SHAMBAUGH: (f64, f64, f64, f64) = (6.96, 0.440, 0.404, 78e-6);
 
 impl NormalLaw {
+    /// Name in the case file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::JuShambaugh => "ju-shambaugh",
+        }
+    }
+
     /// The diameters the law was fitted to [m].
     pub const fn fitted_diameters(self) -> (f64, f64) {
         match self {

@@ -11,6 +11,19 @@ pub enum Root {
     /// Held in place and direction, by a rotational spring of half a cell, `2EI/l`, which makes static
     /// deflection second order in the element length.
     Clamped,
+    /// Not held at all: a cut fibre, free to fly off.
+    Free,
+}
+
+impl Root {
+    /// Name in the case file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pinned => "pinned",
+            Self::Clamped => "clamped",
+            Self::Free => "free",
+        }
+    }
 }
 
 /// A fibre cut into elements of equal rest length, in SI units.
@@ -69,10 +82,10 @@ impl Fibre {
         self.youngs_modulus * self.second_moment() / self.rest_length()
     }
 
-    /// Rotational stiffness of the root [N·m]: 0 pinned, `2EI/l` clamped.
+    /// Rotational stiffness of the root [N·m]: `2EI/l` clamped, else 0.
     pub fn root_stiffness(&self) -> f64 {
         match self.root {
-            Root::Pinned => 0.0,
+            Root::Pinned | Root::Free => 0.0,
             Root::Clamped => 2.0 * self.rotational_stiffness(),
         }
     }

@@ -4,7 +4,7 @@ pub mod forces;
 pub mod schemes;
 
 use crate::drag::{DragLanes, ElementDrag};
-use crate::fibre::Fibre;
+use crate::fibre::{Fibre, Root};
 use crate::lanes::{Lanes, WIDTH};
 use crate::vec3::Vec3;
 
@@ -45,6 +45,8 @@ pub(crate) struct Constants {
     pub(crate) rest_length: Lanes,
     pub(crate) axial_stiffness: Lanes,
     pub(crate) bending_stiffness: Lanes,
+    /// Inverse mass of the root node: 0 where it is held.
+    pub(crate) root_inverse_mass: Lanes,
     pub(crate) root_stiffness: Lanes,
     pub(crate) root_direction: Vec3<Lanes>,
     pub(crate) gravity: Lanes,
@@ -78,6 +80,10 @@ impl Chain {
                 rest_length,
                 axial_stiffness: lanes(&|s| s.fibre.axial_stiffness()),
                 bending_stiffness: lanes(&|s| s.fibre.rotational_stiffness()),
+                root_inverse_mass: lanes(&|s| match s.fibre.root {
+                    Root::Free => 1.0 / s.fibre.node_mass(0),
+                    Root::Pinned | Root::Clamped => 0.0,
+                }),
                 root_stiffness: lanes(&|s| s.fibre.root_stiffness()),
                 root_direction: direction,
                 gravity: lanes(&|s| s.gravity),

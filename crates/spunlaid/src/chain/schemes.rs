@@ -16,6 +16,16 @@ pub enum Scheme {
     Leapfrog,
 }
 
+impl Scheme {
+    /// Name in the case file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::SemiImplicitEuler => "semi-implicit-euler",
+            Self::Leapfrog => "leapfrog",
+        }
+    }
+}
+
 /// Advances eight chains by one step in the given wind: velocities by `kick` [s] of acceleration, then
 /// positions by `drift` [s] of velocity.
 ///
@@ -45,8 +55,10 @@ pub(crate) fn step<const LEAPFROG: bool, const DAMPED: bool>(
     let mut stiffness = c.root_stiffness;
     let mut upper = (mover.chain.position[0], mover.drag_velocity(0));
     // Forces so far on nodes j−1 and j: internal, and of the air.
-    let mut force = [Vec3::ZERO; 2];
-    let mut drag = [Vec3::ZERO; 2];
+    let (mut force, mut force_above) = (Vec3::ZERO, Vec3::ZERO);
+    let (mut drag, mut drag_above) = (Vec3::ZERO, Vec3::ZERO);
+    // The node above the element: the root first, then one of those between.
+    let (mut mass_above, mut inverse_mass_above) = (c.mass * half, c.root_inverse_mass);
     for j in 0..elements {
         one_at_a_time();
         let lower = (mover.chain.position[j + 1], mover.drag_velocity(j + 1));
@@ -56,19 +68,18 @@ pub(crate) fn step<const LEAPFROG: bool, const DAMPED: bool>(
         let relative = (upper.1 + lower.1).mul_add(-half, wind[eddy[j] as usize]);
         let drag_half = c.drag.force(relative, element.tangent) * half;
 
-        if j >= 2 {
-            mover.advance(j - 1, force[0] - a, drag[0], c.mass, c.inverse_mass);
+        if j > 0 {
+            mover.advance(j - 1, force_above - a, drag_above, mass_above, inverse_mass_above);
+            (mass_above, inverse_mass_above) = if j == 1 { (c.mass, c.inverse_mass) } else { (mass_above, inverse_mass_above) };
         }
-        force = [force[1] + a + b + pull, -(b + pull)];
-        drag = [drag[1] + drag_half, drag_half];
+        (force_above, force) = (force + a + b + pull, -(b + pull));
+        (drag_above, drag) = (drag + drag_half, drag_half);
         above = element;
         stiffness = c.bending_stiffness;
         upper = lower;
     }
-    if elements >= 2 {
-        mover.advance(elements - 1, force[0], drag[0], c.mass, c.inverse_mass);
-    }
-    mover.advance(elements, force[1], drag[1], c.mass * half, c.inverse_mass * 2.0);
+    mover.advance(elements - 1, force_above, drag_above, mass_above, inverse_mass_above);
+    mover.advance(elements, force, drag, c.mass * half, c.inverse_mass * 2.0);
     *work = sums;
 }
 

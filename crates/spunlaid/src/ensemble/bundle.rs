@@ -70,6 +70,24 @@ impl<'a> Bundle<'a> {
         bundle
     }
 
+    /// Puts the nodes elsewhere, with velocities, and starts the clock and all records again.
+    ///
+    /// * `position`, `velocity` – of the `N+1` nodes [m, m/s]
+    pub fn restart_from(&mut self, position: Vec<Vec3<Lanes>>, velocity: Vec<Vec3<Lanes>>) {
+        debug_assert_eq!(position.len(), self.chain.position.len());
+        self.start.clone_from(&position);
+        (self.chain.position, self.chain.velocity) = (position, velocity);
+        self.steps_done = 0;
+        self.work = Work::default();
+        self.end_node = EndNodeObserver::default();
+        self.start_leapfrog();
+    }
+
+    /// The chains, positions and velocities as the scheme keeps them.
+    pub fn chain(&self) -> &Chain {
+        &self.chain
+    }
+
     /// Time of the positions [s].
     pub fn time(&self) -> f64 {
         self.steps_done as f64 * self.h

@@ -7,6 +7,7 @@ use crate::case::Case;
 use crate::chain::Strand;
 use crate::energy::Energy;
 use crate::error::Error;
+use crate::lanes::WIDTH;
 use crate::observe::{EndNodeMotion, NodeSpread, SpreadObserver};
 use crate::vec3::Vec3;
 use std::sync::atomic::Ordering;
@@ -33,8 +34,41 @@ pub struct Flight {
     pub samples: Vec<Sample>,
     /// Mean position and spread of the `N+1` nodes over the recorded instants after the spin-up.
     pub nodes: Vec<NodeSpread>,
-    /// Positions of the `N+1` nodes at each recorded instant [m]; empty unless asked for.
-    pub shapes: Vec<Vec<Vec3<f64>>>,
+    /// The whole fibre at some of the recorded instants; empty unless asked for.
+    pub shapes: Vec<Shape>,
+}
+
+/// The whole fibre at one instant.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shape {
+    /// Time [s].
+    pub time: f64,
+    /// Positions of the `N+1` nodes [m].
+    pub position: Vec<Vec3<f64>>,
+}
+
+/// Which shapes of an ensemble to keep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KeepShapes {
+    /// Of the first so many replicates.
+    pub replicates: u64,
+    /// Every so many recorded instants.
+    pub every: u64,
+}
+
+impl KeepShapes {
+    /// None.
+    pub const NONE: Self = Self { replicates: 0, every: 1 };
+
+    /// As many as up to eight replicates and `positions` node positions in all allow, one replicate at
+    /// least: fewer replicates first, then fewer instants.
+    pub fn within(case: &Case, positions: u64) -> Self {
+        let nodes = case.fibre.elements as u64 + 1;
+        let instants = case.run.steps / case.run.output_steps + 1;
+        let one = nodes.saturating_mul(instants);
+        let replicates = (positions / one).clamp(1, WIDTH as u64).min(case.run.replicates);
+        Self { replicates, every: one.div_ceil(positions).max(1) }
+    }
 }
 
 /// One recorded instant of a fibre.
@@ -99,7 +133,7 @@ fn percent(part: f64, whole: f64) -> f64 {
 /// Flies up to eight replicates that share mesh, time axis, eddies and turbulence grid.
 pub(super) fn fly_bundle(
     jobs: &[Job<'_>],
-    keep_shapes: bool,
+    keep_shapes: KeepShapes,
     computing: Computing<'_>,
 ) -> Result<Vec<Flight>, Error> {
     let case = jobs[0].case;
@@ -127,7 +161,7 @@ pub(super) fn fly_bundle(
         jobs.iter().map(|job| Flight { replicate: job.replicate, ..Flight::default() }).collect();
     let mut spread = SpreadObserver::new(case.fibre.elements + 1);
     let mut step = 0;
-    loop {
+    for instant in 0.. {
         let snapshot = bundle.snapshot();
         check_finite(jobs, &snapshot)?;
         if step >= run.spin_up_steps {
@@ -136,8 +170,9 @@ pub(super) fn fly_bundle(
         for (lane, flight) in flights.iter_mut().enumerate() {
             flight.samples.push(Sample::of(&snapshot, lane));
             flight.max_strain = flight.max_strain.max(snapshot.energy.strain.0[lane]);
-            if keep_shapes {
-                flight.shapes.push(snapshot.position.iter().map(|p| p.lane(lane)).collect());
+            if flight.replicate < keep_shapes.replicates && instant % keep_shapes.every == 0 {
+                let position = snapshot.position.iter().map(|p| p.lane(lane)).collect();
+                flight.shapes.push(Shape { time: snapshot.time, position });
             }
         }
         if step >= run.steps {

@@ -6,7 +6,7 @@ mod order;
 mod results;
 mod turbulence;
 
-pub use flight::{Flight, Job, Sample};
+pub use flight::{Flight, Job, KeepShapes, Sample, Shape};
 pub use order::in_order;
 pub use turbulence::{SpectrumPoint, turbulence_spectrum};
 pub use results::{Collector, EndNodeResults, ErrorOverTime, LedgerError, NodeResults, Results};
@@ -31,14 +31,14 @@ pub struct Computing<'a> {
 
 /// Flies the replicates of a case and hands each flight over, in the order of the replicates.
 ///
-/// * `keep_shapes` – how many of the first replicates record the whole fibre over time
+/// * `keep_shapes` – which flights record the whole fibre over time
 /// * `take` – receives the flights; an error it returns ends the ensemble
 ///
 /// # Errors
 /// A fibre that stops being finite, a stop from elsewhere, and what `take` returns.
 pub fn fly<E: From<Error>>(
     case: &Case,
-    keep_shapes: u64,
+    keep_shapes: KeepShapes,
     computing: Computing<'_>,
     mut take: impl FnMut(Flight) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -50,16 +50,10 @@ pub fn fly<E: From<Error>>(
             let first = bundle as u64 * WIDTH as u64;
             let last = case.run.replicates.min(first + WIDTH as u64);
             let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
-            flight::fly_bundle(&jobs, first < keep_shapes, computing)
+            flight::fly_bundle(&jobs, keep_shapes, computing)
         },
         |flights| {
-            for mut flight in flights? {
-                if flight.replicate >= keep_shapes {
-                    flight.shapes = Vec::new();
-                }
-                take(flight)?;
-            }
-            Ok(())
+            flights?.into_iter().try_for_each(&mut take)
         },
     )
 }

@@ -1,0 +1,104 @@
+//! What the tests share: still air, a bundle to start from, a plain scalar force model.
+#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+pub mod modes;
+pub mod reference;
+
+use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
+use spunlaid::chain::Strand;
+use spunlaid::chain::schemes::Scheme;
+use spunlaid::drag::{Drag, ElementDrag, FrictionLaw, NormalLaw};
+use spunlaid::ensemble::bundle::Bundle;
+use spunlaid::fibre::{Fibre, Root};
+use spunlaid::lanes::{Isa, Lanes};
+use spunlaid::vec3::Vec3;
+
+pub type V = Vec3<f64>;
+
+pub const X: V = V::new(1.0, 0.0, 0.0);
+pub const Y: V = V::new(0.0, 1.0, 0.0);
+pub const NO_DRAG: ElementDrag =
+    ElementDrag { tangential: 0.0, tangential_exponent: 0.39, normal: 0.0, normal_exponent: 0.28 };
+
+/// The fibre of the paper's Table 1.
+pub fn table1_fibre() -> Fibre {
+    Fibre {
+        length: 1.0,
+        diameter: 50e-6,
+        density: 950.0,
+        youngs_modulus: 2e9,
+        elements: 20,
+        root: Root::Pinned,
+        direction: X,
+    }
+}
+
+/// The air of the paper's Table 1.
+pub fn table1_air() -> Air {
+    Air {
+        velocity: 10.0,
+        turbulence_intensity: 0.1,
+        length_scale: 0.05,
+        cutoff_frequency: 100.0,
+        density: 1.204,
+        kinematic_viscosity: 1.51e-5,
+        harmonics: 256,
+    }
+}
+
+pub fn paper_drag() -> Drag {
+    Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient: 0.9 }
+}
+
+/// A fibre in a vacuum.
+pub fn in_vacuum(fibre: Fibre, gravity: f64) -> Strand {
+    Strand { fibre, drag: NO_DRAG, gravity, damping: 0.0 }
+}
+
+/// Air of a steady velocity along x, without turbulence.
+pub fn steady_air(velocity: f64, elements: usize, duration: f64) -> (Eddies, Turbulence) {
+    let air = Air { velocity, turbulence_intensity: 0.0, harmonics: 8, ..table1_air() };
+    let eddies = Eddies::along(1.0, elements, 2.0);
+    let key = StreamKey { seed: 0, replicate: 0 };
+    let turbulence = Turbulence::synthesise(Isa::detect(), &[(air, key)], eddies.count(), duration);
+    (eddies, turbulence)
+}
+
+/// Copies one lane's vectors into all lanes.
+pub fn in_all_lanes(vectors: &[V]) -> Vec<Vec3<Lanes>> {
+    vectors.iter().map(|&v| Vec3::splat(v)).collect()
+}
+
+/// The kernel's forces on the nodes of a chain at given positions and velocities [N], gravity included:
+/// the momentum one kick of semi-implicit Euler gives, by the kick's length.
+///
+/// The root must be free, or its force is not seen.
+pub fn kernel_forces(strand: &Strand, air_velocity: f64, position: &[V], velocity: &[V]) -> Vec<V> {
+    let h = 1e-3;
+    let (eddies, turbulence) = steady_air(air_velocity, strand.fibre.elements, 2.0 * h);
+    let mut bundle = Bundle::new(
+        Isa::detect(),
+        &[*strand],
+        &eddies,
+        &turbulence,
+        Scheme::SemiImplicitEuler,
+        h,
+        0,
+    );
+    bundle.restart_from(in_all_lanes(position), in_all_lanes(velocity));
+    bundle.advance(1);
+    let after = &bundle.chain().velocity;
+    (0..position.len())
+        .map(|i| (after[i].lane(0) - velocity[i]) * (strand.fibre.node_mass(i) / h))
+        .collect()
+}
+
+/// Numbers that look random and never change.
+pub fn scatter(i: usize) -> f64 {
+    let x = (i as f64 * 12.9898 + 0.5).sin() * 43758.5453;
+    2.0 * (x - x.floor()) - 1.0
+}
+
+pub fn scattered_vector(i: usize) -> V {
+    V::new(scatter(3 * i), scatter(3 * i + 1), scatter(3 * i + 2))
+}
