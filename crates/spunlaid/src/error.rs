@@ -1,8 +1,59 @@
-//! What can go wrong. (The variants below are in use by the ensemble: keep their names and fields.)
+//! What can go wrong, and how it is told: where, which key, what value, what is allowed, the way out.
+
+use crate::units::{Dimension, QuantityFault};
+use std::fmt;
+use std::path::PathBuf;
 
 /// What can go wrong.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
+    /// The case file is not there.
+    #[error("{}: there is no such file; `spunlaid new {}` writes a case to start from", path.display(), path.display())]
+    NotThere {
+        /// Where it was looked for.
+        path: PathBuf,
+    },
+    /// The case file is a folder.
+    #[error("{}: is a folder; name the case file in it", path.display())]
+    IsFolder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The case file is too large to be one.
+    #[error("{}: is larger than {most} bytes, which no case file is; name the case file", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// The largest size read [bytes].
+        most: u64,
+    },
+    /// The case file is not UTF-8.
+    #[error(
+        "{}:{line}: byte {byte:#04x} (number {position} of the file) is not UTF-8 text; save the file as UTF-8, or write um for µm",
+        path.display()
+    )]
+    NotText {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// The first byte that is not UTF-8.
+        byte: u8,
+        /// Which byte of the file it is, from 1.
+        position: usize,
+    },
+    /// The case file cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The case cannot be run as it is: everything found, in the order of the file.
+    #[error("{}", one_per_line(.0))]
+    Rejected(Vec<Problem>),
     /// A fibre's positions are no longer numbers.
     #[error("replicate {replicate}: node {node} is no longer finite at {time:e} s; {cause}")]
     NotFinite {
@@ -18,4 +69,329 @@ pub enum Error {
     /// Stopped from outside before the end.
     #[error("interrupted before the end")]
     Interrupted,
+}
+
+impl Error {
+    /// What a program should exit with: 1 the input is wrong, 2 the run failed.
+    pub const fn exit_code(&self) -> u8 {
+        match self {
+            Self::NotFinite { .. } | Self::Interrupted => 2,
+            _ => 1,
+        }
+    }
+}
+
+impl From<Vec<Problem>> for Error {
+    fn from(problems: Vec<Problem>) -> Self {
+        Self::Rejected(problems)
+    }
+}
+
+/// Most problems that are told at once; more are counted.
+const MOST_TOLD: usize = 20;
+
+fn one_per_line(problems: &[Problem]) -> String {
+    let mut lines: Vec<String> = problems
+        .iter()
+        .take(MOST_TOLD)
+        .map(ToString::to_string)
+        .collect();
+    if problems.len() > MOST_TOLD {
+        lines.push(format!(
+            "and {} more like these",
+            problems.len() - MOST_TOLD
+        ));
+    }
+    lines.join("\n")
+}
+
+/// Where a value was written.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Place {
+    /// In a program that built the case itself.
+    #[default]
+    Code,
+    /// In a case file.
+    File {
+        /// Name of the file, as given.
+        file: String,
+        /// Line, from 1, where one is to blame.
+        line: Option<usize>,
+        /// Column, from 1, where one is to blame.
+        column: Option<usize>,
+    },
+    /// In an override, `--set key=value`.
+    Override,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Code => Ok(()),
+            Self::Override => f.write_str("--set "),
+            Self::File { file, line, column } => {
+                f.write_str(file)?;
+                for number in [line, column].into_iter().flatten() {
+                    write!(f, ":{number}")?;
+                }
+                f.write_str(": ")
+            }
+        }
+    }
+}
+
+/// Something found in a case: reads as `cases/a.toml:12: run.time_step = "50 µs" ` and what of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding<W> {
+    /// Where the value was written.
+    pub place: Place,
+    /// Key in the case file, `run.time_step`; empty where no key is to blame.
+    pub key: String,
+    /// The value as written, or else as people read it; none where there is none.
+    pub value: Option<String>,
+    /// What of it.
+    pub what: W,
+}
+
+/// A reason why a case cannot be run.
+pub type Problem = Finding<Fault>;
+
+impl<W: fmt::Display> fmt::Display for Finding<W> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}", self.place, self.key)?;
+        if let Some(value) = &self.value {
+            write!(f, " = {value}")?;
+        }
+        if !self.key.is_empty() {
+            f.write_str(" ")?;
+        }
+        self.what.fmt(f)
+    }
+}
+
+/// What is wrong with a value of a case; reads on after `key = value `.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The file is not TOML.
+    #[error("not valid TOML: {message}")]
+    Syntax {
+        /// What the parser says.
+        message: String,
+    },
+    /// The file is of a later version of the format.
+    #[error("is newer than this spunlaid reads ({known}); update spunlaid")]
+    NewerVersion {
+        /// The newest version known.
+        known: u32,
+    },
+    /// A required key is not there.
+    #[error("is missing; add {line} to [{table}]")]
+    Missing {
+        /// The table it belongs in.
+        table: &'static str,
+        /// A line that would do.
+        line: &'static str,
+    },
+    /// No table has this name.
+    #[error("is not a table of a case file; {}", did_you_mean(nearest, || "the tables are [fibre], [air], [drag] and [run]".into()))]
+    UnknownTable {
+        /// The table that may be meant.
+        nearest: Option<String>,
+    },
+    /// No key has this name.
+    #[error("is not a key of a case file; {}", did_you_mean(nearest, || format!("{where_} takes {}", all_of(known))))]
+    UnknownKey {
+        /// The key that may be meant.
+        nearest: Option<String>,
+        /// The table, or the top of the file.
+        where_: String,
+        /// What that takes.
+        known: Vec<&'static str>,
+    },
+    /// The key belongs in another table.
+    #[error("is out of place; it belongs in [{table}], as {table}.{key}")]
+    Misplaced {
+        /// The table it belongs in.
+        table: &'static str,
+        /// The key.
+        key: &'static str,
+    },
+    /// Not the kind of value the key takes.
+    #[error("is {found}; write {wanted}")]
+    WrongType {
+        /// The kind found, with its article.
+        found: &'static str,
+        /// What to write.
+        wanted: String,
+    },
+    /// A quantity that cannot be read.
+    #[error(transparent)]
+    Quantity(#[from] QuantityFault),
+    /// Not one of the names the key takes.
+    #[error("is unknown; {}", did_you_mean(nearest, || format!("write {}", one_of(allowed))))]
+    NotOneOf {
+        /// What may be meant, in quotes.
+        nearest: Option<String>,
+        /// The names.
+        allowed: Vec<&'static str>,
+    },
+    /// A whole number out of range.
+    #[error("is out of range; write {}", if least == most { least.to_string() } else { format!("a whole number from {least} to {most}") })]
+    OutOfRange {
+        /// The least allowed.
+        least: u64,
+        /// The most allowed.
+        most: u64,
+    },
+    /// NaN or infinite.
+    #[error("is not a finite number; write one that is")]
+    NotFinite,
+    /// Zero or negative.
+    #[error("is not positive; {quantity} greater than zero is needed here")]
+    NotPositive {
+        /// What is needed, with its article.
+        quantity: &'static str,
+    },
+    /// Negative.
+    #[error("is negative; {quantity} of zero or more is needed here")]
+    Negative {
+        /// What is needed, with its article.
+        quantity: &'static str,
+    },
+    /// A direction of length zero.
+    #[error("points nowhere; write a vector like [1.0, 0.0, 0.0], of any length but zero")]
+    ZeroDirection,
+    /// A direction that is not a unit vector, in a case built by a program.
+    #[error("is not a unit vector; divide it by its length")]
+    NotUnit,
+    /// A fibre as thick as long.
+    #[error("is not smaller than fibre.length = {}; a fibre is longer than it is thick", Dimension::Length.pretty(*length))]
+    TooThick {
+        /// Length of the fibre [m].
+        length: f64,
+    },
+    /// A step longer than the explicit schemes bear.
+    #[error(
+        "exceeds the stability limit {} ({cause} of {} elements); lower it to at most {} or lengthen fibre.element_length",
+        Dimension::Time.pretty(*limit), Dimension::Length.pretty(*element_length), Dimension::Time.pretty(*advice)
+    )]
+    StepTooLong {
+        /// The limit [s].
+        limit: f64,
+        /// What sets it.
+        cause: &'static str,
+        /// Rest length of an element [m].
+        element_length: f64,
+        /// A safe step [s].
+        advice: f64,
+    },
+    /// More steps than can be waited for.
+    #[error(
+        "takes {steps:.1e} steps of {}, more than {most:e}; shorten it or lengthen run.time_step",
+        Dimension::Time.pretty(*time_step)
+    )]
+    TooManySteps {
+        /// Number of steps.
+        steps: f64,
+        /// The most allowed.
+        most: f64,
+        /// Time step [s].
+        time_step: f64,
+    },
+    /// More than memory holds.
+    #[error("makes {what} {}, more than the {} that a bundle of eight fibres may take; {remedy}", memory(*bytes), memory(*most))]
+    TooMuchMemory {
+        /// What takes the memory.
+        what: &'static str,
+        /// How much [bytes].
+        bytes: f64,
+        /// The most allowed [bytes].
+        most: f64,
+        /// The way out.
+        remedy: &'static str,
+    },
+    /// More results than can be kept.
+    #[error("records {records:.1e} instants over all replicates, more than {most:e}; lengthen it")]
+    TooManyRecords {
+        /// Instants times replicates.
+        records: f64,
+        /// The most allowed.
+        most: f64,
+    },
+    /// A turbulence signal that repeats within the run.
+    #[error(
+        "lets the turbulence repeat after {}, within the {} of the run; write at least {least}, or leave the key out",
+        Dimension::Time.pretty(*repeat_time), Dimension::Time.pretty(*duration)
+    )]
+    Repeats {
+        /// Time after which it repeats [s].
+        repeat_time: f64,
+        /// Time simulated [s].
+        duration: f64,
+        /// Least number of harmonics that will do.
+        least: f64,
+    },
+    /// A time not shorter than the run.
+    #[error("leaves nothing to observe of run.duration = {}; shorten it", Dimension::Time.pretty(*duration))]
+    SpinUpTooLong {
+        /// Time simulated [s].
+        duration: f64,
+    },
+    /// A time longer than the run.
+    #[error("is longer than run.duration = {}; shorten it", Dimension::Time.pretty(*duration))]
+    IntervalTooLong {
+        /// Time simulated [s].
+        duration: f64,
+    },
+    /// Numbers too large or too small to compute with.
+    #[error(
+        "makes {what} {value:.1e}, beyond what can be computed with; check the magnitude of the values it follows from"
+    )]
+    Degenerate {
+        /// What follows from the values.
+        what: &'static str,
+        /// Its value in SI units.
+        value: f64,
+    },
+}
+
+fn did_you_mean(nearest: &Option<String>, otherwise: impl Fn() -> String) -> String {
+    nearest
+        .as_ref()
+        .map_or_else(otherwise, |nearest| format!("did you mean {nearest}?"))
+}
+
+fn all_of(words: &[&str]) -> String {
+    joined(words.iter().map(ToString::to_string).collect(), "and")
+}
+
+fn one_of(words: &[&str]) -> String {
+    joined(
+        words.iter().map(|word| format!("\"{word}\"")).collect(),
+        "or",
+    )
+}
+
+fn joined(mut words: Vec<String>, last: &str) -> String {
+    match words.pop() {
+        Some(word) if words.is_empty() => word,
+        Some(word) => format!("{} {last} {word}", words.join(", ")),
+        None => String::new(),
+    }
+}
+
+/// Memory as people read it: `3.1 GiB`.
+pub(crate) fn memory(bytes: f64) -> String {
+    let (unit, size) = [("GiB", 30), ("MiB", 20), ("KiB", 10), ("bytes", 0)]
+        .into_iter()
+        .map(|(unit, power)| (unit, f64::from(1u32 << power)))
+        .find(|(_, size)| bytes >= *size)
+        .unwrap_or(("bytes", 1.0));
+    let number = bytes / size;
+    if number < 1e4 {
+        format!("{} {unit}", (number * 10.0).round() / 10.0)
+    } else {
+        format!("{number:.1e} {unit}")
+    }
 }

@@ -12,3 +12,5 @@ pub mod case;
 pub mod fft;
 pub mod statistics;
 pub mod error;
+pub mod units;
+pub mod input;

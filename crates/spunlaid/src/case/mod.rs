@@ -1,5 +1,12 @@
 //! A case: everything a run needs, validated, in SI units.
 
+mod check;
+pub(crate) mod keys;
+mod note;
+
+pub use check::{BUNDLE_MEMORY_LIMIT, BundleMemory, MOST_RECORDS, MOST_STEPS};
+pub use note::{Note, Remark};
+
 use crate::air::Air;
 use crate::chain::Strand;
 use crate::chain::schemes::Scheme;

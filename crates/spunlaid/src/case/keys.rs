@@ -1,0 +1,106 @@
+//! The keys of a case file: what their quantities measure and which sign these may have, and the names
+//! their choices go by.
+
+use crate::chain::schemes::Scheme;
+use crate::drag::{FrictionLaw, NormalLaw};
+use crate::error::Fault;
+use crate::fibre::Root;
+use crate::units::Dimension;
+
+/// A key whose value is a quantity.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Quantity {
+    /// Full name, `fibre.length`.
+    pub(crate) key: &'static str,
+    /// What it measures.
+    pub(crate) dimension: Dimension,
+    sign: Sign,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Sign {
+    Positive,
+    NotNegative,
+    Any,
+}
+
+use Sign::{Any, NotNegative, Positive};
+
+const fn quantity(key: &'static str, dimension: Dimension, sign: Sign) -> Quantity {
+    Quantity {
+        key,
+        dimension,
+        sign,
+    }
+}
+
+pub(crate) const LENGTH: Quantity = quantity("fibre.length", Dimension::Length, Positive);
+pub(crate) const DIAMETER: Quantity = quantity("fibre.diameter", Dimension::Length, Positive);
+pub(crate) const FIBRE_DENSITY: Quantity = quantity("fibre.density", Dimension::Density, Positive);
+pub(crate) const YOUNGS_MODULUS: Quantity =
+    quantity("fibre.youngs_modulus", Dimension::Pressure, Positive);
+pub(crate) const ELEMENT_LENGTH: Quantity =
+    quantity("fibre.element_length", Dimension::Length, Positive);
+
+pub(crate) const VELOCITY: Quantity = quantity("air.velocity", Dimension::Velocity, Any);
+pub(crate) const TURBULENCE_INTENSITY: Quantity =
+    quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative);
+pub(crate) const LENGTH_SCALE: Quantity = quantity("air.length_scale", Dimension::Length, Positive);
+pub(crate) const CUTOFF_FREQUENCY: Quantity =
+    quantity("air.cutoff_frequency", Dimension::Frequency, Positive);
+pub(crate) const AIR_DENSITY: Quantity = quantity("air.density", Dimension::Density, NotNegative);
+pub(crate) const VISCOSITY: Quantity = quantity(
+    "air.kinematic_viscosity",
+    Dimension::KinematicViscosity,
+    Positive,
+);
+
+pub(crate) const FRICTION_COEFFICIENT: Quantity =
+    quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative);
+
+pub(crate) const DURATION: Quantity = quantity("run.duration", Dimension::Time, Positive);
+pub(crate) const TIME_STEP: Quantity = quantity("run.time_step", Dimension::Time, Positive);
+pub(crate) const GRAVITY: Quantity = quantity("run.gravity", Dimension::Acceleration, Any);
+pub(crate) const SPIN_UP: Quantity = quantity("run.spin_up", Dimension::Time, NotNegative);
+pub(crate) const OUTPUT_INTERVAL: Quantity =
+    quantity("run.output_interval", Dimension::Time, Positive);
+pub(crate) const DAMPING: Quantity = quantity("run.damping", Dimension::Rate, NotNegative);
+
+pub(crate) const HARMONICS: &str = "air.harmonics";
+pub(crate) const DIRECTION: &str = "fibre.direction";
+pub(crate) const REPLICATES: &str = "run.replicates";
+
+/// Names of the ways to hold the root.
+pub(crate) const ROOTS: [(&str, Root); 2] = [("pinned", Root::Pinned), ("clamped", Root::Clamped)];
+/// Names of the laws along the fibre.
+pub(crate) const FRICTION_LAWS: [(&str, FrictionLaw); 1] = [("matsui", FrictionLaw::Matsui)];
+/// Names of the laws across the fibre.
+pub(crate) const NORMAL_LAWS: [(&str, NormalLaw); 1] = [("ju-shambaugh", NormalLaw::JuShambaugh)];
+/// Names of the schemes.
+pub(crate) const SCHEMES: [(&str, Scheme); 2] = [
+    ("semi-implicit-euler", Scheme::SemiImplicitEuler),
+    ("leapfrog", Scheme::Leapfrog),
+];
+
+/// The name that a choice goes by.
+pub(crate) fn name_of<T: PartialEq>(names: &[(&'static str, T)], choice: &T) -> &'static str {
+    names
+        .iter()
+        .find(|(_, one)| one == choice)
+        .map_or("", |(name, _)| name)
+}
+
+impl Quantity {
+    /// What is wrong with the value on its own.
+    pub(crate) fn fault(&self, value: f64) -> Option<Fault> {
+        let quantity = self.dimension.name();
+        if !value.is_finite() {
+            return Some(Fault::NotFinite);
+        }
+        match self.sign {
+            Positive if value <= 0.0 => Some(Fault::NotPositive { quantity }),
+            NotNegative if value < 0.0 => Some(Fault::Negative { quantity }),
+            Positive | NotNegative | Any => None,
+        }
+    }
+}

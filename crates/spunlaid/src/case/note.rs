@@ -1,0 +1,79 @@
+//! Remarks on a case that can be run all the same.
+
+use crate::error::Finding;
+use crate::units::Dimension;
+
+/// A remark on a case that can be run all the same.
+pub type Note = Finding<Remark>;
+
+/// What there is to say about a value of a case; reads on after `key = value `.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Remark {
+    /// The fibre is not a whole number of elements long.
+    #[error(
+        "leaves no whole number of elements: {elements} of {} {}",
+        Dimension::Length.pretty(*element_length), if *elements == 1 { "is taken" } else { "are taken" }
+    )]
+    ElementsRounded {
+        /// Number of elements taken.
+        elements: usize,
+        /// Their rest length [m].
+        element_length: f64,
+    },
+    /// The run is not a whole number of steps long.
+    #[error(
+        "leaves no whole number of steps in run.duration: {steps} of {} {}",
+        Dimension::Time.pretty(*time_step), if *steps == 1 { "is taken" } else { "are taken" }
+    )]
+    StepShortened {
+        /// Number of steps taken.
+        steps: u64,
+        /// Their length [s].
+        time_step: f64,
+    },
+    /// A time that is not a whole number of steps.
+    #[error("is no whole number of time steps: {} is taken", Dimension::Time.pretty(*time))]
+    TimeRounded {
+        /// Time taken [s].
+        time: f64,
+    },
+    /// A diameter that the drag law was not fitted for.
+    #[error(
+        "is outside {} to {}, the diameters drag.across = \"{law}\" was fitted for; the drag across the fibre is extrapolated",
+        Dimension::Length.pretty(*from), Dimension::Length.pretty(*to)
+    )]
+    OutsideFit {
+        /// Name of the law.
+        law: &'static str,
+        /// Thinnest fitted [m].
+        from: f64,
+        /// Thickest fitted [m].
+        to: f64,
+    },
+    /// Elements longer than eddies.
+    #[error(
+        "is shorter than the elements, {}: an element feels only the eddy at its centre; shorten fibre.element_length to feel all",
+        Dimension::Length.pretty(*element_length)
+    )]
+    EddiesSkipped {
+        /// Rest length of an element [m].
+        element_length: f64,
+    },
+    /// Elements shorter than the fibre is thick.
+    #[error("is longer than the elements, {}: the chain is finer than the fibre is thick", Dimension::Length.pretty(*element_length))]
+    ElementsStubby {
+        /// Rest length of an element [m].
+        element_length: f64,
+    },
+}
+
+impl Remark {
+    /// Whether the results may mislead, rather than the input merely having been rounded.
+    pub const fn is_warning(&self) -> bool {
+        matches!(
+            self,
+            Self::OutsideFit { .. } | Self::EddiesSkipped { .. } | Self::ElementsStubby { .. }
+        )
+    }
+}

@@ -1,0 +1,310 @@
+//! A case file taken apart into its entries, each with the place it was written.
+
+use super::layout::{self, VERSION};
+use crate::error::{Error, Fault, Finding, Place, Problem};
+use std::collections::BTreeMap;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// A value as written.
+pub(super) struct Entry<'a> {
+    pub(super) place: Place,
+    /// Source text, made fit for a message.
+    pub(super) shown: String,
+    pub(super) value: DeValue<'a>,
+}
+
+/// The entries of a case file and of the overrides, by full key, and what is wrong with them so far.
+pub(super) struct Document<'a> {
+    name: String,
+    text: &'a str,
+    /// Byte at which each line starts.
+    lines: Vec<usize>,
+    entries: BTreeMap<String, Entry<'a>>,
+    pub(super) problems: Vec<Problem>,
+    /// Keys that are missed only because they are misspelt or misplaced; tables end in a dot.
+    excused: Vec<String>,
+}
+
+impl<'a> Document<'a> {
+    /// Takes apart the text of the file called `name`.
+    ///
+    /// # Errors
+    /// When the text is not TOML.
+    pub(super) fn new(
+        text: &'a str,
+        name: &str,
+        overrides: &'a [(String, String)],
+    ) -> Result<Self, Error> {
+        let starts = text
+            .bytes()
+            .enumerate()
+            .filter(|(_, byte)| *byte == b'\n')
+            .map(|(i, _)| i + 1);
+        let mut document = Self {
+            name: name.to_owned(),
+            text,
+            lines: std::iter::once(0).chain(starts).collect(),
+            entries: BTreeMap::new(),
+            problems: Vec::new(),
+            excused: Vec::new(),
+        };
+        let (root, faults) = DeTable::parse_recoverable(text);
+        if !faults.is_empty() {
+            return Err(Error::Rejected(
+                faults.iter().map(|fault| document.syntax(fault)).collect(),
+            ));
+        }
+        document.take_root(root.into_inner());
+        for (key, value) in overrides {
+            document.take_override(key.trim(), value);
+        }
+        Ok(document)
+    }
+
+    /// Takes out the entry of a full key, `fibre.length`.
+    pub(super) fn take(&mut self, key: &str) -> Option<Entry<'a>> {
+        self.entries.remove(key)
+    }
+
+    /// Place and text of every entry, by full key.
+    pub(super) fn sources(&self) -> BTreeMap<String, (Place, String)> {
+        let source = |entry: &Entry<'_>| (entry.place.clone(), entry.shown.clone());
+        self.entries
+            .iter()
+            .map(|(key, entry)| (key.clone(), source(entry)))
+            .collect()
+    }
+
+    /// The file as a place, for what it does not say.
+    pub(super) fn whole(&self) -> Place {
+        Place::File {
+            file: self.name.clone(),
+            line: None,
+            column: None,
+        }
+    }
+
+    /// Whether a missing key has been told of as misspelt or misplaced.
+    pub(super) fn is_excused(&self, key: &str) -> bool {
+        self.excused
+            .iter()
+            .any(|excuse| excuse == key || excuse.ends_with('.') && key.starts_with(excuse))
+    }
+
+    /// The problems in the order of the file, then of the overrides.
+    pub(super) fn sorted<W>(mut findings: Vec<Finding<W>>) -> Vec<Finding<W>> {
+        findings.sort_by(|a, b| a.place.cmp(&b.place));
+        findings
+    }
+
+    fn syntax(&self, fault: &toml::de::Error) -> Problem {
+        let (line, column) = self.position(fault.span().map_or(0, |span| span.start));
+        let place = Place::File {
+            file: self.name.clone(),
+            line: Some(line),
+            column: Some(column),
+        };
+        let message = fault.message().replace('\n', "; ");
+        Finding {
+            place,
+            key: String::new(),
+            value: None,
+            what: Fault::Syntax { message },
+        }
+    }
+
+    /// Line and column, in characters, of a byte, both from 1.
+    fn position(&self, byte: usize) -> (usize, usize) {
+        let line = self.lines.partition_point(|start| *start <= byte);
+        let start = line
+            .checked_sub(1)
+            .and_then(|i| self.lines.get(i))
+            .copied()
+            .unwrap_or(0);
+        let before = self.text.get(start..byte).unwrap_or_default();
+        (line, before.chars().count() + 1)
+    }
+
+    fn place(&self, byte: usize) -> Place {
+        Place::File {
+            file: self.name.clone(),
+            line: Some(self.position(byte).0),
+            column: None,
+        }
+    }
+
+    fn take_root(&mut self, root: DeTable<'a>) {
+        for (key, value) in root {
+            let (place, name) = (self.place(key.span().start), key.into_inner());
+            let entry = self.entry(place, value);
+            match (layout::table(&name), entry.value) {
+                (Some(table), DeValue::Table(keys)) => {
+                    for (key, value) in keys {
+                        let (place, key) = (self.place(key.span().start), key.into_inner());
+                        let entry = self.entry(place, value);
+                        self.take_entry(table, &key, entry);
+                    }
+                }
+                (Some(table), other) => {
+                    self.excused.push(format!("{table}."));
+                    let wanted = format!("a table, [{table}]");
+                    let what = Fault::WrongType {
+                        found: kind(&other),
+                        wanted,
+                    };
+                    self.reject(entry.place, table, Some(entry.shown), what);
+                }
+                (None, DeValue::Table(keys)) => self.reject_table(entry.place, &name, &keys),
+                (None, value) => self.take_entry("", &name, Entry { value, ..entry }),
+            }
+        }
+    }
+
+    fn entry(&self, place: Place, value: Spanned<DeValue<'a>>) -> Entry<'a> {
+        let shown = fit(self.text.get(value.span()).unwrap_or_default());
+        Entry {
+            place,
+            shown,
+            value: value.into_inner(),
+        }
+    }
+
+    /// An override replaces what the file says.
+    fn take_override(&mut self, key: &str, text: &'a str) {
+        let value = match DeValue::parse(text) {
+            Ok(value) => value.into_inner(),
+            Err(_) => DeValue::String(text.into()),
+        };
+        let shown = if value.is_str() && !text.trim_start().starts_with(['"', '\'']) {
+            format!("\"{}\"", fit(text))
+        } else {
+            fit(text)
+        };
+        let entry = Entry {
+            place: Place::Override,
+            shown,
+            value,
+        };
+        match key.split_once('.') {
+            Some((table, key)) => match layout::table(table) {
+                Some(table) => self.take_entry(table, key, entry),
+                None => self.reject_table(entry.place, table, &DeTable::new()),
+            },
+            None => match layout::table(key) {
+                Some(table) => {
+                    let wanted = format!("one of its keys, --set {table}.key=value");
+                    let what = Fault::WrongType {
+                        found: "a table",
+                        wanted,
+                    };
+                    self.reject(entry.place, table, None, what);
+                }
+                None => self.take_entry("", key, entry),
+            },
+        }
+    }
+
+    /// Takes in an entry of a table, or of the top of the file, if it is known there.
+    fn take_entry(&mut self, table: &'static str, key: &str, entry: Entry<'a>) {
+        let full = full_key(table, key);
+        if layout::keys_of(table).contains(&key) {
+            self.entries.insert(full, entry);
+            return;
+        }
+        let what = if let Some((table, key)) = layout::home_of(key) {
+            self.excused.push(full_key(table, key));
+            Fault::Misplaced { table, key }
+        } else {
+            let nearest = match layout::nearest_key(table, key) {
+                Some((home, known)) => {
+                    let nearest = full_key(home, known);
+                    self.excused.push(nearest.clone());
+                    Some(nearest)
+                }
+                None => None,
+            };
+            let (where_, known) = if table.is_empty() {
+                (
+                    "the top of the file".to_owned(),
+                    vec![VERSION, "[fibre]", "[air]", "[drag]", "[run]"],
+                )
+            } else {
+                (format!("[{table}]"), layout::keys_of(table).to_vec())
+            };
+            Fault::UnknownKey {
+                nearest,
+                where_,
+                known,
+            }
+        };
+        self.reject(entry.place, &full, Some(entry.shown), what);
+    }
+
+    fn reject_table(&mut self, place: Place, name: &str, keys: &DeTable<'_>) {
+        let mut nearest = layout::nearest_table(name);
+        // By its keys, where its name tells nothing.
+        for (key, _) in keys {
+            nearest = nearest.or_else(|| layout::home_of(key.get_ref()).map(|(table, _)| table));
+        }
+        if let Some(table) = nearest {
+            self.excused.push(format!("{table}."));
+        }
+        let nearest = nearest.map(|table| format!("[{table}]"));
+        self.reject(
+            place,
+            &format!("[{}]", fit(name)),
+            None,
+            Fault::UnknownTable { nearest },
+        );
+    }
+
+    /// Notes down a problem.
+    pub(super) fn reject(&mut self, place: Place, key: &str, value: Option<String>, what: Fault) {
+        self.problems.push(Finding {
+            place,
+            key: fit(key),
+            value,
+            what,
+        });
+    }
+}
+
+fn full_key(table: &str, key: &str) -> String {
+    if table.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{table}.{key}")
+    }
+}
+
+/// Source text on one line and not too long.
+fn fit(text: &str) -> String {
+    const LONGEST: usize = 60;
+    let mut fit: String = (text.trim().chars().take(LONGEST))
+        .flat_map(|c| {
+            if c.is_control() {
+                c.escape_debug().collect()
+            } else {
+                vec![c]
+            }
+        })
+        .collect();
+    if text.trim().chars().count() > LONGEST {
+        fit.push('…');
+    }
+    fit
+}
+
+/// What kind of value this is, with its article.
+pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(_) => "a text",
+        DeValue::Integer(_) => "a whole number",
+        DeValue::Float(_) => "a decimal number",
+        DeValue::Boolean(_) => "true or false",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
+    }
+}

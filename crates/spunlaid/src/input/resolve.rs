@@ -1,0 +1,318 @@
+//! From what is written to what is meant: defaults, whole elements, whole steps.
+
+use super::FORMAT_VERSION;
+use super::document::{Document, Entry, kind};
+use super::layout::VERSION;
+use crate::air::Air;
+use crate::case::keys::{self, Quantity};
+use crate::case::{Case, MOST_RECORDS, MOST_STEPS, Note, Remark, Run};
+use crate::chain::schemes::Scheme;
+use crate::drag::{Drag, FrictionLaw, NormalLaw};
+use crate::error::{Error, Fault, Finding, Place};
+use crate::fibre::{Fibre, Root};
+use crate::vec3::Vec3;
+use std::collections::BTreeMap;
+use toml::de::DeValue;
+
+/// Default density `ρ_a` of air at 20 °C [kg/m³].
+const AIR_DENSITY: f64 = 1.204;
+/// Default kinematic viscosity `ν` of air at 20 °C [m²/s].
+const AIR_VISCOSITY: f64 = 1.51e-5;
+/// Default `β`: a single fibre in a tube.
+const FRICTION_COEFFICIENT: f64 = 0.9;
+/// Default acceleration of gravity [m/s²].
+const GRAVITY: f64 = 9.81;
+/// Default time between recorded instants [s].
+const OUTPUT_INTERVAL: f64 = 1e-3;
+/// Default number of replicates.
+const REPLICATES: u64 = 10;
+/// Default master seed.
+const SEED: u64 = 1;
+
+/// Makes a case of a document and checks it.
+pub(super) fn resolve(mut document: Document<'_>) -> Result<(Case, Vec<Note>), Error> {
+    version(&mut document)?;
+    let sources = Sources::of(&document);
+    let written = Written::read(&mut document);
+    if !document.problems.is_empty() {
+        return Err(Document::sorted(document.problems).into());
+    }
+    let mut notes = Vec::new();
+    let case = written
+        .case(&sources, &mut notes)
+        .map_err(|finding| vec![sources.placed(finding)])?;
+    match case.check() {
+        Ok(more) => {
+            notes.extend(more.into_iter().map(|note| sources.placed(note)));
+            Ok((case, Document::sorted(notes)))
+        }
+        Err(problems) => {
+            let placed = problems
+                .into_iter()
+                .map(|problem| sources.placed(problem))
+                .collect();
+            Err(Document::sorted(placed).into())
+        }
+    }
+}
+
+/// Refuses a file of a later format before anything else in it is judged.
+fn version(document: &mut Document<'_>) -> Result<(), Error> {
+    let Some(Entry {
+        place,
+        shown,
+        value,
+    }) = document.take(VERSION)
+    else {
+        return Ok(());
+    };
+    let known = FORMAT_VERSION;
+    let what = match &value {
+        DeValue::Integer(number) => match number.as_str().parse() {
+            Ok(version) if (1..=i128::from(known)).contains(&version) => return Ok(()),
+            Ok(version) if version < 1 => Fault::OutOfRange {
+                least: 1,
+                most: u64::from(known),
+            },
+            _ => Fault::NewerVersion { known },
+        },
+        other => Fault::WrongType {
+            found: kind(other),
+            wanted: format!("a whole number, {known}"),
+        },
+    };
+    Err(vec![Finding {
+        place,
+        key: VERSION.to_owned(),
+        value: Some(shown),
+        what,
+    }]
+    .into())
+}
+
+/// Where the values of a case come from.
+struct Sources {
+    file: Place,
+    written: BTreeMap<String, (Place, String)>,
+}
+
+impl Sources {
+    fn of(document: &Document<'_>) -> Self {
+        Self {
+            file: document.whole(),
+            written: document.sources(),
+        }
+    }
+
+    /// The finding with the place and the text of the value it is about.
+    fn placed<W>(&self, mut finding: Finding<W>) -> Finding<W> {
+        match self.written.get(&finding.key) {
+            Some((place, shown)) => {
+                (finding.place, finding.value) = (place.clone(), Some(shown.clone()));
+            }
+            None => {
+                finding.place = self.file.clone();
+                finding.value = finding.value.map(|value| format!("{value} (the default)"));
+            }
+        }
+        finding
+    }
+}
+
+/// What a case file says, in SI units, before anything is made of it.
+struct Written {
+    fibre: Fibre,
+    element_length: Option<f64>,
+    air: Air,
+    harmonics: Option<u64>,
+    drag: Drag,
+    duration: f64,
+    time_step: f64,
+    spin_up: f64,
+    output_interval: Option<f64>,
+    /// Its times are still to be filled in.
+    run: Run,
+}
+
+impl Written {
+    fn read(d: &mut Document<'_>) -> Self {
+        let fibre = Fibre {
+            length: d.required(&keys::LENGTH, "length = \"1 m\""),
+            diameter: d.required(&keys::DIAMETER, "diameter = \"50 µm\""),
+            density: d.required(&keys::FIBRE_DENSITY, "density = \"950 kg/m³\""),
+            youngs_modulus: d.required(&keys::YOUNGS_MODULUS, "youngs_modulus = \"2 GPa\""),
+            elements: 0,
+            root: d.choice("fibre.root", &keys::ROOTS).unwrap_or(Root::Pinned),
+            direction: d
+                .direction(keys::DIRECTION)
+                .unwrap_or(Vec3::new(1.0, 0.0, 0.0)),
+        };
+        let element_length = d.optional(&keys::ELEMENT_LENGTH);
+        let air = Air {
+            velocity: d.required(&keys::VELOCITY, "velocity = \"10 m/s\""),
+            turbulence_intensity: d
+                .required(&keys::TURBULENCE_INTENSITY, "turbulence_intensity = 0.1"),
+            length_scale: d.required(&keys::LENGTH_SCALE, "length_scale = \"50 mm\""),
+            cutoff_frequency: d.required(&keys::CUTOFF_FREQUENCY, "cutoff_frequency = \"100 Hz\""),
+            density: d.optional(&keys::AIR_DENSITY).unwrap_or(AIR_DENSITY),
+            kinematic_viscosity: d.optional(&keys::VISCOSITY).unwrap_or(AIR_VISCOSITY),
+            harmonics: 0,
+        };
+        let harmonics = d.whole_number(keys::HARMONICS, 1, usize::MAX as u64);
+        let drag = Drag {
+            along: d
+                .choice("drag.along", &keys::FRICTION_LAWS)
+                .unwrap_or(FrictionLaw::Matsui),
+            across: d
+                .choice("drag.across", &keys::NORMAL_LAWS)
+                .unwrap_or(NormalLaw::JuShambaugh),
+            friction_coefficient: d
+                .optional(&keys::FRICTION_COEFFICIENT)
+                .unwrap_or(FRICTION_COEFFICIENT),
+        };
+        let duration = d.required(&keys::DURATION, "duration = \"1 s\"");
+        let time_step = d.required(&keys::TIME_STEP, "time_step = \"1 µs\"");
+        let spin_up = d.optional(&keys::SPIN_UP).unwrap_or(0.0);
+        let output_interval = d.optional(&keys::OUTPUT_INTERVAL);
+        let run = Run {
+            time_step,
+            steps: 0,
+            spin_up_steps: 0,
+            output_steps: 0,
+            replicates: d
+                .whole_number(keys::REPLICATES, 1, MOST_RECORDS as u64)
+                .unwrap_or(REPLICATES),
+            seed: d.whole_number("run.seed", 0, u64::MAX).unwrap_or(SEED),
+            scheme: d
+                .choice("run.scheme", &keys::SCHEMES)
+                .unwrap_or(Scheme::SemiImplicitEuler),
+            gravity: d.optional(&keys::GRAVITY).unwrap_or(GRAVITY),
+            damping: d.optional(&keys::DAMPING).unwrap_or(0.0),
+        };
+        Self {
+            fibre,
+            element_length,
+            air,
+            harmonics,
+            drag,
+            duration,
+            time_step,
+            spin_up,
+            output_interval,
+            run,
+        }
+    }
+
+    /// The case that is meant, before it is checked.
+    fn case(&self, sources: &Sources, notes: &mut Vec<Note>) -> Result<Case, Finding<Fault>> {
+        let Self {
+            mut fibre,
+            mut air,
+            mut run,
+            drag,
+            ..
+        } = *self;
+        let mut note = |quantity: &Quantity, value: f64, remark: Remark| {
+            let value = Some(quantity.dimension.pretty(value));
+            let key = quantity.key.to_owned();
+            notes.push(sources.placed(Note {
+                place: Place::Code,
+                key,
+                value,
+                what: remark,
+            }));
+        };
+
+        let element_length = self
+            .element_length
+            .unwrap_or(air.length_scale.min(fibre.length));
+        let (elements, whole) = nearest_whole(fibre.length, element_length);
+        fibre.elements = usize::try_from(elements.max(1)).unwrap_or(usize::MAX);
+        if !whole {
+            let remark = Remark::ElementsRounded {
+                elements: fibre.elements,
+                element_length: fibre.rest_length(),
+            };
+            note(&keys::ELEMENT_LENGTH, element_length, remark);
+        }
+
+        let steps = (self.duration / self.time_step).ceil().max(1.0);
+        if steps > MOST_STEPS as f64 {
+            let fault = Fault::TooManySteps {
+                steps,
+                most: MOST_STEPS as f64,
+                time_step: self.time_step,
+            };
+            let value = Some(keys::DURATION.dimension.pretty(self.duration));
+            return Err(Finding {
+                place: Place::Code,
+                key: keys::DURATION.key.to_owned(),
+                value,
+                what: fault,
+            });
+        }
+        let (nearest, whole) = nearest_whole(self.duration, self.time_step);
+        run.steps = nearest;
+        if !whole || nearest == 0 {
+            // More steps, and these shorter: never beyond a limit that the step as written keeps.
+            run.steps = steps as u64;
+            run.time_step = self.duration / steps;
+            let remark = Remark::StepShortened {
+                steps: run.steps,
+                time_step: run.time_step,
+            };
+            note(&keys::TIME_STEP, self.time_step, remark);
+        }
+
+        let (spin_up_steps, whole) = nearest_whole(self.spin_up, run.time_step);
+        run.spin_up_steps = spin_up_steps;
+        if !whole {
+            note(
+                &keys::SPIN_UP,
+                self.spin_up,
+                Remark::TimeRounded {
+                    time: run.spin_up(),
+                },
+            );
+        }
+        if let Some(interval) = self.output_interval {
+            let (output_steps, whole) = nearest_whole(interval, run.time_step);
+            run.output_steps = output_steps.max(1);
+            if !whole {
+                note(
+                    &keys::OUTPUT_INTERVAL,
+                    interval,
+                    Remark::TimeRounded {
+                        time: run.output_interval(),
+                    },
+                );
+            }
+        } else {
+            run.output_steps = nearest_whole(OUTPUT_INTERVAL, run.time_step)
+                .0
+                .clamp(1, run.steps);
+        }
+
+        air.harmonics = match self.harmonics {
+            Some(harmonics) => usize::try_from(harmonics).unwrap_or(usize::MAX),
+            None => Air::default_harmonics(air.cutoff_frequency, run.duration()),
+        };
+        Ok(Case {
+            fibre,
+            air,
+            drag,
+            run,
+        })
+    }
+}
+
+/// How often `part` goes into `whole`, to the nearest whole number, and whether it does so exactly but for
+/// rounding.
+pub(super) fn nearest_whole(whole: f64, part: f64) -> (u64, bool) {
+    let ratio = whole / part;
+    let nearest = ratio.round();
+    (
+        nearest as u64,
+        (ratio - nearest).abs() <= 8.0 * f64::EPSILON * ratio,
+    )
+}

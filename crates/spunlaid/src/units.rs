@@ -1,0 +1,413 @@
+//! Units at the door: quantities as people write them, and as the library holds them, in SI.
+
+use std::fmt;
+
+/// What a quantity measures, and so which units it takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    /// [m]
+    Length,
+    /// [m/s]
+    Velocity,
+    /// [s]
+    Time,
+    /// [Hz]
+    Frequency,
+    /// [1/s]
+    Rate,
+    /// [kg/m³]
+    Density,
+    /// [Pa]
+    Pressure,
+    /// [m²/s]
+    KinematicViscosity,
+    /// [m/s²]
+    Acceleration,
+    /// A plain number, or a percentage.
+    Ratio,
+}
+
+/// How a unit relates to the SI unit of its dimension.
+#[derive(Clone, Copy, Debug)]
+enum Scale {
+    /// `10^n` SI units.
+    Ten(i32),
+    /// So many SI units.
+    Times(f64),
+    /// One SI unit is so many of these.
+    Over(f64),
+}
+
+/// A unit: as shown, its spelling in plain ASCII without `^`, and its size.
+struct Unit {
+    shown: &'static str,
+    plain: &'static str,
+    scale: Scale,
+    /// Whether [`Dimension::pretty`] may choose it.
+    pretty: bool,
+}
+
+const fn unit(shown: &'static str, plain: &'static str, scale: Scale) -> Unit {
+    Unit {
+        shown,
+        plain,
+        scale,
+        pretty: true,
+    }
+}
+
+const fn also(shown: &'static str, plain: &'static str, scale: Scale) -> Unit {
+    Unit {
+        shown,
+        plain,
+        scale,
+        pretty: false,
+    }
+}
+
+use Scale::{Over, Ten, Times};
+
+/// Units of each dimension, the SI unit first.
+const LENGTH: &[Unit] = &[
+    unit("m", "m", Ten(0)),
+    also("cm", "cm", Ten(-2)),
+    unit("mm", "mm", Ten(-3)),
+    unit("µm", "um", Ten(-6)),
+    unit("nm", "nm", Ten(-9)),
+];
+const VELOCITY: &[Unit] = &[
+    unit("m/s", "m/s", Ten(0)),
+    also("cm/s", "cm/s", Ten(-2)),
+    also("mm/s", "mm/s", Ten(-3)),
+    also("km/h", "km/h", Over(3.6)),
+    also("m/min", "m/min", Over(60.0)),
+];
+const TIME: &[Unit] = &[
+    unit("s", "s", Ten(0)),
+    unit("ms", "ms", Ten(-3)),
+    unit("µs", "us", Ten(-6)),
+    unit("ns", "ns", Ten(-9)),
+    also("min", "min", Times(60.0)),
+];
+const FREQUENCY: &[Unit] = &[unit("Hz", "Hz", Ten(0)), unit("kHz", "kHz", Ten(3))];
+const RATE: &[Unit] = &[unit("1/s", "1/s", Ten(0)), also("s⁻¹", "s-1", Ten(0))];
+const DENSITY: &[Unit] = &[
+    unit("kg/m³", "kg/m3", Ten(0)),
+    also("g/cm³", "g/cm3", Ten(3)),
+];
+const PRESSURE: &[Unit] = &[
+    unit("Pa", "Pa", Ten(0)),
+    unit("kPa", "kPa", Ten(3)),
+    unit("MPa", "MPa", Ten(6)),
+    unit("GPa", "GPa", Ten(9)),
+    also("N/mm²", "N/mm2", Ten(6)),
+];
+const KINEMATIC_VISCOSITY: &[Unit] = &[
+    unit("m²/s", "m2/s", Ten(0)),
+    also("mm²/s", "mm2/s", Ten(-6)),
+    also("cSt", "cSt", Ten(-6)),
+];
+const ACCELERATION: &[Unit] = &[unit("m/s²", "m/s2", Ten(0))];
+const RATIO: &[Unit] = &[unit("", "", Ten(0)), also("%", "%", Ten(-2))];
+
+const ALL: [Dimension; 10] = [
+    Dimension::Length,
+    Dimension::Velocity,
+    Dimension::Time,
+    Dimension::Frequency,
+    Dimension::Rate,
+    Dimension::Density,
+    Dimension::Pressure,
+    Dimension::KinematicViscosity,
+    Dimension::Acceleration,
+    Dimension::Ratio,
+];
+
+/// What is wrong with the text of a quantity; reads on after `key = "text" `.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum QuantityFault {
+    /// No number at the start.
+    #[error("does not start with a number; write {wanted}")]
+    NoNumber {
+        /// What to write.
+        wanted: Wanted,
+    },
+    /// `nan` or `inf`.
+    #[error("is not a finite number; write {wanted}")]
+    NotFinite {
+        /// What to write.
+        wanted: Wanted,
+    },
+    /// Beyond the largest number a computer holds.
+    #[error("is too large a number; write {wanted}")]
+    TooLarge {
+        /// What to write.
+        wanted: Wanted,
+    },
+    /// `1,5 m`.
+    #[error(
+        "has a comma; write the number with a decimal point and no separators, like \"{mended}\""
+    )]
+    Comma {
+        /// The text with a point in its place.
+        mended: String,
+    },
+    /// `1_000 m`.
+    #[error("has an underscore; write the number without separators, like \"{mended}\"")]
+    Underscore {
+        /// The text without.
+        mended: String,
+    },
+    /// A bare number where a unit belongs.
+    #[error("has no unit; write {wanted}")]
+    NoUnit {
+        /// What to write.
+        wanted: Wanted,
+    },
+    /// A unit of something else.
+    #[error("is {found}; write {wanted}")]
+    WrongDimension {
+        /// What the unit measures, `a length`.
+        found: &'static str,
+        /// What to write.
+        wanted: Wanted,
+    },
+    /// A unit nobody knows.
+    #[error("has the unknown unit \"{unit}\"; write {wanted}")]
+    UnknownUnit {
+        /// As written.
+        unit: String,
+        /// What to write.
+        wanted: Wanted,
+    },
+}
+
+/// Says what to write for a dimension: `a length with its unit: m, cm, mm, µm or nm`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wanted(pub Dimension);
+
+impl fmt::Display for Wanted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0 == Dimension::Ratio {
+            return f.write_str("a plain number like 0.1, or a percentage like \"10 %\"");
+        }
+        write!(f, "{} with its unit: ", self.0.name())?;
+        let units = self.0.units();
+        for (i, unit) in units.iter().enumerate() {
+            let joint = match i {
+                0 => "",
+                _ if i + 1 == units.len() => " or ",
+                _ => ", ",
+            };
+            write!(f, "{joint}{}", unit.shown)?;
+        }
+        Ok(())
+    }
+}
+
+impl Dimension {
+    /// With its article: `a length`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Length => "a length",
+            Self::Velocity => "a velocity",
+            Self::Time => "a time",
+            Self::Frequency => "a frequency",
+            Self::Rate => "a rate",
+            Self::Density => "a density",
+            Self::Pressure => "a pressure",
+            Self::KinematicViscosity => "a kinematic viscosity",
+            Self::Acceleration => "an acceleration",
+            Self::Ratio => "a ratio",
+        }
+    }
+
+    /// The SI unit: `m/s²`, nothing for a ratio.
+    pub fn si_unit(self) -> &'static str {
+        self.units().first().map_or("", |unit| unit.shown)
+    }
+
+    const fn units(self) -> &'static [Unit] {
+        match self {
+            Self::Length => LENGTH,
+            Self::Velocity => VELOCITY,
+            Self::Time => TIME,
+            Self::Frequency => FREQUENCY,
+            Self::Rate => RATE,
+            Self::Density => DENSITY,
+            Self::Pressure => PRESSURE,
+            Self::KinematicViscosity => KINEMATIC_VISCOSITY,
+            Self::Acceleration => ACCELERATION,
+            Self::Ratio => RATIO,
+        }
+    }
+
+    /// Reads a quantity such as `50 µm` into SI units.
+    ///
+    /// Units that are a power of ten of the SI unit move the decimal exponent of the number before it is
+    /// rounded: `50 µm` is the number nearest to 5e-5, bit for bit.
+    ///
+    /// # Errors
+    /// When the text is no finite number followed by a unit of this dimension.
+    pub fn parse(self, text: &str) -> Result<f64, QuantityFault> {
+        let wanted = Wanted(self);
+        let text = text.trim();
+        let (number, rest) = split_number(text);
+        if number.is_empty() {
+            let word = text.trim_start_matches(['+', '-']).to_ascii_lowercase();
+            return Err(if word.starts_with("nan") || word.starts_with("inf") {
+                QuantityFault::NotFinite { wanted }
+            } else {
+                QuantityFault::NoNumber { wanted }
+            });
+        }
+        let digit_follows = rest.chars().nth(1).is_some_and(|c| c.is_ascii_digit());
+        if digit_follows && rest.starts_with(',') {
+            return Err(QuantityFault::Comma {
+                mended: text.replacen(',', ".", 1).replace(',', ""),
+            });
+        }
+        if digit_follows && rest.starts_with('_') {
+            return Err(QuantityFault::Underscore {
+                mended: text.replace('_', ""),
+            });
+        }
+        let written = rest.trim();
+        let plain = plain_spelling(written);
+        let Some(unit) = self.units().iter().find(|unit| unit.plain == plain) else {
+            return Err(if written.is_empty() {
+                QuantityFault::NoUnit { wanted }
+            } else if let Some(other) = ALL
+                .iter()
+                .find(|d| d.units().iter().any(|u| u.plain == plain))
+            {
+                QuantityFault::WrongDimension {
+                    found: other.name(),
+                    wanted,
+                }
+            } else {
+                QuantityFault::UnknownUnit {
+                    unit: written.to_owned(),
+                    wanted,
+                }
+            });
+        };
+        let value = match unit.scale {
+            Ten(power) => shifted(number, power),
+            Times(factor) => shifted(number, 0).map(|value| value * factor),
+            Over(divisor) => shifted(number, 0).map(|value| value / divisor),
+        };
+        match value {
+            Some(value) if value.is_finite() => Ok(value),
+            Some(_) => Err(QuantityFault::TooLarge { wanted }),
+            None => Err(QuantityFault::NoNumber { wanted }),
+        }
+    }
+
+    /// The text in the SI unit, `5e-5 m`, that [`Dimension::parse`] reads back to the same bits.
+    pub fn exact(self, value: f64) -> String {
+        with_unit(&shortest(value), self.si_unit())
+    }
+
+    /// For people: four digits and a handy unit, `50 µm`, `34.46 µs`, `2 GPa`.
+    pub fn pretty(self, value: f64) -> String {
+        let mut best = (1.0, self.si_unit());
+        if value != 0.0 && value.is_finite() {
+            // The largest unit that leaves a number of one or more, or the smallest there is.
+            let mut sizes: Vec<(f64, &str)> = (self.units().iter().filter(|unit| unit.pretty))
+                .filter_map(|unit| match unit.scale {
+                    Ten(power) => Some((10f64.powi(power), unit.shown)),
+                    Times(_) | Over(_) => None,
+                })
+                .collect();
+            sizes.sort_by(|a, b| b.0.total_cmp(&a.0));
+            let rounded = value.abs() * (1.0 + 5e-5);
+            let smallest = sizes.last().filter(|(size, _)| rounded >= 0.01 * size);
+            let fits = sizes.iter().find(|(size, _)| rounded >= *size).or(smallest);
+            best = fits.copied().unwrap_or(best);
+        }
+        let number = value / best.0;
+        let digits: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+        with_unit(&shortest(digits), best.1)
+    }
+}
+
+fn with_unit(number: &str, unit: &str) -> String {
+    if unit.is_empty() {
+        number.to_owned()
+    } else {
+        format!("{number} {unit}")
+    }
+}
+
+/// The shortest text that reads back to the same bits, with an exponent where that is shorter.
+pub(crate) fn shortest(value: f64) -> String {
+    let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
+    if scientific.len() < plain.len() {
+        scientific
+    } else {
+        plain
+    }
+}
+
+/// Splits a decimal number off the front; empty where there is none.
+fn split_number(text: &str) -> (&str, &str) {
+    let bytes = text.as_bytes();
+    let digits_from = |start: usize| {
+        start
+            + bytes
+                .iter()
+                .skip(start)
+                .take_while(|b| b.is_ascii_digit())
+                .count()
+    };
+    let start = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
+    let mut end = digits_from(start);
+    let mut digits = end - start;
+    if bytes.get(end) == Some(&b'.') {
+        let fraction = digits_from(end + 1);
+        digits += fraction - (end + 1);
+        end = fraction;
+    }
+    if digits == 0 {
+        return ("", text);
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        let exponent = digits_from(end + 1 + sign);
+        if exponent > end + 1 + sign {
+            end = exponent;
+        }
+    }
+    text.split_at(end)
+}
+
+/// The number times `10^power`, rounded once; infinite where too large.
+fn shifted(number: &str, power: i32) -> Option<f64> {
+    let (mantissa, exponent) = match number.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()),
+        None => (number, Some(0)),
+    };
+    match exponent.and_then(|exponent| exponent.checked_add(power)) {
+        Some(exponent) => format!("{mantissa}e{exponent}").parse().ok(),
+        // So large or so small that the unit cannot matter.
+        None => number.parse().ok(),
+    }
+}
+
+/// `kg/m³`, `kg/m^3` and `kg/m3` as one spelling; so `µ` (micro), `μ` (mu) and `u`.
+fn plain_spelling(unit: &str) -> String {
+    let plain = unit.chars().filter(|c| *c != '^').map(|c| match c {
+        'µ' | 'μ' => 'u',
+        '¹' => '1',
+        '²' => '2',
+        '³' => '3',
+        '⁻' => '-',
+        other => other,
+    });
+    plain.collect()
+}
+
+#[cfg(test)]
+mod tests;

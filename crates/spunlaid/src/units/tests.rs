@@ -1,0 +1,165 @@
+#![allow(clippy::unwrap_used)]
+
+use super::*;
+use proptest::prelude::*;
+
+#[test]
+fn identical_to_the_decimal_number_meant() {
+    let cases: &[(Dimension, &str, f64)] = &[
+        (Dimension::Length, "50 µm", 5e-5),
+        (Dimension::Length, "50 μm", 5e-5),
+        (Dimension::Length, "50um", 5e-5),
+        (Dimension::Length, "0.3 mm", 3e-4),
+        (Dimension::Length, "+2.5e1 cm", 0.25),
+        (Dimension::Length, ".7 nm", 7e-10),
+        (Dimension::Pressure, "2 GPa", 2e9),
+        (Dimension::Pressure, "1.1 MPa", 1.1e6),
+        (Dimension::Pressure, "1.1 N/mm^2", 1.1e6),
+        (Dimension::Density, "950 kg/m³", 950.0),
+        (Dimension::Density, "950 kg/m^3", 950.0),
+        (Dimension::Density, "0.95 g/cm3", 950.0),
+        (Dimension::KinematicViscosity, "15.1 mm²/s", 1.51e-5),
+        (Dimension::KinematicViscosity, "15.1 cSt", 1.51e-5),
+        (Dimension::Acceleration, "-9.81 m/s^2", -9.81),
+        (Dimension::Time, "1 µs", 1e-6),
+        (Dimension::Time, "1.5 min", 90.0),
+        (Dimension::Velocity, "36 km/h", 10.0),
+        (Dimension::Velocity, "600\u{a0}m/min", 10.0),
+        (Dimension::Frequency, "0.1 kHz", 100.0),
+        (Dimension::Rate, "3 1/s", 3.0),
+        (Dimension::Rate, "3 s^-1", 3.0),
+        (Dimension::Rate, "3 s⁻¹", 3.0),
+        (Dimension::Ratio, "10 %", 0.1),
+        (Dimension::Ratio, "0.1", 0.1),
+    ];
+    for (dimension, text, value) in cases {
+        let read = dimension.parse(text).map(f64::to_bits);
+        assert_eq!(read, Ok(value.to_bits()), "{text}");
+    }
+}
+
+#[test]
+fn rejects_what_is_no_quantity() {
+    for (dimension, text, message) in [
+        (
+            Dimension::Length,
+            "",
+            "does not start with a number; write a length with its unit: m, cm, mm, µm or nm",
+        ),
+        (
+            Dimension::Length,
+            "mm",
+            "does not start with a number; write a length with its unit: m, cm, mm, µm or nm",
+        ),
+        (
+            Dimension::Length,
+            "-.e5 m",
+            "does not start with a number; write a length with its unit: m, cm, mm, µm or nm",
+        ),
+        (
+            Dimension::Rate,
+            "inf 1/s",
+            "is not a finite number; write a rate with its unit: 1/s or s⁻¹",
+        ),
+        (
+            Dimension::Ratio,
+            "-NaN",
+            "is not a finite number; write a plain number like 0.1, or a percentage like \"10 %\"",
+        ),
+        (
+            Dimension::Length,
+            "1e400 m",
+            "is too large a number; write a length with its unit: m, cm, mm, µm or nm",
+        ),
+        (
+            Dimension::Time,
+            "1e308 min",
+            "is too large a number; write a time with its unit: s, ms, µs, ns or min",
+        ),
+        (
+            Dimension::Length,
+            "1,5 m",
+            "has a comma; write the number with a decimal point and no separators, like \"1.5 m\"",
+        ),
+        (
+            Dimension::Length,
+            "1_000 m",
+            "has an underscore; write the number without separators, like \"1000 m\"",
+        ),
+        (
+            Dimension::Length,
+            "1.5",
+            "has no unit; write a length with its unit: m, cm, mm, µm or nm",
+        ),
+        (
+            Dimension::Length,
+            "1.5 s",
+            "is a time; write a length with its unit: m, cm, mm, µm or nm",
+        ),
+        (
+            Dimension::Length,
+            "1.5 inch",
+            "has the unknown unit \"inch\"; write a length with its unit: m, cm, mm, µm or nm",
+        ),
+        (
+            Dimension::Length,
+            "1.5 MM",
+            "has the unknown unit \"MM\"; write a length with its unit: m, cm, mm, µm or nm",
+        ),
+    ] {
+        let fault = dimension.parse(text).map_err(|fault| fault.to_string());
+        assert_eq!(fault, Err(message.to_owned()), "{text}");
+    }
+}
+
+#[test]
+fn people_read_handy_units() {
+    for (dimension, value, text) in [
+        (Dimension::Length, 5e-5, "50 µm"),
+        (Dimension::Length, 0.05, "50 mm"),
+        (Dimension::Length, 1.0, "1 m"),
+        (Dimension::Length, 0.99999, "1 m"),
+        (Dimension::Length, 5e-11, "0.05 nm"),
+        (Dimension::Length, 1.5e-12, "1.5e-12 m"),
+        (Dimension::Time, 3.446e-5, "34.46 µs"),
+        (Dimension::Time, 0.0, "0 s"),
+        (Dimension::Time, 3600.0, "3600 s"),
+        (Dimension::Pressure, 2e9, "2 GPa"),
+        (Dimension::Pressure, -2e9, "-2 GPa"),
+        (Dimension::Density, 1.204, "1.204 kg/m³"),
+        (Dimension::KinematicViscosity, 1.51e-5, "1.51e-5 m²/s"),
+        (Dimension::Ratio, 1.0 / 3.0, "0.3333"),
+        (Dimension::Length, f64::INFINITY, "inf m"),
+    ] {
+        assert_eq!(dimension.pretty(value), text);
+    }
+}
+
+proptest! {
+    #[test]
+    fn identical_after_writing_and_reading(
+        value in any::<f64>().prop_filter("finite", |v| v.is_finite()),
+        dimension in prop::sample::select(ALL.to_vec()),
+    ) {
+        let text = dimension.exact(value);
+        prop_assert_eq!(dimension.parse(&text).map(f64::to_bits), Ok(value.to_bits()), "{}", text);
+    }
+
+    #[test]
+    fn identical_in_every_power_of_ten(digits in 1u64..1_000_000_000, exponent in -30i32..30) {
+        for (unit, power) in [("m", 0), ("cm", -2), ("mm", -3), ("µm", -6), ("nm", -9)] {
+            let meant: f64 = format!("{digits}e{}", exponent + power).parse().unwrap();
+            let text = format!("{digits}e{exponent} {unit}");
+            prop_assert_eq!(Dimension::Length.parse(&text).map(f64::to_bits), Ok(meant.to_bits()));
+        }
+    }
+
+    #[test]
+    fn any_text_is_read_or_refused(text in "\\PC{0,20}|[-+0-9.eE_,]{0,12} ?[a-zA-Zµμ%/^²³⁻¹]{0,5}") {
+        for dimension in ALL {
+            if let Ok(value) = dimension.parse(&text) {
+                prop_assert!(value.is_finite());
+            }
+        }
+    }
+}
