@@ -83,6 +83,19 @@ impl<'a> Bundle<'a> {
         self.start_leapfrog();
     }
 
+    /// Adds to the velocity of a node [m/s]: a push from outside the model.
+    pub fn push(&mut self, node: usize, by: Vec3<Lanes>) {
+        self.chain.velocity[node] += by;
+        self.chain.earlier[node] += by;
+    }
+
+    /// Puts a node at rest at a place [m], as a hand would.
+    pub fn hold(&mut self, node: usize, at: Vec3<Lanes>) {
+        self.chain.position[node] = at;
+        self.chain.velocity[node] = Vec3::ZERO;
+        self.chain.earlier[node] = Vec3::ZERO;
+    }
+
     /// The chains, positions and velocities as the scheme keeps them.
     pub fn chain(&self) -> &Chain {
         &self.chain
