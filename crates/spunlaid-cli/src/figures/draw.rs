@@ -1,0 +1,264 @@
+//! Drawing a chart: layout, axes, marks.
+
+use super::chart::{Chart, Mark, Series};
+use super::decimate::{along_x, path, runs};
+use super::legend;
+use super::palette::{GREY, GRID, INK, Marker};
+use super::scale::{Scale, Spacing, factor};
+use super::svg::{Anchor, Stroke, Svg, Text, width};
+
+const LABEL: f64 = 14.0;
+const TICK: f64 = 13.0;
+
+/// The rectangle the data are drawn in, with its scales.
+struct Plot {
+    left: f64,
+    top: f64,
+    right: f64,
+    bottom: f64,
+    x: Scale,
+    y: Scale,
+}
+
+impl Plot {
+    fn at(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        (self.along(x), self.up(y))
+    }
+
+    fn along(&self, x: f64) -> f64 {
+        self.left + self.x.place(x) * (self.right - self.left)
+    }
+
+    fn up(&self, y: f64) -> f64 {
+        self.bottom - self.y.place(y) * (self.bottom - self.top)
+    }
+}
+
+/// The picture of a chart.
+pub(crate) fn chart(chart: &Chart) -> String {
+    let mut svg = Svg::new(chart.size.0, chart.size.1, &chart.title);
+    let (xs, ys) = chart.extents();
+    let empty = xs.is_empty();
+    let plot = lay_out(chart, &xs, &ys);
+    let entries = if empty { Vec::new() } else { legend::entries(chart) };
+    draw_grid(&mut svg, &plot);
+    svg.open_clip(
+        &format!("clip_{}", chart.name),
+        plot.left,
+        plot.top,
+        plot.right - plot.left,
+        plot.bottom - plot.top,
+    );
+    if !empty {
+        for (series, mark) in &chart.marks {
+            draw_shade(&mut svg, &plot, series, mark);
+        }
+        for (i, (series, mark)) in chart.marks.iter().enumerate() {
+            draw_mark(&mut svg, &plot, series, mark, i);
+        }
+    }
+    svg.close();
+    draw_axes(&mut svg, &plot, chart);
+    legend::draw(&mut svg, &entries, plot.left, plot.right);
+    if empty {
+        let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
+        let style = Text { size: LABEL, colour: GREY, anchor: Anchor::Middle, upright: true };
+        svg.text(middle, &chart.nothing, style);
+    }
+    svg.finish()
+}
+
+fn lay_out(chart: &Chart, xs: &[f64], ys: &[f64]) -> Plot {
+    let (w, h) = chart.size;
+    let mut y = Scale::fit(&chart.y, ys.iter().copied(), 6);
+    let mut x = Scale::fit(&chart.x, xs.iter().copied(), 7);
+    let left = 34.0 + y_label_width(&y);
+    let right = w - 18.0;
+    let entries = if xs.is_empty() { Vec::new() } else { legend::entries(chart) };
+    let factors = if y.exponent != 0 { 20.0 } else { 0.0 };
+    let top = 12.0 + legend::height(&entries, right - left) + factors;
+    let bottom = h - 50.0;
+    if chart.equal {
+        let (per_x, per_y) = ((x.ends.1 - x.ends.0) / (right - left), (y.ends.1 - y.ends.0) / (bottom - top));
+        let per = per_x.max(per_y);
+        x = Scale::between(Spacing::Linear, widened(x.ends, per * (right - left)), 7);
+        y = Scale::between(Spacing::Linear, widened(y.ends, per * (bottom - top)), 6);
+    }
+    Plot { left, top, right, bottom, x, y }
+}
+
+fn y_label_width(y: &Scale) -> f64 {
+    y.ticks.iter().filter_map(|t| t.label.as_deref()).map(|l| width(l, TICK)).fold(14.0, f64::max)
+}
+
+fn widened((lo, hi): (f64, f64), range: f64) -> (f64, f64) {
+    let middle = 0.5 * (lo + hi);
+    (middle - 0.5 * range, middle + 0.5 * range)
+}
+
+fn draw_grid(svg: &mut Svg, plot: &Plot) {
+    let stroke = Stroke::solid(GRID, 0.8);
+    for tick in plot.x.ticks.iter().filter(|t| t.label.is_some()) {
+        let x = plot.along(tick.value);
+        svg.line((x, plot.top), (x, plot.bottom), &stroke);
+    }
+    for tick in plot.y.ticks.iter().filter(|t| t.label.is_some()) {
+        let y = plot.up(tick.value);
+        svg.line((plot.left, y), (plot.right, y), &stroke);
+    }
+}
+
+fn draw_axes(svg: &mut Svg, plot: &Plot, chart: &Chart) {
+    let stroke = Stroke::solid(INK, 0.9);
+    let tick_text = |anchor| Text { size: TICK, colour: INK, anchor, upright: true };
+    for tick in &plot.x.ticks {
+        let x = plot.along(tick.value);
+        let length = if tick.label.is_some() { 6.0 } else { 3.0 };
+        svg.line((x, plot.bottom), (x, plot.bottom + length), &stroke);
+        if let Some(label) = &tick.label {
+            svg.text((x, plot.bottom + 20.0), label, tick_text(Anchor::Middle));
+        }
+    }
+    for tick in &plot.y.ticks {
+        let y = plot.up(tick.value);
+        let length = if tick.label.is_some() { 6.0 } else { 3.0 };
+        svg.line((plot.left - length, y), (plot.left, y), &stroke);
+        if let Some(label) = &tick.label {
+            svg.text((plot.left - 9.0, y + 4.5), label, tick_text(Anchor::End));
+        }
+    }
+    let corner = (plot.left, plot.bottom);
+    svg.path(&[(plot.left, plot.top), corner, (plot.right, plot.bottom)], &stroke);
+    let title = |upright| Text { size: LABEL, colour: INK, anchor: Anchor::Middle, upright };
+    let middle = (plot.left + plot.right) / 2.0;
+    svg.text((middle, plot.bottom + 42.0), &chart.x.label, title(true));
+    let middle = (plot.top + plot.bottom) / 2.0;
+    svg.text((16.0, middle), &chart.y.label, title(false));
+    if plot.x.exponent != 0 {
+        svg.text((plot.right, plot.bottom + 38.0), &factor(plot.x.exponent), tick_text(Anchor::End));
+    }
+    if plot.y.exponent != 0 {
+        svg.text((plot.left - 9.0, plot.top - 8.0), &factor(plot.y.exponent), tick_text(Anchor::Start));
+    }
+}
+
+/// Bands and stretches, which lie below everything else.
+fn draw_shade(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark) {
+    match mark {
+        Mark::Band(points) => {
+            let (lo, hi) = plot.y.ends;
+            let usable = |&&(x, a, b): &&(f64, f64, f64)| {
+                plot.x.holds(x) && a.is_finite() && b.is_finite() && a.max(b) >= lo
+            };
+            let kept: Vec<_> = points.iter().filter(usable).collect();
+            let edge = |value: f64| plot.up(value.clamp(lo, hi));
+            let upper: Vec<_> = kept.iter().map(|&&(x, _, b)| (plot.along(x), edge(b))).collect();
+            let lower: Vec<_> = kept.iter().map(|&&(x, a, _)| (plot.along(x), edge(a))).collect();
+            let mut outline = along_x(&upper);
+            outline.extend(along_x(&lower).into_iter().rev());
+            svg.polygon(&outline, series.colour, 0.2, None);
+        }
+        Mark::Stretch(from, to) => {
+            let (a, b) = plot.x.ends;
+            let (from, to) = (from.clamp(a, b), to.clamp(a, b));
+            if to > from {
+                let (l, r) = (plot.along(from), plot.along(to));
+                let corners = [(l, plot.top), (r, plot.top), (r, plot.bottom), (l, plot.bottom)];
+                svg.polygon(&corners, series.colour, 0.12, None);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn draw_mark(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark, index: usize) {
+    let stroke = Stroke { colour: series.colour, width: series.width, dash: series.dash };
+    match mark {
+        Mark::Line(points) => {
+            let placed: Vec<_> = points.iter().map(|&p| plot.at(p)).collect();
+            for run in runs(&placed) {
+                draw_run(svg, &along_x(&run), &stroke);
+            }
+            if let Some(marker) = series.marker {
+                let inside: Vec<_> = points.iter().filter(|p| plot.x.holds(p.0) && plot.y.holds(p.1)).collect();
+                for &p in spread(plot, &inside, index) {
+                    draw_marker(svg, plot.at(p), marker, series.colour, "#ffffff");
+                }
+            }
+        }
+        Mark::Path(points) => {
+            let placed: Vec<_> = points.iter().map(|&p| plot.at(p)).collect();
+            for run in runs(&placed) {
+                draw_run(svg, &path(&run), &stroke);
+            }
+        }
+        Mark::Scatter(points) => {
+            let inside = points.iter().filter(|p| plot.x.holds(p.0) && plot.y.holds(p.1));
+            for &(x, y, error) in inside {
+                if let Some(error) = error.filter(|e| e.is_finite()) {
+                    draw_error(svg, plot, (x, y), error, series.colour);
+                }
+                let marker = series.marker.unwrap_or(Marker::Circle);
+                draw_marker(svg, plot.at((x, y)), marker, series.colour, "#ffffff");
+            }
+        }
+        Mark::Vertical(x) if plot.x.holds(*x) => {
+            let x = plot.along(*x);
+            svg.line((x, plot.top), (x, plot.bottom), &stroke);
+            if let Some(marker) = series.marker {
+                draw_marker(svg, (x, plot.top + 10.0), marker, series.colour, "#ffffff");
+            }
+        }
+        Mark::Vertical(_) | Mark::Band(_) | Mark::Stretch(..) => {}
+    }
+}
+
+/// A line, or a dot where it has one point only.
+fn draw_run(svg: &mut Svg, run: &[(f64, f64)], stroke: &Stroke<'_>) {
+    match run {
+        [only] => svg.circle(*only, stroke.width, stroke.colour, stroke),
+        _ => svg.path(run, stroke),
+    }
+}
+
+/// About ten of the points, evenly along the axis, those of the next series between those of this one.
+fn spread<'a>(plot: &Plot, points: &[&'a (f64, f64)], index: usize) -> Vec<&'a (f64, f64)> {
+    let step = 1.0 / 10.0;
+    let shift = if index % 2 == 0 { 0.25 } else { 0.75 };
+    let mut next = shift * step;
+    let mut kept = Vec::new();
+    for &p in points {
+        let place = plot.x.place(p.0);
+        if place >= next {
+            kept.push(p);
+            next = ((place / step - shift).floor() + 1.0 + shift) * step;
+        }
+    }
+    kept
+}
+
+fn draw_error(svg: &mut Svg, plot: &Plot, (x, y): (f64, f64), error: f64, colour: &str) {
+    let stroke = Stroke::solid(colour, 1.2);
+    let (lo, hi) = plot.y.ends;
+    let x = plot.along(x);
+    let (top, bottom) = (plot.up((y + error).min(hi)), plot.up((y - error).max(lo)));
+    svg.line((x, top), (x, bottom), &stroke);
+    for end in [top, bottom] {
+        svg.line((x - 3.5, end), (x + 3.5, end), &stroke);
+    }
+}
+
+/// A hollow marker.
+pub(crate) fn draw_marker(svg: &mut Svg, at: (f64, f64), marker: Marker, colour: &str, fill: &str) {
+    let stroke = Stroke::solid(colour, 1.5);
+    let (x, y) = at;
+    match marker {
+        Marker::Circle => svg.circle(at, 3.9, fill, &stroke),
+        Marker::Triangle => {
+            // As large as the circle, its centre of mass on the point.
+            let r = 5.2;
+            let corners = [(x, y - r), (x + 0.866 * r, y + 0.5 * r), (x - 0.866 * r, y + 0.5 * r)];
+            svg.polygon(&corners, fill, 1.0, Some(&stroke));
+        }
+    }
+}

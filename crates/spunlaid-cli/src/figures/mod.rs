@@ -1,0 +1,33 @@
+//! Charts, and the figures of a run.
+//!
+//! ```text
+//! data → Chart (chart) → layout, ticks (scale), thinning (decimate), legend → SVG (svg) → PNG (png)
+//! ```
+
+mod chart;
+mod decimate;
+mod draw;
+mod legend;
+mod palette;
+mod png;
+mod run;
+mod scale;
+mod svg;
+
+pub(crate) use decimate::even;
+pub(crate) use png::png;
+pub(crate) use run::{run_figures, significant};
+pub(crate) use scale::signed;
+
+/// A figure: a picture and what it shows.
+#[derive(Clone, Debug)]
+pub(crate) struct Figure {
+    /// File name without ending.
+    pub(crate) name: String,
+    /// A few words.
+    pub(crate) title: String,
+    /// What is shown and what the numbers mean.
+    pub(crate) caption: String,
+    /// The picture.
+    pub(crate) svg: String,
+}

@@ -1,0 +1,27 @@
+//! Colours and signs, the same in every figure: y is a blue circle, z a vermilion triangle.
+//!
+//! Okabe and Ito's palette, which the colour-blind tell apart.
+
+/// Text and axes.
+pub(crate) const INK: &str = "#1a1a1a";
+/// Grid lines.
+pub(crate) const GRID: &str = "#e6e6e6";
+/// What is beside the point: reference lines, notes.
+pub(crate) const GREY: &str = "#6e6e6e";
+/// y.
+pub(crate) const BLUE: &str = "#0072b2";
+/// z.
+pub(crate) const VERMILION: &str = "#d55e00";
+/// A third quantity.
+pub(crate) const GREEN: &str = "#009e73";
+/// A fourth.
+pub(crate) const PURPLE: &str = "#9c4f80";
+
+/// The sign a point is drawn with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Marker {
+    /// y.
+    Circle,
+    /// z.
+    Triangle,
+}

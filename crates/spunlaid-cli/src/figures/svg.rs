@@ -1,0 +1,312 @@
+//! Writing SVG: numbers, escaping, text with italics and superscripts.
+
+use std::fmt::Write;
+
+/// Where a text is anchored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// An SVG picture in the making.
+///
+/// Coordinates that are not finite are the caller's mistake; an element that has one is left out.
+#[derive(Debug)]
+pub(crate) struct Svg {
+    body: String,
+}
+
+/// Families as wide as the embedded font (Arimo), so that SVG and PNG look alike.
+const FONTS: &str = "Arimo, Arial, Helvetica, 'Liberation Sans', sans-serif";
+
+impl Svg {
+    /// An empty picture on white.
+    ///
+    /// * `title` – for those who do not see it
+    pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
+        let (w, h) = (number(width), number(height));
+        let body = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
+             font-family=\"{FONTS}\" role=\"img\">\n<title>{}</title>\n\
+             <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n",
+            escape(&plain(title))
+        );
+        Self { body }
+    }
+
+    /// Closes the picture.
+    pub(crate) fn finish(mut self) -> String {
+        self.body.push_str("</svg>\n");
+        self.body
+    }
+
+    /// Opens a group that is drawn inside a rectangle only; `id` must be the document's only one.
+    pub(crate) fn open_clip(&mut self, id: &str, x: f64, y: f64, width: f64, height: f64) {
+        let _ = writeln!(
+            self.body,
+            "<clipPath id=\"{id}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n\
+             <g clip-path=\"url(#{id})\">",
+            number(x),
+            number(y),
+            number(width),
+            number(height)
+        );
+    }
+
+    /// Closes a group.
+    pub(crate) fn close(&mut self) {
+        self.body.push_str("</g>\n");
+    }
+
+    /// A straight line.
+    pub(crate) fn line(&mut self, from: (f64, f64), to: (f64, f64), stroke: &Stroke<'_>) {
+        self.path(&[from, to], stroke);
+    }
+
+    /// Joined straight lines.
+    pub(crate) fn path(&mut self, points: &[(f64, f64)], stroke: &Stroke<'_>) {
+        if points.is_empty() || !all_finite(points) {
+            return;
+        }
+        let d = outline(points);
+        let _ = writeln!(self.body, "<path d=\"{d}\" fill=\"none\" {}/>", stroke.attributes());
+    }
+
+    /// A filled polygon, with an outline where `stroke` is given.
+    pub(crate) fn polygon(
+        &mut self,
+        points: &[(f64, f64)],
+        fill: &str,
+        opacity: f64,
+        stroke: Option<&Stroke<'_>>,
+    ) {
+        if points.is_empty() || !all_finite(points) {
+            return;
+        }
+        let d = outline(points);
+        let stroke = stroke.map_or_else(String::new, |s| format!(" {}", s.attributes()));
+        let opacity = if opacity < 1.0 { format!(" fill-opacity=\"{}\"", number(opacity)) } else { String::new() };
+        let _ = writeln!(self.body, "<path d=\"{d}Z\" fill=\"{fill}\"{opacity}{stroke}/>");
+    }
+
+    /// A circle.
+    pub(crate) fn circle(&mut self, (x, y): (f64, f64), radius: f64, fill: &str, stroke: &Stroke<'_>) {
+        if !all_finite(&[(x, y)]) {
+            return;
+        }
+        let _ = writeln!(
+            self.body,
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{fill}\" {}/>",
+            number(x),
+            number(y),
+            number(radius),
+            stroke.attributes()
+        );
+    }
+
+    /// A text in the mark-up of [`plain`], turned a quarter to the left where `upright` is false.
+    pub(crate) fn text(&mut self, (x, y): (f64, f64), text: &str, style: Text<'_>) {
+        let (x, y) = (number(x), number(y));
+        let anchor = match style.anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let turn = if style.upright { String::new() } else { format!(" transform=\"rotate(-90 {x} {y})\"") };
+        let _ = writeln!(
+            self.body,
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\" fill=\"{}\"{turn}>{}</text>",
+            number(style.size),
+            style.colour,
+            spans(text, style.size)
+        );
+    }
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stroke<'a> {
+    /// Colour.
+    pub(crate) colour: &'a str,
+    /// Width [px].
+    pub(crate) width: f64,
+    /// Dashes and gaps, as SVG has them.
+    pub(crate) dash: Option<&'a str>,
+}
+
+impl<'a> Stroke<'a> {
+    /// A solid line.
+    pub(crate) const fn solid(colour: &'a str, width: f64) -> Self {
+        Self { colour, width, dash: None }
+    }
+
+    fn attributes(&self) -> String {
+        let dash = self.dash.map_or_else(String::new, |d| format!(" stroke-dasharray=\"{d}\""));
+        format!(
+            "stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{dash}",
+            self.colour,
+            number(self.width)
+        )
+    }
+}
+
+/// How a text is set.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Text<'a> {
+    /// Size [px].
+    pub(crate) size: f64,
+    /// Colour.
+    pub(crate) colour: &'a str,
+    /// Where its position is.
+    pub(crate) anchor: Anchor,
+    /// Not turned to run upwards.
+    pub(crate) upright: bool,
+}
+
+fn all_finite(points: &[(f64, f64)]) -> bool {
+    points.iter().all(|(x, y)| x.is_finite() && y.is_finite())
+}
+
+fn outline(points: &[(f64, f64)]) -> String {
+    let mut d = String::with_capacity(points.len() * 12);
+    for (i, &(x, y)) in points.iter().enumerate() {
+        let _ = write!(d, "{}{} {}", if i == 0 { 'M' } else { 'L' }, number(x), number(y));
+    }
+    d
+}
+
+/// A coordinate to a hundredth of a pixel, short.
+pub(crate) fn number(x: f64) -> String {
+    let rounded = (x.clamp(-1e5, 1e5) * 100.0).round() / 100.0;
+    // Plus zero: no `-0`.
+    format!("{}", rounded + 0.0)
+}
+
+/// The five characters that mean something to XML.
+pub(crate) fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            _ => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// How a piece of text is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Setting {
+    Upright,
+    Italic,
+    Raised,
+    Lowered,
+}
+
+/// Splits the mark-up of the labels: `*t*` is italic, `^{2}` raised, `_{n}` lowered.
+fn pieces(text: &str) -> Vec<(Setting, String)> {
+    let mut pieces = vec![(Setting::Upright, String::new())];
+    let mut chars = text.chars().peekable();
+    let mut setting = Setting::Upright;
+    while let Some(c) = chars.next() {
+        let next = match (c, setting) {
+            ('*', Setting::Italic) => Setting::Upright,
+            ('*', Setting::Upright) => Setting::Italic,
+            ('}', Setting::Raised | Setting::Lowered) => Setting::Upright,
+            ('^' | '_', Setting::Upright) if chars.peek() == Some(&'{') => {
+                chars.next();
+                if c == '^' { Setting::Raised } else { Setting::Lowered }
+            }
+            _ => {
+                if let Some((_, piece)) = pieces.last_mut() {
+                    piece.push(c);
+                }
+                continue;
+            }
+        };
+        setting = next;
+        pieces.push((setting, String::new()));
+    }
+    pieces.retain(|(_, piece)| !piece.is_empty());
+    pieces
+}
+
+/// A label without its mark-up.
+pub(crate) fn plain(text: &str) -> String {
+    pieces(text).into_iter().map(|(_, piece)| piece).collect()
+}
+
+fn spans(text: &str, size: f64) -> String {
+    let mut svg = String::new();
+    // How far the baseline has been moved, to be undone by the next piece.
+    let mut moved = 0.0;
+    for (setting, piece) in pieces(text) {
+        let wanted = match setting {
+            Setting::Raised => -0.38 * size,
+            Setting::Lowered => 0.2 * size,
+            _ => 0.0,
+        };
+        let mut attributes = String::new();
+        if wanted != moved {
+            let _ = write!(attributes, " dy=\"{}\"", number(wanted - moved));
+            moved = wanted;
+        }
+        match setting {
+            Setting::Italic => attributes.push_str(" font-style=\"italic\""),
+            Setting::Raised | Setting::Lowered => {
+                let _ = write!(attributes, " font-size=\"{}\"", number(0.72 * size));
+            }
+            Setting::Upright => {}
+        }
+        let piece = escape(&piece);
+        if attributes.is_empty() {
+            svg.push_str(&piece);
+        } else {
+            let _ = write!(svg, "<tspan{attributes}>{piece}</tspan>");
+        }
+    }
+    svg
+}
+
+/// Width of a label [px], near enough to place it.
+pub(crate) fn width(text: &str, size: f64) -> f64 {
+    let em = |c: char| match c {
+        'i' | 'j' | 'l' | '\'' | '|' => 0.22,
+        '.' | ',' | ' ' | '/' | 't' | 'f' | 'I' | ':' | ';' | '!' | '\u{a0}' => 0.28,
+        '(' | ')' | '[' | ']' | 'r' | '-' => 0.33,
+        'm' | 'M' | 'W' => 0.84,
+        '−' | '+' | '×' | '±' | '=' => 0.58,
+        'w' | 'A'..='Z' => 0.7,
+        _ => 0.556,
+    };
+    let of = |(setting, piece): &(Setting, String)| {
+        let scale = if matches!(setting, Setting::Raised | Setting::Lowered) { 0.72 } else { 1.0 };
+        piece.chars().map(em).sum::<f64>() * scale
+    };
+    pieces(text).iter().map(of).sum::<f64>() * size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_marked_up_and_escaped() {
+        assert_eq!(plain("*t* (10^{−3} s)"), "t (10−3 s)");
+        assert_eq!(spans("a<b", 10.0), "a&lt;b");
+        assert_eq!(spans("10^{2} x", 10.0), "10<tspan dy=\"-3.8\" font-size=\"7.2\">2</tspan><tspan dy=\"3.8\"> x</tspan>");
+    }
+
+    #[test]
+    fn numbers_are_short_and_finite() {
+        assert_eq!(number(-0.001), "0");
+        assert_eq!(number(12.345_678), "12.35");
+        assert_eq!(number(f64::INFINITY), "100000");
+    }
+}

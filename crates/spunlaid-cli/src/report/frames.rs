@@ -1,0 +1,158 @@
+//! The moving fibre as data of the page: instants, nodes and replicates chosen to fit, packed in 16 bits.
+
+use super::words::{count, time};
+use crate::figures::even;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use spunlaid::case::Case;
+use spunlaid::ensemble::{Flight, Results, Shape};
+use spunlaid::fibre::Root;
+use spunlaid::vec3::Vec3;
+use std::fmt::Write;
+
+/// Most node positions in a page: 8 characters each, 3 MB in all.
+const POSITIONS: usize = 375_000;
+/// Most nodes of a fibre in a picture.
+const NODES: usize = 101;
+/// Most instants of a picture.
+const INSTANTS: usize = 2000;
+/// Least instants per swing for the motion to be followed.
+const PER_SWING: f64 = 16.0;
+
+/// What the page's script draws.
+pub(super) struct Frames {
+    /// The data as JSON; nothing where no shapes were kept.
+    pub(super) json: String,
+    /// What was left out, in sentences.
+    pub(super) remarks: Vec<String>,
+}
+
+/// Which of the kept shapes are shown.
+struct Choice {
+    instants: Vec<usize>,
+    nodes: Vec<usize>,
+}
+
+/// Chooses and packs the shapes of a run.
+pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
+    let seen: Vec<&Flight> = results.flights.iter().filter(|f| !f.shapes.is_empty()).take(8).collect();
+    let shapes: &[Shape] = &seen.first()?.shapes;
+    let same = |f: &&&Flight| f.shapes.len() == shapes.len();
+    let flights: Vec<&Flight> = seen.iter().filter(same).copied().collect();
+    let nodes = shapes.first()?.position.len();
+    let frequency = swing_frequency(results);
+    let (choice, remarks) = choose(shapes, nodes, flights.len(), frequency);
+    let chosen = || {
+        flights.iter().flat_map(|f| choice.instants.iter().map(|&i| &f.shapes[i])).flat_map(|shape| {
+            choice.nodes.iter().map(|&n| shape.position.get(n).copied().unwrap_or_default())
+        })
+    };
+    let (origin, step) = grid(chosen());
+    let mut bytes = Vec::with_capacity(POSITIONS * 6);
+    for p in chosen() {
+        for (value, (origin, step)) in [p.x, p.y, p.z].into_iter().zip(origin.iter().zip(step)) {
+            // Saturates, and a position that is no number becomes the smallest.
+            let level = ((value - origin) / step).round() as u16;
+            bytes.extend_from_slice(&level.to_le_bytes());
+        }
+    }
+    let times: Vec<f64> = choice.instants.iter().map(|&i| shapes[i].time).collect();
+    let numbers: Vec<u64> = flights.iter().map(|f| f.replicate + 1).collect();
+    let mut json = String::from("{");
+    let mut put = |key: &str, value: String| {
+        let comma = if json.len() > 1 { "," } else { "" };
+        let _ = write!(json, "{comma}\"{key}\":{value}");
+    };
+    put("replicates", format!("{numbers:?}"));
+    put("nodes", choice.nodes.len().to_string());
+    put("times", list(&times));
+    put("origin_mm", list(&origin.map(|v| v * 1e3)));
+    put("step_mm", list(&step.map(|v| v * 1e3)));
+    put("length_mm", finite(case.fibre.length * 1e3));
+    put("air_velocity", finite(if case.air.density > 0.0 { case.air.velocity } else { 0.0 }));
+    put("gravity", finite(case.run.gravity));
+    put("held", (case.fibre.root != Root::Free).to_string());
+    put("frequency", frequency.map_or_else(|| "null".to_owned(), finite));
+    put("positions", format!("\"{}\"", STANDARD.encode(bytes)));
+    json.push('}');
+    Some(Frames { json, remarks })
+}
+
+/// The faster of the two crossing frequencies, where there is one [Hz].
+fn swing_frequency(results: &Results) -> Option<f64> {
+    let end = &results.end_node;
+    let fastest = end.frequency_y.mean.max(end.frequency_z.mean);
+    (fastest.is_finite() && fastest > 0.0).then_some(fastest)
+}
+
+fn choose(shapes: &[Shape], nodes: usize, flights: usize, frequency: Option<f64>) -> (Choice, Vec<String>) {
+    let mut remarks = Vec::new();
+    let kept_nodes = even(nodes, NODES);
+    if kept_nodes.len() < nodes {
+        remarks.push(format!("{} of {} are drawn.", kept_nodes.len(), count(nodes as u64, "node")));
+    }
+    let most = (POSITIONS / (kept_nodes.len() * flights)).clamp(2, INSTANTS);
+    let total = shapes.len();
+    let interval = if total > 1 { shapes[1].time - shapes[0].time } else { 0.0 };
+    let coarsest = frequency.map(|f| 1.0 / (PER_SWING * f));
+    if coarsest.is_some_and(|coarsest| interval > 4.0 * coarsest) {
+        remarks.push(format!(
+            "Shapes were kept every {} only, too seldom to follow the swings: the picture jumps.",
+            time(interval)
+        ));
+    }
+    let mut instants: Vec<usize> = (0..total).collect();
+    if total > most {
+        let stride = total.div_ceil(most);
+        let followed = coarsest.map_or(stride, |c| ((c / interval) as usize).max(1));
+        if followed < stride {
+            let first = total - ((most - 1) * followed + 1);
+            instants = (first..total).step_by(followed).collect();
+            remarks.push(format!(
+                "The picture shows the last {} of {}.",
+                time(shapes[total - 1].time - shapes[first].time),
+                time(shapes[total - 1].time)
+            ));
+        } else {
+            instants = even(total, most);
+            remarks.push(format!("{} of {} kept instants are shown.", instants.len(), total));
+        }
+    }
+    (Choice { instants, nodes: kept_nodes }, remarks)
+}
+
+/// Lowest value and step of a 16-bit grid that holds all positions, for x, y and z [m].
+fn grid(positions: impl Iterator<Item = Vec3<f64>>) -> ([f64; 3], [f64; 3]) {
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for p in positions {
+        for (i, value) in [p.x, p.y, p.z].into_iter().enumerate().filter(|(_, v)| v.is_finite()) {
+            low[i] = low[i].min(value);
+            high[i] = high[i].max(value);
+        }
+    }
+    let mut step = [1e-9; 3];
+    for i in 0..3 {
+        if low[i] > high[i] {
+            low[i] = 0.0;
+        } else if high[i] > low[i] {
+            step[i] = (high[i] - low[i]) / f64::from(u16::MAX);
+        }
+    }
+    (low, step)
+}
+
+fn finite(value: f64) -> String {
+    if value.is_finite() { format!("{value:e}") } else { "0".to_owned() }
+}
+
+fn list(values: &[f64]) -> String {
+    let mut text = String::from("[");
+    for (i, value) in values.iter().enumerate() {
+        let comma = if i > 0 { "," } else { "" };
+        // Nine digits: to the nanosecond in a second.
+        let _ = if value.is_finite() { write!(text, "{comma}{value:.8e}") } else { write!(text, "{comma}0") };
+    }
+    text.push(']');
+    text
+}

@@ -1,0 +1,81 @@
+//! The page: the template filled in.
+
+use super::ReportInput;
+use super::frames;
+use super::table::{self, ReplicateRow, Row};
+use super::words::{self, count, number};
+use crate::figures::Figure;
+use askama::Template;
+
+/// Most replicates whose own values are listed.
+const LISTED: usize = 1000;
+
+const STYLE: &str = include_str!("../../assets/report.css");
+
+/// The scripts, in one scope, in this order.
+const SCRIPTS: [&str; 5] = [
+    include_str!("../../assets/frames.js"),
+    include_str!("../../assets/camera.js"),
+    include_str!("../../assets/scene.js"),
+    include_str!("../../assets/player.js"),
+    include_str!("../../assets/page.js"),
+];
+
+/// What `assets/report.html` is filled with; everything is escaped there but what is marked safe.
+#[derive(Template)]
+#[template(path = "report.html")]
+struct Page<'a> {
+    name: &'a str,
+    headline: String,
+    summary: String,
+    notes: &'a [String],
+    frames: Option<frames::Frames>,
+    rows: Vec<Row>,
+    replicates: u64,
+    replicate_heads: Vec<String>,
+    replicate_rows: Vec<ReplicateRow>,
+    unlisted: usize,
+    figures: &'a [Figure],
+    work_error: String,
+    balance_error: String,
+    case_toml: &'a str,
+    cost: String,
+    version: &'a str,
+    style: &'a str,
+    script: String,
+}
+
+/// The page as HTML.
+pub(super) fn render(input: &ReportInput<'_>) -> String {
+    let results = input.results;
+    let p = &input.performance;
+    let replicates = results.end_node.amplitude_y.values.len();
+    let page = Page {
+        name: input.name,
+        headline: words::headline(results),
+        summary: words::case(input.case),
+        notes: input.notes,
+        frames: frames::pack(input.case, results),
+        rows: table::rows(results),
+        replicates: replicates as u64,
+        replicate_heads: table::replicate_heads(results),
+        replicate_rows: table::replicate_rows(results, LISTED),
+        unlisted: replicates.saturating_sub(LISTED),
+        figures: input.figures,
+        work_error: number(results.work_error_percent.time_median),
+        balance_error: number(results.balance_error_percent.time_median),
+        case_toml: input.case_toml,
+        cost: format!(
+            "computed in {} on {} with {} instructions, {} per element and step",
+            words::time(p.wall_seconds),
+            count(p.threads as u64, "thread"),
+            p.instructions,
+            words::quantity(p.nanoseconds_per_element_step, "ns"),
+        ),
+        version: input.version,
+        style: STYLE,
+        script: format!("(() => {{\n\"use strict\";\n{}\n}})();", SCRIPTS.join("\n")),
+    };
+    // Writing to a string fails only where a value's own formatting does, and none here can.
+    page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
+}
