@@ -1,6 +1,6 @@
 //! What can go wrong, and how it is told: where, which key, what value, what is allowed, the way out.
 
-use crate::units::{Dimension, QuantityFault};
+use crate::units::{Dimension, QuantityFault, shortest};
 use std::fmt;
 use std::path::PathBuf;
 
@@ -91,16 +91,9 @@ impl From<Vec<Problem>> for Error {
 const MOST_TOLD: usize = 20;
 
 fn one_per_line(problems: &[Problem]) -> String {
-    let mut lines: Vec<String> = problems
-        .iter()
-        .take(MOST_TOLD)
-        .map(ToString::to_string)
-        .collect();
+    let mut lines: Vec<String> = problems.iter().take(MOST_TOLD).map(ToString::to_string).collect();
     if problems.len() > MOST_TOLD {
-        lines.push(format!(
-            "and {} more like these",
-            problems.len() - MOST_TOLD
-        ));
+        lines.push(format!("and {} more like these", problems.len() - MOST_TOLD));
     }
     lines.join("\n")
 }
@@ -178,6 +171,12 @@ pub enum Fault {
     Syntax {
         /// What the parser says.
         message: String,
+    },
+    /// The key is there twice.
+    #[error("\"{key}\" is written twice; keep one")]
+    Duplicate {
+        /// The key as written.
+        key: String,
     },
     /// The file is of a later version of the format.
     #[error("is newer than this spunlaid reads ({known}); update spunlaid")]
@@ -300,14 +299,14 @@ pub enum Fault {
         time_step: f64,
     },
     /// More than memory holds.
-    #[error("makes {what} {}, more than the {} that a bundle of eight fibres may take; {remedy}", memory(*bytes), memory(*most))]
+    #[error("needs {} for eight fibres side by side, most of it for {what}, where {} may be taken; {remedy}", memory(*bytes), memory(*most))]
     TooMuchMemory {
-        /// What takes the memory.
-        what: &'static str,
         /// How much [bytes].
         bytes: f64,
         /// The most allowed [bytes].
         most: f64,
+        /// What takes most of it.
+        what: &'static str,
         /// The way out.
         remedy: &'static str,
     },
@@ -346,7 +345,7 @@ pub enum Fault {
     },
     /// Numbers too large or too small to compute with.
     #[error(
-        "makes {what} {value:.1e}, beyond what can be computed with; check the magnitude of the values it follows from"
+        "makes {what} {}, beyond what can be computed with; check the magnitude of the values it follows from", shortest(*value)
     )]
     Degenerate {
         /// What follows from the values.
@@ -357,9 +356,7 @@ pub enum Fault {
 }
 
 fn did_you_mean(nearest: &Option<String>, otherwise: impl Fn() -> String) -> String {
-    nearest
-        .as_ref()
-        .map_or_else(otherwise, |nearest| format!("did you mean {nearest}?"))
+    nearest.as_ref().map_or_else(otherwise, |nearest| format!("did you mean {nearest}?"))
 }
 
 fn all_of(words: &[&str]) -> String {
@@ -367,10 +364,7 @@ fn all_of(words: &[&str]) -> String {
 }
 
 fn one_of(words: &[&str]) -> String {
-    joined(
-        words.iter().map(|word| format!("\"{word}\"")).collect(),
-        "or",
-    )
+    joined(words.iter().map(|word| format!("\"{word}\"")).collect(), "or")
 }
 
 fn joined(mut words: Vec<String>, last: &str) -> String {

@@ -1,14 +1,139 @@
-//! Bad input and what is said of it.
+//! Bad input and what is said of it: each file `bad_cases/NAME.toml` is refused with the message in
+//! `bad_cases/NAME.txt`. With `BLESS=1` in the environment the messages are written, to be read over.
 #![allow(clippy::unwrap_used)]
 
-use spunlaid::input::read_case;
-use std::path::Path;
+use spunlaid::error::Error;
+use spunlaid::input::{LARGEST_FILE, parse_case, read_case};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn refusal(path: &Path, overrides: &[(&str, &str)]) -> Error {
+    let overrides: Vec<_> = (overrides.iter()).map(|(k, v)| (k.to_string(), v.to_string())).collect();
+    read_case(path, &overrides).unwrap_err()
+}
 
 #[test]
-fn every_case_of_the_repository_is_read() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let (_, notes) = read_case(&entry.unwrap().path(), &[]).unwrap();
-        assert_eq!(notes, []);
+fn rejects_every_bad_case_with_its_message() {
+    let mut paths: Vec<PathBuf> =
+        fs::read_dir("tests/bad_cases").unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    paths.sort();
+    assert!(paths.len() > 40);
+    let mut wrong = Vec::new();
+    for path in paths {
+        let said = match read_case(&path, &[]) {
+            Ok(_) => "nothing\n".to_owned(),
+            Err(error) => {
+                assert_eq!(error.exit_code(), 1);
+                format!("{error}\n").replace("bad_cases\\", "bad_cases/")
+            }
+        };
+        let kept = path.with_extension("txt");
+        if std::env::var_os("BLESS").is_some() {
+            fs::write(&kept, &said).unwrap();
+        }
+        let meant = fs::read_to_string(&kept).unwrap_or_default();
+        if said != meant {
+            wrong.push(format!("{} says\n{said}and should say\n{meant}", path.display()));
+        }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn rejects_what_is_no_readable_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let nowhere = Path::new("no/such/case.toml");
+    assert!(matches!(refusal(nowhere, &[]), Error::NotThere { .. }));
+    assert_eq!(
+        refusal(nowhere, &[]).to_string(),
+        "no/such/case.toml: there is no such file; `spunlaid new no/such/case.toml` writes a case to start from"
+    );
+    assert!(matches!(refusal(folder.path(), &[]), Error::IsFolder { .. }));
+    let below_a_file = folder.path().join("file/case.toml");
+    fs::write(folder.path().join("file"), "").unwrap();
+    assert!(matches!(refusal(&below_a_file, &[]), Error::Unreadable { .. } | Error::NotThere { .. }));
+}
+
+#[test]
+fn rejects_a_file_of_two_gigabytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("large.toml");
+    fs::File::create(&path).unwrap().set_len(2 << 30).unwrap();
+    let started = std::time::Instant::now();
+    assert!(matches!(refusal(&path, &[]), Error::TooLarge { .. }));
+    assert!(started.elapsed().as_secs_f64() < 1.0);
+}
+
+#[test]
+fn rejects_one_byte_more_than_the_largest_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("large.toml");
+    let mut text = fs::read_to_string("../../cases/table1.toml").unwrap();
+    text.push_str(&"#".repeat(LARGEST_FILE as usize - text.len()));
+    fs::write(&path, &text).unwrap();
+    read_case(&path, &[]).unwrap();
+    text.push('#');
+    fs::write(&path, &text).unwrap();
+    assert!(matches!(refusal(&path, &[]), Error::TooLarge { .. }));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn rejects_a_device_without_end() {
+    assert!(matches!(refusal(Path::new("/dev/zero"), &[]), Error::TooLarge { .. }));
+    assert!(matches!(refusal(Path::new("/dev/null"), &[]), Error::Rejected(_)));
+}
+
+#[test]
+fn rejects_overrides_by_their_name() {
+    let table1 = Path::new("../../cases/table1.toml");
+    for (key, value, message) in [
+        (
+            "run.time_step",
+            "50 µs",
+            "--set run.time_step = \"50 µs\" exceeds the stability limit 34.46 µs (axial waves of 50 mm elements); \
+             lower it to at most 31 µs or lengthen fibre.element_length",
+        ),
+        (
+            "air.velocity",
+            "20",
+            "--set air.velocity = 20 has no unit; write a velocity with its unit: m/s, cm/s, mm/s, km/h or m/min",
+        ),
+        (
+            "air.velocty",
+            "20 m/s",
+            "--set air.velocty = \"20 m/s\" is not a key of a case file; did you mean air.velocity?",
+        ),
+        (
+            "velocity",
+            "20 m/s",
+            "--set velocity = \"20 m/s\" is out of place; it belongs in [air], as air.velocity",
+        ),
+        ("fibre.root", "clampd", "--set fibre.root = \"clampd\" is unknown; did you mean \"clamped\"?"),
+        ("aer.velocity", "20 m/s", "--set [aer] is not a table of a case file; did you mean [air]?"),
+        ("air", "still", "--set air is a table; write one of its keys, --set air.key=value"),
+        (
+            "air.velocity",
+            "",
+            "--set air.velocity = \"\" does not start with a number; write a velocity with its unit: \
+             m/s, cm/s, mm/s, km/h or m/min",
+        ),
+        (
+            "run.time_step",
+            "1e-300 s",
+            "../../cases/table1.toml:18: run.duration = \"1 s\" takes 1.0e300 steps of 1e-300 s, more than 1e12; \
+             shorten it or lengthen run.time_step",
+        ),
+    ] {
+        assert_eq!(refusal(table1, &[(key, value)]).to_string(), message);
+    }
+}
+
+#[test]
+fn rejects_no_more_than_people_read() {
+    let text: String = (0..1000).map(|i| format!("strange_key_{i} = 1\n")).collect();
+    let error = parse_case(&text, "many.toml", &[]).unwrap_err();
+    assert_eq!(error.to_string().lines().count(), 21);
+    assert!(error.to_string().ends_with("\nand 990 more like these"), "{error}");
 }

@@ -1,44 +1,18 @@
 //! What a case must meet to be run, whoever made it.
 
 use super::keys::{self, Quantity};
+use super::memory::BUNDLE_MEMORY_LIMIT;
 use super::note::{Note, Remark};
 use super::{Case, StepLimit};
-use crate::air::Turbulence;
+use crate::air::Air;
 use crate::chain::schemes::Scheme;
 use crate::error::{Fault, Finding, Place, Problem};
 use crate::units::Dimension;
 
-/// Most memory a bundle of eight fibres may take [bytes].
-pub const BUNDLE_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
 /// Most steps of a run.
 pub const MOST_STEPS: u64 = 1_000_000_000_000;
 /// Most recorded instants, over all replicates.
 pub const MOST_RECORDS: f64 = 1e8;
-
-/// Vectors of eight fibres that the chain, its copies for a look ahead and its start keep per node.
-const VECTORS_PER_NODE: f64 = 10.0;
-/// Bytes of such a vector.
-const VECTOR: f64 = 192.0;
-/// Bytes of scratch space that the synthesis of turbulence takes per harmonic.
-const SYNTHESIS: f64 = 1200.0;
-
-/// Memory of a bundle of eight fibres of a case [bytes].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BundleMemory {
-    /// The chain.
-    pub chain: f64,
-    /// The turbulence along it, over the run.
-    pub turbulence: f64,
-    /// What making the turbulence takes besides.
-    pub synthesis: f64,
-}
-
-impl BundleMemory {
-    /// All together [bytes].
-    pub fn total(&self) -> f64 {
-        self.chain + self.turbulence + self.synthesis
-    }
-}
 
 impl Case {
     /// Checks everything that must hold for the case to be run.
@@ -48,10 +22,7 @@ impl Case {
     /// # Errors
     /// All reasons why it cannot be run.
     pub fn check(&self) -> Result<Vec<Note>, Vec<Problem>> {
-        let mut check = Check {
-            case: self,
-            problems: Vec::new(),
-        };
+        let mut check = Check { case: self, problems: Vec::new() };
         check.values();
         // Relations between values that make no sense on their own would only add noise.
         if check.problems.is_empty() {
@@ -63,29 +34,7 @@ impl Case {
             check.times();
             check.repetition();
         }
-        if check.problems.is_empty() {
-            Ok(self.notes())
-        } else {
-            Err(check.problems)
-        }
-    }
-
-    /// Estimate of the memory of a bundle of eight fibres [bytes].
-    pub fn bundle_memory(&self) -> BundleMemory {
-        let (air, elements) = (&self.air, self.fibre.elements as f64);
-        let eddies = (self.fibre.length / air.length_scale).ceil().max(1.0);
-        let harmonics = air.harmonics as f64;
-        let synthesis = SYNTHESIS * 2.0 * harmonics;
-        let turbulence = if synthesis <= BUNDLE_MEMORY_LIMIT {
-            Turbulence::memory(air, 1, self.run.duration()) * eddies
-        } else {
-            0.0
-        };
-        BundleMemory {
-            chain: (elements + 1.0) * VECTORS_PER_NODE * VECTOR,
-            turbulence,
-            synthesis,
-        }
+        if check.problems.is_empty() { Ok(self.notes()) } else { Err(check.problems) }
     }
 
     /// The limits on the time step of the case's scheme, tightened by its damping [s].
@@ -100,41 +49,25 @@ impl Case {
         let rate = share * self.run.damping;
         self.step_limits().map(|StepLimit { cause, limit }| {
             let half = 0.5 * rate * limit;
-            StepLimit {
-                cause,
-                limit: limit / (half + half.hypot(1.0)),
-            }
+            StepLimit { cause, limit: limit / (half + half.hypot(1.0)) }
         })
     }
 
     fn notes(&self) -> Vec<Note> {
         let (fibre, l) = (&self.fibre, self.fibre.rest_length());
         let mut notes = Vec::new();
-        let mut note =
-            |quantity: &Quantity, value, remark| notes.push(finding(quantity, value, remark));
+        let mut note = |quantity: &Quantity, value, remark| notes.push(finding(quantity, value, remark));
         let (from, to) = self.drag.across.fitted_diameters();
         if self.air.density > 0.0 && !(from..=to).contains(&fibre.diameter) {
-            let law = keys::name_of(&keys::NORMAL_LAWS, &self.drag.across);
-            note(
-                &keys::DIAMETER,
-                fibre.diameter,
-                Remark::OutsideFit { law, from, to },
-            );
+            let law = self.drag.across.name();
+            note(&keys::DIAMETER, fibre.diameter, Remark::OutsideFit { law, from, to });
         }
         if fibre.diameter > l {
-            note(
-                &keys::DIAMETER,
-                fibre.diameter,
-                Remark::ElementsStubby { element_length: l },
-            );
+            note(&keys::DIAMETER, fibre.diameter, Remark::ElementsStubby { element_length: l });
         }
         let felt = self.air.density > 0.0 && self.air.rms() > 0.0;
         if felt && self.air.length_scale < l * (1.0 - 1e-9) {
-            note(
-                &keys::LENGTH_SCALE,
-                self.air.length_scale,
-                Remark::EddiesSkipped { element_length: l },
-            );
+            note(&keys::LENGTH_SCALE, self.air.length_scale, Remark::EddiesSkipped { element_length: l });
         }
         notes
     }
@@ -142,12 +75,7 @@ impl Case {
 
 fn finding<W>(quantity: &Quantity, value: f64, what: W) -> Finding<W> {
     let value = Some(quantity.dimension.pretty(value));
-    Finding {
-        place: Place::Code,
-        key: quantity.key.to_owned(),
-        value,
-        what,
-    }
+    Finding { place: Place::Code, key: quantity.key.to_owned(), value, what }
 }
 
 struct Check<'a> {
@@ -162,22 +90,12 @@ impl Check<'_> {
 
     fn blame_key(&mut self, key: &str, value: String, fault: Fault) {
         let place = Place::Code;
-        self.problems.push(Finding {
-            place,
-            key: key.to_owned(),
-            value: Some(value),
-            what: fault,
-        });
+        self.problems.push(Finding { place, key: key.to_owned(), value: Some(value), what: fault });
     }
 
     /// Each value on its own.
     fn values(&mut self) {
-        let Case {
-            fibre,
-            air,
-            drag,
-            run,
-        } = *self.case;
+        let Case { fibre, air, drag, run } = *self.case;
         for (quantity, value) in [
             (&keys::LENGTH, fibre.length),
             (&keys::DIAMETER, fibre.diameter),
@@ -198,59 +116,28 @@ impl Check<'_> {
                 self.blame(quantity, value, fault);
             }
         }
-        if fibre.elements == 0 {
-            let none = Fault::OutOfRange {
-                least: 1,
-                most: u64::MAX,
-            };
-            self.blame_key("fibre.elements", "0".into(), none);
-        }
         let d = fibre.direction;
+        let shown = format!("[{}, {}, {}]", d.x, d.y, d.z);
         if ![d.x, d.y, d.z].iter().all(|c| c.is_finite()) {
-            self.blame_key(
-                keys::DIRECTION,
-                format!("[{}, {}, {}]", d.x, d.y, d.z),
-                Fault::NotFinite,
-            );
+            self.blame_key(keys::DIRECTION, shown, Fault::NotFinite);
         } else if (d.norm() - 1.0).abs() > 1e-12 {
-            self.blame_key(
-                keys::DIRECTION,
-                format!("[{}, {}, {}]", d.x, d.y, d.z),
-                Fault::NotUnit,
-            );
+            self.blame_key(keys::DIRECTION, shown, Fault::NotUnit);
         }
-        if air.harmonics == 0 {
-            self.blame_key(
-                keys::HARMONICS,
-                "0".into(),
-                Fault::OutOfRange {
-                    least: 1,
-                    most: u64::MAX,
-                },
-            );
-        }
-        if run.replicates == 0 {
-            let most = MOST_RECORDS as u64;
-            self.blame_key(
-                keys::REPLICATES,
-                "0".into(),
-                Fault::OutOfRange { least: 1, most },
-            );
+        for (key, value, most) in [
+            ("fibre.elements", fibre.elements as u64, u64::MAX),
+            (keys::HARMONICS, air.harmonics as u64, u64::MAX),
+            (keys::REPLICATES, run.replicates, MOST_RECORDS as u64),
+        ] {
+            if !(1..=most).contains(&value) {
+                self.blame_key(key, value.to_string(), Fault::OutOfRange { least: 1, most });
+            }
         }
         if run.steps == 0 {
             let quantity = Dimension::Time.name();
             self.blame(&keys::DURATION, 0.0, Fault::NotPositive { quantity });
         } else if run.steps > MOST_STEPS {
             let (steps, most, time_step) = (run.steps as f64, MOST_STEPS as f64, run.time_step);
-            self.blame(
-                &keys::DURATION,
-                run.duration(),
-                Fault::TooManySteps {
-                    steps,
-                    most,
-                    time_step,
-                },
-            );
+            self.blame(&keys::DURATION, run.duration(), Fault::TooManySteps { steps, most, time_step });
         }
         if run.output_steps == 0 {
             let quantity = Dimension::Time.name();
@@ -261,13 +148,7 @@ impl Check<'_> {
     fn geometry(&mut self) {
         let fibre = self.case.fibre;
         if fibre.diameter >= fibre.length {
-            self.blame(
-                &keys::DIAMETER,
-                fibre.diameter,
-                Fault::TooThick {
-                    length: fibre.length,
-                },
-            );
+            self.blame(&keys::DIAMETER, fibre.diameter, Fault::TooThick { length: fibre.length });
         }
     }
 
@@ -276,22 +157,12 @@ impl Check<'_> {
         let (fibre, strand) = (self.case.fibre, self.case.strand());
         for (what, value) in [
             ("the mass of an element [kg]", fibre.element_mass()),
-            (
-                "the axial stiffness of an element [N/m]",
-                fibre.axial_stiffness(),
-            ),
-            (
-                "the bending stiffness of a node [N·m]",
-                fibre.rotational_stiffness(),
-            ),
+            ("the axial stiffness of an element [N/m]", fibre.axial_stiffness()),
+            ("the bending stiffness of a node [N·m]", fibre.rotational_stiffness()),
         ] {
             // Its inverse must be finite too.
             if !(value.is_normal() && (1.0 / value).is_normal()) {
-                self.blame(
-                    &keys::DIAMETER,
-                    fibre.diameter,
-                    Fault::Degenerate { what, value },
-                );
+                self.blame(&keys::DIAMETER, fibre.diameter, Fault::Degenerate { what, value });
                 return;
             }
         }
@@ -336,40 +207,25 @@ impl Check<'_> {
 
     fn memory(&mut self) {
         let (case, memory) = (self.case, self.case.bundle_memory());
-        if memory.total() <= BUNDLE_MEMORY_LIMIT {
+        let (bytes, most) = (memory.total(), BUNDLE_MEMORY_LIMIT);
+        if bytes <= most {
             return;
         }
-        let most = BUNDLE_MEMORY_LIMIT;
-        let largest = memory.chain.max(memory.turbulence).max(memory.synthesis);
+        let fault = |what, remedy| Fault::TooMuchMemory { bytes, most, what, remedy };
+        let (air, largest) = (case.air, memory.chain.max(memory.turbulence).max(memory.synthesis));
+        let chosen = Air::default_harmonics(air.cutoff_frequency, case.run.duration());
         if largest == memory.chain {
-            let (what, remedy) = ("the chain take", "take longer elements");
-            let fault = Fault::TooMuchMemory {
-                what,
-                bytes: largest,
-                most,
-                remedy,
-            };
+            let fault = fault("the chain", "write a longer one");
             self.blame(&keys::ELEMENT_LENGTH, case.fibre.rest_length(), fault);
-        } else if largest == memory.synthesis {
-            let what = "the synthesis of the turbulence take";
-            let remedy = "shorten run.duration, lower air.cutoff_frequency or write fewer";
-            let fault = Fault::TooMuchMemory {
-                what,
-                bytes: largest,
-                most,
-                remedy,
-            };
-            self.blame_key(keys::HARMONICS, case.air.harmonics.to_string(), fault);
+        } else if largest == memory.turbulence {
+            let fault = fault("the turbulence", "write a longer one, or shorten run.duration");
+            self.blame(&keys::LENGTH_SCALE, air.length_scale, fault);
+        } else if air.harmonics == chosen {
+            let fault = fault("making the turbulence", "write a lower one, or shorten run.duration");
+            self.blame(&keys::CUTOFF_FREQUENCY, air.cutoff_frequency, fault);
         } else {
-            let what = "the turbulence take";
-            let remedy = "take longer eddies, shorten run.duration or lower air.cutoff_frequency";
-            let fault = Fault::TooMuchMemory {
-                what,
-                bytes: largest,
-                most,
-                remedy,
-            };
-            self.blame(&keys::LENGTH_SCALE, case.air.length_scale, fault);
+            let fault = fault("making the turbulence", "write fewer, or leave the key out");
+            self.blame_key(keys::HARMONICS, air.harmonics.to_string(), fault);
         }
     }
 
@@ -377,48 +233,25 @@ impl Check<'_> {
         let (run, fibre) = (self.case.run, self.case.fibre);
         let duration = run.duration();
         let [axial, bending] = self.case.stable_step_limits();
-        let tightest = if bending.limit < axial.limit {
-            bending
-        } else {
-            axial
-        };
+        let tightest = if bending.limit < axial.limit { bending } else { axial };
         // A mesh that memory cannot hold has been told already.
-        let told = self
-            .problems
-            .iter()
-            .any(|problem| problem.key == keys::ELEMENT_LENGTH.key);
+        let told = self.problems.iter().any(|problem| problem.key == keys::ELEMENT_LENGTH.key);
         if !told && run.time_step >= tightest.limit {
             let StepLimit { limit, cause } = tightest;
             let element_length = fibre.rest_length();
             let advice = two_digits_down(0.9 * limit);
-            let fault = Fault::StepTooLong {
-                limit,
-                cause,
-                element_length,
-                advice,
-            };
+            let fault = Fault::StepTooLong { limit, cause, element_length, advice };
             self.blame(&keys::TIME_STEP, run.time_step, fault);
         }
         if run.spin_up_steps >= run.steps {
-            self.blame(
-                &keys::SPIN_UP,
-                run.spin_up(),
-                Fault::SpinUpTooLong { duration },
-            );
+            self.blame(&keys::SPIN_UP, run.spin_up(), Fault::SpinUpTooLong { duration });
         }
         if run.output_steps > run.steps {
-            self.blame(
-                &keys::OUTPUT_INTERVAL,
-                run.output_interval(),
-                Fault::IntervalTooLong { duration },
-            );
+            self.blame(&keys::OUTPUT_INTERVAL, run.output_interval(), Fault::IntervalTooLong { duration });
         }
         let records = (run.steps / run.output_steps + 1) as f64 * run.replicates as f64;
         if records > MOST_RECORDS {
-            let fault = Fault::TooManyRecords {
-                records,
-                most: MOST_RECORDS,
-            };
+            let fault = Fault::TooManyRecords { records, most: MOST_RECORDS };
             self.blame(&keys::OUTPUT_INTERVAL, run.output_interval(), fault);
         }
     }
@@ -429,11 +262,7 @@ impl Check<'_> {
         let cycles = air.cutoff_frequency * duration;
         if air.rms() != 0.0 && air.harmonics as f64 <= cycles {
             let (repeat_time, least) = (air.repeat_time(), (cycles + 1.0).floor());
-            let fault = Fault::Repeats {
-                repeat_time,
-                duration,
-                least,
-            };
+            let fault = Fault::Repeats { repeat_time, duration, least };
             self.blame_key(keys::HARMONICS, air.harmonics.to_string(), fault);
         }
     }
@@ -443,7 +272,5 @@ impl Check<'_> {
 fn two_digits_down(value: f64) -> f64 {
     let power = 10f64.powf(value.log10().floor() - 1.0);
     let digits = format!("{:.0}", (value / power).floor());
-    format!("{digits}e{:.0}", power.log10())
-        .parse()
-        .unwrap_or(value)
+    format!("{digits}e{:.0}", power.log10()).parse().unwrap_or(value)
 }

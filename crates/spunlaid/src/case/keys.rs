@@ -1,5 +1,5 @@
-//! The keys of a case file: what their quantities measure and which sign these may have, and the names
-//! their choices go by.
+//! The keys of a case file: what their quantities measure and which sign these may have, and what
+//! there is to choose from.
 
 use crate::chain::schemes::Scheme;
 use crate::drag::{FrictionLaw, NormalLaw};
@@ -27,20 +27,14 @@ enum Sign {
 use Sign::{Any, NotNegative, Positive};
 
 const fn quantity(key: &'static str, dimension: Dimension, sign: Sign) -> Quantity {
-    Quantity {
-        key,
-        dimension,
-        sign,
-    }
+    Quantity { key, dimension, sign }
 }
 
 pub(crate) const LENGTH: Quantity = quantity("fibre.length", Dimension::Length, Positive);
 pub(crate) const DIAMETER: Quantity = quantity("fibre.diameter", Dimension::Length, Positive);
 pub(crate) const FIBRE_DENSITY: Quantity = quantity("fibre.density", Dimension::Density, Positive);
-pub(crate) const YOUNGS_MODULUS: Quantity =
-    quantity("fibre.youngs_modulus", Dimension::Pressure, Positive);
-pub(crate) const ELEMENT_LENGTH: Quantity =
-    quantity("fibre.element_length", Dimension::Length, Positive);
+pub(crate) const YOUNGS_MODULUS: Quantity = quantity("fibre.youngs_modulus", Dimension::Pressure, Positive);
+pub(crate) const ELEMENT_LENGTH: Quantity = quantity("fibre.element_length", Dimension::Length, Positive);
 
 pub(crate) const VELOCITY: Quantity = quantity("air.velocity", Dimension::Velocity, Any);
 pub(crate) const TURBULENCE_INTENSITY: Quantity =
@@ -49,11 +43,8 @@ pub(crate) const LENGTH_SCALE: Quantity = quantity("air.length_scale", Dimension
 pub(crate) const CUTOFF_FREQUENCY: Quantity =
     quantity("air.cutoff_frequency", Dimension::Frequency, Positive);
 pub(crate) const AIR_DENSITY: Quantity = quantity("air.density", Dimension::Density, NotNegative);
-pub(crate) const VISCOSITY: Quantity = quantity(
-    "air.kinematic_viscosity",
-    Dimension::KinematicViscosity,
-    Positive,
-);
+pub(crate) const VISCOSITY: Quantity =
+    quantity("air.kinematic_viscosity", Dimension::KinematicViscosity, Positive);
 
 pub(crate) const FRICTION_COEFFICIENT: Quantity =
     quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative);
@@ -62,33 +53,21 @@ pub(crate) const DURATION: Quantity = quantity("run.duration", Dimension::Time, 
 pub(crate) const TIME_STEP: Quantity = quantity("run.time_step", Dimension::Time, Positive);
 pub(crate) const GRAVITY: Quantity = quantity("run.gravity", Dimension::Acceleration, Any);
 pub(crate) const SPIN_UP: Quantity = quantity("run.spin_up", Dimension::Time, NotNegative);
-pub(crate) const OUTPUT_INTERVAL: Quantity =
-    quantity("run.output_interval", Dimension::Time, Positive);
+pub(crate) const OUTPUT_INTERVAL: Quantity = quantity("run.output_interval", Dimension::Time, Positive);
 pub(crate) const DAMPING: Quantity = quantity("run.damping", Dimension::Rate, NotNegative);
 
 pub(crate) const HARMONICS: &str = "air.harmonics";
 pub(crate) const DIRECTION: &str = "fibre.direction";
 pub(crate) const REPLICATES: &str = "run.replicates";
 
-/// Names of the ways to hold the root.
-pub(crate) const ROOTS: [(&str, Root); 2] = [("pinned", Root::Pinned), ("clamped", Root::Clamped)];
-/// Names of the laws along the fibre.
-pub(crate) const FRICTION_LAWS: [(&str, FrictionLaw); 1] = [("matsui", FrictionLaw::Matsui)];
-/// Names of the laws across the fibre.
-pub(crate) const NORMAL_LAWS: [(&str, NormalLaw); 1] = [("ju-shambaugh", NormalLaw::JuShambaugh)];
-/// Names of the schemes.
-pub(crate) const SCHEMES: [(&str, Scheme); 2] = [
-    ("semi-implicit-euler", Scheme::SemiImplicitEuler),
-    ("leapfrog", Scheme::Leapfrog),
-];
-
-/// The name that a choice goes by.
-pub(crate) fn name_of<T: PartialEq>(names: &[(&'static str, T)], choice: &T) -> &'static str {
-    names
-        .iter()
-        .find(|(_, one)| one == choice)
-        .map_or("", |(name, _)| name)
-}
+/// The ways to hold the root.
+pub(crate) const ROOTS: [Root; 3] = [Root::Pinned, Root::Clamped, Root::Free];
+/// The laws along the fibre.
+pub(crate) const FRICTION_LAWS: [FrictionLaw; 1] = [FrictionLaw::Matsui];
+/// The laws across the fibre.
+pub(crate) const NORMAL_LAWS: [NormalLaw; 1] = [NormalLaw::JuShambaugh];
+/// The schemes.
+pub(crate) const SCHEMES: [Scheme; 2] = [Scheme::SemiImplicitEuler, Scheme::Leapfrog];
 
 impl Quantity {
     /// What is wrong with the value on its own.

@@ -2,12 +2,14 @@
 
 mod check;
 pub(crate) mod keys;
+mod memory;
 mod note;
 
-pub use check::{BUNDLE_MEMORY_LIMIT, BundleMemory, MOST_RECORDS, MOST_STEPS};
+pub use check::{MOST_RECORDS, MOST_STEPS};
+pub use memory::{BUNDLE_MEMORY_LIMIT, BundleMemory};
 pub use note::{Note, Remark};
 
-use crate::air::Air;
+use crate::air::{Air, Eddies};
 use crate::chain::Strand;
 use crate::chain::schemes::Scheme;
 use crate::drag::Drag;
@@ -82,6 +84,11 @@ impl Case {
             StepLimit { cause: "axial waves", limit: self.fibre.axial_step_limit() },
             StepLimit { cause: "bending waves", limit: self.fibre.bending_step_limit() },
         ]
+    }
+
+    /// The eddies along the fibre.
+    pub fn eddies(&self) -> Eddies {
+        Eddies::along(self.fibre.length, self.fibre.elements, self.air.length_scale)
     }
 
     /// The fibre and what acts on it, as the chain takes it.

@@ -24,7 +24,7 @@ pub enum Remark {
     /// The run is not a whole number of steps long.
     #[error(
         "leaves no whole number of steps in run.duration: {steps} of {} {}",
-        Dimension::Time.pretty(*time_step), if *steps == 1 { "is taken" } else { "are taken" }
+        Dimension::Time.pretty_to(*time_step, 8), if *steps == 1 { "is taken" } else { "are taken" }
     )]
     StepShortened {
         /// Number of steps taken.
@@ -71,9 +71,6 @@ pub enum Remark {
 impl Remark {
     /// Whether the results may mislead, rather than the input merely having been rounded.
     pub const fn is_warning(&self) -> bool {
-        matches!(
-            self,
-            Self::OutsideFit { .. } | Self::EddiesSkipped { .. } | Self::ElementsStubby { .. }
-        )
+        matches!(self, Self::OutsideFit { .. } | Self::EddiesSkipped { .. } | Self::ElementsStubby { .. })
     }
 }

@@ -2,6 +2,7 @@
 
 use super::layout::{self, VERSION};
 use crate::error::{Error, Fault, Finding, Place, Problem};
+use crate::units::excerpt;
 use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -9,8 +10,8 @@ use toml::de::{DeTable, DeValue};
 /// A value as written.
 pub(super) struct Entry<'a> {
     pub(super) place: Place,
-    /// Source text, made fit for a message.
-    pub(super) shown: String,
+    /// Source text, made fit for a message; none for tables, whose text is all over the file.
+    pub(super) shown: Option<String>,
     pub(super) value: DeValue<'a>,
 }
 
@@ -31,16 +32,8 @@ impl<'a> Document<'a> {
     ///
     /// # Errors
     /// When the text is not TOML.
-    pub(super) fn new(
-        text: &'a str,
-        name: &str,
-        overrides: &'a [(String, String)],
-    ) -> Result<Self, Error> {
-        let starts = text
-            .bytes()
-            .enumerate()
-            .filter(|(_, byte)| *byte == b'\n')
-            .map(|(i, _)| i + 1);
+    pub(super) fn new(text: &'a str, name: &str, overrides: &'a [(String, String)]) -> Result<Self, Error> {
+        let starts = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(i, _)| i + 1);
         let mut document = Self {
             name: name.to_owned(),
             text,
@@ -51,9 +44,7 @@ impl<'a> Document<'a> {
         };
         let (root, faults) = DeTable::parse_recoverable(text);
         if !faults.is_empty() {
-            return Err(Error::Rejected(
-                faults.iter().map(|fault| document.syntax(fault)).collect(),
-            ));
+            return Err(Error::Rejected(faults.iter().map(|fault| document.syntax(fault)).collect()));
         }
         document.take_root(root.into_inner());
         for (key, value) in overrides {
@@ -68,28 +59,19 @@ impl<'a> Document<'a> {
     }
 
     /// Place and text of every entry, by full key.
-    pub(super) fn sources(&self) -> BTreeMap<String, (Place, String)> {
+    pub(super) fn sources(&self) -> BTreeMap<String, (Place, Option<String>)> {
         let source = |entry: &Entry<'_>| (entry.place.clone(), entry.shown.clone());
-        self.entries
-            .iter()
-            .map(|(key, entry)| (key.clone(), source(entry)))
-            .collect()
+        self.entries.iter().map(|(key, entry)| (key.clone(), source(entry))).collect()
     }
 
     /// The file as a place, for what it does not say.
     pub(super) fn whole(&self) -> Place {
-        Place::File {
-            file: self.name.clone(),
-            line: None,
-            column: None,
-        }
+        Place::File { file: self.name.clone(), line: None, column: None }
     }
 
     /// Whether a missing key has been told of as misspelt or misplaced.
     pub(super) fn is_excused(&self, key: &str) -> bool {
-        self.excused
-            .iter()
-            .any(|excuse| excuse == key || excuse.ends_with('.') && key.starts_with(excuse))
+        self.excused.iter().any(|excuse| excuse == key || excuse.ends_with('.') && key.starts_with(excuse))
     }
 
     /// The problems in the order of the file, then of the overrides.
@@ -100,38 +82,25 @@ impl<'a> Document<'a> {
 
     fn syntax(&self, fault: &toml::de::Error) -> Problem {
         let (line, column) = self.position(fault.span().map_or(0, |span| span.start));
-        let place = Place::File {
-            file: self.name.clone(),
-            line: Some(line),
-            column: Some(column),
-        };
+        let place = Place::File { file: self.name.clone(), line: Some(line), column: Some(column) };
         let message = fault.message().replace('\n', "; ");
-        Finding {
-            place,
-            key: String::new(),
-            value: None,
-            what: Fault::Syntax { message },
-        }
+        let what = match fault.span().and_then(|span| self.text.get(span)) {
+            Some(key) if message == "duplicate key" => Fault::Duplicate { key: fit(key) },
+            _ => Fault::Syntax { message },
+        };
+        Finding { place, key: String::new(), value: None, what }
     }
 
     /// Line and column, in characters, of a byte, both from 1.
     fn position(&self, byte: usize) -> (usize, usize) {
         let line = self.lines.partition_point(|start| *start <= byte);
-        let start = line
-            .checked_sub(1)
-            .and_then(|i| self.lines.get(i))
-            .copied()
-            .unwrap_or(0);
+        let start = line.checked_sub(1).and_then(|i| self.lines.get(i)).copied().unwrap_or(0);
         let before = self.text.get(start..byte).unwrap_or_default();
         (line, before.chars().count() + 1)
     }
 
     fn place(&self, byte: usize) -> Place {
-        Place::File {
-            file: self.name.clone(),
-            line: Some(self.position(byte).0),
-            column: None,
-        }
+        Place::File { file: self.name.clone(), line: Some(self.position(byte).0), column: None }
     }
 
     fn take_root(&mut self, root: DeTable<'a>) {
@@ -149,11 +118,8 @@ impl<'a> Document<'a> {
                 (Some(table), other) => {
                     self.excused.push(format!("{table}."));
                     let wanted = format!("a table, [{table}]");
-                    let what = Fault::WrongType {
-                        found: kind(&other),
-                        wanted,
-                    };
-                    self.reject(entry.place, table, Some(entry.shown), what);
+                    let what = Fault::WrongType { found: kind(&other), wanted };
+                    self.reject(entry.place, table, entry.shown, what);
                 }
                 (None, DeValue::Table(keys)) => self.reject_table(entry.place, &name, &keys),
                 (None, value) => self.take_entry("", &name, Entry { value, ..entry }),
@@ -162,12 +128,10 @@ impl<'a> Document<'a> {
     }
 
     fn entry(&self, place: Place, value: Spanned<DeValue<'a>>) -> Entry<'a> {
-        let shown = fit(self.text.get(value.span()).unwrap_or_default());
-        Entry {
-            place,
-            shown,
-            value: value.into_inner(),
-        }
+        let text = fit(self.text.get(value.span()).unwrap_or_default());
+        let is_headed = value.get_ref().is_table() && !text.starts_with('{') || text.starts_with("[[");
+        let shown = Some(text).filter(|_| !is_headed);
+        Entry { place, shown, value: value.into_inner() }
     }
 
     /// An override replaces what the file says.
@@ -181,11 +145,7 @@ impl<'a> Document<'a> {
         } else {
             fit(text)
         };
-        let entry = Entry {
-            place: Place::Override,
-            shown,
-            value,
-        };
+        let entry = Entry { place: Place::Override, shown: Some(shown), value };
         match key.split_once('.') {
             Some((table, key)) => match layout::table(table) {
                 Some(table) => self.take_entry(table, key, entry),
@@ -194,10 +154,7 @@ impl<'a> Document<'a> {
             None => match layout::table(key) {
                 Some(table) => {
                     let wanted = format!("one of its keys, --set {table}.key=value");
-                    let what = Fault::WrongType {
-                        found: "a table",
-                        wanted,
-                    };
+                    let what = Fault::WrongType { found: "a table", wanted };
                     self.reject(entry.place, table, None, what);
                 }
                 None => self.take_entry("", key, entry),
@@ -225,20 +182,13 @@ impl<'a> Document<'a> {
                 None => None,
             };
             let (where_, known) = if table.is_empty() {
-                (
-                    "the top of the file".to_owned(),
-                    vec![VERSION, "[fibre]", "[air]", "[drag]", "[run]"],
-                )
+                ("the top of the file".to_owned(), vec![VERSION, "[fibre]", "[air]", "[drag]", "[run]"])
             } else {
                 (format!("[{table}]"), layout::keys_of(table).to_vec())
             };
-            Fault::UnknownKey {
-                nearest,
-                where_,
-                known,
-            }
+            Fault::UnknownKey { nearest, where_, known }
         };
-        self.reject(entry.place, &full, Some(entry.shown), what);
+        self.reject(entry.place, &full, entry.shown, what);
     }
 
     fn reject_table(&mut self, place: Place, name: &str, keys: &DeTable<'_>) {
@@ -251,49 +201,22 @@ impl<'a> Document<'a> {
             self.excused.push(format!("{table}."));
         }
         let nearest = nearest.map(|table| format!("[{table}]"));
-        self.reject(
-            place,
-            &format!("[{}]", fit(name)),
-            None,
-            Fault::UnknownTable { nearest },
-        );
+        self.reject(place, &format!("[{}]", fit(name)), None, Fault::UnknownTable { nearest });
     }
 
     /// Notes down a problem.
     pub(super) fn reject(&mut self, place: Place, key: &str, value: Option<String>, what: Fault) {
-        self.problems.push(Finding {
-            place,
-            key: fit(key),
-            value,
-            what,
-        });
+        self.problems.push(Finding { place, key: fit(key), value, what });
     }
 }
 
 fn full_key(table: &str, key: &str) -> String {
-    if table.is_empty() {
-        key.to_owned()
-    } else {
-        format!("{table}.{key}")
-    }
+    if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") }
 }
 
 /// Source text on one line and not too long.
 fn fit(text: &str) -> String {
-    const LONGEST: usize = 60;
-    let mut fit: String = (text.trim().chars().take(LONGEST))
-        .flat_map(|c| {
-            if c.is_control() {
-                c.escape_debug().collect()
-            } else {
-                vec![c]
-            }
-        })
-        .collect();
-    if text.trim().chars().count() > LONGEST {
-        fit.push('…');
-    }
-    fit
+    excerpt(text, 60)
 }
 
 /// What kind of value this is, with its article.
@@ -302,7 +225,7 @@ pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
         DeValue::String(_) => "a text",
         DeValue::Integer(_) => "a whole number",
         DeValue::Float(_) => "a decimal number",
-        DeValue::Boolean(_) => "true or false",
+        DeValue::Boolean(_) => "a truth value",
         DeValue::Datetime(_) => "a date",
         DeValue::Array(_) => "a list",
         DeValue::Table(_) => "a table",

@@ -2,18 +2,7 @@
 
 /// The tables of a case file and their keys, in the order they are written.
 pub(super) const TABLES: [(&str, &[&str]); 4] = [
-    (
-        "fibre",
-        &[
-            "length",
-            "diameter",
-            "density",
-            "youngs_modulus",
-            "element_length",
-            "root",
-            "direction",
-        ],
-    ),
+    ("fibre", &["length", "diameter", "density", "youngs_modulus", "element_length", "root", "direction"]),
     (
         "air",
         &[
@@ -48,18 +37,12 @@ pub(super) const VERSION: &str = "version";
 
 /// The keys of a table; those above the tables for an unknown one.
 pub(super) fn keys_of(table: &str) -> &'static [&'static str] {
-    TABLES
-        .iter()
-        .find(|(name, _)| *name == table)
-        .map_or(&[VERSION], |(_, keys)| keys)
+    TABLES.iter().find(|(name, _)| *name == table).map_or(&[VERSION], |(_, keys)| keys)
 }
 
 /// The table's name, if it is one.
 pub(super) fn table(name: &str) -> Option<&'static str> {
-    TABLES
-        .iter()
-        .map(|(table, _)| *table)
-        .find(|table| *table == name)
+    TABLES.iter().map(|(table, _)| *table).find(|table| *table == name)
 }
 
 /// The only table that has this key, and the key.
@@ -83,16 +66,11 @@ pub(super) fn nearest_key(table: &str, key: &str) -> Option<(&'static str, &'sta
 }
 
 fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
-    TABLES
-        .iter()
-        .flat_map(|(table, keys)| keys.iter().map(|key| (*table, *key)))
+    TABLES.iter().flat_map(|(table, keys)| keys.iter().map(|key| (*table, *key)))
 }
 
 /// The word most like the one written, if any is like it.
-pub(super) fn nearest(
-    word: &str,
-    known: impl Iterator<Item = (&'static str, f64)>,
-) -> Option<&'static str> {
+pub(super) fn nearest(word: &str, known: impl Iterator<Item = (&'static str, f64)>) -> Option<&'static str> {
     nearest_by(word, known, |known| known)
 }
 

@@ -38,19 +38,14 @@ pub(super) fn resolve(mut document: Document<'_>) -> Result<(Case, Vec<Note>), E
         return Err(Document::sorted(document.problems).into());
     }
     let mut notes = Vec::new();
-    let case = written
-        .case(&sources, &mut notes)
-        .map_err(|finding| vec![sources.placed(finding)])?;
+    let case = written.case(&sources, &mut notes)?;
     match case.check() {
         Ok(more) => {
             notes.extend(more.into_iter().map(|note| sources.placed(note)));
             Ok((case, Document::sorted(notes)))
         }
         Err(problems) => {
-            let placed = problems
-                .into_iter()
-                .map(|problem| sources.placed(problem))
-                .collect();
+            let placed = problems.into_iter().map(|problem| sources.placed(problem)).collect();
             Err(Document::sorted(placed).into())
         }
     }
@@ -58,57 +53,37 @@ pub(super) fn resolve(mut document: Document<'_>) -> Result<(Case, Vec<Note>), E
 
 /// Refuses a file of a later format before anything else in it is judged.
 fn version(document: &mut Document<'_>) -> Result<(), Error> {
-    let Some(Entry {
-        place,
-        shown,
-        value,
-    }) = document.take(VERSION)
-    else {
+    let Some(Entry { place, shown, value }) = document.take(VERSION) else {
         return Ok(());
     };
     let known = FORMAT_VERSION;
     let what = match &value {
         DeValue::Integer(number) => match number.as_str().parse() {
             Ok(version) if (1..=i128::from(known)).contains(&version) => return Ok(()),
-            Ok(version) if version < 1 => Fault::OutOfRange {
-                least: 1,
-                most: u64::from(known),
-            },
+            Ok(version) if version < 1 => Fault::OutOfRange { least: 1, most: u64::from(known) },
             _ => Fault::NewerVersion { known },
         },
-        other => Fault::WrongType {
-            found: kind(other),
-            wanted: format!("a whole number, {known}"),
-        },
+        other => Fault::WrongType { found: kind(other), wanted: format!("a whole number, {known}") },
     };
-    Err(vec![Finding {
-        place,
-        key: VERSION.to_owned(),
-        value: Some(shown),
-        what,
-    }]
-    .into())
+    Err(vec![Finding { place, key: VERSION.to_owned(), value: shown, what }].into())
 }
 
 /// Where the values of a case come from.
 struct Sources {
     file: Place,
-    written: BTreeMap<String, (Place, String)>,
+    written: BTreeMap<String, (Place, Option<String>)>,
 }
 
 impl Sources {
     fn of(document: &Document<'_>) -> Self {
-        Self {
-            file: document.whole(),
-            written: document.sources(),
-        }
+        Self { file: document.whole(), written: document.sources() }
     }
 
     /// The finding with the place and the text of the value it is about.
     fn placed<W>(&self, mut finding: Finding<W>) -> Finding<W> {
         match self.written.get(&finding.key) {
             Some((place, shown)) => {
-                (finding.place, finding.value) = (place.clone(), Some(shown.clone()));
+                (finding.place, finding.value) = (place.clone(), shown.clone());
             }
             None => {
                 finding.place = self.file.clone();
@@ -142,16 +117,13 @@ impl Written {
             density: d.required(&keys::FIBRE_DENSITY, "density = \"950 kg/m³\""),
             youngs_modulus: d.required(&keys::YOUNGS_MODULUS, "youngs_modulus = \"2 GPa\""),
             elements: 0,
-            root: d.choice("fibre.root", &keys::ROOTS).unwrap_or(Root::Pinned),
-            direction: d
-                .direction(keys::DIRECTION)
-                .unwrap_or(Vec3::new(1.0, 0.0, 0.0)),
+            root: d.choice("fibre.root", &keys::ROOTS.map(|one| (one.name(), one))).unwrap_or(Root::Pinned),
+            direction: d.direction(keys::DIRECTION).unwrap_or(Vec3::new(1.0, 0.0, 0.0)),
         };
         let element_length = d.optional(&keys::ELEMENT_LENGTH);
         let air = Air {
             velocity: d.required(&keys::VELOCITY, "velocity = \"10 m/s\""),
-            turbulence_intensity: d
-                .required(&keys::TURBULENCE_INTENSITY, "turbulence_intensity = 0.1"),
+            turbulence_intensity: d.required(&keys::TURBULENCE_INTENSITY, "turbulence_intensity = 0.1"),
             length_scale: d.required(&keys::LENGTH_SCALE, "length_scale = \"50 mm\""),
             cutoff_frequency: d.required(&keys::CUTOFF_FREQUENCY, "cutoff_frequency = \"100 Hz\""),
             density: d.optional(&keys::AIR_DENSITY).unwrap_or(AIR_DENSITY),
@@ -161,14 +133,12 @@ impl Written {
         let harmonics = d.whole_number(keys::HARMONICS, 1, usize::MAX as u64);
         let drag = Drag {
             along: d
-                .choice("drag.along", &keys::FRICTION_LAWS)
+                .choice("drag.along", &keys::FRICTION_LAWS.map(|one| (one.name(), one)))
                 .unwrap_or(FrictionLaw::Matsui),
             across: d
-                .choice("drag.across", &keys::NORMAL_LAWS)
+                .choice("drag.across", &keys::NORMAL_LAWS.map(|one| (one.name(), one)))
                 .unwrap_or(NormalLaw::JuShambaugh),
-            friction_coefficient: d
-                .optional(&keys::FRICTION_COEFFICIENT)
-                .unwrap_or(FRICTION_COEFFICIENT),
+            friction_coefficient: d.optional(&keys::FRICTION_COEFFICIENT).unwrap_or(FRICTION_COEFFICIENT),
         };
         let duration = d.required(&keys::DURATION, "duration = \"1 s\"");
         let time_step = d.required(&keys::TIME_STEP, "time_step = \"1 µs\"");
@@ -179,12 +149,10 @@ impl Written {
             steps: 0,
             spin_up_steps: 0,
             output_steps: 0,
-            replicates: d
-                .whole_number(keys::REPLICATES, 1, MOST_RECORDS as u64)
-                .unwrap_or(REPLICATES),
+            replicates: d.whole_number(keys::REPLICATES, 1, MOST_RECORDS as u64).unwrap_or(REPLICATES),
             seed: d.whole_number("run.seed", 0, u64::MAX).unwrap_or(SEED),
             scheme: d
-                .choice("run.scheme", &keys::SCHEMES)
+                .choice("run.scheme", &keys::SCHEMES.map(|one| (one.name(), one)))
                 .unwrap_or(Scheme::SemiImplicitEuler),
             gravity: d.optional(&keys::GRAVITY).unwrap_or(GRAVITY),
             damping: d.optional(&keys::DAMPING).unwrap_or(0.0),
@@ -204,52 +172,30 @@ impl Written {
     }
 
     /// The case that is meant, before it is checked.
-    fn case(&self, sources: &Sources, notes: &mut Vec<Note>) -> Result<Case, Finding<Fault>> {
-        let Self {
-            mut fibre,
-            mut air,
-            mut run,
-            drag,
-            ..
-        } = *self;
+    fn case(&self, sources: &Sources, notes: &mut Vec<Note>) -> Result<Case, Error> {
+        let Self { mut fibre, mut air, mut run, drag, .. } = *self;
         let mut note = |quantity: &Quantity, value: f64, remark: Remark| {
             let value = Some(quantity.dimension.pretty(value));
             let key = quantity.key.to_owned();
-            notes.push(sources.placed(Note {
-                place: Place::Code,
-                key,
-                value,
-                what: remark,
-            }));
+            notes.push(sources.placed(Note { place: Place::Code, key, value, what: remark }));
         };
 
-        let element_length = self
-            .element_length
-            .unwrap_or(air.length_scale.min(fibre.length));
+        let element_length = self.element_length.unwrap_or(air.length_scale.min(fibre.length));
         let (elements, whole) = nearest_whole(fibre.length, element_length);
         fibre.elements = usize::try_from(elements.max(1)).unwrap_or(usize::MAX);
         if !whole {
-            let remark = Remark::ElementsRounded {
-                elements: fibre.elements,
-                element_length: fibre.rest_length(),
-            };
+            let remark =
+                Remark::ElementsRounded { elements: fibre.elements, element_length: fibre.rest_length() };
             note(&keys::ELEMENT_LENGTH, element_length, remark);
         }
 
         let steps = (self.duration / self.time_step).ceil().max(1.0);
         if steps > MOST_STEPS as f64 {
-            let fault = Fault::TooManySteps {
-                steps,
-                most: MOST_STEPS as f64,
-                time_step: self.time_step,
-            };
+            let fault = Fault::TooManySteps { steps, most: MOST_STEPS as f64, time_step: self.time_step };
             let value = Some(keys::DURATION.dimension.pretty(self.duration));
-            return Err(Finding {
-                place: Place::Code,
-                key: keys::DURATION.key.to_owned(),
-                value,
-                what: fault,
-            });
+            let problem =
+                Finding { place: Place::Code, key: keys::DURATION.key.to_owned(), value, what: fault };
+            return Err(vec![sources.placed(problem)].into());
         }
         let (nearest, whole) = nearest_whole(self.duration, self.time_step);
         run.steps = nearest;
@@ -257,52 +203,30 @@ impl Written {
             // More steps, and these shorter: never beyond a limit that the step as written keeps.
             run.steps = steps as u64;
             run.time_step = self.duration / steps;
-            let remark = Remark::StepShortened {
-                steps: run.steps,
-                time_step: run.time_step,
-            };
+            let remark = Remark::StepShortened { steps: run.steps, time_step: run.time_step };
             note(&keys::TIME_STEP, self.time_step, remark);
         }
 
         let (spin_up_steps, whole) = nearest_whole(self.spin_up, run.time_step);
         run.spin_up_steps = spin_up_steps;
         if !whole {
-            note(
-                &keys::SPIN_UP,
-                self.spin_up,
-                Remark::TimeRounded {
-                    time: run.spin_up(),
-                },
-            );
+            note(&keys::SPIN_UP, self.spin_up, Remark::TimeRounded { time: run.spin_up() });
         }
         if let Some(interval) = self.output_interval {
             let (output_steps, whole) = nearest_whole(interval, run.time_step);
             run.output_steps = output_steps.max(1);
             if !whole {
-                note(
-                    &keys::OUTPUT_INTERVAL,
-                    interval,
-                    Remark::TimeRounded {
-                        time: run.output_interval(),
-                    },
-                );
+                note(&keys::OUTPUT_INTERVAL, interval, Remark::TimeRounded { time: run.output_interval() });
             }
         } else {
-            run.output_steps = nearest_whole(OUTPUT_INTERVAL, run.time_step)
-                .0
-                .clamp(1, run.steps);
+            run.output_steps = nearest_whole(OUTPUT_INTERVAL, run.time_step).0.clamp(1, run.steps);
         }
 
         air.harmonics = match self.harmonics {
             Some(harmonics) => usize::try_from(harmonics).unwrap_or(usize::MAX),
             None => Air::default_harmonics(air.cutoff_frequency, run.duration()),
         };
-        Ok(Case {
-            fibre,
-            air,
-            drag,
-            run,
-        })
+        Ok(Case { fibre, air, drag, run })
     }
 }
 
@@ -311,8 +235,5 @@ impl Written {
 pub(super) fn nearest_whole(whole: f64, part: f64) -> (u64, bool) {
     let ratio = whole / part;
     let nearest = ratio.round();
-    (
-        nearest as u64,
-        (ratio - nearest).abs() <= 8.0 * f64::EPSILON * ratio,
-    )
+    (nearest as u64, (ratio - nearest).abs() <= 8.0 * f64::EPSILON * ratio)
 }

@@ -22,16 +22,12 @@ impl Document<'_> {
 
     /// A quantity that the case may leave open.
     pub(super) fn optional(&mut self, quantity: &Quantity) -> Option<f64> {
-        let Entry {
-            place,
-            shown,
-            value,
-        } = self.take(quantity.key)?;
+        let Entry { place, shown, value } = self.take(quantity.key)?;
         let read = number(quantity.dimension, &value);
         match read.and_then(|value| quantity.fault(value).map_or(Ok(value), Err)) {
             Ok(value) => Some(value),
             Err(fault) => {
-                self.reject(place, quantity.key, Some(shown), fault);
+                self.reject(place, quantity.key, shown, fault);
                 Some(f64::NAN)
             }
         }
@@ -39,11 +35,7 @@ impl Document<'_> {
 
     /// A whole number, and where it was written.
     pub(super) fn whole_number(&mut self, key: &str, least: u64, most: u64) -> Option<u64> {
-        let Entry {
-            place,
-            shown,
-            value,
-        } = self.take(key)?;
+        let Entry { place, shown, value } = self.take(key)?;
         let fault = match &value {
             DeValue::Integer(number) => match integer(number) {
                 Some(number) if (least..=most).contains(&number) => return Some(number),
@@ -54,17 +46,13 @@ impl Document<'_> {
                 wanted: "a whole number without quotes, like 10".to_owned(),
             },
         };
-        self.reject(place, key, Some(shown), fault);
+        self.reject(place, key, shown, fault);
         Some(least)
     }
 
     /// One of several names.
     pub(super) fn choice<T: Copy>(&mut self, key: &str, names: &[(&'static str, T)]) -> Option<T> {
-        let Entry {
-            place,
-            shown,
-            value,
-        } = self.take(key)?;
+        let Entry { place, shown, value } = self.take(key)?;
         let allowed: Vec<&'static str> = names.iter().map(|(name, _)| *name).collect();
         let fault = match &value {
             DeValue::String(text) => {
@@ -72,35 +60,24 @@ impl Document<'_> {
                     return Some(*choice);
                 }
                 let nearest = layout::nearest(text, names.iter().map(|(name, _)| (*name, 0.0)));
-                Fault::NotOneOf {
-                    nearest: nearest.map(|name| format!("\"{name}\"")),
-                    allowed,
-                }
+                Fault::NotOneOf { nearest: nearest.map(|name| format!("\"{name}\"")), allowed }
             }
             other => {
-                let quoted: Vec<String> =
-                    allowed.iter().map(|name| format!("\"{name}\"")).collect();
-                Fault::WrongType {
-                    found: kind(other),
-                    wanted: quoted.join(" or "),
-                }
+                let quoted: Vec<String> = allowed.iter().map(|name| format!("\"{name}\"")).collect();
+                Fault::WrongType { found: kind(other), wanted: quoted.join(" or ") }
             }
         };
-        self.reject(place, key, Some(shown), fault);
+        self.reject(place, key, shown, fault);
         None
     }
 
     /// A direction, made a unit vector.
     pub(super) fn direction(&mut self, key: &str) -> Option<Vec3<f64>> {
-        let Entry {
-            place,
-            shown,
-            value,
-        } = self.take(key)?;
+        let Entry { place, shown, value } = self.take(key)?;
         match vector(&value).and_then(unit) {
             Ok(direction) => Some(direction),
             Err(fault) => {
-                self.reject(place, key, Some(shown), fault);
+                self.reject(place, key, shown, fault);
                 None
             }
         }
@@ -108,10 +85,7 @@ impl Document<'_> {
 
     /// Tells of a key that must be there, unless it is there under another name.
     pub(super) fn missing(&mut self, key: &str, line: &'static str) {
-        let Some(table) = key
-            .split_once('.')
-            .and_then(|(table, _)| layout::table(table))
-        else {
+        let Some(table) = key.split_once('.').and_then(|(table, _)| layout::table(table)) else {
             return;
         };
         if !self.is_excused(key) {
@@ -131,28 +105,19 @@ fn number(dimension: Dimension, value: &DeValue<'_>) -> Result<f64, Fault> {
         DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
         DeValue::Float(number) => number.as_str(),
         other => {
-            return Err(Fault::WrongType {
-                found: kind(other),
-                wanted: Wanted(dimension).to_string(),
-            });
+            return Err(Fault::WrongType { found: kind(other), wanted: Wanted(dimension).to_string() });
         }
     };
     if dimension == Dimension::Ratio {
         Ok(dimension.parse(text)?)
     } else {
-        Err(QuantityFault::NoUnit {
-            wanted: Wanted(dimension),
-        }
-        .into())
+        Err(QuantityFault::NoUnit { wanted: Wanted(dimension) }.into())
     }
 }
 
 fn vector(value: &DeValue<'_>) -> Result<Vec3<f64>, Fault> {
     let wanted = || "three plain numbers, like [1.0, 0.0, 0.0]".to_owned();
-    let wrong = |found| Fault::WrongType {
-        found,
-        wanted: wanted(),
-    };
+    let wrong = |found| Fault::WrongType { found, wanted: wanted() };
     let DeValue::Array(list) = value else {
         return Err(wrong(kind(value)));
     };
@@ -165,12 +130,7 @@ fn vector(value: &DeValue<'_>) -> Result<Vec3<f64>, Fault> {
             _ => wrong(kind(other)),
         }),
     });
-    match (
-        components.next(),
-        components.next(),
-        components.next(),
-        components.next(),
-    ) {
+    match (components.next(), components.next(), components.next(), components.next()) {
         (Some(x), Some(y), Some(z), None) => Ok(Vec3::new(x?, y?, z?)),
         _ => Err(wrong("a list of another length")),
     }

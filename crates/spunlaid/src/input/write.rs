@@ -3,7 +3,7 @@
 use super::FORMAT_VERSION;
 use super::resolve::nearest_whole;
 use crate::case::Case;
-use crate::case::keys::{self, Quantity, name_of};
+use crate::case::keys::{self, Quantity};
 use crate::units::shortest;
 use std::fmt::Write;
 
@@ -12,15 +12,8 @@ use std::fmt::Write;
 /// Reading the text gives the same case to the last bit, and writing that the same text, for every case
 /// that passes [`Case::check`].
 pub fn write_case(case: &Case) -> String {
-    let Case {
-        fibre,
-        air,
-        drag,
-        run,
-    } = case;
-    let mut w = Writer {
-        text: format!("version = {FORMAT_VERSION}\n"),
-    };
+    let Case { fibre, air, drag, run } = case;
+    let mut w = Writer { text: format!("version = {FORMAT_VERSION}\n") };
 
     w.table("fibre");
     w.quantity(&keys::LENGTH, fibre.length);
@@ -29,11 +22,9 @@ pub fn write_case(case: &Case) -> String {
     w.quantity(&keys::YOUNGS_MODULUS, fibre.youngs_modulus);
     w.quantity(
         &keys::ELEMENT_LENGTH,
-        tidy(fibre.rest_length(), |l| {
-            nearest_whole(fibre.length, l) == (fibre.elements as u64, true)
-        }),
+        tidy(fibre.rest_length(), |l| nearest_whole(fibre.length, l) == (fibre.elements as u64, true)),
     );
-    w.name("root", name_of(&keys::ROOTS, &fibre.root));
+    w.name("root", fibre.root.name());
     let [x, y, z] = [fibre.direction.x, fibre.direction.y, fibre.direction.z].map(float);
     w.line("direction", &format!("[{x}, {y}, {z}]"));
 
@@ -47,24 +38,20 @@ pub fn write_case(case: &Case) -> String {
     w.line("harmonics", &air.harmonics.to_string());
 
     w.table("drag");
-    w.name("along", name_of(&keys::FRICTION_LAWS, &drag.along));
-    w.name("across", name_of(&keys::NORMAL_LAWS, &drag.across));
+    w.name("along", drag.along.name());
+    w.name("across", drag.across.name());
     w.line("friction_coefficient", &float(drag.friction_coefficient));
 
     w.table("run");
-    let time =
-        |time: f64, steps: u64| tidy(time, |t| nearest_whole(t, run.time_step) == (steps, true));
+    let time = |time: f64, steps: u64| tidy(time, |t| nearest_whole(t, run.time_step) == (steps, true));
     w.quantity(&keys::DURATION, time(run.duration(), run.steps));
     w.quantity(&keys::TIME_STEP, run.time_step);
     w.line("replicates", &run.replicates.to_string());
     w.line("seed", &run.seed.to_string());
-    w.name("scheme", name_of(&keys::SCHEMES, &run.scheme));
+    w.name("scheme", run.scheme.name());
     w.quantity(&keys::GRAVITY, run.gravity);
     w.quantity(&keys::SPIN_UP, time(run.spin_up(), run.spin_up_steps));
-    w.quantity(
-        &keys::OUTPUT_INTERVAL,
-        time(run.output_interval(), run.output_steps),
-    );
+    w.quantity(&keys::OUTPUT_INTERVAL, time(run.output_interval(), run.output_steps));
     w.quantity(&keys::DAMPING, run.damping);
     w.text
 }
@@ -88,10 +75,7 @@ impl Writer {
     }
 
     fn quantity(&mut self, quantity: &Quantity, value: f64) {
-        let key = quantity
-            .key
-            .split_once('.')
-            .map_or(quantity.key, |(_, key)| key);
+        let key = quantity.key.split_once('.').map_or(quantity.key, |(_, key)| key);
         self.line(key, &format!("\"{}\"", quantity.dimension.exact(value)));
     }
 }
@@ -99,11 +83,7 @@ impl Writer {
 /// A TOML float that reads back to the same bits.
 fn float(value: f64) -> String {
     let text = shortest(value);
-    if text.contains(['.', 'e']) {
-        text
-    } else {
-        format!("{text}.0")
-    }
+    if text.contains(['.', 'e']) { text } else { format!("{text}.0") }
 }
 
 /// The value without the noise of its last digit, where the reader makes the same of it.

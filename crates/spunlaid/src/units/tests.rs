@@ -56,11 +56,7 @@ fn rejects_what_is_no_quantity() {
             "-.e5 m",
             "does not start with a number; write a length with its unit: m, cm, mm, µm or nm",
         ),
-        (
-            Dimension::Rate,
-            "inf 1/s",
-            "is not a finite number; write a rate with its unit: 1/s or s⁻¹",
-        ),
+        (Dimension::Rate, "inf 1/s", "is not a finite number; write a rate with its unit: 1/s or s⁻¹"),
         (
             Dimension::Ratio,
             "-NaN",
@@ -86,16 +82,8 @@ fn rejects_what_is_no_quantity() {
             "1_000 m",
             "has an underscore; write the number without separators, like \"1000 m\"",
         ),
-        (
-            Dimension::Length,
-            "1.5",
-            "has no unit; write a length with its unit: m, cm, mm, µm or nm",
-        ),
-        (
-            Dimension::Length,
-            "1.5 s",
-            "is a time; write a length with its unit: m, cm, mm, µm or nm",
-        ),
+        (Dimension::Length, "1.5", "has no unit; write a length with its unit: m, cm, mm, µm or nm"),
+        (Dimension::Length, "1.5 s", "is a time; write a length with its unit: m, cm, mm, µm or nm"),
         (
             Dimension::Length,
             "1.5 inch",

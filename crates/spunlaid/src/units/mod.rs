@@ -1,6 +1,9 @@
 //! Units at the door: quantities as people write them, and as the library holds them, in SI.
 
+mod table;
+
 use std::fmt;
+use table::Scale::{Over, Ten, Times};
 
 /// What a quantity measures, and so which units it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,89 +30,7 @@ pub enum Dimension {
     Ratio,
 }
 
-/// How a unit relates to the SI unit of its dimension.
-#[derive(Clone, Copy, Debug)]
-enum Scale {
-    /// `10^n` SI units.
-    Ten(i32),
-    /// So many SI units.
-    Times(f64),
-    /// One SI unit is so many of these.
-    Over(f64),
-}
-
-/// A unit: as shown, its spelling in plain ASCII without `^`, and its size.
-struct Unit {
-    shown: &'static str,
-    plain: &'static str,
-    scale: Scale,
-    /// Whether [`Dimension::pretty`] may choose it.
-    pretty: bool,
-}
-
-const fn unit(shown: &'static str, plain: &'static str, scale: Scale) -> Unit {
-    Unit {
-        shown,
-        plain,
-        scale,
-        pretty: true,
-    }
-}
-
-const fn also(shown: &'static str, plain: &'static str, scale: Scale) -> Unit {
-    Unit {
-        shown,
-        plain,
-        scale,
-        pretty: false,
-    }
-}
-
-use Scale::{Over, Ten, Times};
-
-/// Units of each dimension, the SI unit first.
-const LENGTH: &[Unit] = &[
-    unit("m", "m", Ten(0)),
-    also("cm", "cm", Ten(-2)),
-    unit("mm", "mm", Ten(-3)),
-    unit("µm", "um", Ten(-6)),
-    unit("nm", "nm", Ten(-9)),
-];
-const VELOCITY: &[Unit] = &[
-    unit("m/s", "m/s", Ten(0)),
-    also("cm/s", "cm/s", Ten(-2)),
-    also("mm/s", "mm/s", Ten(-3)),
-    also("km/h", "km/h", Over(3.6)),
-    also("m/min", "m/min", Over(60.0)),
-];
-const TIME: &[Unit] = &[
-    unit("s", "s", Ten(0)),
-    unit("ms", "ms", Ten(-3)),
-    unit("µs", "us", Ten(-6)),
-    unit("ns", "ns", Ten(-9)),
-    also("min", "min", Times(60.0)),
-];
-const FREQUENCY: &[Unit] = &[unit("Hz", "Hz", Ten(0)), unit("kHz", "kHz", Ten(3))];
-const RATE: &[Unit] = &[unit("1/s", "1/s", Ten(0)), also("s⁻¹", "s-1", Ten(0))];
-const DENSITY: &[Unit] = &[
-    unit("kg/m³", "kg/m3", Ten(0)),
-    also("g/cm³", "g/cm3", Ten(3)),
-];
-const PRESSURE: &[Unit] = &[
-    unit("Pa", "Pa", Ten(0)),
-    unit("kPa", "kPa", Ten(3)),
-    unit("MPa", "MPa", Ten(6)),
-    unit("GPa", "GPa", Ten(9)),
-    also("N/mm²", "N/mm2", Ten(6)),
-];
-const KINEMATIC_VISCOSITY: &[Unit] = &[
-    unit("m²/s", "m2/s", Ten(0)),
-    also("mm²/s", "mm2/s", Ten(-6)),
-    also("cSt", "cSt", Ten(-6)),
-];
-const ACCELERATION: &[Unit] = &[unit("m/s²", "m/s2", Ten(0))];
-const RATIO: &[Unit] = &[unit("", "", Ten(0)), also("%", "%", Ten(-2))];
-
+/// Every dimension.
 const ALL: [Dimension; 10] = [
     Dimension::Length,
     Dimension::Velocity,
@@ -146,9 +67,7 @@ pub enum QuantityFault {
         wanted: Wanted,
     },
     /// `1,5 m`.
-    #[error(
-        "has a comma; write the number with a decimal point and no separators, like \"{mended}\""
-    )]
+    #[error("has a comma; write the number with a decimal point and no separators, like \"{mended}\"")]
     Comma {
         /// The text with a point in its place.
         mended: String,
@@ -228,21 +147,6 @@ impl Dimension {
         self.units().first().map_or("", |unit| unit.shown)
     }
 
-    const fn units(self) -> &'static [Unit] {
-        match self {
-            Self::Length => LENGTH,
-            Self::Velocity => VELOCITY,
-            Self::Time => TIME,
-            Self::Frequency => FREQUENCY,
-            Self::Rate => RATE,
-            Self::Density => DENSITY,
-            Self::Pressure => PRESSURE,
-            Self::KinematicViscosity => KINEMATIC_VISCOSITY,
-            Self::Acceleration => ACCELERATION,
-            Self::Ratio => RATIO,
-        }
-    }
-
     /// Reads a quantity such as `50 µm` into SI units.
     ///
     /// Units that are a power of ten of the SI unit move the decimal exponent of the number before it is
@@ -265,32 +169,21 @@ impl Dimension {
         let digit_follows = rest.chars().nth(1).is_some_and(|c| c.is_ascii_digit());
         if digit_follows && rest.starts_with(',') {
             return Err(QuantityFault::Comma {
-                mended: text.replacen(',', ".", 1).replace(',', ""),
+                mended: excerpt(&text.replacen(',', ".", 1).replace(',', ""), 40),
             });
         }
         if digit_follows && rest.starts_with('_') {
-            return Err(QuantityFault::Underscore {
-                mended: text.replace('_', ""),
-            });
+            return Err(QuantityFault::Underscore { mended: excerpt(&text.replace('_', ""), 40) });
         }
         let written = rest.trim();
         let plain = plain_spelling(written);
         let Some(unit) = self.units().iter().find(|unit| unit.plain == plain) else {
             return Err(if written.is_empty() {
                 QuantityFault::NoUnit { wanted }
-            } else if let Some(other) = ALL
-                .iter()
-                .find(|d| d.units().iter().any(|u| u.plain == plain))
-            {
-                QuantityFault::WrongDimension {
-                    found: other.name(),
-                    wanted,
-                }
+            } else if let Some(other) = ALL.iter().find(|d| d.units().iter().any(|u| u.plain == plain)) {
+                QuantityFault::WrongDimension { found: other.name(), wanted }
             } else {
-                QuantityFault::UnknownUnit {
-                    unit: written.to_owned(),
-                    wanted,
-                }
+                QuantityFault::UnknownUnit { unit: excerpt(written, 20), wanted }
             });
         };
         let value = match unit.scale {
@@ -312,6 +205,12 @@ impl Dimension {
 
     /// For people: four digits and a handy unit, `50 µm`, `34.46 µs`, `2 GPa`.
     pub fn pretty(self, value: f64) -> String {
+        self.pretty_to(value, 4)
+    }
+
+    /// [`Dimension::pretty`] to a number of digits, 1 to 17.
+    pub fn pretty_to(self, value: f64, digits: usize) -> String {
+        let decimals = digits.saturating_sub(1).min(16);
         let mut best = (1.0, self.si_unit());
         if value != 0.0 && value.is_finite() {
             // The largest unit that leaves a number of one or more, or the smallest there is.
@@ -322,46 +221,44 @@ impl Dimension {
                 })
                 .collect();
             sizes.sort_by(|a, b| b.0.total_cmp(&a.0));
-            let rounded = value.abs() * (1.0 + 5e-5);
+            let rounded: f64 = format!("{:.decimals$e}", value.abs()).parse().unwrap_or(value);
             let smallest = sizes.last().filter(|(size, _)| rounded >= 0.01 * size);
             let fits = sizes.iter().find(|(size, _)| rounded >= *size).or(smallest);
             best = fits.copied().unwrap_or(best);
         }
         let number = value / best.0;
-        let digits: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+        let digits: f64 = format!("{number:.decimals$e}").parse().unwrap_or(number);
         with_unit(&shortest(digits), best.1)
     }
 }
 
-fn with_unit(number: &str, unit: &str) -> String {
-    if unit.is_empty() {
-        number.to_owned()
-    } else {
-        format!("{number} {unit}")
+/// Text from outside, made fit for a message: on one line, and no longer than `longest` characters.
+pub(crate) fn excerpt(text: &str, longest: usize) -> String {
+    let mut excerpt = String::new();
+    for c in text.trim().chars().take(longest) {
+        if c.is_control() { excerpt.extend(c.escape_debug()) } else { excerpt.push(c) }
     }
+    if text.trim().chars().count() > longest {
+        excerpt.push('…');
+    }
+    excerpt
+}
+
+fn with_unit(number: &str, unit: &str) -> String {
+    if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
 }
 
 /// The shortest text that reads back to the same bits, with an exponent where that is shorter.
 pub(crate) fn shortest(value: f64) -> String {
     let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
-    if scientific.len() < plain.len() {
-        scientific
-    } else {
-        plain
-    }
+    if scientific.len() < plain.len() { scientific } else { plain }
 }
 
 /// Splits a decimal number off the front; empty where there is none.
 fn split_number(text: &str) -> (&str, &str) {
     let bytes = text.as_bytes();
-    let digits_from = |start: usize| {
-        start
-            + bytes
-                .iter()
-                .skip(start)
-                .take_while(|b| b.is_ascii_digit())
-                .count()
-    };
+    let digits_from =
+        |start: usize| start + bytes.iter().skip(start).take_while(|b| b.is_ascii_digit()).count();
     let start = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
     let mut end = digits_from(start);
     let mut digits = end - start;

@@ -1,0 +1,48 @@
+//! What a run takes of memory.
+
+use super::Case;
+use crate::air::Turbulence;
+
+/// Most memory a bundle of eight fibres may take [bytes].
+pub const BUNDLE_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
+
+/// Vectors of eight fibres that the chain, its copies for a look ahead and its start keep per node.
+const VECTORS_PER_NODE: f64 = 10.0;
+/// Bytes of such a vector.
+const VECTOR: f64 = 192.0;
+/// Bytes of scratch space that the synthesis of turbulence takes per harmonic.
+const SYNTHESIS: f64 = 1200.0;
+
+/// Memory of a bundle of eight fibres of a case [bytes].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BundleMemory {
+    /// The chain.
+    pub chain: f64,
+    /// The turbulence along it, over the run.
+    pub turbulence: f64,
+    /// What making the turbulence takes besides.
+    pub synthesis: f64,
+}
+
+impl BundleMemory {
+    /// All together [bytes].
+    pub fn total(&self) -> f64 {
+        self.chain + self.turbulence + self.synthesis
+    }
+}
+
+impl Case {
+    /// Estimate of the memory of a bundle of eight fibres [bytes].
+    pub fn bundle_memory(&self) -> BundleMemory {
+        let (air, elements) = (&self.air, self.fibre.elements as f64);
+        let eddies = (self.fibre.length / air.length_scale).ceil().max(1.0);
+        let harmonics = air.harmonics as f64;
+        let synthesis = SYNTHESIS * 2.0 * harmonics;
+        let turbulence = if synthesis <= BUNDLE_MEMORY_LIMIT {
+            Turbulence::memory(air, 1, self.run.duration()) * eddies
+        } else {
+            0.0
+        };
+        BundleMemory { chain: (elements + 1.0) * VECTORS_PER_NODE * VECTOR, turbulence, synthesis }
+    }
+}

@@ -1,0 +1,87 @@
+//! The units of each dimension.
+
+use super::Dimension;
+
+/// How a unit relates to the SI unit of its dimension.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Scale {
+    /// `10^n` SI units.
+    Ten(i32),
+    /// So many SI units.
+    Times(f64),
+    /// One SI unit is so many of these.
+    Over(f64),
+}
+
+/// A unit: as shown, its spelling in plain ASCII without `^`, and its size.
+pub(super) struct Unit {
+    pub(super) shown: &'static str,
+    pub(super) plain: &'static str,
+    pub(super) scale: Scale,
+    /// Whether [`Dimension::pretty`] may choose it.
+    pub(super) pretty: bool,
+}
+
+const fn unit(shown: &'static str, plain: &'static str, scale: Scale) -> Unit {
+    Unit { shown, plain, scale, pretty: true }
+}
+
+const fn also(shown: &'static str, plain: &'static str, scale: Scale) -> Unit {
+    Unit { shown, plain, scale, pretty: false }
+}
+
+use Scale::{Over, Ten, Times};
+
+const LENGTH: &[Unit] = &[
+    unit("m", "m", Ten(0)),
+    also("cm", "cm", Ten(-2)),
+    unit("mm", "mm", Ten(-3)),
+    unit("µm", "um", Ten(-6)),
+    unit("nm", "nm", Ten(-9)),
+];
+const VELOCITY: &[Unit] = &[
+    unit("m/s", "m/s", Ten(0)),
+    also("cm/s", "cm/s", Ten(-2)),
+    also("mm/s", "mm/s", Ten(-3)),
+    also("km/h", "km/h", Over(3.6)),
+    also("m/min", "m/min", Over(60.0)),
+];
+const TIME: &[Unit] = &[
+    unit("s", "s", Ten(0)),
+    unit("ms", "ms", Ten(-3)),
+    unit("µs", "us", Ten(-6)),
+    unit("ns", "ns", Ten(-9)),
+    also("min", "min", Times(60.0)),
+];
+const FREQUENCY: &[Unit] = &[unit("Hz", "Hz", Ten(0)), unit("kHz", "kHz", Ten(3))];
+const RATE: &[Unit] = &[unit("1/s", "1/s", Ten(0)), also("s⁻¹", "s-1", Ten(0))];
+const DENSITY: &[Unit] = &[unit("kg/m³", "kg/m3", Ten(0)), also("g/cm³", "g/cm3", Ten(3))];
+const PRESSURE: &[Unit] = &[
+    unit("Pa", "Pa", Ten(0)),
+    unit("kPa", "kPa", Ten(3)),
+    unit("MPa", "MPa", Ten(6)),
+    unit("GPa", "GPa", Ten(9)),
+    also("N/mm²", "N/mm2", Ten(6)),
+];
+const KINEMATIC_VISCOSITY: &[Unit] =
+    &[unit("m²/s", "m2/s", Ten(0)), also("mm²/s", "mm2/s", Ten(-6)), also("cSt", "cSt", Ten(-6))];
+const ACCELERATION: &[Unit] = &[unit("m/s²", "m/s2", Ten(0))];
+const RATIO: &[Unit] = &[unit("", "", Ten(0)), also("%", "%", Ten(-2))];
+
+impl Dimension {
+    /// The units it takes, the SI unit first.
+    pub(super) const fn units(self) -> &'static [Unit] {
+        match self {
+            Self::Length => LENGTH,
+            Self::Velocity => VELOCITY,
+            Self::Time => TIME,
+            Self::Frequency => FREQUENCY,
+            Self::Rate => RATE,
+            Self::Density => DENSITY,
+            Self::Pressure => PRESSURE,
+            Self::KinematicViscosity => KINEMATIC_VISCOSITY,
+            Self::Acceleration => ACCELERATION,
+            Self::Ratio => RATIO,
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! Case files that are read: those of the repository, the starter, and what `write_case` makes of a case.
+#![allow(clippy::unwrap_used)]
+
+use proptest::prelude::*;
+use spunlaid::air::Air;
+use spunlaid::case::{Case, Run};
+use spunlaid::chain::schemes::Scheme;
+use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
+use spunlaid::fibre::{Fibre, Root};
+use spunlaid::input::{parse_case, read_case, starter_case, write_case};
+use spunlaid::vec3::Vec3;
+use std::fs;
+use std::path::Path;
+
+/// Equal texts mean equal bits: numbers are shown by their shortest text that reads back, `-0.0` apart from `0.0`.
+fn bits(case: &Case) -> String {
+    format!("{case:?}")
+}
+
+fn read_again(case: &Case) -> Case {
+    let text = write_case(case);
+    let (again, _) = parse_case(&text, "case.toml", &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    assert_eq!(write_case(&again), text);
+    again
+}
+
+fn remarks(text: &str) -> Vec<String> {
+    let (_, notes) = parse_case(text, "case.toml", &[]).unwrap();
+    notes.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn identical_every_case_of_the_repository() {
+    let mut seen = 0;
+    for entry in fs::read_dir("../../cases").unwrap() {
+        let (case, notes) = read_case(&entry.unwrap().path(), &[]).unwrap();
+        assert_eq!(notes, []);
+        assert_eq!(bits(&read_again(&case)), bits(&case));
+        seen += 1;
+    }
+    assert!(seen >= 4);
+}
+
+#[test]
+fn identical_starter_table_1_and_the_starter_with_its_defaults_spelt_out() {
+    let (starter, notes) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
+    assert_eq!(notes, []);
+    let (table1, _) = read_case(Path::new("../../cases/table1.toml"), &[]).unwrap();
+    assert_eq!(bits(&starter), bits(&table1));
+
+    let spelt_out: String = (starter_case().lines())
+        .map(|line| match line.strip_prefix("# ") {
+            Some(key) if key.starts_with('[') || key.split(' ').nth(1) == Some("=") => {
+                format!("{key}\n")
+            }
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    let (case, _) = parse_case(&spelt_out, "starter.toml", &[]).unwrap();
+    assert_eq!(bits(&case), bits(&starter));
+    // Every key there is, is in the starter.
+    let keys = |text: &str| {
+        let mut keys: Vec<_> =
+            (text.lines().filter_map(|line| line.split_once(" = "))).map(|(key, _)| key.to_owned()).collect();
+        keys.sort();
+        keys
+    };
+    assert_eq!(keys(&spelt_out), keys(&write_case(&starter)));
+}
+
+#[test]
+fn table_1_is_read_in_si_units() {
+    let (case, _) = read_case(Path::new("../../cases/table1.toml"), &[]).unwrap();
+    let meant = Case {
+        fibre: Fibre {
+            length: 1.0,
+            diameter: 5e-5,
+            density: 950.0,
+            youngs_modulus: 2e9,
+            elements: 20,
+            root: Root::Pinned,
+            direction: Vec3::new(1.0, 0.0, 0.0),
+        },
+        air: Air {
+            velocity: 10.0,
+            turbulence_intensity: 0.1,
+            length_scale: 0.05,
+            cutoff_frequency: 100.0,
+            density: 1.204,
+            kinematic_viscosity: 1.51e-5,
+            harmonics: 256,
+        },
+        drag: Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient: 0.9 },
+        run: Run {
+            time_step: 1e-6,
+            steps: 1_000_000,
+            spin_up_steps: 0,
+            output_steps: 1000,
+            replicates: 10,
+            seed: 1,
+            scheme: Scheme::SemiImplicitEuler,
+            gravity: 9.81,
+            damping: 0.0,
+        },
+    };
+    assert_eq!(bits(&case), bits(&meant));
+}
+
+#[test]
+fn overrides_replace_and_add() {
+    let set = [
+        ("air.velocity", "20 m/s"),
+        ("fibre.diameter", "\"18 um\""),
+        ("run.scheme", "leapfrog"),
+        ("run.seed", "7"),
+    ]
+    .map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let (case, _) = parse_case(starter_case(), "starter.toml", &set).unwrap();
+    assert_eq!((case.air.velocity, case.fibre.diameter), (20.0, 18e-6));
+    assert_eq!((case.run.scheme, case.run.seed), (Scheme::Leapfrog, 7));
+}
+
+#[test]
+fn what_was_rounded_is_said() {
+    let with = |line: &str| {
+        let key = line.split(' ').next().unwrap();
+        let kept = starter_case().lines().filter(|old| !old.starts_with(&format!("{key} =")));
+        let mut text: String = kept.map(|line| format!("{line}\n")).collect();
+        let table = if key == "element_length" || key == "diameter" { "[fibre]\n" } else { "[run]\n" };
+        let at = text.find(table).unwrap() + table.len();
+        text.insert_str(at, &format!("{line}\n"));
+        text
+    };
+    for (line, said) in [
+        (
+            "element_length = \"30 mm\"",
+            "case.toml:7: fibre.element_length = \"30 mm\" leaves no whole number of elements: 33 of 30.3 mm are taken",
+        ),
+        (
+            "element_length = \"3 m\"",
+            "case.toml:7: fibre.element_length = \"3 m\" leaves no whole number of elements: 1 of 1 m is taken\n\
+             case.toml:19: air.length_scale = \"50 mm\" is shorter than the elements, 1 m: an element feels only the eddy \
+             at its centre; shorten fibre.element_length to feel all",
+        ),
+        (
+            "time_step = \"3 µs\"",
+            "case.toml:30: run.time_step = \"3 µs\" leaves no whole number of steps in run.duration: 333334 of 2.999994 µs are taken",
+        ),
+        (
+            "spin_up = \"1.4 µs\"",
+            "case.toml:30: run.spin_up = \"1.4 µs\" is no whole number of time steps: 1 µs is taken",
+        ),
+        (
+            "output_interval = \"0.1 µs\"",
+            "case.toml:30: run.output_interval = \"0.1 µs\" is no whole number of time steps: 1 µs is taken",
+        ),
+        (
+            "diameter = \"500 µm\"",
+            "case.toml:7: fibre.diameter = \"500 µm\" is outside 13 µm to 390 µm, the diameters drag.across = \"ju-shambaugh\" \
+             was fitted for; the drag across the fibre is extrapolated",
+        ),
+    ] {
+        assert_eq!(remarks(&with(line)).join("\n"), said);
+    }
+}
+
+#[test]
+fn identical_at_the_fuzzers_findings() {
+    for entry in fs::read_dir("tests/fuzz_findings").unwrap() {
+        let text = String::from_utf8_lossy(&fs::read(entry.unwrap().path()).unwrap()).into_owned();
+        if let Ok((case, _)) = parse_case(&text, "finding.toml", &[]) {
+            case.check().unwrap();
+            assert_eq!(bits(&read_again(&case)), bits(&case));
+        }
+    }
+}
+
+/// A number between powers of ten, with all its digits.
+fn between(low: i32, high: i32) -> impl Strategy<Value = f64> {
+    (f64::from(low)..f64::from(high)).prop_map(|power| 10f64.powf(power))
+}
+
+prop_compose! {
+    fn fibre()(
+        length in between(-2, 2), diameter in between(-5, -3), density in between(2, 4), youngs_modulus in between(7, 11),
+        elements in 1usize..3000, root in prop::sample::select(vec![Root::Pinned, Root::Clamped, Root::Free]),
+        x in -1f64..1.0, y in -1f64..1.0, z in prop::sample::select(vec![0.0, -0.0, 0.3]),
+    ) -> Fibre {
+        let v = Vec3::new(x, y, z);
+        let direction = v * (1.0 / v.norm());
+        let n = direction.norm();
+        let direction = Vec3::new(direction.x / n, direction.y / n, direction.z / n);
+        Fibre { length, diameter, density, youngs_modulus, elements, root, direction }
+    }
+}
+
+prop_compose! {
+    fn case()(
+        fibre in fibre(),
+        (velocity, turbulence_intensity, length_scale, cutoff_frequency) in (-50f64..50.0, 0f64..1.0, between(-2, 1), between(0, 3)),
+        (density, kinematic_viscosity, more_harmonics, friction_coefficient) in (0f64..2.0, between(-6, -4), 1usize..50, 0f64..2.0),
+        (share, steps, spin_up, output, damping) in (0.01f64..0.99, 1u64..1_000_000_000, 0f64..1.0, 0f64..1.0, 0f64..100.0),
+        (replicates, seed, leapfrog, gravity) in (1u64..100, any::<u64>(), any::<bool>(), -10f64..10.0),
+    ) -> Case {
+        let air = Air {
+            velocity, turbulence_intensity, length_scale, cutoff_frequency, density, kinematic_viscosity, harmonics: 1,
+        };
+        let scheme = if leapfrog { Scheme::Leapfrog } else { Scheme::SemiImplicitEuler };
+        let spin_up_steps = (spin_up * steps as f64) as u64;
+        let output_steps = 1 + (output * (steps - 1) as f64) as u64;
+        let run = Run {
+            time_step: 1.0, steps, spin_up_steps, output_steps, replicates, seed, scheme, gravity, damping,
+        };
+        let drag = Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient };
+        let mut case = Case { fibre, air, drag, run };
+        let limit = case.stable_step_limits().map(|limit| limit.limit).into_iter().fold(f64::INFINITY, f64::min);
+        case.run.time_step = share * limit;
+        case.air.harmonics = (case.air.cutoff_frequency * case.run.duration()) as usize + more_harmonics;
+        case
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn identical_after_writing_and_reading(case in case()) {
+        prop_assume!(case.check().is_ok());
+        prop_assert_eq!(bits(&read_again(&case)), bits(&case));
+    }
+
+    #[test]
+    fn identical_once_rounded(
+        length in 0.1f64..3.0, element in 1e-2f64..0.2, step in 1e-8f64..5e-6, duration in 1e-4f64..2.0,
+        output in 1e-7f64..1e-4,
+    ) {
+        let set = [
+            ("fibre.length", format!("{length} m")), ("fibre.element_length", format!("{element} m")),
+            ("run.time_step", format!("{step} s")), ("run.duration", format!("{duration} s")),
+            ("run.output_interval", format!("{output} s")),
+        ].map(|(key, value)| (key.to_owned(), value));
+        let read = parse_case(starter_case(), "starter.toml", &set);
+        prop_assume!(read.is_ok());
+        let (case, _) = read.unwrap();
+        prop_assert!((case.run.duration() / duration - 1.0).abs() < 1e-14);
+        prop_assert!(case.run.time_step <= step * (1.0 + 1e-14));
+        prop_assert_eq!(bits(&read_again(&case)), bits(&case));
+        // What has been resolved leaves nothing to remark on rounding.
+        let notes = remarks(&write_case(&case));
+        prop_assert!(notes.iter().all(|note| !note.contains("whole number")), "{:?}", notes);
+    }
+}
