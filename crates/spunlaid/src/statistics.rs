@@ -96,9 +96,8 @@ impl PowerSpectrum {
         let length = self.window.len();
         let segments = std::mem::take(&mut self.waiting);
         let at = |i: usize, t: usize| segments.get(i).map_or(0.0, |s| s[t]);
-        let mut data: Vec<Complex> = (0..length)
-            .map(|t| Complex { re: Lanes::from_fn(|i| at(i, t)), im: Lanes::ZERO })
-            .collect();
+        let mut data: Vec<Complex> =
+            (0..length).map(|t| Complex { re: Lanes::from_fn(|i| at(i, t)), im: Lanes::ZERO }).collect();
         let mut scratch = data.clone();
         self.transform.run(&mut data, &mut scratch);
         for (sum, y) in self.sum.iter_mut().zip(&data) {

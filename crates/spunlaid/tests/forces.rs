@@ -13,14 +13,8 @@ const AIR: ReferenceDrag = ReferenceDrag { air_density: 1.204, viscosity: 1.51e-
 
 /// A stubby fibre, so that tension, bending, drag and gravity all count in the sum.
 fn stubby(root: Root) -> Strand {
-    let fibre = Fibre {
-        length: 0.05,
-        diameter: 300e-6,
-        youngs_modulus: 1e6,
-        elements: 10,
-        root,
-        ..table1_fibre()
-    };
+    let fibre =
+        Fibre { length: 0.05, diameter: 300e-6, youngs_modulus: 1e6, elements: 10, root, ..table1_fibre() };
     let drag = paper_drag().of_element(&fibre, AIR.air_density, AIR.viscosity);
     Strand { fibre, drag, gravity: 9.81, damping: 0.0 }
 }
@@ -144,9 +138,10 @@ fn analytic_terminal_velocity_along_and_across() {
     let (d, nu, rho) = (strand.fibre.diameter, AIR.viscosity, AIR.air_density);
     let weight = strand.fibre.density * strand.fibre.cross_section() * 9.81;
     // ½πdρβ(Vd/ν)^-0.61 V² = w and ½dρ·6.96(Vd/ν)^-0.44(d/d₀)^0.404 V² = w, per length, for V.
-    let along = (weight / (0.5 * std::f64::consts::PI * d * rho * 0.9 * (d / nu).powf(-0.61))).powf(1.0 / 1.39);
-    let across =
-        (weight / (0.5 * d * rho * 6.96 * (d / nu).powf(-0.44) * (d / 78e-6f64).powf(0.404))).powf(1.0 / 1.56);
+    let along =
+        (weight / (0.5 * std::f64::consts::PI * d * rho * 0.9 * (d / nu).powf(-0.61))).powf(1.0 / 1.39);
+    let across = (weight / (0.5 * d * rho * 6.96 * (d / nu).powf(-0.44) * (d / 78e-6f64).powf(0.404)))
+        .powf(1.0 / 1.56);
     let l = strand.fibre.rest_length();
     for (heading, speed) in [(X, along), (Y, across)] {
         let r: Vec<V> = (0..=strand.fibre.elements).map(|i| heading * (l * i as f64)).collect();
@@ -171,7 +166,8 @@ fn analytic_terminal_velocity_is_reached_by_falling() {
         let expected = if heading == X {
             (weight / (0.5 * std::f64::consts::PI * d * rho * 0.9 * (d / nu).powf(-0.61))).powf(1.0 / 1.39)
         } else {
-            (weight / (0.5 * d * rho * 6.96 * (d / nu).powf(-0.44) * (d / 78e-6f64).powf(0.404))).powf(1.0 / 1.56)
+            (weight / (0.5 * d * rho * 6.96 * (d / nu).powf(-0.44) * (d / 78e-6f64).powf(0.404)))
+                .powf(1.0 / 1.56)
         };
         // Small departures die out as e^(−1.39 g t/V): forty times V/g leaves nothing to see.
         let h = 2e-5;
@@ -182,7 +178,10 @@ fn analytic_terminal_velocity_is_reached_by_falling() {
         bundle.advance(steps);
         for v in &bundle.chain().velocity {
             let v = v.lane(0);
-            assert!((v - X * expected).norm() < 1e-6 * expected, "{heading:?}: {v:?}, expected {expected} m/s");
+            assert!(
+                (v - X * expected).norm() < 1e-6 * expected,
+                "{heading:?}: {v:?}, expected {expected} m/s"
+            );
         }
     }
 }

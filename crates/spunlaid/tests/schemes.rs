@@ -110,7 +110,11 @@ fn identical_on_every_instruction_set() {
                 let (s, amplitude) = flown(isa, scheme, damping, 1e-5, 4e-3);
                 let nodes = s.position.iter().chain(&s.velocity).flat_map(|p| [p.x, p.y, p.z]);
                 let energies = [s.energy.work, s.energy.drag_work, s.energy.damping_work, s.energy.bending];
-                nodes.chain(energies).flat_map(|l| l.0.map(f64::to_bits)).chain([amplitude.to_bits()]).collect::<Vec<_>>()
+                nodes
+                    .chain(energies)
+                    .flat_map(|l| l.0.map(f64::to_bits))
+                    .chain([amplitude.to_bits()])
+                    .collect::<Vec<_>>()
             };
             let expected = bits(Isa::Baseline);
             for isa in Isa::available() {

@@ -36,18 +36,16 @@ fn at_rest(elements: usize, tip_load: [f64; WIDTH], gravity: [f64; WIDTH]) -> Ve
     // First mode: 3.516 √(EI/ρA)/L² = 0.88 rad/s; damping near critical for it stops everything.
     let stiffness = fibre.youngs_modulus * fibre.second_moment();
     let w1 = 3.516 * (stiffness / (fibre.density * fibre.cross_section())).sqrt();
-    let strands: Vec<Strand> = gravity
-        .iter()
-        .map(|&g| Strand { fibre, drag: NO_DRAG, gravity: g, damping: 2.0 * w1 })
-        .collect();
+    let strands: Vec<Strand> =
+        gravity.iter().map(|&g| Strand { fibre, drag: NO_DRAG, gravity: g, damping: 2.0 * w1 }).collect();
     let h = 0.6 * fibre.axial_step_limit().min(fibre.bending_step_limit());
     let duration = 25.0 / w1;
     let (eddies, turbulence) = steady_air(0.0, elements, duration);
     let mut bundle =
         Bundle::new(Isa::detect(), &strands, &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
     // The tip load as a kick of the tip's momentum before every step.
-    let kick = Vec3::new(Lanes(tip_load), Lanes::ZERO, Lanes::ZERO)
-        * Lanes::splat(h / fibre.node_mass(elements));
+    let kick =
+        Vec3::new(Lanes(tip_load), Lanes::ZERO, Lanes::ZERO) * Lanes::splat(h / fibre.node_mass(elements));
     for _ in 0..(duration / h) as u64 {
         bundle.push(elements, kick);
         bundle.advance(1);

@@ -94,9 +94,8 @@ fn stat_mean_variance_and_independence() {
     }
     // Correlations of pairs: each is Σ over N_h harmonics of cos(φ−φ')/N_h, of deviation 1/√(2N_h).
     let deviation = 1.0 / (2.0 * air.harmonics as f64).sqrt();
-    let correlation = |a: &[f64], b: &[f64]| {
-        a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / (a.len() as f64 * u2)
-    };
+    let correlation =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / (a.len() as f64 * u2);
     let (mut sum, mut pairs) = (0.0, 0);
     for i in 0..all.len() {
         for j in 0..i {
@@ -129,7 +128,9 @@ fn stat_phases_are_uniform_between_replicates() {
     let n = values.len() as f64;
     let moment = |k: i32| values.iter().map(|u| u.powi(k)).sum::<f64>() / n;
     // Standard errors of the moments of a normal variable: 1, √2, √15, √96 over √n.
-    for (k, expected, error) in [(1, 0.0, 1.0), (2, 1.0, 2f64.sqrt()), (3, 0.0, 15f64.sqrt()), (4, 3.0, 96f64.sqrt())] {
+    for (k, expected, error) in
+        [(1, 0.0, 1.0), (2, 1.0, 2f64.sqrt()), (3, 0.0, 15f64.sqrt()), (4, 3.0, 96f64.sqrt())]
+    {
         let off = (moment(k) - expected).abs() / (error / n.sqrt());
         assert!(off < 4.0, "moment {k}: {} is {off} standard errors off", moment(k));
     }
@@ -172,7 +173,8 @@ fn stat_autocorrelation_is_the_cardinal_sine() {
     let step = 2.0 * PI * air.cutoff_frequency / air.harmonics as f64;
     for record in records(air, 5, interval, period).iter().take(5) {
         for lag in [1, 7, 16, 33, 64, 150] {
-            let c = (0..samples).map(|i| record[i] * record[(i + lag) % samples]).sum::<f64>() / samples as f64;
+            let c =
+                (0..samples).map(|i| record[i] * record[(i + lag) % samples]).sum::<f64>() / samples as f64;
             let tau = lag as f64 * interval;
             let cutoff = 2.0 * PI * air.cutoff_frequency;
             let sinc = (cutoff * tau).sin() / (cutoff * tau);

@@ -108,12 +108,11 @@ fn hung(fibre: &Fibre, gravity: f64) -> (Vec<V>, Vec<f64>) {
 #[test]
 fn published_hanging_chain() {
     // Frequencies of the bead chain itself [Hz], computed elsewhere.
-    for (elements, published) in
-        [(20, [0.59894, 1.36261, 2.07626]), (100, [0.59937, 1.37532, 2.15360])]
-    {
+    for (elements, published) in [(20, [0.59894, 1.36261, 2.07626]), (100, [0.59937, 1.37532, 2.15360])] {
         let fibre = thread(elements);
         let (nodes, tension) = hung(&fibre, 9.81);
-        let (discrete, modes) = vibrations(&string_stiffness(&tension, fibre.rest_length()), &node_masses(&fibre));
+        let (discrete, modes) =
+            vibrations(&string_stiffness(&tension, fibre.rest_length()), &node_masses(&fibre));
         let h = 0.5 * fibre.axial_step_limit();
         let flown = flown_frequencies(fibre, 9.81, &nodes, &modes[..3], Y, 1e-4, (h, 6.0));
         for i in 0..3 {
@@ -178,7 +177,8 @@ fn analytic_clamped_beam() {
         assert!((flown[i] / discrete[i] - 1.0).abs() < 1e-5, "mode {i}: {} of {} Hz", flown[i], discrete[i]);
     }
     // βL = 1.87510, 4.69409, 7.85476: the discrete error falls by four when the elements halve.
-    let wave = (fibre.youngs_modulus * fibre.second_moment() / (fibre.density * fibre.cross_section())).sqrt();
+    let wave =
+        (fibre.youngs_modulus * fibre.second_moment() / (fibre.density * fibre.cross_section())).sqrt();
     let (coarse, _) = bending(&Fibre { elements: 40, ..fibre });
     let (fine, _) = bending(&Fibre { elements: 80, ..fibre });
     for (i, beta) in [1.875_104, 4.694_091, 7.854_757].into_iter().enumerate() {
@@ -199,9 +199,7 @@ fn analytic_axial_chain() {
         w * ((2 * mode + 1) as f64 * PI / (4 * n) as f64).sin() / (2.0 * PI)
     };
     let modes: Vec<Vec<f64>> = (0..4)
-        .map(|mode| {
-            (1..=n).map(|i| ((2 * mode + 1) as f64 * PI * i as f64 / (2 * n) as f64).sin()).collect()
-        })
+        .map(|mode| (1..=n).map(|i| ((2 * mode + 1) as f64 * PI * i as f64 / (2 * n) as f64).sin()).collect())
         .collect();
     let nodes: Vec<V> = (0..=n).map(|i| X * (l * i as f64)).collect();
     let h = 0.02 * fibre.axial_step_limit();

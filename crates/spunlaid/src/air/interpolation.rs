@@ -139,12 +139,7 @@ impl<'a> Wind<'a> {
             one_at_a_time();
             let rise = b.0 - a.0;
             let mean = if column % 3 == 0 { self.turbulence.mean } else { Lanes::ZERO };
-            *cubic = [
-                a.0 + mean,
-                a.1,
-                three.mul_add(rise, -(two * a.1 + b.1)),
-                a.1 + b.1 - two * rise,
-            ];
+            *cubic = [a.0 + mean, a.1, three.mul_add(rise, -(two * a.1 + b.1)), a.1 + b.1 - two * rise];
         }
         self.cell = Some(cell);
     }

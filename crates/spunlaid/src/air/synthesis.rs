@@ -102,18 +102,15 @@ impl Task for Synthesis<'_> {
         let mut bins = vec![Complex::default(); half];
         let mut scratch = bins.clone();
         for column in 0..columns {
-            let mut phases: [_; WIDTH] =
-                std::array::from_fn(|i| pick(i).1.phases(column / 3, column % 3));
+            let mut phases: [_; WIDTH] = std::array::from_fn(|i| pick(i).1.phases(column / 3, column % 3));
             bins.fill(Complex::default());
             for (n, &a) in amplitude.iter().enumerate() {
                 one_at_a_time();
                 let (cos, sin) = cos_sin_turn(Lanes::from_fn(|i| phases[i]()));
                 // Half the size for a real signal of half-odd frequencies: theory.md (18).
                 let (bin, sign) = if n % 2 == 0 { ((half - n / 2) % half, -1.0) } else { (n / 2 + 1, 1.0) };
-                bins[bin] = Complex {
-                    re: a.mul_add(cos, bins[bin].re),
-                    im: (a * sign).mul_add(sin, bins[bin].im),
-                };
+                bins[bin] =
+                    Complex { re: a.mul_add(cos, bins[bin].re), im: (a * sign).mul_add(sin, bins[bin].im) };
             }
             transform.run(&mut bins, &mut scratch);
             let wave: Vec<Complex> = bins.iter().zip(&turn_back).map(|(&z, &t)| z.times(t)).collect();
@@ -126,11 +123,6 @@ impl Task for Synthesis<'_> {
                 row[column] = if laps % 2 == 0 { value } else { -value };
             }
         }
-        Turbulence {
-            samples,
-            eddies: self.eddies,
-            spacing,
-            mean: Lanes::from_fn(|i| pick(i).0.velocity),
-        }
+        Turbulence { samples, eddies: self.eddies, spacing, mean: Lanes::from_fn(|i| pick(i).0.velocity) }
     }
 }

@@ -2,15 +2,16 @@
 
 use super::Computing;
 use super::bundle::{Bundle, Snapshot};
-use crate::air::{Air, Eddies, StreamKey, Turbulence};
+use crate::air::{Air, StreamKey, Turbulence};
 use crate::case::Case;
 use crate::chain::Strand;
 use crate::energy::Energy;
 use crate::error::Error;
-use crate::lanes::WIDTH;
+use crate::lanes::{Isa, WIDTH};
 use crate::observe::{EndNodeMotion, NodeSpread, SpreadObserver};
 use crate::vec3::Vec3;
 use std::sync::atomic::Ordering;
+use std::time::Instant;
 
 /// One replicate of a case: the unit of work, fully described by data.
 #[derive(Clone, Copy, Debug)]
@@ -138,7 +139,7 @@ pub(super) fn fly_bundle(
 ) -> Result<Vec<Flight>, Error> {
     let case = jobs[0].case;
     let run = &case.run;
-    let eddies = Eddies::along(case.fibre.length, case.fibre.elements, case.air.length_scale);
+    let eddies = case.eddies();
     let streams: Vec<(Air, StreamKey)> = jobs
         .iter()
         .map(|job| (job.case.air, StreamKey { seed: job.case.run.seed, replicate: job.replicate }))
@@ -192,6 +193,25 @@ pub(super) fn fly_bundle(
         flight.nodes = spread.nodes(lane);
     }
     Ok(flights)
+}
+
+/// Time a bundle takes for a step of a case on this machine [s], tried out for a moment.
+pub fn pace(case: &Case, isa: Isa) -> f64 {
+    const TRIAL: f64 = 0.05;
+    let run = &case.run;
+    let eddies = case.eddies();
+    let stream = [(case.air, StreamKey { seed: run.seed, replicate: 0 })];
+    let steps = (2e5 / case.fibre.elements as f64).clamp(1.0, 1e4) as u64;
+    let horizon = (steps * 100) as f64 * run.time_step;
+    let turbulence = Turbulence::synthesise(isa, &stream, eddies.count(), horizon.min(run.duration()));
+    let strands = [case.strand()];
+    let bundle = Bundle::new(isa, &strands, &eddies, &turbulence, run.scheme, run.time_step, 0);
+    let (mut done, started) = (0, Instant::now());
+    while done == 0 || started.elapsed().as_secs_f64() < TRIAL {
+        bundle.clone().advance(steps.min(run.steps));
+        done += steps.min(run.steps);
+    }
+    started.elapsed().as_secs_f64() / done as f64
 }
 
 /// Refuses positions that are no longer numbers, naming the node and the time.

@@ -6,10 +6,10 @@ mod order;
 mod results;
 mod turbulence;
 
-pub use flight::{Flight, Job, KeepShapes, Sample, Shape};
+pub use flight::{Flight, Job, KeepShapes, Sample, Shape, pace};
 pub use order::in_order;
-pub use turbulence::{SpectrumPoint, turbulence_spectrum};
 pub use results::{Collector, EndNodeResults, ErrorOverTime, LedgerError, NodeResults, Results};
+pub use turbulence::{SpectrumPoint, turbulence_spectrum};
 
 use crate::case::Case;
 use crate::error::Error;
@@ -52,8 +52,6 @@ pub fn fly<E: From<Error>>(
             let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
             flight::fly_bundle(&jobs, keep_shapes, computing)
         },
-        |flights| {
-            flights?.into_iter().try_for_each(&mut take)
-        },
+        |flights| flights?.into_iter().try_for_each(&mut take),
     )
 }

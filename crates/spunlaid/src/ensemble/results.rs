@@ -180,9 +180,8 @@ impl Collector {
             final_mean: mean_of_finite(&self.finals[i]),
             time_median: median(&self.medians[i]),
         };
-        let estimate = |(mean, squares): (f64, f64)| {
-            (mean, (n > 1.0).then(|| (squares / (n - 1.0) / n).sqrt()))
-        };
+        let estimate =
+            |(mean, squares): (f64, f64)| (mean, (n > 1.0).then(|| (squares / (n - 1.0) / n).sqrt()));
         let nodes = self.nodes.iter().enumerate().map(|(i, &[y, z])| NodeResults {
             distance: i as f64 * self.rest_length,
             amplitude_y: estimate(y),

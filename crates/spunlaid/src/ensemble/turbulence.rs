@@ -1,7 +1,7 @@
 //! The turbulence the fibres fly in, measured as a hot wire would.
 
 use super::Computing;
-use crate::air::{Air, Eddies, StreamKey, Turbulence, Wind};
+use crate::air::{Air, StreamKey, Turbulence, Wind};
 use crate::case::Case;
 use crate::lanes::WIDTH;
 use crate::statistics::PowerSpectrum;
@@ -25,11 +25,10 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<Spectru
         return Vec::new();
     }
     let duration = case.run.duration();
-    let eddies = Eddies::along(case.fibre.length, case.fibre.elements, case.air.length_scale);
+    let eddies = case.eddies();
     let lanes = case.run.replicates.min(WIDTH as u64) as usize;
-    let streams: Vec<(Air, StreamKey)> = (0..lanes)
-        .map(|i| (case.air, StreamKey { seed: case.run.seed, replicate: i as u64 }))
-        .collect();
+    let streams: Vec<(Air, StreamKey)> =
+        (0..lanes).map(|i| (case.air, StreamKey { seed: case.run.seed, replicate: i as u64 })).collect();
     let turbulence = Turbulence::synthesise(computing.isa, &streams, eddies.count(), duration);
     let mut wind = Wind::new(&turbulence);
     let interval = 1.0 / (8.0 * case.air.cutoff_frequency);

@@ -76,21 +76,12 @@ pub fn in_all_lanes(vectors: &[V]) -> Vec<Vec3<Lanes>> {
 pub fn kernel_forces(strand: &Strand, air_velocity: f64, position: &[V], velocity: &[V]) -> Vec<V> {
     let h = 1e-3;
     let (eddies, turbulence) = steady_air(air_velocity, strand.fibre.elements, 2.0 * h);
-    let mut bundle = Bundle::new(
-        Isa::detect(),
-        &[*strand],
-        &eddies,
-        &turbulence,
-        Scheme::SemiImplicitEuler,
-        h,
-        0,
-    );
+    let mut bundle =
+        Bundle::new(Isa::detect(), &[*strand], &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
     bundle.restart_from(in_all_lanes(position), in_all_lanes(velocity));
     bundle.advance(1);
     let after = &bundle.chain().velocity;
-    (0..position.len())
-        .map(|i| (after[i].lane(0) - velocity[i]) * (strand.fibre.node_mass(i) / h))
-        .collect()
+    (0..position.len()).map(|i| (after[i].lane(0) - velocity[i]) * (strand.fibre.node_mass(i) / h)).collect()
 }
 
 /// Numbers that look random and never change.

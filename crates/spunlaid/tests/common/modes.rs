@@ -40,9 +40,8 @@ pub fn symmetric_eigen(mut a: Vec<Vec<f64>>) -> (Vec<f64>, Vec<Vec<f64>>) {
 /// Frequencies [Hz] and mode shapes (displacements) of `M q'' = −K q`, `M` diagonal.
 pub fn vibrations(stiffness: &[Vec<f64>], mass: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
     let n = mass.len();
-    let scaled = (0..n)
-        .map(|i| (0..n).map(|j| stiffness[i][j] / (mass[i] * mass[j]).sqrt()).collect())
-        .collect();
+    let scaled =
+        (0..n).map(|i| (0..n).map(|j| stiffness[i][j] / (mass[i] * mass[j]).sqrt()).collect()).collect();
     let (values, vectors) = symmetric_eigen(scaled);
     let frequency = |w2: &f64| w2.max(0.0).sqrt() / (2.0 * std::f64::consts::PI);
     let shape = |q: Vec<f64>| q.iter().zip(mass).map(|(x, m)| x / m.sqrt()).collect();

@@ -1,0 +1,128 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand, ValueHint};
+use clap_complete::Shell;
+use std::path::PathBuf;
+
+/// Simulate fibres in turbulent air: how far and how often the free end swings, and why.
+#[derive(Debug, Parser)]
+#[command(name = "spunlaid", version, about, after_help = EXAMPLES, propagate_version = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  spunlaid new my.toml                              write a commented case to start from
+  spunlaid check my.toml                            see what it means: mesh, limits, time to expect
+  spunlaid run my.toml                              fly it; then open results/my/report.html
+  spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
+
+A case is a small text file: the fibre, the air, the run. Lengths, speeds and the like carry
+their unit (\"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\").
+
+Exit codes: 0 done, 1 the input is wrong (nothing was written), 2 the run failed, 130 interrupted.";
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Fly the fibres of a case and write table, data, figures and report
+    #[command(after_help = RUN_HELP)]
+    Run(Run),
+    /// Read a case and print what it means, without flying it
+    #[command(after_help = CHECK_HELP)]
+    Check(Check),
+    /// Write a commented case file to start from
+    #[command(after_help = "Example:\n  spunlaid new my.toml && spunlaid run my.toml")]
+    New(New),
+    /// Print a script that completes commands and options in your shell
+    #[command(
+        after_help = "Example:\n  spunlaid completions bash > ~/.local/share/bash-completion/completions/spunlaid"
+    )]
+    Completions(Completions),
+}
+
+const RUN_HELP: &str = "\
+The results folder holds
+  report.html          open it in a browser: the fibre moving, figures, table; works offline
+  summary.json         every result with mean, standard error and the replicates' values
+  case.toml            the case with every default written out: run it again for the same bits
+  end_node.parquet     the free end over time      energy.parquet   both energy ledgers over time
+  shape.pvd, shape/    the fibre over time, for ParaView (open shape.pvd)
+  figures/             the report's figures as SVG and PNG
+
+Examples:
+  spunlaid run cases/table1.toml
+  spunlaid run cases/table1.toml --set fibre.diameter=\"18 um\" --replicates 40 --out results/fine";
+
+const CHECK_HELP: &str = "\
+Prints the case with every default written out, the mesh, the longest stable time step, and the
+memory and time to expect.
+
+Example:
+  spunlaid check cases/table1.toml --set fibre.element_length=\"5 mm\"";
+
+/// A case and what to change in it.
+#[derive(Debug, Args)]
+pub(crate) struct CaseSource {
+    /// Case file (TOML)
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub(crate) case: PathBuf,
+    /// Set a key of the case for this time, as air.velocity="20 m/s"; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
+    pub(crate) set: Vec<(String, String)>,
+}
+
+fn key_and_value(text: &str) -> Result<(String, String), String> {
+    let (key, value) = text
+        .split_once('=')
+        .ok_or_else(|| "write a key and a value, as air.velocity=\"20 m/s\"".to_owned())?;
+    Ok((key.trim().to_owned(), value.trim().to_owned()))
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Run {
+    #[command(flatten)]
+    pub(crate) source: CaseSource,
+    /// Folder for the results [default: results/<name of the case>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Number of fibres with different turbulence, in place of run.replicates
+    #[arg(long, value_name = "N")]
+    pub(crate) replicates: Option<u64>,
+    /// Master seed of the turbulence, in place of run.seed
+    #[arg(long, value_name = "S")]
+    pub(crate) seed: Option<u64>,
+    /// Threads to compute on [default: all cores]; results are the same for any number
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// No progress bar and no table; warnings and errors still show
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Print summary.json instead of the table
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace the results in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    #[command(flatten)]
+    pub(crate) source: CaseSource,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct New {
+    /// File to write; must not exist yet
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Completions {
+    /// Shell to complete in
+    pub(crate) shell: Shell,
+}

@@ -1,0 +1,174 @@
+//! `spunlaid run`: fly a case and write what it gives.
+
+use crate::args::Run;
+use crate::failure::Failure;
+use crate::figures::{png, run_figures};
+use crate::output::folder::Staging;
+use crate::output::summary::{Performance, Summary};
+use crate::output::tables::{END_NODE, ENERGY, Table};
+use crate::output::{paraview, table};
+use crate::report::{self, ReportInput};
+use crate::{progress, say};
+use spunlaid::case::{Case, Note};
+use spunlaid::ensemble::{Computing, KeepShapes, Results, fly, turbulence_spectrum};
+use spunlaid::input::{read_case, write_case};
+use spunlaid::lanes::{Isa, WIDTH};
+use std::ffi::OsStr;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Instant;
+
+/// Replicates kept whole for the report and ParaView.
+const KEPT: usize = WIDTH;
+/// Node positions kept for the report and ParaView: 24 bytes each.
+const POSITIONS: u64 = 4_000_000;
+
+/// Set by Ctrl-C.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+pub(crate) fn run(run: &Run) -> Result<(), Failure> {
+    let (case, notes) = read_case(&run.source.case, &overrides(run))?;
+    notes.iter().for_each(say::note);
+    let folder = run.out.clone().unwrap_or_else(|| default_folder(run));
+    let staging = Staging::new(&folder, run.force)?;
+    // Without a handler Ctrl-C still ends the program, only less tidily.
+    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
+
+    let fibre_steps = AtomicU64::new(0);
+    let computing = Computing {
+        threads: threads(run.threads),
+        isa: Isa::detect(),
+        stop: &STOP,
+        fibre_steps: &fibre_steps,
+    };
+    let started = Instant::now();
+    let results = progress::follow(
+        &fibre_steps,
+        case.run.steps * case.run.replicates,
+        &format!("flying {}", plural(case.run.replicates, "fibre")),
+        run.quiet,
+        || flights(&case, computing, &staging),
+    )?;
+    let performance = performance(&case, computing, started.elapsed().as_secs_f64());
+
+    let notes: Vec<String> = notes.iter().map(Note::to_string).collect();
+    let summary = Summary::new(&case, &results, performance, notes.clone()).to_json();
+    let name = case_name(run).to_string_lossy().into_owned();
+    let written = Written { name, case: &case, results: &results, notes, performance, summary: &summary };
+    written.to(&staging, computing)?;
+    staging.publish()?;
+
+    if run.json {
+        say::text(&summary);
+    } else if !run.quiet {
+        say::text(&table::results(&case, &results));
+        let seconds = performance.wall_s;
+        say::line(&format!(
+            "\n{} in {seconds:.2} s, {:.1} ns per element and step and thread ({}, {})",
+            plural(case.run.replicates, "fibre"),
+            performance.ns_per_element_step,
+            performance.instruction_set,
+            plural(performance.threads as u64, "thread")
+        ));
+        say::line(&format!("open {}", folder.join("report.html").display()));
+    }
+    Ok(())
+}
+
+/// The command line's changes to the case.
+fn overrides(run: &Run) -> Vec<(String, String)> {
+    let own = [("run.replicates", run.replicates), ("run.seed", run.seed)];
+    let own = own.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?.to_string())));
+    run.source.set.iter().cloned().chain(own).collect()
+}
+
+/// `results/<name of the case>`.
+fn default_folder(run: &Run) -> PathBuf {
+    PathBuf::from("results").join(case_name(run))
+}
+
+fn case_name(run: &Run) -> &OsStr {
+    run.source.case.file_stem().unwrap_or("run".as_ref())
+}
+
+fn threads(asked: Option<u16>) -> usize {
+    asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
+}
+
+/// Flies all replicates; tables are written as they come.
+fn flights(case: &Case, computing: Computing<'_>, staging: &Staging) -> Result<Results, Failure> {
+    let mut end_node = Table::create(&staging.path("end_node.parquet"), END_NODE)?;
+    let mut energy = Table::create(&staging.path("energy.parquet"), ENERGY)?;
+    let mut collector = Results::collector(case, KEPT);
+    fly(case, KeepShapes::within(case, POSITIONS), computing, |flight| {
+        end_node.add(&flight)?;
+        energy.add(&flight)?;
+        collector.take(&flight);
+        Ok::<(), Failure>(())
+    })?;
+    end_node.finish()?;
+    energy.finish()?;
+    Ok(collector.finish())
+}
+
+fn performance(case: &Case, computing: Computing<'_>, wall_s: f64) -> Performance {
+    let threads = computing.threads.min(case.run.replicates.div_ceil(WIDTH as u64) as usize);
+    let element_steps = case.fibre.elements as u64 * case.run.steps * case.run.replicates;
+    Performance {
+        wall_s,
+        threads,
+        element_steps,
+        ns_per_element_step: wall_s * threads as f64 / element_steps as f64 * 1e9,
+        instruction_set: computing.isa.name(),
+    }
+}
+
+/// Everything the files are made of.
+struct Written<'a> {
+    name: String,
+    case: &'a Case,
+    results: &'a Results,
+    notes: Vec<String>,
+    performance: Performance,
+    summary: &'a str,
+}
+
+impl Written<'_> {
+    fn to(&self, staging: &Staging, computing: Computing<'_>) -> Result<(), Failure> {
+        let case_toml = write_case(self.case);
+        let turbulence = turbulence_spectrum(self.case, computing);
+        let figures = run_figures(self.case, self.results, &turbulence);
+        for figure in &figures {
+            staging.write(&format!("figures/{}.svg", figure.name), &figure.svg)?;
+            let png = png(&figure.svg).map_err(|reason| Failure::Figure {
+                name: figure.name.clone(),
+                reason: reason.to_string(),
+            })?;
+            staging.write(&format!("figures/{}.png", figure.name), png)?;
+        }
+        let report = report::html(&ReportInput {
+            name: &self.name,
+            case: self.case,
+            case_toml: &case_toml,
+            results: self.results,
+            figures: &figures,
+            notes: &self.notes,
+            performance: report::Performance {
+                wall_seconds: self.performance.wall_s,
+                threads: self.performance.threads,
+                nanoseconds_per_element_step: self.performance.ns_per_element_step,
+                instructions: self.performance.instruction_set,
+            },
+            version: env!("CARGO_PKG_VERSION"),
+        });
+        paraview::write(staging, &self.results.flights, self.case.fibre.rest_length())?;
+        staging.write("case.toml", case_toml)?;
+        staging.write("report.html", report)?;
+        staging.write("summary.json", self.summary)
+    }
+}
+
+/// `1 fibre`, `2 fibres`.
+fn plural(count: u64, of: &str) -> String {
+    if count == 1 { format!("1 {of}") } else { format!("{count} {of}s") }
+}

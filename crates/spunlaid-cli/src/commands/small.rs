@@ -1,0 +1,35 @@
+//! `spunlaid new` and `spunlaid completions`.
+
+use crate::args::{Arguments, Completions, New};
+use crate::failure::Failure;
+use crate::say;
+use clap::CommandFactory;
+use spunlaid::input::starter_case;
+use std::fs::OpenOptions;
+use std::io::{ErrorKind, Write};
+
+/// Writes a commented case to start from; never over a file.
+pub(crate) fn new(new: &New) -> Result<(), Failure> {
+    let path = &new.file;
+    let written = OpenOptions::new().write(true).create_new(true).open(path).and_then(|mut file| {
+        file.write_all(starter_case().as_bytes()).inspect_err(|_| {
+            let _ = std::fs::remove_file(path);
+        })
+    });
+    match written {
+        Ok(()) => {
+            say::line(&format!("wrote {}; change it, then: spunlaid run {}", path.display(), path.display()));
+            Ok(())
+        }
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Failure::Exists { path: path.clone() }),
+        Err(source) => Err(Failure::Unwritable { path: path.clone(), source }),
+    }
+}
+
+/// Prints a completion script.
+pub(crate) fn completions(completions: &Completions) -> Result<(), Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(completions.shell, &mut Arguments::command(), "spunlaid", &mut script);
+    say::text(&String::from_utf8_lossy(&script));
+    Ok(())
+}

@@ -1,0 +1,7 @@
+//! Files of a results folder.
+
+pub(crate) mod folder;
+pub(crate) mod paraview;
+pub(crate) mod summary;
+pub(crate) mod table;
+pub(crate) mod tables;

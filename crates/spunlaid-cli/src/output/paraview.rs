@@ -1,0 +1,57 @@
+//! The fibre's shape over time for ParaView: `shape.pvd` opens the whole series.
+
+use super::folder::Staging;
+use crate::failure::Failure;
+use spunlaid::ensemble::Flight;
+use std::fmt::Write;
+
+/// Writes the kept shapes: one VTK PolyData file per recorded instant with a line per replicate, and the
+/// collection that puts them in time.
+pub(crate) fn write(staging: &Staging, flights: &[Flight], rest_length: f64) -> Result<(), Failure> {
+    let flights: Vec<&Flight> = flights.iter().filter(|f| !f.shapes.is_empty()).collect();
+    let Some(first) = flights.first() else { return Ok(()) };
+    let mut collection = String::from(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
+    );
+    let digits = first.shapes.len().to_string().len();
+    for (k, shape) in first.shapes.iter().enumerate() {
+        let name = format!("shape/fibre_{k:0digits$}.vtp");
+        staging.write(&name, poly_data(&flights, k, rest_length))?;
+        let _ = writeln!(collection, "<DataSet timestep=\"{:?}\" part=\"0\" file=\"{name}\"/>", shape.time);
+    }
+    collection.push_str("</Collection>\n</VTKFile>\n");
+    staging.write("shape.pvd", collection)
+}
+
+/// VTK XML PolyData of all flights at instant `k`: points in metres, replicate and distance from the root.
+fn poly_data(flights: &[&Flight], k: usize, rest_length: f64) -> String {
+    let nodes = flights[0].shapes[k].position.len();
+    let count = flights.len() * nodes;
+    let mut points = String::with_capacity(count * 48);
+    let (mut replicate, mut distance) = (String::new(), String::new());
+    let (mut connectivity, mut offsets) = (String::new(), String::new());
+    for (line, flight) in flights.iter().enumerate() {
+        for (i, p) in flight.shapes[k].position.iter().enumerate() {
+            let _ = writeln!(points, "{:e} {:e} {:e}", p.x, p.y, p.z);
+            let _ = write!(replicate, "{} ", flight.replicate + 1);
+            let _ = write!(distance, "{:e} ", i as f64 * rest_length);
+            let _ = write!(connectivity, "{} ", line * nodes + i);
+        }
+        let _ = write!(offsets, "{} ", (line + 1) * nodes);
+    }
+    format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n\
+         <Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n\
+         <PointData Scalars=\"replicate\">\n\
+         <DataArray type=\"Int32\" Name=\"replicate\" format=\"ascii\">\n{replicate}\n</DataArray>\n\
+         <DataArray type=\"Float64\" Name=\"distance_m\" format=\"ascii\">\n{distance}\n</DataArray>\n\
+         </PointData>\n\
+         <Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n{points}</DataArray>\n</Points>\n\
+         <Lines>\n\
+         <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n{connectivity}\n</DataArray>\n\
+         <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n{offsets}\n</DataArray>\n\
+         </Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n",
+        flights.len()
+    )
+}

@@ -1,0 +1,207 @@
+//! `summary.json`: every result of a run.
+
+use serde::Serialize;
+use spunlaid::case::Case;
+use spunlaid::ensemble::{LedgerError, Results};
+use spunlaid::statistics::Estimate;
+
+/// Version of the layout; raised when a field is renamed, removed or changes its meaning.
+const SCHEMA_VERSION: u32 = 1;
+
+#[derive(Debug, Serialize)]
+pub(crate) struct Summary<'a> {
+    schema_version: u32,
+    spunlaid_version: &'static str,
+    case: CaseSummary,
+    elements: usize,
+    steps: u64,
+    replicates: u64,
+    end_node: EndNode<'a>,
+    energy: Energy,
+    fibre: FibreSummary,
+    performance: Performance,
+    notes: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct EndNode<'a> {
+    amplitude_y_m: EstimateSummary<'a>,
+    amplitude_z_m: EstimateSummary<'a>,
+    frequency_y_hz: EstimateSummary<'a>,
+    frequency_z_hz: EstimateSummary<'a>,
+    mean_x_m: EstimateSummary<'a>,
+}
+
+#[derive(Debug, Serialize)]
+struct EstimateSummary<'a> {
+    mean: f64,
+    standard_error: Option<f64>,
+    values: &'a [f64],
+}
+
+#[derive(Debug, Serialize)]
+struct Energy {
+    work_error_percent: ErrorSummary,
+    balance_error_percent: ErrorSummary,
+}
+
+#[derive(Debug, Serialize)]
+struct ErrorSummary {
+    final_mean: f64,
+    time_median: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct FibreSummary {
+    max_strain: f64,
+}
+
+/// How fast it went; the only part that differs from run to run.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Performance {
+    pub(crate) wall_s: f64,
+    pub(crate) threads: usize,
+    pub(crate) element_steps: u64,
+    /// Time of one thread for an element and step of one fibre.
+    pub(crate) ns_per_element_step: f64,
+    pub(crate) instruction_set: &'static str,
+}
+
+/// The resolved case, SI units in the names.
+#[derive(Debug, Serialize)]
+struct CaseSummary {
+    fibre: CaseFibre,
+    air: CaseAir,
+    drag: CaseDrag,
+    run: CaseRun,
+}
+
+#[derive(Debug, Serialize)]
+struct CaseFibre {
+    length_m: f64,
+    diameter_m: f64,
+    density_kg_m3: f64,
+    youngs_modulus_pa: f64,
+    element_length_m: f64,
+    root: &'static str,
+    direction: [f64; 3],
+}
+
+#[derive(Debug, Serialize)]
+struct CaseAir {
+    velocity_m_s: f64,
+    turbulence_intensity: f64,
+    length_scale_m: f64,
+    cutoff_frequency_hz: f64,
+    density_kg_m3: f64,
+    kinematic_viscosity_m2_s: f64,
+    harmonics: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct CaseDrag {
+    along: &'static str,
+    across: &'static str,
+    friction_coefficient: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct CaseRun {
+    duration_s: f64,
+    time_step_s: f64,
+    replicates: u64,
+    seed: u64,
+    scheme: &'static str,
+    gravity_m_s2: f64,
+    spin_up_s: f64,
+    output_interval_s: f64,
+    damping_1_s: f64,
+}
+
+impl<'a> Summary<'a> {
+    pub(crate) fn new(
+        case: &Case,
+        results: &'a Results,
+        performance: Performance,
+        notes: Vec<String>,
+    ) -> Self {
+        let end = &results.end_node;
+        Self {
+            schema_version: SCHEMA_VERSION,
+            spunlaid_version: env!("CARGO_PKG_VERSION"),
+            case: resolved(case),
+            elements: case.fibre.elements,
+            steps: case.run.steps,
+            replicates: case.run.replicates,
+            end_node: EndNode {
+                amplitude_y_m: estimate(&end.amplitude_y),
+                amplitude_z_m: estimate(&end.amplitude_z),
+                frequency_y_hz: estimate(&end.frequency_y),
+                frequency_z_hz: estimate(&end.frequency_z),
+                mean_x_m: estimate(&end.mean_x),
+            },
+            energy: Energy {
+                work_error_percent: ledger(results.work_error_percent),
+                balance_error_percent: ledger(results.balance_error_percent),
+            },
+            fibre: FibreSummary { max_strain: results.max_strain },
+            performance,
+            notes,
+        }
+    }
+
+    pub(crate) fn to_json(&self) -> String {
+        // Serialising plain numbers and strings into memory cannot fail.
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+}
+
+fn estimate(of: &Estimate) -> EstimateSummary<'_> {
+    EstimateSummary { mean: of.mean, standard_error: of.standard_error, values: &of.values }
+}
+
+fn ledger(of: LedgerError) -> ErrorSummary {
+    ErrorSummary { final_mean: of.final_mean, time_median: of.time_median }
+}
+
+fn resolved(case: &Case) -> CaseSummary {
+    let (fibre, air, drag, run) = (&case.fibre, &case.air, &case.drag, &case.run);
+    CaseSummary {
+        fibre: CaseFibre {
+            length_m: fibre.length,
+            diameter_m: fibre.diameter,
+            density_kg_m3: fibre.density,
+            youngs_modulus_pa: fibre.youngs_modulus,
+            element_length_m: fibre.rest_length(),
+            root: fibre.root.name(),
+            direction: [fibre.direction.x, fibre.direction.y, fibre.direction.z],
+        },
+        air: CaseAir {
+            velocity_m_s: air.velocity,
+            turbulence_intensity: air.turbulence_intensity,
+            length_scale_m: air.length_scale,
+            cutoff_frequency_hz: air.cutoff_frequency,
+            density_kg_m3: air.density,
+            kinematic_viscosity_m2_s: air.kinematic_viscosity,
+            harmonics: air.harmonics,
+        },
+        drag: CaseDrag {
+            along: drag.along.name(),
+            across: drag.across.name(),
+            friction_coefficient: drag.friction_coefficient,
+        },
+        run: CaseRun {
+            duration_s: run.duration(),
+            time_step_s: run.time_step,
+            replicates: run.replicates,
+            seed: run.seed,
+            scheme: run.scheme.name(),
+            gravity_m_s2: run.gravity,
+            spin_up_s: run.spin_up(),
+            output_interval_s: run.output_interval(),
+            damping_1_s: run.damping,
+        },
+    }
+}

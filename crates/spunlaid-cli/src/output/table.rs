@@ -1,0 +1,64 @@
+//! The table of results on the terminal.
+
+use spunlaid::case::Case;
+use spunlaid::ensemble::Results;
+use spunlaid::statistics::Estimate;
+use std::fmt::Write;
+
+/// The results of a run as a table of mean ± standard error.
+pub(crate) fn results(case: &Case, results: &Results) -> String {
+    let end = &results.end_node;
+    let mut text = format!(
+        "free end of the fibre, mean ± standard error over {} replicate{}\n",
+        case.run.replicates,
+        if case.run.replicates == 1 { "" } else { "s" }
+    );
+    for (name, estimate, scale, unit) in [
+        ("amplitude y", &end.amplitude_y, 1e3, "mm"),
+        ("amplitude z", &end.amplitude_z, 1e3, "mm"),
+        ("frequency y", &end.frequency_y, 1.0, "Hz"),
+        ("frequency z", &end.frequency_z, 1.0, "Hz"),
+        ("mean x", &end.mean_x, 1e3, "mm"),
+    ] {
+        let _ = writeln!(text, "  {name:<16}{} {unit}", mean_and_error(estimate, scale));
+    }
+    text.push_str("energy errors, at the end and median over time\n");
+    for (name, error) in
+        [("work check", results.work_error_percent), ("full balance", results.balance_error_percent)]
+    {
+        let _ = writeln!(
+            text,
+            "  {name:<16}{:>12} %  {:>12} %",
+            short(error.final_mean),
+            short(error.time_median)
+        );
+    }
+    let _ = writeln!(text, "largest strain    {:>12} %", short(results.max_strain * 100.0));
+    text
+}
+
+/// `9.81 ± 0.23`, to two digits of the error.
+fn mean_and_error(estimate: &Estimate, scale: f64) -> String {
+    let mean = estimate.mean * scale;
+    match estimate.standard_error.map(|e| e * scale) {
+        Some(error) if error > 0.0 && error.is_finite() => {
+            let decimals = (1 - error.log10().floor() as i32).clamp(0, 12) as usize;
+            format!("{mean:>12.decimals$} ± {error:.decimals$}")
+        }
+        _ => format!("{:>12}", short(mean)),
+    }
+}
+
+/// Four digits, plain or with a power of ten; a dash for what is undefined.
+fn short(value: f64) -> String {
+    if !value.is_finite() {
+        "–".to_owned()
+    } else if value == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e5).contains(&value.abs()) {
+        let decimals = (3 - value.abs().log10().floor() as i32).max(0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.2e}")
+    }
+}
