@@ -1,5 +1,5 @@
 //! Case files that are read: those of the repository, the starter, and what `write_case` makes of a case.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use proptest::prelude::*;
 use spunlaid::air::Air;

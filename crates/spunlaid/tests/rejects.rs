@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use spunlaid::error::Error;
-use spunlaid::input::{LARGEST_FILE, parse_case, read_case};
+use spunlaid::input::{LARGEST_FILE, parse_case, read_case, starter_case};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -136,4 +136,32 @@ fn rejects_no_more_than_people_read() {
     let error = parse_case(&text, "many.toml", &[]).unwrap_err();
     assert_eq!(error.to_string().lines().count(), 21);
     assert!(error.to_string().ends_with("\nand 990 more like these"), "{error}");
+}
+
+#[test]
+fn rejects_a_case_that_code_built() {
+    let (mut case, _) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
+    case.check().unwrap();
+    case.fibre.length = -1.0;
+    case.fibre.elements = 0;
+    case.fibre.direction.x = 1.1;
+    case.air.harmonics = 0;
+    case.air.velocity = f64::NAN;
+    case.run.replicates = 0;
+    case.run.steps = 0;
+    case.run.output_steps = 0;
+    let said: Vec<_> = case.check().unwrap_err().iter().map(ToString::to_string).collect();
+    assert_eq!(
+        said,
+        [
+            "fibre.length = -1 m is not positive; a length greater than zero is needed here",
+            "air.velocity = NaN m/s is not a finite number; write one that is",
+            "fibre.direction = [1.1, 0, 0] is not a unit vector; divide it by its length",
+            "fibre.elements = 0 is out of range; write a whole number from 1 to 18446744073709551615",
+            "air.harmonics = 0 is out of range; write a whole number from 1 to 18446744073709551615",
+            "run.replicates = 0 is out of range; write a whole number from 1 to 100000000",
+            "run.duration = 0 s is not positive; a time greater than zero is needed here",
+            "run.output_interval = 0 s is not positive; a time greater than zero is needed here",
+        ]
+    );
 }
