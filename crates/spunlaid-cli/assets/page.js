@@ -1,1 +1,234 @@
-// page
+// The page's controls.
+
+const byId = (id) => document.getElementById(id);
+
+function download(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+/** Connects the moving fibre with its controls; returns the player. */
+function startMotion(canvas) {
+  const frames = readFrames(byId("frames"));
+  const camera = new Camera();
+  const scene = new Scene(canvas, camera);
+  const player = new Player(frames, scene);
+  const still = matchMedia("(prefers-reduced-motion: reduce)");
+  let visible = true;
+  let stale = true;
+  let before = null;
+  const refresh = () => (stale = true);
+
+  // Choices
+  const fill = (select, choices, chosen) =>
+    choices.forEach(([value, text]) => select.add(new Option(text, value, false, value === chosen)));
+  fill(byId("speed"), player.speeds.map((s) => [s, player.speedText(s)]), player.speed);
+  fill(byId("replicate"), frames.replicates.map((n, i) => [i, `${n}`]), 0);
+  const [scale, trail, scrub] = [byId("scale"), byId("trail"), byId("scrub")];
+  scale.max = player.stretches.length - 1;
+  trail.max = player.trails.length - 1;
+  const show = () => {
+    scale.value = player.stretches.indexOf(player.stretch);
+    trail.value = player.trails.indexOf(player.trail);
+    byId("scale-value").textContent = `× ${player.stretch}`;
+    byId("trail-value").textContent = player.trail > 0 ? `${Number(player.trail.toPrecision(2))} s` : "none";
+    byId("speed").value = player.speed;
+    byId("replicate").value = player.replicate;
+    byId("ghosts").checked = player.ghosts;
+    byId("projection").value = camera.perspective ? "perspective" : "orthographic";
+    byId("play").textContent = player.playing ? "Pause" : "Play";
+    byId("play").setAttribute("aria-pressed", String(player.playing));
+    refresh();
+  };
+  const on = (id, event, act) =>
+    byId(id).addEventListener(event, (e) => {
+      act(e.target);
+      show();
+    });
+  const play = (playing) => {
+    player.playing = playing;
+    before = null;
+    show();
+  };
+  const look = (view) => {
+    camera.look(view);
+    show();
+  };
+  const reset = () => {
+    player.setStretch(player.usualStretch());
+    look("oblique");
+  };
+  on("speed", "change", (t) => (player.speed = Number(t.value)));
+  on("replicate", "change", (t) => (player.replicate = Number(t.value)));
+  on("ghosts", "change", (t) => (player.ghosts = t.checked));
+  on("scale", "input", (t) => player.setStretch(player.stretches[t.value]));
+  on("trail", "input", (t) => (player.trail = player.trails[t.value]));
+  on("projection", "change", (t) => (camera.perspective = t.value === "perspective"));
+  on("play", "click", () => play(!player.playing));
+  on("reset", "click", reset);
+  on("scrub", "input", (t) => {
+    player.playing = false;
+    player.seek(player.start + Number(t.value) * (player.end - player.start));
+  });
+  document.querySelectorAll("[data-view]").forEach((b) => b.addEventListener("click", () => look(b.dataset.view)));
+  byId("snapshot").addEventListener("click", () => {
+    player.draw();
+    canvas.toBlob((blob) => download("fibre.png", blob));
+  });
+  byId("ghosts").closest("label").hidden = frames.replicates.length < 2;
+
+  // Turning and zooming: mouse, touch, keys
+  const pointers = new Map();
+  const apart = () => {
+    const [a, b] = [...pointers.values()];
+    return Math.hypot(a.x - b.x, a.y - b.y);
+  };
+  canvas.addEventListener("pointerdown", (e) => {
+    canvas.setPointerCapture(e.pointerId);
+    pointers.set(e.pointerId, { x: e.clientX, y: e.clientY });
+  });
+  canvas.addEventListener("pointermove", (e) => {
+    const last = pointers.get(e.pointerId);
+    if (!last) return;
+    const gap = pointers.size === 2 ? apart() : 0;
+    const [dx, dy] = [e.clientX - last.x, e.clientY - last.y];
+    pointers.set(e.pointerId, { x: e.clientX, y: e.clientY });
+    // Two fingers pinch and turn; one turns sideways only, since up and down it scrolls the page.
+    const gain = 0.008 / pointers.size;
+    if (e.shiftKey || e.buttons === 4) camera.move(dx, dy);
+    else camera.turn(-dx * gain, dy * gain);
+    if (pointers.size === 2) camera.zoomBy(apart() / Math.max(gap, 1));
+    refresh();
+  });
+  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (e) => pointers.delete(e.pointerId));
+  // A page that is being scrolled past the picture goes on scrolling.
+  let scrolled = -Infinity;
+  addEventListener("scroll", () => (scrolled = performance.now()), { passive: true });
+  canvas.addEventListener(
+    "wheel",
+    (e) => {
+      if (performance.now() - scrolled < 300 && !e.ctrlKey) return;
+      e.preventDefault();
+      camera.zoomBy(Math.exp(-e.deltaY * (e.deltaMode === 1 ? 0.05 : 0.0015)), e.offsetX, e.offsetY);
+      refresh();
+    },
+    { passive: false },
+  );
+  const keys = {
+    ArrowLeft: () => camera.turn(0.1, 0),
+    ArrowRight: () => camera.turn(-0.1, 0),
+    ArrowUp: () => camera.turn(0, -0.1),
+    ArrowDown: () => camera.turn(0, 0.1),
+    "+": () => camera.zoomBy(1.2),
+    "=": () => camera.zoomBy(1.2),
+    "-": () => camera.zoomBy(1 / 1.2),
+    " ": () => play(!player.playing),
+    ",": () => play(false) || player.step(-1),
+    ".": () => play(false) || player.step(1),
+    r: reset,
+    R: reset,
+  };
+  canvas.addEventListener("keydown", (e) => {
+    const act = keys[e.key];
+    if (!act || e.ctrlKey || e.metaKey || e.altKey) return;
+    e.preventDefault();
+    act();
+    show();
+  });
+
+  // The clock
+  const tick = (now) => {
+    if (player.playing && visible) {
+      if (before !== null) player.advance(Math.min((now - before) / 1000, 0.1));
+      before = now;
+      refresh();
+    } else {
+      before = null;
+    }
+    if (stale) {
+      stale = false;
+      player.draw();
+      scrub.value = player.end > player.start ? (player.time - player.start) / (player.end - player.start) : 0;
+      scrub.setAttribute("aria-valuetext", player.timeText());
+      byId("clock").textContent = `${player.timeText()} of ${player.timeText(player.end)}`;
+    }
+    requestAnimationFrame(tick);
+  };
+  new ResizeObserver(() => scene.resize() && refresh()).observe(canvas);
+  new IntersectionObserver(([entry]) => (visible = entry.isIntersecting)).observe(canvas);
+  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
+    matchMedia(query).addEventListener("change", () => {
+      scene.readColours();
+      player.draw();
+    });
+  }
+  scene.resize();
+  play(!still.matches && player.end > player.start);
+  player.draw();
+  requestAnimationFrame(tick);
+  return player;
+}
+
+/** The buttons that save a figure. */
+function startSaving() {
+  const text = (svg) => new XMLSerializer().serializeToString(svg);
+  const savePng = (svg, name) => {
+    const image = new Image();
+    image.onload = () => {
+      const canvas = document.createElement("canvas");
+      [canvas.width, canvas.height] = [3 * svg.width.baseVal.value, 3 * svg.height.baseVal.value];
+      canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+      canvas.toBlob((blob) => download(`${name}.png`, blob));
+    };
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text(svg))}`;
+  };
+  document.querySelectorAll("figure.chart").forEach((figure) => {
+    const [svg, name] = [figure.querySelector("svg"), figure.dataset.name];
+    figure.querySelectorAll("[data-save]").forEach((button) =>
+      button.addEventListener("click", () => {
+        if (button.dataset.save === "png") savePng(svg, name);
+        else download(`${name}.svg`, new Blob([text(svg)], { type: "image/svg+xml" }));
+      }),
+    );
+  });
+}
+
+/** The button that copies the case. */
+function startCopying() {
+  const [button, block] = [byId("copy"), byId("case-toml")];
+  button.addEventListener("click", async () => {
+    let done = true;
+    try {
+      await navigator.clipboard.writeText(block.textContent);
+    } catch {
+      // Without leave to write the clipboard: mark the text, for the reader's own copy key.
+      getSelection().selectAllChildren(block);
+      done = false;
+    }
+    button.textContent = done ? "Copied" : "Marked: press Ctrl+C";
+    setTimeout(() => (button.textContent = "Copy"), 2500);
+  });
+}
+
+startSaving();
+startCopying();
+const canvas = byId("fibre");
+if (canvas) {
+  try {
+    const player = startMotion(canvas);
+    // For checks: what is on show, and how often it has been drawn.
+    window.spunlaidReport = {
+      get playing() { return player.playing; },
+      get time() { return player.time; },
+      get draws() { return player.draws; },
+    };
+  } catch (error) {
+    const message = byId("fibre-error");
+    message.textContent = `The moving picture cannot be shown: ${error.message}`;
+    message.hidden = false;
+    throw error;
+  }
+}

@@ -38,6 +38,11 @@ impl Series {
         Self { marker: Some(Marker::Triangle), ..Self::new(label, VERMILION) }
     }
 
+    /// Spots of one colour.
+    pub(crate) fn spots(label: &str, colour: &'static str) -> Self {
+        Self { marker: Some(Marker::Spot), ..Self::new(label, colour) }
+    }
+
     /// A grey reference.
     pub(crate) fn reference(label: &str) -> Self {
         Self { dash: Some("6 4"), ..Self::new(label, GREY) }

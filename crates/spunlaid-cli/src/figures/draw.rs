@@ -3,7 +3,7 @@
 use super::chart::{Chart, Mark, Series};
 use super::decimate::{along_x, path, runs};
 use super::legend;
-use super::palette::{GREY, GRID, INK, Marker};
+use super::palette::{GREY, GRID, INK, Marker, PAPER};
 use super::scale::{Scale, Spacing, factor};
 use super::svg::{Anchor, Stroke, Svg, Text, width};
 
@@ -34,54 +34,72 @@ impl Plot {
     }
 }
 
+/// The picture of charts one above the other.
+pub(crate) fn stacked(title: &str, charts: &[&Chart]) -> String {
+    let width = charts.iter().map(|c| c.size.0).fold(0.0, f64::max);
+    let height = charts.iter().map(|c| c.size.1).sum();
+    let mut svg = Svg::new(width, height, title);
+    let mut top = 0.0;
+    for chart in charts {
+        svg.open_shifted(top);
+        draw(&mut svg, chart);
+        svg.close();
+        top += chart.size.1;
+    }
+    svg.finish()
+}
+
 /// The picture of a chart.
 pub(crate) fn chart(chart: &Chart) -> String {
     let mut svg = Svg::new(chart.size.0, chart.size.1, &chart.title);
+    draw(&mut svg, chart);
+    svg.finish()
+}
+
+fn draw(svg: &mut Svg, chart: &Chart) {
     let (xs, ys) = chart.extents();
     let empty = xs.is_empty();
     let plot = lay_out(chart, &xs, &ys);
-    let entries = if empty { Vec::new() } else { legend::entries(chart) };
-    draw_grid(&mut svg, &plot);
-    svg.open_clip(
-        &format!("clip_{}", chart.name),
-        plot.left,
-        plot.top,
-        plot.right - plot.left,
-        plot.bottom - plot.top,
-    );
+    draw_grid(svg, &plot);
     if !empty {
+        let (width, height) = (plot.right - plot.left, plot.bottom - plot.top);
+        svg.open_clip(&format!("clip_{}", chart.name), plot.left, plot.top, width, height);
         for (series, mark) in &chart.marks {
-            draw_shade(&mut svg, &plot, series, mark);
+            draw_shade(svg, &plot, series, mark);
         }
-        for (i, (series, mark)) in chart.marks.iter().enumerate() {
-            draw_mark(&mut svg, &plot, series, mark, i);
+        for (series, mark) in &chart.marks {
+            draw_line(svg, &plot, series, mark);
         }
+        svg.close();
     }
-    svg.close();
-    draw_axes(&mut svg, &plot, chart);
-    legend::draw(&mut svg, &entries, plot.left, plot.right);
+    draw_axes(svg, &plot, chart);
     if empty {
         let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
         let style = Text { size: LABEL, colour: GREY, anchor: Anchor::Middle, upright: true };
         svg.text(middle, &chart.nothing, style);
+        return;
     }
-    svg.finish()
+    for (i, (series, mark)) in chart.marks.iter().enumerate() {
+        draw_points(svg, &plot, series, mark, i);
+    }
+    legend::draw(svg, &legend::entries(chart), plot.left, plot.right);
 }
 
 fn lay_out(chart: &Chart, xs: &[f64], ys: &[f64]) -> Plot {
     let (w, h) = chart.size;
     let mut y = Scale::fit(&chart.y, ys.iter().copied(), 6);
     let mut x = Scale::fit(&chart.x, xs.iter().copied(), 7);
+    let words = if chart.x.label.is_empty() { 0.0 } else { 22.0 };
     let left = 34.0 + y_label_width(&y);
     let right = w - 18.0;
     let entries = if xs.is_empty() { Vec::new() } else { legend::entries(chart) };
     let factors = if y.exponent != 0 { 20.0 } else { 0.0 };
     let top = 12.0 + legend::height(&entries, right - left) + factors;
-    let bottom = h - 50.0;
+    let bottom = h - 28.0 - words;
     if chart.equal {
         let (per_x, per_y) = ((x.ends.1 - x.ends.0) / (right - left), (y.ends.1 - y.ends.0) / (bottom - top));
         let per = per_x.max(per_y);
-        x = Scale::between(Spacing::Linear, widened(x.ends, per * (right - left)), 7);
+        x = Scale::between(Spacing::Linear, widened(x.ends, per * (right - left)), 6);
         y = Scale::between(Spacing::Linear, widened(y.ends, per * (bottom - top)), 6);
     }
     Plot { left, top, right, bottom, x, y }
@@ -171,45 +189,48 @@ fn draw_shade(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark) {
     }
 }
 
-fn draw_mark(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark, index: usize) {
+fn draw_line(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark) {
     let stroke = Stroke { colour: series.colour, width: series.width, dash: series.dash };
     match mark {
-        Mark::Line(points) => {
+        Mark::Line(points) | Mark::Path(points) => {
             let placed: Vec<_> = points.iter().map(|&p| plot.at(p)).collect();
+            let thin = if matches!(mark, Mark::Line(_)) { along_x } else { path };
             for run in runs(&placed) {
-                draw_run(svg, &along_x(&run), &stroke);
-            }
-            if let Some(marker) = series.marker {
-                let inside: Vec<_> = points.iter().filter(|p| plot.x.holds(p.0) && plot.y.holds(p.1)).collect();
-                for &p in spread(plot, &inside, index) {
-                    draw_marker(svg, plot.at(p), marker, series.colour, "#ffffff");
-                }
-            }
-        }
-        Mark::Path(points) => {
-            let placed: Vec<_> = points.iter().map(|&p| plot.at(p)).collect();
-            for run in runs(&placed) {
-                draw_run(svg, &path(&run), &stroke);
-            }
-        }
-        Mark::Scatter(points) => {
-            let inside = points.iter().filter(|p| plot.x.holds(p.0) && plot.y.holds(p.1));
-            for &(x, y, error) in inside {
-                if let Some(error) = error.filter(|e| e.is_finite()) {
-                    draw_error(svg, plot, (x, y), error, series.colour);
-                }
-                let marker = series.marker.unwrap_or(Marker::Circle);
-                draw_marker(svg, plot.at((x, y)), marker, series.colour, "#ffffff");
+                draw_run(svg, &thin(&run), &stroke);
             }
         }
         Mark::Vertical(x) if plot.x.holds(*x) => {
             let x = plot.along(*x);
             svg.line((x, plot.top), (x, plot.bottom), &stroke);
-            if let Some(marker) = series.marker {
-                draw_marker(svg, (x, plot.top + 10.0), marker, series.colour, "#ffffff");
+        }
+        Mark::Vertical(_) | Mark::Scatter(_) | Mark::Band(_) | Mark::Stretch(..) => {}
+    }
+}
+
+/// Markers and error bars, on top of everything else; `index` sets those of different series apart.
+fn draw_points(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark, index: usize) {
+    let inside = |x: f64, y: f64| plot.x.holds(x) && plot.y.holds(y);
+    match (mark, series.marker) {
+        (Mark::Line(points), Some(marker)) => {
+            let inside: Vec<_> = points.iter().filter(|p| inside(p.0, p.1)).collect();
+            for &p in spread(plot, &inside, index) {
+                draw_marker(svg, plot.at(p), marker, series.colour);
             }
         }
-        Mark::Vertical(_) | Mark::Band(_) | Mark::Stretch(..) => {}
+        (Mark::Scatter(points), marker) => {
+            let marker = marker.unwrap_or(Marker::Spot);
+            for &(x, y, error) in points.iter().filter(|p| inside(p.0, p.1)) {
+                if let Some(error) = error.filter(|e| e.is_finite()) {
+                    draw_error(svg, plot, (x, y), error, series.colour);
+                }
+                draw_marker(svg, plot.at((x, y)), marker, series.colour);
+            }
+        }
+        (Mark::Vertical(x), Some(marker)) if plot.x.holds(*x) => {
+            let below = if index % 2 == 0 { 12.0 } else { 28.0 };
+            draw_marker(svg, (plot.along(*x), plot.top + below), marker, series.colour);
+        }
+        _ => {}
     }
 }
 
@@ -248,17 +269,18 @@ fn draw_error(svg: &mut Svg, plot: &Plot, (x, y): (f64, f64), error: f64, colour
     }
 }
 
-/// A hollow marker.
-pub(crate) fn draw_marker(svg: &mut Svg, at: (f64, f64), marker: Marker, colour: &str, fill: &str) {
+/// A marker: circle and triangle hollow, the spot filled.
+pub(crate) fn draw_marker(svg: &mut Svg, at: (f64, f64), marker: Marker, colour: &str) {
     let stroke = Stroke::solid(colour, 1.5);
     let (x, y) = at;
     match marker {
-        Marker::Circle => svg.circle(at, 3.9, fill, &stroke),
+        Marker::Circle => svg.circle(at, 3.9, PAPER, &stroke),
         Marker::Triangle => {
             // As large as the circle, its centre of mass on the point.
             let r = 5.2;
             let corners = [(x, y - r), (x + 0.866 * r, y + 0.5 * r), (x - 0.866 * r, y + 0.5 * r)];
-            svg.polygon(&corners, fill, 1.0, Some(&stroke));
+            svg.polygon(&corners, PAPER, 1.0, Some(&stroke));
         }
+        Marker::Spot => svg.circle(at, 3.4, colour, &stroke),
     }
 }

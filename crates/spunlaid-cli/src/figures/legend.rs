@@ -77,12 +77,12 @@ fn draw_key(svg: &mut Svg, &Entry { series, mark, .. }: &Entry<'_>, x: f64, y: f
                 let bar = Stroke::solid(series.colour, 1.2);
                 svg.line((middle.0, y - 8.0), (middle.0, y + 8.0), &bar);
             }
-            draw_marker(svg, middle, series.marker.unwrap_or(Marker::Circle), series.colour, "#ffffff");
+            draw_marker(svg, middle, series.marker.unwrap_or(Marker::Spot), series.colour);
         }
         Mark::Line(_) | Mark::Path(_) | Mark::Vertical(_) => {
             svg.line((x, y), (x + KEY, y), &stroke);
             if let Some(marker) = series.marker {
-                draw_marker(svg, middle, marker, series.colour, "#ffffff");
+                draw_marker(svg, middle, marker, series.colour);
             }
         }
     }

@@ -11,8 +11,12 @@ mod legend;
 mod palette;
 mod png;
 mod run;
+#[cfg(test)]
+pub(crate) mod sample;
 mod scale;
 mod svg;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use decimate::even;
 pub(crate) use png::png;

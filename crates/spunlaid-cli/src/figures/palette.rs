@@ -4,6 +4,8 @@
 
 /// Text and axes.
 pub(crate) const INK: &str = "#1a1a1a";
+/// What the figures are drawn on.
+pub(crate) const PAPER: &str = "#ffffff";
 /// Grid lines.
 pub(crate) const GRID: &str = "#e6e6e6";
 /// What is beside the point: reference lines, notes.
@@ -15,6 +17,8 @@ pub(crate) const VERMILION: &str = "#d55e00";
 /// A third quantity.
 pub(crate) const GREEN: &str = "#009e73";
 /// A fourth.
+pub(crate) const ORANGE: &str = "#e69f00";
+/// A fifth.
 pub(crate) const PURPLE: &str = "#9c4f80";
 
 /// The sign a point is drawn with.
@@ -24,4 +28,6 @@ pub(crate) enum Marker {
     Circle,
     /// z.
     Triangle,
+    /// Neither: a filled spot.
+    Spot,
 }

@@ -31,9 +31,14 @@ pub(crate) fn png(svg: &str) -> Result<Vec<u8>, PngError> {
     let mut fonts = usvg::fontdb::Database::new();
     fonts.load_font_data(REGULAR.to_vec());
     fonts.load_font_data(ITALIC.to_vec());
+    // The last resort for a family that is not there is the generic serif one.
     fonts.set_sans_serif_family("Arimo");
-    let options =
-        usvg::Options { fontdb: Arc::new(fonts), font_family: "Arimo".to_owned(), ..usvg::Options::default() };
+    fonts.set_serif_family("Arimo");
+    let options = usvg::Options {
+        fontdb: Arc::new(fonts),
+        font_family: "Arimo".to_owned(),
+        ..usvg::Options::default()
+    };
     let tree = usvg::Tree::from_str(svg, &options)?;
     let pixels = |length: f32| (length * SCALE).round() as u32;
     let (width, height) = (pixels(tree.size().width()), pixels(tree.size().height()));

@@ -3,7 +3,8 @@
 use super::Figure;
 use super::chart::{Chart, Series};
 use super::decimate::even;
-use super::palette::{GREEN, GREY, PURPLE};
+use super::draw::stacked;
+use super::palette::{GREEN, GREY, INK, ORANGE, PURPLE};
 use super::scale::{Axis, signed};
 use spunlaid::case::Case;
 use spunlaid::ensemble::{ErrorOverTime, NodeResults, Results, Sample, SpectrumPoint};
@@ -28,7 +29,7 @@ pub(crate) fn run_figures(case: &Case, results: &Results, turbulence: &[Spectrum
     if !turbulence.is_empty() {
         figures.push(turbulence_spectrum(case, turbulence));
     }
-    figures.push(energy_errors(&results.errors));
+    figures.push(energy_errors(case, &results.errors));
     figures
 }
 
@@ -50,11 +51,12 @@ fn end_node_history(case: &Case, samples: &[Sample]) -> Figure {
         chart = chart.stretch(Series::new("spin-up, not in the statistics", GREY), 0.0, spin_up);
     }
     let chart = chart.line(Series::y("*y*"), &y).line(Series::z("*z*"), &z);
-    let caption = "Sideways position of the fibre’s free end in the first replicate: y (blue, circles) and z \
+    let caption =
+        "Sideways position of the fibre’s free end in the first replicate: y (blue, circles) and z \
                    (vermilion, triangles), both across the mean flow. The amplitude of the table is the \
                    standard deviation of such a curve over time; its frequency is half the number of sign \
                    changes per second."
-        .to_owned();
+            .to_owned();
     figure(&chart, caption)
 }
 
@@ -73,8 +75,8 @@ fn end_node_path(case: &Case, samples: &[Sample]) -> Figure {
     .sized(520.0, 500.0)
     .equal()
     .path(Series::new("path of the free end", GREEN).width(1.0), &points)
-    .scatter(Series::y("start"), &first)
-    .scatter(Series::z("end"), &last);
+    .scatter(Series::spots("first", INK), &first)
+    .scatter(Series::spots("last", ORANGE), &last);
     let part = match (drawn.first(), drawn.len() < flown.len()) {
         (Some(s), true) => format!(" Only the path from {} s on is drawn.", signed(s.time, 3)),
         _ => String::new(),
@@ -135,19 +137,21 @@ fn motion_spectrum(results: &Results) -> Figure {
         "motion_spectrum",
         "Spectrum of the motion",
         Axis::logarithmic("Frequency *f* (Hz)").tight(),
-        Axis::logarithmic("Power spectral density (mm²/Hz)"),
+        Axis::logarithmic("Power spectral density (mm²/Hz)").decades(9),
     )
     .when_empty("too few recorded instants, or no motion")
     .line(Series::y("*y*").unmarked(), &density(|p| p.1))
     .line(Series::z("*z*").unmarked(), &density(|p| p.2));
     let end = &results.end_node;
-    for (series, name, frequency) in
-        [(Series::y(""), "y", end.frequency_y.mean), (Series::z(""), "z", end.frequency_z.mean)]
-    {
+    // The dashes of one fill the gaps of the other, where both are at the same place.
+    for (series, name, frequency, dash) in [
+        (Series::y(""), "y", end.frequency_y.mean, "5 5"),
+        (Series::z(""), "z", end.frequency_z.mean, "0 5 5 0"),
+    ] {
         if frequency.is_finite() && frequency > 0.0 {
-            let label = format!("crossing frequency of *{name}*, {} Hz", significant(frequency, 3));
-            chart = chart
-                .vertical(Series { label: Some(label), ..series }.dashed("6 4").width(1.2), frequency);
+            let label = format!("*{name}* crosses at {} Hz", significant(frequency, 3));
+            let series = Series { label: Some(label), ..series };
+            chart = chart.vertical(series.dashed(dash).width(1.2), frequency);
         }
     }
     let caption = "How the motion of the free end is spread over frequencies, averaged over all replicates \
@@ -167,42 +171,52 @@ fn turbulence_spectrum(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
         "turbulence_spectrum",
         "Spectrum of the turbulence",
         Axis::linear("Frequency *f* (Hz)").tight(),
-        Axis::linear("Power spectral density ((m/s)²/Hz)").from_zero(),
+        Axis::linear("Power spectral density [(m/s)²/Hz]").from_zero(),
     )
     .line(Series::new("realised", GREEN), &realised)
     .line(Series::reference("wanted"), &wanted);
     let caption = format!(
         "What the simulated turbulence holds at each frequency, averaged over components, eddies and up to \
          eight replicates, against the flat spectrum asked for (dashed): rms {} m/s per component, nothing \
-         above {} Hz. The flank at the cut-off is as wide as the analysis resolves.",
+         above {} Hz. The lowest point and the flank at the cut-off are blurred by the analysis.",
         significant(case.air.rms(), 3),
         significant(cutoff, 3),
     );
     figure(&chart, caption)
 }
 
-fn energy_errors(errors: &[ErrorOverTime]) -> Figure {
+fn energy_errors(case: &Case, errors: &[ErrorOverTime]) -> Figure {
     type Pick = fn(&ErrorOverTime) -> (f64, f64);
-    let mean = |pick: Pick| -> Vec<_> { errors.iter().map(|e| (e.time, pick(e).0)).collect() };
-    let largest = |pick: Pick| -> Vec<_> { errors.iter().map(|e| (e.time, pick(e).1)).collect() };
-    let (work, balance): (Pick, Pick) = (|e| e.work, |e| e.balance);
-    let chart = Chart::new(
-        "energy_errors",
-        "Errors of the energy over time",
-        Axis::linear("Time *t* (s)").tight(),
-        Axis::logarithmic("Error (%)"),
-    )
-    .when_empty("no energy yet to compare with")
-    .line(Series::new("work check: mean", PURPLE), &mean(work))
-    .line(Series::new("largest", PURPLE).width(0.9).dashed("2 2"), &largest(work))
-    .line(Series::new("energy balance: mean", GREEN), &mean(balance))
-    .line(Series::new("largest", GREEN).width(0.9).dashed("2 2"), &largest(balance));
-    let caption = "Two checks on the computation, mean and largest over the replicates. Work check: the work \
-                   of all forces against the kinetic energy. Energy balance: kinetic and elastic energy less \
-                   the work of gravity, air and damping, relative to the work of the air. Both would be zero \
-                   with an infinitely small time step."
-        .to_owned();
-    figure(&chart, caption)
+    let panel = |name: &str, label: &str, colour, pick: Pick| {
+        let mean: Vec<_> = errors.iter().map(|e| (e.time, pick(e).0)).collect();
+        let band: Vec<_> = errors.iter().map(|e| (e.time, pick(e).0, pick(e).1)).collect();
+        let x = Axis::linear("").tight().including(0.0);
+        let chart = Chart::new(name, "", x, Axis::logarithmic("Error (%)").decades(9))
+            .when_empty("no energy to compare with");
+        if case.run.replicates > 1 {
+            let label = format!("{label}, mean over the replicates");
+            chart
+                .line(Series::new(&label, colour).width(1.1), &mean)
+                .band(Series::new("up to the largest", colour), &band)
+        } else {
+            chart.line(Series::new(label, colour).width(1.1), &mean)
+        }
+    };
+    let work = panel("work_check", "work check", PURPLE, |e| e.work);
+    let mut balance = panel("energy_balance", "energy balance", GREEN, |e| e.balance);
+    balance.x.label = "Time *t* (s)".to_owned();
+    let title = "Errors of the energy over time";
+    Figure {
+        name: "energy_errors".to_owned(),
+        title: title.to_owned(),
+        caption:
+            "Two checks on the computation, mean and largest over the replicates. Work check: the work of \
+                  all forces against the kinetic energy. Energy balance: kinetic and elastic energy less the \
+                  work of gravity, air and damping, relative to the work of the air. Both would be zero with \
+                  an infinitely small time step."
+                .to_owned(),
+        svg: stacked(title, &[&work.sized(640.0, 230.0), &balance.sized(640.0, 250.0)]),
+    }
 }
 
 /// A number to so many significant digits, plainly.

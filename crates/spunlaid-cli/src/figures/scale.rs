@@ -19,13 +19,22 @@ pub(crate) struct Axis {
     pub(crate) from_zero: bool,
     /// Values that must lie on the axis, data or not.
     pub(crate) include: Vec<f64>,
+    /// Most decades shown below the largest value (logarithmic only).
+    pub(crate) decades: i32,
 }
 
 impl Axis {
     /// A linear axis with a small margin beyond the data.
     pub(crate) fn linear(label: &str) -> Self {
         let label = label.to_owned();
-        Self { label, spacing: Spacing::Linear, tight: false, from_zero: false, include: Vec::new() }
+        Self {
+            label,
+            spacing: Spacing::Linear,
+            tight: false,
+            from_zero: false,
+            include: Vec::new(),
+            decades: 12,
+        }
     }
 
     /// A logarithmic axis; values of zero and below do not show.
@@ -47,6 +56,11 @@ impl Axis {
     pub(crate) fn including(mut self, value: f64) -> Self {
         self.include.push(value);
         self
+    }
+
+    /// Showing at most so many decades below the largest value.
+    pub(crate) fn decades(self, decades: i32) -> Self {
+        Self { decades, ..self }
     }
 
     /// Whether a value has a place on such an axis.
@@ -75,9 +89,6 @@ pub(crate) struct Scale {
     /// Power of ten the labels leave out.
     pub(crate) exponent: i32,
 }
-
-/// Most decades a logarithmic axis reaches below its largest value.
-const DECADES: i32 = 12;
 
 impl Scale {
     /// The scale that shows `values`, with about `count` ticks.
@@ -139,7 +150,7 @@ fn logarithmic_ends(axis: &Axis, lo: f64, hi: f64) -> (f64, f64) {
     if lo > hi {
         return (0.1, 10.0);
     }
-    let lo = lo.max(hi * 10f64.powi(-DECADES)).max(1e-290);
+    let lo = lo.max(hi * 10f64.powi(-axis.decades)).max(1e-290);
     let hi = hi.max(lo);
     if hi < lo * 1.5 {
         return (lo / 3.0, hi * 3.0);
@@ -197,7 +208,8 @@ fn logarithmic_ticks((lo, hi): (f64, f64), count: usize) -> Vec<Tick> {
                 continue;
             }
             let labelled = m == 1 && e.rem_euclid(stride) == 0;
-            let label = labelled.then(|| if plain { signed(decade, (-e).max(0) as usize) } else { power_of_ten(e) });
+            let label =
+                labelled.then(|| if plain { signed(decade, (-e).max(0) as usize) } else { power_of_ten(e) });
             ticks.push(Tick { value, label });
         }
     }
@@ -270,7 +282,10 @@ mod tests {
     #[test]
     fn small_values_leave_a_power_of_ten() {
         let scale = Scale::fit(&Axis::linear("").tight(), [0.0, 4e-9].into_iter(), 4);
-        assert_eq!((scale.exponent, labels(&scale)), (-9, ["0", "1", "2", "3", "4"].map(String::from).into()));
+        assert_eq!(
+            (scale.exponent, labels(&scale)),
+            (-9, ["0", "1", "2", "3", "4"].map(String::from).into())
+        );
     }
 
     #[test]
@@ -296,7 +311,12 @@ mod tests {
             vec![f64::MIN_POSITIVE],
         ];
         for values in odd {
-            for axis in [Axis::linear(""), Axis::linear("").from_zero(), Axis::logarithmic(""), Axis::logarithmic("").tight()] {
+            for axis in [
+                Axis::linear(""),
+                Axis::linear("").from_zero(),
+                Axis::logarithmic(""),
+                Axis::logarithmic("").tight(),
+            ] {
                 let scale = Scale::fit(&axis, values.iter().copied(), 5);
                 assert!(scale.ends.0 < scale.ends.1, "{values:?} {axis:?} {scale:?}");
                 assert!(scale.ticks.len() < 200, "{values:?} {axis:?} {scale:?}");

@@ -55,6 +55,11 @@ impl Svg {
         );
     }
 
+    /// Opens a group whose origin is so far down.
+    pub(crate) fn open_shifted(&mut self, down: f64) {
+        let _ = writeln!(self.body, "<g transform=\"translate(0 {})\">", number(down));
+    }
+
     /// Closes a group.
     pub(crate) fn close(&mut self) {
         self.body.push_str("</g>\n");
@@ -87,7 +92,8 @@ impl Svg {
         }
         let d = outline(points);
         let stroke = stroke.map_or_else(String::new, |s| format!(" {}", s.attributes()));
-        let opacity = if opacity < 1.0 { format!(" fill-opacity=\"{}\"", number(opacity)) } else { String::new() };
+        let opacity =
+            if opacity < 1.0 { format!(" fill-opacity=\"{}\"", number(opacity)) } else { String::new() };
         let _ = writeln!(self.body, "<path d=\"{d}Z\" fill=\"{fill}\"{opacity}{stroke}/>");
     }
 
@@ -300,7 +306,10 @@ mod tests {
     fn labels_are_marked_up_and_escaped() {
         assert_eq!(plain("*t* (10^{−3} s)"), "t (10−3 s)");
         assert_eq!(spans("a<b", 10.0), "a&lt;b");
-        assert_eq!(spans("10^{2} x", 10.0), "10<tspan dy=\"-3.8\" font-size=\"7.2\">2</tspan><tspan dy=\"3.8\"> x</tspan>");
+        assert_eq!(
+            spans("10^{2} x", 10.0),
+            "10<tspan dy=\"-3.8\" font-size=\"7.2\">2</tspan><tspan dy=\"3.8\"> x</tspan>"
+        );
     }
 
     #[test]

@@ -7,6 +7,8 @@
 mod frames;
 mod page;
 mod table;
+#[cfg(test)]
+mod tests;
 mod words;
 
 use crate::figures::Figure;

@@ -37,7 +37,7 @@ fn per_replicate(results: &Results) -> [Result<'_>; 5] {
             "mm",
             1e3,
             &end.mean_x,
-            "mean over time of the free end’s x; the shorter of the length, the more the fibre is bent aside",
+            "mean over time of the free end’s x; the less of the fibre’s length, the more it is bent",
         ),
     ]
 }

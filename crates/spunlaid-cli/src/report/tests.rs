@@ -1,0 +1,151 @@
+//! The page holds what it should, safely and small.
+
+use super::{Performance, ReportInput, html};
+use crate::figures::{run_figures, sample};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use spunlaid::case::Case;
+use spunlaid::ensemble::Results;
+
+/// Megabytes a page may have.
+const MOST: usize = 6_000_000;
+
+fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml: &str) -> String {
+    let figures = run_figures(case, results, &sample::turbulence());
+    html(&ReportInput {
+        name,
+        case,
+        case_toml,
+        results,
+        figures: &figures,
+        notes,
+        performance: Performance {
+            wall_seconds: 1.0,
+            threads: 2,
+            nanoseconds_per_element_step: 5.4,
+            instructions: "AVX-512",
+        },
+        version: "0.1.0",
+    })
+}
+
+/// Fails unless every element that is opened is closed, in order.
+fn check_well_formed(html: &str) {
+    let mut open: Vec<String> = Vec::new();
+    let mut rest = html.strip_prefix("<!doctype html>").expect("a doctype");
+    while let Some(start) = rest.find('<') {
+        let end = start + rest[start..].find('>').expect("a closed tag");
+        let tag = &rest[start + 1..end];
+        rest = &rest[end + 1..];
+        let name = tag.trim_start_matches('/').split([' ', '\n', '/']).next().unwrap_or_default().to_owned();
+        let void = matches!(name.as_str(), "meta" | "input" | "rect" | "path" | "circle");
+        if tag.starts_with('/') {
+            assert_eq!(open.pop().as_deref(), Some(name.as_str()), "before {:.80}", rest);
+        } else if name == "script" || name == "style" {
+            let close = format!("</{name}>");
+            rest = &rest[rest.find(&close).expect("an end") + close.len()..];
+        } else if !tag.ends_with('/') && !void {
+            open.push(name);
+        }
+    }
+    assert!(open.is_empty(), "{open:?} are not closed");
+}
+
+#[test]
+fn is_well_formed_and_small_for_runs_of_any_size() {
+    for (elements, instants, replicates) in
+        [(1, 1, 1), (1, 2, 1), (20, 10_001, 8), (20_000, 30, 1), (300, 500, 2)]
+    {
+        let case = sample::case(elements, instants, replicates);
+        let page = page(&case, &sample::results(&case, 0.01), "case", &[], "version = 1");
+        assert!(page.len() < MOST, "{elements} elements, {instants} instants: {} bytes", page.len());
+        let positions = page.find("\"positions\":\"").expect("shapes");
+        let after = positions + page[positions..].find("\"}").expect("their end");
+        assert!(
+            !page[..positions].contains("NaN") && !page[after..].contains("NaN"),
+            "{elements}, {instants}"
+        );
+        check_well_formed(&page);
+    }
+}
+
+#[test]
+fn shows_any_motion() {
+    for amplitude in [0.0, 1e-300, f64::NAN] {
+        let case = sample::case(4, 50, 2);
+        check_well_formed(&page(&case, &sample::results(&case, amplitude), "case", &[], ""));
+    }
+    let case = sample::case(4, 50, 2);
+    let mut results = sample::results(&case, 0.01);
+    results.flights.clear();
+    let page = page(&case, &results, "case", &[], "");
+    check_well_formed(&page);
+    assert!(page.contains("No shapes of the fibre were kept"));
+}
+
+#[test]
+fn escapes_what_the_user_wrote() {
+    let evil = "</pre><script>alert('x')</script>&\"{{ name }}";
+    let case = sample::case(4, 50, 2);
+    let page = page(&case, &sample::results(&case, 0.01), evil, &[evil.to_owned()], evil);
+    assert!(!page.contains("<script>alert") && !page.contains("</pre><script"));
+    assert!(page.contains("&lt;script&gt;alert") || page.contains("&#60;script&#62;alert"));
+    check_well_formed(&page);
+}
+
+#[test]
+fn asks_nothing_of_the_network() {
+    let case = sample::case(4, 50, 2);
+    let page = page(&case, &sample::results(&case, 0.01), "case", &[], "");
+    for word in ["src=\"", "href=\"", "@import", "url(http", "fetch(", "XMLHttpRequest", "import("] {
+        assert!(!page.contains(word), "{word}");
+    }
+    // The name of SVG itself is the only address.
+    assert_eq!(page.matches("http").count(), page.matches("http://www.w3.org/2000/svg").count());
+}
+
+#[test]
+fn says_the_result_first() {
+    let case = sample::case(4, 50, 3);
+    let page = page(&case, &sample::results(&case, 0.01), "case", &[], "");
+    assert!(
+        page.contains("<h1>The free end swings 10\u{202f}mm in y and 10.10\u{a0}±\u{a0}0.06\u{202f}mm in z")
+    );
+}
+
+#[test]
+fn holds_the_shapes() {
+    let case = sample::case(4, 50, 2);
+    let results = sample::results(&case, 0.01);
+    let frames = super::frames::pack(&case, &results).expect("shapes were kept");
+    let packed =
+        frames.json.split("\"positions\":\"").nth(1).and_then(|t| t.strip_suffix("\"}")).expect("positions");
+    let bytes = STANDARD.decode(packed).expect("base64");
+    assert_eq!(bytes.len(), 2 * 50 * 5 * 3 * 2);
+    let list = |key: &str| -> Vec<f64> {
+        let start = frames.json.split(&format!("\"{key}\":[")).nth(1).expect("the key");
+        start.split(']').next().unwrap_or_default().split(',').map(|v| v.parse().expect("a number")).collect()
+    };
+    let (origin, step) = (list("origin_mm"), list("step_mm"));
+    let end = results.flights[1].shapes[49].position[4];
+    for (k, wanted) in [end.x, end.y, end.z].into_iter().enumerate() {
+        let at = bytes.len() - 6 + 2 * k;
+        let level = f64::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]));
+        // To half a level, and the rounding of the written numbers.
+        assert!((origin[k] + level * step[k] - wanted * 1e3).abs() <= 0.5 * step[k] + 1e-6);
+    }
+    assert_eq!(list("times").len(), 50);
+}
+
+#[test]
+fn shows_a_stretch_of_a_run_too_long_to_follow() {
+    // 20 s of 17 Hz: at 1/16 of a swing per instant more than fit.
+    let case = sample::case(200, 20_001, 1);
+    let frames = super::frames::pack(&case, &sample::results(&case, 0.01)).expect("shapes were kept");
+    assert!(
+        frames.remarks.iter().any(|r| r.starts_with("The picture shows the last ")),
+        "{:?}",
+        frames.remarks
+    );
+    assert!(frames.remarks.iter().any(|r| r.starts_with("101 of 201 nodes")), "{:?}", frames.remarks);
+}

@@ -9,6 +9,8 @@ use spunlaid::statistics::Estimate;
 
 /// A space that neither breaks nor stretches, between a number and its unit.
 const THIN: char = '\u{202f}';
+/// A space that does not break, around a sign.
+const HARD: char = '\u{a0}';
 
 /// `9.8 ± 0.2`: rounded to the error's first digit, or to two where that is a one; without an error to
 /// three digits. `factor` converts the unit.
@@ -22,10 +24,10 @@ pub(super) fn plus_minus(estimate: &Estimate, factor: f64) -> String {
     let leading = error / 10f64.powi(magnitude);
     let decimals = if leading < 1.95 { 1 - magnitude } else { -magnitude };
     if !mean.is_finite() || decimals > 6 {
-        return format!("{} ± {}", number(mean), number(error));
+        return format!("{}{HARD}±{HARD}{}", number(mean), number(error));
     }
     let decimals = decimals.max(0) as usize;
-    format!("{} ± {}", signed(mean, decimals), signed(error, decimals))
+    format!("{}{HARD}±{HARD}{}", signed(mean, decimals), signed(error, decimals))
 }
 
 /// A number to three digits, with a power of ten where it is far from one; a dash for none.
@@ -167,9 +169,9 @@ mod tests {
 
     #[test]
     fn errors_set_the_digits() {
-        assert_eq!(plus_minus(&estimate(9.812e-3, Some(0.21e-3)), 1e3), "9.8 ± 0.2");
-        assert_eq!(plus_minus(&estimate(17.612, Some(0.123)), 1.0), "17.61 ± 0.12");
-        assert_eq!(plus_minus(&estimate(812.3, Some(31.0)), 1.0), "812 ± 31");
+        assert_eq!(plus_minus(&estimate(9.812e-3, Some(0.21e-3)), 1e3), "9.8\u{a0}±\u{a0}0.2");
+        assert_eq!(plus_minus(&estimate(17.612, Some(0.123)), 1.0), "17.61\u{a0}±\u{a0}0.12");
+        assert_eq!(plus_minus(&estimate(812.3, Some(31.0)), 1.0), "812\u{a0}±\u{a0}31");
         assert_eq!(plus_minus(&estimate(9.8123, None), 1.0), "9.81");
         assert_eq!(plus_minus(&estimate(f64::NAN, Some(f64::NAN)), 1.0), "–");
     }

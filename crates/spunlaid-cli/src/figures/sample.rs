@@ -1,0 +1,104 @@
+//! Made-up results for the tests.
+
+use spunlaid::air::Air;
+use spunlaid::case::{Case, Run};
+use spunlaid::chain::schemes::Scheme;
+use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
+use spunlaid::ensemble::{Flight, Results, Sample, Shape, SpectrumPoint};
+use spunlaid::fibre::{Fibre, Root};
+use spunlaid::observe::{EndNodeMotion, NodeSpread};
+use spunlaid::vec3::Vec3;
+
+/// The case of the paper's Table 1 with another mesh and so many recorded instants, 1 ms apart.
+pub(crate) fn case(elements: usize, instants: usize, replicates: u64) -> Case {
+    Case {
+        fibre: Fibre {
+            length: 1.0,
+            diameter: 50e-6,
+            density: 950.0,
+            youngs_modulus: 2e9,
+            elements,
+            root: Root::Pinned,
+            direction: Vec3::new(1.0, 0.0, 0.0),
+        },
+        air: Air {
+            velocity: 10.0,
+            turbulence_intensity: 0.1,
+            length_scale: 0.05,
+            cutoff_frequency: 100.0,
+            density: 1.204,
+            kinematic_viscosity: 1.51e-5,
+            harmonics: 256,
+        },
+        drag: Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient: 0.9 },
+        run: Run {
+            time_step: 1e-3,
+            steps: instants as u64 - 1,
+            spin_up_steps: 0,
+            output_steps: 1,
+            replicates,
+            seed: 1,
+            scheme: Scheme::SemiImplicitEuler,
+            gravity: 9.81,
+            damping: 0.0,
+        },
+    }
+}
+
+/// Results of swings of `amplitude` [m] at 17 Hz.
+pub(crate) fn results(case: &Case, amplitude: f64) -> Results {
+    let nodes = case.fibre.elements + 1;
+    let mut collector = Results::collector(case, 8);
+    for replicate in 0..case.run.replicates {
+        collector.take(&flight(case, nodes, replicate, amplitude));
+    }
+    collector.finish()
+}
+
+fn flight(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Flight {
+    let position = |time: f64, node: usize| {
+        let along = node as f64 / (nodes - 1) as f64;
+        let phase = 107.0 * time + replicate as f64;
+        Vec3::new(along, amplitude * along * phase.sin(), amplitude * along * (1.1 * phase).cos())
+    };
+    let instants = 0..=case.run.steps;
+    let times: Vec<f64> = instants.map(|i| i as f64 * case.run.time_step).collect();
+    let sample = |&time: &f64| Sample {
+        time,
+        end: position(time, nodes - 1),
+        kinetic: amplitude * time,
+        work: amplitude * time * (1.0 + 1e-4 * (time * 50.0).sin()),
+        air_work: amplitude * time,
+        imbalance: amplitude * 1e-6 * time,
+        ..Sample::default()
+    };
+    let shape = |&time: &f64| Shape { time, position: (0..nodes).map(|node| position(time, node)).collect() };
+    let spread = |node: usize| {
+        let amplitude = amplitude * node as f64 / nodes as f64;
+        NodeSpread { amplitude_y: amplitude, amplitude_z: 0.9 * amplitude, ..NodeSpread::default() }
+    };
+    let frequency = if amplitude == 0.0 { 0.0 } else { 17.0 + 0.1 * replicate as f64 };
+    Flight {
+        replicate,
+        end_node: EndNodeMotion {
+            amplitude_y: amplitude,
+            amplitude_z: amplitude * (1.0 + 0.01 * replicate as f64),
+            frequency_y: frequency,
+            frequency_z: frequency,
+            mean: position(0.0, nodes - 1),
+        },
+        max_strain: 1e-4,
+        samples: times.iter().map(sample).collect(),
+        nodes: (0..nodes).map(spread).collect(),
+        shapes: times.iter().map(shape).collect(),
+    }
+}
+
+/// A spectrum of turbulence.
+pub(crate) fn turbulence() -> Vec<SpectrumPoint> {
+    let point = |i: i32| {
+        let frequency = f64::from(i) * 4.0;
+        SpectrumPoint { frequency, realised: 0.01, wanted: 0.01 }
+    };
+    (1..100).map(point).collect()
+}
