@@ -212,7 +212,8 @@ impl Check<'_> {
             return;
         }
         let fault = |what, remedy| Fault::TooMuchMemory { bytes, most, what, remedy };
-        let (air, largest) = (case.air, memory.chain.max(memory.turbulence).max(memory.synthesis));
+        let (air, largest) =
+            (case.air, memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.records));
         let chosen = Air::default_harmonics(air.cutoff_frequency, case.run.duration());
         if largest == memory.chain {
             let fault = fault("the chain", "write a longer one");
@@ -220,6 +221,9 @@ impl Check<'_> {
         } else if largest == memory.turbulence {
             let fault = fault("the turbulence", "write a longer one, or shorten run.duration");
             self.blame(&keys::LENGTH_SCALE, air.length_scale, fault);
+        } else if largest == memory.records {
+            let fault = fault("the recorded instants", "write a longer one");
+            self.blame(&keys::OUTPUT_INTERVAL, case.run.output_interval(), fault);
         } else if air.harmonics == chosen {
             let fault = fault("making the turbulence", "write a lower one, or shorten run.duration");
             self.blame(&keys::CUTOFF_FREQUENCY, air.cutoff_frequency, fault);
@@ -234,9 +238,10 @@ impl Check<'_> {
         let duration = run.duration();
         let [axial, bending] = self.case.stable_step_limits();
         let tightest = if bending.limit < axial.limit { bending } else { axial };
-        // A mesh that memory cannot hold has been told already.
-        let told = self.problems.iter().any(|problem| problem.key == keys::ELEMENT_LENGTH.key);
-        if !told && run.time_step >= tightest.limit {
+        // What memory cannot hold has been told already.
+        let told: Vec<String> = self.problems.iter().map(|problem| problem.key.clone()).collect();
+        let told = |quantity: &Quantity| told.iter().any(|key| key == quantity.key);
+        if !told(&keys::ELEMENT_LENGTH) && run.time_step >= tightest.limit {
             let StepLimit { limit, cause } = tightest;
             let element_length = fibre.rest_length();
             let advice = two_digits_down(0.9 * limit);
@@ -250,7 +255,7 @@ impl Check<'_> {
             self.blame(&keys::OUTPUT_INTERVAL, run.output_interval(), Fault::IntervalTooLong { duration });
         }
         let records = (run.steps / run.output_steps + 1) as f64 * run.replicates as f64;
-        if records > MOST_RECORDS {
+        if !told(&keys::OUTPUT_INTERVAL) && records > MOST_RECORDS {
             let fault = Fault::TooManyRecords { records, most: MOST_RECORDS };
             self.blame(&keys::OUTPUT_INTERVAL, run.output_interval(), fault);
         }

@@ -10,6 +10,8 @@ pub const BUNDLE_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
 const VECTORS_PER_NODE: f64 = 10.0;
 /// Bytes of such a vector.
 const VECTOR: f64 = 192.0;
+/// Bytes of the end nodes and energies of eight fibres at a recorded instant.
+const RECORD: f64 = 8.0 * 13.0 * 8.0;
 /// Bytes of scratch space that the synthesis of turbulence takes per harmonic.
 const SYNTHESIS: f64 = 1200.0;
 
@@ -22,12 +24,14 @@ pub struct BundleMemory {
     pub turbulence: f64,
     /// What making the turbulence takes besides.
     pub synthesis: f64,
+    /// What is recorded of the eight fibres until they have landed.
+    pub records: f64,
 }
 
 impl BundleMemory {
     /// All together [bytes].
     pub fn total(&self) -> f64 {
-        self.chain + self.turbulence + self.synthesis
+        self.chain + self.turbulence + self.synthesis + self.records
     }
 }
 
@@ -43,6 +47,8 @@ impl Case {
         } else {
             0.0
         };
-        BundleMemory { chain: (elements + 1.0) * VECTORS_PER_NODE * VECTOR, turbulence, synthesis }
+        let instants = (self.run.steps / self.run.output_steps.max(1) + 1) as f64;
+        let (chain, records) = ((elements + 1.0) * VECTORS_PER_NODE * VECTOR, instants * RECORD);
+        BundleMemory { chain, turbulence, synthesis, records }
     }
 }
