@@ -311,7 +311,9 @@ pub enum Fault {
         remedy: &'static str,
     },
     /// More results than can be kept.
-    #[error("records {records:.1e} instants over all replicates, more than {most:e}; lengthen it or lower run.replicates")]
+    #[error(
+        "records {records:.1e} instants over all replicates, more than {most:e}; lengthen it or lower run.replicates"
+    )]
     TooManyRecords {
         /// Instants times replicates.
         records: f64,
