@@ -1,7 +1,7 @@
 //! Air drag on a fibre, along and across its axis.
 
 use crate::fibre::Fibre;
-use crate::lanes::{Lanes, power};
+use crate::lanes::{Lanes, Simd, Wide, power};
 use crate::vec3::Vec3;
 use std::f64::consts::PI;
 
@@ -115,6 +115,13 @@ pub struct ElementDrag {
     pub normal_exponent: f64,
 }
 
+impl ElementDrag {
+    /// Half of it: the share of each of the element's two nodes.
+    pub(crate) fn half(self) -> Self {
+        Self { tangential: 0.5 * self.tangential, normal: 0.5 * self.normal, ..self }
+    }
+}
+
 /// [`ElementDrag`] of eight fibres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DragLanes {
@@ -140,11 +147,12 @@ impl DragLanes {
     /// * `relative` – velocity of the air relative to the element's centre [m/s]
     /// * `tangent` – unit vector along the element
     #[inline(always)]
-    pub fn force(&self, relative: Vec3<Lanes>, tangent: Vec3<Lanes>) -> Vec3<Lanes> {
+    pub(crate) fn force<S: Simd>(&self, relative: Vec3<Wide<S>>, tangent: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
         let along = relative.dot(tangent);
-        let across = tangent.mul_add(-along, relative);
-        let friction = self.tangential * power(along.abs(), self.tangential_exponent) * along;
-        let normal = self.normal * power(across.dot(across), self.normal_exponent);
-        across.mul_add(normal, tangent * friction)
+        let across = tangent.neg_mul_add(along, relative);
+        let friction = power(along.abs(), Wide::load(&self.tangential_exponent));
+        let normal = power(across.dot(across), Wide::load(&self.normal_exponent));
+        let friction = Wide::load(&self.tangential) * along * friction;
+        across.mul_add(Wide::load(&self.normal) * normal, tangent * friction)
     }
 }

@@ -2,35 +2,26 @@
 
 use crate::chain::Chain;
 use crate::chain::forces::Element;
-use crate::lanes::Lanes;
+use crate::lanes::{Isa, Lanes, Simd, Task, Wide, bend_ratio};
 use crate::vec3::Vec3;
 
 /// Running sums of `F·v` over nodes and steps, with the velocities before and after each kick.
 ///
 /// With `r_{k+1} − r_k = h v_after`, the trapezoidal rule of theory.md (33) up to time `t_K` is
-/// `½h (Σ_{k≤K} F_k·v_before + Σ_{k<K} F_k·v_after)`, the very first `F₀·v_before` left out.
+/// `½h (Σ_{k<K} F_k·(v_before + v_after) + F_K·v_before)`, the very first `F₀·v_before` left out.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Power {
-    before: Lanes,
-    after: Lanes,
+    /// `Σ F·(v_before + v_after)` over all steps.
+    pub(crate) both: Lanes,
+    /// `Σ F·v_before` of the last step, if that one kept it apart.
+    pub(crate) before: Lanes,
 }
 
 impl Power {
-    #[inline(always)]
-    pub(crate) fn add(&mut self, force: Vec3<Lanes>, before: Vec3<Lanes>, after: Vec3<Lanes>) {
-        self.before = add_dot(force, before, self.before);
-        self.after = add_dot(force, after, self.after);
-    }
-
-    /// Work [J] up to the positions of the last step's start: `earlier` is the ledger before that step.
+    /// Work [J] up to the start of the last step; `earlier` is the ledger before that step.
     fn work(&self, earlier: &Self, h: f64) -> Lanes {
-        (self.before + earlier.after) * (0.5 * h)
+        (earlier.both + self.before) * Lanes::splat(0.5 * h)
     }
-}
-
-#[inline(always)]
-fn add_dot(a: Vec3<Lanes>, b: Vec3<Lanes>, sum: Lanes) -> Lanes {
-    a.x.mul_add(b.x, a.y.mul_add(b.y, a.z.mul_add(b.z, sum)))
 }
 
 /// Work done on the nodes: of all forces together, and of those that no potential accounts for.
@@ -48,7 +39,7 @@ impl Work {
     /// Drops what the first step added for the time before it; called once, after that step.
     pub(crate) fn begin(&mut self) {
         for power in [&mut self.total, &mut self.drag, &mut self.damping] {
-            power.before = Lanes::ZERO;
+            power.both = power.both - power.before;
         }
     }
 }
@@ -88,33 +79,13 @@ impl Energy {
         (before, after): (&Work, &Work),
         h: f64,
     ) -> Self {
-        let c = &chain.constants;
-        let n = chain.elements();
-        let half = Lanes::splat(0.5);
-        let mut e = Self {
+        let stored = Isa::detect().run(Stored { chain, position, velocity, start });
+        Self {
             work: after.total.work(&before.total, h),
             drag_work: after.drag.work(&before.drag, h),
             damping_work: after.damping.work(&before.damping, h),
-            ..Self::default()
-        };
-        for i in 0..=n {
-            let mass = if i == 0 || i == n { c.mass * half } else { c.mass };
-            e.kinetic += half * mass * velocity[i].dot(velocity[i]);
-            e.gravity_work += mass * c.gravity * (position[i].x - start[i].x);
+            ..stored
         }
-        let mut above = c.root_direction;
-        let mut stiffness = c.root_stiffness;
-        for j in 0..n {
-            let element = Element::between(position[j], position[j + 1]);
-            let stretch = element.length - c.rest_length;
-            e.axial += half * c.axial_stiffness * stretch * stretch;
-            e.strain = e.strain.max((stretch / c.rest_length).abs());
-            let angle = angle_between(above, element.tangent);
-            e.bending += half * stiffness * angle * angle;
-            above = element.tangent;
-            stiffness = c.bending_stiffness;
-        }
-        e
     }
 
     /// Potential and kinetic energy less the work of gravity, drag and damping [J]: zero but for the
@@ -124,11 +95,62 @@ impl Energy {
     }
 }
 
-/// Angle between unit vectors, accurate from 0 to π.
-fn angle_between(a: Vec3<Lanes>, b: Vec3<Lanes>) -> Lanes {
-    Lanes::from_fn(|i| {
-        let (a, b) = (a.lane(i), b.lane(i));
-        let (difference, sum) = ((b - a).norm(), (b + a).norm());
-        2.0 * libm::atan2(difference, sum)
-    })
+/// The energies that depend on where the nodes are and how fast they go.
+struct Stored<'a> {
+    chain: &'a Chain,
+    position: &'a [Vec3<Lanes>],
+    velocity: &'a [Vec3<Lanes>],
+    start: &'a [Vec3<Lanes>],
+}
+
+impl Task for Stored<'_> {
+    type Output = Energy;
+
+    #[inline(always)]
+    fn call<S: Simd>(self) -> Energy {
+        let c = &self.chain.constants;
+        let n = self.chain.elements();
+        let (mut kinetic, mut gravity_work) = (Wide::<S>::zero(), Wide::<S>::zero());
+        for (i, ((position, velocity), start)) in
+            self.position.iter().zip(self.velocity).zip(self.start).enumerate()
+        {
+            let node = if i == 0 { &c.root } else if i == n { &c.end } else { &c.node };
+            let v = Vec3::load(velocity);
+            kinetic = Wide::load(&node.mass).mul_add(v.dot(v), kinetic);
+            let fallen = Wide::load(&position.x) - Wide::load(&start.x);
+            gravity_work = Wide::load(&node.weight).mul_add(fallen, gravity_work);
+        }
+        let (mut axial, mut bending, mut strain) = (Wide::zero(), Wide::zero(), Wide::zero());
+        let mut above = Vec3::load(&c.root_direction);
+        let mut stiffness = Wide::load(&c.root_stiffness);
+        let rest_length = Wide::load(&c.rest_length);
+        for pair in self.position.windows(2) {
+            let element = Element::<S>::between(Vec3::load(&pair[0]), Vec3::load(&pair[1]));
+            let stretch = element.length - rest_length;
+            axial = (Wide::load(&c.axial_stiffness) * stretch).mul_add(stretch, axial);
+            strain = stretch.over(rest_length).abs().max(strain);
+            bending = stiffness.mul_add(angle_squared(above, element.tangent), bending);
+            above = element.tangent;
+            stiffness = Wide::load(&c.bending_stiffness);
+        }
+        let half = Wide::splat(0.5);
+        Energy {
+            kinetic: (kinetic * half).store(),
+            axial: (axial * half).store(),
+            bending: (bending * half).store(),
+            gravity_work: gravity_work.store(),
+            strain: strain.store(),
+            ..Energy::default()
+        }
+    }
+}
+
+/// `θ²` of two unit vectors: `θ = (θ/sin θ) 2 √(x(1−x))` with `x = sin²(θ/2)`.
+#[inline(always)]
+fn angle_squared<S: Simd>(a: Vec3<Wide<S>>, b: Vec3<Wide<S>>) -> Wide<S> {
+    let turn = b - a;
+    let x = turn.dot(turn) * Wide::splat(0.25);
+    let ratio = bend_ratio(x);
+    let sine_squared = Wide::splat(4.0) * x * (Wide::splat(1.0) - x);
+    ratio * ratio * sine_squared
 }

@@ -1,6 +1,6 @@
 //! Fourier transform of eight signals side by side.
 
-use crate::lanes::{Lanes, cos_sin_turn, one_at_a_time};
+use crate::lanes::{Isa, Lanes, Plain, Simd, Task, Wide, cos_sin_turn};
 
 /// Complex numbers of eight lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -11,31 +11,39 @@ pub struct Complex {
     pub im: Lanes,
 }
 
-impl Complex {
-    /// `e^{2πi·turns}` in every lane.
-    pub fn unit(turns: f64) -> Self {
-        let (re, im) = cos_sin_turn(Lanes::splat(turns));
-        Self { re, im }
+/// [`Complex`] in registers.
+#[derive(Clone, Copy)]
+pub(crate) struct WideComplex<S: Simd> {
+    pub(crate) re: Wide<S>,
+    pub(crate) im: Wide<S>,
+}
+
+impl<S: Simd> WideComplex<S> {
+    #[inline(always)]
+    pub(crate) fn load(z: &Complex) -> Self {
+        Self { re: Wide::load(&z.re), im: Wide::load(&z.im) }
     }
 
     #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        Self { re: self.re + other.re, im: self.im + other.im }
+    pub(crate) fn store(self) -> Complex {
+        Complex { re: self.re.store(), im: self.im.store() }
     }
 
+    /// Product with the same number in every lane.
     #[inline(always)]
-    fn minus(self, other: Self) -> Self {
-        Self { re: self.re - other.re, im: self.im - other.im }
-    }
-
-    /// Product.
-    #[inline(always)]
-    pub fn times(self, other: Self) -> Self {
+    pub(crate) fn times(self, (re, im): (f64, f64)) -> Self {
+        let (re, im) = (Wide::splat(re), Wide::splat(im));
         Self {
-            re: self.re.mul_add(other.re, -(self.im * other.im)),
-            im: self.re.mul_add(other.im, self.im * other.re),
+            re: self.im.neg_mul_add(im, self.re * re),
+            im: self.re.mul_add(im, self.im * re),
         }
     }
+}
+
+/// `e^{2πi·turns}` as (cosine, sine).
+pub(crate) fn unit(turns: f64) -> (f64, f64) {
+    let (cos, sin) = cos_sin_turn(Wide::<Plain>::splat(turns));
+    (cos.store().0[0], sin.store().0[0])
 }
 
 /// Unscaled inverse Fourier transform `y_m = Σ_n x_n e^{2πi nm/M}`, `M` a power of two.
@@ -51,37 +59,51 @@ impl InverseTransform {
     /// For signals of `size` samples, a power of two.
     pub fn new(size: usize) -> Self {
         debug_assert!(size.is_power_of_two());
-        let roots = (0..size / 2)
-            .map(|k| {
-                let root = Complex::unit(k as f64 / size as f64);
-                (root.re.0[0], root.im.0[0])
-            })
-            .collect();
-        Self { roots }
+        Self { roots: (0..size / 2).map(|k| unit(k as f64 / size as f64)).collect() }
+    }
+
+    /// Transforms `data` in place.
+    pub fn run(&self, data: &mut Vec<Complex>) {
+        let mut scratch = vec![Complex::default(); data.len()];
+        Isa::detect().run(Run { transform: self, data, scratch: &mut scratch });
     }
 
     /// Transforms `data` in place, with `scratch` of the same size.
     #[inline(always)]
-    pub fn run(&self, data: &mut Vec<Complex>, scratch: &mut Vec<Complex>) {
+    pub(crate) fn pass<S: Simd>(&self, data: &mut Vec<Complex>, scratch: &mut Vec<Complex>) {
         let size = data.len();
         let mut stride = 1;
         let mut half = size / 2;
         while half >= 1 {
             for p in 0..half {
-                let (cos, sin) = self.roots[p * stride];
-                let root = Complex { re: Lanes::splat(cos), im: Lanes::splat(sin) };
+                let root = self.roots[p * stride];
                 let upper = &data[stride * p..][..stride];
                 let lower = &data[stride * (p + half)..][..stride];
                 let (even, odd) = scratch[2 * stride * p..][..2 * stride].split_at_mut(stride);
                 for q in 0..stride {
-                    one_at_a_time();
-                    even[q] = upper[q].plus(lower[q]);
-                    odd[q] = upper[q].minus(lower[q]).times(root);
+                    let (a, b) = (WideComplex::<S>::load(&upper[q]), WideComplex::load(&lower[q]));
+                    even[q] = WideComplex { re: a.re + b.re, im: a.im + b.im }.store();
+                    odd[q] = WideComplex { re: a.re - b.re, im: a.im - b.im }.times(root).store();
                 }
             }
             std::mem::swap(data, scratch);
             stride *= 2;
             half /= 2;
         }
+    }
+}
+
+struct Run<'a> {
+    transform: &'a InverseTransform,
+    data: &'a mut Vec<Complex>,
+    scratch: &'a mut Vec<Complex>,
+}
+
+impl Task for Run<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<S: Simd>(self) {
+        self.transform.pass::<S>(self.data, self.scratch);
     }
 }

@@ -1,6 +1,6 @@
 //! What is measured while the fibres fly.
 
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Simd, Wide};
 use crate::vec3::Vec3;
 
 /// Running statistics of the end nodes of eight fibres, taken every step.
@@ -33,20 +33,24 @@ pub struct EndNodeMotion {
 impl EndNodeObserver {
     /// Takes in one more position (Welford's running mean and variance).
     #[inline(always)]
-    pub fn see(&mut self, position: Vec3<Lanes>) {
+    pub(crate) fn see<S: Simd>(&mut self, position: &Vec3<Lanes>) {
         self.count += 1.0;
-        let share = Lanes::splat(1.0 / self.count);
-        let off = position - self.mean;
-        self.mean = off.mul_add(share, self.mean);
-        let rest = position - self.mean;
-        self.squares[0] = off.y.mul_add(rest.y, self.squares[0]);
-        self.squares[1] = off.z.mul_add(rest.z, self.squares[1]);
-        for (i, y) in [position.y, position.z].into_iter().enumerate() {
-            let (zero, one) = (Lanes::ZERO, Lanes::splat(1.0));
-            let on_plane = self.side[i];
-            let side = Lanes::select_less(zero, y, one, Lanes::select_less(y, zero, -one, on_plane));
-            self.crossings[i] += Lanes::select_less(side * self.side[i], zero, one, zero);
-            self.side[i] = side;
+        let share = Wide::<S>::splat(1.0 / self.count);
+        let position = Vec3::load(position);
+        let off = position - Vec3::load(&self.mean);
+        let mean = off.mul_add(share, Vec3::load(&self.mean));
+        self.mean = mean.store();
+        let rest = position - mean;
+        let (zero, one) = (Wide::zero(), Wide::splat(1.0));
+        for (i, (y, off, rest)) in
+            [(position.y, off.y, rest.y), (position.z, off.z, rest.z)].into_iter().enumerate()
+        {
+            self.squares[i] = off.mul_add(rest, Wide::load(&self.squares[i])).store();
+            let last = Wide::load(&self.side[i]);
+            let side = Wide::select_less(zero, y, one, Wide::select_less(y, zero, -one, last));
+            let crossing = Wide::select_less(side * last, zero, one, zero);
+            self.crossings[i] = (Wide::load(&self.crossings[i]) + crossing).store();
+            self.side[i] = side.store();
         }
     }
 
@@ -94,10 +98,10 @@ impl SpreadObserver {
         let share = Lanes::splat(1.0 / self.count);
         for ((mean, squares), &p) in self.nodes.iter_mut().zip(position) {
             let off = p - *mean;
-            *mean = off.mul_add(share, *mean);
+            *mean += off * share;
             let rest = p - *mean;
-            squares[0] = off.y.mul_add(rest.y, squares[0]);
-            squares[1] = off.z.mul_add(rest.z, squares[1]);
+            squares[0] = squares[0] + off.y * rest.y;
+            squares[1] = squares[1] + off.z * rest.z;
         }
     }
 

@@ -98,8 +98,7 @@ impl PowerSpectrum {
         let at = |i: usize, t: usize| segments.get(i).map_or(0.0, |s| s[t]);
         let mut data: Vec<Complex> =
             (0..length).map(|t| Complex { re: Lanes::from_fn(|i| at(i, t)), im: Lanes::ZERO }).collect();
-        let mut scratch = data.clone();
-        self.transform.run(&mut data, &mut scratch);
+        self.transform.run(&mut data);
         for (sum, y) in self.sum.iter_mut().zip(&data) {
             let power = y.re * y.re + y.im * y.im;
             for p in &power.0[..segments.len()] {

@@ -1,6 +1,6 @@
 //! Vectors in space, of plain numbers or of [`Lanes`].
 
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Simd, Wide};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 /// A vector with components along x (the mean flow and gravity), y and z.
@@ -62,20 +62,53 @@ impl Vec3<Lanes> {
     pub fn set_lane(&mut self, i: usize, v: Vec3<f64>) {
         (self.x.0[i], self.y.0[i], self.z.0[i]) = (v.x, v.y, v.z);
     }
+}
+
+impl<S: Simd> Vec3<Wide<S>> {
+    #[inline(always)]
+    pub(crate) fn zero() -> Self {
+        Self::new(Wide::zero(), Wide::zero(), Wide::zero())
+    }
+
+    #[inline(always)]
+    pub(crate) fn load(v: &Vec3<Lanes>) -> Self {
+        Self::new(Wide::load(&v.x), Wide::load(&v.y), Wide::load(&v.z))
+    }
+
+    #[inline(always)]
+    pub(crate) fn store(self) -> Vec3<Lanes> {
+        Vec3::new(self.x.store(), self.y.store(), self.z.store())
+    }
 
     /// Scalar product.
     #[inline(always)]
-    pub fn dot(self, other: Self) -> Lanes {
+    pub(crate) fn dot(self, other: Self) -> Wide<S> {
         self.x.mul_add(other.x, self.y.mul_add(other.y, self.z * other.z))
+    }
+
+    /// Scalar product and `sum`.
+    #[inline(always)]
+    pub(crate) fn dot_add(self, other: Self, sum: Wide<S>) -> Wide<S> {
+        self.x.mul_add(other.x, self.y.mul_add(other.y, self.z.mul_add(other.z, sum)))
     }
 
     /// `self · factor + addend`, each component rounded once.
     #[inline(always)]
-    pub fn mul_add(self, factor: Lanes, addend: Self) -> Self {
+    pub(crate) fn mul_add(self, factor: Wide<S>, addend: Self) -> Self {
         Self::new(
             self.x.mul_add(factor, addend.x),
             self.y.mul_add(factor, addend.y),
             self.z.mul_add(factor, addend.z),
+        )
+    }
+
+    /// `addend − self · factor`, each component rounded once.
+    #[inline(always)]
+    pub(crate) fn neg_mul_add(self, factor: Wide<S>, addend: Self) -> Self {
+        Self::new(
+            self.x.neg_mul_add(factor, addend.x),
+            self.y.neg_mul_add(factor, addend.y),
+            self.z.neg_mul_add(factor, addend.z),
         )
     }
 }

@@ -1,7 +1,7 @@
 //! From evenly spaced samples back to the velocity at any time.
 
 use super::Turbulence;
-use crate::lanes::{Lanes, one_at_a_time};
+use crate::lanes::{Lanes, Plain, Simd, Wide};
 use crate::vec3::Vec3;
 use std::f64::consts::PI;
 
@@ -109,57 +109,71 @@ impl<'a> Wind<'a> {
     /// Velocity of the air in each eddy [m/s] at time `t` [s] of the run, mean flow included.
     ///
     /// Fastest when times come in order.
-    #[inline(always)]
     pub fn at(&mut self, t: f64) -> &[Vec3<Lanes>] {
+        self.blow::<Plain>(t)
+    }
+
+    /// [`Wind::at`] for the kernel.
+    #[inline(always)]
+    pub(crate) fn blow<S: Simd>(&mut self, t: f64) -> &[Vec3<Lanes>] {
         let cells = t / self.turbulence.spacing * CELLS as f64;
         let cell = cells as u64;
         if self.cell != Some(cell) {
-            self.enter(cell);
+            self.enter::<S>(cell);
         }
-        let s = Lanes::splat(cells - cell as f64);
-        let along = |c: &[Lanes; 4]| c[3].mul_add(s, c[2]).mul_add(s, c[1]).mul_add(s, c[0]);
+        let s = Wide::<S>::splat(cells - cell as f64);
         for (v, cubic) in self.velocity.iter_mut().zip(self.cubic.chunks_exact(3)) {
-            one_at_a_time();
-            *v = Vec3::new(along(&cubic[0]), along(&cubic[1]), along(&cubic[2]));
+            *v = Vec3::new(along(&cubic[0], s), along(&cubic[1], s), along(&cubic[2], s)).store();
         }
         &self.velocity
     }
 
     #[inline(always)]
-    fn enter(&mut self, cell: u64) {
+    fn enter<S: Simd>(&mut self, cell: u64) {
         if cell == 0 || self.cell != Some(cell - 1) {
-            self.move_end(cell);
+            self.move_end::<S>(cell);
         }
         std::mem::swap(&mut self.start, &mut self.end);
-        self.move_end(cell + 1);
-        let (two, three) = (Lanes::splat(2.0), Lanes::splat(3.0));
+        self.move_end::<S>(cell + 1);
+        let (two, three) = (Wide::<S>::splat(2.0), Wide::<S>::splat(3.0));
         for (column, (cubic, (a, b))) in
             self.cubic.iter_mut().zip(self.start.iter().zip(&self.end)).enumerate()
         {
-            one_at_a_time();
+            let a = (Wide::load(&a.0), Wide::load(&a.1));
+            let b = (Wide::load(&b.0), Wide::load(&b.1));
             let rise = b.0 - a.0;
-            let mean = if column % 3 == 0 { self.turbulence.mean } else { Lanes::ZERO };
-            *cubic = [a.0 + mean, a.1, three.mul_add(rise, -(two * a.1 + b.1)), a.1 + b.1 - two * rise];
+            let mean = if column % 3 == 0 { Wide::load(&self.turbulence.mean) } else { Wide::zero() };
+            *cubic = [
+                (a.0 + mean).store(),
+                a.1.store(),
+                three.mul_add(rise, -two.mul_add(a.1, b.1)).store(),
+                two.neg_mul_add(rise, a.1 + b.1).store(),
+            ];
         }
         self.cell = Some(cell);
     }
 
     /// Puts the value and slope at a cell's start into `end`.
     #[inline(always)]
-    fn move_end(&mut self, cell: u64) {
+    fn move_end<S: Simd>(&mut self, cell: u64) {
         let columns = self.end.len();
         let first = (cell / CELLS as u64) as usize;
         let weights = &self.weights[(cell % CELLS as u64) as usize];
         let samples = &self.turbulence.samples[first * columns..][..SPREAD * columns];
         for (column, end) in self.end.iter_mut().enumerate() {
-            let (mut value, mut slope) = (Lanes::ZERO, Lanes::ZERO);
+            let (mut value, mut slope) = (Wide::<S>::zero(), Wide::<S>::zero());
             for (tap, &(for_value, for_slope)) in weights.iter().enumerate() {
-                one_at_a_time();
-                let sample = samples[tap * columns + column];
-                value = sample.mul_add(Lanes::splat(for_value), value);
-                slope = sample.mul_add(Lanes::splat(for_slope), slope);
+                let sample = Wide::load(&samples[tap * columns + column]);
+                value = sample.mul_add(Wide::splat(for_value), value);
+                slope = sample.mul_add(Wide::splat(for_slope), slope);
             }
-            *end = (value, slope);
+            *end = (value.store(), slope.store());
         }
     }
+}
+
+/// A cubic at `s` of its cell.
+#[inline(always)]
+fn along<S: Simd>([c0, c1, c2, c3]: &[Lanes; 4], s: Wide<S>) -> Wide<S> {
+    Wide::load(c3).mul_add(s, Wide::load(c2)).mul_add(s, Wide::load(c1)).mul_add(s, Wide::load(c0))
 }

@@ -2,9 +2,8 @@
 
 use super::Air;
 use super::interpolation::{SPREAD, Taper};
-use crate::fft::{Complex, InverseTransform};
-use crate::lanes::isa::Task;
-use crate::lanes::{Isa, Lanes, WIDTH, cos_sin_turn, one_at_a_time};
+use crate::fft::{Complex, InverseTransform, WideComplex, unit};
+use crate::lanes::{Isa, Lanes, Simd, Task, WIDTH, Wide, cos_sin_turn};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -77,7 +76,7 @@ impl Task for Synthesis<'_> {
     type Output = Turbulence;
 
     #[inline(always)]
-    fn call(self) -> Turbulence {
+    fn call<S: Simd>(self) -> Turbulence {
         let pick = |i: usize| &self.lanes[if i < self.lanes.len() { i } else { 0 }];
         let air = &pick(0).0;
         let harmonics = air.harmonics;
@@ -93,36 +92,54 @@ impl Task for Synthesis<'_> {
                 Lanes::from_fn(|i| pick(i).0.spectrum().amplitude(n, harmonics) * scale)
             })
             .collect();
-        let turn_back: Vec<Complex> =
-            (0..half).map(|m| Complex::unit(-0.25 * m as f64 / half as f64)).collect();
+        let turn_back: Vec<(f64, f64)> =
+            (0..half).map(|m| unit(-0.25 * m as f64 / half as f64)).collect();
 
-        let count = (self.duration / spacing).ceil() as usize + SPREAD + 1;
+        let count = sample_count(self.duration, spacing);
         let columns = 3 * self.eddies;
         let mut samples = vec![Lanes::ZERO; count * columns];
         let mut bins = vec![Complex::default(); half];
         let mut scratch = bins.clone();
+        let mut wave = bins.clone();
         for column in 0..columns {
-            let mut phases: [_; WIDTH] = std::array::from_fn(|i| pick(i).1.phases(column / 3, column % 3));
+            let mut phases: [_; WIDTH] =
+                std::array::from_fn(|i| pick(i).1.phases(column / 3, column % 3));
             bins.fill(Complex::default());
-            for (n, &a) in amplitude.iter().enumerate() {
-                one_at_a_time();
-                let (cos, sin) = cos_sin_turn(Lanes::from_fn(|i| phases[i]()));
+            for (n, a) in amplitude.iter().enumerate() {
+                let phase = Lanes::from_fn(|i| phases[i]());
+                let (cos, sin) = cos_sin_turn(Wide::<S>::load(&phase));
                 // Half the size for a real signal of half-odd frequencies: theory.md (18).
                 let (bin, sign) = if n % 2 == 0 { ((half - n / 2) % half, -1.0) } else { (n / 2 + 1, 1.0) };
-                bins[bin] =
-                    Complex { re: a.mul_add(cos, bins[bin].re), im: (a * sign).mul_add(sin, bins[bin].im) };
+                let a = Wide::load(a);
+                let sum = WideComplex::load(&bins[bin]);
+                let sum = WideComplex {
+                    re: a.mul_add(cos, sum.re),
+                    im: (a * Wide::splat(sign)).mul_add(sin, sum.im),
+                };
+                bins[bin] = sum.store();
             }
-            transform.run(&mut bins, &mut scratch);
-            let wave: Vec<Complex> = bins.iter().zip(&turn_back).map(|(&z, &t)| z.times(t)).collect();
+            transform.pass::<S>(&mut bins, &mut scratch);
+            for ((wave, bin), &back) in wave.iter_mut().zip(&bins).zip(&turn_back) {
+                *wave = WideComplex::<S>::load(bin).times(back).store();
+            }
             for (k, row) in samples.chunks_exact_mut(columns).enumerate() {
-                one_at_a_time();
                 // The signal changes sign from one repeat time to the next.
                 let m = k as isize - (SPREAD as isize / 2 - 1);
                 let (laps, m) = (m.div_euclid(period as isize), m.rem_euclid(period as isize) as usize);
-                let value = if m < half { wave[m].re } else { wave[m - half].im };
-                row[column] = if laps % 2 == 0 { value } else { -value };
+                let value = Wide::<S>::load(if m < half { &wave[m].re } else { &wave[m - half].im });
+                row[column] = if laps % 2 == 0 { value } else { -value }.store();
             }
         }
-        Turbulence { samples, eddies: self.eddies, spacing, mean: Lanes::from_fn(|i| pick(i).0.velocity) }
+        Turbulence {
+            samples,
+            eddies: self.eddies,
+            spacing,
+            mean: Lanes::from_fn(|i| pick(i).0.velocity),
+        }
     }
+}
+
+/// Samples needed to interpolate anywhere in `[0, duration]`.
+fn sample_count(duration: f64, spacing: f64) -> usize {
+    (duration / spacing).ceil() as usize + SPREAD + 1
 }

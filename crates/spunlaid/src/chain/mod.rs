@@ -40,18 +40,29 @@ pub struct Chain {
 /// What a step needs to know of eight fibres.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constants {
-    pub(crate) mass: Lanes,
-    pub(crate) inverse_mass: Lanes,
+    /// The root, which does not move where it is held.
+    pub(crate) root: Node,
+    /// A node between two elements.
+    pub(crate) node: Node,
+    /// The free end.
+    pub(crate) end: Node,
     pub(crate) rest_length: Lanes,
     pub(crate) axial_stiffness: Lanes,
     pub(crate) bending_stiffness: Lanes,
-    /// Inverse mass of the root node: 0 where it is held.
-    pub(crate) root_inverse_mass: Lanes,
     pub(crate) root_stiffness: Lanes,
     pub(crate) root_direction: Vec3<Lanes>,
-    pub(crate) gravity: Lanes,
     pub(crate) damping: Lanes,
-    pub(crate) drag: DragLanes,
+    /// Half an element's drag: the share of each of its nodes.
+    pub(crate) half_drag: DragLanes,
+}
+
+/// What a step needs to know of a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Node {
+    pub(crate) mass: Lanes,
+    /// 0 where the node is held.
+    pub(crate) inverse_mass: Lanes,
+    pub(crate) weight: Lanes,
 }
 
 impl Chain {
@@ -68,27 +79,28 @@ impl Chain {
             lanes(&|s| s.fibre.direction.z),
         );
         let rest_length = lanes(&|s| s.fibre.rest_length());
-        let position = (0..=elements).map(|i| direction * (rest_length * i as f64)).collect();
-        let mass = lanes(&|s| s.fibre.element_mass());
+        let position = (0..=elements).map(|i| direction * (rest_length * Lanes::splat(i as f64))).collect();
+        let node = |i: usize, held: &dyn Fn(&Strand) -> bool| Node {
+            mass: lanes(&|s| s.fibre.node_mass(i)),
+            inverse_mass: lanes(&|s| if held(s) { 0.0 } else { 1.0 / s.fibre.node_mass(i) }),
+            weight: lanes(&|s| s.fibre.node_mass(i) * s.gravity),
+        };
         Self {
             position,
             velocity: vec![Vec3::ZERO; elements + 1],
             earlier: vec![Vec3::ZERO; elements + 1],
             constants: Constants {
-                mass,
-                inverse_mass: Lanes::splat(1.0) / mass,
+                root: node(0, &|s| s.fibre.root != Root::Free),
+                // A chain of one element has no such node; then this is not used.
+                node: node(1, &|_| false),
+                end: node(elements, &|_| false),
                 rest_length,
                 axial_stiffness: lanes(&|s| s.fibre.axial_stiffness()),
                 bending_stiffness: lanes(&|s| s.fibre.rotational_stiffness()),
-                root_inverse_mass: lanes(&|s| match s.fibre.root {
-                    Root::Free => 1.0 / s.fibre.node_mass(0),
-                    Root::Pinned | Root::Clamped => 0.0,
-                }),
                 root_stiffness: lanes(&|s| s.fibre.root_stiffness()),
                 root_direction: direction,
-                gravity: lanes(&|s| s.gravity),
                 damping: lanes(&|s| s.damping),
-                drag: DragLanes::pack(&std::array::from_fn::<_, WIDTH, _>(|i| pick(i).drag)),
+                half_drag: DragLanes::pack(&std::array::from_fn::<_, WIDTH, _>(|i| pick(i).drag.half())),
             },
         }
     }

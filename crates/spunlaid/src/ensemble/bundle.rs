@@ -4,8 +4,7 @@ use crate::air::{Eddies, Turbulence, Wind};
 use crate::chain::schemes::{Scheme, step};
 use crate::chain::{Chain, Strand};
 use crate::energy::{Energy, Work};
-use crate::lanes::isa::Task;
-use crate::lanes::{Isa, Lanes};
+use crate::lanes::{Isa, Lanes, Simd, Task};
 use crate::observe::EndNodeObserver;
 use crate::vec3::Vec3;
 
@@ -113,24 +112,29 @@ impl<'a> Bundle<'a> {
 
     /// Advances all fibres by a number of steps.
     pub fn advance(&mut self, steps: u64) {
-        self.run(steps, self.h, self.h);
+        self.run(steps, (self.h, self.h), false);
     }
 
-    /// Positions, velocities and energies now; looks one step ahead without taking it.
+    /// Positions, velocities and energies now.
     pub fn snapshot(&self) -> Snapshot {
-        let mut ahead = self.clone();
-        ahead.advance(1);
+        self.clone().observe()
+    }
+
+    /// Positions, velocities and energies now, taken while advancing by one step.
+    pub fn observe(&mut self) -> Snapshot {
+        let time = self.time();
         let position = self.chain.position.clone();
-        let velocity = match self.scheme {
-            Scheme::SemiImplicitEuler => self.chain.velocity.clone(),
-            Scheme::Leapfrog => {
-                let both = self.chain.velocity.iter().zip(&ahead.chain.velocity);
-                both.map(|(&a, &b)| (a + b) * Lanes::splat(0.5)).collect()
+        let mut velocity = self.chain.velocity.clone();
+        let before = self.work;
+        self.run(1, (self.h, self.h), true);
+        if self.scheme == Scheme::Leapfrog {
+            for (v, after) in velocity.iter_mut().zip(&self.chain.velocity) {
+                *v = (*v + *after) * Lanes::splat(0.5);
             }
-        };
-        let ledgers = (&self.work, &ahead.work);
+        }
+        let ledgers = (&before, &self.work);
         let energy = Energy::of(&self.chain, &position, &velocity, &self.start, ledgers, self.h);
-        Snapshot { time: self.time(), position, velocity, energy }
+        Snapshot { time, position, velocity, energy }
     }
 
     /// Takes the velocities from time 0 to half a step before, and makes the first extrapolation of the
@@ -141,7 +145,7 @@ impl<'a> Bundle<'a> {
         }
         let at_rest = self.chain.velocity.clone();
         self.chain.earlier.clone_from(&at_rest);
-        self.run(1, -0.5 * self.h, 0.0);
+        self.run(1, (-0.5 * self.h, 0.0), false);
         self.steps_done = 0;
         self.work = Work::default();
         self.end_node = EndNodeObserver::default();
@@ -151,47 +155,54 @@ impl<'a> Bundle<'a> {
         }
     }
 
-    fn run(&mut self, steps: u64, kick: f64, drift: f64) {
-        self.isa.run(Advance { bundle: self, steps, kick, drift });
-    }
-}
-
-struct Advance<'b, 'a> {
-    bundle: &'b mut Bundle<'a>,
-    steps: u64,
-    kick: f64,
-    drift: f64,
-}
-
-impl Task for Advance<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        match (self.bundle.scheme, self.bundle.damped) {
-            (Scheme::SemiImplicitEuler, false) => self.steps::<false, false>(),
-            (Scheme::SemiImplicitEuler, true) => self.steps::<false, true>(),
-            (Scheme::Leapfrog, false) => self.steps::<true, false>(),
-            (Scheme::Leapfrog, true) => self.steps::<true, true>(),
+    fn run(&mut self, steps: u64, kick_and_drift: (f64, f64), split: bool) {
+        let isa = self.isa;
+        let first = steps.min(u64::from(self.steps_done == 0));
+        if split || first == 1 {
+            isa.run(Advance::<true> { bundle: self, steps: if split { steps } else { first }, kick_and_drift });
+        }
+        if !split {
+            isa.run(Advance::<false> { bundle: self, steps: steps - first, kick_and_drift });
         }
     }
 }
 
-impl Advance<'_, '_> {
+/// Steps of a bundle; with `SPLIT` the ledger keeps apart what the velocities before each kick gave.
+struct Advance<'b, 'a, const SPLIT: bool> {
+    bundle: &'b mut Bundle<'a>,
+    steps: u64,
+    kick_and_drift: (f64, f64),
+}
+
+impl<const SPLIT: bool> Task for Advance<'_, '_, SPLIT> {
+    type Output = ();
+
     #[inline(always)]
-    fn steps<const LEAPFROG: bool, const DAMPED: bool>(self) {
+    fn call<S: Simd>(self) {
+        match (self.bundle.scheme, self.bundle.damped) {
+            (Scheme::SemiImplicitEuler, false) => self.steps::<S, false, false>(),
+            (Scheme::SemiImplicitEuler, true) => self.steps::<S, false, true>(),
+            (Scheme::Leapfrog, false) => self.steps::<S, true, false>(),
+            (Scheme::Leapfrog, true) => self.steps::<S, true, true>(),
+        }
+    }
+}
+
+impl<const SPLIT: bool> Advance<'_, '_, SPLIT> {
+    #[inline(always)]
+    fn steps<S: Simd, const LEAPFROG: bool, const DAMPED: bool>(self) {
         let b = self.bundle;
-        let (kick, drift) = (Lanes::splat(self.kick), Lanes::splat(self.drift));
         let end = b.chain.elements();
         for _ in 0..self.steps {
-            let wind = b.wind.at(b.steps_done as f64 * b.h);
-            step::<LEAPFROG, DAMPED>(&mut b.chain, wind, b.eddies.of_element(), kick, drift, &mut b.work);
+            let wind = b.wind.blow::<S>(b.steps_done as f64 * b.h);
+            let eddy = b.eddies.of_element();
+            step::<S, LEAPFROG, DAMPED, SPLIT>(&mut b.chain, wind, eddy, self.kick_and_drift, &mut b.work);
             if b.steps_done == 0 {
                 b.work.begin();
             }
             b.steps_done += 1;
             if b.steps_done > b.spin_up {
-                b.end_node.see(b.chain.position[end]);
+                b.end_node.see::<S>(&b.chain.position[end]);
             }
         }
     }

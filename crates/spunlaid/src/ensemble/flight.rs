@@ -163,7 +163,8 @@ pub(super) fn fly_bundle(
     let mut spread = SpreadObserver::new(case.fibre.elements + 1);
     let mut step = 0;
     for instant in 0.. {
-        let snapshot = bundle.snapshot();
+        // Taken while advancing by the first of the steps to the next instant; the last looks ahead only.
+        let snapshot = if step < run.steps { bundle.observe() } else { bundle.snapshot() };
         check_finite(jobs, &snapshot)?;
         if step >= run.spin_up_steps {
             spread.see(&snapshot.position);
@@ -180,7 +181,7 @@ pub(super) fn fly_bundle(
             break;
         }
         let steps = run.output_steps.min(run.steps - step);
-        bundle.advance(steps);
+        bundle.advance(steps - 1);
         step += steps;
         computing.fibre_steps.fetch_add(steps * jobs.len() as u64, Ordering::Relaxed);
         if computing.stop.load(Ordering::Relaxed) {

@@ -3,51 +3,73 @@
 //! The system's `pow`, `sin` and `atan2` differ between machines in the last bit, and call one lane at
 //! a time. These are polynomials (minimax fits made with 40 digits) in fused multiply-adds only.
 
-use super::{Lanes, WIDTH};
-use std::array::from_fn;
+use super::{Lanes, Simd, Wide};
 
 /// `Σ cᵢ xⁱ` of up to 16 terms by Estrin's scheme: pairs, pairs of pairs, …, so that few operations wait
 /// for one another.
+///
+/// Functions instead of closures: only those are certain to be compiled for the caller's instructions.
 #[inline(always)]
-fn polynomial<const N: usize>(x: Lanes, coefficients: &[f64; N]) -> Lanes {
+fn polynomial<S: Simd, const N: usize>(x: Wide<S>, c: &[f64; N]) -> Wide<S> {
     const { assert!(N >= 2 && N <= 16) };
     let x2 = x * x;
     let x4 = x2 * x2;
-    let term = |i: usize| Lanes::splat(coefficients[i]);
-    let two = |i: usize| if i + 1 < N { term(i + 1).mul_add(x, term(i)) } else { term(i) };
-    let four = |i: usize| if i + 2 < N { two(i + 2).mul_add(x2, two(i)) } else { two(i) };
-    let eight = |i: usize| if i + 4 < N { four(i + 4).mul_add(x4, four(i)) } else { four(i) };
-    if N > 8 { eight(8).mul_add(x4 * x4, eight(0)) } else { eight(0) }
+    let low = eight_terms(x, x2, x4, c, 0);
+    if N > 8 { eight_terms(x, x2, x4, c, 8).mul_add(x4 * x4, low) } else { low }
 }
 
-/// `log2(1+f)/f` for `1+f` in [√½, √2], to 3.2e-11.
-const LOG2: [f64; 13] = [
-    1.442_695_040_870_879_4,
-    -0.721_347_520_963_155_2,
-    0.480_898_360_176_245_9,
-    -0.360_673_655_315_939_6,
-    0.288_537_394_378_739_5,
-    -0.240_454_336_964_119_98,
-    0.206_172_832_267_519_85,
-    -0.180_271_025_771_149_4,
-    0.158_783_568_325_107_08,
-    -0.143_490_393_752_809_9,
-    0.144_950_529_998_158_44,
-    -0.141_447_882_105_873_9,
-    0.075_537_903_980_134_11,
+#[inline(always)]
+fn eight_terms<S: Simd, const N: usize>(x: Wide<S>, x2: Wide<S>, x4: Wide<S>, c: &[f64; N], i: usize) -> Wide<S> {
+    let low = four_terms(x, x2, c, i);
+    if i + 4 < N { four_terms(x, x2, c, i + 4).mul_add(x4, low) } else { low }
+}
+
+#[inline(always)]
+fn four_terms<S: Simd, const N: usize>(x: Wide<S>, x2: Wide<S>, c: &[f64; N], i: usize) -> Wide<S> {
+    let low = two_terms(x, c, i);
+    if i + 2 < N { two_terms(x, c, i + 2).mul_add(x2, low) } else { low }
+}
+
+#[inline(always)]
+fn two_terms<S: Simd, const N: usize>(x: Wide<S>, c: &[f64; N], i: usize) -> Wide<S> {
+    let low = Wide::splat(c[i]);
+    if i + 1 < N { Wide::splat(c[i + 1]).mul_add(x, low) } else { low }
+}
+
+/// `log2(1+f)/f` for `1+f` in [√½, √2], to 7.8e-9.
+const LOG2: [f64; 10] = [
+    1.442_695_039_999_188_4,
+    -0.721_347_354_478_905_3,
+    0.480_898_520_324_064_2,
+    -0.360_696_541_807_505_1,
+    0.288_552_561_437_467_4,
+    -0.239_608_121_909_572_85,
+    0.204_857_647_786_219_3,
+    -0.191_388_376_566_725_4,
+    0.184_760_333_651_813_8,
+    -0.107_497_894_180_832_06,
 ];
 
-/// `2^r` for r in [−½, ½], to 8.1e-13.
-const EXP2: [f64; 9] = [
+/// `2^r` for r in [−½, ½], to 2.0e-9.
+const EXP2: [f64; 7] = [
     1.0,
-    0.693_147_180_545_933_45,
-    0.240_226_506_958_129_88,
-    0.055_504_109_412_059_33,
-    0.009_618_129_159_402_558,
-    0.001_333_345_056_800_064_6,
-    0.000_154_034_558_524_538_4,
-    1.531_007_940_224_929_7e-5,
-    1.325_522_487_866_881_7e-6,
+    0.693_147_206_702_832_6,
+    0.240_226_509_222_887_58,
+    0.055_503_272_266_703_02,
+    0.009_618_056_678_524_638,
+    0.001_340_042_817_761_583_8,
+    0.000_154_614_446_985_691_3,
+];
+
+/// `θ/sin θ` as a function of `x = sin²(θ/2)` in [0, 1/16], to 1.9e-13.
+const NARROW_BEND: [f64; 7] = [
+    1.000_000_000_000_178_7,
+    0.666_666_666_386_659_8,
+    0.533_333_404_794_306_6,
+    0.457_136_038_904_004_56,
+    0.406_657_550_423_975_9,
+    0.362_312_343_291_399_2,
+    0.420_259_299_214_237_5,
 ];
 
 /// `θ/sin θ` as a function of `x = sin²(θ/2)` in [0, ¼], to 1.7e-13.
@@ -68,77 +90,72 @@ const BEND: [f64; 11] = [
 /// Bits of √½: mantissas are taken from here up, so that `log2` is smooth through 1.
 const SQRT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
 const MANTISSA: u64 = (1 << 52) - 1;
+const ONE: u64 = 0x3ff0_0000_0000_0000;
 /// 2⁵²; an integer below it stands in the low bits of `2⁵² + integer`.
 const TWO_52: f64 = 4_503_599_627_370_496.0;
 /// 1.5·2⁵²; adding it rounds a small number to the nearest integer.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
-/// Base-2 logarithm of positive, normal numbers, to 1.4e-11 absolute.
+/// Base-2 logarithm of positive, normal numbers, to 3.3e-9 absolute.
 ///
 /// Zero and subnormals give −1022 (the smallest normal's), so that a positive power of them is
 /// negligibly small instead of undefined. NaN and infinity give some finite number: callers multiply
 /// by the argument again.
 #[inline(always)]
-pub fn log2(x: Lanes) -> Lanes {
-    let x = x.max(Lanes::splat(f64::MIN_POSITIVE));
-    let mut exponent = [0.0; WIDTH];
-    let mut fraction = [0.0; WIDTH];
-    for i in 0..WIDTH {
-        let shifted = x.0[i].to_bits().wrapping_add(1.0f64.to_bits() - SQRT_HALF);
-        exponent[i] = f64::from_bits((shifted >> 52) | TWO_52.to_bits()) - (TWO_52 + 1023.0);
-        fraction[i] = f64::from_bits((shifted & MANTISSA) + SQRT_HALF) - 1.0;
-    }
-    let f = Lanes(fraction);
-    f.mul_add(polynomial(f, &LOG2), Lanes(exponent))
+fn log2<S: Simd>(x: Wide<S>) -> Wide<S> {
+    let shifted = x.max(Wide::splat(f64::MIN_POSITIVE)).0.add_bits(ONE - SQRT_HALF);
+    let exponent = Wide(shifted.shift_right::<52>().or_bits(TWO_52.to_bits())) - Wide::splat(TWO_52 + 1023.0);
+    let f = Wide(shifted.and_bits(MANTISSA).add_bits(SQRT_HALF)) - Wide::splat(1.0);
+    f.mul_add(polynomial(f, &LOG2), exponent)
 }
 
-/// `2^x` for `x` in [−1022, 1023], to 9e-13 relative.
+/// `2^x` for `x` in [−1022, 1023], to 2e-9 relative.
 #[inline(always)]
-pub fn exp2(x: Lanes) -> Lanes {
-    let mut scale = [0.0; WIDTH];
-    let mut rest = [0.0; WIDTH];
-    for i in 0..WIDTH {
-        let rounded = x.0[i] + ROUND;
-        rest[i] = x.0[i] - (rounded - ROUND);
-        // The low bits of `rounded` hold the integer in two's complement; the rest shifts out.
-        scale[i] = f64::from_bits(rounded.to_bits().wrapping_add(1023) << 52);
-    }
-    polynomial(Lanes(rest), &EXP2) * Lanes(scale)
+fn exp2<S: Simd>(x: Wide<S>) -> Wide<S> {
+    let rounded = x + Wide::splat(ROUND);
+    let rest = x - (rounded - Wide::splat(ROUND));
+    // The low bits of `rounded` hold the integer in two's complement; the rest shifts out.
+    let scale = Wide(rounded.0.add_bits(1023).shift_left::<52>());
+    polynomial(rest, &EXP2) * scale
 }
 
-/// `x^exponent` for `x ≥ 0` and exponents between 0 and 1, to 1e-11 relative; tends to 0 with `x`.
+/// `x^exponent` for `x ≥ 0` and exponents between 0 and 1, to 4e-9 relative; tends to 0 with `x`.
 #[inline(always)]
-pub fn power(x: Lanes, exponent: Lanes) -> Lanes {
+pub(crate) fn power<S: Simd>(x: Wide<S>, exponent: Wide<S>) -> Wide<S> {
     exp2(log2(x) * exponent)
 }
 
 /// `θ/sin θ` for two unit vectors at the angle `θ`, from `x = sin²(θ/2)`, to 2e-13 relative.
 ///
-/// Up to 60° a polynomial; beyond, lane by lane, the arctangent. A lane's value does not depend on
-/// which way its neighbours go.
+/// Up to 29° a short polynomial, up to 60° a longer one, beyond the arctangent lane by lane. A lane's
+/// value does not depend on which way its neighbours go.
 #[inline(always)]
-pub fn bend_ratio(x: Lanes) -> Lanes {
-    const WIDEST: f64 = 0.25;
-    let mut ratio = polynomial(x, &BEND);
-    if x.any_above(WIDEST) {
-        ratio = wide_bend_ratio(x, ratio, WIDEST);
+pub(crate) fn bend_ratio<S: Simd>(x: Wide<S>) -> Wide<S> {
+    const NARROW: f64 = 1.0 / 16.0;
+    let mut ratio = polynomial(x, &NARROW_BEND);
+    if x.any_above(NARROW) {
+        let wide = Wide::<Plain>::load(&x.store());
+        let long = Wide::<S>::load(&wide_bend_ratio(wide));
+        ratio = Wide::select_less(Wide::splat(NARROW), x, long, ratio);
     }
     ratio
 }
 
+type Plain = super::Plain;
+
 #[cold]
 #[inline(never)]
-fn wide_bend_ratio(x: Lanes, narrow: Lanes, widest: f64) -> Lanes {
-    Lanes(from_fn(|i| {
-        let x = x.0[i];
-        if x > widest {
-            // sin(θ/2)² = x may exceed 1 by rounding; a fold back onto itself keeps a finite moment.
-            let y = (1.0 - x).max(f64::EPSILON);
-            2.0 * libm::atan2(libm::sqrt(x), libm::sqrt(y)) / (2.0 * libm::sqrt(x * y))
-        } else {
-            narrow.0[i]
-        }
-    }))
+fn wide_bend_ratio(x: Wide<Plain>) -> Lanes {
+    let long = polynomial(x, &BEND).store();
+    let x = x.store();
+    Lanes::from_fn(|i| if x.0[i] > 0.25 { arc_ratio(x.0[i]) } else { long.0[i] })
+}
+
+/// `θ/sin θ` from `x = sin²(θ/2)` by the arctangent.
+fn arc_ratio(x: f64) -> f64 {
+    // x may exceed 1 by rounding; a fold back onto itself keeps a finite moment.
+    let y = (1.0 - x).max(f64::EPSILON);
+    libm::atan2(libm::sqrt(x), libm::sqrt(y)) / libm::sqrt(x * y)
 }
 
 /// `sin(2πt)/t` in `t²`, |t| ≤ ⅛, to 2e-17.
@@ -163,29 +180,18 @@ const COS_TURN: [f64; 7] = [
     7.810_290_968_144_190_6,
 ];
 
-/// Cosine and sine of a number of turns `|t| < 2⁵⁰` (one turn = 2π), to 2e-16 absolute.
+/// Cosine and sine of a number of turns `|t| < 2⁴⁸` (one turn = 2π), to 4e-16 absolute.
 #[inline(always)]
-pub fn cos_sin_turn(turns: Lanes) -> (Lanes, Lanes) {
-    let mut rest = [0.0; WIDTH];
-    let mut quarter = [0u64; WIDTH];
-    for i in 0..WIDTH {
-        let rounded = turns.0[i].mul_add(4.0, ROUND);
-        rest[i] = (rounded - ROUND).mul_add(-0.25, turns.0[i]);
-        quarter[i] = rounded.to_bits() & 3;
-    }
-    let t = Lanes(rest);
+pub(crate) fn cos_sin_turn<S: Simd>(turns: Wide<S>) -> (Wide<S>, Wide<S>) {
+    let rounded = turns.mul_add(Wide::splat(4.0), Wide::splat(ROUND));
+    let t = (rounded - Wide::splat(ROUND)).neg_mul_add(Wide::splat(0.25), turns);
     let s = polynomial(t * t, &SIN_TURN) * t;
     let c = polynomial(t * t, &COS_TURN);
-    let mut cos = [0.0; WIDTH];
-    let mut sin = [0.0; WIDTH];
-    for i in 0..WIDTH {
-        let odd = quarter[i] & 1 == 1;
-        let (even_cos, even_sin) = if odd { (s.0[i], c.0[i]) } else { (c.0[i], s.0[i]) };
-        // Quarter turns: cos is + − − +, sin is + + − −.
-        let cos_sign = ((quarter[i] + 1) & 2) << 62;
-        let sin_sign = (quarter[i] & 2) << 62;
-        cos[i] = f64::from_bits(even_cos.to_bits() ^ cos_sign);
-        sin[i] = f64::from_bits(even_sin.to_bits() ^ sin_sign);
-    }
-    (Lanes(cos), Lanes(sin))
+    // Which quarter turn, in the low bits: odd ones swap, and cos is + − − +, sin is + + − −.
+    let odd = Wide(rounded.0.and_bits(1).or_bits(TWO_52.to_bits())) - Wide::splat(TWO_52);
+    let half = Wide::splat(0.5);
+    let (cos, sin) = (Wide::select_less(half, odd, s, c), Wide::select_less(half, odd, c, s));
+    let cos_sign = rounded.0.add_bits(1).and_bits(2).shift_left::<62>();
+    let sin_sign = rounded.0.and_bits(2).shift_left::<62>();
+    (Wide(cos.0.xor(cos_sign)), Wide(sin.0.xor(sin_sign)))
 }

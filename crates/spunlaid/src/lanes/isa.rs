@@ -1,5 +1,7 @@
 //! Run-time choice of the instruction set.
 
+use super::{Plain, Simd};
+
 /// An instruction set the kernel is compiled for. All give the same bits; they differ in speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Isa {
@@ -51,7 +53,7 @@ impl Isa {
     ///
     /// Only what is inlined into the task's `call` is compiled so.
     #[inline]
-    pub fn run<T: Task>(self, task: T) -> T::Output {
+    pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
         #[cfg(target_arch = "x86_64")]
         {
             if self != Self::Baseline && Self::available().contains(&self) {
@@ -64,29 +66,30 @@ impl Isa {
                 };
             }
         }
-        task.call()
+        task.call::<Plain>()
     }
 }
 
 /// Work that [`Isa::run`] compiles once for every instruction set.
-pub trait Task {
+pub(crate) trait Task {
     /// What the work returns.
     type Output;
     /// Does the work. Mark it and all it calls `#[inline(always)]`.
-    fn call(self) -> Self::Output;
+    fn call<S: Simd>(self) -> Self::Output;
 }
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use super::Task;
+    use crate::lanes::simd::{Avx2, Avx512};
 
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
     pub(super) fn avx512<T: Task>(task: T) -> T::Output {
-        task.call()
+        task.call::<Avx512>()
     }
 
     #[target_feature(enable = "avx2,fma")]
     pub(super) fn avx2<T: Task>(task: T) -> T::Output {
-        task.call()
+        task.call::<Avx2>()
     }
 }

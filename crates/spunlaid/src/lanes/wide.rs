@@ -1,0 +1,123 @@
+//! [`Lanes`] in registers, with operators.
+
+use super::Lanes;
+use super::simd::Simd;
+use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+
+/// Eight numbers in registers: what the kernel calculates with.
+#[derive(Clone, Copy)]
+pub(crate) struct Wide<S: Simd>(pub(crate) S);
+
+impl<S: Simd> Wide<S> {
+    #[inline(always)]
+    pub(crate) fn splat(value: f64) -> Self {
+        Self(S::splat(value))
+    }
+
+    #[inline(always)]
+    pub(crate) fn zero() -> Self {
+        Self::splat(0.0)
+    }
+
+    #[inline(always)]
+    pub(crate) fn load(lanes: &Lanes) -> Self {
+        Self(S::load(lanes))
+    }
+
+    #[inline(always)]
+    pub(crate) fn store(self) -> Lanes {
+        self.0.store()
+    }
+
+    /// `self · factor + addend`, rounded once.
+    #[inline(always)]
+    pub(crate) fn mul_add(self, factor: Self, addend: Self) -> Self {
+        Self(self.0.mul_add(factor.0, addend.0))
+    }
+
+    /// `addend − self · factor`, rounded once.
+    #[inline(always)]
+    pub(crate) fn neg_mul_add(self, factor: Self, addend: Self) -> Self {
+        Self(self.0.neg_mul_add(factor.0, addend.0))
+    }
+
+    #[inline(always)]
+    pub(crate) fn over(self, divisor: Self) -> Self {
+        Self(self.0.div(divisor.0))
+    }
+
+    #[inline(always)]
+    pub(crate) fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    #[inline(always)]
+    pub(crate) fn abs(self) -> Self {
+        Self(self.0.and_bits(!SIGN))
+    }
+
+    /// The larger, `other` where they cannot be compared.
+    #[inline(always)]
+    pub(crate) fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0))
+    }
+
+    /// `a < b ? yes : no`.
+    #[inline(always)]
+    pub(crate) fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
+        Self(S::select_less(a.0, b.0, yes.0, no.0))
+    }
+
+    #[inline(always)]
+    pub(crate) fn any_above(self, bound: f64) -> bool {
+        self.0.any_above(S::splat(bound))
+    }
+}
+
+const SIGN: u64 = 1 << 63;
+
+impl<S: Simd> Add for Wide<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0.add(other.0))
+    }
+}
+
+impl<S: Simd> Sub for Wide<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0.sub(other.0))
+    }
+}
+
+impl<S: Simd> Mul for Wide<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(self.0.mul(other.0))
+    }
+}
+
+impl<S: Simd> Neg for Wide<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.xor(S::splat(-0.0)))
+    }
+}
+
+impl<S: Simd> AddAssign for Wide<S> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<S: Simd> SubAssign for Wide<S> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
