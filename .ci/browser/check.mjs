@@ -49,12 +49,16 @@ function listen(page, where) {
   });
 }
 
-/** What is on the canvas: a fingerprint of its pixels, the share that is not background, the number of colours. */
+/**
+ * What is on the canvas below its captions, which show a running clock: a fingerprint of the pixels, the share
+ * that is not background, the number of colours.
+ */
 function pixels(page) {
   return page.evaluate(() => {
     const canvas = document.querySelector("canvas#fibre");
     if (!canvas || !canvas.width || !canvas.height) return null;
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const top = Math.round((110 * canvas.width) / canvas.clientWidth);
+    const { data } = canvas.getContext("2d").getImageData(0, top, canvas.width, canvas.height - top);
     const counts = new Map();
     let hash = 0;
     for (let i = 0; i < data.length; i += 4) {

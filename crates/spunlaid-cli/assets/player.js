@@ -19,9 +19,9 @@ class Player {
     this.setStretch(this.usualStretch());
   }
 
-  /** About one swing a second; without swings the whole in ten seconds. */
+  /** About one swing a second, but not faster than real; without swings the whole in ten seconds. */
   usualSpeed() {
-    const wanted = this.frames.frequency > 0 ? 1 / this.frames.frequency : (this.end - this.start) / 10;
+    const wanted = this.frames.frequency > 0 ? Math.min(1 / this.frames.frequency, 1) : (this.end - this.start) / 10;
     const off = (speed) => Math.abs(Math.log(speed / Math.max(wanted, 1e-9)));
     return this.speeds.reduce((best, s) => (off(s) < off(best) ? s : best));
   }
@@ -30,6 +30,7 @@ class Player {
   usualStretch() {
     const { low, high } = this.bounds;
     const sideways = Math.max(...[1, 2].map((k) => Math.max(Math.abs(low[k]), Math.abs(high[k]))));
+    if (sideways < 1e-6 * this.frames.length_mm) return 1;
     const wanted = (0.5 * this.frames.length_mm) / sideways;
     return STEPS.filter((s) => s <= wanted && s <= 1000).at(-1) ?? 1;
   }

@@ -3,7 +3,7 @@
 //! Built from data, in the units of the axes:
 //!
 //! ```text
-//! Chart::new("amplitude", Axis::linear("Velocity *U* (m/s)"), Axis::linear("Amplitude (mm)").from_zero())
+//! Chart::new("amplitude", Axis::linear("Velocity *U* (m/s)"), Axis::linear("Amplitude (mm)").zero_based())
 //!     .scatter(Series::y("*y*"), &[(5.0, 4.8, Some(0.1)), (10.0, 9.8, Some(0.2))])
 //!     .svg()
 //! ```

@@ -196,7 +196,7 @@ fn draw_line(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark) {
             let placed: Vec<_> = points.iter().map(|&p| plot.at(p)).collect();
             let thin = if matches!(mark, Mark::Line(_)) { along_x } else { path };
             for run in runs(&placed) {
-                draw_run(svg, &thin(&run), &stroke);
+                svg.path(&thin(&run), &stroke);
             }
         }
         Mark::Vertical(x) if plot.x.holds(*x) => {
@@ -217,6 +217,12 @@ fn draw_points(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark, index: 
                 draw_marker(svg, plot.at(p), marker, series.colour);
             }
         }
+        // A single value between missing ones is no line.
+        (Mark::Line(points), None) => {
+            for run in runs(points).iter().filter(|run| run.len() == 1 && inside(run[0].0, run[0].1)) {
+                draw_marker(svg, plot.at(run[0]), Marker::Spot, series.colour);
+            }
+        }
         (Mark::Scatter(points), marker) => {
             let marker = marker.unwrap_or(Marker::Spot);
             for &(x, y, error) in points.iter().filter(|p| inside(p.0, p.1)) {
@@ -227,25 +233,17 @@ fn draw_points(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark, index: 
             }
         }
         (Mark::Vertical(x), Some(marker)) if plot.x.holds(*x) => {
-            let below = if index % 2 == 0 { 12.0 } else { 28.0 };
+            let below = if index.is_multiple_of(2) { 12.0 } else { 28.0 };
             draw_marker(svg, (plot.along(*x), plot.top + below), marker, series.colour);
         }
         _ => {}
     }
 }
 
-/// A line, or a dot where it has one point only.
-fn draw_run(svg: &mut Svg, run: &[(f64, f64)], stroke: &Stroke<'_>) {
-    match run {
-        [only] => svg.circle(*only, stroke.width, stroke.colour, stroke),
-        _ => svg.path(run, stroke),
-    }
-}
-
 /// About ten of the points, evenly along the axis, those of the next series between those of this one.
 fn spread<'a>(plot: &Plot, points: &[&'a (f64, f64)], index: usize) -> Vec<&'a (f64, f64)> {
     let step = 1.0 / 10.0;
-    let shift = if index % 2 == 0 { 0.25 } else { 0.75 };
+    let shift = if index.is_multiple_of(2) { 0.25 } else { 0.75 };
     let mut next = shift * step;
     let mut kept = Vec::new();
     for &p in points {

@@ -1,5 +1,7 @@
 //! Axes: the range, the ticks and their labels, and where a value lies.
 
+use spunlaid::statistics::median;
+
 /// How values are spread along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Spacing {
@@ -16,11 +18,13 @@ pub(crate) struct Axis {
     /// Ends where the data end, without a margin.
     pub(crate) tight: bool,
     /// Starts at zero (linear only).
-    pub(crate) from_zero: bool,
+    pub(crate) zero_based: bool,
     /// Values that must lie on the axis, data or not.
     pub(crate) include: Vec<f64>,
     /// Most decades shown below the largest value (logarithmic only).
     pub(crate) decades: i32,
+    /// A few values far from all others do not stretch the axis (logarithmic only).
+    pub(crate) steady: bool,
 }
 
 impl Axis {
@@ -31,9 +35,10 @@ impl Axis {
             label,
             spacing: Spacing::Linear,
             tight: false,
-            from_zero: false,
+            zero_based: false,
             include: Vec::new(),
             decades: 12,
+            steady: false,
         }
     }
 
@@ -48,8 +53,8 @@ impl Axis {
     }
 
     /// From zero up.
-    pub(crate) fn from_zero(self) -> Self {
-        Self { from_zero: true, ..self }
+    pub(crate) fn zero_based(self) -> Self {
+        Self { zero_based: true, ..self }
     }
 
     /// Reaching at least as far as `value`.
@@ -61,6 +66,11 @@ impl Axis {
     /// Showing at most so many decades below the largest value.
     pub(crate) fn decades(self, decades: i32) -> Self {
         Self { decades, ..self }
+    }
+
+    /// Not reaching to the few values far above or below all others.
+    pub(crate) fn steady(self) -> Self {
+        Self { steady: true, ..self }
     }
 
     /// Whether a value has a place on such an axis.
@@ -93,8 +103,14 @@ pub(crate) struct Scale {
 impl Scale {
     /// The scale that shows `values`, with about `count` ticks.
     pub(crate) fn fit(axis: &Axis, values: impl Iterator<Item = f64>, count: usize) -> Self {
-        let shown = values.chain(axis.include.iter().copied()).filter(|&v| axis.shows(v));
-        let (lo, hi) = shown.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+        let values: Vec<f64> =
+            values.chain(axis.include.iter().copied()).filter(|&v| axis.shows(v)).collect();
+        let (mut lo, mut hi) =
+            values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
+        if axis.steady && !values.is_empty() {
+            let middle = median(&values);
+            (lo, hi) = (lo.max(middle * 1e-4), hi.min(middle * 1e3));
+        }
         let ends = match axis.spacing {
             Spacing::Linear => linear_ends(axis, lo, hi),
             Spacing::Logarithmic => logarithmic_ends(axis, lo, hi),
@@ -130,19 +146,23 @@ fn linear_ends(axis: &Axis, lo: f64, hi: f64) -> (f64, f64) {
     if lo > hi {
         return (0.0, 1.0);
     }
-    let lo = if axis.from_zero { lo.min(0.0) } else { lo };
-    let hi = if axis.from_zero { hi.max(0.0) } else { hi };
+    let lo = if axis.zero_based { lo.min(0.0) } else { lo };
+    let hi = if axis.zero_based { hi.max(0.0) } else { hi };
     let size = lo.abs().max(hi.abs());
     // Room for the ticks to differ; 1 where all is zero.
     let least = if size > 0.0 { size * 1e-6 } else { 1.0 };
     let range = hi - lo;
     if range < least {
         let half = if size > 0.0 { (size * 0.1).max(f64::MIN_POSITIVE) } else { 1.0 };
-        return if axis.from_zero { (0.0, 2.0 * half.max(hi)) } else { (lo - half, hi + half) };
+        return if axis.zero_based {
+            (0.0, if size > 0.0 { 2.0 * half.max(hi) } else { 1.0 })
+        } else {
+            (lo - half, hi + half)
+        };
     }
     let margin = if axis.tight { 0.0 } else { 0.04 * range };
-    let below = if axis.from_zero && lo == 0.0 { 0.0 } else { margin };
-    let above = if axis.from_zero && hi == 0.0 { 0.0 } else { margin };
+    let below = if axis.zero_based && lo == 0.0 { 0.0 } else { margin };
+    let above = if axis.zero_based && hi == 0.0 { 0.0 } else { margin };
     (lo - below, hi + above)
 }
 
@@ -313,7 +333,7 @@ mod tests {
         for values in odd {
             for axis in [
                 Axis::linear(""),
-                Axis::linear("").from_zero(),
+                Axis::linear("").zero_based(),
                 Axis::logarithmic(""),
                 Axis::logarithmic("").tight(),
             ] {

@@ -52,7 +52,7 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
     let replicates = results.end_node.amplitude_y.values.len();
     let page = Page {
         name: input.name,
-        headline: words::headline(results),
+        headline: words::headline(input.case, results),
         summary: words::case(input.case),
         notes: input.notes,
         frames: frames::pack(input.case, results),

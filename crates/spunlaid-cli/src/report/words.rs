@@ -90,7 +90,7 @@ pub(super) fn count(n: u64, thing: &str) -> String {
     // A thin space between thousands, from five digits on.
     let mut text = String::new();
     for (i, c) in digits.chars().enumerate() {
-        if digits.len() > 4 && i > 0 && (digits.len() - i) % 3 == 0 {
+        if digits.len() > 4 && i > 0 && (digits.len() - i).is_multiple_of(3) {
             text.push(THIN);
         }
         text.push(c);
@@ -99,25 +99,31 @@ pub(super) fn count(n: u64, thing: &str) -> String {
 }
 
 /// The result in a sentence.
-pub(super) fn headline(results: &Results) -> String {
+pub(super) fn headline(case: &Case, results: &Results) -> String {
     let end = &results.end_node;
-    let (y, z) = (&end.amplitude_y, &end.amplitude_z);
-    if !y.mean.is_finite() || !z.mean.is_finite() {
+    if !end.amplitude_y.mean.is_finite() || !end.amplitude_z.mean.is_finite() {
         return "The motion of the free end could not be measured.".to_owned();
     }
-    if y.mean == 0.0 && z.mean == 0.0 {
-        return "The free end does not move sideways.".to_owned();
-    }
-    let swings = format!(
-        "The free end swings {}{THIN}mm in y and {}{THIN}mm in z",
-        plus_minus(y, 1e3),
-        plus_minus(z, 1e3)
+    // Below this it is rounding.
+    let least = 1e-12 * case.fibre.length;
+    let moving: Vec<_> =
+        [("y", &end.amplitude_y, &end.frequency_y), ("z", &end.amplitude_z, &end.frequency_z)]
+            .into_iter()
+            .filter(|(_, amplitude, _)| amplitude.mean > least)
+            .collect();
+    let joined = |parts: Vec<String>| parts.join(" and ");
+    let amplitudes = joined(
+        moving.iter().map(|(axis, a, _)| format!("{}{THIN}mm in {axis}", plus_minus(a, 1e3))).collect(),
     );
-    let (fy, fz) = (&end.frequency_y, &end.frequency_z);
-    if !(fy.mean > 0.0 || fz.mean > 0.0) {
-        return format!("{swings}, to one side: it never crosses the middle.");
+    let frequencies =
+        joined(moving.iter().filter(|m| m.2.mean > 0.0).map(|(.., f)| plus_minus(f, 1.0)).collect());
+    match (moving.is_empty(), frequencies.is_empty()) {
+        (true, _) => "The free end does not move sideways.".to_owned(),
+        (false, true) => {
+            format!("The free end moves by {amplitudes} (standard deviation) without swinging through zero.")
+        }
+        (false, false) => format!("The free end swings {amplitudes}, at {frequencies}{THIN}Hz."),
     }
-    format!("{swings}, at {} and {}{THIN}Hz.", plus_minus(fy, 1.0), plus_minus(fz, 1.0))
 }
 
 /// What was simulated, in two sentences.
@@ -147,11 +153,12 @@ pub(super) fn case(case: &Case) -> String {
         Scheme::Leapfrog => "leapfrog",
     };
     format!(
-        "A fibre of {} length and {} diameter, {held}, {medium}: {}, each simulated for {} in {} of {} \
+        "A fibre of {} length and {} diameter, {held}, {medium}: {}, {}simulated for {} in {} of {} \
          ({scheme}), the fibre cut into {}.",
         length(fibre.length),
         length(fibre.diameter),
         count(run.replicates, "replicate"),
+        if run.replicates > 1 { "each " } else { "" },
         time(run.duration()),
         count(run.steps, "step"),
         time(run.time_step),

@@ -1,0 +1,67 @@
+//! What happens at which frequency: the motion of the free end, the turbulence.
+
+use super::super::Figure;
+use super::super::chart::{Chart, Series};
+use super::super::palette::GREEN;
+use super::super::scale::Axis;
+use super::{MM, figure, significant};
+use spunlaid::case::Case;
+use spunlaid::ensemble::{Results, SpectrumPoint};
+
+/// The spectrum of the free end's y and z, with their crossing frequencies.
+pub(super) fn motion(results: &Results) -> Figure {
+    let density = |axis: fn(&(f64, f64, f64)) -> f64| -> Vec<_> {
+        results.motion_spectrum.iter().map(|p| (p.0, axis(p) * MM * MM)).collect()
+    };
+    let mut chart = Chart::new(
+        "motion_spectrum",
+        "Spectrum of the motion",
+        Axis::logarithmic("Frequency *f* (Hz)").tight(),
+        Axis::logarithmic("Power spectral density (mm²/Hz)").decades(9),
+    )
+    .when_empty("too few recorded instants, or no motion")
+    .line(Series::y("*y*").unmarked(), &density(|p| p.1))
+    .line(Series::z("*z*").unmarked(), &density(|p| p.2));
+    let end = &results.end_node;
+    // The dashes of one fill the gaps of the other, where both are at the same place.
+    for (series, name, frequency, dash) in [
+        (Series::y(""), "y", end.frequency_y.mean, "5 5"),
+        (Series::z(""), "z", end.frequency_z.mean, "0 5 5 0"),
+    ] {
+        if frequency.is_finite() && frequency > 0.0 {
+            let label = format!("*{name}* crosses at {} Hz", significant(frequency, 3));
+            let series = Series { label: Some(label), ..series };
+            chart = chart.vertical(series.dashed(dash).width(1.2), frequency);
+        }
+    }
+    let caption = "How the motion of the free end is spread over frequencies, averaged over all replicates \
+                   (Welch’s method). The area under a curve is the amplitude squared. Dashed: the crossing \
+                   frequency, half the number of sign changes per second."
+        .to_owned();
+    figure(&chart, caption)
+}
+
+/// The spectrum of the turbulence, as made and as asked for.
+pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
+    let cutoff = case.air.cutoff_frequency;
+    let shown: Vec<_> = turbulence.iter().filter(|p| p.frequency <= 2.0 * cutoff).collect();
+    let realised: Vec<_> = shown.iter().map(|p| (p.frequency, p.realised)).collect();
+    let level = case.air.rms().powi(2) / cutoff;
+    let wanted = [(0.0, level), (cutoff, level), (cutoff, 0.0), (2.0 * cutoff, 0.0)];
+    let chart = Chart::new(
+        "turbulence_spectrum",
+        "Spectrum of the turbulence",
+        Axis::linear("Frequency *f* (Hz)").tight(),
+        Axis::linear("Power spectral density [(m/s)²/Hz]").zero_based(),
+    )
+    .line(Series::new("realised", GREEN), &realised)
+    .line(Series::reference("wanted"), &wanted);
+    let caption = format!(
+        "What the simulated turbulence holds at each frequency, averaged over components, eddies and up to \
+         eight replicates, against the flat spectrum asked for (dashed): rms {} m/s per component, nothing \
+         above {} Hz. The lowest point and the flank at the cut-off are blurred by the analysis.",
+        significant(case.air.rms(), 3),
+        significant(cutoff, 3),
+    );
+    figure(&chart, caption)
+}
