@@ -166,6 +166,8 @@ function startMotion(canvas) {
     });
   }
   scene.resize();
+  // Without leave to move: an instant at which the fibre is no longer as straight as it starts.
+  if (still.matches) player.seek(player.start + 0.4 * (player.end - player.start));
   play(!still.matches && player.end > player.start);
   player.draw();
   requestAnimationFrame(tick);

@@ -4,11 +4,11 @@ use super::words::{count, time};
 use crate::figures::even;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Flight, Results, Shape};
 use spunlaid::fibre::Root;
 use spunlaid::vec3::Vec3;
-use std::fmt::Write;
 
 /// Most node positions in a page: 8 characters each, 3 MB in all.
 const POSITIONS: usize = 375_000;
@@ -25,6 +25,30 @@ pub(super) struct Frames {
     pub(super) json: String,
     /// What was left out, in sentences.
     pub(super) remarks: Vec<String>,
+}
+
+/// What `assets/frames.js` reads.
+#[derive(Serialize)]
+struct Data {
+    /// Counted from 1.
+    replicates: Vec<u64>,
+    nodes: usize,
+    /// [s]
+    times: Vec<f64>,
+    /// A coordinate is `origin + level · step`, for x, y and z.
+    origin_mm: [f64; 3],
+    step_mm: [f64; 3],
+    length_mm: f64,
+    /// [m/s], zero in a vacuum.
+    air_velocity: f64,
+    /// [m/s²]
+    gravity: f64,
+    /// Whether the first node is held in place.
+    held: bool,
+    /// Crossing frequency [Hz].
+    frequency: Option<f64>,
+    /// Base64 of the 16-bit levels, low byte first: per replicate, instant and node x, y, z.
+    positions: String,
 }
 
 /// Which of the kept shapes are shown.
@@ -56,26 +80,21 @@ pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
             bytes.extend_from_slice(&level.to_le_bytes());
         }
     }
-    let times: Vec<f64> = choice.instants.iter().map(|&i| shapes[i].time).collect();
-    let numbers: Vec<u64> = flights.iter().map(|f| f.replicate + 1).collect();
-    let mut json = String::from("{");
-    let mut put = |key: &str, value: String| {
-        let comma = if json.len() > 1 { "," } else { "" };
-        let _ = write!(json, "{comma}\"{key}\":{value}");
+    let data = Data {
+        replicates: flights.iter().map(|f| f.replicate + 1).collect(),
+        nodes: choice.nodes.len(),
+        times: choice.instants.iter().map(|&i| shapes[i].time).collect(),
+        origin_mm: origin.map(|v| v * 1e3),
+        step_mm: step.map(|v| v * 1e3),
+        length_mm: case.fibre.length * 1e3,
+        air_velocity: if case.air.density > 0.0 { case.air.velocity } else { 0.0 },
+        gravity: case.run.gravity,
+        held: case.fibre.root != Root::Free,
+        frequency,
+        positions: STANDARD.encode(bytes),
     };
-    put("replicates", format!("{numbers:?}"));
-    put("nodes", choice.nodes.len().to_string());
-    put("times", list(&times));
-    put("origin_mm", list(&origin.map(|v| v * 1e3)));
-    put("step_mm", list(&step.map(|v| v * 1e3)));
-    put("length_mm", finite(case.fibre.length * 1e3));
-    put("air_velocity", finite(if case.air.density > 0.0 { case.air.velocity } else { 0.0 }));
-    put("gravity", finite(case.run.gravity));
-    put("held", (case.fibre.root != Root::Free).to_string());
-    put("frequency", frequency.map_or_else(|| "null".to_owned(), finite));
-    put("positions", format!("\"{}\"", STANDARD.encode(bytes)));
-    json.push('}');
-    Some(Frames { json, remarks })
+    // Numbers and base64 only: nothing in it can end the script element it stands in.
+    Some(Frames { json: serde_json::to_string(&data).ok()?, remarks })
 }
 
 /// The faster of the two crossing frequencies, where there is one [Hz].
@@ -140,19 +159,4 @@ fn grid(positions: impl Iterator<Item = Vec3<f64>>) -> ([f64; 3], [f64; 3]) {
         }
     }
     (low, step)
-}
-
-fn finite(value: f64) -> String {
-    if value.is_finite() { format!("{value:e}") } else { "0".to_owned() }
-}
-
-fn list(values: &[f64]) -> String {
-    let mut text = String::from("[");
-    for (i, value) in values.iter().enumerate() {
-        let comma = if i > 0 { "," } else { "" };
-        // Nine digits: to the nanosecond in a second.
-        let _ = if value.is_finite() { write!(text, "{comma}{value:.8e}") } else { write!(text, "{comma}0") };
-    }
-    text.push(']');
-    text
 }

@@ -1,6 +1,7 @@
 //! The rows of the results table.
 
 use super::words::{number, plus_minus};
+use crate::figures::signed;
 use spunlaid::ensemble::Results;
 use spunlaid::statistics::Estimate;
 
@@ -74,15 +75,20 @@ pub(super) fn replicate_heads(results: &Results) -> Vec<String> {
 
 /// One row per replicate, up to `most`.
 pub(super) fn replicate_rows(results: &Results, most: usize) -> Vec<ReplicateRow> {
-    let columns = per_replicate(results);
     let n = results.end_node.amplitude_y.values.len().min(most);
-    (0..n)
-        .map(|i| ReplicateRow {
-            number: i + 1,
-            values: columns
-                .iter()
-                .map(|(_, _, factor, e, _)| number(e.values.get(i).map_or(f64::NAN, |v| v * factor)))
-                .collect(),
-        })
-        .collect()
+    let columns: Vec<Vec<String>> = per_replicate(results)
+        .iter()
+        .map(|(_, _, factor, e, _)| column(&e.values[..n.min(e.values.len())], *factor))
+        .collect();
+    let values = |i: usize| columns.iter().filter_map(|c| c.get(i).cloned()).collect();
+    (0..n).map(|i| ReplicateRow { number: i + 1, values: values(i) }).collect()
+}
+
+/// Values with as many decimals as give the largest four digits; far from one each with its power of ten.
+fn column(values: &[f64], factor: f64) -> Vec<String> {
+    let scaled: Vec<f64> = values.iter().map(|v| v * factor).collect();
+    let largest = scaled.iter().map(|v| v.abs()).fold(0.0, f64::max);
+    let decimals = if largest > 0.0 { 3 - largest.log10().floor() as i32 } else { 0 };
+    let plain = (0..=6).contains(&decimals) && scaled.iter().all(|v| v.is_finite());
+    scaled.iter().map(|&v| if plain { signed(v, decimals as usize) } else { number(v) }).collect()
 }
