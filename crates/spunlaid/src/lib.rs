@@ -1,16 +1,71 @@
-//! Simulator of fibres in turbulent air.
-pub mod air;
-pub mod case;
-pub mod chain;
-pub mod drag;
-pub mod energy;
-pub mod ensemble;
-pub mod error;
-pub mod fft;
-pub mod fibre;
-pub mod input;
+//! Simulator of fibres in turbulent air, for the spunbonding of nonwovens.
+//!
+//! The way of the data is one line:
+//!
+//! case file → [`case::Case`] (validated, SI) → fibres packed in [`lanes`] → step by step → observers →
+//! statistics → files
+//!
+//! This crate goes from the first to the statistics; the program `spunlaid` writes the files. What the
+//! program does, in short:
+//!
+//! ```
+//! use spunlaid::ensemble::{Computing, KeepShapes, Results, fly};
+//! use spunlaid::error::Error;
+//! use spunlaid::input::{parse_case, starter_case};
+//! use spunlaid::lanes::Isa;
+//! use std::sync::atomic::{AtomicBool, AtomicU64};
+//!
+//! # fn main() -> Result<(), Error> {
+//! let changes = [("run.duration", "0.1 s"), ("run.time_step", "20 µs"), ("run.replicates", "4")];
+//! let changes = changes.map(|(key, value)| (key.to_owned(), value.to_owned()));
+//! let (case, _notes) = parse_case(starter_case(), "starter.toml", &changes)?;
+//!
+//! let (stop, progress) = (AtomicBool::new(false), AtomicU64::new(0));
+//! let computing = Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &progress };
+//! let mut results = Results::collector(&case, 0);
+//! fly::<Error>(&case, KeepShapes::NONE, computing, |flight| {
+//!     results.take(&flight);
+//!     Ok(())
+//! })?;
+//!
+//! let amplitude = results.finish().end_node.amplitude_y;
+//! println!("{:.2} ± {:.2} mm", amplitude.mean * 1e3, amplitude.standard_error.unwrap_or(0.0) * 1e3);
+//! # assert!(amplitude.mean > 1e-3 && amplitude.mean < 2e-2);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! A file is read by [`input::read_case`]; a [`case::Case`] may as well be built in code, and then
+//! [`case::Case::check`] says whether it can be run. Every quantity is in SI units, and its documentation
+//! says which.
+//!
+//! Equations are cited as `theory.md (n)`; they are in `docs/theory.md` of the repository, and what they were
+//! checked against is in `docs/validation.md`.
+
+// The rooms, from left to right: each imports only from those above it, with the exceptions that
+// tests/rooms.rs names.
 pub mod lanes;
-pub mod observe;
-pub mod statistics;
-pub mod units;
 pub mod vec3;
+
+pub mod fft;
+pub mod units;
+
+pub mod error;
+
+pub mod fibre;
+
+pub mod air;
+pub mod drag;
+
+pub mod chain;
+
+pub mod energy;
+pub mod observe;
+
+pub mod statistics;
+
+pub mod case;
+
+pub mod ensemble;
+
+pub mod input;

@@ -1,0 +1,36 @@
+//! Measures the "found" column of `docs/validation.md` on this machine, with the tests' own reference models.
+//!
+//!     cargo run --release --example validation
+
+// The tests' shared models come with the licences of tests.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
+
+#[path = "../../tests/common/mod.rs"]
+mod common;
+mod flights;
+mod mechanics;
+mod turbulence;
+
+fn main() {
+    println!("kernel: {}", spunlaid::lanes::Isa::detect().name());
+    mechanics::forces();
+    mechanics::terminal_velocity();
+    mechanics::cantilevers();
+    mechanics::pure_moment();
+    mechanics::hanging_chain();
+    mechanics::beam();
+    mechanics::axial_chain();
+    mechanics::taut_string();
+    turbulence::sum_of_cosines();
+    turbulence::statistics();
+    turbulence::spectrum();
+    flights::orders();
+    flights::work_identity();
+    flights::errors_by_step();
+    flights::table1();
+    flights::trends();
+}
+
+fn title(text: &str) {
+    println!("\n{text}");
+}
