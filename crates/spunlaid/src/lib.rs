@@ -42,6 +42,9 @@
 //! Equations are cited as `theory.md (n)`; they are in `docs/theory.md` of the repository, and what they were
 //! checked against is in `docs/validation.md`.
 
+// Units stand in brackets, [m/s], which rustdoc takes for links that lead nowhere.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 // The rooms, from left to right: each imports only from those above it, with the exceptions that
 // tests/rooms.rs names.
 pub mod lanes;
