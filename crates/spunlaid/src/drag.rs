@@ -142,17 +142,44 @@ impl DragLanes {
         }
     }
 
-    /// Force of the air on an element [N].                                   theory.md (8)
+    /// What the powers of the law are taken of: the relative velocity along the element and across it.
     ///
     /// * `relative` – velocity of the air relative to the element's centre [m/s]
     /// * `tangent` – unit vector along the element
     #[inline(always)]
-    pub(crate) fn force<S: Simd>(&self, relative: Vec3<Wide<S>>, tangent: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
+    pub(crate) fn split<S: Simd>(relative: Vec3<Wide<S>>, tangent: Vec3<Wide<S>>) -> Split<S> {
         let along = relative.dot(tangent);
         let across = tangent.neg_mul_add(along, relative);
-        let friction = power(along.abs(), Wide::load(&self.tangential_exponent));
-        let normal = power(across.dot(across), Wide::load(&self.normal_exponent));
-        let friction = Wide::load(&self.tangential) * along * friction;
-        across.mul_add(Wide::load(&self.normal) * normal, tangent * friction)
+        Split { along, across, powers: [along.abs(), across.dot(across)] }
+    }
+
+    /// Takes the two powers, `|V_t|^p` and `(|V_n|²)^q`.
+    #[inline(always)]
+    pub(crate) fn raise<S: Simd>(&self, split: &mut Split<S>) {
+        split.powers[0] = power(split.powers[0], Wide::load(&self.tangential_exponent));
+        split.powers[1] = power(split.powers[1], Wide::load(&self.normal_exponent));
+    }
+
+    /// Force of the air on an element [N].                                   theory.md (8)
+    #[inline(always)]
+    pub(crate) fn force<S: Simd>(&self, split: &Split<S>, tangent: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
+        let friction = Wide::load(&self.tangential) * split.along * split.powers[0];
+        split.across.mul_add(Wide::load(&self.normal) * split.powers[1], tangent * friction)
+    }
+}
+
+/// A relative velocity along and across an element, on the way to its drag.
+#[derive(Clone, Copy)]
+pub(crate) struct Split<S: Simd> {
+    along: Wide<S>,
+    across: Vec3<Wide<S>>,
+    /// `|V_t|` and `|V_n|²`, then their powers.
+    powers: [Wide<S>; 2],
+}
+
+impl<S: Simd> Split<S> {
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
+        Self { along: Wide::zero(), across: Vec3::zero(), powers: [Wide::zero(); 2] }
     }
 }

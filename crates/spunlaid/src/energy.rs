@@ -2,7 +2,7 @@
 
 use crate::chain::Chain;
 use crate::chain::forces::Element;
-use crate::lanes::{Isa, Lanes, Simd, Task, Wide, bend_ratio};
+use crate::lanes::{Isa, Lanes, Register, Task, Wide, bend_ratio};
 use crate::vec3::Vec3;
 
 /// Running sums of `F·v` over nodes and steps, with the velocities before and after each kick.
@@ -107,7 +107,7 @@ impl Task for Stored<'_> {
     type Output = Energy;
 
     #[inline(always)]
-    fn call<S: Simd>(self) -> Energy {
+    fn call<S: Register>(self) -> Energy {
         let c = &self.chain.constants;
         let n = self.chain.elements();
         let (mut kinetic, mut gravity_work) = (Wide::<S>::zero(), Wide::<S>::zero());
@@ -147,7 +147,7 @@ impl Task for Stored<'_> {
 
 /// `θ²` of two unit vectors: `θ = (θ/sin θ) 2 √(x(1−x))` with `x = sin²(θ/2)`.
 #[inline(always)]
-fn angle_squared<S: Simd>(a: Vec3<Wide<S>>, b: Vec3<Wide<S>>) -> Wide<S> {
+fn angle_squared<S: Register>(a: Vec3<Wide<S>>, b: Vec3<Wide<S>>) -> Wide<S> {
     let turn = b - a;
     let x = turn.dot(turn) * Wide::splat(0.25);
     let ratio = bend_ratio(x);

@@ -1,6 +1,6 @@
 //! Fourier transform of eight signals side by side.
 
-use crate::lanes::{Isa, Lanes, Plain, Simd, Task, Wide, cos_sin_turn};
+use crate::lanes::{Isa, Lanes, Plain, Register, Task, Wide, cos_sin_turn};
 
 /// Complex numbers of eight lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -13,12 +13,12 @@ pub struct Complex {
 
 /// [`Complex`] in registers.
 #[derive(Clone, Copy)]
-pub(crate) struct WideComplex<S: Simd> {
+pub(crate) struct WideComplex<S: Register> {
     pub(crate) re: Wide<S>,
     pub(crate) im: Wide<S>,
 }
 
-impl<S: Simd> WideComplex<S> {
+impl<S: Register> WideComplex<S> {
     #[inline(always)]
     pub(crate) fn load(z: &Complex) -> Self {
         Self { re: Wide::load(&z.re), im: Wide::load(&z.im) }
@@ -70,7 +70,7 @@ impl InverseTransform {
 
     /// Transforms `data` in place, with `scratch` of the same size.
     #[inline(always)]
-    pub(crate) fn pass<S: Simd>(&self, data: &mut Vec<Complex>, scratch: &mut Vec<Complex>) {
+    pub(crate) fn pass<S: Register>(&self, data: &mut Vec<Complex>, scratch: &mut Vec<Complex>) {
         let size = data.len();
         let mut stride = 1;
         let mut half = size / 2;
@@ -103,7 +103,7 @@ impl Task for Run<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn call<S: Simd>(self) {
+    fn call<S: Register>(self) {
         self.transform.pass::<S>(self.data, self.scratch);
     }
 }

@@ -1,6 +1,6 @@
 //! What is measured while the fibres fly.
 
-use crate::lanes::{Lanes, Simd, Wide};
+use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
 /// Running statistics of the end nodes of eight fibres, taken every step.
@@ -33,7 +33,7 @@ pub struct EndNodeMotion {
 impl EndNodeObserver {
     /// Takes in one more position (Welford's running mean and variance).
     #[inline(always)]
-    pub(crate) fn see<S: Simd>(&mut self, position: &Vec3<Lanes>) {
+    pub(crate) fn see<S: Register>(&mut self, position: &Vec3<Lanes>) {
         self.count += 1.0;
         let share = Wide::<S>::splat(1.0 / self.count);
         let position = Vec3::load(position);

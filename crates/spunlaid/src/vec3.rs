@@ -1,6 +1,6 @@
 //! Vectors in space, of plain numbers or of [`Lanes`].
 
-use crate::lanes::{Lanes, Simd, Wide};
+use crate::lanes::{Lanes, Register, Simd, Wide};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 /// A vector with components along x (the mean flow and gravity), y and z.
@@ -75,11 +75,6 @@ impl<S: Simd> Vec3<Wide<S>> {
         Self::new(Wide::load(&v.x), Wide::load(&v.y), Wide::load(&v.z))
     }
 
-    #[inline(always)]
-    pub(crate) fn store(self) -> Vec3<Lanes> {
-        Vec3::new(self.x.store(), self.y.store(), self.z.store())
-    }
-
     /// Scalar product.
     #[inline(always)]
     pub(crate) fn dot(self, other: Self) -> Wide<S> {
@@ -110,6 +105,13 @@ impl<S: Simd> Vec3<Wide<S>> {
             self.y.neg_mul_add(factor, addend.y),
             self.z.neg_mul_add(factor, addend.z),
         )
+    }
+}
+
+impl<S: Register> Vec3<Wide<S>> {
+    #[inline(always)]
+    pub(crate) fn store(self) -> Vec3<Lanes> {
+        Vec3::new(self.x.store(), self.y.store(), self.z.store())
     }
 }
 

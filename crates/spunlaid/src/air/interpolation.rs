@@ -1,7 +1,7 @@
 //! From evenly spaced samples back to the velocity at any time.
 
 use super::Turbulence;
-use crate::lanes::{Lanes, Plain, Simd, Wide};
+use crate::lanes::{Lanes, Plain, Register, Wide};
 use crate::vec3::Vec3;
 use std::f64::consts::PI;
 
@@ -76,8 +76,7 @@ pub struct Wind<'a> {
     start: Vec<(Lanes, Lanes)>,
     end: Vec<(Lanes, Lanes)>,
     /// Coefficients of the cubic in the cell's own time from 0 to 1.
-    cubic: Vec<[Lanes; 4]>,
-    velocity: Vec<Vec3<Lanes>>,
+    cubic: Vec<[[Lanes; 4]; 3]>,
 }
 
 impl<'a> Wind<'a> {
@@ -101,35 +100,32 @@ impl<'a> Wind<'a> {
             cell: None,
             start: vec![(Lanes::ZERO, Lanes::ZERO); columns],
             end: vec![(Lanes::ZERO, Lanes::ZERO); columns],
-            cubic: vec![[Lanes::ZERO; 4]; columns],
-            velocity: vec![Vec3::ZERO; turbulence.eddies],
+            cubic: vec![[[Lanes::ZERO; 4]; 3]; turbulence.eddies],
         }
     }
 
     /// Velocity of the air in each eddy [m/s] at time `t` [s] of the run, mean flow included.
     ///
     /// Fastest when times come in order.
-    pub fn at(&mut self, t: f64) -> &[Vec3<Lanes>] {
-        self.blow::<Plain>(t)
+    pub fn at(&mut self, t: f64) -> Vec<Vec3<Lanes>> {
+        let eddies = self.turbulence.eddies as u32;
+        let gust = self.blow::<Plain>(t);
+        (0..eddies).map(|eddy| gust.velocity(eddy).store()).collect()
     }
 
-    /// [`Wind::at`] for the kernel.
+    /// [`Wind::at`] for the kernel, to be asked eddy by eddy.
     #[inline(always)]
-    pub(crate) fn blow<S: Simd>(&mut self, t: f64) -> &[Vec3<Lanes>] {
+    pub(crate) fn blow<S: Register>(&mut self, t: f64) -> Gust<'_, S> {
         let cells = t / self.turbulence.spacing * CELLS as f64;
         let cell = cells as u64;
         if self.cell != Some(cell) {
             self.enter::<S>(cell);
         }
-        let s = Wide::<S>::splat(cells - cell as f64);
-        for (v, cubic) in self.velocity.iter_mut().zip(self.cubic.chunks_exact(3)) {
-            *v = Vec3::new(along(&cubic[0], s), along(&cubic[1], s), along(&cubic[2], s)).store();
-        }
-        &self.velocity
+        Gust { cubic: &self.cubic, s: Wide::splat(cells - cell as f64) }
     }
 
     #[inline(always)]
-    fn enter<S: Simd>(&mut self, cell: u64) {
+    fn enter<S: Register>(&mut self, cell: u64) {
         if cell == 0 || self.cell != Some(cell - 1) {
             self.move_end::<S>(cell);
         }
@@ -137,7 +133,7 @@ impl<'a> Wind<'a> {
         self.move_end::<S>(cell + 1);
         let (two, three) = (Wide::<S>::splat(2.0), Wide::<S>::splat(3.0));
         for (column, (cubic, (a, b))) in
-            self.cubic.iter_mut().zip(self.start.iter().zip(&self.end)).enumerate()
+            self.cubic.as_flattened_mut().iter_mut().zip(self.start.iter().zip(&self.end)).enumerate()
         {
             let a = (Wide::load(&a.0), Wide::load(&a.1));
             let b = (Wide::load(&b.0), Wide::load(&b.1));
@@ -155,7 +151,7 @@ impl<'a> Wind<'a> {
 
     /// Puts the value and slope at a cell's start into `end`.
     #[inline(always)]
-    fn move_end<S: Simd>(&mut self, cell: u64) {
+    fn move_end<S: Register>(&mut self, cell: u64) {
         let columns = self.end.len();
         let first = (cell / CELLS as u64) as usize;
         let weights = &self.weights[(cell % CELLS as u64) as usize];
@@ -172,8 +168,24 @@ impl<'a> Wind<'a> {
     }
 }
 
-/// A cubic at `s` of its cell.
-#[inline(always)]
-fn along<S: Simd>([c0, c1, c2, c3]: &[Lanes; 4], s: Wide<S>) -> Wide<S> {
-    Wide::load(c3).mul_add(s, Wide::load(c2)).mul_add(s, Wide::load(c1)).mul_add(s, Wide::load(c0))
+/// The wind at one instant.
+#[derive(Clone, Copy)]
+pub(crate) struct Gust<'a, S: Register> {
+    cubic: &'a [[[Lanes; 4]; 3]],
+    s: Wide<S>,
+}
+
+impl<S: Register> Gust<'_, S> {
+    /// Velocity of the air in an eddy [m/s].
+    #[inline(always)]
+    pub(crate) fn velocity(&self, eddy: u32) -> Vec3<Wide<S>> {
+        let [x, y, z] = &self.cubic[eddy as usize];
+        Vec3::new(self.along(x), self.along(y), self.along(z))
+    }
+
+    #[inline(always)]
+    fn along(&self, [c0, c1, c2, c3]: &[Lanes; 4]) -> Wide<S> {
+        let s = self.s;
+        Wide::load(c3).mul_add(s, Wide::load(c2)).mul_add(s, Wide::load(c1)).mul_add(s, Wide::load(c0))
+    }
 }

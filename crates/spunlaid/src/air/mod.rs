@@ -6,6 +6,7 @@ pub mod spectrum;
 mod synthesis;
 
 pub use eddies::Eddies;
+pub(crate) use interpolation::Gust;
 pub use interpolation::Wind;
 pub use spectrum::Spectrum;
 pub use synthesis::{StreamKey, Turbulence};

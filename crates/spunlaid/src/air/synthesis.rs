@@ -3,7 +3,7 @@
 use super::Air;
 use super::interpolation::{SPREAD, Taper};
 use crate::fft::{Complex, InverseTransform, WideComplex, unit};
-use crate::lanes::{Isa, Lanes, Simd, Task, WIDTH, Wide, cos_sin_turn};
+use crate::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide, cos_sin_turn};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -76,7 +76,7 @@ impl Task for Synthesis<'_> {
     type Output = Turbulence;
 
     #[inline(always)]
-    fn call<S: Simd>(self) -> Turbulence {
+    fn call<S: Register>(self) -> Turbulence {
         let pick = |i: usize| &self.lanes[if i < self.lanes.len() { i } else { 0 }];
         let air = &pick(0).0;
         let harmonics = air.harmonics;

@@ -1,6 +1,6 @@
 //! Forces inside the chain: tension of the elements, bending at the nodes.
 
-use crate::lanes::{Simd, Wide, bend_ratio};
+use crate::lanes::{Register, Simd, Wide, bend_ratio};
 use crate::vec3::Vec3;
 
 /// Geometry of an element.
@@ -38,7 +38,7 @@ impl<S: Simd> Element<S> {
 /// `a = (k_θ θ/sin θ)/ℓ₀ · (δ + 2x t₀)`, `b = (k_θ θ/sin θ)/ℓ₁ · (δ − 2x t₁)`: no division by a vanishing
 /// angle, no cancellation near straight.
 #[inline(always)]
-pub(crate) fn bending<S: Simd>(
+pub(crate) fn bending<S: Register>(
     upper: &Element<S>,
     lower: &Element<S>,
     stiffness: Wide<S>,

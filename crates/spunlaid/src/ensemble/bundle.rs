@@ -1,10 +1,10 @@
 //! Eight fibres flying side by side.
 
 use crate::air::{Eddies, Turbulence, Wind};
-use crate::chain::schemes::{Scheme, step};
+use crate::chain::schemes::{Block, Scheme, step};
 use crate::chain::{Chain, Strand};
 use crate::energy::{Energy, Work};
-use crate::lanes::{Isa, Lanes, Simd, Task};
+use crate::lanes::{Isa, Lanes, Register, Task};
 use crate::observe::EndNodeObserver;
 use crate::vec3::Vec3;
 
@@ -178,7 +178,7 @@ impl<const SPLIT: bool> Task for Advance<'_, '_, SPLIT> {
     type Output = ();
 
     #[inline(always)]
-    fn call<S: Simd>(self) {
+    fn call<S: Register>(self) {
         match (self.bundle.scheme, self.bundle.damped) {
             (Scheme::SemiImplicitEuler, false) => self.steps::<S, false, false>(),
             (Scheme::SemiImplicitEuler, true) => self.steps::<S, false, true>(),
@@ -190,13 +190,14 @@ impl<const SPLIT: bool> Task for Advance<'_, '_, SPLIT> {
 
 impl<const SPLIT: bool> Advance<'_, '_, SPLIT> {
     #[inline(always)]
-    fn steps<S: Simd, const LEAPFROG: bool, const DAMPED: bool>(self) {
+    fn steps<S: Register, const LEAPFROG: bool, const DAMPED: bool>(self) {
         let b = self.bundle;
         let end = b.chain.elements();
+        let mut block = Block::new();
         for _ in 0..self.steps {
             let wind = b.wind.blow::<S>(b.steps_done as f64 * b.h);
             let eddy = b.eddies.of_element();
-            step::<S, LEAPFROG, DAMPED, SPLIT>(&mut b.chain, wind, eddy, self.kick_and_drift, &mut b.work);
+            step::<S, LEAPFROG, DAMPED, SPLIT>(&mut b.chain, wind, eddy, self.kick_and_drift, &mut b.work, &mut block);
             if b.steps_done == 0 {
                 b.work.begin();
             }

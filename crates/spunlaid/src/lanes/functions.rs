@@ -3,37 +3,19 @@
 //! The system's `pow`, `sin` and `atan2` differ between machines in the last bit, and call one lane at
 //! a time. These are polynomials (minimax fits made with 40 digits) in fused multiply-adds only.
 
-use super::{Lanes, Simd, Wide};
+use super::{Lanes, Register, Simd, Wide};
 
-/// `Σ cᵢ xⁱ` of up to 16 terms by Estrin's scheme: pairs, pairs of pairs, …, so that few operations wait
-/// for one another.
-///
-/// Functions instead of closures: only those are certain to be compiled for the caller's instructions.
+/// `Σ cᵢ xⁱ`, even and odd terms side by side by Horner's rule in `x²`: half the wait, one more product.
 #[inline(always)]
 fn polynomial<S: Simd, const N: usize>(x: Wide<S>, c: &[f64; N]) -> Wide<S> {
-    const { assert!(N >= 2 && N <= 16) };
+    const { assert!(N >= 2) };
     let x2 = x * x;
-    let x4 = x2 * x2;
-    let low = eight_terms(x, x2, x4, c, 0);
-    if N > 8 { eight_terms(x, x2, x4, c, 8).mul_add(x4 * x4, low) } else { low }
-}
-
-#[inline(always)]
-fn eight_terms<S: Simd, const N: usize>(x: Wide<S>, x2: Wide<S>, x4: Wide<S>, c: &[f64; N], i: usize) -> Wide<S> {
-    let low = four_terms(x, x2, c, i);
-    if i + 4 < N { four_terms(x, x2, c, i + 4).mul_add(x4, low) } else { low }
-}
-
-#[inline(always)]
-fn four_terms<S: Simd, const N: usize>(x: Wide<S>, x2: Wide<S>, c: &[f64; N], i: usize) -> Wide<S> {
-    let low = two_terms(x, c, i);
-    if i + 2 < N { two_terms(x, c, i + 2).mul_add(x2, low) } else { low }
-}
-
-#[inline(always)]
-fn two_terms<S: Simd, const N: usize>(x: Wide<S>, c: &[f64; N], i: usize) -> Wide<S> {
-    let low = Wide::splat(c[i]);
-    if i + 1 < N { Wide::splat(c[i + 1]).mul_add(x, low) } else { low }
+    let (mut last, mut other) = (Wide::splat(c[N - 1]), Wide::splat(c[N - 2]));
+    for i in (0..N - 2).rev() {
+        (last, other) = (other, last.mul_add(x2, Wide::splat(c[i])));
+    }
+    // `other` holds the even terms, `last` the odd ones.
+    last.mul_add(x, other)
 }
 
 /// `log2(1+f)/f` for `1+f` in [√½, √2], to 7.8e-9.
@@ -114,9 +96,9 @@ fn log2<S: Simd>(x: Wide<S>) -> Wide<S> {
 fn exp2<S: Simd>(x: Wide<S>) -> Wide<S> {
     let rounded = x + Wide::splat(ROUND);
     let rest = x - (rounded - Wide::splat(ROUND));
-    // The low bits of `rounded` hold the integer in two's complement; the rest shifts out.
-    let scale = Wide(rounded.0.add_bits(1023).shift_left::<52>());
-    polynomial(rest, &EXP2) * scale
+    // The low bits of `rounded` hold the integer in two's complement; the rest shifts out, and adding it
+    // to the exponent multiplies by its power of two.
+    Wide(polynomial(rest, &EXP2).0.add_as_integers(rounded.0.shift_left::<52>()))
 }
 
 /// `x^exponent` for `x ≥ 0` and exponents between 0 and 1, to 4e-9 relative; tends to 0 with `x`.
@@ -130,7 +112,7 @@ pub(crate) fn power<S: Simd>(x: Wide<S>, exponent: Wide<S>) -> Wide<S> {
 /// Up to 29° a short polynomial, up to 60° a longer one, beyond the arctangent lane by lane. A lane's
 /// value does not depend on which way its neighbours go.
 #[inline(always)]
-pub(crate) fn bend_ratio<S: Simd>(x: Wide<S>) -> Wide<S> {
+pub(crate) fn bend_ratio<S: Register>(x: Wide<S>) -> Wide<S> {
     const NARROW: f64 = 1.0 / 16.0;
     let mut ratio = polynomial(x, &NARROW_BEND);
     if x.any_above(NARROW) {

@@ -1,6 +1,6 @@
 //! Run-time choice of the instruction set.
 
-use super::{Plain, Simd};
+use super::{Plain, Register};
 
 /// An instruction set the kernel is compiled for. All give the same bits; they differ in speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,7 +75,7 @@ pub(crate) trait Task {
     /// What the work returns.
     type Output;
     /// Does the work. Mark it and all it calls `#[inline(always)]`.
-    fn call<S: Simd>(self) -> Self::Output;
+    fn call<S: Register>(self) -> Self::Output;
 }
 
 #[cfg(target_arch = "x86_64")]

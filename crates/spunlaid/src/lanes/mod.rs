@@ -15,7 +15,7 @@ mod wide;
 pub(crate) use functions::{bend_ratio, cos_sin_turn, power};
 pub use isa::Isa;
 pub(crate) use isa::Task;
-pub(crate) use simd::{Plain, Simd};
+pub(crate) use simd::{Plain, Register, Simd};
 pub(crate) use wide::Wide;
 
 use std::array::from_fn;

@@ -11,7 +11,6 @@ use super::{Lanes, WIDTH};
 pub(crate) trait Simd: Copy {
     fn splat(value: f64) -> Self;
     fn load(lanes: &Lanes) -> Self;
-    fn store(self) -> Lanes;
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
@@ -30,10 +29,17 @@ pub(crate) trait Simd: Copy {
     fn and_bits(self, bits: u64) -> Self;
     fn or_bits(self, bits: u64) -> Self;
     fn xor(self, other: Self) -> Self;
+    /// Adds the bits of both as integers, wrapping round.
+    fn add_as_integers(self, other: Self) -> Self;
     /// Adds to the bits as to an integer, wrapping round.
     fn add_bits(self, bits: u64) -> Self;
     fn shift_right<const N: u32>(self) -> Self;
     fn shift_left<const N: u32>(self) -> Self;
+}
+
+/// [`Simd`] that holds exactly the eight lanes of a bundle.
+pub(crate) trait Register: Simd {
+    fn store(self) -> Lanes;
 }
 
 /// Plain Rust, for any machine.
@@ -58,6 +64,13 @@ impl Plain {
     }
 }
 
+impl Register for Plain {
+    #[inline(always)]
+    fn store(self) -> Lanes {
+        Lanes(self.0)
+    }
+}
+
 impl Simd for Plain {
     #[inline(always)]
     fn splat(value: f64) -> Self {
@@ -66,10 +79,6 @@ impl Simd for Plain {
     #[inline(always)]
     fn load(lanes: &Lanes) -> Self {
         Self(lanes.0)
-    }
-    #[inline(always)]
-    fn store(self) -> Lanes {
-        Lanes(self.0)
     }
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -124,6 +133,10 @@ impl Simd for Plain {
         self.pairs(other, |a, b| f64::from_bits(a.to_bits() ^ b.to_bits()))
     }
     #[inline(always)]
+    fn add_as_integers(self, other: Self) -> Self {
+        self.pairs(other, |a, b| f64::from_bits(a.to_bits().wrapping_add(b.to_bits())))
+    }
+    #[inline(always)]
     fn add_bits(self, bits: u64) -> Self {
         self.bits(|x| x.wrapping_add(bits))
     }
@@ -146,7 +159,7 @@ mod x86 {
     //! [`super::super::Isa::run`] picked the type, and loads and stores go through references.
 
     use super::super::Lanes;
-    use super::Simd;
+    use super::{Register, Simd};
     use std::arch::x86_64::*;
 
     /// One 512-bit register.
@@ -157,6 +170,15 @@ mod x86 {
     #[derive(Clone, Copy)]
     pub(crate) struct Avx2(__m256d, __m256d);
 
+    impl Register for Avx512 {
+        #[inline(always)]
+        fn store(self) -> Lanes {
+            let mut lanes = Lanes::ZERO;
+            unsafe { _mm512_store_pd(lanes.0.as_mut_ptr(), self.0) };
+            lanes
+        }
+    }
+
     impl Simd for Avx512 {
         #[inline(always)]
         fn splat(value: f64) -> Self {
@@ -165,12 +187,6 @@ mod x86 {
         #[inline(always)]
         fn load(lanes: &Lanes) -> Self {
             unsafe { Self(_mm512_load_pd(lanes.0.as_ptr())) }
-        }
-        #[inline(always)]
-        fn store(self) -> Lanes {
-            let mut lanes = Lanes::ZERO;
-            unsafe { _mm512_store_pd(lanes.0.as_mut_ptr(), self.0) };
-            lanes
         }
         #[inline(always)]
         fn add(self, other: Self) -> Self {
@@ -228,6 +244,13 @@ mod x86 {
             unsafe { Self(_mm512_xor_pd(self.0, other.0)) }
         }
         #[inline(always)]
+        fn add_as_integers(self, other: Self) -> Self {
+            unsafe {
+                let sum = _mm512_add_epi64(_mm512_castpd_si512(self.0), _mm512_castpd_si512(other.0));
+                Self(_mm512_castsi512_pd(sum))
+            }
+        }
+        #[inline(always)]
         fn add_bits(self, bits: u64) -> Self {
             unsafe {
                 let sum = _mm512_add_epi64(_mm512_castpd_si512(self.0), _mm512_set1_epi64(bits as i64));
@@ -251,16 +274,7 @@ mod x86 {
         };
     }
 
-    impl Simd for Avx2 {
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            unsafe { Self(_mm256_set1_pd(value), _mm256_set1_pd(value)) }
-        }
-        #[inline(always)]
-        fn load(lanes: &Lanes) -> Self {
-            let start = lanes.0.as_ptr();
-            unsafe { Self(_mm256_load_pd(start), _mm256_load_pd(start.add(4))) }
-        }
+    impl Register for Avx2 {
         #[inline(always)]
         fn store(self) -> Lanes {
             let mut lanes = Lanes::ZERO;
@@ -270,6 +284,18 @@ mod x86 {
                 _mm256_store_pd(start.add(4), self.1);
             }
             lanes
+        }
+    }
+
+    impl Simd for Avx2 {
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            unsafe { Self(_mm256_set1_pd(value), _mm256_set1_pd(value)) }
+        }
+        #[inline(always)]
+        fn load(lanes: &Lanes) -> Self {
+            let start = lanes.0.as_ptr();
+            unsafe { Self(_mm256_load_pd(start), _mm256_load_pd(start.add(4))) }
         }
         #[inline(always)]
         fn add(self, other: Self) -> Self {
@@ -332,6 +358,14 @@ mod x86 {
         #[inline(always)]
         fn xor(self, other: Self) -> Self {
             halves!(_mm256_xor_pd, self, other)
+        }
+        #[inline(always)]
+        fn add_as_integers(self, other: Self) -> Self {
+            unsafe {
+                let low = _mm256_add_epi64(_mm256_castpd_si256(self.0), _mm256_castpd_si256(other.0));
+                let high = _mm256_add_epi64(_mm256_castpd_si256(self.1), _mm256_castpd_si256(other.1));
+                Self(_mm256_castsi256_pd(low), _mm256_castsi256_pd(high))
+            }
         }
         #[inline(always)]
         fn add_bits(self, bits: u64) -> Self {

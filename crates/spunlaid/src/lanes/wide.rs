@@ -1,7 +1,7 @@
 //! [`Lanes`] in registers, with operators.
 
 use super::Lanes;
-use super::simd::Simd;
+use super::simd::{Register, Simd};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 /// Eight numbers in registers: what the kernel calculates with.
@@ -22,11 +22,6 @@ impl<S: Simd> Wide<S> {
     #[inline(always)]
     pub(crate) fn load(lanes: &Lanes) -> Self {
         Self(S::load(lanes))
-    }
-
-    #[inline(always)]
-    pub(crate) fn store(self) -> Lanes {
-        self.0.store()
     }
 
     /// `self · factor + addend`, rounded once.
@@ -71,6 +66,13 @@ impl<S: Simd> Wide<S> {
     #[inline(always)]
     pub(crate) fn any_above(self, bound: f64) -> bool {
         self.0.any_above(S::splat(bound))
+    }
+}
+
+impl<S: Register> Wide<S> {
+    #[inline(always)]
+    pub(crate) fn store(self) -> Lanes {
+        self.0.store()
     }
 }
 
