@@ -61,7 +61,7 @@ impl Fibre {
         PI * self.diameter.powi(4) / 64.0
     }
 
-    /// Mass of an element `Δm = ρ_f l A` [kg]; a node carries as much, the two ends half.
+    /// Mass of an element `Δm = ρ_f l A` [kg]; a node carries as much, the two ends half. theory.md (9)
     pub fn element_mass(&self) -> f64 {
         self.density * self.rest_length() * self.cross_section()
     }

@@ -16,7 +16,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Mean and standard error `s/√n`, summed in the order given.
+    /// Mean and standard error `s/√n`, summed in the order given.             theory.md (39)
     pub fn of(values: Vec<f64>) -> Self {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
@@ -47,7 +47,7 @@ pub fn median(values: &[f64]) -> f64 {
 /// One-sided power spectral density per frequency, averaged over records and overlapping segments.
 ///
 /// Welch's method: Hann window, half overlap, each segment's mean removed. `∫ P df` is the variance of
-/// what the segments resolve.
+/// what the segments resolve.                                                 theory.md (40)
 #[derive(Clone, Debug)]
 pub struct PowerSpectrum {
     interval: f64,

@@ -9,7 +9,7 @@ pub struct Eddies {
 
 impl Eddies {
     /// Eddies of `length_scale` [m] along a fibre of `length` [m] cut into `elements`: an element lies in
-    /// the eddy that its centre lies in, by arc length.
+    /// the eddy that its centre lies in, by arc length.                       theory.md (23)
     pub fn along(length: f64, elements: usize, length_scale: f64) -> Self {
         let size = length / elements as f64;
         let of_element: Vec<u32> = (0..elements)

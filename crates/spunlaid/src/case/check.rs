@@ -40,7 +40,7 @@ impl Case {
     /// The limits on the time step of the case's scheme, tightened by its damping [s].
     ///
     /// With `κ = ½` for semi-implicit Euler and 1 for leapfrog, damping `c` lets a mode of limit `h₀` be
-    /// stable while `(h/h₀)² + κ c h < 1`.
+    /// stable while `(h/h₀)² + κ c h < 1`.                                    theory.md (32)
     pub fn stable_step_limits(&self) -> [StepLimit; 2] {
         let share = match self.run.scheme {
             Scheme::SemiImplicitEuler => 0.5,
