@@ -1,6 +1,8 @@
 //! The house stands: modules import only from rooms left of their own, and every equation the source names
 //! is in `docs/theory.md`.
 
+#![allow(clippy::expect_used)]
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
