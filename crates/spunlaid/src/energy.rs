@@ -2,47 +2,10 @@
 
 use crate::chain::Chain;
 use crate::chain::forces::Element;
+use crate::chain::ledger::Work;
+use crate::chain::schemes::Scheme;
 use crate::lanes::{Isa, Lanes, Register, Task, Wide, bend_ratio};
 use crate::vec3::Vec3;
-
-/// Running sums of `F·v` over nodes and steps, with the velocities before and after each kick.
-///
-/// With `r_{k+1} − r_k = h v_after`, the trapezoidal rule of theory.md (33) up to time `t_K` is
-/// `½h (Σ_{k<K} F_k·(v_before + v_after) + F_K·v_before)`, the very first `F₀·v_before` left out.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Power {
-    /// `Σ F·(v_before + v_after)` over all steps.
-    pub(crate) both: Lanes,
-    /// `Σ F·v_before` of the last step, if that one kept it apart.
-    pub(crate) before: Lanes,
-}
-
-impl Power {
-    /// Work [J] up to the start of the last step; `earlier` is the ledger before that step.
-    fn work(&self, earlier: &Self, h: f64) -> Lanes {
-        (earlier.both + self.before) * Lanes::splat(0.5 * h)
-    }
-}
-
-/// Work done on the nodes: of all forces together, and of those that no potential accounts for.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Work {
-    /// All forces (theory.md (33), Eq 35 of the paper).
-    pub total: Power,
-    /// The drag of the air.
-    pub drag: Power,
-    /// The mass-proportional damping.
-    pub damping: Power,
-}
-
-impl Work {
-    /// Drops what the first step added for the time before it; called once, after that step.
-    pub(crate) fn begin(&mut self) {
-        for power in [&mut self.total, &mut self.drag, &mut self.damping] {
-            power.both = power.both - power.before;
-        }
-    }
-}
 
 /// Energies [J] of eight chains at one instant, work done on them since the start.
 #[derive(Clone, Copy, Debug, Default)]
@@ -61,49 +24,66 @@ pub struct Energy {
     pub drag_work: Lanes,
     /// Work of the damping, negative.
     pub damping_work: Lanes,
+    /// What the implicit tension has taken out of the motion beyond what the elements store.
+    pub tension_dissipation: Lanes,
+    /// Kinetic and potential energy at the start.
+    pub initial: Lanes,
     /// Largest strain of an element at this instant, by size [-].
     pub strain: Lanes,
 }
 
 impl Energy {
-    /// Takes stock of a chain.
+    /// What a chain holds: kinetic, axial and bending energy, work of gravity, largest strain.
     ///
     /// * `position`, `velocity` – of the `N+1` nodes at the same instant [m, m/s]
     /// * `start` – positions at time 0, from where gravity's work counts [m]
-    /// * `before`, `after` – the ledger before and after the step that starts at this instant
-    pub fn of(
+    pub(crate) fn held(
+        isa: Isa,
         chain: &Chain,
         position: &[Vec3<Lanes>],
         velocity: &[Vec3<Lanes>],
         start: &[Vec3<Lanes>],
-        (before, after): (&Work, &Work),
-        h: f64,
     ) -> Self {
-        let stored = Isa::detect().run(Stored { chain, position, velocity, start });
-        Self {
-            work: after.total.work(&before.total, h),
-            drag_work: after.drag.work(&before.drag, h),
-            damping_work: after.damping.work(&before.damping, h),
-            ..stored
+        isa.run(Held { chain, position, velocity, start })
+    }
+
+    /// Enters the work done since the start, when the chain held `initial`.
+    ///
+    /// * `before`, `after` – the ledger before and after the step that starts at this instant
+    pub(crate) fn enter_work(
+        &mut self,
+        initial: &Self,
+        (before, after): (&Work, &Work),
+        scheme: Scheme,
+        h: f64,
+    ) {
+        self.work = after.total.work(&before.total, h);
+        self.drag_work = after.drag.work(&before.drag, h);
+        self.damping_work = after.damping.work(&before.damping, h);
+        self.initial = initial.kinetic + initial.axial + initial.bending;
+        if scheme == Scheme::ImplicitTension {
+            let given_back = after.tension.work(&before.tension, h);
+            self.tension_dissipation = initial.axial - self.axial - given_back;
         }
     }
 
-    /// Potential and kinetic energy less the work of gravity, drag and damping [J]: zero but for the
-    /// error of the time integration.                                        theory.md (36)
+    /// Potential and kinetic energy and what the implicit tension has dissipated, less the work of gravity,
+    /// drag and damping [J]: zero but for the error of the time integration.  theory.md (36)
     pub fn imbalance(&self) -> Lanes {
-        self.kinetic + self.axial + self.bending - self.gravity_work - self.drag_work - self.damping_work
+        let held = self.kinetic + self.axial + self.bending + self.tension_dissipation;
+        held - self.initial - self.gravity_work - self.drag_work - self.damping_work
     }
 }
 
 /// The energies that depend on where the nodes are and how fast they go.
-struct Stored<'a> {
+struct Held<'a> {
     chain: &'a Chain,
     position: &'a [Vec3<Lanes>],
     velocity: &'a [Vec3<Lanes>],
     start: &'a [Vec3<Lanes>],
 }
 
-impl Task for Stored<'_> {
+impl Task for Held<'_> {
     type Output = Energy;
 
     #[inline(always)]
@@ -114,7 +94,7 @@ impl Task for Stored<'_> {
         for (i, ((position, velocity), start)) in
             self.position.iter().zip(self.velocity).zip(self.start).enumerate()
         {
-            let node = if i == 0 { &c.root } else if i == n { &c.end } else { &c.node };
+            let node = c.node(i, n + 1);
             let v = Vec3::load(velocity);
             kinetic = Wide::load(&node.mass).mul_add(v.dot(v), kinetic);
             let fallen = Wide::load(&position.x) - Wide::load(&start.x);

@@ -33,10 +33,7 @@ impl<S: Register> WideComplex<S> {
     #[inline(always)]
     pub(crate) fn times(self, (re, im): (f64, f64)) -> Self {
         let (re, im) = (Wide::splat(re), Wide::splat(im));
-        Self {
-            re: self.im.neg_mul_add(im, self.re * re),
-            im: self.re.mul_add(im, self.im * re),
-        }
+        Self { re: self.im.neg_mul_add(im, self.re * re), im: self.re.mul_add(im, self.im * re) }
     }
 }
 

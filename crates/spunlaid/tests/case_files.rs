@@ -224,7 +224,7 @@ prop_compose! {
         };
         let drag = Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient };
         let mut case = Case { fibre, air, drag, run };
-        let limit = case.stable_step_limits().map(|limit| limit.limit).into_iter().fold(f64::INFINITY, f64::min);
+        let limit = case.stable_step_limits().iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
         case.run.time_step = share * limit;
         case.air.harmonics = (case.air.cutoff_frequency * case.run.duration()) as usize + more_harmonics;
         case

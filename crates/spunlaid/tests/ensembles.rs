@@ -1,5 +1,7 @@
 //! Whole ensembles: the paper's Table 1 case, and bits that no thread or neighbour changes.
 
+#![allow(clippy::expect_used)]
+
 mod common;
 
 use common::*;
@@ -8,6 +10,7 @@ use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{Computing, Flight, KeepShapes, Results, fly};
 use spunlaid::error::Error;
 use spunlaid::lanes::Isa;
+use spunlaid::statistics::Estimate;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
@@ -76,6 +79,61 @@ fn published_table1_at_the_papers_step() {
     // Same phases: the amplitude moves by less than 0.1 %.
     let (a1, a20) = (fine.end_node.amplitude_y.mean, coarse.end_node.amplitude_y.mean);
     assert!((a20 / a1 - 1.0).abs() < 1e-3, "{a1} m at 1 µs, {a20} m at 20 µs");
+}
+
+#[test]
+fn analytic_crossing_frequency_of_a_pendulum() {
+    // A hanging chain set off a little aside swings in its first mode, crossing once every half period.
+    let mut case = table1(2e-4, 12.0, 1);
+    case.run.scheme = Scheme::ImplicitTension;
+    (case.air.velocity, case.air.density) = (0.0, 0.0);
+    case.fibre.diameter = 10e-6;
+    case.fibre.direction = V::new(1.0, 1e-3, 0.0) * (1.0 / V::new(1.0, 1e-3, 0.0).norm());
+    let r = results(&case);
+    // All modes are set off, but the first rules the free end: a crossing more or less than its own.
+    let exact = 0.59894;
+    let found = r.end_node.frequency_y.mean;
+    assert!((found - exact).abs() <= 2.0 / (2.0 * 12.0), "{found} Hz, expected {exact} Hz");
+    assert_eq!(r.end_node.frequency_z.mean, 0.0);
+    assert!(r.end_node.frequency_z.standard_error.is_none());
+}
+
+#[test]
+fn published_trends_of_the_paper() {
+    let fly = |change: &dyn Fn(&mut Case)| {
+        let mut case = table1(2e-4, 1.0, 32);
+        case.run.scheme = Scheme::ImplicitTension;
+        change(&mut case);
+        let r = results(&case);
+        let both = |a: &Estimate, b: &Estimate| {
+            let all: Vec<f64> = a.values.iter().zip(&b.values).map(|(a, b)| 0.5 * (a + b)).collect();
+            Estimate::of(all)
+        };
+        let e = &r.end_node;
+        (both(&e.amplitude_y, &e.amplitude_z), both(&e.frequency_y, &e.frequency_z))
+    };
+    // Rises by more than four standard errors of the difference, of independent phases or not.
+    let rises = |name: &str, low: &Estimate, high: &Estimate| {
+        let error = |e: &Estimate| e.standard_error.expect("32 replicates");
+        let bound = 4.0 * error(low).hypot(error(high));
+        assert!(high.mean - low.mean > bound, "{name}: {} to {}, {bound}", low.mean, high.mean);
+    };
+    let base = fly(&|_| ());
+    let slow = fly(&|c| c.air.velocity = 5.0);
+    rises("amplitude with velocity", &slow.0, &base.0);
+    rises("frequency with velocity", &slow.1, &base.1);
+    let calm = fly(&|c| c.air.turbulence_intensity = 0.05);
+    rises("amplitude with intensity", &calm.0, &base.0);
+    rises("frequency with intensity", &calm.1, &base.1);
+    let thin = fly(&|c| c.fibre.diameter = 18e-6);
+    let thick = fly(&|c| c.fibre.diameter = 200e-6);
+    rises("amplitude with diameter, 18 to 200 µm", &thin.0, &thick.0);
+    let small = fly(&|c| {
+        (c.air.length_scale, c.fibre.elements) = (0.02, 50);
+    });
+    rises("amplitude with length scale", &small.0, &base.0);
+    let quick = fly(&|c| (c.air.cutoff_frequency, c.air.harmonics) = (200.0, 512));
+    rises("amplitude with a lower cut-off", &quick.0, &base.0);
 }
 
 #[test]

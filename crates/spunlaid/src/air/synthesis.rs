@@ -92,8 +92,7 @@ impl Task for Synthesis<'_> {
                 Lanes::from_fn(|i| pick(i).0.spectrum().amplitude(n, harmonics) * scale)
             })
             .collect();
-        let turn_back: Vec<(f64, f64)> =
-            (0..half).map(|m| unit(-0.25 * m as f64 / half as f64)).collect();
+        let turn_back: Vec<(f64, f64)> = (0..half).map(|m| unit(-0.25 * m as f64 / half as f64)).collect();
 
         let count = sample_count(self.duration, spacing);
         let columns = 3 * self.eddies;
@@ -102,8 +101,7 @@ impl Task for Synthesis<'_> {
         let mut scratch = bins.clone();
         let mut wave = bins.clone();
         for column in 0..columns {
-            let mut phases: [_; WIDTH] =
-                std::array::from_fn(|i| pick(i).1.phases(column / 3, column % 3));
+            let mut phases: [_; WIDTH] = std::array::from_fn(|i| pick(i).1.phases(column / 3, column % 3));
             bins.fill(Complex::default());
             for (n, a) in amplitude.iter().enumerate() {
                 let phase = Lanes::from_fn(|i| phases[i]());
@@ -130,12 +128,7 @@ impl Task for Synthesis<'_> {
                 row[column] = if laps % 2 == 0 { value } else { -value }.store();
             }
         }
-        Turbulence {
-            samples,
-            eddies: self.eddies,
-            spacing,
-            mean: Lanes::from_fn(|i| pick(i).0.velocity),
-        }
+        Turbulence { samples, eddies: self.eddies, spacing, mean: Lanes::from_fn(|i| pick(i).0.velocity) }
     }
 }
 

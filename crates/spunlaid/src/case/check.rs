@@ -41,16 +41,17 @@ impl Case {
     ///
     /// With `κ = ½` for semi-implicit Euler and 1 for leapfrog, damping `c` lets a mode of limit `h₀` be
     /// stable while `(h/h₀)² + κ c h < 1`.                                    theory.md (32)
-    pub fn stable_step_limits(&self) -> [StepLimit; 2] {
+    pub fn stable_step_limits(&self) -> Vec<StepLimit> {
         let share = match self.run.scheme {
             Scheme::SemiImplicitEuler => 0.5,
-            Scheme::Leapfrog => 1.0,
+            Scheme::Leapfrog | Scheme::ImplicitTension => 1.0,
         };
         let rate = share * self.run.damping;
-        self.step_limits().map(|StepLimit { cause, limit }| {
+        let tightened = |StepLimit { cause, limit }| {
             let half = 0.5 * rate * limit;
             StepLimit { cause, limit: limit / (half + half.hypot(1.0)) }
-        })
+        };
+        self.step_limits().into_iter().map(tightened).collect()
     }
 
     fn notes(&self) -> Vec<Note> {
@@ -236,13 +237,15 @@ impl Check<'_> {
     fn times(&mut self) {
         let (run, fibre) = (self.case.run, self.case.fibre);
         let duration = run.duration();
-        let [axial, bending] = self.case.stable_step_limits();
-        let tightest = if bending.limit < axial.limit { bending } else { axial };
+        let limits = self.case.stable_step_limits();
+        let tightest = limits.into_iter().min_by(|a, b| a.limit.total_cmp(&b.limit));
         // What memory cannot hold has been told already.
         let told: Vec<String> = self.problems.iter().map(|problem| problem.key.clone()).collect();
         let told = |quantity: &Quantity| told.iter().any(|key| key == quantity.key);
-        if !told(&keys::ELEMENT_LENGTH) && run.time_step >= tightest.limit {
-            let StepLimit { limit, cause } = tightest;
+        if let Some(StepLimit { limit, cause }) = tightest
+            && !told(&keys::ELEMENT_LENGTH)
+            && run.time_step >= limit
+        {
             let element_length = fibre.rest_length();
             let advice = two_digits_down(0.9 * limit);
             let fault = Fault::StepTooLong { limit, cause, element_length, advice };

@@ -67,7 +67,7 @@ pub(crate) const FRICTION_LAWS: [FrictionLaw; 1] = [FrictionLaw::Matsui];
 /// The laws across the fibre.
 pub(crate) const NORMAL_LAWS: [NormalLaw; 1] = [NormalLaw::JuShambaugh];
 /// The schemes.
-pub(crate) const SCHEMES: [Scheme; 2] = [Scheme::SemiImplicitEuler, Scheme::Leapfrog];
+pub(crate) const SCHEMES: [Scheme; 3] = Scheme::ALL;
 
 impl Quantity {
     /// What is wrong with the value on its own.

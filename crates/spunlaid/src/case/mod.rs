@@ -78,12 +78,14 @@ pub struct StepLimit {
 }
 
 impl Case {
-    /// Limits on the time step of the explicit schemes on this mesh.
-    pub fn step_limits(&self) -> [StepLimit; 2] {
-        [
-            StepLimit { cause: "axial waves", limit: self.fibre.axial_step_limit() },
-            StepLimit { cause: "bending waves", limit: self.fibre.bending_step_limit() },
-        ]
+    /// Limits on the time step of an undamped flight on this mesh, by the case's scheme.
+    pub fn step_limits(&self) -> Vec<StepLimit> {
+        let axial = StepLimit { cause: "axial waves", limit: self.fibre.axial_step_limit() };
+        let bending = StepLimit { cause: "bending waves", limit: self.fibre.bending_step_limit() };
+        match self.run.scheme {
+            Scheme::SemiImplicitEuler | Scheme::Leapfrog => vec![axial, bending],
+            Scheme::ImplicitTension => vec![bending],
+        }
     }
 
     /// The eddies along the fibre.

@@ -1,8 +1,13 @@
 //! The fibre as a chain of beads: state, forces, time integration.
 
-pub mod forces;
+pub(crate) mod explicit;
+pub(crate) mod forces;
+pub(crate) mod implicit;
+pub mod ledger;
 pub mod schemes;
+pub(crate) mod sweep;
 
+use self::schemes::Scheme;
 use crate::drag::{DragLanes, ElementDrag};
 use crate::fibre::{Fibre, Root};
 use crate::lanes::{Lanes, WIDTH};
@@ -29,12 +34,14 @@ pub struct Chain {
     /// Positions of the nodes [m].
     pub position: Vec<Vec3<Lanes>>,
     /// Velocities of the nodes [m/s]: at the time of the positions for semi-implicit Euler, half a step
-    /// earlier for leapfrog.
+    /// earlier for the others.
     pub velocity: Vec<Vec3<Lanes>>,
-    /// Leapfrog: velocities one step before [`Chain::velocity`], from which the drag extrapolates.
+    /// Where velocities are staggered: those one step before [`Chain::velocity`], for the drag to extrapolate.
     pub(crate) earlier: Vec<Vec3<Lanes>>,
     /// Constants of the eight fibres.
     pub(crate) constants: Constants,
+    /// Implicit tension: what that scheme keeps besides.
+    pub(crate) tensions: implicit::Tensions,
 }
 
 /// What a step needs to know of eight fibres.
@@ -65,11 +72,25 @@ pub(crate) struct Node {
     pub(crate) weight: Lanes,
 }
 
+impl Constants {
+    /// Node `i` of `nodes`.
+    #[inline(always)]
+    pub(crate) fn node(&self, i: usize, nodes: usize) -> &Node {
+        if i == 0 {
+            &self.root
+        } else if i + 1 == nodes {
+            &self.end
+        } else {
+            &self.node
+        }
+    }
+}
+
 impl Chain {
     /// Packs up to eight fibres, straight and at rest, their roots at the origin.
     ///
     /// Lanes left over repeat the first fibre. All must have the same number of elements as the first.
-    pub fn straight(strands: &[Strand]) -> Self {
+    pub fn straight(strands: &[Strand], scheme: Scheme) -> Self {
         let pick = |i: usize| strands[if i < strands.len() { i } else { 0 }];
         let lanes = |value: &dyn Fn(&Strand) -> f64| Lanes::from_fn(|i| value(&pick(i)));
         let elements = strands[0].fibre.elements;
@@ -89,6 +110,7 @@ impl Chain {
             position,
             velocity: vec![Vec3::ZERO; elements + 1],
             earlier: vec![Vec3::ZERO; elements + 1],
+            tensions: implicit::Tensions::new(if scheme == Scheme::ImplicitTension { elements } else { 0 }),
             constants: Constants {
                 root: node(0, &|s| s.fibre.root != Root::Free),
                 // A chain of one element has no such node; then this is not used.
@@ -102,6 +124,17 @@ impl Chain {
                 damping: lanes(&|s| s.damping),
                 half_drag: DragLanes::pack(&std::array::from_fn::<_, WIDTH, _>(|i| pick(i).drag.half())),
             },
+        }
+    }
+
+    /// Gives each element the implicit scheme's tension that its stretch stands for.
+    pub(crate) fn settle_tensions(&mut self) {
+        let c = &self.constants;
+        for (tension, pair) in self.tensions.tension.iter_mut().zip(self.position.windows(2)) {
+            *tension = Lanes::from_fn(|i| {
+                let length = (pair[1].lane(i) - pair[0].lane(i)).norm();
+                c.axial_stiffness.0[i] * (length - c.rest_length.0[i])
+            });
         }
     }
 

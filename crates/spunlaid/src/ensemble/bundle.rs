@@ -1,9 +1,12 @@
 //! Eight fibres flying side by side.
 
 use crate::air::{Eddies, Turbulence, Wind};
-use crate::chain::schemes::{Block, Scheme, step};
+use crate::chain::ledger::Work;
+use crate::chain::schemes::Scheme;
+use crate::chain::sweep::Block;
 use crate::chain::{Chain, Strand};
-use crate::energy::{Energy, Work};
+use crate::chain::{explicit, implicit};
+use crate::energy::Energy;
 use crate::lanes::{Isa, Lanes, Register, Task};
 use crate::observe::EndNodeObserver;
 use crate::vec3::Vec3;
@@ -16,7 +19,7 @@ pub struct Bundle<'a> {
     damped: bool,
     h: f64,
     chain: Chain,
-    start: Vec<Vec3<Lanes>>,
+    start: Start,
     eddies: &'a Eddies,
     wind: Wind<'a>,
     work: Work,
@@ -24,6 +27,14 @@ pub struct Bundle<'a> {
     /// Steps whose positions the end-node statistics leave out.
     spin_up: u64,
     end_node: EndNodeObserver,
+}
+
+/// Where the fibres started.
+#[derive(Clone, Debug, Default)]
+struct Start {
+    position: Vec<Vec3<Lanes>>,
+    velocity: Vec<Vec3<Lanes>>,
+    energy: Energy,
 }
 
 /// Positions, velocities and energies of a bundle at one instant.
@@ -50,13 +61,13 @@ impl<'a> Bundle<'a> {
         h: f64,
         spin_up: u64,
     ) -> Self {
-        let chain = Chain::straight(strands);
+        let chain = Chain::straight(strands, scheme);
         let mut bundle = Self {
             isa,
             scheme,
             damped: strands.iter().any(|s| s.damping != 0.0),
             h,
-            start: chain.position.clone(),
+            start: Start::default(),
             chain,
             eddies,
             wind: Wind::new(turbulence),
@@ -65,7 +76,7 @@ impl<'a> Bundle<'a> {
             spin_up,
             end_node: EndNodeObserver::default(),
         };
-        bundle.start_leapfrog();
+        bundle.begin();
         bundle
     }
 
@@ -74,12 +85,11 @@ impl<'a> Bundle<'a> {
     /// * `position`, `velocity` – of the `N+1` nodes [m, m/s]
     pub fn restart_from(&mut self, position: Vec<Vec3<Lanes>>, velocity: Vec<Vec3<Lanes>>) {
         debug_assert_eq!(position.len(), self.chain.position.len());
-        self.start.clone_from(&position);
         (self.chain.position, self.chain.velocity) = (position, velocity);
         self.steps_done = 0;
         self.work = Work::default();
         self.end_node = EndNodeObserver::default();
-        self.start_leapfrog();
+        self.begin();
     }
 
     /// Adds to the velocity of a node [m/s]: a push from outside the model.
@@ -125,27 +135,40 @@ impl<'a> Bundle<'a> {
         let time = self.time();
         let position = self.chain.position.clone();
         let mut velocity = self.chain.velocity.clone();
-        let before = self.work;
+        let (before, first) = (self.work, self.steps_done == 0);
         self.run(1, (self.h, self.h), true);
-        if self.scheme == Scheme::Leapfrog {
+        if first {
+            velocity.clone_from(&self.start.velocity);
+        } else if self.scheme.is_staggered() {
             for (v, after) in velocity.iter_mut().zip(&self.chain.velocity) {
                 *v = (*v + *after) * Lanes::splat(0.5);
             }
         }
-        let ledgers = (&before, &self.work);
-        let energy = Energy::of(&self.chain, &position, &velocity, &self.start, ledgers, self.h);
+        let mut energy = Energy::held(self.isa, &self.chain, &position, &velocity, &self.start.position);
+        energy.enter_work(&self.start.energy, (&before, &self.work), self.scheme, self.h);
         Snapshot { time, position, velocity, energy }
+    }
+
+    /// Remembers the start, and takes the first half kick where the scheme wants it.
+    fn begin(&mut self) {
+        let (position, velocity) = (self.chain.position.clone(), self.chain.velocity.clone());
+        let energy = Energy::held(self.isa, &self.chain, &position, &velocity, &position);
+        self.start = Start { position, velocity, energy };
+        self.start_staggered();
     }
 
     /// Takes the velocities from time 0 to half a step before, and makes the first extrapolation of the
     /// drag's velocity give those at time 0.
-    fn start_leapfrog(&mut self) {
-        if self.scheme != Scheme::Leapfrog {
+    fn start_staggered(&mut self) {
+        if !self.scheme.is_staggered() {
             return;
         }
+        let scheme = std::mem::replace(&mut self.scheme, Scheme::Leapfrog);
+        self.chain.settle_tensions();
         let at_rest = self.chain.velocity.clone();
         self.chain.earlier.clone_from(&at_rest);
         self.run(1, (-0.5 * self.h, 0.0), false);
+        self.scheme = scheme;
         self.steps_done = 0;
         self.work = Work::default();
         self.end_node = EndNodeObserver::default();
@@ -159,7 +182,11 @@ impl<'a> Bundle<'a> {
         let isa = self.isa;
         let first = steps.min(u64::from(self.steps_done == 0));
         if split || first == 1 {
-            isa.run(Advance::<true> { bundle: self, steps: if split { steps } else { first }, kick_and_drift });
+            isa.run(Advance::<true> {
+                bundle: self,
+                steps: if split { steps } else { first },
+                kick_and_drift,
+            });
         }
         if !split {
             isa.run(Advance::<false> { bundle: self, steps: steps - first, kick_and_drift });
@@ -184,6 +211,8 @@ impl<const SPLIT: bool> Task for Advance<'_, '_, SPLIT> {
             (Scheme::SemiImplicitEuler, true) => self.steps::<S, false, true>(),
             (Scheme::Leapfrog, false) => self.steps::<S, true, false>(),
             (Scheme::Leapfrog, true) => self.steps::<S, true, true>(),
+            (Scheme::ImplicitTension, false) => self.implicit_steps::<S, false>(),
+            (Scheme::ImplicitTension, true) => self.implicit_steps::<S, true>(),
         }
     }
 }
@@ -191,20 +220,45 @@ impl<const SPLIT: bool> Task for Advance<'_, '_, SPLIT> {
 impl<const SPLIT: bool> Advance<'_, '_, SPLIT> {
     #[inline(always)]
     fn steps<S: Register, const LEAPFROG: bool, const DAMPED: bool>(self) {
-        let b = self.bundle;
-        let end = b.chain.elements();
+        let (b, by) = (self.bundle, self.kick_and_drift);
         let mut block = Block::new();
         for _ in 0..self.steps {
             let wind = b.wind.blow::<S>(b.steps_done as f64 * b.h);
             let eddy = b.eddies.of_element();
-            step::<S, LEAPFROG, DAMPED, SPLIT>(&mut b.chain, wind, eddy, self.kick_and_drift, &mut b.work, &mut block);
-            if b.steps_done == 0 {
-                b.work.begin();
-            }
-            b.steps_done += 1;
-            if b.steps_done > b.spin_up {
-                b.end_node.see::<S>(&b.chain.position[end]);
-            }
+            explicit::step::<S, LEAPFROG, DAMPED, SPLIT>(
+                &mut b.chain,
+                wind,
+                eddy,
+                by,
+                &mut b.work,
+                &mut block,
+            );
+            b.count_step::<S>();
+        }
+    }
+
+    #[inline(always)]
+    fn implicit_steps<S: Register, const DAMPED: bool>(self) {
+        let b = self.bundle;
+        let mut block = Block::new();
+        for _ in 0..self.steps {
+            let wind = b.wind.blow::<S>(b.steps_done as f64 * b.h);
+            let eddy = b.eddies.of_element();
+            implicit::step::<S, DAMPED, SPLIT>(&mut b.chain, wind, eddy, b.h, &mut b.work, &mut block);
+            b.count_step::<S>();
+        }
+    }
+}
+
+impl Bundle<'_> {
+    #[inline(always)]
+    fn count_step<S: Register>(&mut self) {
+        if self.steps_done == 0 {
+            self.work.begin();
+        }
+        self.steps_done += 1;
+        if self.steps_done > self.spin_up {
+            self.end_node.see::<S>(&self.chain.position[self.chain.elements()]);
         }
     }
 }

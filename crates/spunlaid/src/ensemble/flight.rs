@@ -7,7 +7,8 @@ use crate::case::Case;
 use crate::chain::Strand;
 use crate::energy::Energy;
 use crate::error::Error;
-use crate::lanes::{Isa, WIDTH};
+use crate::fibre::Root;
+use crate::lanes::{Isa, Lanes, WIDTH};
 use crate::observe::{EndNodeMotion, NodeSpread, SpreadObserver};
 use crate::vec3::Vec3;
 use std::sync::atomic::Ordering;
@@ -148,15 +149,11 @@ pub(super) fn fly_bundle(
     let horizon = run.duration() + run.time_step;
     let turbulence = Turbulence::synthesise(computing.isa, &streams, eddies.count(), horizon);
     let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
-    let mut bundle = Bundle::new(
-        computing.isa,
-        &strands,
-        &eddies,
-        &turbulence,
-        run.scheme,
-        run.time_step,
-        run.spin_up_steps,
-    );
+    let start = || {
+        let (scheme, h) = (run.scheme, run.time_step);
+        Bundle::new(computing.isa, &strands, &eddies, &turbulence, scheme, h, run.spin_up_steps)
+    };
+    let mut bundle = start();
 
     let mut flights: Vec<Flight> =
         jobs.iter().map(|job| Flight { replicate: job.replicate, ..Flight::default() }).collect();
@@ -165,7 +162,9 @@ pub(super) fn fly_bundle(
     for instant in 0.. {
         // Taken while advancing by the first of the steps to the next instant; the last looks ahead only.
         let snapshot = if step < run.steps { bundle.observe() } else { bundle.snapshot() };
-        check_finite(jobs, &snapshot)?;
+        if !is_finite(&snapshot.position, jobs.len()) {
+            return Err(divergence(jobs, start(), step - run.output_steps.min(step)));
+        }
         if step >= run.spin_up_steps {
             spread.see(&snapshot.position);
         }
@@ -215,18 +214,25 @@ pub fn pace(case: &Case, isa: Isa) -> f64 {
     started.elapsed().as_secs_f64() / done as f64
 }
 
-/// Refuses positions that are no longer numbers, naming the node and the time.
-fn check_finite(jobs: &[Job<'_>], snapshot: &Snapshot) -> Result<(), Error> {
-    for (lane, job) in jobs.iter().enumerate() {
-        let lost = |p: &Vec3<crate::lanes::Lanes>| !p.lane(lane).norm().is_finite();
-        if let Some(node) = snapshot.position.iter().position(lost) {
-            return Err(Error::NotFinite {
-                replicate: job.replicate,
-                node: node + 1,
-                time: snapshot.time,
-                cause: job.case.likely_cause_of_divergence(),
-            });
-        }
+/// Whether the positions in the first `lanes` lanes are all numbers.
+fn is_finite(position: &[Vec3<Lanes>], lanes: usize) -> bool {
+    (0..lanes).all(|lane| position.iter().all(|p| p.lane(lane).norm().is_finite()))
+}
+
+/// Says where a bundle lost its numbers first: flies it again, step by step after the last good one.
+fn divergence(jobs: &[Job<'_>], mut bundle: Bundle<'_>, good_steps: u64) -> Error {
+    bundle.advance(good_steps);
+    while is_finite(&bundle.chain().position, jobs.len()) {
+        bundle.advance(1);
     }
-    Ok(())
+    let held = usize::from(jobs[0].case.fibre.root != Root::Free);
+    let position = &bundle.chain().position;
+    let lost = |lane: usize| (held..position.len()).find(|&i| !position[i].lane(lane).norm().is_finite());
+    let (lane, node) = (0..jobs.len()).find_map(|lane| Some((lane, lost(lane)?))).unwrap_or((0, held));
+    Error::NotFinite {
+        replicate: jobs[lane].replicate + 1,
+        node: node + 1,
+        time: bundle.time(),
+        cause: jobs[lane].case.likely_cause_of_divergence(),
+    }
 }

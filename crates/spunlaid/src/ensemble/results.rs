@@ -72,6 +72,9 @@ pub struct ErrorOverTime {
     pub balance: (f64, f64),
 }
 
+/// An energy error over the replicates at one instant: how many defined, their sum, the largest.
+type ErrorSums = (f64, f64, f64);
+
 /// Takes in the flights of an ensemble in order; [`Collector::finish`] gives the [`Results`].
 #[derive(Clone, Debug)]
 pub struct Collector {
@@ -87,7 +90,7 @@ pub struct Collector {
     /// Per node, y and z: running mean and sum of squares over the replicates.
     nodes: Vec<[(f64, f64); 2]>,
     /// Per instant: time, and of both errors count, sum and largest.
-    errors: Vec<(f64, [(f64, f64, f64); 2])>,
+    errors: Vec<(f64, [ErrorSums; 2])>,
     spectra: [PowerSpectrum; 2],
     flights: Vec<Flight>,
 }
@@ -156,19 +159,20 @@ impl Collector {
         for ((time, sums), sample) in self.errors.iter_mut().zip(&flight.samples) {
             *time = sample.time;
             let errors = [sample.work_error_percent(), sample.balance_error_percent()];
-            for i in 0..2 {
-                over_time[i].push(errors[i]);
-                if errors[i].is_finite() {
-                    let (count, sum, largest) = &mut sums[i];
+            for ((error, over_time), (count, sum, largest)) in
+                errors.into_iter().zip(&mut over_time).zip(sums)
+            {
+                over_time.push(error);
+                if error.is_finite() {
                     *count += 1.0;
-                    *sum += errors[i];
-                    *largest = largest.max(errors[i]);
+                    *sum += error;
+                    *largest = largest.max(error);
                 }
             }
         }
-        for i in 0..2 {
-            self.finals[i].push(over_time[i].last().copied().unwrap_or(f64::NAN));
-            self.medians[i].push(median(&over_time[i]));
+        for ((errors, finals), medians) in over_time.iter().zip(&mut self.finals).zip(&mut self.medians) {
+            finals.push(errors.last().copied().unwrap_or(f64::NAN));
+            medians.push(median(errors));
         }
     }
 
@@ -188,7 +192,7 @@ impl Collector {
             amplitude_z: estimate(z),
         });
         let errors = self.errors.iter().map(|&(time, [work, balance])| {
-            let of = |(count, sum, largest): (f64, f64, f64)| {
+            let of = |(count, sum, largest): ErrorSums| {
                 if count > 0.0 { (sum / count, largest) } else { (f64::NAN, f64::NAN) }
             };
             ErrorOverTime { time, work: of(work), balance: of(balance) }

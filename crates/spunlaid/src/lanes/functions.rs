@@ -3,6 +3,9 @@
 //! The system's `pow`, `sin` and `atan2` differ between machines in the last bit, and call one lane at
 //! a time. These are polynomials (minimax fits made with 40 digits) in fused multiply-adds only.
 
+// The fits' coefficients are written as fitted, near to known constants as some are.
+#![allow(clippy::approx_constant, clippy::excessive_precision)]
+
 use super::{Lanes, Register, Simd, Wide};
 
 /// `Σ cᵢ xⁱ`, even and odd terms side by side by Horner's rule in `x²`: half the wait, one more product.
@@ -114,23 +117,22 @@ pub(crate) fn power<S: Simd>(x: Wide<S>, exponent: Wide<S>) -> Wide<S> {
 #[inline(always)]
 pub(crate) fn bend_ratio<S: Register>(x: Wide<S>) -> Wide<S> {
     const NARROW: f64 = 1.0 / 16.0;
+    const WIDE: f64 = 0.25;
     let mut ratio = polynomial(x, &NARROW_BEND);
     if x.any_above(NARROW) {
-        let wide = Wide::<Plain>::load(&x.store());
-        let long = Wide::<S>::load(&wide_bend_ratio(wide));
-        ratio = Wide::select_less(Wide::splat(NARROW), x, long, ratio);
+        ratio = Wide::select_less(Wide::splat(NARROW), x, polynomial(x, &BEND), ratio);
+        if x.any_above(WIDE) {
+            let arc = Wide::load(&arc_ratios(x.store(), WIDE));
+            ratio = Wide::select_less(Wide::splat(WIDE), x, arc, ratio);
+        }
     }
     ratio
 }
 
-type Plain = super::Plain;
-
 #[cold]
 #[inline(never)]
-fn wide_bend_ratio(x: Wide<Plain>) -> Lanes {
-    let long = polynomial(x, &BEND).store();
-    let x = x.store();
-    Lanes::from_fn(|i| if x.0[i] > 0.25 { arc_ratio(x.0[i]) } else { long.0[i] })
+fn arc_ratios(x: Lanes, above: f64) -> Lanes {
+    Lanes::from_fn(|i| if x.0[i] > above { arc_ratio(x.0[i]) } else { 1.0 })
 }
 
 /// `θ/sin θ` from `x = sin²(θ/2)` by the arctangent.

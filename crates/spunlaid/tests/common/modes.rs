@@ -19,9 +19,9 @@ pub fn symmetric_eigen(mut a: Vec<Vec<f64>>) -> (Vec<f64>, Vec<Vec<f64>>) {
                 let t = tau.signum() / (tau.abs() + (1.0 + tau * tau).sqrt());
                 let c = 1.0 / (1.0 + t * t).sqrt();
                 let s = t * c;
-                for k in 0..n {
-                    let (x, y) = (a[k][j], a[k][i]);
-                    (a[k][j], a[k][i]) = (c * x - s * y, s * x + c * y);
+                for row in &mut a {
+                    let (x, y) = (row[j], row[i]);
+                    (row[j], row[i]) = (c * x - s * y, s * x + c * y);
                 }
                 for k in 0..n {
                     let (x, y) = (a[j][k], a[i][k]);

@@ -1,0 +1,97 @@
+//! The explicit schemes: semi-implicit Euler and leapfrog.
+
+use super::forces::Element;
+use super::ledger::{Sums, Work};
+use super::sweep::{Block, Motion, sweep};
+use super::{Chain, Constants};
+use crate::air::Gust;
+use crate::lanes::{Lanes, Register, Wide};
+use crate::vec3::Vec3;
+
+/// Advances eight chains by one step: velocities by `kick` [s] of acceleration, then positions by `drift`
+/// [s] of velocity.
+///
+/// * `wind` – the air at the time of the positions
+/// * `eddy` – index into the wind for each of the `N` elements
+/// * `work` – ledger the step adds to
+/// * `SPLIT` – whether the ledger also keeps apart what the velocities before the kick gave
+#[inline(always)]
+pub(crate) fn step<S: Register, const LEAPFROG: bool, const DAMPED: bool, const SPLIT: bool>(
+    chain: &mut Chain,
+    wind: Gust<'_, S>,
+    eddy: &[u32],
+    (kick, drift): (f64, f64),
+    work: &mut Work,
+    block: &mut Block<S>,
+) {
+    let elements = chain.elements();
+    let Chain { position, velocity, earlier, constants: c, .. } = chain;
+    let mut mover = Mover::<S, LEAPFROG, DAMPED, SPLIT> {
+        position: &mut position[..=elements],
+        velocity: &mut velocity[..=elements],
+        earlier: &mut earlier[..=elements],
+        c,
+        kick: Wide::splat(kick),
+        drift: Wide::splat(drift),
+        work: Sums::of(work),
+    };
+    sweep(&mut mover, c, wind, eddy, block);
+    mover.work.put(work);
+}
+
+/// Moves each node on as soon as its force is complete, and keeps the ledger.
+struct Mover<'a, S: Register, const LEAPFROG: bool, const DAMPED: bool, const SPLIT: bool> {
+    position: &'a mut [Vec3<Lanes>],
+    velocity: &'a mut [Vec3<Lanes>],
+    earlier: &'a mut [Vec3<Lanes>],
+    c: &'a Constants,
+    kick: Wide<S>,
+    drift: Wide<S>,
+    work: Sums<S>,
+}
+
+impl<S: Register, const LEAPFROG: bool, const DAMPED: bool, const SPLIT: bool> Motion<S>
+    for Mover<'_, S, LEAPFROG, DAMPED, SPLIT>
+{
+    #[inline(always)]
+    fn position(&self, i: usize) -> Vec3<Wide<S>> {
+        Vec3::load(&self.position[i])
+    }
+
+    #[inline(always)]
+    fn drag_velocity(&self, i: usize) -> Vec3<Wide<S>> {
+        let v = Vec3::load(&self.velocity[i]);
+        if LEAPFROG {
+            // From half steps k−3/2 and k−1/2 to the full step k.
+            (v - Vec3::load(&self.earlier[i])).mul_add(Wide::splat(0.5), v)
+        } else {
+            v
+        }
+    }
+
+    #[inline(always)]
+    fn tension(&mut self, _: usize, element: &Element<S>) -> Wide<S> {
+        element.tension(Wide::load(&self.c.axial_stiffness), Wide::load(&self.c.rest_length))
+    }
+
+    #[inline(always)]
+    fn node(&mut self, i: usize, force: Vec3<Wide<S>>, drag: Vec3<Wide<S>>) {
+        let node = self.c.node(i, self.position.len());
+        let before = Vec3::load(&self.velocity[i]);
+        let mut force = force;
+        force.x += Wide::load(&node.weight);
+        let mut damping = Vec3::zero();
+        if DAMPED {
+            damping = self.drag_velocity(i) * -(Wide::load(&node.mass) * Wide::load(&self.c.damping));
+            force += damping;
+        }
+        let after = force.mul_add(self.kick * Wide::load(&node.inverse_mass), before);
+        self.work.add::<DAMPED, SPLIT>([force, drag, damping], before, after);
+        if LEAPFROG {
+            self.earlier[i] = before.store();
+        }
+        self.velocity[i] = after.store();
+        let position = Vec3::load(&self.position[i]);
+        self.position[i] = after.mul_add(self.drift, position).store();
+    }
+}

@@ -1,0 +1,240 @@
+//! Leapfrog with implicit tension: neither axial waves nor those of the taut string limit the time step.
+//!
+//! The tension `λ` of an element is what it will be at the end of the step, `λ = k_a (ℓ_{k+1} − l)`, along
+//! the element's direction at its start; that direction's own change over the step is averaged as in
+//! Newmark's rule, which adds `h²/4` times the string's stiffness to the mass. Two scalar tridiagonal
+//! systems along the chain, and no more work than that.                       theory.md (29)
+//!
+//! 1. A sweep from the root gives the forces with the tensions of the last step, and eliminates the system
+//!    of the accelerations on its way.
+//! 2. From the free end up: accelerations, the velocities and edges they predict, and the elimination of
+//!    the system of the tensions' corrections `δ` (Newton's method, one iteration).
+//! 3. From the root down again: corrections and motion.
+
+use super::forces::Element;
+use super::ledger::{Sums, Work};
+use super::sweep::{Block, Motion, sweep};
+use super::{Chain, Constants};
+use crate::air::Gust;
+use crate::lanes::{Lanes, Register, Wide};
+use crate::vec3::Vec3;
+
+/// What the scheme keeps beside positions and velocities.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tensions {
+    /// Of each element: tension `λ` [N], and unit vector along it at the start of the step. One element
+    /// more than there is, of no direction, ends the chain.
+    pub(crate) tension: Vec<Lanes>,
+    tangent: Vec<Vec3<Lanes>>,
+    /// Of each node: force with the last tensions, and the drag in it [N].
+    force: Vec<Vec3<Lanes>>,
+    drag: Vec<Vec3<Lanes>>,
+    /// Of each node: acceleration [m/s²] less `slope` times the next node's; then the velocity it predicts.
+    acceleration: Vec<Vec3<Lanes>>,
+    slope: Vec<Lanes>,
+    /// Of each element: correction of the tension [N] less `.1` times that of the element above.
+    correction: Vec<(Lanes, Lanes)>,
+}
+
+impl Tensions {
+    pub(crate) fn new(elements: usize) -> Self {
+        let nodes = elements + 1;
+        Self {
+            tension: vec![Lanes::ZERO; nodes],
+            tangent: vec![Vec3::ZERO; nodes],
+            force: vec![Vec3::ZERO; nodes],
+            drag: vec![Vec3::ZERO; nodes],
+            acceleration: vec![Vec3::ZERO; nodes],
+            slope: vec![Lanes::ZERO; nodes],
+            correction: vec![Default::default(); elements],
+        }
+    }
+}
+
+/// Advances eight chains by one step of `h` [s]. Arguments as of the explicit step.
+#[inline(always)]
+pub(crate) fn step<S: Register, const DAMPED: bool, const SPLIT: bool>(
+    chain: &mut Chain,
+    wind: Gust<'_, S>,
+    eddy: &[u32],
+    h: f64,
+    work: &mut Work,
+    block: &mut Block<S>,
+) {
+    let c = &chain.constants;
+    let mut predictor = Predictor::<S, DAMPED> {
+        position: &chain.position,
+        velocity: &chain.velocity,
+        earlier: &chain.earlier,
+        c,
+        quarter: Wide::splat(0.25 * h * h),
+        t: &mut chain.tensions,
+        string: (Wide::zero(), Wide::zero()),
+        above: (Vec3::zero(), Wide::zero()),
+    };
+    sweep(&mut predictor, c, wind, eddy, block);
+    predict_and_eliminate::<S>(&chain.position, &chain.velocity, c, h, &mut chain.tensions);
+    let mut sums = Sums::of(work);
+    correct_and_move::<S, DAMPED, SPLIT>(chain, h, &mut sums);
+    sums.put(work);
+}
+
+/// Keeps the forces with the last tensions, and eliminates `(M + ¼h²K) a = F` from the root down, `K` the
+/// stiffness of the string under those tensions.
+struct Predictor<'a, S: Register, const DAMPED: bool> {
+    position: &'a [Vec3<Lanes>],
+    velocity: &'a [Vec3<Lanes>],
+    earlier: &'a [Vec3<Lanes>],
+    c: &'a Constants,
+    /// `¼h²`.
+    quarter: Wide<S>,
+    t: &'a mut Tensions,
+    /// `¼h²λ/ℓ` of the elements above and below the node to come, none where they push.
+    string: (Wide<S>, Wide<S>),
+    /// The row of the node above: its acceleration less `.1` times that of the node to come.
+    above: (Vec3<Wide<S>>, Wide<S>),
+}
+
+impl<S: Register, const DAMPED: bool> Motion<S> for Predictor<'_, S, DAMPED> {
+    #[inline(always)]
+    fn position(&self, i: usize) -> Vec3<Wide<S>> {
+        Vec3::load(&self.position[i])
+    }
+
+    #[inline(always)]
+    fn drag_velocity(&self, i: usize) -> Vec3<Wide<S>> {
+        let v = Vec3::load(&self.velocity[i]);
+        (v - Vec3::load(&self.earlier[i])).mul_add(Wide::splat(0.5), v)
+    }
+
+    #[inline(always)]
+    fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S> {
+        let tension = Wide::load(&self.t.tension[j]);
+        self.t.tangent[j] = element.tangent.store();
+        self.string.1 = self.quarter * tension.max(Wide::zero()) * element.inverse_length;
+        tension
+    }
+
+    #[inline(always)]
+    fn node(&mut self, i: usize, force: Vec3<Wide<S>>, drag: Vec3<Wide<S>>) {
+        let nodes = self.position.len();
+        let node = self.c.node(i, nodes);
+        let mut force = force;
+        force.x += Wide::load(&node.weight);
+        if DAMPED {
+            let damping = Wide::load(&node.mass) * Wide::load(&self.c.damping);
+            force = self.drag_velocity(i).neg_mul_add(damping, force);
+        }
+        self.t.force[i] = force.store();
+        self.t.drag[i] = drag.store();
+
+        if i + 1 == nodes {
+            self.string.1 = Wide::zero();
+        }
+        let inverse_mass = Wide::load(&node.inverse_mass);
+        let above = inverse_mass * self.string.0;
+        let below = inverse_mass * self.string.1;
+        let here = Wide::splat(1.0) + above + below;
+        let pivot = Wide::splat(1.0).over(above.neg_mul_add(self.above.1, here));
+        let acceleration = self.above.0.mul_add(above, force * inverse_mass) * pivot;
+        let slope = below * pivot;
+        self.t.acceleration[i] = acceleration.store();
+        self.t.slope[i] = slope.store();
+        self.above = (acceleration, slope);
+        self.string.0 = self.string.1;
+    }
+}
+
+/// From the free end up: the predicted velocities, in place of the accelerations, and the elimination of
+/// the rows `(λ+δ)/k_a = ℓ_{k+1} − l`.
+///
+/// With `d` the predicted edge, `d̂` its direction and `w = h²k_a/m` of a node, row `j` reads
+/// `−w_j d̂·t_{j−1} δ_{j−1} + (1 + (w_j + w_{j+1}) d̂·t_j) δ_j − w_{j+1} d̂·t_{j+1} δ_{j+1} =
+/// k_a (|d| − l) − λ`.
+#[inline(always)]
+fn predict_and_eliminate<S: Register>(
+    position: &[Vec3<Lanes>],
+    velocity: &[Vec3<Lanes>],
+    c: &Constants,
+    h: f64,
+    t: &mut Tensions,
+) {
+    let elements = position.len() - 1;
+    let h = Wide::<S>::splat(h);
+    let (stiffness, rest_length) = (Wide::load(&c.axial_stiffness), Wide::load(&c.rest_length));
+    let scale = h * h * stiffness;
+    let one = Wide::splat(1.0);
+    let mut acceleration = Vec3::load(&t.acceleration[elements]);
+    let predicted = acceleration.mul_add(h, Vec3::load(&velocity[elements]));
+    t.acceleration[elements] = predicted.store();
+    let mut lower = (Vec3::load(&position[elements]), predicted);
+    let mut weight_below = scale * Wide::load(&c.end.inverse_mass);
+    let (mut tangent_below, mut tangent) = (Vec3::zero(), Vec3::load(&t.tangent[elements - 1]));
+    let (mut value, mut slope) = (Wide::zero(), Wide::zero());
+    for j in (0..elements).rev() {
+        acceleration = acceleration.mul_add(Wide::load(&t.slope[j]), Vec3::load(&t.acceleration[j]));
+        let predicted = acceleration.mul_add(h, Vec3::load(&velocity[j]));
+        t.acceleration[j] = predicted.store();
+        let upper = (Vec3::load(&position[j]), predicted);
+        let weight_above = scale * Wide::load(&c.node(j, elements + 1).inverse_mass);
+        let tangent_above = if j > 0 { Vec3::load(&t.tangent[j - 1]) } else { Vec3::zero() };
+
+        let edge = (lower.1 - upper.1).mul_add(h, lower.0 - upper.0);
+        let length = edge.dot(edge).sqrt();
+        let direction = edge * one.over(length);
+        let above = -(weight_above * direction.dot(tangent_above));
+        let here = (weight_above + weight_below).mul_add(direction.dot(tangent), one);
+        let below = -(weight_below * direction.dot(tangent_below));
+        let wanted = stiffness * (length - rest_length) - Wide::load(&t.tension[j]);
+        let pivot = one.over(below.neg_mul_add(slope, here));
+        value = below.neg_mul_add(value, wanted) * pivot;
+        slope = above * pivot;
+        t.correction[j] = (value.store(), slope.store());
+        (lower, weight_below) = (upper, weight_above);
+        (tangent_below, tangent) = (tangent, tangent_above);
+    }
+}
+
+/// From the root down: the corrections of the tensions, and with them the motion of the nodes.
+#[inline(always)]
+fn correct_and_move<S: Register, const DAMPED: bool, const SPLIT: bool>(
+    chain: &mut Chain,
+    h: f64,
+    sums: &mut Sums<S>,
+) {
+    let elements = chain.elements();
+    let Chain { position, velocity, earlier, constants: c, tensions: t } = chain;
+    let (rate, h) = (Wide::<S>::splat(1.0 / h), Wide::<S>::splat(h));
+    let mut correction = Wide::zero();
+    // Of the element above: what its correction and its last tension pull with.
+    let (mut change_above, mut pull_above) = (Vec3::zero(), Vec3::zero());
+    for i in 0..=elements {
+        let (mut change, mut pull) = (Vec3::zero(), Vec3::zero());
+        if i < elements {
+            let (value, slope) = &t.correction[i];
+            correction = Wide::load(slope).neg_mul_add(correction, Wide::load(value));
+            let tension = Wide::load(&t.tension[i]);
+            let tangent = Vec3::load(&t.tangent[i]);
+            (change, pull) = (tangent * correction, tangent * tension);
+            t.tension[i] = (tension + correction).store();
+        }
+        let node = c.node(i, elements + 1);
+        let before = Vec3::load(&velocity[i]);
+        let kick = h * Wide::load(&node.inverse_mass);
+        let after = (change - change_above).mul_add(kick, Vec3::load(&t.acceleration[i]));
+        // The force that moved the node; what no other force accounts for is the tension's.
+        let force = (after - before) * (Wide::load(&node.mass) * rate);
+        let tension = force - Vec3::load(&t.force[i]) + (pull - pull_above);
+        let mut damping = Vec3::zero();
+        if DAMPED {
+            let v = (before - Vec3::load(&earlier[i])).mul_add(Wide::splat(0.5), before);
+            damping = v * -(Wide::load(&node.mass) * Wide::load(&c.damping));
+        }
+        sums.add::<DAMPED, SPLIT>([force, Vec3::load(&t.drag[i]), damping], before, after);
+        sums.add_tension::<SPLIT>(tension, before, after);
+        earlier[i] = before.store();
+        velocity[i] = after.store();
+        position[i] = after.mul_add(h, Vec3::load(&position[i])).store();
+        (change_above, pull_above) = (change, pull);
+    }
+}

@@ -1,0 +1,116 @@
+//! The ledger of the work done on the nodes.
+
+use crate::lanes::{Lanes, Register, Wide};
+use crate::vec3::Vec3;
+
+/// Running sums of `F·v` over nodes and steps, with the velocities before and after each kick.
+///
+/// With `r_{k+1} − r_k = h v_after`, the trapezoidal rule of theory.md (33) up to time `t_K` is
+/// `½h (Σ_{k<K} F_k·(v_before + v_after) + F_K·v_before)`, the very first `F₀·v_before` left out.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Power {
+    /// `Σ F·(v_before + v_after)` over all steps.
+    pub(crate) both: Lanes,
+    /// `Σ F·v_before` of the last step, if that one kept it apart.
+    pub(crate) before: Lanes,
+}
+
+impl Power {
+    /// Work [J] up to the start of the last step; `earlier` is the ledger before that step.
+    pub(crate) fn work(&self, earlier: &Self, h: f64) -> Lanes {
+        (earlier.both + self.before) * Lanes::splat(0.5 * h)
+    }
+}
+
+/// Work done on the nodes: of all forces together, and of those that no potential accounts for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Work {
+    /// All forces (theory.md (33), Eq 35 of the paper).
+    pub total: Power,
+    /// The drag of the air.
+    pub drag: Power,
+    /// The mass-proportional damping.
+    pub damping: Power,
+    /// The tension, where it is implicit.
+    pub tension: Power,
+}
+
+impl Work {
+    /// Drops what the first step added for the time before it; called once, after that step.
+    pub(crate) fn begin(&mut self) {
+        for power in [&mut self.total, &mut self.drag, &mut self.damping, &mut self.tension] {
+            power.both = power.both - power.before;
+            power.before = Lanes::ZERO;
+        }
+    }
+}
+
+/// A [`Work`] in registers: of the total force, the drag, the damping and the implicit tension.
+pub(crate) struct Sums<S: Register> {
+    both: [Wide<S>; 4],
+    before: [Wide<S>; 4],
+}
+
+impl<S: Register> Sums<S> {
+    #[inline(always)]
+    pub(crate) fn of(work: &Work) -> Self {
+        Self {
+            both: [
+                Wide::load(&work.total.both),
+                Wide::load(&work.drag.both),
+                Wide::load(&work.damping.both),
+                Wide::load(&work.tension.both),
+            ],
+            before: [Wide::zero(); 4],
+        }
+    }
+
+    /// Adds `F·(v_before + v_after)` of the total, the drag and the damping force.
+    #[inline(always)]
+    pub(crate) fn add<const DAMPED: bool, const SPLIT: bool>(
+        &mut self,
+        forces: [Vec3<Wide<S>>; 3],
+        before: Vec3<Wide<S>>,
+        after: Vec3<Wide<S>>,
+    ) {
+        let velocities = before + after;
+        self.add_to::<SPLIT>(0, forces[0], before, velocities);
+        self.add_to::<SPLIT>(1, forces[1], before, velocities);
+        if DAMPED {
+            self.add_to::<SPLIT>(2, forces[2], before, velocities);
+        }
+    }
+
+    /// Adds `F·(v_before + v_after)` of the implicit tension.
+    #[inline(always)]
+    pub(crate) fn add_tension<const SPLIT: bool>(
+        &mut self,
+        force: Vec3<Wide<S>>,
+        before: Vec3<Wide<S>>,
+        after: Vec3<Wide<S>>,
+    ) {
+        self.add_to::<SPLIT>(3, force, before, before + after);
+    }
+
+    #[inline(always)]
+    fn add_to<const SPLIT: bool>(
+        &mut self,
+        i: usize,
+        force: Vec3<Wide<S>>,
+        before: Vec3<Wide<S>>,
+        velocities: Vec3<Wide<S>>,
+    ) {
+        self.both[i] = force.dot_add(velocities, self.both[i]);
+        if SPLIT {
+            self.before[i] = force.dot_add(before, self.before[i]);
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn put(self, work: &mut Work) {
+        work.total = Power { both: self.both[0].store(), before: self.before[0].store() };
+        work.drag = Power { both: self.both[1].store(), before: self.before[1].store() };
+        work.damping = Power { both: self.both[2].store(), before: self.before[2].store() };
+        work.tension = Power { both: self.both[3].store(), before: self.before[3].store() };
+    }
+}

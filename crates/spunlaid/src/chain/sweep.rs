@@ -1,0 +1,140 @@
+//! One pass along eight chains: all forces on every node.
+
+use super::Constants;
+use super::forces::{Element, bending};
+use crate::air::Gust;
+use crate::drag::{DragLanes, Split};
+use crate::lanes::{Register, Wide};
+use crate::vec3::Vec3;
+
+/// What a scheme brings to a sweep, and what it does with the forces.
+pub(crate) trait Motion<S: Register> {
+    /// Position of node `i` [m].
+    fn position(&self, i: usize) -> Vec3<Wide<S>>;
+
+    /// Velocity of node `i` that drag and damping see [m/s].
+    fn drag_velocity(&self, i: usize) -> Vec3<Wide<S>>;
+
+    /// Tension of element `j` [N], negative in compression.
+    fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S>;
+
+    /// Takes the force on node `i` of all but gravity and damping, and the part of it that is drag [N].
+    /// The sweep is done with the node.
+    fn node(&mut self, i: usize, force: Vec3<Wide<S>>, drag: Vec3<Wide<S>>);
+}
+
+/// Sweeps over eight chains in a wind.
+///
+/// * `eddy` – index into the wind for each of the `N` elements
+///
+/// From the root down in blocks of elements: first their geometry, then their drag, then the bending of the
+/// nodes above them, then the sum on those nodes. Short loops keep the machine's pipelines fuller than one
+/// long one, and a block stays in the nearest cache. The force on a node is complete, and handed over, when
+/// the element below it is done.
+#[inline(always)]
+pub(crate) fn sweep<S: Register, M: Motion<S>>(
+    motion: &mut M,
+    c: &Constants,
+    wind: Gust<'_, S>,
+    eddy: &[u32],
+    block: &mut Block<S>,
+) {
+    let mut above = Element {
+        tangent: Vec3::load(&c.root_direction),
+        inverse_length: Wide::zero(),
+        length: Wide::zero(),
+    };
+    // Forces so far on nodes j−1 and j: all, and of the air.
+    let (mut force, mut force_above) = (Vec3::zero(), Vec3::zero());
+    let (mut drag, mut drag_above) = (Vec3::zero(), Vec3::zero());
+    for (start, eddy) in (0..).step_by(BLOCK).zip(eddy.chunks(BLOCK)) {
+        let links = &mut block.0[..eddy.len()];
+        geometry(motion, start, links);
+        relative_velocity(motion, start, links, wind, eddy);
+        for link in &mut *links {
+            c.half_drag.raise(&mut link.split);
+        }
+        bend(c, start, above, links);
+        for (j, link) in (start..).zip(&*links) {
+            let (a, b) = link.bending;
+            if j > 0 {
+                motion.node(j - 1, force_above - a, drag_above);
+            }
+            let pull = link.element.tangent.mul_add(motion.tension(j, &link.element), b);
+            let air = c.half_drag.force(&link.split, link.element.tangent);
+            (force_above, force) = (force + (a + pull + air), air - pull);
+            (drag_above, drag) = (drag + air, air);
+        }
+        above = links[eddy.len() - 1].element;
+    }
+    motion.node(eddy.len() - 1, force_above, drag_above);
+    motion.node(eddy.len(), force, drag);
+}
+
+/// Elements in a block.
+const BLOCK: usize = 8;
+
+/// An element and the node above it, within a sweep.
+#[derive(Clone, Copy)]
+struct Link<S: Register> {
+    element: Element<S>,
+    /// On the way to half the element's drag.
+    split: Split<S>,
+    /// Bending of the node: see [`bending`].
+    bending: (Vec3<Wide<S>>, Vec3<Wide<S>>),
+}
+
+/// Room for the elements of a block.
+pub(crate) struct Block<S: Register>([Link<S>; BLOCK]);
+
+impl<S: Register> Block<S> {
+    #[inline(always)]
+    pub(crate) fn new() -> Self {
+        let (vector, number) = (Vec3::zero(), Wide::zero());
+        let element = Element { tangent: vector, inverse_length: number, length: number };
+        Self([Link { element, split: Split::none(), bending: (vector, vector) }; BLOCK])
+    }
+}
+
+/// The elements of a block from `start` on.
+#[inline(always)]
+fn geometry<S: Register>(motion: &impl Motion<S>, start: usize, block: &mut [Link<S>]) {
+    let mut upper = motion.position(start);
+    for (j, link) in (start + 1..).zip(block) {
+        let lower = motion.position(j);
+        link.element = Element::between(upper, lower);
+        upper = lower;
+    }
+}
+
+/// Velocity of the air relative to the elements of a block from `start` on.
+#[inline(always)]
+fn relative_velocity<S: Register>(
+    motion: &impl Motion<S>,
+    start: usize,
+    block: &mut [Link<S>],
+    wind: Gust<'_, S>,
+    eddy: &[u32],
+) {
+    let mut upper = motion.drag_velocity(start);
+    let (mut here, mut air) = (eddy[0], wind.velocity(eddy[0]));
+    for (j, (link, &eddy)) in (start + 1..).zip(block.iter_mut().zip(eddy)) {
+        let lower = motion.drag_velocity(j);
+        if eddy != here {
+            (here, air) = (eddy, wind.velocity(eddy));
+        }
+        let relative = (upper + lower).neg_mul_add(Wide::splat(0.5), air);
+        link.split = DragLanes::split(relative, link.element.tangent);
+        upper = lower;
+    }
+}
+
+/// Bending of the nodes of a block, the first of them below the element `above`.
+#[inline(always)]
+fn bend<S: Register>(c: &Constants, start: usize, mut above: Element<S>, block: &mut [Link<S>]) {
+    for (j, link) in (start..).zip(block) {
+        let stiffness = if j == 0 { &c.root_stiffness } else { &c.bending_stiffness };
+        link.bending = bending(&above, &link.element, Wide::load(stiffness));
+        above = link.element;
+    }
+}
