@@ -84,8 +84,24 @@ impl Case {
         let bending = StepLimit { cause: "bending waves", limit: self.fibre.bending_step_limit() };
         match self.run.scheme {
             Scheme::SemiImplicitEuler | Scheme::Leapfrog => vec![axial, bending],
-            Scheme::ImplicitTension => vec![bending],
+            Scheme::ImplicitTension => vec![bending, self.string_step_limit()],
         }
+    }
+
+    /// Longest step that the waves of the string under its tension stand with implicit tension [s]: 1.5
+    /// times what they need to pass an element, half of where flights were seen to fail. theory.md (32)
+    ///
+    /// The tension is estimated at the root, from the fibre's weight and the friction of the mean flow.
+    fn string_step_limit(&self) -> StepLimit {
+        let strand = self.strand();
+        let elements = self.fibre.elements as f64;
+        let weight = self.fibre.element_mass() * elements * self.run.gravity.abs();
+        let friction = strand.drag.tangential
+            * libm::pow(self.air.velocity.abs(), 1.0 + strand.drag.tangential_exponent)
+            * elements;
+        let line_density = self.fibre.density * self.fibre.cross_section();
+        let speed = ((weight + friction) / line_density).sqrt();
+        StepLimit { cause: "waves of the taut string", limit: 1.5 * self.fibre.rest_length() / speed }
     }
 
     /// The eddies along the fibre.

@@ -2,8 +2,10 @@
 //!
 //! The tension `λ` of an element is what it will be at the end of the step, `λ = k_a (ℓ_{k+1} − l)`, along
 //! the element's direction at its start; that direction's own change over the step is averaged as in
-//! Newmark's rule, which adds `h²/4` times the string's stiffness to the mass. Two scalar tridiagonal
-//! systems along the chain, and no more work than that.                       theory.md (29)
+//! Newmark's rule, which adds a share of `h²` times the string's stiffness to the mass. The share is
+//! `½ s/(1+s)` with `s = h²λ/(ℓm)`, the square of the step over what the string's waves need to pass the
+//! element: next to nothing for short steps, where leapfrog is best left alone, and enough for long ones.
+//! Two scalar tridiagonal systems along the chain, and no more work than that.                       theory.md (29)
 //!
 //! 1. A sweep from the root gives the forces with the tensions of the last step, and eliminates the system
 //!    of the accelerations on its way.
@@ -67,7 +69,7 @@ pub(crate) fn step<S: Register, const DAMPED: bool, const SPLIT: bool>(
         velocity: &chain.velocity,
         earlier: &chain.earlier,
         c,
-        quarter: Wide::splat(0.25 * h * h),
+        rate: Wide::splat(h * h) * Wide::load(&c.node.inverse_mass),
         t: &mut chain.tensions,
         string: (Wide::zero(), Wide::zero()),
         above: (Vec3::zero(), Wide::zero()),
@@ -79,17 +81,17 @@ pub(crate) fn step<S: Register, const DAMPED: bool, const SPLIT: bool>(
     sums.put(work);
 }
 
-/// Keeps the forces with the last tensions, and eliminates `(M + ¼h²K) a = F` from the root down, `K` the
-/// stiffness of the string under those tensions.
+/// Keeps the forces with the last tensions, and eliminates `(M + K') a = F` from the root down, `K'` the
+/// averaging's share of the stiffness of the string under those tensions.
 struct Predictor<'a, S: Register, const DAMPED: bool> {
     position: &'a [Vec3<Lanes>],
     velocity: &'a [Vec3<Lanes>],
     earlier: &'a [Vec3<Lanes>],
     c: &'a Constants,
-    /// `¼h²`.
-    quarter: Wide<S>,
+    /// `h²/m` of a node between elements.
+    rate: Wide<S>,
     t: &'a mut Tensions,
-    /// `¼h²λ/ℓ` of the elements above and below the node to come, none where they push.
+    /// `½ m s²/(1+s)` of the elements above and below the node to come, none where they push.
     string: (Wide<S>, Wide<S>),
     /// The row of the node above: its acceleration less `.1` times that of the node to come.
     above: (Vec3<Wide<S>>, Wide<S>),
@@ -111,7 +113,9 @@ impl<S: Register, const DAMPED: bool> Motion<S> for Predictor<'_, S, DAMPED> {
     fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S> {
         let tension = Wide::load(&self.t.tension[j]);
         self.t.tangent[j] = element.tangent.store();
-        self.string.1 = self.quarter * tension.max(Wide::zero()) * element.inverse_length;
+        let s = self.rate * tension.max(Wide::zero()) * element.inverse_length;
+        let share = (s * s).over(s + Wide::splat(1.0)) * Wide::splat(0.5);
+        self.string.1 = share * Wide::load(&self.c.node.mass);
         tension
     }
 
