@@ -18,6 +18,7 @@ Examples:
   spunlaid check my.toml                            see what it means: mesh, limits, time to expect
   spunlaid run my.toml                              fly it; then open results/my/report.html
   spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
+  spunlaid sweep my_study.toml                      fly it at many values of what you vary
 
 A case is a small text file: the fibre, the air, the run. Lengths, speeds and the like carry
 their unit (\"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\").
@@ -30,6 +31,9 @@ pub(crate) enum Command {
     /// Fly the fibres of a case and write table, data, figures and report
     #[command(after_help = RUN_HELP)]
     Run(Run),
+    /// Fly a case at many values of its keys: which matters, and how much?
+    #[command(after_help = SWEEP_HELP)]
+    Sweep(Sweep),
     /// Read a case and print what it means, without flying it
     #[command(after_help = CHECK_HELP)]
     Check(Check),
@@ -55,6 +59,35 @@ The results folder holds
 Examples:
   spunlaid run cases/table1.toml
   spunlaid run cases/table1.toml --set fibre.diameter=\"18 um\" --replicates 40 --out results/fine";
+
+const SWEEP_HELP: &str = "\
+A study is a small text file beside the case it varies:
+
+  case = \"table1.toml\"
+  design = \"grid\"           # or \"one-at-a-time\", \"paired\", \"latin-hypercube\", \"sobol\"
+  # points = 64              # how many a latin-hypercube or sobol design draws
+  replicates = 10            # fibres per point; or a table:
+                             #   [replicates] at_most = 100, until = { amplitude_y = \"3 %\" }
+  # common_phases = true     # all points in turbulence of the same random phases
+  # seed = 1
+  [vary]                     # any key of a case whose value is a number
+  \"air.velocity\"   = [\"5 m/s\", \"10 m/s\", \"20 m/s\"]
+  \"fibre.diameter\" = { from = \"20 um\", to = \"200 um\", steps = 4, spacing = \"log\" }
+  [link]                     # keys that follow from others
+  \"air.cutoff_frequency\" = \"air.velocity / (4 * air.length_scale)\"    # or just \"taylor\"
+
+Nothing is lost: killed at any moment, the same command goes on where it was and ends with the same
+bits. The results folder holds
+  report.html          open it in a browser: what was asked, table, figures, ranking
+  results.csv          a row per point: inputs, then mean, standard error (_se) and n of every result
+  results.parquet      the same            replicates.parquet   a row per fibre
+  figures/             the report's figures as SVG and PNG
+  study.toml, case.toml   the study as it was run; sweep them again for the same bits
+  journal              every fibre as it landed; keep it and the study can be gone on with
+
+Examples:
+  spunlaid sweep cases/studies/velocity.toml
+  spunlaid sweep my_study.toml --print-point 7 > point7.toml && spunlaid run point7.toml";
 
 const CHECK_HELP: &str = "\
 Prints the case with every default written out, the mesh, the longest stable time step, and the
@@ -106,6 +139,31 @@ pub(crate) struct Run {
     /// Replace the results in the output folder
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Sweep {
+    /// Study file (TOML)
+    #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath)]
+    pub(crate) study: PathBuf,
+    /// Folder for the results [default: results/<name of the study>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Threads to compute on [default: all cores]; results are the same for any number
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// No progress and no table; warnings and errors still show
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Start anew, dropping what the output folder holds of a study
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Number of points, to fly more than 10000
+    #[arg(long, value_name = "N")]
+    pub(crate) points: Option<u64>,
+    /// Print the case of point K, counted from 1, and fly nothing
+    #[arg(long, value_name = "K")]
+    pub(crate) print_point: Option<u64>,
 }
 
 #[derive(Debug, Args)]

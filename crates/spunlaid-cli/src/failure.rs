@@ -19,6 +19,16 @@ pub(crate) enum Failure {
     Exists { path: PathBuf },
     /// A figure cannot be drawn.
     Figure { name: String, reason: String },
+    /// A study was interrupted.
+    Paused { done: u64, of: u64 },
+    /// The output folder holds another study.
+    OtherStudy { folder: PathBuf, differences: Vec<String> },
+    /// The output folder holds a study of another version.
+    OtherVersion { folder: PathBuf, version: String },
+    /// A study has fewer points than that.
+    NoSuchPoint { point: u64, points: u64 },
+    /// Fibres stopped being finite.
+    FibresLost { lost: u64, of: u64, first: Vec<String> },
     /// A table cannot be encoded.
     Table { path: PathBuf, source: parquet::errors::ParquetError },
 }
@@ -31,9 +41,9 @@ impl Failure {
     /// 1 the input is wrong, 2 the run failed, 130 interrupted.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
-            Self::Library(spunlaid::error::Error::Interrupted) => 130,
+            Self::Library(spunlaid::error::Error::Interrupted) | Self::Paused { .. } => 130,
             Self::Library(error) => error.exit_code(),
-            Self::Figure { .. } => 2,
+            Self::Figure { .. } | Self::FibresLost { .. } => 2,
             _ => 1,
         }
     }
@@ -73,7 +83,53 @@ impl fmt::Display for Failure {
                 write!(f, "{}: exists already and is left alone; name another file", path.display())
             }
             Self::Figure { name, reason } => write!(f, "figure {name} cannot be drawn: {reason}"),
+            Self::Paused { done, of } => {
+                write!(f, "interrupted; {done} of {of} fibres are done and kept. The same command goes on")
+            }
+            Self::OtherStudy { folder, differences } => other_study(f, folder, differences),
+            Self::OtherVersion { folder, version } => write!(
+                f,
+                "{}: holds a study of spunlaid {version}, and this is {}; their numbers may differ in the last bits and \
+                 are not mixed. What is there can be read as it is; go on with spunlaid {version}, name another folder \
+                 with --out, or start anew with --force",
+                folder.display(),
+                env!("CARGO_PKG_VERSION")
+            ),
+            Self::NoSuchPoint { point, points } => {
+                write!(f, "--print-point {point}: the study has {points} points, counted from 1")
+            }
+            Self::FibresLost { lost, of, first } => {
+                write!(
+                    f,
+                    "{lost} of {of} fibres were lost, their positions no longer numbers; all others are in the results"
+                )?;
+                first.iter().try_for_each(|line| write!(f, "\n{line}"))
+            }
             Self::Table { path, source } => write!(f, "{}: cannot be written: {source}", path.display()),
         }
+    }
+}
+
+/// Most differences that are told.
+const MOST_TOLD: usize = 20;
+
+fn other_study(f: &mut fmt::Formatter<'_>, folder: &Path, differences: &[String]) -> fmt::Result {
+    let folder = folder.display();
+    if differences.is_empty() {
+        return write!(
+            f,
+            "{folder}: holds results of this study, but its points are not the same now: the program itself has \
+             changed. Name another folder with --out, or start anew with --force"
+        );
+    }
+    write!(
+        f,
+        "{folder}: holds results of another study; name another folder with --out, start anew with --force, or change \
+         back what differs:"
+    )?;
+    differences.iter().take(MOST_TOLD).try_for_each(|line| write!(f, "\n{line}"))?;
+    match differences.len().checked_sub(MOST_TOLD) {
+        Some(more @ 1..) => write!(f, "\nand {more} more"),
+        _ => Ok(()),
     }
 }

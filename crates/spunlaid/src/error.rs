@@ -1,5 +1,9 @@
 //! What can go wrong, and how it is told: where, which key, what value, what is allowed, the way out.
 
+mod study;
+
+pub use study::{JournalError, StudyFault};
+
 use crate::units::{Dimension, QuantityFault, shortest};
 use std::fmt;
 use std::path::PathBuf;
@@ -11,6 +15,12 @@ pub enum Error {
     /// The case file is not there.
     #[error("{}: there is no such file; `spunlaid new {}` writes a case to start from", path.display(), path.display())]
     NotThere {
+        /// Where it was looked for.
+        path: PathBuf,
+    },
+    /// The study file is not there.
+    #[error("{}: there is no such file; `spunlaid sweep --help` shows what a study looks like", path.display())]
+    NoStudy {
         /// Where it was looked for.
         path: PathBuf,
     },
@@ -66,6 +76,9 @@ pub enum Error {
         /// Likely cause and remedy.
         cause: String,
     },
+    /// The records of a study cannot be read or written.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
     /// Stopped from outside before the end.
     #[error("interrupted before the end")]
     Interrupted,
@@ -76,6 +89,7 @@ impl Error {
     pub const fn exit_code(&self) -> u8 {
         match self {
             Self::NotFinite { .. } | Self::Interrupted => 2,
+            Self::Journal(JournalError::Unwritable { .. } | JournalError::Unsynced(_)) => 2,
             _ => 1,
         }
     }
@@ -115,6 +129,15 @@ pub enum Place {
     },
     /// In an override, `--set key=value`.
     Override,
+    /// At a point of a study.
+    Point {
+        /// Name of the study file, as given.
+        study: String,
+        /// Number of the point, from 1.
+        number: u64,
+        /// What varies, as people read it.
+        values: String,
+    },
 }
 
 impl fmt::Display for Place {
@@ -122,6 +145,7 @@ impl fmt::Display for Place {
         match self {
             Self::Code => Ok(()),
             Self::Override => f.write_str("--set "),
+            Self::Point { study, number, values } => write!(f, "{study}: point {number} ({values}): "),
             Self::File { file, line, column } => {
                 f.write_str(file)?;
                 for number in [line, column].into_iter().flatten() {
@@ -227,6 +251,9 @@ pub enum Fault {
     /// A quantity that cannot be read.
     #[error(transparent)]
     Quantity(#[from] QuantityFault),
+    /// Something that only a study file has.
+    #[error(transparent)]
+    Study(#[from] StudyFault),
     /// Not one of the names the key takes.
     #[error("is unknown; {}", did_you_mean(nearest, || format!("write {}", one_of(allowed))))]
     NotOneOf {

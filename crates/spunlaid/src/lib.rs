@@ -71,4 +71,6 @@ pub mod case;
 
 pub mod ensemble;
 
+pub mod study;
+
 pub mod input;

@@ -1,9 +1,22 @@
 //! What the program can be asked to do.
 
 mod check;
+mod interrupt;
 mod run;
 mod small;
+mod sweep;
 
 pub(crate) use check::check;
 pub(crate) use run::run;
 pub(crate) use small::{completions, new};
+pub(crate) use sweep::sweep;
+
+/// The number of threads asked for, or one for each core.
+fn threads(asked: Option<u16>) -> usize {
+    asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
+}
+
+/// `1 fibre`, `2 fibres`.
+fn plural(count: u64, of: &str) -> String {
+    if count == 1 { format!("1 {of}") } else { format!("{count} {of}s") }
+}

@@ -1,5 +1,7 @@
 //! `spunlaid run`: fly a case and write what it gives.
 
+use super::interrupt::stop_on_ctrl_c;
+use super::{plural, threads};
 use crate::args::Run;
 use crate::failure::Failure;
 use crate::figures::{png, run_figures};
@@ -15,7 +17,7 @@ use spunlaid::input::{read_case, write_case};
 use spunlaid::lanes::{Isa, WIDTH};
 use std::ffi::OsStr;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
 /// Replicates kept whole for the report and ParaView.
@@ -23,24 +25,16 @@ const KEPT: usize = WIDTH;
 /// Node positions kept for the report and ParaView: 24 bytes each.
 const POSITIONS: u64 = 4_000_000;
 
-/// Set by Ctrl-C.
-static STOP: AtomicBool = AtomicBool::new(false);
-
 pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     let (case, notes) = read_case(&run.source.case, &overrides(run))?;
     notes.iter().for_each(say::note);
     let folder = run.out.clone().unwrap_or_else(|| default_folder(run));
     let staging = Staging::new(&folder, run.force)?;
-    // Without a handler Ctrl-C still ends the program, only less tidily.
-    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
+    let stop = stop_on_ctrl_c();
 
     let fibre_steps = AtomicU64::new(0);
-    let computing = Computing {
-        threads: threads(run.threads),
-        isa: Isa::detect(),
-        stop: &STOP,
-        fibre_steps: &fibre_steps,
-    };
+    let computing =
+        Computing { threads: threads(run.threads), isa: Isa::detect(), stop, fibre_steps: &fibre_steps };
     let started = Instant::now();
     let results = progress::follow(
         &fibre_steps,
@@ -89,10 +83,6 @@ fn default_folder(run: &Run) -> PathBuf {
 
 fn case_name(run: &Run) -> &OsStr {
     run.source.case.file_stem().unwrap_or("run".as_ref())
-}
-
-fn threads(asked: Option<u16>) -> usize {
-    asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
 }
 
 /// Flies all replicates; tables are written as they come.
@@ -166,9 +156,4 @@ impl Written<'_> {
         staging.write("report.html", report)?;
         staging.write("summary.json", self.summary)
     }
-}
-
-/// `1 fibre`, `2 fibres`.
-fn plural(count: u64, of: &str) -> String {
-    if count == 1 { format!("1 {of}") } else { format!("{count} {of}s") }
 }

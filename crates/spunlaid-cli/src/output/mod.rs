@@ -2,6 +2,7 @@
 
 pub(crate) mod folder;
 pub(crate) mod paraview;
+pub(crate) mod study;
 pub(crate) mod summary;
 pub(crate) mod table;
 pub(crate) mod tables;

@@ -56,6 +56,28 @@ pub(crate) const SPIN_UP: Quantity = quantity("run.spin_up", Dimension::Time, No
 pub(crate) const OUTPUT_INTERVAL: Quantity = quantity("run.output_interval", Dimension::Time, Positive);
 pub(crate) const DAMPING: Quantity = quantity("run.damping", Dimension::Rate, NotNegative);
 
+/// Every key whose value is a quantity.
+pub(crate) const QUANTITIES: [&Quantity; 18] = [
+    &LENGTH,
+    &DIAMETER,
+    &FIBRE_DENSITY,
+    &YOUNGS_MODULUS,
+    &ELEMENT_LENGTH,
+    &VELOCITY,
+    &TURBULENCE_INTENSITY,
+    &LENGTH_SCALE,
+    &CUTOFF_FREQUENCY,
+    &AIR_DENSITY,
+    &VISCOSITY,
+    &FRICTION_COEFFICIENT,
+    &DURATION,
+    &TIME_STEP,
+    &GRAVITY,
+    &SPIN_UP,
+    &OUTPUT_INTERVAL,
+    &DAMPING,
+];
+
 pub(crate) const HARMONICS: &str = "air.harmonics";
 pub(crate) const DIRECTION: &str = "fibre.direction";
 pub(crate) const REPLICATES: &str = "run.replicates";

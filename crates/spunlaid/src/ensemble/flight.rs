@@ -132,8 +132,12 @@ fn percent(part: f64, whole: f64) -> f64 {
     if whole == 0.0 { f64::NAN } else { 100.0 * (part / whole).abs() }
 }
 
-/// Flies up to eight replicates that share mesh, time axis, eddies and turbulence grid.
-pub(super) fn fly_bundle(
+/// Flies one to eight jobs side by side. Their cases must agree in number of elements, eddy of each element,
+/// times, scheme, cut-off frequency and number of harmonics, and in whether they are damped.
+///
+/// # Errors
+/// A fibre that stops being finite, and a stop from elsewhere.
+pub fn fly_together(
     jobs: &[Job<'_>],
     keep_shapes: KeepShapes,
     computing: Computing<'_>,

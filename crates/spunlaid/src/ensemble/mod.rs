@@ -6,7 +6,7 @@ mod order;
 mod results;
 mod turbulence;
 
-pub use flight::{Flight, Job, KeepShapes, Sample, Shape, pace};
+pub use flight::{Flight, Job, KeepShapes, Sample, Shape, fly_together, pace};
 pub use order::in_order;
 pub use results::{Collector, EndNodeResults, ErrorOverTime, LedgerError, NodeResults, Results};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum};
@@ -50,7 +50,7 @@ pub fn fly<E: From<Error>>(
             let first = bundle as u64 * WIDTH as u64;
             let last = case.run.replicates.min(first + WIDTH as u64);
             let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
-            flight::fly_bundle(&jobs, keep_shapes, computing)
+            fly_together(&jobs, keep_shapes, computing)
         },
         |flights| flights?.into_iter().try_for_each(&mut take),
     )

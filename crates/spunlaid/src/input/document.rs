@@ -1,8 +1,8 @@
 //! A case file taken apart into its entries, each with the place it was written.
 
 use super::layout::{self, VERSION};
+use super::source::{Source, fit};
 use crate::error::{Error, Fault, Finding, Place, Problem};
-use crate::units::excerpt;
 use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -17,10 +17,7 @@ pub(super) struct Entry<'a> {
 
 /// The entries of a case file and of the overrides, by full key, and what is wrong with them so far.
 pub(super) struct Document<'a> {
-    name: String,
-    text: &'a str,
-    /// Byte at which each line starts.
-    lines: Vec<usize>,
+    source: Source<'a>,
     entries: BTreeMap<String, Entry<'a>>,
     pub(super) problems: Vec<Problem>,
     /// Keys that are missed only because they are misspelt or misplaced; tables end in a dot.
@@ -33,18 +30,15 @@ impl<'a> Document<'a> {
     /// # Errors
     /// When the text is not TOML.
     pub(super) fn new(text: &'a str, name: &str, overrides: &'a [(String, String)]) -> Result<Self, Error> {
-        let starts = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(i, _)| i + 1);
         let mut document = Self {
-            name: name.to_owned(),
-            text,
-            lines: std::iter::once(0).chain(starts).collect(),
+            source: Source::new(text, name),
             entries: BTreeMap::new(),
             problems: Vec::new(),
             excused: Vec::new(),
         };
         let (root, faults) = DeTable::parse_recoverable(text);
         if !faults.is_empty() {
-            return Err(Error::Rejected(faults.iter().map(|fault| document.syntax(fault)).collect()));
+            return Err(Error::Rejected(faults.iter().map(|fault| document.source.syntax(fault)).collect()));
         }
         document.take_root(root.into_inner());
         for (key, value) in overrides {
@@ -66,7 +60,7 @@ impl<'a> Document<'a> {
 
     /// The file as a place, for what it does not say.
     pub(super) fn whole(&self) -> Place {
-        Place::File { file: self.name.clone(), line: None, column: None }
+        self.source.whole()
     }
 
     /// Whether a missing key has been told of as misspelt or misplaced.
@@ -80,27 +74,8 @@ impl<'a> Document<'a> {
         findings
     }
 
-    fn syntax(&self, fault: &toml::de::Error) -> Problem {
-        let (line, column) = self.position(fault.span().map_or(0, |span| span.start));
-        let place = Place::File { file: self.name.clone(), line: Some(line), column: Some(column) };
-        let message = fault.message().replace('\n', "; ");
-        let what = match fault.span().and_then(|span| self.text.get(span)) {
-            Some(key) if message == "duplicate key" => Fault::Duplicate { key: fit(key) },
-            _ => Fault::Syntax { message },
-        };
-        Finding { place, key: String::new(), value: None, what }
-    }
-
-    /// Line and column, in characters, of a byte, both from 1.
-    fn position(&self, byte: usize) -> (usize, usize) {
-        let line = self.lines.partition_point(|start| *start <= byte);
-        let start = line.checked_sub(1).and_then(|i| self.lines.get(i)).copied().unwrap_or(0);
-        let before = self.text.get(start..byte).unwrap_or_default();
-        (line, before.chars().count() + 1)
-    }
-
     fn place(&self, byte: usize) -> Place {
-        Place::File { file: self.name.clone(), line: Some(self.position(byte).0), column: None }
+        self.source.place(byte)
     }
 
     fn take_root(&mut self, root: DeTable<'a>) {
@@ -128,7 +103,7 @@ impl<'a> Document<'a> {
     }
 
     fn entry(&self, place: Place, value: Spanned<DeValue<'a>>) -> Entry<'a> {
-        let text = fit(self.text.get(value.span()).unwrap_or_default());
+        let text = self.source.shown(value.span());
         let is_headed = value.get_ref().is_table() && !text.starts_with('{') || text.starts_with("[[");
         let shown = Some(text).filter(|_| !is_headed);
         Entry { place, shown, value: value.into_inner() }
@@ -212,11 +187,6 @@ impl<'a> Document<'a> {
 
 fn full_key(table: &str, key: &str) -> String {
     if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") }
-}
-
-/// Source text on one line and not too long.
-fn fit(text: &str) -> String {
-    excerpt(text, 60)
 }
 
 /// What kind of value this is, with its article.

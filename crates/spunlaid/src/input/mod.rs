@@ -1,4 +1,4 @@
-//! Case files: TOML as people write it, to a [`Case`] in SI units, and back.
+//! Case and study files: TOML as people write it, to a [`Case`] or a study in SI units, and back.
 //!
 //! A quantity is written with its unit, `diameter = "50 µm"`. Everything wrong with a file is told at
 //! once, each with its line, key, value, what is allowed and the way out.
@@ -7,9 +7,12 @@ mod document;
 mod file;
 mod layout;
 mod resolve;
+mod source;
+mod study;
 mod values;
 mod write;
 
+pub use study::{MOST_POINTS_UNASKED, StudyFile, StudyNote, differences, parse_study, read_study};
 pub use write::write_case;
 
 use crate::case::{Case, Note};

@@ -51,6 +51,52 @@ pub(super) fn resolve(mut document: Document<'_>) -> Result<(Case, Vec<Note>), E
     }
 }
 
+/// What a case file says, as written or by default, before anything is made of it.
+pub(super) struct Base {
+    /// Values of the keys that have a number, in SI units; none for those that follow from others where they are
+    /// not written.
+    pub(super) values: BTreeMap<&'static str, Option<f64>>,
+    /// Number of replicates.
+    pub(super) replicates: u64,
+    /// Master seed.
+    pub(super) seed: u64,
+}
+
+/// Reads what a document says.
+pub(super) fn base(mut document: Document<'_>) -> Result<Base, Error> {
+    version(&mut document)?;
+    let written = Written::read(&mut document);
+    if !document.problems.is_empty() {
+        return Err(Document::sorted(document.problems).into());
+    }
+    let Written { fibre, element_length, air, harmonics, drag, duration, time_step, spin_up, .. } = written;
+    let mut values = BTreeMap::from(
+        [
+            (&keys::LENGTH, fibre.length),
+            (&keys::DIAMETER, fibre.diameter),
+            (&keys::FIBRE_DENSITY, fibre.density),
+            (&keys::YOUNGS_MODULUS, fibre.youngs_modulus),
+            (&keys::VELOCITY, air.velocity),
+            (&keys::TURBULENCE_INTENSITY, air.turbulence_intensity),
+            (&keys::LENGTH_SCALE, air.length_scale),
+            (&keys::CUTOFF_FREQUENCY, air.cutoff_frequency),
+            (&keys::AIR_DENSITY, air.density),
+            (&keys::VISCOSITY, air.kinematic_viscosity),
+            (&keys::FRICTION_COEFFICIENT, drag.friction_coefficient),
+            (&keys::DURATION, duration),
+            (&keys::TIME_STEP, time_step),
+            (&keys::GRAVITY, written.run.gravity),
+            (&keys::SPIN_UP, spin_up),
+            (&keys::DAMPING, written.run.damping),
+        ]
+        .map(|(quantity, value)| (quantity.key, Some(value))),
+    );
+    values.insert(keys::ELEMENT_LENGTH.key, element_length);
+    values.insert(keys::OUTPUT_INTERVAL.key, written.output_interval);
+    values.insert(keys::HARMONICS, harmonics.map(|harmonics| harmonics as f64));
+    Ok(Base { values, replicates: written.run.replicates, seed: written.run.seed })
+}
+
 /// Refuses a file of a later format before anything else in it is judged.
 fn version(document: &mut Document<'_>) -> Result<(), Error> {
     let Some(Entry { place, shown, value }) = document.take(VERSION) else {

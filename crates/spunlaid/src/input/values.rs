@@ -94,12 +94,12 @@ impl Document<'_> {
     }
 }
 
-fn integer(number: &DeInteger<'_>) -> Option<u64> {
+pub(super) fn integer(number: &DeInteger<'_>) -> Option<u64> {
     u64::from_str_radix(number.as_str(), number.radix()).ok()
 }
 
 /// A number in SI units.
-fn number(dimension: Dimension, value: &DeValue<'_>) -> Result<f64, Fault> {
+pub(super) fn number(dimension: Dimension, value: &DeValue<'_>) -> Result<f64, Fault> {
     let text = match value {
         DeValue::String(text) => return Ok(dimension.parse(text)?),
         DeValue::Integer(number) if number.radix() == 10 => number.as_str(),

@@ -1,6 +1,9 @@
 //! Units at the door: quantities as people write them, and as the library holds them, in SI.
 
+mod expression;
 mod table;
+
+pub use expression::{Expression, ExpressionFault, Powers};
 
 use std::fmt;
 use table::Scale::{Over, Ten, Times};

@@ -1,0 +1,147 @@
+//! The results folder of a study: what it holds, whose it is, and how it is filled.
+
+use crate::failure::Failure;
+use spunlaid::error::{Error, JournalError};
+use spunlaid::input::{StudyFile, differences};
+use spunlaid::study::{Found, Header, Journal};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const JOURNAL: &str = "journal";
+const STUDY: &str = "study.toml";
+const CASE: &str = "case.toml";
+/// Where files are made before they take their place.
+const STAGING: &str = ".partial";
+/// What is made of the journal.
+const MADE: [&str; 5] = ["results.csv", "results.parquet", "replicates.parquet", "figures", "report.html"];
+/// What only a run leaves behind.
+const OF_A_RUN: [&str; 3] = ["summary.json", "end_node.parquet", "energy.parquet"];
+
+/// A results folder that this process has to itself.
+#[derive(Debug)]
+pub(super) struct StudyFolder {
+    path: PathBuf,
+}
+
+/// What the folder was found to hold.
+#[derive(Debug)]
+pub(super) enum State {
+    New,
+    Begun(Found),
+}
+
+impl StudyFolder {
+    /// Opens the folder for a study: to begin it, or to go on with the same study.
+    pub(super) fn open(
+        path: &Path,
+        file: &StudyFile,
+        force: bool,
+    ) -> Result<(Self, Journal, State), Failure> {
+        if path.exists() && !path.is_dir() {
+            return Err(Failure::NotAFolder { path: path.to_owned() });
+        }
+        let at = path.join(JOURNAL);
+        if !force && !at.exists() {
+            let entries = MADE.iter().chain(&OF_A_RUN).chain(&[STUDY, CASE]);
+            let mut there = entries.filter(|name| path.join(name).exists());
+            // A study killed before its journal was there left its own two files at most.
+            if let Some(found) = there.find(|name| ![STUDY, CASE].contains(name)) {
+                return Err(Failure::HoldsResults { folder: path.to_owned(), found: (*found).to_owned() });
+            }
+        }
+        fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
+        let folder = Self { path: path.to_owned() };
+        let (mut journal, header) = match Journal::open(&at) {
+            Err(JournalError::Foreign { .. } | JournalError::Format { .. }) if force => {
+                fs::remove_file(&at).map_err(Failure::unwritable(&at))?;
+                Journal::open(&at).map_err(Error::from)?
+            }
+            opened => opened.map_err(Error::from)?,
+        };
+        let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
+        let state = match header.filter(|_| !force) {
+            None => {
+                folder.begin(file)?;
+                journal.begin(&wanted, file.study.points.len()).map_err(Error::from)?;
+                State::New
+            }
+            Some(found) if found.version != wanted.version => {
+                return Err(Failure::OtherVersion { folder: folder.path, version: found.version });
+            }
+            Some(found) if found != wanted => return Err(folder.other(file)),
+            Some(_) => {
+                let points = file.study.points.len();
+                let found = journal.go_on(points, file.study.replicates.at_most).map_err(Error::from)?;
+                // They follow from the study; whoever removed them gets them back.
+                if !folder.path.join(STUDY).exists() || !folder.path.join(CASE).exists() {
+                    folder.describe(file)?;
+                }
+                State::Begun(found)
+            }
+        };
+        Ok((folder, journal, state))
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// An empty folder to make files in.
+    pub(super) fn staging(&self) -> Result<PathBuf, Failure> {
+        let staging = self.path.join(STAGING);
+        remove(&staging)?;
+        fs::create_dir(&staging).map_err(Failure::unwritable(&staging))?;
+        Ok(staging)
+    }
+
+    /// Moves what was made to where it belongs.
+    pub(super) fn publish(&self) -> Result<(), Failure> {
+        let staging = self.path.join(STAGING);
+        for name in MADE {
+            let (from, to) = (staging.join(name), self.path.join(name));
+            if from.exists() {
+                if to.is_dir() {
+                    remove(&to)?;
+                }
+                fs::rename(&from, &to).map_err(Failure::unwritable(&to))?;
+            }
+        }
+        remove(&staging)
+    }
+
+    /// Removes what an earlier study left and says what this one is.
+    fn begin(&self, file: &StudyFile) -> Result<(), Failure> {
+        for name in MADE.iter().chain(&OF_A_RUN) {
+            remove(&self.path.join(name))?;
+        }
+        self.describe(file)
+    }
+
+    fn describe(&self, file: &StudyFile) -> Result<(), Failure> {
+        let staging = self.staging()?;
+        for (name, text) in [(CASE, &file.case_text), (STUDY, &file.text)] {
+            let (from, to) = (staging.join(name), self.path.join(name));
+            fs::write(&from, text).and_then(|()| fs::rename(&from, &to)).map_err(Failure::unwritable(&to))?;
+        }
+        remove(&staging)
+    }
+
+    /// What the study found here says otherwise.
+    fn other(self, file: &StudyFile) -> Failure {
+        let mut all = Vec::new();
+        for (name, now) in [(STUDY, &file.text), (CASE, &file.case_text)] {
+            let was = fs::read_to_string(self.path.join(name)).unwrap_or_default();
+            all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
+        }
+        Failure::OtherStudy { folder: self.path, differences: all }
+    }
+}
+
+fn remove(path: &Path) -> Result<(), Failure> {
+    let removed = match path.symlink_metadata() {
+        Err(_) => return Ok(()),
+        Ok(about) if about.is_dir() => fs::remove_dir_all(path),
+        Ok(_) => fs::remove_file(path),
+    };
+    removed.map_err(Failure::unwritable(path))
+}

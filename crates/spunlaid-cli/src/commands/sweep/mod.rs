@@ -1,0 +1,164 @@
+//! `spunlaid sweep`: fly a study and write what it gives.
+
+mod folder;
+mod progress;
+mod table;
+
+use super::interrupt::stop_on_ctrl_c;
+use super::{plural, threads};
+use crate::args::Sweep;
+use crate::failure::Failure;
+use crate::output;
+use crate::say;
+use folder::StudyFolder;
+use spunlaid::ensemble::Computing;
+use spunlaid::error::Error;
+use spunlaid::input::{StudyFile, read_study, write_case};
+use spunlaid::lanes::Isa;
+use spunlaid::study::{Journal, Landing, Progress, Study, run};
+use std::path::PathBuf;
+use std::sync::atomic::AtomicU64;
+use std::sync::{Mutex, PoisonError};
+
+/// Lost fibres that are told one by one.
+const LOST_TOLD: usize = 10;
+
+pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
+    let file = read_study(&sweep.study, sweep.points)?;
+    if let Some(number) = sweep.print_point {
+        return print_point(&file.study, number);
+    }
+    file.notes.iter().for_each(say::study_note);
+    let path = sweep.out.clone().unwrap_or_else(|| PathBuf::from("results").join(name(sweep)));
+    let (folder, journal, found) = StudyFolder::open(&path, &file, sweep.force)?;
+    tell_found(sweep, &file.study, &found);
+
+    let journal = Mutex::new(journal);
+    let before = fibres(&journal, &file.study);
+    let flown = fly(sweep, &file.study, &journal);
+    let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
+    if let Err(Error::Interrupted) = flown {
+        let done = (0..file.study.points.len()).map(|point| journal.held(point)).sum();
+        return Err(Failure::Paused { done, of: file.study.most_fibres() });
+    }
+    flown?;
+    write(sweep, &file, &folder, &mut journal, before)
+}
+
+/// What the study is called: the name of its file.
+fn name(sweep: &Sweep) -> String {
+    sweep.study.file_stem().map_or_else(|| "study".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+fn print_point(study: &Study, number: u64) -> Result<(), Failure> {
+    let points = study.points.len() as u64;
+    let point = number.checked_sub(1).and_then(|index| study.points.get(usize::try_from(index).ok()?));
+    let point = point.ok_or(Failure::NoSuchPoint { point: number, points })?;
+    say::line(&format!("# point {number} of {points}"));
+    say::text(&write_case(&point.case));
+    Ok(())
+}
+
+fn tell_found(sweep: &Sweep, study: &Study, found: &folder::State) {
+    match found {
+        folder::State::New => {
+            let phases = if study.common_phases { "common phases" } else { "phases of their own" };
+            let points = plural(study.points.len() as u64, "point");
+            if !sweep.quiet {
+                say::aside(&format!("{points} of {} with {phases}", times(study)));
+            }
+        }
+        folder::State::Begun(found) => {
+            let done = plural(found.fibres, "fibre");
+            if !sweep.quiet {
+                say::aside(&format!("going on: {done} of {} there already", study.most_fibres()));
+            }
+            if found.damaged > 0 {
+                say::warning(&format!(
+                    "{} of the journal damaged; the fibres are flown again, all others are kept",
+                    if found.damaged == 1 {
+                        "1 record was".to_owned()
+                    } else {
+                        format!("{} records were", found.damaged)
+                    }
+                ));
+            }
+            if found.torn {
+                say::aside(
+                    "the journal’s last record was cut off half written, as by a kill; it is flown again",
+                );
+            }
+        }
+    }
+}
+
+/// `10 replicates`, `8 to 100 replicates`.
+fn times(study: &Study) -> String {
+    let replicates = &study.replicates;
+    if replicates.until.is_empty() {
+        plural(replicates.at_most, "replicate")
+    } else {
+        format!("{} to {} replicates", replicates.at_least, replicates.at_most)
+    }
+}
+
+fn fibres(journal: &Mutex<Journal>, study: &Study) -> u64 {
+    let journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
+    (0..study.points.len()).map(|point| journal.held(point)).sum()
+}
+
+fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Error> {
+    let (fibre_steps, progress) = (AtomicU64::new(0), Progress::default());
+    let computing = Computing {
+        threads: threads(sweep.threads),
+        isa: Isa::detect(),
+        stop: stop_on_ctrl_c(),
+        fibre_steps: &fibre_steps,
+    };
+    progress::follow(study.points.len() as u64, &progress, &fibre_steps, sweep.quiet, || {
+        run(study, journal, computing, &progress)
+    })
+}
+
+fn write(
+    sweep: &Sweep,
+    file: &StudyFile,
+    folder: &StudyFolder,
+    journal: &mut Journal,
+    before: u64,
+) -> Result<(), Failure> {
+    let study = &file.study;
+    let staging = folder.staging()?;
+    let results = output::study::write(&staging, study, journal)?;
+    folder.publish()?;
+    let flown: u64 = results.iter().map(|point| point.n + point.lost).sum();
+    if !sweep.quiet {
+        say::text(&table::results(study, &results));
+        if before == flown {
+            say::line("finished already: nothing was left to fly, the files are written again");
+        }
+        say::line(&format!("{} at {}", plural(flown, "fibre"), plural(results.len() as u64, "point")));
+        say::line(&format!("open {}", folder.path().join("results.csv").display()));
+    }
+    lost(study, journal, flown)
+}
+
+/// Tells which fibres were lost, if any.
+fn lost(study: &Study, journal: &mut Journal, flown: u64) -> Result<(), Failure> {
+    let (mut lost, mut first) = (0, Vec::new());
+    for (index, point) in study.points.iter().enumerate() {
+        for record in journal.records(index, u64::MAX).map_err(Error::from)? {
+            if let Landing::Lost { node, time } = record.landing {
+                lost += 1;
+                if first.len() < LOST_TOLD {
+                    let (number, cause) = (index + 1, point.case.likely_cause_of_divergence());
+                    let replicate = record.replicate + 1;
+                    first.push(format!(
+                        "point {number}, replicate {replicate}: node {node} at {time:e} s; {cause}"
+                    ));
+                }
+            }
+        }
+    }
+    if lost == 0 { Ok(()) } else { Err(Failure::FibresLost { lost, of: flown, first }) }
+}

@@ -1,0 +1,137 @@
+//! Progress of a study: a bar on a terminal, a line now and then in a log file.
+
+use crate::say;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use spunlaid::study::Progress;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+/// Between two lines in a log file: after so long, or after such a share, but no sooner than that.
+const LINE_AFTER: Duration = Duration::from_secs(10);
+const LINE_SHARE: f64 = 0.05;
+const LINE_SOONEST: Duration = Duration::from_secs(2);
+
+/// Runs `work` while progress is shown, unless `quiet`.
+pub(super) fn follow<T>(
+    points: u64,
+    progress: &Progress,
+    steps: &AtomicU64,
+    quiet: bool,
+    work: impl FnOnce() -> T,
+) -> T {
+    if quiet {
+        return work();
+    }
+    let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("[{bar:24}] {percent:>3} %  {msg}") {
+        bar.set_style(style.progress_chars("=> "));
+    }
+    let finished = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let shown = scope.spawn(|| {
+            let mut log = Log { last: Instant::now(), share: 0.0 };
+            let begun = Instant::now();
+            let mut before = None;
+            while !finished.load(Ordering::Acquire) {
+                std::thread::park_timeout(Duration::from_millis(100));
+                let state = State::of(points, progress, steps, begun, &mut before);
+                if bar.is_hidden() {
+                    log.show(&state);
+                } else {
+                    bar.set_length(state.steps.max(1));
+                    bar.set_position(state.steps_done);
+                    bar.set_message(state.words());
+                }
+            }
+        });
+        // Though the work panic, the other thread must not go on for ever.
+        let _end = OnDrop(|| {
+            finished.store(true, Ordering::Release);
+            shown.thread().unpark();
+            bar.finish_and_clear();
+        });
+        work()
+    })
+}
+
+struct OnDrop<F: FnMut()>(F);
+
+impl<F: FnMut()> Drop for OnDrop<F> {
+    fn drop(&mut self) {
+        (self.0)();
+    }
+}
+
+struct State {
+    points: (u64, u64),
+    fibres: (u64, u64),
+    /// Fibres landed since the program began.
+    landed: u64,
+    steps: u64,
+    steps_done: u64,
+    elapsed: f64,
+}
+
+impl State {
+    fn of(
+        points: u64,
+        progress: &Progress,
+        steps: &AtomicU64,
+        begun: Instant,
+        before: &mut Option<u64>,
+    ) -> Self {
+        let load = |of: &AtomicU64| of.load(Ordering::Relaxed);
+        let (fibres, done) = (load(&progress.fibres), load(&progress.fibres_done));
+        // Those that were there already, once that is known.
+        if before.is_none() && fibres > 0 {
+            *before = Some(done);
+        }
+        Self {
+            points: (load(&progress.points_done), points),
+            fibres: (done, fibres),
+            landed: done.saturating_sub(before.unwrap_or(done)),
+            steps: load(&progress.steps),
+            steps_done: load(steps).min(load(&progress.steps)),
+            elapsed: begun.elapsed().as_secs_f64(),
+        }
+    }
+
+    fn words(&self) -> String {
+        let ((points, of_points), (fibres, of_fibres)) = (self.points, self.fibres);
+        let mut words = format!("points {points}/{of_points}, fibres {fibres}/{of_fibres}");
+        if self.landed > 0 {
+            let rate = self.landed as f64 / self.elapsed;
+            words += &format!(", {rate:.prec$} fibres/s", prec = usize::from(rate < 10.0));
+        }
+        if self.steps_done > 0 && self.elapsed > 1.0 {
+            let left = self.elapsed * (self.steps - self.steps_done) as f64 / self.steps_done as f64;
+            words += &format!(", {} left", time(left));
+        }
+        words
+    }
+}
+
+/// A time to wait: `40 s`, `12 min`, `3.5 h`.
+fn time(seconds: f64) -> String {
+    match seconds {
+        s if s < 100.0 => format!("{s:.0} s"),
+        s if s < 6000.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}
+
+struct Log {
+    last: Instant,
+    share: f64,
+}
+
+impl Log {
+    fn show(&mut self, state: &State) {
+        let share = state.steps_done as f64 / state.steps.max(1) as f64;
+        let since = self.last.elapsed();
+        if since >= LINE_AFTER || since >= LINE_SOONEST && share >= self.share + LINE_SHARE {
+            say::aside(&state.words());
+            (self.last, self.share) = (Instant::now(), share);
+        }
+    }
+}

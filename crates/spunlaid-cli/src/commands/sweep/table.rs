@@ -1,0 +1,62 @@
+//! The table of a study on the terminal.
+
+use spunlaid::study::{PointResults, Study};
+use std::fmt::Write;
+
+/// Most points that are listed.
+const LISTED: usize = 24;
+/// Results that are shown: index into the measures, head, factor from SI.
+const SHOWN: [(usize, &str, f64); 4] =
+    [(0, "amplitude y", 1e3), (1, "amplitude z", 1e3), (2, "frequency y", 1.0), (3, "frequency z", 1.0)];
+
+/// A line per point: what varies, then mean ± standard error.
+pub(super) fn results(study: &Study, results: &[PointResults]) -> String {
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    let mut heads = vec!["point".to_owned()];
+    heads.extend(study.inputs().map(|(key, _)| key.rsplit('.').next().unwrap_or(key).to_owned()));
+    heads
+        .extend(SHOWN.map(|(_, head, factor)| format!("{head} {}", if factor == 1.0 { "Hz" } else { "mm" })));
+    heads.push("n".to_owned());
+    rows.push(heads);
+    for (index, point) in results.iter().enumerate().take(LISTED) {
+        let mut row = vec![(index + 1).to_string()];
+        let values = study.points[index].values.iter().zip(study.inputs());
+        row.extend(values.map(|(value, (_, dimension))| dimension.pretty(*value)));
+        for (measure, _, factor) in SHOWN {
+            let error = point.standard_error[measure].map(|error| error * factor);
+            row.push(plus_minus(point.mean[measure] * factor, error));
+        }
+        row.push(point.n.to_string());
+        rows.push(row);
+    }
+    let mut text = aligned(&rows);
+    if results.len() > LISTED {
+        let _ = writeln!(text, "  and {} more points in results.csv", results.len() - LISTED);
+    }
+    text
+}
+
+fn aligned(rows: &[Vec<String>]) -> String {
+    let columns = rows.first().map_or(0, Vec::len);
+    let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut text = String::new();
+    for row in rows {
+        let cells: Vec<String> =
+            row.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}")).collect();
+        let _ = writeln!(text, "  {}", cells.join("  "));
+    }
+    text
+}
+
+/// To two digits of the error.
+fn plus_minus(mean: f64, error: Option<f64>) -> String {
+    match error.filter(|error| error.is_finite() && *error > 0.0) {
+        _ if !mean.is_finite() => "–".to_owned(),
+        Some(error) => {
+            let decimals = (1 - error.log10().floor() as i32).clamp(0, 9) as usize;
+            format!("{mean:.decimals$} ± {error:.decimals$}")
+        }
+        None => format!("{mean:.4}"),
+    }
+}

@@ -1,0 +1,60 @@
+//! The text of a TOML file, and where in it things stand.
+
+use crate::error::{Fault, Finding, Place, Problem};
+use crate::units::excerpt;
+use std::ops::Range;
+
+/// A file's name and text.
+pub(super) struct Source<'a> {
+    name: String,
+    text: &'a str,
+    /// Byte at which each line starts.
+    lines: Vec<usize>,
+}
+
+impl<'a> Source<'a> {
+    pub(super) fn new(text: &'a str, name: &str) -> Self {
+        let starts = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(i, _)| i + 1);
+        Self { name: name.to_owned(), text, lines: std::iter::once(0).chain(starts).collect() }
+    }
+
+    /// The file as a place, for what it does not say.
+    pub(super) fn whole(&self) -> Place {
+        Place::File { file: self.name.clone(), line: None, column: None }
+    }
+
+    /// The line a byte is in.
+    pub(super) fn place(&self, byte: usize) -> Place {
+        Place::File { file: self.name.clone(), line: Some(self.position(byte).0), column: None }
+    }
+
+    /// The text of a value, on one line and not too long.
+    pub(super) fn shown(&self, span: Range<usize>) -> String {
+        fit(self.text.get(span).unwrap_or_default())
+    }
+
+    /// What the parser found wrong.
+    pub(super) fn syntax(&self, fault: &toml::de::Error) -> Problem {
+        let (line, column) = self.position(fault.span().map_or(0, |span| span.start));
+        let place = Place::File { file: self.name.clone(), line: Some(line), column: Some(column) };
+        let message = fault.message().replace('\n', "; ");
+        let what = match fault.span().and_then(|span| self.text.get(span)) {
+            Some(key) if message == "duplicate key" => Fault::Duplicate { key: fit(key) },
+            _ => Fault::Syntax { message },
+        };
+        Finding { place, key: String::new(), value: None, what }
+    }
+
+    /// Line and column, in characters, of a byte, both from 1.
+    fn position(&self, byte: usize) -> (usize, usize) {
+        let line = self.lines.partition_point(|start| *start <= byte);
+        let start = line.checked_sub(1).and_then(|i| self.lines.get(i)).copied().unwrap_or(0);
+        let before = self.text.get(start..byte).unwrap_or_default();
+        (line, before.chars().count() + 1)
+    }
+}
+
+/// Source text on one line and not too long.
+pub(super) fn fit(text: &str) -> String {
+    excerpt(text, 60)
+}

@@ -1,0 +1,142 @@
+//! The values that a factor takes: a list, or a range.
+
+use super::super::document::kind;
+use super::super::layout::nearest;
+use super::super::values::{integer, number};
+use super::Numeric;
+use super::read::{Entry, Reader, in_order};
+use crate::error::{Fault, StudyFault};
+use crate::study::{Design, Levels, Spacing};
+use toml::de::DeValue;
+
+/// Most values of a list or range.
+const MOST_VALUES: u64 = 10_000_000;
+
+impl<'a> Reader<'a> {
+    /// The values of a factor; nothing, with the problems noted, where they cannot be read.
+    pub(super) fn levels(&mut self, numeric: &Numeric, entry: Entry<'a>, design: Design) -> Option<Levels> {
+        match entry.value {
+            DeValue::Array(list) => {
+                let mut values = Vec::with_capacity(list.len());
+                let mut sound = !list.is_empty();
+                for value in list {
+                    let entry = self.entry(value.span().start, value);
+                    let value = self.value(numeric, numeric.key, &entry);
+                    sound &= value.is_some();
+                    values.extend(value);
+                }
+                if values.is_empty() && !sound {
+                    if entry.shown.as_ref().is_some_and(|text| text.trim_matches(['[', ']', ' ']).is_empty())
+                    {
+                        let entry = Entry { value: DeValue::Boolean(true), ..entry };
+                        self.reject(&entry, numeric.key, StudyFault::NoValues);
+                    }
+                    return None;
+                }
+                sound.then_some(Levels::List(values))
+            }
+            DeValue::Table(_) => self.range(numeric, entry, design),
+            _ => {
+                let wanted =
+                    "a list of values, or { from, to, steps }; a formula belongs in [link]".to_owned();
+                let fault = Fault::WrongType { found: kind(&entry.value), wanted };
+                self.reject(&entry, numeric.key, fault);
+                None
+            }
+        }
+    }
+
+    fn value(&mut self, numeric: &Numeric, key: &str, entry: &Entry<'_>) -> Option<f64> {
+        let read = match (numeric.quantity, &entry.value) {
+            (Some(quantity), value) => number(quantity.dimension, value)
+                .and_then(|value| quantity.fault(value).map_or(Ok(value), Err)),
+            (None, DeValue::Integer(number)) => match integer(number) {
+                Some(number) if (1..=1 << 50).contains(&number) => Ok(number as f64),
+                _ => Err(Fault::OutOfRange { least: 1, most: 1 << 50 }),
+            },
+            (None, value) => {
+                let wanted = "whole numbers without quotes, like 256".to_owned();
+                Err(Fault::WrongType { found: kind(value), wanted })
+            }
+        };
+        read.map_err(|fault| self.reject(entry, key, fault)).ok()
+    }
+
+    fn range(&mut self, numeric: &Numeric, entry: Entry<'a>, design: Design) -> Option<Levels> {
+        const KEYS: [&str; 4] = ["from", "to", "steps", "spacing"];
+        let Entry { at, place, shown, value } = entry;
+        let DeValue::Table(table) = value else {
+            return None;
+        };
+        let whole = Entry { at, place, shown, value: DeValue::Boolean(true) };
+        let (mut ends, mut steps, mut spacing, mut sound) = ([None; 2], None, Spacing::Linear, true);
+        for ((at, name), value) in in_order(table) {
+            let (key, entry) = (format!("{}.{name}", numeric.key), self.entry(at, value));
+            match name.as_str() {
+                "from" | "to" => {
+                    let value = self.value(numeric, &key, &entry);
+                    sound &= value.is_some();
+                    ends[usize::from(name == "to")] = value;
+                }
+                "steps" => match &entry.value {
+                    DeValue::Integer(number)
+                        if integer(number).is_some_and(|n| (2..=MOST_VALUES).contains(&n)) =>
+                    {
+                        steps = integer(number);
+                    }
+                    _ => {
+                        self.reject(&entry, &key, Fault::OutOfRange { least: 2, most: MOST_VALUES });
+                        sound = false;
+                    }
+                },
+                "spacing" => match &entry.value {
+                    DeValue::String(text) if text == "linear" => {}
+                    DeValue::String(text) if text == "log" => spacing = Spacing::Logarithmic,
+                    _ => {
+                        let allowed = vec!["linear", "log"];
+                        self.reject(&entry, &key, Fault::NotOneOf { nearest: None, allowed });
+                        sound = false;
+                    }
+                },
+                other => {
+                    let advice = nearest(other, KEYS.iter().map(|key| (*key, 0.0))).map_or_else(
+                        || "a range takes from, to, steps and spacing".to_owned(),
+                        |key| format!("did you mean {key}?"),
+                    );
+                    self.reject(&entry, &key, StudyFault::UnknownKey { advice });
+                    sound = false;
+                }
+            }
+        }
+        if !sound {
+            return None;
+        }
+        let [Some(from), Some(to)] = ends else {
+            for (end, line) in ends.into_iter().zip(["from = and the first value", "to = and the last value"])
+            {
+                if end.is_none() {
+                    let key = format!("{}.{}", numeric.key, &line[..line.find(' ').unwrap_or(0)]);
+                    self.reject(&whole, &key, StudyFault::Missing { line });
+                }
+            }
+            return None;
+        };
+        let design_name = design.name();
+        let fault = match steps {
+            None if !design.draws() => Some(StudyFault::NoSteps { design: design_name }),
+            Some(_) if design.draws() => Some(StudyFault::NeedlessSteps { design: design_name }),
+            _ if from == to => Some(StudyFault::NoWidth),
+            _ if spacing == Spacing::Logarithmic && (from <= 0.0 || to <= 0.0) => {
+                Some(StudyFault::LogThroughZero)
+            }
+            _ => None,
+        };
+        match fault {
+            Some(fault) => {
+                self.reject(&whole, numeric.key, fault);
+                None
+            }
+            None => Some(Levels::Range { from, to, steps, spacing }),
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Keys that follow from others.
+
+use super::super::resolve::Base;
+use super::{Numeric, advice};
+use crate::error::StudyFault;
+use crate::study::Link;
+use crate::units::{Expression, ExpressionFault, Powers};
+use std::collections::BTreeMap;
+
+/// Formulas that have a name: name, key it is for, formula.
+const READY_MADE: [(&str, &str, &str); 1] =
+    // The integral time of a flat spectrum is 1/(4f); carried past at the mean velocity, an eddy is U/(4f) long.
+    [("taylor", "air.cutoff_frequency", "air.velocity / (4 * air.length_scale)")];
+
+/// Reads the formula of a key.
+pub(super) fn read(numeric: &Numeric, text: &str) -> Result<Link, StudyFault> {
+    let text = text.trim();
+    let text = text.strip_prefix('=').unwrap_or(text).trim();
+    let named = READY_MADE.iter().find(|(name, key, _)| *name == text && *key == numeric.key);
+    let expression = Expression::parse(named.map_or(text, |(.., formula)| formula))?;
+    for name in expression.names() {
+        if Numeric::of(name).is_none() {
+            return Err(ExpressionFault::UnknownName { name: name.to_owned(), advice: advice(name) }.into());
+        }
+    }
+    // Units do not depend on values.
+    let (_, found) = expression.value(&|name| Some((1.0, Powers::of(Numeric::of(name)?.dimension))))?;
+    let wanted = Powers::of(numeric.dimension);
+    if !found.agree(wanted) {
+        let name = numeric.dimension.name();
+        return Err(ExpressionFault::WrongDimension { found, name, wanted }.into());
+    }
+    Ok(Link { key: numeric.key, dimension: numeric.dimension, expression })
+}
+
+/// An order in which every link comes after those it follows from.
+///
+/// # Errors
+/// Index of a link that follows from itself, and the keys around the circle.
+pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, StudyFault)> {
+    let mut order: Vec<usize> = Vec::new();
+    let of_key: BTreeMap<&str, usize> = links.iter().enumerate().map(|(i, link)| (link.key, i)).collect();
+    while order.len() < links.len() {
+        let waits_for = |i: usize| {
+            let names = links[i].expression.names();
+            names
+                .into_iter()
+                .filter_map(|name| of_key.get(name).copied())
+                .find(|other| !order.contains(other))
+        };
+        let ready = (0..links.len()).filter(|i| !order.contains(i)).find(|i| waits_for(*i).is_none());
+        match ready {
+            Some(next) => order.push(next),
+            None => {
+                let start = (0..links.len()).find(|i| !order.contains(i)).unwrap_or(0);
+                let mut way = vec![start];
+                // Everything that waits, waits for something that waits: the way comes round.
+                let last = loop {
+                    let next = way.last().and_then(|i| waits_for(*i)).unwrap_or(start);
+                    if way.contains(&next) {
+                        break next;
+                    }
+                    way.push(next);
+                };
+                let circle = way.iter().skip_while(|i| **i != last).chain([&last]);
+                let circle: Vec<&str> = circle.map(|i| links[*i].key).collect();
+                return Err((last, StudyFault::Circle(circle.join(" ← "))));
+            }
+        }
+    }
+    Ok(order)
+}
+
+/// The first key a link uses that has no value of its own, neither varied nor linked nor written.
+pub(super) fn unwritten<'a>(link: &'a Link, varied: &[&str], base: &Base) -> Option<&'a str> {
+    let has_value = |name: &str| varied.contains(&name) || base.values.get(name).is_some_and(Option::is_some);
+    link.expression.names().into_iter().find(|name| !has_value(name))
+}
+
+/// The values of the links, in their own order.
+///
+/// * `order` – as from [`order`]
+/// * `known` – value of a key that is not linked
+pub(super) fn values(links: &[Link], order: &[usize], known: &dyn Fn(&str) -> Option<f64>) -> Vec<f64> {
+    let mut values: Vec<Option<f64>> = vec![None; links.len()];
+    for &i in order {
+        let of = |name: &str| {
+            let linked = links.iter().position(|link| link.key == name);
+            let value = linked.map_or_else(|| known(name), |other| values[other])?;
+            Some((value, Powers::of(Numeric::of(name)?.dimension)))
+        };
+        let value = links[i].expression.value(&of).map_or(f64::NAN, |(value, _)| value);
+        let whole = Numeric::of(links[i].key).is_some_and(|numeric| numeric.is_whole());
+        values[i] = Some(if whole { value.round() } else { value });
+    }
+    values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()
+}

@@ -1,0 +1,137 @@
+//! Study files: what varies around a case, to a [`Study`] with every point resolved, and back.
+
+mod differences;
+mod levels;
+mod links;
+mod points;
+mod read;
+mod write;
+
+pub use differences::differences;
+pub use points::StudyNote;
+
+use super::document::Document;
+use super::{file, layout, resolve};
+use crate::case::keys::{self, Quantity};
+use crate::error::Error;
+use crate::study::Study;
+use crate::units::Dimension;
+use std::path::{Path, PathBuf};
+
+/// Most points of a study that are flown without being asked for by number.
+pub const MOST_POINTS_UNASKED: u64 = 10_000;
+/// Most points of a study.
+const MOST_POINTS: u64 = 10_000_000;
+/// Most fibres of a study.
+const MOST_FIBRES: u64 = 4_000_000_000;
+
+/// A study file, read.
+#[derive(Clone, Debug)]
+pub struct StudyFile {
+    /// The study.
+    pub study: Study,
+    /// What there is to remark on its points.
+    pub notes: Vec<StudyNote>,
+    /// The text of the base case, as it is.
+    pub case_text: String,
+    /// The study as a file, every default written out; it names the case `case.toml`.
+    pub text: String,
+}
+
+/// Reads a study file and the case it names, and resolves and checks every point.
+///
+/// * `points` – number of points asked for, where there are more than [`MOST_POINTS_UNASKED`]
+///
+/// # Errors
+/// When a file cannot be read, and when anything is wrong with the study or any of its points: then everything
+/// found.
+pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Error> {
+    let text = file::read(path).map_err(|error| match error {
+        Error::NotThere { path } => Error::NoStudy { path },
+        other => other,
+    })?;
+    let beside = |case: &str| path.parent().map_or_else(|| PathBuf::from(case), |folder| folder.join(case));
+    parse_study(&text, &path.display().to_string(), points, |case| {
+        let case = beside(case);
+        Ok((file::read(&case)?, case.display().to_string()))
+    })
+}
+
+/// Reads the text of a study file; `case` finds text and name of the case it names.
+///
+/// # Errors
+/// As [`read_study`].
+pub fn parse_study(
+    text: &str,
+    name: &str,
+    points: Option<u64>,
+    case: impl FnOnce(&str) -> Result<(String, String), Error>,
+) -> Result<StudyFile, Error> {
+    let mut reader = read::Reader::new(text, name)?;
+    let (case_text, case_name) = match reader.case() {
+        Some(named) => case(&named)?,
+        None => return Err(reader.rejected()),
+    };
+    let base = resolve::base(Document::new(&case_text, &case_name, &[])?)?;
+    let plan = reader.plan(&base, points);
+    let Some(plan) = plan else {
+        return Err(reader.rejected());
+    };
+    let resolver = points::Resolver { study: name, case: (&case_text, &case_name), base: &base, plan: &plan };
+    let (resolved, notes) = resolver.points()?;
+    let study = plan.study(resolved);
+    let text = write::write_study(&study);
+    Ok(StudyFile { study, notes, case_text, text })
+}
+
+/// A key whose value is a number.
+#[derive(Clone, Copy, Debug)]
+struct Numeric {
+    key: &'static str,
+    dimension: Dimension,
+    /// Of a key that takes whole numbers, nothing.
+    quantity: Option<&'static Quantity>,
+}
+
+impl Numeric {
+    fn of(key: &str) -> Option<Self> {
+        let quantity = keys::QUANTITIES.into_iter().find(|quantity| quantity.key == key);
+        match quantity {
+            Some(quantity) => {
+                Some(Self { key: quantity.key, dimension: quantity.dimension, quantity: Some(quantity) })
+            }
+            None if key == keys::HARMONICS => {
+                Some(Self { key: keys::HARMONICS, dimension: Dimension::Ratio, quantity: None })
+            }
+            None => None,
+        }
+    }
+
+    const fn is_whole(&self) -> bool {
+        self.quantity.is_none()
+    }
+
+    /// A value as a case file has it, to the bit.
+    fn exact(&self, value: f64) -> String {
+        if self.is_whole() { format!("{value:.0}") } else { self.dimension.exact(value) }
+    }
+}
+
+/// What to say of a name that is no key with a number.
+fn advice(name: &str) -> String {
+    match name {
+        "run.replicates" => return "write the study's own replicates = 10 above the tables".to_owned(),
+        "run.seed" => return "write the study's own seed = 1 above the tables".to_owned(),
+        _ => {}
+    }
+    let (table, key) = name.split_once('.').unwrap_or(("", name));
+    if layout::keys_of(table).contains(&key) && !table.is_empty() {
+        return "only keys whose value is a number can".to_owned();
+    }
+    match layout::nearest_key(table, key) {
+        Some((table, key)) if Numeric::of(&format!("{table}.{key}")).is_some() => {
+            format!("did you mean {table}.{key}?")
+        }
+        _ => "write the full name of a key of the case whose value is a number, like air.velocity".to_owned(),
+    }
+}

@@ -1,0 +1,497 @@
+//! What a study file says, checked as far as it can be without making the points.
+
+use super::super::FORMAT_VERSION;
+use super::super::document::kind;
+use super::super::layout::nearest;
+use super::super::resolve::Base;
+use super::super::source::{Source, fit};
+use super::super::values::integer;
+use super::{MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, Numeric, links};
+use crate::error::{Error, Fault, Finding, Place, Problem, StudyFault};
+use crate::study::{Design, Factor, Link, MEASURES, Point, Replicates, Study};
+use crate::units::Dimension;
+use std::collections::BTreeMap;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+const KEYS: [&str; 9] =
+    ["version", "case", "design", "points", "replicates", "common_phases", "seed", "vary", "link"];
+
+/// A value with the place and the text it was written in.
+pub(super) struct Entry<'a> {
+    pub(super) at: usize,
+    pub(super) place: Place,
+    pub(super) shown: Option<String>,
+    pub(super) value: DeValue<'a>,
+}
+
+/// Reads a study file; gathers all that is wrong with it.
+pub(super) struct Reader<'a> {
+    pub(super) source: Source<'a>,
+    entries: BTreeMap<String, Entry<'a>>,
+    problems: Vec<Problem>,
+}
+
+/// A study whose points are still to be made.
+pub(super) struct Plan {
+    pub(super) factors: Vec<Factor>,
+    pub(super) links: Vec<Link>,
+    /// An order in which the links can be worked out.
+    pub(super) order: Vec<usize>,
+    pub(super) design: Design,
+    pub(super) seed: u64,
+    pub(super) common_phases: bool,
+    pub(super) replicates: Replicates,
+}
+
+impl Plan {
+    pub(super) fn study(self, points: Vec<Point>) -> Study {
+        let Self { factors, links, design, seed, common_phases, replicates, .. } = self;
+        Study { factors, links, design, seed, common_phases, replicates, points }
+    }
+}
+
+impl<'a> Reader<'a> {
+    /// Takes the file apart.
+    ///
+    /// # Errors
+    /// When the text is not TOML.
+    pub(super) fn new(text: &'a str, name: &str) -> Result<Self, Error> {
+        let source = Source::new(text, name);
+        let (root, faults) = DeTable::parse_recoverable(text);
+        if !faults.is_empty() {
+            return Err(Error::Rejected(faults.iter().map(|fault| source.syntax(fault)).collect()));
+        }
+        let mut reader = Self { source, entries: BTreeMap::new(), problems: Vec::new() };
+        for (key, value) in root.into_inner() {
+            let (at, name) = (key.span().start, key.into_inner());
+            let entry = reader.entry(at, value);
+            if KEYS.contains(&name.as_ref()) {
+                reader.entries.insert(name.into_owned(), entry);
+            } else {
+                let advice = match nearest(&name, KEYS.iter().map(|key| (*key, 0.0))) {
+                    _ if ["fibre", "air", "drag", "run"].contains(&name.as_ref()) => {
+                        "it is one of a case; a study names its case, as case = \"table1.toml\", \
+                         and `spunlaid run` flies a case"
+                            .to_owned()
+                    }
+                    Some(key) => format!("did you mean {key}?"),
+                    None => format!("it takes {} and {}", KEYS[..8].join(", "), KEYS[8]),
+                };
+                reader.reject(&entry, &name, StudyFault::UnknownKey { advice });
+            }
+        }
+        Ok(reader)
+    }
+
+    pub(super) fn entry(&self, at: usize, value: Spanned<DeValue<'a>>) -> Entry<'a> {
+        let text = self.source.shown(value.span());
+        let is_headed = value.get_ref().is_table() && !text.starts_with('{');
+        let shown = Some(text).filter(|_| !is_headed);
+        Entry { at, place: self.source.place(at), shown, value: value.into_inner() }
+    }
+
+    pub(super) fn reject(&mut self, entry: &Entry<'_>, key: &str, fault: impl Into<Fault>) {
+        let (place, value) = (entry.place.clone(), entry.shown.clone());
+        self.problems.push(Finding { place, key: fit(key), value, what: fault.into() });
+    }
+
+    /// A problem of the whole file.
+    fn reject_whole(&mut self, key: &str, fault: StudyFault) {
+        let place = self.source.whole();
+        self.problems.push(Finding { place, key: key.to_owned(), value: None, what: fault.into() });
+    }
+
+    fn wrong_type(&mut self, entry: &Entry<'_>, key: &str, wanted: &str) {
+        let fault = Fault::WrongType { found: kind(&entry.value), wanted: wanted.to_owned() };
+        self.reject(entry, key, fault);
+    }
+
+    /// Everything found wrong, in the order of the file.
+    pub(super) fn rejected(self) -> Error {
+        let mut problems = self.problems;
+        problems.sort_by(|a, b| a.place.cmp(&b.place));
+        problems.into()
+    }
+
+    /// The case the study names; nothing, with the problem noted, where it names none or the file is newer.
+    pub(super) fn case(&mut self) -> Option<String> {
+        if let Some(version) = self.entries.remove("version") {
+            let known = FORMAT_VERSION;
+            let number = match &version.value {
+                DeValue::Integer(number) => integer(number),
+                _ => None,
+            };
+            match number {
+                Some(number) if (1..=u64::from(known)).contains(&number) => {}
+                Some(number) if number > u64::from(known) => {
+                    self.problems.clear();
+                    self.reject(&version, "version", Fault::NewerVersion { known });
+                    return None;
+                }
+                _ => self.reject(&version, "version", Fault::OutOfRange { least: 1, most: u64::from(known) }),
+            }
+        }
+        let line = "case = \"table1.toml\", the case to vary, beside this file";
+        let Some(entry) = self.entries.remove("case") else {
+            self.reject_whole("case", StudyFault::Missing { line });
+            return None;
+        };
+        match &entry.value {
+            DeValue::String(text) => Some(text.clone().into_owned()),
+            _ => {
+                self.wrong_type(&entry, "case", "the name of a case file, in quotes");
+                None
+            }
+        }
+    }
+
+    /// The plan; nothing where anything was found wrong.
+    pub(super) fn plan(&mut self, base: &Base, asked: Option<u64>) -> Option<Plan> {
+        let design_entry = self.entries.remove("design");
+        let design = self.design(design_entry.as_ref());
+        let seed = self.whole("seed", 0, u64::MAX).unwrap_or(base.seed);
+        let common_phases = self.truth("common_phases").unwrap_or(true);
+        let replicates = self.replicates(base);
+        let factors = self.factors(design);
+        let links = self.links(&factors, base);
+        if !self.problems.is_empty() {
+            return None;
+        }
+        let order = links::order(&links).ok()?;
+        if let Some(design_entry) = &design_entry {
+            self.combination(design_entry, design, &factors, base);
+        }
+        if self.problems.is_empty() {
+            self.size(design_entry.as_ref(), design, &factors, base, asked, &replicates);
+        }
+        self.problems.is_empty().then_some(Plan {
+            factors,
+            links,
+            order,
+            design,
+            seed,
+            common_phases,
+            replicates,
+        })
+    }
+
+    fn design(&mut self, entry: Option<&Entry<'_>>) -> Design {
+        const NAMES: [&str; 5] = ["grid", "one-at-a-time", "paired", "latin-hypercube", "sobol"];
+        let points_entry = self.entries.remove("points");
+        let points = points_entry.as_ref().and_then(|entry| self.whole_in(entry, "points", 1, MOST_POINTS));
+        let Some(entry) = entry else {
+            let line = "design = \"grid\" (or \"one-at-a-time\", \"paired\", \"latin-hypercube\", \"sobol\")";
+            self.reject_whole("design", StudyFault::Missing { line });
+            return Design::Grid;
+        };
+        let DeValue::String(text) = &entry.value else {
+            self.wrong_type(
+                entry,
+                "design",
+                "\"grid\", \"one-at-a-time\", \"paired\", \"latin-hypercube\" or \"sobol\"",
+            );
+            return Design::Grid;
+        };
+        let draws = matches!(text.as_ref(), "latin-hypercube" | "sobol");
+        let design = match text.as_ref() {
+            "grid" => Design::Grid,
+            "one-at-a-time" => Design::OneAtATime,
+            "paired" => Design::Paired,
+            "latin-hypercube" => Design::LatinHypercube(points.unwrap_or(1)),
+            "sobol" => Design::Sobol(points.unwrap_or(1)),
+            other => {
+                let nearest = nearest(other, NAMES.iter().map(|name| (*name, 0.0)));
+                let nearest = nearest.map(|name| format!("\"{name}\""));
+                self.reject(entry, "design", Fault::NotOneOf { nearest, allowed: NAMES.to_vec() });
+                return Design::Grid;
+            }
+        };
+        match points_entry {
+            None if draws => {
+                self.reject_whole(
+                    "points",
+                    StudyFault::Missing { line: "points = 64, how many the design draws" },
+                );
+            }
+            Some(points) if !draws => {
+                let advice =
+                    format!("design = \"{text}\" has as many points as its values make; leave it out");
+                self.reject(&points, "points", StudyFault::UnknownKey { advice });
+            }
+            _ => {}
+        }
+        design
+    }
+
+    fn whole(&mut self, key: &str, least: u64, most: u64) -> Option<u64> {
+        let entry = self.entries.remove(key)?;
+        self.whole_in(&entry, key, least, most)
+    }
+
+    fn whole_in(&mut self, entry: &Entry<'_>, key: &str, least: u64, most: u64) -> Option<u64> {
+        match &entry.value {
+            DeValue::Integer(number) => match integer(number) {
+                Some(number) if (least..=most).contains(&number) => return Some(number),
+                _ => self.reject(entry, key, Fault::OutOfRange { least, most }),
+            },
+            _ => self.wrong_type(entry, key, "a whole number without quotes, like 10"),
+        }
+        None
+    }
+
+    fn truth(&mut self, key: &str) -> Option<bool> {
+        let entry = self.entries.remove(key)?;
+        if let DeValue::Boolean(truth) = entry.value {
+            return Some(truth);
+        }
+        self.wrong_type(&entry, key, "true or false, without quotes");
+        None
+    }
+
+    fn replicates(&mut self, base: &Base) -> Replicates {
+        const MOST: u64 = 1_000_000;
+        const KEYS: [&str; 3] = ["at_least", "at_most", "until"];
+        let Some(entry) = self.entries.remove("replicates") else {
+            return Replicates::fixed(base.replicates);
+        };
+        let DeValue::Table(table) = entry.value else {
+            return Replicates::fixed(self.whole_in(&entry, "replicates", 1, MOST).unwrap_or(1));
+        };
+        let (mut bounds, mut until, mut least) = ([None; 2], Vec::new(), None);
+        for (key, value) in in_order(table) {
+            let name = format!("replicates.{}", key.1);
+            let entry = self.entry(key.0, value);
+            match key.1.as_str() {
+                "at_least" => {
+                    bounds[0] = self.whole_in(&entry, &name, 2, MOST);
+                    least = Some(entry);
+                }
+                "at_most" => bounds[1] = self.whole_in(&entry, &name, 2, MOST),
+                "until" => until = self.until(entry),
+                other => {
+                    let advice = nearest(other, KEYS.iter().map(|key| (*key, 0.0))).map_or_else(
+                        || "it takes at_least, at_most and until".to_owned(),
+                        |key| format!("did you mean {key}?"),
+                    );
+                    self.reject(&entry, &name, StudyFault::UnknownKey { advice });
+                }
+            }
+        }
+        let line =
+            "[replicates] until = { amplitude_y = \"5 %\" }: the standard error, by the mean, to reach";
+        if until.is_empty() && self.problems.is_empty() {
+            self.reject_whole("replicates.until", StudyFault::Missing { line });
+        }
+        let at_most = bounds[1].unwrap_or(100);
+        let at_least = bounds[0].unwrap_or_else(|| at_most.min(8));
+        if let Some(entry) = least.filter(|_| at_least > at_most) {
+            self.reject(&entry, "replicates.at_least", StudyFault::MoreThanMost { most: at_most });
+        }
+        Replicates { at_least, at_most, until }
+    }
+
+    fn until(&mut self, entry: Entry<'a>) -> Vec<(usize, f64)> {
+        let DeValue::Table(table) = entry.value else {
+            self.wrong_type(&entry, "replicates.until", "a table, as { amplitude_y = \"5 %\" }");
+            return Vec::new();
+        };
+        let mut until = Vec::new();
+        for ((at, name), value) in in_order(table) {
+            let key = format!("replicates.until.{name}");
+            let entry = self.entry(at, value);
+            let Some(measure) = MEASURES.iter().position(|measure| measure.name == name) else {
+                let names = MEASURES.map(|measure| measure.name);
+                let advice = nearest(&name, names.iter().map(|name| (*name, 0.0))).map_or_else(
+                    || format!("there are {}", names.join(", ")),
+                    |name| format!("did you mean {name}?"),
+                );
+                self.reject(&entry, &key, StudyFault::UnknownResult { advice });
+                continue;
+            };
+            match super::super::values::number(Dimension::Ratio, &entry.value) {
+                Ok(fraction) if fraction > 0.0 && fraction < 1.0 => until.push((measure, fraction)),
+                Ok(_) => self.reject(&entry, &key, StudyFault::NoFraction),
+                Err(fault) => self.reject(&entry, &key, fault),
+            }
+        }
+        until
+    }
+
+    fn links(&mut self, factors: &[Factor], base: &Base) -> Vec<Link> {
+        let Some(entry) = self.entries.remove("link") else {
+            return Vec::new();
+        };
+        let DeValue::Table(table) = entry.value else {
+            self.wrong_type(&entry, "link", "a table, [link]");
+            return Vec::new();
+        };
+        let (mut links, mut entries) = (Vec::new(), Vec::new());
+        for (key, entry) in self.flat(table) {
+            let Some(numeric) = self.numeric(&entry, &key) else {
+                continue;
+            };
+            if factors.iter().any(|factor| factor.key == numeric.key) {
+                self.reject(&entry, &key, StudyFault::Twice);
+                continue;
+            }
+            let DeValue::String(text) = &entry.value else {
+                self.wrong_type(
+                    &entry,
+                    &key,
+                    "a formula in quotes, as \"air.velocity / (4 * air.length_scale)\"",
+                );
+                continue;
+            };
+            match links::read(&numeric, text) {
+                Ok(link) => {
+                    links.push(link);
+                    entries.push(entry);
+                }
+                Err(fault) => self.reject(&entry, &key, fault),
+            }
+        }
+        let keys = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
+        let keys: Vec<&str> = keys.collect();
+        for (link, entry) in links.iter().zip(&entries) {
+            if let Some(name) = links::unwritten(link, &keys, base) {
+                let purpose = "use it in a formula";
+                let name = name.to_owned();
+                self.reject(
+                    &Entry { shown: None, place: entry.place.clone(), at: 0, value: DeValue::Boolean(true) },
+                    &name,
+                    StudyFault::NotWritten { purpose },
+                );
+            }
+        }
+        if let Err((link, fault)) = links::order(&links) {
+            self.reject(&entries[link], links[link].key, fault);
+        }
+        links
+    }
+
+    /// The key's dimension and the like; nothing, with the problem noted, of a key that cannot be set.
+    pub(super) fn numeric(&mut self, entry: &Entry<'_>, key: &str) -> Option<Numeric> {
+        let numeric = Numeric::of(key);
+        if numeric.is_none() {
+            self.reject(entry, key, StudyFault::NotVaried { advice: super::advice(key) });
+        }
+        numeric
+    }
+
+    /// The entries of a table in the order written, `air.velocity = …` and `"air.velocity" = …` alike.
+    pub(super) fn flat(&mut self, table: DeTable<'a>) -> Vec<(String, Entry<'a>)> {
+        let mut flat = Vec::new();
+        for ((at, key), value) in in_order(table) {
+            let entry = self.entry(at, value);
+            match entry.value {
+                DeValue::Table(inner) if super::layout::table(&key).is_some() => {
+                    for ((at, inner_key), value) in in_order(inner) {
+                        flat.push((format!("{key}.{inner_key}"), self.entry(at, value)));
+                    }
+                }
+                value => flat.push((key, Entry { value, ..entry })),
+            }
+        }
+        flat.sort_by_key(|(_, entry)| entry.at);
+        flat
+    }
+
+    fn factors(&mut self, design: Design) -> Vec<Factor> {
+        let Some(entry) = self.entries.remove("vary") else {
+            let line =
+                "[vary] and below it a key and its values, as \"air.velocity\" = [\"5 m/s\", \"10 m/s\"]";
+            self.reject_whole("vary", StudyFault::Missing { line });
+            return Vec::new();
+        };
+        let DeValue::Table(table) = entry.value else {
+            self.wrong_type(&entry, "vary", "a table, [vary]");
+            return Vec::new();
+        };
+        let flat = self.flat(table);
+        if flat.is_empty() {
+            let entry = Entry { value: DeValue::Boolean(true), ..entry };
+            self.reject(&entry, "[vary]", StudyFault::NothingVaries);
+        }
+        let mut factors = Vec::new();
+        for (key, entry) in flat {
+            let Some(numeric) = self.numeric(&entry, &key) else {
+                continue;
+            };
+            if let Some(levels) = self.levels(&numeric, entry, design) {
+                let Numeric { key, dimension, .. } = numeric;
+                factors.push(Factor { key, dimension, whole: numeric.is_whole(), levels });
+            }
+        }
+        factors
+    }
+
+    /// What only shows when factors are taken together.
+    fn combination(&mut self, entry: &Entry<'_>, design: Design, factors: &[Factor], base: &Base) {
+        let (found, most) = (factors.len(), design.most_factors());
+        if found > most {
+            self.reject(entry, "design", StudyFault::TooManyFactors { found, design: design.name(), most });
+        }
+        if let (Design::Paired, Some(first)) = (design, factors.first()) {
+            let wanted = first.levels.count();
+            for factor in factors.iter().filter(|factor| factor.levels.count() != wanted) {
+                let found = factor.levels.count();
+                self.reject_whole(factor.key, StudyFault::Unpaired { found, first: first.key, wanted });
+            }
+        }
+        if design == Design::OneAtATime {
+            for factor in factors {
+                if base.values.get(factor.key).is_none_or(Option::is_none) {
+                    let purpose = "vary it around its value there";
+                    self.reject_whole(factor.key, StudyFault::NotWritten { purpose });
+                }
+            }
+        }
+    }
+
+    fn size(
+        &mut self,
+        entry: Option<&Entry<'_>>,
+        design: Design,
+        factors: &[Factor],
+        base: &Base,
+        asked: Option<u64>,
+        replicates: &Replicates,
+    ) {
+        let Some(entry) = entry else {
+            return;
+        };
+        let of = |factor: &Factor| base.values.get(factor.key).copied().flatten().unwrap_or(f64::NAN);
+        let count = design.count(factors, &factors.iter().map(of).collect::<Vec<_>>());
+        let exact = count as u64;
+        if count > MOST_POINTS as f64 {
+            let points = if count < 1e15 { exact.to_string() } else { format!("{count:.1e}") };
+            let advice = format!(
+                "{MOST_POINTS} are possible: vary fewer keys or values, or take design = \"latin-hypercube\""
+            );
+            let most = MOST_POINTS_UNASKED;
+            self.reject(entry, "design", StudyFault::TooManyPoints { points, most, advice });
+        } else if let Some(asked) = asked.filter(|asked| *asked != exact) {
+            self.reject(entry, "design", StudyFault::OtherPoints { points: exact, asked });
+        } else if exact > MOST_POINTS_UNASKED && asked.is_none() {
+            let advice = format!("ask for them with --points {exact}");
+            let (points, most) = (exact.to_string(), MOST_POINTS_UNASKED);
+            self.reject(entry, "design", StudyFault::TooManyPoints { points, most, advice });
+        }
+        let fibres = count * replicates.at_most as f64;
+        if fibres > MOST_FIBRES as f64 {
+            let most = MOST_FIBRES as f64;
+            self.reject(entry, "design", StudyFault::TooManyFibres { fibres, most });
+        }
+    }
+}
+
+/// Keys, with their bytes, and values of a table in the order they are written.
+pub(super) fn in_order<'a>(table: DeTable<'a>) -> Vec<((usize, String), Spanned<DeValue<'a>>)> {
+    let mut entries: Vec<_> = table
+        .into_iter()
+        .map(|(key, value)| ((key.span().start, key.into_inner().into_owned()), value))
+        .collect();
+    entries.sort_by_key(|((at, _), _)| *at);
+    entries
+}

@@ -1,0 +1,63 @@
+//! A study as a file, every default written out.
+
+use super::super::FORMAT_VERSION;
+use super::Numeric;
+use crate::study::{Design, Levels, MEASURES, Study};
+use crate::units::shortest;
+use std::fmt::Write;
+
+/// Writes a study as TOML; the case it names is `case.toml`, beside it.
+///
+/// Reading the text with the same case gives the same points to the last bit.
+pub(super) fn write_study(study: &Study) -> String {
+    let mut text = format!("version = {FORMAT_VERSION}\ncase = \"case.toml\"\n");
+    // Writing to a text cannot fail.
+    let _ = writeln!(text, "design = \"{}\"", study.design.name());
+    if let Design::LatinHypercube(points) | Design::Sobol(points) = study.design {
+        let _ = writeln!(text, "points = {points}");
+    }
+    let _ = writeln!(text, "seed = {}\ncommon_phases = {}", study.seed, study.common_phases);
+    let replicates = &study.replicates;
+    if replicates.until.is_empty() {
+        let _ = writeln!(text, "replicates = {}", replicates.at_most);
+    } else {
+        let _ = writeln!(
+            text,
+            "\n[replicates]\nat_least = {}\nat_most = {}",
+            replicates.at_least, replicates.at_most
+        );
+        text.push_str("\n[replicates.until]\n");
+        for (measure, fraction) in &replicates.until {
+            let _ = writeln!(text, "{} = {}", MEASURES[*measure].name, shortest(*fraction));
+        }
+    }
+    text.push_str("\n[vary]\n");
+    for factor in &study.factors {
+        let exact = |value: f64| match Numeric::of(factor.key) {
+            Some(numeric) if numeric.is_whole() => numeric.exact(value),
+            _ => format!("\"{}\"", factor.dimension.exact(value)),
+        };
+        let _ = match &factor.levels {
+            Levels::List(values) => {
+                let values: Vec<String> = values.iter().map(|value| exact(*value)).collect();
+                writeln!(text, "\"{}\" = [{}]", factor.key, values.join(", "))
+            }
+            Levels::Range { from, to, steps, spacing } => {
+                let steps = steps.map_or_else(String::new, |steps| format!(", steps = {steps}"));
+                let (from, to, spacing) = (exact(*from), exact(*to), spacing.name());
+                writeln!(
+                    text,
+                    "\"{}\" = {{ from = {from}, to = {to}{steps}, spacing = \"{spacing}\" }}",
+                    factor.key
+                )
+            }
+        };
+    }
+    if !study.links.is_empty() {
+        text.push_str("\n[link]\n");
+        for link in &study.links {
+            let _ = writeln!(text, "\"{}\" = \"{}\"", link.key, link.expression.text());
+        }
+    }
+    text
+}

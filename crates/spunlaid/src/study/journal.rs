@@ -1,0 +1,344 @@
+//! The journal: a record of every fibre as soon as it has landed, so that nothing is lost.
+//!
+//! ```text
+//! header   one line of text: what it is, format, version of the program, the study's identity
+//! record   crc32 · kind · point · replicate · eight numbers, little-endian, of one length
+//! ```
+//!
+//! Records are only ever added. What a crash has torn off or damaged fails its checksum; such a record does not
+//! count, and the fibre is flown again.
+
+use super::measures::{Landing, MEASURES, Record};
+use crate::error::JournalError;
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+const MAGIC: &str = "spunlaid-journal";
+const FORMAT: u32 = 1;
+/// Longest header [bytes].
+const LONGEST_HEADER: usize = 200;
+/// Length of a record [bytes].
+const RECORD: usize = 4 + 4 + 8 + 8 + 8 * MEASURES.len();
+/// Kinds of records.
+const MEASURED: u32 = 1;
+const LOST: u32 = 2;
+
+/// Which study a journal belongs to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Header {
+    /// Version of the program.
+    pub version: String,
+    /// A checksum over all that the records depend on.
+    pub study: u32,
+}
+
+/// What a journal was found to hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Found {
+    /// Fibres.
+    pub fibres: u64,
+    /// Records that failed their checksum.
+    pub damaged: u64,
+    /// Whether a piece of a record was cut off the end.
+    pub torn: bool,
+}
+
+/// The records of a study, in a file or in memory only.
+#[derive(Debug)]
+pub struct Journal {
+    backing: Backing,
+    /// By point and replicate: one more than the number of the record; zero where there is none.
+    slots: Vec<Vec<u32>>,
+    /// Number of records, damaged ones included.
+    records: u32,
+}
+
+#[derive(Debug)]
+enum Backing {
+    Memory(Vec<Record>),
+    File { file: File, path: PathBuf, start: u64 },
+}
+
+impl Journal {
+    /// In memory only, for a study of so many points.
+    pub fn in_memory(points: usize) -> Self {
+        Self { backing: Backing::Memory(Vec::new()), slots: vec![Vec::new(); points], records: 0 }
+    }
+
+    /// Opens the file, making it if need be, and keeps it to this process as long as the journal lives.
+    ///
+    /// Returns the journal, empty until it is begun or gone on with, and the header found; none where the
+    /// file is new, or was cut off before its header was written.
+    ///
+    /// # Errors
+    /// When another process has it, when it is no journal or of another format, and when it cannot be read.
+    pub fn open(path: &Path) -> Result<(Self, Option<Header>), JournalError> {
+        let failed = |source| JournalError::Unusable { path: path.to_owned(), source };
+        let mut options = OpenOptions::new();
+        let mut file = options.read(true).append(true).create(true).open(path).map_err(failed)?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(JournalError::InUse { path: path.to_owned() }),
+            // Where a file system knows no locks, the person must see to it.
+            Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
+            Err(TryLockError::Error(error)) => return Err(failed(error)),
+        }
+        let mut head = Vec::new();
+        (&mut file).take(LONGEST_HEADER as u64).read_to_end(&mut head).map_err(failed)?;
+        let (header, start) = match head.iter().position(|byte| *byte == b'\n') {
+            Some(end) => {
+                let line = head.get(..end).unwrap_or_default();
+                let parsed = parse_header(&String::from_utf8_lossy(line));
+                (Some(parsed.map_err(|fault| fault.at(path))?), end as u64 + 1)
+            }
+            // A header cut off while it was written.
+            None if head.len() < LONGEST_HEADER
+                && MAGIC.as_bytes().starts_with(first(&head, MAGIC.len())) =>
+            {
+                (None, 0)
+            }
+            None => return Err(JournalError::Foreign { path: path.to_owned() }),
+        };
+        let backing = Backing::File { file, path: path.to_owned(), start };
+        Ok((Self { backing, slots: Vec::new(), records: 0 }, header))
+    }
+
+    /// Empties the journal and writes its header.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn begin(&mut self, header: &Header, points: usize) -> Result<(), JournalError> {
+        self.slots = vec![Vec::new(); points];
+        self.records = 0;
+        match &mut self.backing {
+            Backing::Memory(records) => records.clear(),
+            Backing::File { file, path, start } => {
+                let Header { version, study } = header;
+                let line = format!("{MAGIC} format={FORMAT} version={version} study={study:08x}\n");
+                let written = file.set_len(0).and_then(|()| file.write_all(line.as_bytes()));
+                let written = written.and_then(|()| file.sync_all());
+                written.map_err(|source| JournalError::Unwritable { path: path.clone(), source })?;
+                *start = line.len() as u64;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes in the records found, for a study of so many points and replicates, and cuts off what is torn.
+    ///
+    /// # Errors
+    /// When the file cannot be read or cut.
+    pub fn go_on(&mut self, points: usize, most_replicates: u64) -> Result<Found, JournalError> {
+        let Backing::File { file, path, start } = &mut self.backing else {
+            return Ok(Found::default());
+        };
+        let (start, path) = (*start, path.clone());
+        let failed = |source| JournalError::Unusable { path: path.clone(), source };
+        file.seek(SeekFrom::Start(start)).map_err(failed)?;
+        self.slots = vec![Vec::new(); points];
+        self.records = 0;
+        let mut found = Found::default();
+        // Number of records up to the last sound one.
+        let mut sound = 0;
+        let mut reader = BufReader::with_capacity(1 << 16, file);
+        let mut bytes = [0; RECORD];
+        loop {
+            let length = read_up_to(&mut reader, &mut bytes).map_err(failed)?;
+            if length < RECORD {
+                found.torn = length > 0;
+                break;
+            }
+            self.records += 1;
+            let record = decode(&bytes)
+                .filter(|record| record.point < points as u64 && record.replicate < most_replicates);
+            match record {
+                Some(record) => {
+                    sound = self.records;
+                    let slot = slot(&mut self.slots, &record);
+                    if *slot == 0 {
+                        *slot = self.records;
+                        found.fibres += 1;
+                    }
+                }
+                None => found.damaged += 1,
+            }
+        }
+        if found.torn || sound < self.records {
+            // New records must follow sound ones at whole places.
+            let file = reader.into_inner();
+            file.set_len(start + u64::from(sound) * RECORD as u64).map_err(failed)?;
+            self.records = sound;
+        }
+        Ok(found)
+    }
+
+    /// Adds records; they are in the hands of the system when this returns.
+    ///
+    /// # Errors
+    /// When the file cannot be written; what was written of the records is taken back.
+    pub fn add(&mut self, records: &[Record]) -> Result<(), JournalError> {
+        match &mut self.backing {
+            Backing::Memory(kept) => kept.extend_from_slice(records),
+            Backing::File { file, path, start } => {
+                let bytes: Vec<u8> = records.iter().flat_map(encode).collect();
+                if let Err(source) = file.write_all(&bytes) {
+                    let _ = file.set_len(*start + u64::from(self.records) * RECORD as u64);
+                    return Err(JournalError::Unwritable { path: path.clone(), source });
+                }
+            }
+        }
+        for record in records {
+            self.records += 1;
+            *slot(&mut self.slots, record) = self.records;
+        }
+        Ok(())
+    }
+
+    /// A second handle on the file, to bring records to the disk by while others are added.
+    ///
+    /// # Errors
+    /// When the system gives none.
+    pub fn handle(&self) -> Result<Option<File>, JournalError> {
+        match &self.backing {
+            Backing::Memory(_) => Ok(None),
+            Backing::File { file, path, .. } => {
+                let failed = |source| JournalError::Unusable { path: path.clone(), source };
+                file.try_clone().map(Some).map_err(failed)
+            }
+        }
+    }
+
+    /// Number of replicates that there are of a point.
+    pub fn held(&self, point: usize) -> u64 {
+        self.slots.get(point).map_or(0, |of| of.iter().filter(|slot| **slot != 0).count() as u64)
+    }
+
+    /// Whether there is a record of a fibre.
+    pub fn holds(&self, point: usize, replicate: u64) -> bool {
+        self.slots.get(point).and_then(|of| of.get(replicate as usize)).is_some_and(|slot| *slot != 0)
+    }
+
+    /// The records of a point's first replicates, in order, as far as there are any.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or has changed under our hands.
+    pub fn records(&mut self, point: usize, replicates: u64) -> Result<Vec<Record>, JournalError> {
+        let slots = self.slots.get(point).map_or(&[][..], Vec::as_slice);
+        let slots = slots.iter().take(replicates as usize).filter(|slot| **slot != 0).map(|slot| slot - 1);
+        match &mut self.backing {
+            Backing::Memory(kept) => Ok(slots.filter_map(|i| kept.get(i as usize).copied()).collect()),
+            Backing::File { file, path, start } => {
+                let mut read = |i: u32| {
+                    let mut bytes = [0; RECORD];
+                    file.seek(SeekFrom::Start(*start + u64::from(i) * RECORD as u64))?;
+                    file.read_exact(&mut bytes)?;
+                    decode(&bytes).ok_or_else(|| std::io::Error::from(ErrorKind::InvalidData))
+                };
+                let failed = |source| JournalError::Unusable { path: path.clone(), source };
+                slots.map(|i| read(i).map_err(failed)).collect()
+            }
+        }
+    }
+}
+
+fn first(bytes: &[u8], most: usize) -> &[u8] {
+    bytes.get(..most).unwrap_or(bytes)
+}
+
+fn slot<'a>(slots: &'a mut [Vec<u32>], record: &Record) -> &'a mut u32 {
+    let of = &mut slots[record.point as usize];
+    let replicate = record.replicate as usize;
+    if of.len() <= replicate {
+        of.resize(replicate + 1, 0);
+    }
+    &mut of[replicate]
+}
+
+enum HeaderFault {
+    Foreign,
+    Format(String),
+}
+
+impl HeaderFault {
+    fn at(self, path: &Path) -> JournalError {
+        match self {
+            Self::Foreign => JournalError::Foreign { path: path.to_owned() },
+            Self::Format(format) => JournalError::Format { path: path.to_owned(), format, known: FORMAT },
+        }
+    }
+}
+
+fn parse_header(line: &str) -> Result<Header, HeaderFault> {
+    let rest = line.strip_prefix(MAGIC).ok_or(HeaderFault::Foreign)?;
+    let field = |name: &str| {
+        let fields = rest.split_whitespace().filter_map(|field| field.split_once('='));
+        fields.filter(|(key, _)| *key == name).map(|(_, value)| value).next()
+    };
+    let format = field("format").ok_or(HeaderFault::Foreign)?;
+    if format != FORMAT.to_string() {
+        return Err(HeaderFault::Format(crate::units::excerpt(format, 20)));
+    }
+    match (field("version"), field("study").map(|text| u32::from_str_radix(text, 16))) {
+        (Some(version), Some(Ok(study))) => Ok(Header { version: version.to_owned(), study }),
+        _ => Err(HeaderFault::Foreign),
+    }
+}
+
+/// Reads as many bytes as there are, up to the length asked for.
+fn read_up_to(reader: &mut impl Read, bytes: &mut [u8]) -> std::io::Result<usize> {
+    let mut length = 0;
+    while length < bytes.len() {
+        match reader.read(&mut bytes[length..]) {
+            Ok(0) => break,
+            Ok(more) => length += more,
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(length)
+}
+
+fn encode(record: &Record) -> Vec<u8> {
+    let mut bytes = vec![0; 4];
+    let (kind, values) = match record.landing {
+        Landing::Measured(measured) => (MEASURED, measured),
+        Landing::Lost { node, time } => {
+            let mut values = [0.0; MEASURES.len()];
+            (values[0], values[1]) = (node as f64, time);
+            (LOST, values)
+        }
+    };
+    bytes.extend(kind.to_le_bytes());
+    bytes.extend(record.point.to_le_bytes());
+    bytes.extend(record.replicate.to_le_bytes());
+    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    let sum = crc32fast::hash(&bytes[4..]);
+    bytes[..4].copy_from_slice(&sum.to_le_bytes());
+    bytes
+}
+
+/// The record, if its checksum is right.
+fn decode(bytes: &[u8; RECORD]) -> Option<Record> {
+    let (sum, rest) = bytes.split_first_chunk::<4>()?;
+    if crc32fast::hash(rest) != u32::from_le_bytes(*sum) {
+        return None;
+    }
+    let (kind, rest) = rest.split_first_chunk::<4>()?;
+    let (point, rest) = rest.split_first_chunk::<8>()?;
+    let (replicate, rest) = rest.split_first_chunk::<8>()?;
+    let mut values = [0.0; MEASURES.len()];
+    for (value, bytes) in values.iter_mut().zip(rest.chunks_exact(8)) {
+        *value = f64::from_le_bytes(bytes.try_into().ok()?);
+    }
+    let landing = match u32::from_le_bytes(*kind) {
+        MEASURED => Landing::Measured(values),
+        LOST => Landing::Lost { node: values[0] as u64, time: values[1] },
+        _ => return None,
+    };
+    let (point, replicate) = (u64::from_le_bytes(*point), u64::from_le_bytes(*replicate));
+    Some(Record { point, replicate, landing })
+}
+
+#[cfg(test)]
+mod tests;

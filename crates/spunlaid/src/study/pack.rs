@@ -1,0 +1,220 @@
+//! Bundles filled across points, so that ten replicates of six points leave no lane empty.
+
+use super::Point;
+use crate::case::Case;
+use crate::ensemble::{Computing, Flight, Job, KeepShapes, fly_together, in_order};
+use crate::error::Error;
+use crate::lanes::WIDTH;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Some replicates of a point.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Batch {
+    /// Index of the point.
+    pub point: usize,
+    /// Indices of the replicates.
+    pub replicates: Range<u64>,
+}
+
+/// A fibre lost on its way: the point, the replicate and what was wrong.
+pub(super) type Lost = (usize, u64, Error);
+
+/// What fibres that fly side by side must have in common; all else may differ from lane to lane.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Common {
+    elements: usize,
+    eddy_of_element: Vec<u32>,
+    time_step: u64,
+    steps: [u64; 3],
+    cutoff_frequency: u64,
+    harmonics: usize,
+    scheme: &'static str,
+    damped: bool,
+}
+
+impl Common {
+    fn of(case: &Case) -> Self {
+        let Case { fibre, air, run, .. } = case;
+        Self {
+            elements: fibre.elements,
+            eddy_of_element: case.eddies().of_element().to_vec(),
+            time_step: run.time_step.to_bits(),
+            steps: [run.steps, run.spin_up_steps, run.output_steps],
+            cutoff_frequency: air.cutoff_frequency.to_bits(),
+            harmonics: air.harmonics,
+            scheme: run.scheme.name(),
+            damped: run.damping != 0.0,
+        }
+    }
+}
+
+/// Jobs shared out to bundles.
+#[derive(Debug, Default)]
+struct Packing {
+    /// Batches that may fly together, and how many jobs come before each.
+    groups: Vec<Vec<(u64, Batch)>>,
+    /// Index of each group's first bundle.
+    first_bundle: Vec<usize>,
+    bundles: usize,
+}
+
+impl Packing {
+    fn new(points: &[Point], batches: &[Batch]) -> Self {
+        let mut group_of = BTreeMap::new();
+        let mut groups: Vec<(f64, Vec<(u64, Batch)>)> = Vec::new();
+        for batch in batches.iter().filter(|batch| !batch.replicates.is_empty()) {
+            let case = &points[batch.point].case;
+            let group = *group_of.entry(Common::of(case)).or_insert(groups.len());
+            if group == groups.len() {
+                groups.push((case.run.steps as f64 * case.fibre.elements as f64, Vec::new()));
+            }
+            let members = &mut groups[group].1;
+            let before = members.last().map_or(0, |(before, batch)| before + length(batch));
+            members.push((before, batch.clone()));
+        }
+        // The longest flights first: then no thread is left alone with one at the end.
+        groups.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut packing = Self::default();
+        for (_, members) in groups {
+            let jobs = members.last().map_or(0, |(before, batch)| before + length(batch));
+            packing.first_bundle.push(packing.bundles);
+            packing.bundles += jobs.div_ceil(WIDTH as u64) as usize;
+            packing.groups.push(members);
+        }
+        packing
+    }
+
+    /// The jobs of a bundle: point and replicate.
+    fn jobs(&self, bundle: usize) -> Vec<(usize, u64)> {
+        let group = self.first_bundle.partition_point(|first| *first <= bundle).saturating_sub(1);
+        let members = &self.groups[group];
+        let first = (bundle - self.first_bundle[group]) as u64 * WIDTH as u64;
+        let start = members.partition_point(|(before, _)| *before <= first).saturating_sub(1);
+        let mut jobs = Vec::with_capacity(WIDTH);
+        for (before, batch) in &members[start..] {
+            let skip = first.saturating_sub(*before);
+            let replicates = batch.replicates.start + skip..batch.replicates.end;
+            jobs.extend(replicates.take(WIDTH - jobs.len()).map(|replicate| (batch.point, replicate)));
+            if jobs.len() == WIDTH {
+                break;
+            }
+        }
+        jobs
+    }
+}
+
+fn length(batch: &Batch) -> u64 {
+    batch.replicates.end - batch.replicates.start
+}
+
+/// Flies batches of points, packed across points.
+///
+/// * `keep_shapes` – which flights record the whole fibre over time, by index of the replicate
+/// * `take` – receives point and flight; the replicates of a batch come in their order
+///
+/// # Errors
+/// A fibre that stops being finite, a stop from elsewhere, and what `take` returns.
+pub fn fly_batches<E: From<Error>>(
+    points: &[Point],
+    batches: &[Batch],
+    keep_shapes: KeepShapes,
+    computing: Computing<'_>,
+    mut take: impl FnMut(usize, Flight) -> Result<(), E>,
+) -> Result<(), E> {
+    let flown = |flights: Vec<(usize, Flight)>, lost: Vec<Lost>| match lost.into_iter().next() {
+        Some((.., error)) => Err(error),
+        None => Ok(flights),
+    };
+    fly_and_land(points, batches, keep_shapes, computing, flown, |flights| {
+        flights.into_iter().try_for_each(|(point, flight)| take(point, flight))
+    })
+}
+
+/// As [`fly_batches`]; `land` is called on the thread that flew a bundle, as soon as it has landed.
+///
+/// A fibre that stops being finite does not stop the others: it is handed to `land` among the lost.
+pub(super) fn fly_and_land<T: Send, E: From<Error>>(
+    points: &[Point],
+    batches: &[Batch],
+    keep_shapes: KeepShapes,
+    computing: Computing<'_>,
+    land: impl Fn(Vec<(usize, Flight)>, Vec<Lost>) -> Result<T, Error> + Sync,
+    mut take: impl FnMut(T) -> Result<(), E>,
+) -> Result<(), E> {
+    let packing = Packing::new(points, batches);
+    let fly = |jobs: &[(usize, u64)]| {
+        let jobs: Vec<Job<'_>> =
+            jobs.iter().map(|&(point, replicate)| Job { case: &points[point].case, replicate }).collect();
+        fly_together(&jobs, keep_shapes, computing)
+    };
+    let work = |bundle: usize| {
+        let jobs = packing.jobs(bundle);
+        match fly(&jobs) {
+            Ok(flights) => land(jobs.iter().map(|job| job.0).zip(flights).collect(), Vec::new()),
+            Err(Error::NotFinite { .. }) => {
+                // One by one the others land, with the same bits as in company.
+                let (mut flights, mut lost) = (Vec::new(), Vec::new());
+                for &(point, replicate) in &jobs {
+                    match fly(&[(point, replicate)]) {
+                        Ok(flight) => flights.extend(flight.into_iter().map(|flight| (point, flight))),
+                        Err(error @ Error::NotFinite { .. }) => lost.push((point, replicate, error)),
+                        Err(error) => return Err(error),
+                    }
+                }
+                land(flights, lost)
+            }
+            Err(error) => Err(error),
+        }
+    };
+    in_order(packing.bundles, computing.threads, work, |landed| take(landed?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::tests::table1;
+
+    fn points(velocities: &[f64], lengths: &[f64]) -> Vec<Point> {
+        let mut points = Vec::new();
+        for &velocity in velocities {
+            for &length_scale in lengths {
+                let mut case = table1();
+                (case.air.velocity, case.air.length_scale) = (velocity, length_scale);
+                points.push(Point { values: Vec::new(), case });
+            }
+        }
+        points
+    }
+
+    #[test]
+    fn every_job_flies_once_and_lanes_are_full() {
+        // Six points of ten replicates in one group: 60 jobs in 8 bundles, not 12.
+        let points = points(&[5.0, 10.0, 20.0], &[0.05, 0.0501, 0.1]);
+        let batches: Vec<Batch> = (0..9)
+            .flat_map(|point| [Batch { point, replicates: 0..3 }, Batch { point, replicates: 5..12 }])
+            .collect();
+        let packing = Packing::new(&points, &batches);
+        // Eddies of 50 and 50.1 mm are felt by the same elements; those of 100 mm are not.
+        assert_eq!(packing.groups.len(), 2);
+        assert_eq!(packing.bundles, 60usize.div_ceil(8) + 30usize.div_ceil(8));
+        let mut jobs: Vec<_> = (0..packing.bundles).flat_map(|bundle| packing.jobs(bundle)).collect();
+        jobs.sort_unstable();
+        let expected: Vec<_> =
+            batches.iter().flat_map(|b| b.replicates.clone().map(|r| (b.point, r))).collect();
+        assert_eq!(jobs, expected);
+        let in_group = |bundle: usize| {
+            let common = |job: &(usize, u64)| Common::of(&points[job.0].case);
+            let jobs = packing.jobs(bundle);
+            jobs.iter().all(|job| common(job) == common(&jobs[0]))
+        };
+        assert!((0..packing.bundles).all(in_group));
+    }
+
+    #[test]
+    fn nothing_to_fly_is_no_bundle() {
+        let points = points(&[5.0], &[0.05]);
+        assert_eq!(Packing::new(&points, &[]).bundles, 0);
+        assert_eq!(Packing::new(&points, &[Batch { point: 0, replicates: 4..4 }]).bundles, 0);
+    }
+}

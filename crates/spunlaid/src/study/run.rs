@@ -1,0 +1,287 @@
+//! Flying what a study still lacks, and what its points amount to.
+
+use super::journal::Journal;
+use super::measures::{Landing, MEASURES, Measure, Record};
+use super::pack::{Batch, Lost, fly_and_land};
+use super::{Replicates, Study};
+use crate::ensemble::{Computing, Flight, KeepShapes};
+use crate::error::{Error, JournalError};
+use crate::statistics::Estimate;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// Longest time that a record waits to be brought to the disk.
+const SYNC: Duration = Duration::from_millis(500);
+
+/// How far a study has come; read it from another thread.
+#[derive(Debug, Default)]
+pub struct Progress {
+    /// Fibres wanted so far; grows where more replicates turn out to be needed.
+    pub fibres: AtomicU64,
+    /// Fibres there are.
+    pub fibres_done: AtomicU64,
+    /// Points that have all replicates wanted so far.
+    pub points_done: AtomicU64,
+    /// Steps of the fibres that were still to be flown; [`Computing::fibre_steps`] counts up to this.
+    pub steps: AtomicU64,
+}
+
+/// What a point amounts to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointResults {
+    /// Fibres measured.
+    pub n: u64,
+    /// Fibres lost because their positions were no longer numbers.
+    pub lost: u64,
+    /// Mean of each of the [`MEASURES`]; NaN of none.
+    pub mean: [f64; MEASURES.len()],
+    /// Standard error of each mean; none from a single fibre.
+    pub standard_error: [Option<f64>; MEASURES.len()],
+}
+
+/// Flies what the journal does not hold yet.
+///
+/// Where [`Replicates::until`] asks for it, points are flown again in rounds; whether a point is depends on its
+/// own first replicates alone, never on threads or interruptions.
+///
+/// # Errors
+/// A stop from elsewhere, and a journal that cannot be written or read. A fibre that stops being finite is
+/// no error: it is recorded as lost.
+pub fn run(
+    study: &Study,
+    journal: &Mutex<Journal>,
+    computing: Computing<'_>,
+    progress: &Progress,
+) -> Result<(), Error> {
+    let mut wanted = vec![study.replicates.at_least; study.points.len()];
+    let mut open = vec![!study.replicates.until.is_empty(); study.points.len()];
+    loop {
+        fly_missing(study, journal, &wanted, computing, progress)?;
+        let mut more = false;
+        for point in 0..study.points.len() {
+            if open[point] {
+                let results = results_of(&mut lock(journal), point, wanted[point])?;
+                let next = more_replicates(&study.replicates, &results, wanted[point]);
+                open[point] = next.is_some();
+                wanted[point] = next.unwrap_or(wanted[point]);
+                more |= open[point];
+            }
+        }
+        if !more {
+            return Ok(());
+        }
+    }
+}
+
+/// What a point amounts to, from all its replicates.
+///
+/// # Errors
+/// When the journal cannot be read.
+pub fn results_of_point(journal: &mut Journal, point: usize) -> Result<PointResults, Error> {
+    results_of(journal, point, u64::MAX)
+}
+
+fn results_of(journal: &mut Journal, point: usize, replicates: u64) -> Result<PointResults, Error> {
+    let records = journal.records(point, replicates)?;
+    let measured: Vec<_> = records.iter().filter_map(|record| record.landing.measured()).collect();
+    let estimates: [Estimate; MEASURES.len()] =
+        std::array::from_fn(|i| Estimate::of(measured.iter().map(|values| values[i]).collect()));
+    Ok(PointResults {
+        n: measured.len() as u64,
+        lost: (records.len() - measured.len()) as u64,
+        mean: std::array::from_fn(|i| estimates[i].mean),
+        standard_error: std::array::from_fn(|i| estimates[i].standard_error),
+    })
+}
+
+/// How many replicates a point should have instead of `flown`; none if they are enough.
+fn more_replicates(replicates: &Replicates, results: &PointResults, flown: u64) -> Option<u64> {
+    // A point that loses its fibres gets no better by flying more.
+    if flown >= replicates.at_most || results.lost > 0 && results.n < 2 {
+        return None;
+    }
+    let needed = |&(measure, fraction): &(usize, f64)| {
+        let error = results.standard_error[measure].unwrap_or(f64::INFINITY);
+        let allowed = fraction * results.mean[measure].abs();
+        if error <= allowed { 0.0 } else { results.n as f64 * (error / allowed).powi(2) }
+    };
+    let needed = replicates.until.iter().map(needed).fold(0.0, f64::max);
+    // An estimate from few fibres is a rough one: never more than doubled at once.
+    (needed > 0.0).then(|| {
+        let most = flown.saturating_mul(2).min(replicates.at_most);
+        (needed.ceil() as u64).clamp((flown + 1).min(most), most)
+    })
+}
+
+fn fly_missing(
+    study: &Study,
+    journal: &Mutex<Journal>,
+    wanted: &[u64],
+    computing: Computing<'_>,
+    progress: &Progress,
+) -> Result<(), Error> {
+    let batches = missing(&lock(journal), wanted);
+    let lacking = Lacking::new(study, wanted, &batches, progress);
+    if batches.is_empty() {
+        return Ok(());
+    }
+    let land = |flights: Vec<(usize, Flight)>, lost: Vec<Lost>| {
+        let records = records(flights, lost);
+        lock(journal).add(&records)?;
+        lacking.landed(&records, progress);
+        Ok(())
+    };
+    let done = with_sync(journal, |failed| {
+        fly_and_land(&study.points, &batches, KeepShapes::NONE, computing, land, |()| match failed() {
+            Some(error) => Err(error),
+            None => Ok(()),
+        })
+    })?;
+    done
+}
+
+/// Does `work` while what is added to the journal is brought to the disk twice a second, and once more at
+/// the end. `work` can ask whether that has failed.
+fn with_sync<T>(
+    journal: &Mutex<Journal>,
+    work: impl FnOnce(&dyn Fn() -> Option<Error>) -> T,
+) -> Result<T, Error> {
+    let Some(file) = lock(journal).handle()? else {
+        return Ok(work(&|| None));
+    };
+    let (finished, failure) = (AtomicBool::new(false), Mutex::new(None));
+    let sync = || {
+        if let Err(error) = file.sync_data() {
+            *failure.lock().unwrap_or_else(PoisonError::into_inner) =
+                Some(JournalError::Unsynced(error).into());
+        }
+    };
+    let failed = || failure.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let outcome = std::thread::scope(|scope| {
+        let syncing = scope.spawn(|| {
+            while !finished.load(Ordering::Acquire) {
+                std::thread::park_timeout(SYNC);
+                sync();
+            }
+        });
+        // However the work ends, the other thread must not wait for ever.
+        let _end = OnDrop(|| {
+            finished.store(true, Ordering::Release);
+            syncing.thread().unpark();
+        });
+        work(&failed)
+    });
+    sync();
+    match failed() {
+        Some(error) => Err(error),
+        None => Ok(outcome),
+    }
+}
+
+struct OnDrop<F: FnMut()>(F);
+
+impl<F: FnMut()> Drop for OnDrop<F> {
+    fn drop(&mut self) {
+        (self.0)();
+    }
+}
+
+/// The replicates that are wanted and not there, in runs.
+fn missing(journal: &Journal, wanted: &[u64]) -> Vec<Batch> {
+    let mut batches = Vec::new();
+    for (point, &wanted) in wanted.iter().enumerate() {
+        let mut start = None;
+        for replicate in 0..=wanted {
+            let lacks = replicate < wanted && !journal.holds(point, replicate);
+            match (lacks, start) {
+                (true, None) => start = Some(replicate),
+                (false, Some(first)) => {
+                    batches.push(Batch { point, replicates: first..replicate });
+                    start = None;
+                }
+                _ => {}
+            }
+        }
+    }
+    batches
+}
+
+/// Fibres that the points still lack.
+struct Lacking(Vec<AtomicU64>);
+
+impl Lacking {
+    fn new(study: &Study, wanted: &[u64], batches: &[Batch], progress: &Progress) -> Self {
+        let mut lacking = vec![0; wanted.len()];
+        let mut steps = 0;
+        for Batch { point, replicates } in batches {
+            let count = replicates.end - replicates.start;
+            lacking[*point] += count;
+            steps += count * study.points[*point].case.run.steps;
+        }
+        let total: u64 = wanted.iter().sum();
+        progress.fibres.store(total, Ordering::Relaxed);
+        progress.fibres_done.store(total - lacking.iter().sum::<u64>(), Ordering::Relaxed);
+        let done = lacking.iter().filter(|lacking| **lacking == 0).count();
+        progress.points_done.store(done as u64, Ordering::Relaxed);
+        progress.steps.fetch_add(steps, Ordering::Relaxed);
+        Self(lacking.into_iter().map(AtomicU64::new).collect())
+    }
+
+    fn landed(&self, records: &[Record], progress: &Progress) {
+        progress.fibres_done.fetch_add(records.len() as u64, Ordering::Relaxed);
+        for record in records {
+            if self.0[record.point as usize].fetch_sub(1, Ordering::Relaxed) == 1 {
+                progress.points_done.fetch_add(1, Ordering::Relaxed);
+            }
+        }
+    }
+}
+
+fn records(flights: Vec<(usize, Flight)>, lost: Vec<Lost>) -> Vec<Record> {
+    let measured = flights.into_iter().map(|(point, flight)| Record {
+        point: point as u64,
+        replicate: flight.replicate,
+        landing: Landing::Measured(Measure::all(&flight)),
+    });
+    let lost = lost.into_iter().filter_map(|(point, replicate, error)| match error {
+        Error::NotFinite { node, time, .. } => {
+            let landing = Landing::Lost { node: node as u64, time };
+            Some(Record { point: point as u64, replicate, landing })
+        }
+        _ => None,
+    });
+    measured.chain(lost).collect()
+}
+
+/// A panic elsewhere leaves the journal between two records.
+fn lock(journal: &Mutex<Journal>) -> MutexGuard<'_, Journal> {
+    journal.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn replicates_grow_to_what_the_error_asks_for() {
+        let replicates = Replicates { at_least: 4, at_most: 100, until: vec![(0, 0.1)] };
+        let results = |n: u64, mean: f64, error: f64| PointResults {
+            n,
+            lost: 0,
+            mean: [mean; MEASURES.len()],
+            standard_error: [Some(error); MEASURES.len()],
+        };
+        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.1), 4), None);
+        assert_eq!(more_replicates(&replicates, &results(4, -1.0, 0.1), 4), None);
+        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.12), 4), Some(6));
+        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.1000001), 4), Some(5));
+        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 5.0), 4), Some(8));
+        assert_eq!(more_replicates(&replicates, &results(4, 0.0, 5.0), 4), Some(8));
+        assert_eq!(more_replicates(&replicates, &results(80, 1.0, 5.0), 80), Some(100));
+        assert_eq!(more_replicates(&replicates, &results(100, 1.0, 5.0), 100), None);
+        assert_eq!(more_replicates(&replicates, &results(4, 0.0, 0.0), 4), None);
+        let nothing = PointResults { n: 0, lost: 4, ..results(0, f64::NAN, f64::NAN) };
+        assert_eq!(more_replicates(&replicates, &nothing, 4), None);
+    }
+}

@@ -1,0 +1,446 @@
+//! Small formulas over quantities, units checked: `air.velocity / (4 * air.length_scale)`.
+//!
+//! ```text
+//! sum     = product { (+|-) product }          power = [-] factor [ ^ power ]
+//! product = power { (*|/) power }              factor = number [unit] | unit | name | ( sum )
+//! ```
+
+use super::{ALL, Dimension, excerpt};
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// Longest formula read [bytes].
+const LONGEST: usize = 1000;
+/// Most parentheses and signs inside one another.
+const DEEPEST: usize = 50;
+
+/// Powers of metre, kilogram and second that a quantity is measured in.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Powers {
+    /// Of the metre.
+    pub metre: f64,
+    /// Of the kilogram.
+    pub kilogram: f64,
+    /// Of the second.
+    pub second: f64,
+}
+
+impl Powers {
+    const fn new(metre: f64, kilogram: f64, second: f64) -> Self {
+        Self { metre, kilogram, second }
+    }
+
+    /// Of a dimension.
+    pub const fn of(dimension: Dimension) -> Self {
+        match dimension {
+            Dimension::Length => Self::new(1.0, 0.0, 0.0),
+            Dimension::Velocity => Self::new(1.0, 0.0, -1.0),
+            Dimension::Time => Self::new(0.0, 0.0, 1.0),
+            Dimension::Frequency | Dimension::Rate => Self::new(0.0, 0.0, -1.0),
+            Dimension::Density => Self::new(-3.0, 1.0, 0.0),
+            Dimension::Pressure => Self::new(-1.0, 1.0, -2.0),
+            Dimension::KinematicViscosity => Self::new(2.0, 0.0, -1.0),
+            Dimension::Acceleration => Self::new(1.0, 0.0, -2.0),
+            Dimension::Ratio => Self::new(0.0, 0.0, 0.0),
+        }
+    }
+
+    /// Whether the two are the same but for rounding.
+    pub fn agree(self, other: Self) -> bool {
+        let off = self.plus(other, -1.0);
+        [off.metre, off.kilogram, off.second].iter().all(|power| power.abs() < 1e-9)
+    }
+
+    fn plus(self, other: Self, sign: f64) -> Self {
+        Self::new(
+            self.metre + sign * other.metre,
+            self.kilogram + sign * other.kilogram,
+            self.second + sign * other.second,
+        )
+    }
+
+    fn times(self, factor: f64) -> Self {
+        Self::new(self.metre * factor, self.kilogram * factor, self.second * factor)
+    }
+}
+
+impl fmt::Display for Powers {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        for (unit, power) in [("kg", self.kilogram), ("m", self.metre), ("s", self.second)] {
+            if power == 1.0 {
+                parts.push(unit.to_owned());
+            } else if power != 0.0 {
+                parts.push(format!("{unit}^{power}"));
+            }
+        }
+        if parts.is_empty() { f.write_str("a plain number") } else { f.write_str(&parts.join(" ")) }
+    }
+}
+
+/// What is wrong with a formula; reads on after `key = "text" `.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExpressionFault {
+    /// It cannot be read.
+    #[error("cannot be read at \"{at}\"; {wanted} belongs there")]
+    Syntax {
+        /// The text from there on; `the end` if nothing is left.
+        at: String,
+        /// What would do.
+        wanted: &'static str,
+    },
+    /// Too long or too deep.
+    #[error("is too long or has too many parentheses inside one another; write it shorter")]
+    TooLong,
+    /// Not a key whose value is a number.
+    #[error("uses {name}, which is no key with a number; {advice}")]
+    UnknownName {
+        /// The name.
+        name: String,
+        /// The way out.
+        advice: String,
+    },
+    /// Unlike quantities added up.
+    #[error("adds {left} and {right}; only like quantities can be added or subtracted")]
+    Unlike {
+        /// Unit on the left.
+        left: Powers,
+        /// Unit on the right.
+        right: Powers,
+    },
+    /// An exponent with a unit.
+    #[error("has an exponent in {found}; an exponent is a plain number")]
+    Exponent {
+        /// Its unit.
+        found: Powers,
+    },
+    /// The result is measured in something else.
+    #[error("comes out in {found}, where {name} in {wanted} is needed; check the formula")]
+    WrongDimension {
+        /// Its unit.
+        found: Powers,
+        /// What is needed, with its article.
+        name: &'static str,
+        /// The unit needed.
+        wanted: Powers,
+    },
+}
+
+/// A formula, read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression {
+    text: String,
+    root: Node,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Node {
+    Quantity(f64, Powers),
+    Name(String),
+    Negative(Box<Node>),
+    Binary(char, Box<Node>, Box<Node>),
+}
+
+impl Expression {
+    /// Reads a formula. Numbers may carry units: `10 m/s`, `50 mm`, `1.2 kg/m^3`.
+    ///
+    /// # Errors
+    /// When the text is no formula.
+    pub fn parse(text: &str) -> Result<Self, ExpressionFault> {
+        let text = text.trim();
+        if text.len() > LONGEST {
+            return Err(ExpressionFault::TooLong);
+        }
+        let mut reader = Reader { rest: text, depth: 0 };
+        let root = reader.sum()?;
+        if !reader.rest.is_empty() {
+            return Err(reader.fault("an operator, + - * / or ^,"));
+        }
+        Ok(Self { text: text.to_owned(), root })
+    }
+
+    /// As written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The names it uses, units left out.
+    pub fn names(&self) -> BTreeSet<&str> {
+        let mut names = BTreeSet::new();
+        self.root.names(&mut names);
+        names
+    }
+
+    /// Its value in SI units, and these.
+    ///
+    /// * `of` – value and unit of a name; nothing for an unknown one
+    ///
+    /// # Errors
+    /// When units do not fit or a name is unknown.
+    pub fn value(
+        &self,
+        of: &dyn Fn(&str) -> Option<(f64, Powers)>,
+    ) -> Result<(f64, Powers), ExpressionFault> {
+        self.root.value(of)
+    }
+}
+
+impl Node {
+    fn names<'a>(&'a self, names: &mut BTreeSet<&'a str>) {
+        match self {
+            Self::Quantity(..) => {}
+            Self::Name(name) => drop(names.insert(name)),
+            Self::Negative(inner) => inner.names(names),
+            Self::Binary(_, left, right) => {
+                left.names(names);
+                right.names(names);
+            }
+        }
+    }
+
+    fn value(&self, of: &dyn Fn(&str) -> Option<(f64, Powers)>) -> Result<(f64, Powers), ExpressionFault> {
+        Ok(match self {
+            Self::Quantity(value, powers) => (*value, *powers),
+            Self::Name(name) => of(name).ok_or_else(|| ExpressionFault::UnknownName {
+                name: name.clone(),
+                advice: "write the full name of one, like air.velocity".to_owned(),
+            })?,
+            Self::Negative(inner) => {
+                let (value, powers) = inner.value(of)?;
+                (-value, powers)
+            }
+            Self::Binary(operator, left, right) => {
+                let ((a, left), (b, right)) = (left.value(of)?, right.value(of)?);
+                match operator {
+                    '*' => (a * b, left.plus(right, 1.0)),
+                    '/' => (a / b, left.plus(right, -1.0)),
+                    '^' if !right.agree(Powers::default()) => {
+                        return Err(ExpressionFault::Exponent { found: right });
+                    }
+                    '^' => (libm::pow(a, b), left.times(b)),
+                    _ if !left.agree(right) => return Err(ExpressionFault::Unlike { left, right }),
+                    '-' => (a - b, left),
+                    _ => (a + b, left),
+                }
+            }
+        })
+    }
+}
+
+struct Reader<'a> {
+    rest: &'a str,
+    depth: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn fault(&self, wanted: &'static str) -> ExpressionFault {
+        let at = if self.rest.is_empty() { "the end".to_owned() } else { excerpt(self.rest, 20) };
+        ExpressionFault::Syntax { at, wanted }
+    }
+
+    fn skip(&mut self, bytes: usize) {
+        self.rest = self.rest.get(bytes..).unwrap_or_default().trim_start();
+    }
+
+    /// The next sign, if it is one of these.
+    fn take(&mut self, signs: &[char]) -> Option<char> {
+        // As typeset, the signs of subtraction and multiplication are others.
+        let sign = self.rest.chars().next()?;
+        let plain = match sign {
+            '−' => '-',
+            '×' | '·' => '*',
+            other => other,
+        };
+        if !signs.contains(&plain) {
+            return None;
+        }
+        self.skip(sign.len_utf8());
+        Some(plain)
+    }
+
+    fn deeper(&mut self) -> Result<(), ExpressionFault> {
+        self.depth += 1;
+        if self.depth > DEEPEST { Err(ExpressionFault::TooLong) } else { Ok(()) }
+    }
+
+    fn sum(&mut self) -> Result<Node, ExpressionFault> {
+        let mut left = self.product()?;
+        while let Some(sign) = self.take(&['+', '-']) {
+            left = Node::Binary(sign, Box::new(left), Box::new(self.product()?));
+        }
+        Ok(left)
+    }
+
+    fn product(&mut self) -> Result<Node, ExpressionFault> {
+        let mut left = self.power()?;
+        while let Some(sign) = self.take(&['*', '/']) {
+            left = Node::Binary(sign, Box::new(left), Box::new(self.power()?));
+        }
+        Ok(left)
+    }
+
+    fn power(&mut self) -> Result<Node, ExpressionFault> {
+        if self.take(&['-']).is_some() {
+            self.deeper()?;
+            let inner = self.power()?;
+            self.depth -= 1;
+            return Ok(Node::Negative(Box::new(inner)));
+        }
+        let base = self.factor()?;
+        self.raised(base)
+    }
+
+    fn raised(&mut self, base: Node) -> Result<Node, ExpressionFault> {
+        if self.take(&['^']).is_none() {
+            return Ok(base);
+        }
+        self.deeper()?;
+        let exponent = self.power()?;
+        self.depth -= 1;
+        Ok(Node::Binary('^', Box::new(base), Box::new(exponent)))
+    }
+
+    fn factor(&mut self) -> Result<Node, ExpressionFault> {
+        const WANTED: &str = "a number, a key or a parenthesis";
+        if self.take(&['(']).is_some() {
+            self.deeper()?;
+            let inner = self.sum()?;
+            self.depth -= 1;
+            return match self.take(&[')']) {
+                Some(_) => Ok(inner),
+                None => Err(self.fault("a closing parenthesis")),
+            };
+        }
+        let (number, _) = super::split_number(self.rest);
+        if number.starts_with(['+', '-']) {
+            return Err(self.fault(WANTED));
+        }
+        if !number.is_empty() {
+            let value = super::shifted(number, 0).unwrap_or(f64::NAN);
+            self.skip(number.len());
+            let name = self.name();
+            let Some((scale, powers)) = unit(name) else {
+                return Ok(Node::Quantity(value, Powers::default()));
+            };
+            self.skip(name.len());
+            if self.rest.starts_with('^') {
+                // `2 mm^2` is two square millimetres.
+                let unit = self.raised(Node::Quantity(scale, powers))?;
+                let number = Node::Quantity(value, Powers::default());
+                return Ok(Node::Binary('*', Box::new(number), Box::new(unit)));
+            }
+            return Ok(exact(number, name).unwrap_or(Node::Quantity(value * scale, powers)));
+        }
+        let name = self.name();
+        if name.is_empty() {
+            return Err(self.fault(WANTED));
+        }
+        self.skip(name.len());
+        Ok(match unit(name) {
+            Some((scale, powers)) => Node::Quantity(scale, powers),
+            None => Node::Name(name.to_owned()),
+        })
+    }
+
+    /// The name that stands next; empty if none does.
+    fn name(&self) -> &'a str {
+        let is_in_name = |c: char| c.is_alphabetic() || c.is_ascii_digit() || c == '_' || c == '.';
+        let end = self.rest.find(|c| !is_in_name(c)).unwrap_or(self.rest.len());
+        let name = self.rest.get(..end).unwrap_or_default();
+        if name.starts_with(|c: char| c.is_alphabetic() || c == '_') { name } else { "" }
+    }
+}
+
+/// Size and powers of a unit by its symbol.
+fn unit(symbol: &str) -> Option<(f64, Powers)> {
+    if symbol == "kg" {
+        return Some((1.0, Powers::new(0.0, 1.0, 0.0)));
+    }
+    match exact("1", symbol)? {
+        Node::Quantity(value, powers) => Some((value, powers)),
+        _ => None,
+    }
+}
+
+/// The quantity as a key would have it, rounded once.
+fn exact(number: &str, symbol: &str) -> Option<Node> {
+    if symbol.is_empty() {
+        return None;
+    }
+    let text = format!("{number} {symbol}");
+    ALL.into_iter().find_map(|dimension| {
+        let value = dimension.parse(&text).ok()?;
+        Some(Node::Quantity(value, Powers::of(dimension)))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> Result<(f64, Powers), ExpressionFault> {
+        let of = |name: &str| match name {
+            "air.velocity" => Some((10.0, Powers::of(Dimension::Velocity))),
+            "air.length_scale" => Some((0.05, Powers::of(Dimension::Length))),
+            "air.turbulence_intensity" => Some((0.1, Powers::of(Dimension::Ratio))),
+            _ => None,
+        };
+        Expression::parse(text)?.value(&of)
+    }
+
+    #[test]
+    fn taylors_hypothesis() {
+        let (hertz, powers) = value("air.velocity / (4 * air.length_scale)").unwrap();
+        assert_eq!(hertz, 50.0);
+        assert!(powers.agree(Powers::of(Dimension::Frequency)));
+    }
+
+    #[test]
+    fn signs_bind_as_on_paper() {
+        for (text, expected) in [
+            ("1 + 2 * 3", 7.0),
+            ("(1 + 2) * 3", 9.0),
+            ("8 / 4 / 2", 1.0),
+            ("8 - 4 - 2", 2.0),
+            ("2 ^ 3 ^ 2", 512.0),
+            ("-2 ^ 2", -4.0),
+            ("2 ^ -1", 0.5),
+            ("3 - -2", 5.0),
+            ("3 × 2 − 1", 5.0),
+            ("1e-3 * 1000", 1.0),
+            ("50 mm / 1 m", 0.05),
+            ("4 mm^2 / (2 mm)^2", 1.0),
+            ("(air.velocity / 10 m * s) ^ 0.5", 1.0),
+            ("air.velocity / (10 m/s)", 1.0),
+            ("air.turbulence_intensity", 0.1),
+        ] {
+            let (found, powers) = value(text).unwrap_or_else(|fault| panic!("{text} {fault}"));
+            assert_eq!(found, expected, "{text}");
+            assert!(powers.agree(Powers::default()), "{text} comes out in {powers}");
+        }
+        assert_eq!(value("50 µm").unwrap(), (5e-5, Powers::of(Dimension::Length)));
+        assert_eq!(value("1.2 kg/m^3").unwrap(), (1.2, Powers::of(Dimension::Density)));
+    }
+
+    #[test]
+    fn rejects_what_is_no_formula() {
+        for (text, said) in [
+            ("", "cannot be read at \"the end\"; a number, a key or a parenthesis belongs there"),
+            ("1 +", "cannot be read at \"the end\"; a number, a key or a parenthesis belongs there"),
+            ("(1", "cannot be read at \"the end\"; a closing parenthesis belongs there"),
+            ("1 2", "cannot be read at \"2\"; an operator, + - * / or ^, belongs there"),
+            ("2 ^ 1 m", "has an exponent in m; an exponent is a plain number"),
+            ("air.velocity + 1 m", "adds m s^-1 and m; only like quantities can be added or subtracted"),
+            (
+                "velocity",
+                "uses velocity, which is no key with a number; write the full name of one, like air.velocity",
+            ),
+        ] {
+            assert_eq!(value(text).unwrap_err().to_string(), said, "{text}");
+        }
+        assert_eq!(value(&"(".repeat(2000)), Err(ExpressionFault::TooLong));
+        assert_eq!(value(&"(".repeat(500)), Err(ExpressionFault::TooLong));
+        assert_eq!(value(&"-".repeat(500)), Err(ExpressionFault::TooLong));
+    }
+}
