@@ -151,6 +151,7 @@ pub(super) fn case(case: &Case) -> String {
     let scheme = match run.scheme {
         Scheme::SemiImplicitEuler => "semi-implicit Euler",
         Scheme::Leapfrog => "leapfrog",
+        Scheme::ImplicitTension => "leapfrog with implicit tension",
     };
     format!(
         "A fibre of {} length and {} diameter, {held}, {medium}: {}, {}simulated for {} in {} of {} \
