@@ -14,6 +14,7 @@ mod run;
 #[cfg(test)]
 pub(crate) mod sample;
 mod scale;
+mod study;
 mod svg;
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,7 @@ pub(crate) use decimate::even;
 pub(crate) use png::png;
 pub(crate) use run::{run_figures, significant};
 pub(crate) use scale::signed;
+pub(crate) use study::{name_of_key, study_figures};
 
 /// A figure: a picture and what it shows.
 #[derive(Clone, Debug)]

@@ -6,10 +6,13 @@
 
 mod frames;
 mod page;
+mod study;
 mod table;
 #[cfg(test)]
 mod tests;
 mod words;
+
+pub(crate) use study::{StudyReport, study_html};
 
 use crate::figures::Figure;
 use spunlaid::case::Case;

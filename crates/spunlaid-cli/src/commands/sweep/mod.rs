@@ -8,15 +8,18 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
 use crate::args::Sweep;
 use crate::failure::Failure;
+use crate::figures::{Figure, png, study_figures};
 use crate::output;
+use crate::report::{StudyReport, study_html};
 use crate::say;
 use folder::StudyFolder;
 use spunlaid::ensemble::Computing;
 use spunlaid::error::Error;
 use spunlaid::input::{StudyFile, read_study, write_case};
 use spunlaid::lanes::Isa;
-use spunlaid::study::{Journal, Landing, Progress, Study, run};
-use std::path::PathBuf;
+use spunlaid::study::{Journal, Landing, Progress, Study, rankings, run};
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 
@@ -130,6 +133,21 @@ fn write(
     let study = &file.study;
     let staging = folder.staging()?;
     let results = output::study::write(&staging, study, journal)?;
+    let rankings = rankings(study, journal)?;
+    let figures = study_figures(study, &results, &rankings);
+    write_figures(&staging.join("figures"), &figures)?;
+    let report = study_html(&StudyReport {
+        name: &name(sweep),
+        study,
+        results: &results,
+        rankings: &rankings,
+        figures: &figures,
+        notes: &file.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        study_toml: &file.text,
+        case_toml: &file.case_text,
+        version: env!("CARGO_PKG_VERSION"),
+    });
+    write_file(&staging.join("report.html"), report.as_bytes())?;
     folder.publish()?;
     let flown: u64 = results.iter().map(|point| point.n + point.lost).sum();
     if !sweep.quiet {
@@ -138,9 +156,24 @@ fn write(
             say::line("finished already: nothing was left to fly, the files are written again");
         }
         say::line(&format!("{} at {}", plural(flown, "fibre"), plural(results.len() as u64, "point")));
-        say::line(&format!("open {}", folder.path().join("results.csv").display()));
+        say::line(&format!("open {}", folder.path().join("report.html").display()));
     }
     lost(study, journal, flown)
+}
+
+fn write_figures(folder: &Path, figures: &[Figure]) -> Result<(), Failure> {
+    fs::create_dir(folder).map_err(Failure::unwritable(folder))?;
+    for figure in figures {
+        write_file(&folder.join(format!("{}.svg", figure.name)), figure.svg.as_bytes())?;
+        let png = png(&figure.svg)
+            .map_err(|reason| Failure::Figure { name: figure.name.clone(), reason: reason.to_string() })?;
+        write_file(&folder.join(format!("{}.png", figure.name)), &png)?;
+    }
+    Ok(())
+}
+
+fn write_file(path: &Path, content: &[u8]) -> Result<(), Failure> {
+    fs::write(path, content).map_err(Failure::unwritable(path))
 }
 
 /// Tells which fibres were lost, if any.

@@ -27,7 +27,7 @@ impl Value {
 }
 
 /// `air.velocity_m_s`: the key and its SI unit.
-pub(crate) fn column_name(key: &str, dimension: Dimension) -> String {
+fn column_name(key: &str, dimension: Dimension) -> String {
     let unit = match dimension {
         Dimension::Length => "_m",
         Dimension::Velocity => "_m_s",
@@ -44,7 +44,7 @@ pub(crate) fn column_name(key: &str, dimension: Dimension) -> String {
 }
 
 /// Names of the inputs' columns.
-pub(crate) fn inputs(study: &Study) -> impl Iterator<Item = String> {
+fn inputs(study: &Study) -> impl Iterator<Item = String> {
     study.inputs().map(|(key, dimension)| column_name(key, dimension))
 }
 

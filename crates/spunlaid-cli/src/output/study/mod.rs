@@ -9,8 +9,6 @@ use crate::failure::Failure;
 use spunlaid::study::{Journal, Landing, MEASURES, PointResults, Record, Study, results_of_point};
 use std::path::Path;
 
-pub(crate) use self::columns::{column_name, inputs};
-
 /// Writes `results.csv`, `results.parquet` and `replicates.parquet` to a folder; gives what the points amount to.
 ///
 /// Rows are written as they are read: memory does not grow with the fibres.
@@ -67,7 +65,6 @@ fn fibre_row(study: &Study, index: usize, record: &Record) -> Vec<Value> {
     row
 }
 
-/// Columns in common: names are made once.
 fn column(name: impl Into<String>, whole: bool) -> Column {
     Column { name: name.into(), whole }
 }

@@ -1,0 +1,129 @@
+//! Results over one factor: alone, with a second as a family of curves, or with all others at the base.
+
+use super::super::Figure;
+use super::super::chart::{Chart, Series};
+use super::super::palette::{BLUE, GREEN, INK, Marker, ORANGE, PURPLE, VERMILION};
+use super::quantity::{Along, Group, label_of_key, name_of_key};
+use super::{FAMILY, figure, file_name};
+use spunlaid::study::{PointResults, Study};
+
+const COLOURS: [&str; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
+
+/// What the bars are, at the end of a caption.
+pub(super) const BARS: &str = "Bars: one standard error of the mean over the replicates, up and down.";
+
+/// A point as drawn: place, value, ± error.
+type Spot = (f64, f64, Option<f64>);
+
+fn series(group: &Group, position: usize) -> Series {
+    let label = group.of[position].1;
+    match (position, group.of.len()) {
+        (_, 1) => Series::spots("", GREEN).unlabelled(),
+        (0, _) => Series::y(label),
+        _ => Series::z(label),
+    }
+}
+
+/// Results over the first factor at all points, joined in its order.
+pub(super) fn one(study: &Study, results: &[PointResults], group: &Group) -> Figure {
+    let all: Vec<usize> = (0..results.len()).collect();
+    let others: Vec<String> = study.factors.iter().skip(1).map(|factor| name_of_key(factor.key)).collect();
+    let with =
+        if others.is_empty() { String::new() } else { format!(", {} along with it", others.join(" and ")) };
+    over(study, results, group, 0, &all, &format!("over {}{with}", name_of_key(study.factors[0].key)))
+}
+
+/// Results over a factor where all others have the values of the base case, which is the first point.
+pub(super) fn alone(study: &Study, results: &[PointResults], group: &Group, factor: usize) -> Figure {
+    let count = study.factors.len();
+    let is_alone = |point: &usize| {
+        let values = &study.points[*point].values;
+        (0..count).all(|other| other == factor || values[other] == study.points[0].values[other])
+    };
+    let points: Vec<usize> = (0..results.len()).filter(is_alone).collect();
+    let words =
+        format!("over {} alone, all else as in the base case", name_of_key(study.factors[factor].key));
+    over(study, results, group, factor, &points, &words)
+}
+
+fn over(
+    study: &Study,
+    results: &[PointResults],
+    group: &Group,
+    factor: usize,
+    points: &[usize],
+    words: &str,
+) -> Figure {
+    let along = Along::new(&study.factors[factor]);
+    let title = format!("{} {}", group.label, words.split(',').next().unwrap_or(words));
+    let name = file_name(group, study.factors[factor].key);
+    let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
+    for (position, (measure, _)) in group.of.iter().enumerate() {
+        let spots = spots(study, results, group, *measure, (factor, &along), points);
+        chart = drawn(chart, series(group, position), &spots);
+    }
+    let caption = format!("{} {words}, means over the replicates. {BARS}", group.label);
+    figure(&chart, caption)
+}
+
+/// Results over one factor, a curve for each value of another.
+pub(super) fn family(
+    study: &Study,
+    results: &[PointResults],
+    group: &Group,
+    along: usize,
+    family: usize,
+) -> Figure {
+    let (of, key) = (&study.factors[family], study.factors[along].key);
+    let place = Along::new(&study.factors[along]);
+    let title = format!("{} over {} and {}", group.label, name_of_key(key), name_of_key(of.key));
+    let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
+    for (level, colour) in of.values().into_iter().zip(COLOURS) {
+        let points: Vec<usize> =
+            (0..results.len()).filter(|point| study.points[*point].values[family] == level).collect();
+        for (position, (measure, _)) in group.of.iter().enumerate() {
+            let marker = if position == 0 { Marker::Circle } else { Marker::Triangle };
+            let label = of.dimension.pretty(level);
+            let series = Series { marker: Some(marker), ..Series::new(&label, colour) };
+            let series = if position == 0 { series } else { series.unlabelled() };
+            let spots = spots(study, results, group, *measure, (along, &place), &points);
+            chart = drawn(chart, series, &spots);
+        }
+    }
+    let signs = match group.of.as_slice() {
+        [(_, first), (_, second)] => {
+            format!(" Circles: {}, triangles: {}.", first.replace('*', ""), second.replace('*', ""))
+        }
+        _ => String::new(),
+    };
+    let caption = format!(
+        "{} over {}, a colour for each value of {}, means over the replicates.{signs} {BARS}",
+        group.label,
+        name_of_key(key),
+        super::super::svg::plain(label_of_key(of.key)),
+    );
+    figure(&chart, caption)
+}
+
+fn spots(
+    study: &Study,
+    results: &[PointResults],
+    group: &Group,
+    measure: usize,
+    (factor, along): (usize, &Along),
+    points: &[usize],
+) -> Vec<Spot> {
+    let spot = |point: &usize| {
+        let (value, error) = group.value(&results[*point], measure);
+        (along.place(study.points[*point].values[factor]), value, error)
+    };
+    let mut spots: Vec<Spot> = points.iter().map(spot).collect();
+    spots.sort_by(|a, b| a.0.total_cmp(&b.0));
+    spots
+}
+
+/// Markers with bars, joined by a fine line.
+pub(super) fn drawn(chart: Chart, series: Series, spots: &[Spot]) -> Chart {
+    let line: Vec<(f64, f64)> = spots.iter().map(|(x, y, _)| (*x, *y)).collect();
+    chart.line(series.clone().unlabelled().unmarked().width(1.0), &line).scatter(series, spots)
+}

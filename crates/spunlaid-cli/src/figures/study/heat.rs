@@ -1,0 +1,119 @@
+//! Results over two factors of many values: a map in colours.
+
+use super::super::Figure;
+use super::super::palette::{INK, PAPER};
+use super::super::significant;
+use super::super::svg::{Anchor, Stroke, Svg, Text};
+use super::quantity::{Along, Group, label_of_key, name_of_key};
+use spunlaid::study::{PointResults, Study};
+
+const SIZE: (f64, f64) = (640.0, 440.0);
+const PLOT: (f64, f64, f64, f64) = (84.0, 22.0, 500.0, 370.0);
+/// Dark blue to yellow, alike to all eyes: matplotlib's viridis at eight places.
+const COLOURS: [(f64, f64, f64); 8] = [
+    (68.0, 1.0, 84.0),
+    (70.0, 50.0, 126.0),
+    (54.0, 92.0, 141.0),
+    (39.0, 127.0, 142.0),
+    (31.0, 161.0, 135.0),
+    (74.0, 193.0, 109.0),
+    (160.0, 218.0, 57.0),
+    (253.0, 231.0, 37.0),
+];
+
+/// A map of each result of a group; the first factor upwards, the second along.
+pub(super) fn maps(study: &Study, results: &[PointResults], group: &Group) -> Vec<Figure> {
+    group.of.iter().map(|(measure, label)| map(study, results, group, *measure, label)).collect()
+}
+
+fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, label: &str) -> Figure {
+    let [up, along] = [0, 1].map(|i| study.factors[i].values());
+    let value = |i: usize, j: usize| {
+        results.get(i * along.len() + j).map_or(f64::NAN, |point| point.mean[measure] * group.factor)
+    };
+    let all: Vec<f64> = (0..up.len() * along.len())
+        .map(|k| value(k / along.len(), k % along.len()))
+        .filter(|value| value.is_finite())
+        .collect();
+    let (least, most) =
+        all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| (a.min(*value), b.max(*value)));
+    let share = |value: f64| if most > least { (value - least) / (most - least) } else { 0.5 };
+
+    let called = label.replace('*', "");
+    let which =
+        if group.of.len() == 2 { format!("{} in {called}", group.label) } else { group.label.to_owned() };
+    let names = [0, 1].map(|i| name_of_key(study.factors[i].key));
+    let title = format!("{which} over {} and {}", names[1], names[0]);
+    let mut svg = Svg::new(SIZE.0, SIZE.1, &title);
+    let (left, top, right, bottom) = PLOT;
+    let (w, h) = ((right - left) / along.len() as f64, (bottom - top) / up.len() as f64);
+    for i in 0..up.len() {
+        for j in 0..along.len() {
+            let (x, y) = (left + j as f64 * w, bottom - (i + 1) as f64 * h);
+            // A hair's breadth wider, so that no gaps show between.
+            let fill = if value(i, j).is_finite() { colour(share(value(i, j))) } else { PAPER.to_owned() };
+            rectangle(&mut svg, (x, y), (w + 0.3, h + 0.3), &fill);
+        }
+    }
+    let text = |anchor| Text { size: 13.0, colour: INK, anchor, upright: true };
+    let [of_up, of_along] = [0, 1].map(|i| Along::new(&study.factors[i]));
+    for j in some(along.len()) {
+        let x = left + (j as f64 + 0.5) * w;
+        svg.text((x, bottom + 18.0), &significant(of_along.place(along[j]), 3), text(Anchor::Middle));
+    }
+    for i in some(up.len()) {
+        let y = bottom - (i as f64 + 0.5) * h + 4.5;
+        svg.text((left - 8.0, y), &significant(of_up.place(up[i]), 3), text(Anchor::End));
+    }
+    let title_text = |upright| Text { size: 14.0, colour: INK, anchor: Anchor::Middle, upright };
+    svg.text(((left + right) / 2.0, bottom + 42.0), &of_along.axis.label, title_text(true));
+    svg.text((18.0, (top + bottom) / 2.0), &of_up.axis.label, title_text(false));
+    scale(&mut svg, group, (least, most));
+    let caption = format!(
+        "{which}, mean over the replicates, over {} (along) and {} (up). The values, with standard errors, are in \
+         results.csv.",
+        super::super::svg::plain(label_of_key(study.factors[1].key)),
+        super::super::svg::plain(label_of_key(study.factors[0].key)),
+    );
+    let axis = if group.of.len() == 2 { format!("_{}", called.replace(' ', "_")) } else { String::new() };
+    Figure { name: format!("{}{axis}_map", group.name), title, caption, svg: svg.finish() }
+}
+
+/// The colours and what they stand for.
+fn scale(svg: &mut Svg, group: &Group, (least, most): (f64, f64)) {
+    let (_, top, right, bottom) = PLOT;
+    let (left, width, steps) = (right + 24.0, 16.0, 64);
+    let height = (bottom - top) / f64::from(steps);
+    for k in 0..steps {
+        let y = bottom - f64::from(k + 1) * height;
+        rectangle(svg, (left, y), (width, height + 0.3), &colour(f64::from(k) / f64::from(steps - 1)));
+    }
+    let style = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
+    for k in 0..=4 {
+        let share = f64::from(k) / 4.0;
+        let y = bottom - share * (bottom - top);
+        svg.line((left + width, y), (left + width + 4.0, y), &Stroke::solid(INK, 0.9));
+        if least.is_finite() {
+            svg.text((left + width + 8.0, y + 4.5), &significant(least + share * (most - least), 3), style);
+        }
+    }
+    svg.text((left, bottom + 18.0), group.unit, style);
+}
+
+fn rectangle(svg: &mut Svg, (x, y): (f64, f64), (w, h): (f64, f64), fill: &str) {
+    svg.polygon(&[(x, y), (x + w, y), (x + w, y + h), (x, y + h)], fill, 1.0, None);
+}
+
+fn colour(share: f64) -> String {
+    let place = share.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
+    let below = (place.floor() as usize).min(COLOURS.len() - 2);
+    let (a, b, rest) = (COLOURS[below], COLOURS[below + 1], place - below as f64);
+    let mixed = |a: f64, b: f64| (a + (b - a) * rest).round() as u8;
+    format!("#{:02x}{:02x}{:02x}", mixed(a.0, b.0), mixed(a.1, b.1), mixed(a.2, b.2))
+}
+
+/// At most eight of so many places, evenly.
+fn some(count: usize) -> impl Iterator<Item = usize> {
+    let stride = count.div_ceil(8).max(1);
+    (0..count).step_by(stride)
+}

@@ -1,0 +1,70 @@
+//! The figures of a study: curves over one factor, families of curves over two, main effects over more.
+
+mod curves;
+mod heat;
+mod main_effects;
+mod quantity;
+mod ranking;
+#[cfg(test)]
+mod tests;
+
+use super::Figure;
+use super::chart::Chart;
+use quantity::Group;
+use spunlaid::study::{Design, PointResults, Ranking, Study};
+
+pub(crate) use quantity::name_of_key;
+
+/// Most levels of a factor that get a curve each; more become a map.
+const FAMILY: usize = 6;
+
+/// The figures of a study, in the order a reader wants them.
+pub(crate) fn study_figures(study: &Study, results: &[PointResults], rankings: &[Ranking]) -> Vec<Figure> {
+    let groups = quantity::groups();
+    let mut figures = Vec::new();
+    match (study.design, study.factors.len()) {
+        (_, 0) => {}
+        (Design::Grid | Design::OneAtATime | Design::Paired, 1) | (Design::Paired, _) => {
+            figures.extend(groups.iter().map(|group| curves::one(study, results, group)));
+        }
+        (Design::Grid, 2) => {
+            let counts = [0, 1].map(|i| study.factors[i].values().len());
+            // Along the axis what has more values, as curves what has fewer.
+            let (along, family) = if counts[0] > counts[1] { (0, 1) } else { (1, 0) };
+            for group in &groups {
+                if counts[family] <= FAMILY {
+                    figures.push(curves::family(study, results, group, along, family));
+                } else {
+                    figures.extend(heat::maps(study, results, group));
+                }
+            }
+        }
+        (Design::OneAtATime, _) => {
+            for group in groups.iter().filter(|group| group.is_motion) {
+                let alone = |factor| curves::alone(study, results, group, factor);
+                figures.extend((0..study.factors.len()).map(alone));
+            }
+        }
+        _ => {
+            for group in groups.iter().filter(|group| group.is_motion) {
+                let of = |factor| main_effects::of(study, results, rankings, group, factor);
+                figures.extend((0..study.factors.len()).map(of));
+            }
+        }
+    }
+    if study.factors.len() > 1 && !rankings.is_empty() {
+        let motion = groups.iter().filter(|group| group.is_motion);
+        let ranks: Vec<Figure> = motion.map(|group| ranking::of(study, rankings, group)).collect();
+        figures.splice(0..0, ranks);
+    }
+    figures
+}
+
+fn figure(chart: &Chart, caption: String) -> Figure {
+    Figure { name: chart.name.clone(), title: chart.title.clone(), caption, svg: chart.svg() }
+}
+
+/// Part of a file name: `air.velocity` to `air_velocity`.
+fn file_name(group: &Group, key: &str) -> String {
+    format!("{}_over_{}", group.name, key.replace('.', "_"))
+}

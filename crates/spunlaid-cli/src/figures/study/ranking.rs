@@ -1,0 +1,103 @@
+//! Which factor matters: main effects with their confidence intervals, the largest on top.
+
+use super::super::Figure;
+use super::super::draw::draw_marker;
+use super::super::palette::{BLUE, GREY, GRID, INK, Marker, VERMILION};
+use super::super::scale::{Axis, Scale};
+use super::super::svg::{Anchor, Stroke, Svg, Text, width};
+use super::quantity::{Along, Group, label_of_key};
+use spunlaid::study::{Effect, Ranking, Study};
+
+const WIDTH: f64 = 640.0;
+const ROW: f64 = 46.0;
+const TOP: f64 = 40.0;
+const SIZE: f64 = 14.0;
+const SMALL: f64 = 12.0;
+
+/// The effects on a group of results, factor by factor.
+pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
+    let of_measure = |measure: usize| rankings.iter().find(|ranking| ranking.measure == measure);
+    let shown: Vec<(&Ranking, Marker, &str, &str)> = (group.of.iter())
+        .zip([(Marker::Circle, BLUE), (Marker::Triangle, VERMILION)])
+        .filter_map(|((measure, label), (marker, colour))| {
+            Some((of_measure(*measure)?, marker, colour, *label))
+        })
+        .collect();
+    let order: Vec<usize> = shown
+        .first()
+        .map_or_else(Vec::new, |first| first.0.effects.iter().map(|effect| effect.factor).collect());
+    let ends = |effect: &Effect| {
+        let half = effect.half_width.unwrap_or(0.0);
+        [effect.change - half, effect.change + half].map(|end| end * group.factor)
+    };
+    let label = format!("Change of {} from the least to the greatest value ({})", group.words, group.unit);
+    let all = shown.iter().flat_map(|shown| shown.0.effects.iter().flat_map(ends)).chain([0.0]);
+    let scale = Scale::fit(&Axis::linear(&label), all, 7);
+
+    let height = TOP + ROW * order.len() as f64 + 58.0;
+    let title = format!("What moves the {}", group.words);
+    let mut svg = Svg::new(WIDTH, height, &title);
+    let names = order.iter().map(|factor| width(label_of_key(study.factors[*factor].key), SIZE));
+    let left = names.fold(120.0, f64::max).min(250.0) + 24.0;
+    let (right, bottom) = (WIDTH - 20.0, height - 58.0);
+    let along = |value: f64| left + scale.place(value) * (right - left);
+
+    for tick in scale.ticks.iter().filter(|tick| tick.label.is_some()) {
+        let x = along(tick.value);
+        svg.line((x, TOP), (x, bottom), &Stroke::solid(GRID, 0.8));
+        let style = Text { size: 13.0, colour: INK, anchor: Anchor::Middle, upright: true };
+        svg.text((x, bottom + 20.0), tick.label.as_deref().unwrap_or_default(), style);
+    }
+    svg.line((along(0.0), TOP), (along(0.0), bottom), &Stroke::solid(GREY, 1.2));
+    svg.line((left, bottom), (right, bottom), &Stroke::solid(INK, 0.9));
+    let style = Text { size: SIZE, colour: INK, anchor: Anchor::Middle, upright: true };
+    svg.text(((left + right) / 2.0, bottom + 44.0), &label, style);
+
+    let mut key = left;
+    for (_, marker, colour, label) in &shown {
+        draw_marker(&mut svg, (key + 8.0, 18.0), *marker, colour);
+        let style = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
+        svg.text((key + 20.0, 22.5), label, style);
+        key += 60.0;
+    }
+    for (row, factor) in order.iter().enumerate() {
+        let y = TOP + ROW * (row as f64 + 0.5);
+        let of = &study.factors[*factor];
+        let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
+        svg.text((left - 12.0, y - 2.0), label_of_key(of.key), name);
+        let (least, greatest) = of.ends();
+        let place = Along::new(of);
+        let number = |value: f64| super::super::significant(place.place(value), 3);
+        let range = format!("{} to {} {}", number(least), number(greatest), place.unit);
+        let style = Text { size: SMALL, colour: GREY, anchor: Anchor::End, upright: true };
+        svg.text((left - 12.0, y + 14.0), range.trim_end(), style);
+        for (index, (ranking, marker, colour, _)) in shown.iter().enumerate() {
+            let Some(effect) = ranking.effects.iter().find(|effect| effect.factor == *factor) else {
+                continue;
+            };
+            let y = if shown.len() == 1 { y } else { y - 8.0 + 16.0 * index as f64 };
+            let [low, high] = ends(effect).map(along);
+            let stroke = Stroke::solid(colour, 1.4);
+            svg.line((low, y), (high, y), &stroke);
+            for end in [low, high] {
+                svg.line((end, y - 3.5), (end, y + 3.5), &stroke);
+            }
+            draw_marker(&mut svg, (along(effect.change * group.factor), y), *marker, colour);
+        }
+    }
+    let explained: Vec<String> = shown
+        .iter()
+        .map(|(ranking, .., label)| {
+            format!("{:.0} % in {}", 100.0 * ranking.explained, label.replace('*', ""))
+        })
+        .collect();
+    let caption = format!(
+        "How much the {} changes from the least to the greatest value of each factor, on the straight line that fits \
+         all points best, the other factors held. Bars: 95 % confidence intervals; one that reaches across zero may be \
+         no effect at all. The line explains {} of the variation between points; where that is little, look at the \
+         curves instead.",
+        group.words,
+        explained.join(" and "),
+    );
+    Figure { name: format!("{}_ranking", group.name), title, caption, svg: svg.finish() }
+}

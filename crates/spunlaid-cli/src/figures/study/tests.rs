@@ -1,0 +1,81 @@
+//! Every figure of every kind of study can be drawn.
+
+use super::super::{png, sample};
+use super::*;
+use spunlaid::study::{Effect, Factor, Levels, MEASURES, Point, Replicates, Spacing};
+use spunlaid::units::Dimension;
+
+/// A study of made-up factors and results.
+fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
+    let keys = [
+        ("air.velocity", Dimension::Velocity),
+        ("fibre.diameter", Dimension::Length),
+        ("air.turbulence_intensity", Dimension::Ratio),
+    ];
+    let factors: Vec<Factor> = (keys.iter().zip(counts))
+        .map(|(&(key, dimension), &steps)| {
+            let spacing = if key == "fibre.diameter" { Spacing::Logarithmic } else { Spacing::Linear };
+            let steps = (!design.draws()).then_some(steps as u64);
+            let levels = Levels::Range { from: 1e-3, to: 1e-1, steps, spacing };
+            Factor { key, dimension, whole: false, levels }
+        })
+        .collect();
+    let rows = design.rows(&factors, &vec![1e-3; factors.len()], 1);
+    let case = sample::case(2, 2, 1);
+    let points: Vec<Point> = rows.into_iter().map(|values| Point { values, case }).collect();
+    let results = (points.iter().enumerate())
+        .map(|(i, point)| PointResults {
+            n: 10,
+            lost: 0,
+            mean: std::array::from_fn(|m| if i == 1 { f64::NAN } else { point.values[0] * (m + 1) as f64 }),
+            standard_error: [Some(1e-3); MEASURES.len()],
+        })
+        .collect();
+    let (links, replicates) = (Vec::new(), Replicates::fixed(10));
+    (Study { factors, links, design, seed: 1, common_phases: true, replicates, points }, results)
+}
+
+fn rankings(study: &Study) -> Vec<Ranking> {
+    let effect = |factor: usize| Effect {
+        factor,
+        change: -0.01 / (factor + 1) as f64,
+        half_width: (factor > 0).then_some(0.006),
+    };
+    let effects: Vec<Effect> = (0..study.factors.len()).map(effect).collect();
+    let ranking = |measure| Ranking { measure, middle: 0.1, explained: 0.9, effects: effects.clone() };
+    (0..MEASURES.len()).map(ranking).collect()
+}
+
+#[test]
+fn draws_every_kind_of_study() {
+    for (design, counts, expected) in [
+        (Design::Grid, &[5][..], 5),
+        (Design::Grid, &[1], 5),
+        (Design::Grid, &[5, 3], 5 + 2),
+        (Design::Grid, &[9, 30], 8 + 2),
+        (Design::Grid, &[3, 4, 2], 6 + 2),
+        (Design::OneAtATime, &[3, 4, 2], 6 + 2),
+        (Design::Paired, &[3, 3], 5 + 2),
+        (Design::LatinHypercube(64), &[0, 0, 0], 6 + 2),
+        (Design::Sobol(2000), &[0, 0], 4 + 2),
+    ] {
+        let (study, results) = study(design, counts);
+        let figures = study_figures(&study, &results, &rankings(&study));
+        let names: std::collections::BTreeSet<&str> = figures.iter().map(|f| f.name.as_str()).collect();
+        assert_eq!((figures.len(), names.len()), (expected, expected), "{design:?} {counts:?} {names:?}");
+        for figure in &figures {
+            let svg = &figure.svg;
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}:\n{svg}", figure.name);
+            assert!(svg.len() < 400_000 && !figure.caption.contains("NaN"), "{}", figure.name);
+            assert!(png(svg).unwrap().len() > 1000, "{}", figure.name);
+        }
+    }
+}
+
+#[test]
+fn keys_are_named_in_words() {
+    assert_eq!(name_of_key("air.velocity"), "mean velocity");
+    assert_eq!(name_of_key("fibre.youngs_modulus"), "Young’s modulus");
+    assert_eq!(name_of_key("air.length_scale"), "length of the eddies");
+    assert_eq!(name_of_key("air.harmonics"), "number of harmonics");
+}

@@ -1,0 +1,226 @@
+//! `report.html` of a study: the question, the ranking, the figures, the points. Nothing in it depends on when or
+//! how fast it was computed.
+
+use super::words::{count, number, plus_minus};
+use crate::figures::{Figure, name_of_key};
+use askama::Template;
+use spunlaid::statistics::Estimate;
+use spunlaid::study::{Design, Effect, PointResults, Ranking, Study};
+
+/// Most points that are listed.
+const LISTED: usize = 500;
+
+/// Results that are listed: index into the measures, head, factor from SI.
+const SHOWN: [(usize, &str, f64); 6] = [
+    (0, "Amplitude in y (mm)", 1e3),
+    (1, "Amplitude in z (mm)", 1e3),
+    (2, "Frequency in y (Hz)", 1.0),
+    (3, "Frequency in z (Hz)", 1.0),
+    (4, "Mean x (mm)", 1e3),
+    (7, "Largest strain (%)", 1e2),
+];
+
+/// Everything the report shows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StudyReport<'a> {
+    /// What the study is called: the name of its file.
+    pub(crate) name: &'a str,
+    pub(crate) study: &'a Study,
+    /// Of every point.
+    pub(crate) results: &'a [PointResults],
+    /// Main effects; none where the design does not tell them.
+    pub(crate) rankings: &'a [Ranking],
+    pub(crate) figures: &'a [Figure],
+    /// Warnings and remarks for the reader.
+    pub(crate) notes: &'a [String],
+    /// The study and its base case as files.
+    pub(crate) study_toml: &'a str,
+    pub(crate) case_toml: &'a str,
+    /// Version of the program.
+    pub(crate) version: &'a str,
+}
+
+/// What `assets/study.html` is filled with; everything is escaped there but what is marked safe.
+#[derive(Template)]
+#[template(path = "study.html")]
+struct Page<'a> {
+    name: &'a str,
+    question: String,
+    summary: String,
+    phases: &'static str,
+    notes: &'a [String],
+    ranking_heads: Vec<&'static str>,
+    rankings: Vec<RankingRow>,
+    explained: Vec<String>,
+    figures: &'a [Figure],
+    heads: Vec<String>,
+    rows: Vec<Row>,
+    unlisted: usize,
+    study_toml: &'a str,
+    case_toml: &'a str,
+    version: &'a str,
+    style: &'static str,
+    study_style: &'static str,
+}
+
+struct Row {
+    number: usize,
+    cells: Vec<String>,
+}
+
+struct RankingRow {
+    name: String,
+    range: String,
+    cells: Vec<Cell>,
+}
+
+struct Cell {
+    text: String,
+    /// May be no effect at all.
+    faint: bool,
+}
+
+/// The report as one HTML file.
+pub(crate) fn study_html(input: &StudyReport<'_>) -> String {
+    let study = input.study;
+    let shown = if study.factors.len() > 1 { input.rankings } else { &[] };
+    let page = Page {
+        name: input.name,
+        question: question(study),
+        summary: summary(study, input.results),
+        phases: phases(study),
+        notes: input.notes,
+        ranking_heads: SHOWN.map(|(_, head, _)| head).to_vec(),
+        rankings: ranking_rows(study, shown),
+        explained: explained(shown),
+        figures: input.figures,
+        heads: heads(study),
+        rows: rows(study, input.results),
+        unlisted: input.results.len().saturating_sub(LISTED),
+        study_toml: input.study_toml,
+        case_toml: input.case_toml,
+        version: input.version,
+        style: include_str!("../../assets/report.css"),
+        study_style: include_str!("../../assets/study.css"),
+    };
+    // Writing to a string fails only where a value's own formatting does, and none here can.
+    page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
+}
+
+fn question(study: &Study) -> String {
+    let names: Vec<String> = study.factors.iter().map(|factor| name_of_key(factor.key)).collect();
+    match names.as_slice() {
+        [] => "How does the fibre move?".to_owned(),
+        [one] => format!("How does the fibre’s motion depend on the {one}?"),
+        [one, two] => format!("How does the fibre’s motion depend on the {one} and the {two}?"),
+        [first @ .., last] => {
+            format!("What moves the fibre: the {} or the {last}?", first.join(", the "))
+        }
+    }
+}
+
+fn summary(study: &Study, results: &[PointResults]) -> String {
+    let how = match study.design {
+        Design::Grid => "every value with every other",
+        Design::OneAtATime => "the base case, and from there one factor at a time",
+        Design::Paired => "the values of the lists taken together",
+        Design::LatinHypercube(_) => {
+            "a Latin hypercube: the range of each factor cut into as many slices as there are points, each slice hit once"
+        }
+        Design::Sobol(_) => "the first points of Sobol’s sequence, evenly spread over all ranges",
+    };
+    let fibres: u64 = results.iter().map(|point| point.n).sum();
+    let least = results.iter().map(|point| point.n).min().unwrap_or(0);
+    let most = results.iter().map(|point| point.n).max().unwrap_or(0);
+    let each = if least == most { least.to_string() } else { format!("{least} to {most}") };
+    let mut text = format!(
+        "{}: {how}. {} at each, {} in all.",
+        count(results.len() as u64, "point"),
+        if most == 1 { "1 replicate".to_owned() } else { format!("{each} replicates") },
+        count(fibres, "fibre")
+    );
+    for link in &study.links {
+        let (name, formula) = (name_of_key(link.key), link.expression.text());
+        text += &format!(" The {name} follows from the others: {} = {formula}.", link.key);
+    }
+    let lost: u64 = results.iter().map(|point| point.lost).sum();
+    if lost > 0 {
+        text += &format!(
+            " {} lost, their positions no longer numbers; they are left out of all means.",
+            if lost == 1 { "1 fibre was".to_owned() } else { format!("{lost} fibres were") }
+        );
+    }
+    text
+}
+
+fn phases(study: &Study) -> &'static str {
+    if study.common_phases {
+        "Common phases: replicate 1 of every point flies in turbulence of the same random phases, and so on. Differences \
+         between points then show more sharply than the error bars of each suggest; what the phases have in common moves \
+         all points alike."
+    } else {
+        "Every point has random phases of its own: the points are independent of each other."
+    }
+}
+
+fn heads(study: &Study) -> Vec<String> {
+    let inputs = study.inputs().map(|(key, _)| key.to_owned());
+    inputs.chain(SHOWN.map(|(_, head, _)| head.to_owned())).chain(["n".to_owned()]).collect()
+}
+
+fn rows(study: &Study, results: &[PointResults]) -> Vec<Row> {
+    let row = |(index, point): (usize, &PointResults)| {
+        let values = study.points[index].values.iter().zip(study.inputs());
+        let inputs = values.map(|(value, (_, dimension))| dimension.pretty(*value));
+        let results = SHOWN.map(|(measure, _, factor)| {
+            let (mean, standard_error) = (point.mean[measure], point.standard_error[measure]);
+            plus_minus(&Estimate { mean, standard_error, values: Vec::new() }, factor)
+        });
+        Row { number: index + 1, cells: inputs.chain(results).chain([point.n.to_string()]).collect() }
+    };
+    results.iter().enumerate().take(LISTED).map(row).collect()
+}
+
+fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
+    let Some(first) = rankings.first() else {
+        return Vec::new();
+    };
+    let row = |effect: &Effect| {
+        let factor = &study.factors[effect.factor];
+        let (least, greatest) = factor.ends();
+        let pretty = |value| factor.dimension.pretty(value);
+        RankingRow {
+            name: name_of_key(factor.key),
+            range: format!("{} to {}", pretty(least), pretty(greatest)),
+            cells: SHOWN
+                .iter()
+                .map(|(measure, _, unit)| cell(rankings, *measure, effect.factor, *unit))
+                .collect(),
+        }
+    };
+    // In the order of the effects on the amplitude.
+    first.effects.iter().map(row).collect()
+}
+
+fn cell(rankings: &[Ranking], measure: usize, factor: usize, unit: f64) -> Cell {
+    let ranking = rankings.iter().find(|ranking| ranking.measure == measure);
+    let effect = ranking.and_then(|ranking| ranking.effects.iter().find(|effect| effect.factor == factor));
+    effect.map_or_else(
+        || Cell { text: "–".to_owned(), faint: true },
+        |effect| {
+            let (mean, standard_error) = (effect.change, effect.half_width);
+            let estimate = Estimate { mean, standard_error, values: Vec::new() };
+            let faint = effect.half_width.is_none_or(|half| !(half < effect.change.abs()));
+            Cell { text: plus_minus(&estimate, unit), faint }
+        },
+    )
+}
+
+fn explained(rankings: &[Ranking]) -> Vec<String> {
+    let of = |(measure, ..): &(usize, &str, f64)| {
+        let ranking = rankings.iter().find(|ranking| ranking.measure == *measure);
+        ranking
+            .map_or_else(String::new, |ranking| format!("{} %", number((ranking.explained * 100.0).round())))
+    };
+    SHOWN.iter().map(of).collect()
+}
