@@ -135,7 +135,7 @@ fn rejects_no_more_than_people_read() {
     let text: String = (0..1000).map(|i| format!("strange_key_{i} = 1\n")).collect();
     let error = parse_case(&text, "many.toml", &[]).unwrap_err();
     assert_eq!(error.to_string().lines().count(), 21);
-    assert!(error.to_string().ends_with("\nand 990 more like these"), "{error}");
+    assert!(error.to_string().ends_with("\nand 989 more like these"), "{error}");
 }
 
 #[test]

@@ -50,6 +50,7 @@ pub(crate) const FRICTION_COEFFICIENT: Quantity =
     quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative);
 
 pub(crate) const DURATION: Quantity = quantity("run.duration", Dimension::Time, Positive);
+pub(crate) const ERROR_TOLERANCE: Quantity = quantity("run.error_tolerance", Dimension::Ratio, Positive);
 pub(crate) const TIME_STEP: Quantity = quantity("run.time_step", Dimension::Time, Positive);
 pub(crate) const GRAVITY: Quantity = quantity("run.gravity", Dimension::Acceleration, Any);
 pub(crate) const SPIN_UP: Quantity = quantity("run.spin_up", Dimension::Time, NotNegative);
@@ -57,7 +58,7 @@ pub(crate) const OUTPUT_INTERVAL: Quantity = quantity("run.output_interval", Dim
 pub(crate) const DAMPING: Quantity = quantity("run.damping", Dimension::Rate, NotNegative);
 
 /// Every key whose value is a quantity.
-pub(crate) const QUANTITIES: [&Quantity; 18] = [
+pub(crate) const QUANTITIES: [&Quantity; 19] = [
     &LENGTH,
     &DIAMETER,
     &FIBRE_DENSITY,
@@ -72,6 +73,7 @@ pub(crate) const QUANTITIES: [&Quantity; 18] = [
     &FRICTION_COEFFICIENT,
     &DURATION,
     &TIME_STEP,
+    &ERROR_TOLERANCE,
     &GRAVITY,
     &SPIN_UP,
     &OUTPUT_INTERVAL,

@@ -4,10 +4,12 @@ mod check;
 pub(crate) mod keys;
 mod memory;
 mod note;
+mod step;
 
 pub use check::{MOST_RECORDS, MOST_STEPS};
 pub use memory::{BUNDLE_MEMORY_LIMIT, BundleMemory};
 pub use note::{Note, Remark};
+pub use step::{ERROR_TOLERANCE, StepChoice};
 
 use crate::air::{Air, Eddies};
 use crate::chain::Strand;

@@ -1,5 +1,6 @@
 //! Remarks on a case that can be run all the same.
 
+use super::StepChoice;
 use crate::error::Finding;
 use crate::units::Dimension;
 
@@ -32,6 +33,20 @@ pub enum Remark {
         /// Their length [s].
         time_step: f64,
     },
+    /// A step that the case leaves open.
+    #[error(
+        "is taken, {}; stable up to {}",
+        choice.reason(), Dimension::Time.pretty(*limit)
+    )]
+    StepChosen {
+        /// What it was chosen by.
+        choice: StepChoice,
+        /// Longest stable step [s].
+        limit: f64,
+    },
+    /// A tolerance without a step to choose.
+    #[error("has no effect, since run.time_step is given; strike out one of the two")]
+    ToleranceUnused,
     /// A time that is not a whole number of steps.
     #[error("is no whole number of time steps: {} is taken", Dimension::Time.pretty(*time))]
     TimeRounded {

@@ -21,6 +21,7 @@ pub(super) const TABLES: [(&str, &[&str]); 4] = [
         &[
             "duration",
             "time_step",
+            "error_tolerance",
             "replicates",
             "seed",
             "scheme",

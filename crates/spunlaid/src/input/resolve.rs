@@ -5,7 +5,7 @@ use super::document::{Document, Entry, kind};
 use super::layout::VERSION;
 use crate::air::Air;
 use crate::case::keys::{self, Quantity};
-use crate::case::{Case, MOST_RECORDS, MOST_STEPS, Note, Remark, Run};
+use crate::case::{Case, ERROR_TOLERANCE, MOST_RECORDS, MOST_STEPS, Note, Remark, Run};
 use crate::chain::schemes::Scheme;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::error::{Error, Fault, Finding, Place};
@@ -69,7 +69,18 @@ pub(super) fn base(mut document: Document<'_>) -> Result<Base, Error> {
     if !document.problems.is_empty() {
         return Err(Document::sorted(document.problems).into());
     }
-    let Written { fibre, element_length, air, harmonics, drag, duration, time_step, spin_up, .. } = written;
+    let Written {
+        fibre,
+        element_length,
+        air,
+        harmonics,
+        drag,
+        duration,
+        time_step,
+        error_tolerance,
+        spin_up,
+        ..
+    } = written;
     let mut values = BTreeMap::from(
         [
             (&keys::LENGTH, fibre.length),
@@ -84,7 +95,6 @@ pub(super) fn base(mut document: Document<'_>) -> Result<Base, Error> {
             (&keys::VISCOSITY, air.kinematic_viscosity),
             (&keys::FRICTION_COEFFICIENT, drag.friction_coefficient),
             (&keys::DURATION, duration),
-            (&keys::TIME_STEP, time_step),
             (&keys::GRAVITY, written.run.gravity),
             (&keys::SPIN_UP, spin_up),
             (&keys::DAMPING, written.run.damping),
@@ -92,6 +102,8 @@ pub(super) fn base(mut document: Document<'_>) -> Result<Base, Error> {
         .map(|(quantity, value)| (quantity.key, Some(value))),
     );
     values.insert(keys::ELEMENT_LENGTH.key, element_length);
+    values.insert(keys::TIME_STEP.key, time_step);
+    values.insert(keys::ERROR_TOLERANCE.key, error_tolerance);
     values.insert(keys::OUTPUT_INTERVAL.key, written.output_interval);
     values.insert(keys::HARMONICS, harmonics.map(|harmonics| harmonics as f64));
     Ok(Base { values, replicates: written.run.replicates, seed: written.run.seed })
@@ -148,7 +160,8 @@ struct Written {
     harmonics: Option<u64>,
     drag: Drag,
     duration: f64,
-    time_step: f64,
+    time_step: Option<f64>,
+    error_tolerance: Option<f64>,
     spin_up: f64,
     output_interval: Option<f64>,
     /// Its times are still to be filled in.
@@ -187,11 +200,12 @@ impl Written {
             friction_coefficient: d.optional(&keys::FRICTION_COEFFICIENT).unwrap_or(FRICTION_COEFFICIENT),
         };
         let duration = d.required(&keys::DURATION, "duration = \"1 s\"");
-        let time_step = d.required(&keys::TIME_STEP, "time_step = \"1 µs\"");
+        let time_step = d.optional(&keys::TIME_STEP);
+        let error_tolerance = d.optional(&keys::ERROR_TOLERANCE);
         let spin_up = d.optional(&keys::SPIN_UP).unwrap_or(0.0);
         let output_interval = d.optional(&keys::OUTPUT_INTERVAL);
         let run = Run {
-            time_step,
+            time_step: time_step.unwrap_or(duration),
             steps: 0,
             spin_up_steps: 0,
             output_steps: 0,
@@ -211,6 +225,7 @@ impl Written {
             drag,
             duration,
             time_step,
+            error_tolerance,
             spin_up,
             output_interval,
             run,
@@ -220,6 +235,7 @@ impl Written {
     /// The case that is meant, before it is checked.
     fn case(&self, sources: &Sources, notes: &mut Vec<Note>) -> Result<Case, Error> {
         let Self { mut fibre, mut air, mut run, drag, .. } = *self;
+        let mut chosen = Vec::new();
         let mut note = |quantity: &Quantity, value: f64, remark: Remark| {
             let value = Some(quantity.dimension.pretty(value));
             let key = quantity.key.to_owned();
@@ -235,22 +251,39 @@ impl Written {
             note(&keys::ELEMENT_LENGTH, element_length, remark);
         }
 
-        let steps = (self.duration / self.time_step).ceil().max(1.0);
+        let time_step = self.time_step.unwrap_or_else(|| {
+            let open = Case { fibre, air, drag, run };
+            let tolerance = self.error_tolerance.unwrap_or(ERROR_TOLERANCE);
+            let (time_step, choice) = open.suggested_time_step(tolerance, self.duration);
+            let limits = open.stable_step_limits();
+            let limit = limits.iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
+            let value = Some(keys::TIME_STEP.dimension.pretty(time_step));
+            let (place, key) = (sources.file.clone(), keys::TIME_STEP.key.to_owned());
+            chosen.push(Note { place, key, value, what: Remark::StepChosen { choice, limit } });
+            time_step
+        });
+        if let (Some(_), Some(tolerance)) = (self.time_step, self.error_tolerance) {
+            note(&keys::ERROR_TOLERANCE, tolerance, Remark::ToleranceUnused);
+        }
+
+        let steps = (self.duration / time_step).ceil().max(1.0);
         if steps > MOST_STEPS as f64 {
-            let fault = Fault::TooManySteps { steps, most: MOST_STEPS as f64, time_step: self.time_step };
+            let fault = Fault::TooManySteps { steps, most: MOST_STEPS as f64, time_step };
             let value = Some(keys::DURATION.dimension.pretty(self.duration));
             let problem =
                 Finding { place: Place::Code, key: keys::DURATION.key.to_owned(), value, what: fault };
             return Err(vec![sources.placed(problem)].into());
         }
-        let (nearest, whole) = nearest_whole(self.duration, self.time_step);
-        run.steps = nearest;
+        let (nearest, whole) = nearest_whole(self.duration, time_step);
+        (run.steps, run.time_step) = (nearest, time_step);
         if !whole || nearest == 0 {
             // More steps, and these shorter: never beyond a limit that the step as written keeps.
             run.steps = steps as u64;
             run.time_step = self.duration / steps;
             let remark = Remark::StepShortened { steps: run.steps, time_step: run.time_step };
-            note(&keys::TIME_STEP, self.time_step, remark);
+            if self.time_step.is_some() {
+                note(&keys::TIME_STEP, time_step, remark);
+            }
         }
 
         let (spin_up_steps, whole) = nearest_whole(self.spin_up, run.time_step);
@@ -272,6 +305,7 @@ impl Written {
             Some(harmonics) => usize::try_from(harmonics).unwrap_or(usize::MAX),
             None => Air::default_harmonics(air.cutoff_frequency, run.duration()),
         };
+        notes.append(&mut chosen);
         Ok(Case { fibre, air, drag, run })
     }
 }

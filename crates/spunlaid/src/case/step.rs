@@ -1,0 +1,87 @@
+//! The time step where the case leaves it open.
+
+use super::Case;
+use crate::chain::schemes::Scheme;
+use std::f64::consts::PI;
+
+/// Error tolerance where the case leaves it open too [-].
+pub const ERROR_TOLERANCE: f64 = 0.003;
+
+/// What a chosen time step was chosen by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StepChoice {
+    /// The error of the end node's path.
+    Error,
+    /// Half the stability limit.
+    Stability,
+    /// The run itself is not longer.
+    Duration,
+}
+
+impl StepChoice {
+    /// In words.
+    pub const fn reason(self) -> &'static str {
+        match self {
+            Self::Error => "for the error tolerance",
+            Self::Stability => "half the stability limit",
+            Self::Duration => "the whole run",
+        }
+    }
+}
+
+impl Case {
+    /// A time step [s] that keeps the end node's path within `tolerance` of its amplitude, stable with room
+    /// to spare, of one leading digit 1, 2 or 5; whatever [`Run::time_step`](super::Run) says now.
+    ///
+    /// The error is that of the paper's Table 1 case against the converged path, `0.20 ω_c h` for
+    /// semi-implicit Euler, `0.06 (ω_c h)²` for leapfrog and `0.12 (ω_c h)²` for implicit tension, with the
+    /// cut-off `ω_c` of the spectrum.                                         theory.md (32)
+    ///
+    /// * `duration` – of the run [s]
+    pub fn suggested_time_step(&self, tolerance: f64, duration: f64) -> (f64, StepChoice) {
+        let cutoff = 2.0 * PI * self.air.cutoff_frequency;
+        let accurate = match self.run.scheme {
+            Scheme::SemiImplicitEuler => tolerance / (0.20 * cutoff),
+            Scheme::Leapfrog => (tolerance / 0.06).sqrt() / cutoff,
+            Scheme::ImplicitTension => (tolerance / 0.12).sqrt() / cutoff,
+        };
+        let limits = self.stable_step_limits();
+        let stable = 0.5 * limits.iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
+        let (longest, choice) =
+            if accurate <= stable { (accurate, StepChoice::Error) } else { (stable, StepChoice::Stability) };
+        if longest >= duration { (duration, StepChoice::Duration) } else { (round_down(longest), choice) }
+    }
+}
+
+/// The largest of 1, 2, 5 times a power of ten that is not above a positive number.
+fn round_down(value: f64) -> f64 {
+    let exponent = value.log10().floor() as i32;
+    // Read from text, so that 2e-4 is the number that is written so.
+    let candidate = |digit: &str, exponent: i32| format!("{digit}e{exponent}").parse().unwrap_or(value);
+    [("5", exponent), ("2", exponent), ("1", exponent), ("5", exponent - 1)]
+        .into_iter()
+        .map(|(digit, exponent)| candidate(digit, exponent))
+        .find(|&candidate| candidate <= value)
+        .unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::round_down;
+
+    #[test]
+    fn analytic_round_down() {
+        let pairs = [
+            (1.0, 1.0),
+            (1.9, 1.0),
+            (2.0, 2.0),
+            (4.99e-4, 2e-4),
+            (5e-5, 5e-5),
+            (9.99e-6, 5e-6),
+            (1e-6, 1e-6),
+        ];
+        for (value, expected) in pairs {
+            assert_eq!(round_down(value), expected, "{value}");
+        }
+    }
+}
