@@ -1,0 +1,195 @@
+//! What a flight costs, counted instead of timed: steps, samples of the turbulence, records, memory.
+//!
+//! The counts are frozen. One that changes is no error of the physics, but a run has become dearer or
+//! cheaper: change the number here when that is meant, and `docs/performance.md` with it.
+
+#![allow(clippy::expect_used)]
+
+mod common;
+
+use common::*;
+use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
+use spunlaid::case::{Case, Run};
+use spunlaid::chain::Strand;
+use spunlaid::chain::schemes::Scheme;
+use spunlaid::ensemble::bundle::Bundle;
+use spunlaid::ensemble::{Computing, Flight, Job, KeepShapes, Results, fly_together};
+use spunlaid::lanes::{Isa, WIDTH};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+/// The system's allocator, which counts what each thread asks of it.
+struct Counting;
+
+thread_local! {
+    /// Blocks taken so far; bytes held now, and at most.
+    static TAKEN: Cell<u64> = const { Cell::new(0) };
+    static HELD: Cell<i64> = const { Cell::new(0) };
+    static PEAK: Cell<i64> = const { Cell::new(0) };
+}
+
+fn count(bytes: i64) {
+    TAKEN.set(TAKEN.get() + u64::from(bytes > 0));
+    HELD.set(HELD.get() + bytes);
+    PEAK.set(PEAK.get().max(HELD.get()));
+}
+
+// SAFETY: the system's allocator does all of it; counting touches none of its memory.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count(layout.size() as i64);
+        // SAFETY: the caller's promise, passed on.
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
+        count(-(layout.size() as i64));
+        // SAFETY: as above.
+        unsafe { System.dealloc(block, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// What some work asked of memory.
+struct Memory {
+    blocks: u64,
+    /// Bytes that its result holds, and most bytes held at once on the way, over what was held before.
+    kept: i64,
+    peak: i64,
+}
+
+fn memory_of<T>(work: impl FnOnce() -> T) -> (T, Memory) {
+    let (blocks, held) = (TAKEN.get(), HELD.get());
+    PEAK.set(held);
+    let result = work();
+    let memory = Memory { blocks: TAKEN.get() - blocks, kept: HELD.get() - held, peak: PEAK.get() - held };
+    (result, memory)
+}
+
+fn table1(scheme: Scheme, time_step: f64, duration: f64) -> Case {
+    let run = Run {
+        time_step,
+        steps: (duration / time_step).round() as u64,
+        spin_up_steps: 0,
+        output_steps: (1e-3 / time_step).round() as u64,
+        replicates: WIDTH as u64,
+        seed: 1,
+        scheme,
+        gravity: 9.81,
+        damping: 0.0,
+    };
+    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
+}
+
+fn flights(case: &Case) -> (Vec<Flight>, u64) {
+    let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
+    let computing = Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps };
+    let jobs: Vec<Job<'_>> = (0..case.run.replicates).map(|replicate| Job { case, replicate }).collect();
+    let flights = fly_together(&jobs, KeepShapes::NONE, computing).expect("the case flies");
+    (flights, fibre_steps.into_inner())
+}
+
+#[test]
+fn frozen_steps_and_records_of_a_flight() {
+    for (scheme, h, steps) in [
+        (Scheme::SemiImplicitEuler, 1e-6, 20_000),
+        (Scheme::Leapfrog, 2e-5, 1_000),
+        (Scheme::ImplicitTension, 2e-4, 100),
+    ] {
+        let (flights, fibre_steps) = flights(&table1(scheme, h, 0.02));
+        assert_eq!(fibre_steps, steps * WIDTH as u64, "{}", scheme.name());
+        for flight in &flights {
+            // Every millisecond, the start included.
+            assert_eq!(flight.samples.len(), 21);
+            assert!(flight.shapes.is_empty());
+        }
+    }
+}
+
+#[test]
+fn frozen_longest_steps_of_each_scheme() {
+    // What a study may use at most: a tighter limit makes it dearer by as much.
+    let limit = |scheme, diameter: f64, element: f64| {
+        let mut case = table1(scheme, 1e-6, 1.0);
+        case.fibre.diameter = diameter;
+        case.fibre.elements = (1.0 / element).round() as usize;
+        let limits = case.step_limits();
+        limits.iter().map(|l| l.limit).fold(f64::INFINITY, f64::min)
+    };
+    for (scheme, diameter, element, microseconds) in [
+        (Scheme::SemiImplicitEuler, 50e-6, 0.05, 34.46),
+        (Scheme::Leapfrog, 50e-6, 0.05, 34.46),
+        (Scheme::ImplicitTension, 50e-6, 0.05, 3199.95),
+        (Scheme::Leapfrog, 18e-6, 0.001, 0.6892),
+        (Scheme::ImplicitTension, 18e-6, 0.001, 28.3236),
+    ] {
+        let found = limit(scheme, diameter, element) * 1e6;
+        assert!((found / microseconds - 1.0).abs() < 1e-3, "{} {found} µs", scheme.name());
+    }
+}
+
+#[test]
+fn frozen_harmonics_and_samples_of_the_turbulence() {
+    // Harmonics of Table 1, by its duration; samples per second: four per harmonic in N_h/f.
+    for (duration, harmonics) in [(0.1, 128), (1.0, 256), (10.0, 2_048), (100.0, 32_768)] {
+        assert_eq!(Air::default_harmonics(100.0, duration), harmonics);
+    }
+    let columns = 20.0 * 3.0 * 8.0 * 8.0;
+    for (duration, samples) in [(0.1, 49.0), (1.0, 409.0), (10.0, 4_009.0)] {
+        let air = Air { harmonics: Air::default_harmonics(100.0, duration), ..table1_air() };
+        assert_eq!(Turbulence::memory(&air, 20, duration), samples * columns, "{duration} s");
+    }
+}
+
+#[test]
+fn frozen_memory_of_a_bundle() {
+    for (scheme, bytes_per_node) in
+        [(Scheme::SemiImplicitEuler, 960), (Scheme::Leapfrog, 960), (Scheme::ImplicitTension, 1984)]
+    {
+        let kept = |elements: usize| {
+            let fibre = spunlaid::fibre::Fibre { elements, ..table1_fibre() };
+            let (eddies, turbulence) = steady_air(10.0, elements, 1e-3);
+            let strand = in_vacuum(fibre, 9.81);
+            let new = || Bundle::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, 1e-9, 0);
+            memory_of(new).1.kept
+        };
+        // Linear in the number of nodes, whatever their number.
+        let (a, b, c) = (kept(20), kept(2_000), kept(20_000));
+        assert_eq!((b - a) / 1_980, bytes_per_node, "{}", scheme.name());
+        assert_eq!((c - b) / 18_000, bytes_per_node, "{}", scheme.name());
+    }
+}
+
+#[test]
+fn frozen_memory_of_steps_flights_and_statistics() {
+    for (scheme, h) in
+        [(Scheme::SemiImplicitEuler, 1e-5), (Scheme::Leapfrog, 1e-5), (Scheme::ImplicitTension, 2e-4)]
+    {
+        let case = table1(scheme, h, 0.1);
+        let eddies = Eddies::along(1.0, 20, 0.05);
+        let stream = [(case.air, StreamKey { seed: 1, replicate: 0 })];
+        let turbulence = Turbulence::synthesise(Isa::detect(), &stream, 20, 0.1);
+        let strands: [Strand; 1] = [case.strand()];
+        let mut bundle = Bundle::new(Isa::detect(), &strands, &eddies, &turbulence, scheme, h, 0);
+        // As much for one step as for a hundred: none for a step itself.
+        bundle.advance(1);
+        let [one, hundred] = [1, 100].map(|steps| memory_of(|| bundle.advance(steps)).1);
+        assert_eq!((one.blocks, one.kept), (hundred.blocks, hundred.kept), "{}", scheme.name());
+
+        let ((flights, _), flown) = memory_of(|| flights(&case));
+        let mut collector = Results::collector(&case, 0);
+        collector.take(&flights[0]);
+        let taken = memory_of(|| flights[1..].iter().for_each(|flight| collector.take(flight))).1;
+        // Eight flights of 101 records; the turbulence and the growing of the records are the most of it.
+        let name = scheme.name();
+        assert!(flown.blocks <= 640, "{name}: {} blocks", flown.blocks);
+        assert!(flown.kept <= 110_000, "{name}: {} bytes kept", flown.kept);
+        assert!(flown.peak <= 480_000, "{name}: {} bytes at once", flown.peak);
+        // Statistics of seven of them: nothing stays but five numbers of each.
+        assert!(taken.blocks <= 400, "{name}: {} blocks", taken.blocks);
+        assert!(taken.kept <= 4_096, "{name}: {} bytes kept", taken.kept);
+        assert!(taken.peak <= 12_500, "{name}: {} bytes at once", taken.peak);
+    }
+}
