@@ -1,7 +1,9 @@
 //! What can go wrong, and how it is told: where, which key, what value, what is allowed, the way out.
 
+mod record;
 mod study;
 
+pub use record::{RecordFault, RecordPlace, RecordProblem};
 pub use study::{JournalError, StudyFault};
 
 use crate::units::{Dimension, QuantityFault, shortest};
@@ -64,10 +66,13 @@ pub enum Error {
     /// The case cannot be run as it is: everything found, in the order of the file.
     #[error("{}", one_per_line(.0))]
     Rejected(Vec<Problem>),
+    /// A velocity record cannot be used.
+    #[error("{0}")]
+    Record(Box<RecordProblem>),
     /// A fibre's positions are no longer numbers.
     #[error("replicate {replicate}: node {node} is no longer finite at {time:e} s; {cause}")]
     NotFinite {
-        /// Index of the replicate.
+        /// Which replicate, counted from 1.
         replicate: u64,
         /// Node, counted from 1 at the root.
         node: usize,

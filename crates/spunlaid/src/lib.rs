@@ -67,6 +67,8 @@ pub mod observe;
 
 pub mod statistics;
 
+pub mod record;
+
 pub mod case;
 
 pub mod ensemble;

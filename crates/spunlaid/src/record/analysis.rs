@@ -1,0 +1,398 @@
+//! The statistics of a record, with their confidence intervals.
+
+use super::correlation::{lagged_products, pairs};
+use super::flat::FlatPart;
+use super::interval::{Interval, error};
+use super::moments::Powers;
+use super::warning::{BLOCK_TIMES, BLOCKS, warnings};
+use super::{
+    Autocorrelation, IntegralRule, Moments, Record, Samples, Spectrum, SpectrumSettings, Trend, Warning,
+    problem,
+};
+use crate::error::{Error, RecordFault, RecordPlace};
+use std::ops::Range;
+
+/// Fewest samples of a component.
+pub(super) const LEAST_SAMPLES: usize = 64;
+/// How far beyond the first zero, in parts of its lag, the integral is taken for its interval; so chosen that
+/// the standard error is the scatter between records of exponential correlation, 1000 to 4000 integral times long.
+const BEYOND_ZERO: f64 = 1.3;
+/// Most lags of an autocorrelation.
+const MOST_LAGS: usize = 1 << 18;
+/// Largest number that can be raised to its fourth power and summed [m/s].
+const LARGEST: f64 = 1e70;
+/// Longest segment of a spectrum.
+const LONGEST_SEGMENT: usize = 1 << 18;
+/// Cut-offs in a step of frequency, for the flat part to hold several steps.
+const SEGMENT_CUTOFFS: f64 = 80.0;
+
+/// How a record is to be analysed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// Up to which lag the autocorrelation is integrated.
+    pub integral: IntegralRule,
+    /// How the spectrum is taken.
+    pub spectrum: SpectrumSettings,
+    /// Where the flat part of the spectrum ends [Hz]; by default at an eighth of the cut-off.
+    pub flat_until: Option<f64>,
+    /// Mean velocity along the flow, in place of the record's own [m/s].
+    pub mean_velocity: Option<f64>,
+}
+
+/// What a record says about the air; intervals are of 95 %.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Analysis {
+    /// Samples of a component.
+    pub samples: usize,
+    /// Between samples [s].
+    pub interval: f64,
+    /// [s]
+    pub duration: f64,
+    /// Mean of the component along the flow, `Ū` [m/s].
+    pub mean_velocity: Interval,
+    /// `Tu = u/|Ū|` [-], `u²` the mean of the components' variances.
+    pub turbulence_intensity: Interval,
+    /// Of the component along the flow, `T_I` [s].
+    pub integral_time: Interval,
+    /// By Taylor's hypothesis, `L = T_I |Ū|` [m].
+    pub length_scale: Interval,
+    /// Of the flat spectrum with the same variance and plateau, of the component along the flow [Hz].
+    pub cutoff_frequency: Interval,
+    /// Each component on its own, that along the flow first.
+    pub components: Vec<Component>,
+    /// Rule of the integral time.
+    pub integral: IntegralRule,
+    /// Blocks that were left out in turn for the intervals.
+    pub blocks: usize,
+    /// What the reader should know.
+    pub warnings: Vec<Warning>,
+}
+
+/// What a record says about a component.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Component {
+    /// What the file calls it.
+    pub name: String,
+    /// [m/s]
+    pub mean: Interval,
+    /// [m/s]
+    pub rms: Interval,
+    /// [-]
+    pub skewness: Interval,
+    /// [-]
+    pub flatness: Interval,
+    /// [s]
+    pub integral_time: Interval,
+    /// Autocorrelation, to a few times the limit of the integral.
+    pub autocorrelation: Autocorrelation,
+    /// Spectrum.
+    pub spectrum: Spectrum,
+    /// Its flat part, and the cut-off.
+    pub flat: FlatPart,
+    /// Of the mean.
+    pub mean_trend: Trend,
+    /// Of the rms.
+    pub rms_trend: Trend,
+    /// Smallest and largest sample [m/s].
+    pub range: (f64, f64),
+}
+
+impl Component {
+    /// How long a block should last for blocks to be independent [s].
+    pub(super) fn block_time(&self) -> f64 {
+        block_time(self.integral_time.value, &self.autocorrelation)
+    }
+}
+
+impl Analysis {
+    /// How long to measure for a 95 % interval of ± a share of the value, of a result of this record [s].
+    pub fn duration_for(&self, result: &Interval, share: f64) -> f64 {
+        self.duration * (result.relative() / share) * (result.relative() / share)
+    }
+}
+
+/// Analyses a record.
+///
+/// # Errors
+/// When nothing can be said: too few samples, no fluctuation, no mean flow, settings the record does not bear.
+pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, Error> {
+    let (samples, interval) = (record.samples(), record.interval);
+    check(record, settings)?;
+    let lengths: Vec<usize> =
+        record.components.iter().map(|c| lags(&c.values, interval, settings.integral)).collect();
+    let rough: Vec<(f64, Autocorrelation)> = (record.components.iter().zip(&lengths))
+        .map(|(component, lags)| {
+            let whole = Blocks::whole(&component.values, *lags);
+            let autocorrelation = whole.autocorrelation(None, interval, settings.integral);
+            (autocorrelation.integral_time().max(0.5 * interval), autocorrelation)
+        })
+        .collect();
+    let block_time = rough.iter().map(|(time, of)| block_time(*time, of)).fold(interval, f64::max);
+    let count = ((record.duration() / block_time) as usize).clamp(BLOCKS.0, BLOCKS.1);
+    let blocks: Vec<Range<usize>> =
+        (0..count).map(|b| b * samples / count..(b + 1) * samples / count).collect();
+    let longest = rough.iter().map(|(time, _)| *time).fold(0.0, f64::max);
+    let segment = segment(record, longest / interval, settings)?;
+
+    let summed: Vec<Blocks> = (record.components.iter().zip(&rough))
+        .map(|(component, (_, of))| {
+            // As far as any of the estimates with a block left out may reach, and a figure.
+            let most = (4.0 * of.limit / interval) as usize + 16;
+            Blocks::of(&component.values, &blocks, most.min(longest_lag(samples)))
+        })
+        .collect();
+    let estimates: Vec<Estimates> =
+        (summed.iter()).map(|sums| Estimates::of(sums, count, interval, settings.integral)).collect();
+    let components: Vec<Component> = (record.components.iter().zip(&estimates).zip(&summed))
+        .map(|((samples, estimates), sums)| component(samples, record, estimates, sums, segment, settings))
+        .collect();
+    let together = together(&estimates, settings.mean_velocity);
+    let mean_velocity = settings.mean_velocity.map_or(components[0].mean, Interval::exactly);
+    if mean_velocity.holds(0.0) {
+        let error = 0.5 * (mean_velocity.high - mean_velocity.low);
+        return Err(refuse(record, None, RecordFault::NoMean { mean: mean_velocity.value, error }));
+    }
+    let along = &components[0];
+    let (integral_time, cutoff_frequency) = (along.integral_time, along.flat.cutoff);
+    let mut analysis = Analysis {
+        samples,
+        interval,
+        duration: record.duration(),
+        mean_velocity,
+        turbulence_intensity: together.0,
+        integral_time,
+        length_scale: together.1,
+        cutoff_frequency,
+        components,
+        integral: settings.integral,
+        blocks: count,
+        warnings: Vec::new(),
+    };
+    analysis.warnings = warnings(record, &analysis);
+    Ok(analysis)
+}
+
+fn refuse(record: &Record, column: Option<&str>, fault: RecordFault) -> Error {
+    problem(&record.file, RecordPlace::Whole, column, fault)
+}
+
+fn check(record: &Record, settings: &Settings) -> Result<(), Error> {
+    let samples = record.samples();
+    if samples < LEAST_SAMPLES {
+        return Err(refuse(
+            record,
+            None,
+            RecordFault::TooFewSamples { found: samples, least: LEAST_SAMPLES },
+        ));
+    }
+    if !(record.interval > 0.0 && record.interval.is_finite()) {
+        return Err(refuse(record, None, RecordFault::Rate { rate: 1.0 / record.interval }));
+    }
+    for Samples { name, values } in &record.components {
+        if values.len() != samples {
+            let fault = RecordFault::TooFewSamples { found: values.len(), least: samples };
+            return Err(refuse(record, Some(name), fault));
+        }
+        if let Some(value) = values.iter().copied().find(|x| x.is_nan() || x.abs() > LARGEST) {
+            return Err(refuse(record, Some(name), RecordFault::TooLarge { value }));
+        }
+        let Moments { mean, rms, .. } = Moments::of(values);
+        if rms <= 1e-12 * mean.abs() || rms < 1.0 / LARGEST {
+            return Err(refuse(record, Some(name), RecordFault::Constant { value: mean }));
+        }
+    }
+    if let IntegralRule::Fixed(asked) = settings.integral {
+        let most = longest_lag(samples) as f64 * record.interval;
+        if !(asked > 0.0 && asked <= most - 2.0 * record.interval) {
+            return Err(refuse(record, None, RecordFault::IntegralTooLong { asked, most }));
+        }
+    }
+    Ok(())
+}
+
+/// A quarter of the record, or [`MOST_LAGS`].
+fn longest_lag(samples: usize) -> usize {
+    (samples / 4).min(MOST_LAGS)
+}
+
+/// Lags that hold the limit of the integral.
+fn lags(values: &[f64], interval: f64, rule: IntegralRule) -> usize {
+    let most = longest_lag(values.len());
+    if let IntegralRule::Fixed(lag) = rule {
+        return most.min((lag / interval) as usize + 3);
+    }
+    let mut lags = 1024.min(most);
+    while lags < most {
+        let whole = Blocks::whole(values, lags);
+        if whole.autocorrelation(None, interval, rule).limit_found {
+            break;
+        }
+        lags = most.min(4 * lags);
+    }
+    lags
+}
+
+/// How long a block should last for blocks to be independent [s].
+fn block_time(integral_time: f64, autocorrelation: &Autocorrelation) -> f64 {
+    (BLOCK_TIMES * integral_time).max(8.0 * autocorrelation.limit)
+}
+
+/// Samples in a segment of the spectrum.
+fn segment(record: &Record, integral_time: f64, settings: &Settings) -> Result<usize, Error> {
+    // A power of two that the record holds: the highest one there is.
+    let most = (1 << record.samples().ilog2()).min(LONGEST_SEGMENT);
+    if let Some(asked) = settings.spectrum.segment {
+        if !asked.is_power_of_two() || !(8..=most).contains(&asked) {
+            let advice = asked.clamp(8, most).next_power_of_two().min(most);
+            return Err(refuse(record, None, RecordFault::Segment { asked, most, advice }));
+        }
+        return Ok(asked);
+    }
+    let wanted = (4.0 * SEGMENT_CUTOFFS * integral_time).min(LONGEST_SEGMENT as f64) as usize;
+    // Seven or more half-overlapping ones.
+    Ok(wanted.max(16).next_power_of_two().min(most / 4))
+}
+
+/// Sums over blocks, from which any block can be left out.
+struct Blocks {
+    reference: f64,
+    samples: usize,
+    ranges: Vec<Range<usize>>,
+    powers: Vec<Powers>,
+    all_powers: Powers,
+    products: Vec<Vec<f64>>,
+    all_products: Vec<f64>,
+}
+
+impl Blocks {
+    /// All as one block.
+    fn whole(values: &[f64], lags: usize) -> Self {
+        Self::of(values, std::slice::from_ref(&(0..values.len())), lags)
+    }
+
+    fn of(values: &[f64], ranges: &[Range<usize>], lags: usize) -> Self {
+        let reference = values.iter().sum::<f64>() / values.len() as f64;
+        let powers: Vec<Powers> = ranges.iter().map(|r| Powers::of(&values[r.clone()], reference)).collect();
+        let all_powers = powers.iter().fold(Powers::default(), |sum, p| sum.plus(p, 1.0));
+        let products = lagged_products(values, reference, ranges, lags);
+        let all_products =
+            (0..lags).map(|k| products.iter().map(|p| p.get(k).copied().unwrap_or(0.0)).sum()).collect();
+        Self {
+            reference,
+            samples: values.len(),
+            ranges: ranges.to_vec(),
+            powers,
+            all_powers,
+            products,
+            all_products,
+        }
+    }
+
+    /// With a block left out, or with all.
+    fn moments(&self, without: Option<usize>) -> Moments {
+        let left = without.map_or(self.all_powers, |b| self.all_powers.plus(&self.powers[b], -1.0));
+        left.moments(self.reference)
+    }
+
+    /// With a block left out, or with all.
+    fn autocorrelation(&self, without: Option<usize>, interval: f64, rule: IntegralRule) -> Autocorrelation {
+        let moments = self.moments(without);
+        let offset = (moments.mean - self.reference) * (moments.mean - self.reference);
+        let all = 0..self.samples;
+        let coefficients = (self.all_products.iter().enumerate())
+            .map(|(k, sum)| {
+                let less = without
+                    .map_or((0.0, 0.0), |b| (self.products[b][k], pairs(&self.ranges[b], k, self.samples)));
+                ((sum - less.0) / (pairs(&all, k, self.samples) - less.1) - offset)
+                    / (moments.rms * moments.rms)
+            })
+            .collect();
+        Autocorrelation::new(coefficients, interval, rule)
+    }
+}
+
+/// Estimates from the whole record and with each block left out.
+struct Estimates {
+    moments: Moments,
+    autocorrelation: Autocorrelation,
+    left_out: Vec<(Moments, f64)>,
+}
+
+impl Estimates {
+    fn of(sums: &Blocks, blocks: usize, interval: f64, rule: IntegralRule) -> Self {
+        let autocorrelation = sums.autocorrelation(None, interval, rule);
+        // With zeros of their own the estimates would jump, at the record's own the scatter of the zero
+        // would be left out.
+        let rule = match rule {
+            IntegralRule::FirstZero => IntegralRule::Fixed(BEYOND_ZERO * autocorrelation.limit),
+            other => other,
+        };
+        let left_out = (0..blocks)
+            .map(|b| (sums.moments(Some(b)), sums.autocorrelation(Some(b), interval, rule).integral_time()));
+        Self { moments: sums.moments(None), autocorrelation, left_out: left_out.collect() }
+    }
+
+    fn moment(&self, of: fn(&Moments) -> f64, positive: bool) -> Interval {
+        let left_out: Vec<f64> = self.left_out.iter().map(|(moments, _)| of(moments)).collect();
+        Interval::jackknife(of(&self.moments), &left_out, positive)
+    }
+
+    fn integral_time(&self) -> Interval {
+        let left_out: Vec<f64> = self.left_out.iter().map(|(_, time)| *time).collect();
+        Interval::jackknife(self.autocorrelation.integral_time(), &left_out, true)
+    }
+}
+
+fn component(
+    samples: &Samples,
+    record: &Record,
+    estimates: &Estimates,
+    sums: &Blocks,
+    segment: usize,
+    settings: &Settings,
+) -> Component {
+    let Moments { mean, rms, .. } = estimates.moments;
+    let spectrum = Spectrum::of(&samples.values, mean, record.interval, segment, &settings.spectrum);
+    let integral_time = estimates.integral_time();
+    let variances: Vec<f64> = estimates.left_out.iter().map(|(m, _)| 2.0 * libm::log(m.rms)).collect();
+    let flat = FlatPart::of(
+        &spectrum,
+        (rms * rms, error(&variances)),
+        settings.flat_until,
+        integral_time.value.abs().max(0.25 * record.interval),
+        record.duration(),
+    );
+    let of_blocks = |of: fn(&Moments) -> f64| -> Vec<f64> {
+        sums.powers.iter().map(|powers| of(&powers.moments(sums.reference))).collect()
+    };
+    let (least, most) =
+        samples.values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
+    Component {
+        name: samples.name.clone(),
+        mean: estimates.moment(|m| m.mean, false),
+        rms: estimates.moment(|m| m.rms, true),
+        skewness: estimates.moment(|m| m.skewness, false),
+        flatness: estimates.moment(|m| m.flatness, true),
+        integral_time,
+        autocorrelation: estimates.autocorrelation.clone(),
+        spectrum,
+        flat,
+        mean_trend: Trend::of(&of_blocks(|m| m.mean)),
+        rms_trend: Trend::of(&of_blocks(|m| m.rms)),
+        range: (least, most),
+    }
+}
+
+/// Turbulence intensity and length scale, which need the mean flow.
+fn together(estimates: &[Estimates], mean_velocity: Option<f64>) -> (Interval, Interval) {
+    let of = |pick: &dyn Fn(&Estimates) -> (Moments, f64)| {
+        let along = pick(&estimates[0]);
+        let velocity = mean_velocity.unwrap_or(along.0.mean).abs();
+        let squares: f64 = estimates.iter().map(|e| pick(e).0.rms * pick(e).0.rms).sum();
+        ((squares / estimates.len() as f64).sqrt() / velocity, along.1 * velocity)
+    };
+    let whole = of(&|e| (e.moments, e.autocorrelation.integral_time()));
+    let blocks = estimates[0].left_out.len();
+    let (intensities, lengths): (Vec<f64>, Vec<f64>) = (0..blocks).map(|b| of(&|e| e.left_out[b])).unzip();
+    (Interval::jackknife(whole.0, &intensities, true), Interval::jackknife(whole.1, &lengths, true))
+}

@@ -1,0 +1,300 @@
+//! Records as Parquet: plain columns of doubles, floats or integers.
+
+use super::columns::{Column, roles};
+use super::rows::Rows;
+use super::{Layout, MOST_NUMBERS, Record, problem};
+use crate::error::{Error, RecordFault, RecordPlace};
+use crate::units::excerpt;
+use bytes::Bytes;
+use parquet::basic::Encoding;
+use parquet::column::page::{Page, PageMetadata, PageReader};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
+use parquet::data_type::DataType;
+use parquet::errors::{ParquetError, Result as Decoded};
+use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
+use parquet::file::reader::{ChunkReader, Length};
+use parquet::file::serialized_reader::SerializedPageReader;
+use std::io::Read;
+use std::sync::Arc;
+
+/// What a Parquet file begins with.
+pub(super) const MAGIC: &[u8] = b"PAR1";
+/// Rows read at a time.
+const ROWS: usize = 1 << 13;
+/// Most that Snappy makes of a byte: a copy of 64 bytes takes three.
+const EXPANSION: u64 = 22;
+
+/// Reads a record; `name` is what messages call it.
+pub(super) fn read(source: impl ChunkReader + 'static, name: &str, layout: &Layout) -> Result<Record, Error> {
+    let whole = |fault| problem(name, RecordPlace::Whole, None, fault);
+    let undecodable =
+        |error: ParquetError| whole(RecordFault::Parquet { message: excerpt(&error.to_string(), 200) });
+    let metadata = ParquetMetaDataReader::new().parse_and_finish(&source).map_err(undecodable)?;
+    let schema = metadata.file_metadata().schema_descr();
+    let headers: Vec<String> = schema.columns().iter().map(|column| column.path().string()).collect();
+    let roles = roles(&headers, true, layout)
+        .map_err(|(column, fault)| problem(name, RecordPlace::Whole, column.as_deref(), fault))?;
+    let used: Vec<Column> = roles.time.iter().chain(&roles.components).cloned().collect();
+    let timed = roles.time.is_some();
+    let mut rows = Rows::new(name, roles, layout);
+    let source = Arc::new(Guarded(source));
+    let mut row = 0;
+    for group in 0..metadata.num_row_groups() {
+        let mut columns = Vec::new();
+        for column in &used {
+            let blamed = |fault| problem(name, RecordPlace::Whole, Some(&column.header), fault);
+            let values = Values::open(&source, &metadata, group, column.index)
+                .map_err(|error| blamed(RecordFault::Parquet { message: excerpt(&error.to_string(), 200) }))?
+                .map_err(|found| blamed(RecordFault::ColumnType { found }))?;
+            columns.push(values);
+        }
+        loop {
+            for (values, column) in columns.iter_mut().zip(&used) {
+                let place = RecordPlace::Row(row + 1);
+                values.next(ROWS).map_err(|error| {
+                    let fault = RecordFault::Parquet { message: excerpt(&error.to_string(), 200) };
+                    problem(name, place, Some(&column.header), fault)
+                })?;
+            }
+            let count = columns.first().map_or(0, |values| values.numbers.len());
+            if let Some(short) = columns.iter().position(|values| values.numbers.len() != count) {
+                let message = "its columns differ in length".to_owned();
+                let header = used.get(short).map(|column| column.header.as_str());
+                return Err(problem(
+                    name,
+                    RecordPlace::Row(row + 1),
+                    header,
+                    RecordFault::Parquet { message },
+                ));
+            }
+            if count == 0 {
+                break;
+            }
+            for i in 0..count {
+                row += 1;
+                let place = RecordPlace::Row(row);
+                let number = |column: usize| columns[column].numbers[i];
+                if let Some(infinite) = (0..used.len()).find(|&column| number(column).is_infinite()) {
+                    let fault = RecordFault::NotFinite { text: number(infinite).to_string() };
+                    return Err(problem(name, place, Some(&used[infinite].header), fault));
+                }
+                let time =
+                    if timed { (number(0), columns[0].last_place(number(0))) } else { (f64::NAN, 0.0) };
+                let mut values = [f64::NAN; 3];
+                for (value, column) in values.iter_mut().zip(usize::from(timed)..used.len()) {
+                    *value = number(column);
+                }
+                rows.push(place, time, &values)?;
+            }
+        }
+    }
+    if row == 0 {
+        return Err(whole(RecordFault::Empty));
+    }
+    rows.finish()
+}
+
+/// A column of a row group, as it is read.
+struct Values {
+    reader: ColumnReader,
+    nullable: bool,
+    /// What was read last, NaN where there is no value.
+    numbers: Vec<f64>,
+}
+
+impl Values {
+    /// The column, or else what it holds instead of numbers.
+    fn open<S: ChunkReader + 'static>(
+        source: &Arc<Guarded<S>>,
+        metadata: &ParquetMetaData,
+        group: usize,
+        index: usize,
+    ) -> Decoded<Result<Self, String>> {
+        let group = metadata.row_group(group);
+        let chunk = group.columns().get(index).ok_or_else(|| missing("a column of a row group"))?;
+        let about = chunk.column_descr_ptr();
+        if about.max_rep_level() > 0 || about.max_def_level() > 1 {
+            return Ok(Err("nested values".to_owned()));
+        }
+        // The decoder takes these for granted.
+        let places =
+            [chunk.data_page_offset(), chunk.dictionary_page_offset().unwrap_or(0), chunk.compressed_size()];
+        if places.iter().any(|place| *place < 0) {
+            return Err(missing("the place of a column"));
+        }
+        let rows = usize::try_from(group.num_rows()).map_err(|_| missing("a number of rows"))?;
+        let pages = SerializedPageReader::new(Arc::clone(source), chunk, rows.min(MOST_NUMBERS), None)?;
+        let nullable = about.max_def_level() > 0;
+        let reader = get_column_reader(about, Box::new(Pages { pages, dictionary: false }));
+        Ok(match reader {
+            ColumnReader::DoubleColumnReader(_)
+            | ColumnReader::FloatColumnReader(_)
+            | ColumnReader::Int32ColumnReader(_)
+            | ColumnReader::Int64ColumnReader(_) => Ok(Self { reader, nullable, numbers: Vec::new() }),
+            ColumnReader::BoolColumnReader(_) => Err("true and false".to_owned()),
+            ColumnReader::Int96ColumnReader(_) => Err("dates".to_owned()),
+            _ => Err("text or bytes".to_owned()),
+        })
+    }
+
+    /// Reads up to so many rows.
+    fn next(&mut self, rows: usize) -> Decoded<()> {
+        let Self { reader, nullable, numbers } = self;
+        numbers.clear();
+        match reader {
+            ColumnReader::DoubleColumnReader(reader) => read_into(reader, rows, *nullable, numbers, |x| *x),
+            ColumnReader::FloatColumnReader(reader) => {
+                read_into(reader, rows, *nullable, numbers, |x| f64::from(*x))
+            }
+            ColumnReader::Int32ColumnReader(reader) => {
+                read_into(reader, rows, *nullable, numbers, |x| f64::from(*x))
+            }
+            ColumnReader::Int64ColumnReader(reader) => {
+                read_into(reader, rows, *nullable, numbers, |x| *x as f64)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The unit in the last place of a number of this column.
+    fn last_place(&self, number: f64) -> f64 {
+        match &self.reader {
+            ColumnReader::DoubleColumnReader(_) => number.abs() * f64::EPSILON,
+            ColumnReader::FloatColumnReader(_) => number.abs() * f64::from(f32::EPSILON),
+            _ => 1.0,
+        }
+    }
+}
+
+fn read_into<T: DataType>(
+    reader: &mut ColumnReaderImpl<T>,
+    rows: usize,
+    nullable: bool,
+    numbers: &mut Vec<f64>,
+    number: impl Fn(&T::T) -> f64,
+) -> Decoded<()> {
+    let (mut levels, mut values) = (Vec::new(), Vec::new());
+    let (read, _, _) = reader.read_records(rows, nullable.then_some(&mut levels), None, &mut values)?;
+    if !nullable {
+        numbers.extend(values.iter().map(number));
+        return if numbers.len() == read { Ok(()) } else { Err(missing("a value")) };
+    }
+    let mut present = values.iter();
+    for level in &levels {
+        let value =
+            if *level > 0 { number(present.next().ok_or_else(|| missing("a value"))?) } else { f64::NAN };
+        numbers.push(value);
+    }
+    Ok(())
+}
+
+/// Pages that the decoder can make something of.
+struct Pages<S: ChunkReader> {
+    pages: SerializedPageReader<S>,
+    /// Whether there was a dictionary.
+    dictionary: bool,
+}
+
+impl<S: ChunkReader> PageReader for Pages<S> {
+    fn get_next_page(&mut self) -> Decoded<Option<Page>> {
+        let page = self.pages.get_next_page()?;
+        if let Some(page) = &page {
+            self.dictionary |= page.is_dictionary_page();
+            let by_dictionary =
+                matches!(page.encoding(), Encoding::RLE_DICTIONARY | Encoding::PLAIN_DICTIONARY);
+            if by_dictionary && !self.dictionary {
+                return Err(missing("a dictionary"));
+            }
+        }
+        Ok(page)
+    }
+
+    fn peek_next_page(&mut self) -> Decoded<Option<PageMetadata>> {
+        self.pages.peek_next_page()
+    }
+
+    fn skip_next_page(&mut self) -> Decoded<()> {
+        self.pages.skip_next_page()
+    }
+}
+
+impl<S: ChunkReader> Iterator for Pages<S> {
+    type Item = Decoded<Page>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.get_next_page().transpose()
+    }
+}
+
+fn missing(what: &str) -> ParquetError {
+    ParquetError::EOF(format!("{what} is missing"))
+}
+
+/// A file whose pages do not promise more than they can hold: the decoder takes the memory that a page's
+/// header asks for before it looks at the page.
+struct Guarded<S>(S);
+
+impl<S: Length> Length for Guarded<S> {
+    fn len(&self) -> u64 {
+        self.0.len()
+    }
+}
+
+impl<S: ChunkReader> ChunkReader for Guarded<S> {
+    type T = std::io::Chain<std::io::Cursor<Vec<u8>>, S::T>;
+
+    /// Called where a page's header begins.
+    fn get_read(&self, start: u64) -> Decoded<Self::T> {
+        let mut source = self.0.get_read(start)?;
+        let mut head = Vec::new();
+        source.by_ref().take(24).read_to_end(&mut head)?;
+        let (uncompressed, compressed) = page_sizes(&head).ok_or_else(|| missing("a page’s header"))?;
+        if uncompressed > compressed.saturating_mul(EXPANSION).saturating_add(64) {
+            return Err(ParquetError::General(format!(
+                "a page of {compressed} bytes promises {uncompressed}, more than Snappy can make of it"
+            )));
+        }
+        Ok(std::io::Cursor::new(head).chain(source))
+    }
+
+    fn get_bytes(&self, start: u64, length: usize) -> Decoded<Bytes> {
+        let end = start.checked_add(length as u64).filter(|end| *end <= self.0.len());
+        end.ok_or_else(|| missing("the end of a page"))?;
+        self.0.get_bytes(start, length)
+    }
+}
+
+/// Uncompressed and compressed size from the start of a page's header: three 32-bit fields of Thrift's
+/// compact form, numbers 1 to 3, each a byte 0x15 and a zigzag number.
+fn page_sizes(head: &[u8]) -> Option<(u64, u64)> {
+    let mut bytes = head.iter().copied();
+    let mut field = || {
+        (bytes.next()? == 0x15).then_some(())?;
+        let mut value = 0u64;
+        for shift in (0..35).step_by(7) {
+            let byte = bytes.next()?;
+            value |= u64::from(byte & 0x7f) << shift;
+            if byte < 0x80 {
+                return (value & 1 == 0).then_some(value >> 1);
+            }
+        }
+        None
+    };
+    let (_kind, uncompressed, compressed) = (field()?, field()?, field()?);
+    Some((uncompressed, compressed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::page_sizes;
+
+    #[test]
+    fn sizes_stand_at_the_start_of_a_header() {
+        // Kind 0, 300 bytes from 150.
+        assert_eq!(page_sizes(&[0x15, 0, 0x15, 0xd8, 0x04, 0x15, 0xac, 0x02, 0x2c]), Some((300, 150)));
+        assert_eq!(page_sizes(&[0x15, 0, 0x15, 0xd8]), None);
+        // Negative.
+        assert_eq!(page_sizes(&[0x15, 0, 0x15, 1, 0x15, 2]), None);
+        assert_eq!(page_sizes(&[]), None);
+    }
+}

@@ -1,0 +1,200 @@
+//! From rows, in their order, to an evenly sampled record: the clock is watched, gaps are filled in.
+
+use super::columns::Roles;
+use super::{Layout, MOST_NUMBERS, Reading, Record, Samples, problem};
+use crate::error::{Error, RecordFault, RecordPlace};
+
+/// Most that a step of time may be off the usual one, as a share of it.
+const JITTER: f64 = 0.01;
+/// And where the times are rounded as they are written.
+const ROUNDING: f64 = 0.25;
+
+/// Takes in rows.
+pub(super) struct Rows<'a> {
+    file: &'a str,
+    roles: Roles,
+    longest_gap: usize,
+    clock: Clock,
+    values: Vec<Vec<f64>>,
+    /// Missing samples since the last one that is there, and whether there is one.
+    missing: Vec<(usize, bool)>,
+    reading: Reading,
+}
+
+/// What is known of the time.
+#[derive(Clone, Copy, Debug)]
+enum Clock {
+    /// Even, by the interval [s].
+    Even(f64),
+    /// As the file says.
+    Watched {
+        /// The first time and its row, the last one and its row.
+        known: Option<((f64, usize), (f64, usize))>,
+        /// The unit in the last place of the times [s].
+        rounding: f64,
+    },
+}
+
+impl<'a> Rows<'a> {
+    pub(super) fn new(file: &'a str, roles: Roles, layout: &Layout) -> Self {
+        let clock = match layout.rate {
+            Some(rate) => Clock::Even(1.0 / rate),
+            None => Clock::Watched { known: None, rounding: f64::INFINITY },
+        };
+        let count = roles.components.len();
+        let reading =
+            Reading { unused: roles.unused.clone(), timed: roles.time.is_some(), ..Reading::default() };
+        Self {
+            file,
+            roles,
+            longest_gap: layout.longest_gap,
+            clock,
+            values: vec![Vec::new(); count],
+            missing: vec![(0, false); count],
+            reading,
+        }
+    }
+
+    pub(super) fn roles(&self) -> &Roles {
+        &self.roles
+    }
+
+    /// Adds a row.
+    ///
+    /// * `time` – in the file's unit and the unit in its last place; NaN where it is missing
+    /// * `values` – in the file's units; NaN where one is missing
+    pub(super) fn push(&mut self, place: RecordPlace, time: (f64, f64), values: &[f64]) -> Result<(), Error> {
+        let lost = self.watch(place, time)?;
+        let length = self.values.first().map_or(0, Vec::len) + lost + 1;
+        if length.saturating_mul(self.values.len()) > MOST_NUMBERS {
+            return Err(self.fault(place, None, RecordFault::TooManySamples { most: MOST_NUMBERS }));
+        }
+        for component in 0..self.values.len() {
+            for _ in 0..lost {
+                self.put(place, component, f64::NAN)?;
+            }
+            let value = values.get(component).copied().unwrap_or(f64::NAN);
+            self.put(place, component, value * self.roles.components[component].factor)?;
+        }
+        self.reading.skipped += lost;
+        Ok(())
+    }
+
+    fn fault(&self, place: RecordPlace, column: Option<&str>, fault: RecordFault) -> Error {
+        problem(self.file, place, column, fault)
+    }
+
+    fn put(&mut self, place: RecordPlace, component: usize, value: f64) -> Result<(), Error> {
+        let (missing, begun) = self.missing[component];
+        if value.is_nan() {
+            self.missing[component].0 = missing + 1;
+        } else {
+            if begun && missing > self.longest_gap {
+                let header = self.roles.components[component].header.clone();
+                let fault = RecordFault::GapTooLong { missing: missing as f64, most: self.longest_gap };
+                return Err(self.fault(place, Some(&header), fault));
+            }
+            self.missing[component] = (0, true);
+        }
+        self.values[component].push(value);
+        Ok(())
+    }
+
+    /// Holds the time against the clock; returns how many rows were skipped before this one.
+    fn watch(&mut self, place: RecordPlace, (time, unit): (f64, f64)) -> Result<usize, Error> {
+        let Clock::Watched { known, rounding } = self.clock else { return Ok(0) };
+        let Some(column) = &self.roles.time else { return Ok(0) };
+        let blame = |fault| Err(problem(self.file, place, Some(&column.header), fault));
+        if time.is_nan() {
+            return Ok(0);
+        }
+        let row = self.values.first().map_or(0, Vec::len);
+        let time = time * column.factor;
+        let rounding = rounding.min(unit * column.factor);
+        let Some(((first, first_row), (last, last_row))) = known else {
+            self.clock = Clock::Watched { known: Some(((time, row), (time, row))), rounding };
+            return Ok(0);
+        };
+        let step = time - last;
+        if !step.is_finite() || step <= 0.0 {
+            return blame(RecordFault::TimeNotIncreasing { before: last, after: time });
+        }
+        let mut lost = 0;
+        let rows = (row - last_row) as f64;
+        if last_row > first_row {
+            let usual = (last - first) / (last_row - first_row) as f64;
+            let bound = JITTER * usual + (2.0 * rounding).min(ROUNDING * usual);
+            let off = (step - rows * usual).abs();
+            if off <= bound {
+                self.reading.jitter = self.reading.jitter.max(off / usual);
+            } else {
+                let whole = (step / usual).round();
+                let skips =
+                    whole > rows && (step - whole * usual).abs() <= bound + JITTER * (whole - rows) * usual;
+                if !skips {
+                    return blame(RecordFault::Uneven { step, usual });
+                }
+                if whole - rows > self.longest_gap as f64 {
+                    let fault = RecordFault::GapTooLong { missing: whole - rows, most: self.longest_gap };
+                    return blame(fault);
+                }
+                lost = (whole - rows) as usize;
+            }
+        }
+        self.clock = Clock::Watched { known: Some(((first, first_row), (time, row + lost))), rounding };
+        Ok(lost)
+    }
+
+    /// The record.
+    pub(super) fn finish(mut self) -> Result<Record, Error> {
+        let rows = self.values.first().map_or(0, Vec::len);
+        let whole = |i: &usize| self.values.iter().all(|v| v.get(*i).is_some_and(|x| !x.is_nan()));
+        let first = (0..rows).find(whole).unwrap_or(rows);
+        let end = (first..rows).rev().find(whole).map_or(first, |last| last + 1);
+        if first == end {
+            return Err(self.fault(RecordPlace::Whole, None, RecordFault::Empty));
+        }
+        let interval = match self.clock {
+            Clock::Even(interval) => interval,
+            Clock::Watched { known: Some((a, b)), .. } if b.1 > a.1 => (b.0 - a.0) / (b.1 - a.1) as f64,
+            Clock::Watched { .. } => {
+                return Err(self.fault(
+                    RecordPlace::Whole,
+                    None,
+                    RecordFault::TooFewSamples { found: end - first, least: super::analysis::LEAST_SAMPLES },
+                ));
+            }
+        };
+        self.reading.cut_off = rows - (end - first);
+        let mut components = Vec::new();
+        for (mut values, column) in self.values.into_iter().zip(&self.roles.components) {
+            values.truncate(end);
+            values.drain(..first);
+            values.shrink_to_fit();
+            self.reading.filled += fill(&mut values);
+            components.push(Samples { name: column.name.clone(), values });
+        }
+        Ok(Record { file: self.file.to_owned(), interval, components, reading: self.reading })
+    }
+}
+
+/// Puts straight lines where values are missing between two that are there; returns how many were.
+fn fill(values: &mut [f64]) -> usize {
+    let mut filled = 0;
+    let mut last = 0;
+    for i in 0..values.len() {
+        if values[i].is_nan() {
+            continue;
+        }
+        let gap = i - last;
+        if gap > 1 {
+            let (from, to) = (values[last], values[i]);
+            for k in 1..gap {
+                values[last + k] = from + (to - from) * (k as f64 / gap as f64);
+            }
+            filled += gap - 1;
+        }
+        last = i;
+    }
+    filled
+}
