@@ -34,6 +34,9 @@ pub(crate) enum Command {
     /// Fly a case at many values of its keys: which matters, and how much?
     #[command(after_help = SWEEP_HELP)]
     Sweep(Sweep),
+    /// Draw every result figure of the paper anew and put its claims to the test
+    #[command(after_help = REPRODUCE_HELP)]
+    Reproduce(Reproduce),
     /// Read a case and print what it means, without flying it
     #[command(after_help = CHECK_HELP)]
     Check(Check),
@@ -88,6 +91,17 @@ bits. The results folder holds
 Examples:
   spunlaid sweep cases/studies/velocity.toml
   spunlaid sweep my_study.toml --print-point 7 > point7.toml && spunlaid run point7.toml";
+
+const REPRODUCE_HELP: &str = "\
+The results folder holds
+  report.html   the paper's claims one by one with evidence and verdict, what it leaves open, the figures
+  figures/      every figure as SVG and PNG, and its data as CSV
+  summary.json  the claims, their evidence and verdicts      case.toml  the base case, Table 1
+
+Examples:
+  spunlaid reproduce                                       as the paper did it
+  spunlaid reproduce --scheme implicit-tension --replicates 40   in seconds, with smaller errors
+  spunlaid reproduce --figures 9,11a --out results/two";
 
 const CHECK_HELP: &str = "\
 Prints the case with every default written out, the mesh, the longest stable time step, and the
@@ -164,6 +178,42 @@ pub(crate) struct Sweep {
     /// Print the case of point K, counted from 1, and fly nothing
     #[arg(long, value_name = "K")]
     pub(crate) print_point: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Reproduce {
+    /// Folder for the results [default: results/paper]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Figures to draw, as 9,10,11a; all of them if left out
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub(crate) figures: Vec<String>,
+    /// Fibres at each point; the paper flew ten
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) replicates: u64,
+    /// Time integration: the paper's with 1 µs, or another with a step that suits it
+    #[arg(long, value_enum, default_value = "semi-implicit-euler")]
+    pub(crate) scheme: SchemeName,
+    /// Threads to compute on [default: all cores]; results are the same for any number
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// No progress bar and no list of claims; errors still show
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Replace the results in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// A scheme by its name in a case file.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(crate) enum SchemeName {
+    /// First order, the paper's
+    SemiImplicitEuler,
+    /// Second order
+    Leapfrog,
+    /// Long steps: hundreds of times faster
+    ImplicitTension,
 }
 
 #[derive(Debug, Args)]

@@ -25,6 +25,8 @@ pub(crate) enum Failure {
     OtherStudy { folder: PathBuf, differences: Vec<String> },
     /// The output folder holds a study of another version.
     OtherVersion { folder: PathBuf, version: String },
+    /// The paper has no such figure.
+    NoSuchFigure { name: String, known: String },
     /// A study has fewer points than that.
     NoSuchPoint { point: u64, points: u64 },
     /// Fibres stopped being finite.
@@ -76,6 +78,9 @@ impl fmt::Display for Failure {
                 "{}: holds results already ({found}); name another folder with --out, or replace them with --force",
                 folder.display()
             ),
+            Self::NoSuchFigure { name, known } => {
+                write!(f, "--figures {name}: there is no such result figure; write some of {known}")
+            }
             Self::NotAFolder { path } => {
                 write!(f, "{}: is a file; name a folder with --out", path.display())
             }

@@ -26,6 +26,7 @@ fn main() -> ExitCode {
     let done = match arguments.command {
         Command::Run(run) => commands::run(&run),
         Command::Sweep(sweep) => commands::sweep(&sweep),
+        Command::Reproduce(asked) => commands::reproduce(&asked),
         Command::Check(check) => commands::check(&check),
         Command::New(new) => commands::new(&new),
         Command::Completions(completions) => commands::completions(&completions),

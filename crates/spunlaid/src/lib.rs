@@ -76,3 +76,4 @@ pub mod ensemble;
 pub mod study;
 
 pub mod input;
+pub mod paper;

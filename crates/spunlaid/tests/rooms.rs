@@ -22,6 +22,7 @@ const ROOMS: &[&[&str]] = &[
     &["ensemble"],
     &["study"],
     &["input"],
+    &["paper"],
 ];
 
 fn rank(room: &str) -> Option<usize> {

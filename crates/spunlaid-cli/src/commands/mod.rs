@@ -2,11 +2,13 @@
 
 mod check;
 mod interrupt;
+mod reproduce;
 mod run;
 mod small;
 mod sweep;
 
 pub(crate) use check::check;
+pub(crate) use reproduce::reproduce;
 pub(crate) use run::run;
 pub(crate) use small::{completions, new};
 pub(crate) use sweep::sweep;

@@ -9,6 +9,7 @@ mod decimate;
 mod draw;
 mod legend;
 mod palette;
+pub(crate) mod paper;
 mod png;
 mod run;
 #[cfg(test)]

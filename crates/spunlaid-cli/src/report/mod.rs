@@ -6,17 +6,20 @@
 
 mod frames;
 mod page;
+mod paper;
 mod study;
 mod table;
 #[cfg(test)]
 mod tests;
 mod words;
 
+pub(crate) use paper::{PaperReport, paper_html};
 pub(crate) use study::{StudyReport, study_html};
 
 use crate::figures::Figure;
 use spunlaid::case::Case;
 use spunlaid::ensemble::Results;
+use spunlaid::statistics::Estimate;
 
 /// Everything the report shows.
 #[derive(Clone, Copy, Debug)]
@@ -55,4 +58,9 @@ pub(crate) struct Performance<'a> {
 /// The report as one HTML file of less than 6 MB.
 pub(crate) fn html(input: &ReportInput<'_>) -> String {
     page::render(input)
+}
+
+/// A mean with its standard error as `9.8 ± 0.2`, times `factor`.
+pub(crate) fn mean_and_error(mean: f64, standard_error: Option<f64>, factor: f64) -> String {
+    words::plus_minus(&Estimate { mean, standard_error, values: Vec::new() }, factor)
 }

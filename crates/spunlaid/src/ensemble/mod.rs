@@ -9,7 +9,7 @@ mod turbulence;
 pub use flight::{Flight, Job, KeepShapes, Sample, Shape, fly_together, pace};
 pub use order::in_order;
 pub use results::{Collector, EndNodeResults, ErrorOverTime, LedgerError, NodeResults, Results};
-pub use turbulence::{SpectrumPoint, turbulence_spectrum};
+pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 
 use crate::case::Case;
 use crate::error::Error;

@@ -3,7 +3,7 @@
 use super::Computing;
 use crate::air::{Air, StreamKey, Turbulence, Wind};
 use crate::case::Case;
-use crate::lanes::WIDTH;
+use crate::lanes::{Isa, WIDTH};
 use crate::statistics::PowerSpectrum;
 
 /// A point of the spectrum of the turbulence.
@@ -56,4 +56,17 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<Spectru
             SpectrumPoint { frequency, realised, wanted }
         })
         .collect()
+}
+
+/// Velocity of the air along x in the first eddy of the first replicate: times [s] and values [m/s], sixteen to
+/// the shortest period, over the run or `most` [s] of it.
+pub fn velocity_record(case: &Case, isa: Isa, most: f64) -> Vec<(f64, f64)> {
+    let duration = case.run.duration().min(most);
+    let stream = [(case.air, StreamKey { seed: case.run.seed, replicate: 0 })];
+    let turbulence = Turbulence::synthesise(isa, &stream, 1, duration);
+    let mut wind = Wind::new(&turbulence);
+    let interval = 1.0 / (16.0 * case.air.cutoff_frequency);
+    let samples = ((duration / interval) as usize).min(1 << 16);
+    let times = (0..samples).map(|i| i as f64 * interval);
+    times.map(|t| (t, wind.at(t).first().map_or(case.air.velocity, |v| v.lane(0).x))).collect()
 }

@@ -1,0 +1,273 @@
+//! The paper's claims, each with its evidence and a verdict from the data.
+
+use super::fits::{Spot, line, significance, slopes, worst_step_back};
+use super::{Parameter, TrendPoint};
+
+/// Share of the variance that a line must explain to be called almost straight.
+const ALMOST_LINEAR: f64 = 0.97;
+/// Standard errors of a difference from where on it is taken for real.
+const REAL: f64 = 3.0;
+/// Standard errors of a step the wrong way that chance accounts for.
+const CHANCE: f64 = 2.5;
+/// Change that still is "nearly constant", by the value.
+const NEARLY: f64 = 0.1;
+
+/// Whether a claim holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The data bear it out.
+    Holds,
+    /// The data speak against it.
+    Fails,
+    /// The errors are too large to tell; more replicates would.
+    Open,
+}
+
+impl Verdict {
+    /// In words.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Fails => "does not hold",
+            Self::Open => "open",
+        }
+    }
+
+    fn of(holds: bool) -> Self {
+        if holds { Self::Holds } else { Self::Fails }
+    }
+}
+
+/// Something the paper says of a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// The figure.
+    pub figure: &'static str,
+    /// What is claimed.
+    pub claim: &'static str,
+    /// The numbers that speak for or against it.
+    pub evidence: String,
+    /// What follows from them.
+    pub verdict: Verdict,
+}
+
+/// The paper's claims about a parameter. Needs two replicates or more: none of less.
+pub fn claims_of_trend(parameter: Parameter, points: &[TrendPoint]) -> Vec<Claim> {
+    let Some(amplitude) = spots(points, |p| p.amplitude, 1e3) else { return Vec::new() };
+    let Some(frequency) = spots(points, |p| p.frequency, 1.0) else { return Vec::new() };
+    let figure = parameter.figure();
+    let claim = |claim, (evidence, verdict): (String, Verdict)| Claim { figure, claim, evidence, verdict };
+    match parameter {
+        Parameter::Velocity => vec![
+            claim(
+                "The amplitude grows almost linearly with the mean air velocity.",
+                straight(&amplitude, "mm per m/s"),
+            ),
+            claim(
+                "The frequency grows almost linearly with the mean air velocity.",
+                straight(&frequency, "Hz per m/s"),
+            ),
+        ],
+        Parameter::Intensity => vec![
+            claim("The amplitude grows with the turbulence intensity.", monotone(&amplitude, 1.0, "mm")),
+            claim(
+                "The frequency grows until Tu = 0.15 and then is nearly constant.",
+                plateau(&frequency, 0.15),
+            ),
+        ],
+        Parameter::Diameter => vec![
+            claim("A thick fibre swings wider than a thin one (200 µm against 18 µm).", thicker(&amplitude)),
+            claim("The amplitude is a sigmoid of the diameter.", sigmoid(&amplitude)),
+        ],
+        Parameter::LengthScale => vec![claim(
+            "The amplitude grows with the turbulent length scale.",
+            monotone(&amplitude, 1.0, "mm"),
+        )],
+        Parameter::Cutoff => vec![claim(
+            "The amplitude falls strongly as the frequency of turbulence rises, at constant rms.",
+            monotone(&amplitude, -1.0, "mm"),
+        )],
+    }
+}
+
+/// The claims about the error of the work, from (time step [s], final error [%], median error over time [%]).
+pub fn claims_of_step_errors(errors: &[(f64, f64, f64)]) -> Vec<Claim> {
+    let Some(&(_, last, median)) = errors.iter().find(|e| (e.0 - 1e-6).abs() < 1e-12) else {
+        return Vec::new();
+    };
+    let logs: Vec<Spot> = errors.iter().map(|&(h, _, e)| Spot { x: h.ln(), y: e.ln(), error: 0.0 }).collect();
+    let order = line(&logs).slope;
+    vec![
+        Claim {
+            figure: "8b",
+            claim: "A time step of 1 µs gives an error of less than 1 %.",
+            evidence: format!("{last:.4} % at the end, {median:.4} % in the median over time"),
+            verdict: Verdict::of(last < 1.0 && median < 1.0),
+        },
+        Claim {
+            figure: "8b",
+            claim: "The error falls with the time step, in proportion.",
+            evidence: format!("median error ∝ h^{order:.2} over {} steps", errors.len()),
+            verdict: Verdict::of((order - 1.0).abs() < 0.2),
+        },
+    ]
+}
+
+/// The mean of y and z with its error, in units of `1/scale`; none where a point has no error.
+fn spots(
+    points: &[TrendPoint],
+    of: fn(&TrendPoint) -> [(f64, Option<f64>); 2],
+    scale: f64,
+) -> Option<Vec<Spot>> {
+    points
+        .iter()
+        .map(|point| {
+            let [(y, y_error), (z, z_error)] = of(point);
+            let error = y_error?.hypot(z_error?) / 2.0 * scale;
+            Some(Spot { x: point.value, y: (y + z) / 2.0 * scale, error })
+        })
+        .collect()
+}
+
+fn straight(spots: &[Spot], unit: &str) -> (String, Verdict) {
+    let fit = line(spots);
+    let evidence =
+        format!("slope {:.3} ± {:.3} {unit}, R² = {:.3}", fit.slope, fit.slope_error, fit.r_squared);
+    let rises = fit.slope > REAL * fit.slope_error;
+    let verdict = match (rises, fit.r_squared >= ALMOST_LINEAR) {
+        (true, true) => Verdict::Holds,
+        (false, _) if fit.slope > 0.0 => Verdict::Open,
+        _ => Verdict::Fails,
+    };
+    (evidence, verdict)
+}
+
+fn monotone(spots: &[Spot], direction: f64, unit: &str) -> (String, Verdict) {
+    let (first, last) = (spots[0], spots[spots.len() - 1]);
+    let overall = direction * significance(&first, &last);
+    let back = worst_step_back(spots, direction);
+    let evidence = format!(
+        "{:.2} ± {:.2} to {:.2} ± {:.2} {unit}; worst step the other way {back:.1} standard errors",
+        first.y, first.error, last.y, last.error
+    );
+    let verdict = if back > CHANCE || overall < -REAL {
+        Verdict::Fails
+    } else if overall > REAL {
+        Verdict::Holds
+    } else {
+        Verdict::Open
+    };
+    (evidence, verdict)
+}
+
+/// Rises up to a place, and changes by less than a tenth from there on.
+fn plateau(spots: &[Spot], place: f64) -> (String, Verdict) {
+    let at = spots.iter().position(|s| s.x >= place * (1.0 - 1e-9)).unwrap_or(spots.len() - 1);
+    let (first, knee, last) = (spots[0], spots[at], spots[spots.len() - 1]);
+    let (rise, after) = (significance(&first, &knee), (last.y - knee.y) / knee.y);
+    let error = last.error.hypot(knee.error) / knee.y;
+    let evidence = format!(
+        "{:.1} to {:.1} Hz up to {place} ({rise:.1} standard errors), then {:+.0} ± {:.0} %",
+        first.y,
+        knee.y,
+        100.0 * after,
+        100.0 * error
+    );
+    let verdict = if rise < REAL {
+        Verdict::Open
+    } else if after.abs() <= NEARLY {
+        Verdict::Holds
+    } else if (after.abs() - NEARLY) < 2.0 * error {
+        Verdict::Open
+    } else {
+        Verdict::Fails
+    };
+    (evidence, verdict)
+}
+
+fn thicker(spots: &[Spot]) -> (String, Verdict) {
+    let find = |x: f64| spots.iter().find(|s| (s.x / x - 1.0).abs() < 1e-6);
+    let (Some(thin), Some(thick)) = (find(18e-6), find(200e-6)) else {
+        return ("18 and 200 µm were not flown".to_owned(), Verdict::Open);
+    };
+    let evidence = format!(
+        "{:.2} ± {:.2} mm at 18 µm, {:.2} ± {:.2} mm at 200 µm",
+        thin.y, thin.error, thick.y, thick.error
+    );
+    let by = significance(thin, thick);
+    let verdict = if by > REAL {
+        Verdict::Holds
+    } else if by < -REAL {
+        Verdict::Fails
+    } else {
+        Verdict::Open
+    };
+    (evidence, verdict)
+}
+
+/// Steepest somewhere between its ends, over the diameter itself as the paper plots it, and flatter at both.
+fn sigmoid(spots: &[Spot]) -> (String, Verdict) {
+    let slopes = slopes(spots);
+    let steepest = (0..slopes.len()).max_by(|&a, &b| slopes[a].0.total_cmp(&slopes[b].0)).unwrap_or(0);
+    let middle = |i: usize| 0.5e6 * (spots[i].x + spots[i + 1].x);
+    let (first, most, last) = (slopes[0], slopes[steepest], slopes[slopes.len() - 1]);
+    let per = |slope: (f64, f64)| format!("{:.3} ± {:.3}", slope.0 * 1e-6, slope.1 * 1e-6);
+    let evidence = format!(
+        "slope {} mm/µm at the thin end, at most {} at {:.0} µm, {} at the thick end",
+        per(first),
+        per(most),
+        middle(steepest),
+        per(last)
+    );
+    let over = |end: (f64, f64)| (most.0 - end.0) / most.1.hypot(end.1);
+    let verdict = if over(first) > 2.0 && over(last) > 2.0 {
+        Verdict::Holds
+    } else if steepest > 0 && steepest + 1 < slopes.len() {
+        Verdict::Open
+    } else {
+        // An inflection hidden between the two points at the end cannot be told from none.
+        let end = if steepest == 0 { last } else { first };
+        if over(end) > 2.0 { Verdict::Fails } else { Verdict::Open }
+    };
+    (evidence, verdict)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(parameter: Parameter, of: impl Fn(f64) -> f64) -> Vec<TrendPoint> {
+        let point = |&value: &f64| {
+            let amplitude = [(of(value), Some(0.01 * of(value).abs())); 2];
+            TrendPoint { value, amplitude, frequency: amplitude, n: 10 }
+        };
+        parameter.values().iter().map(point).collect()
+    }
+
+    fn verdicts(parameter: Parameter, of: impl Fn(f64) -> f64) -> Vec<Verdict> {
+        claims_of_trend(parameter, &points(parameter, of)).iter().map(|c| c.verdict).collect()
+    }
+
+    #[test]
+    fn analytic_verdicts_on_known_shapes() {
+        use Verdict::{Fails, Holds};
+        assert_eq!(verdicts(Parameter::Velocity, |u| 1.0 + 2.0 * u), [Holds, Holds]);
+        assert_eq!(verdicts(Parameter::Velocity, |u| (u - 12.0).powi(2)), [Fails, Fails]);
+        assert_eq!(verdicts(Parameter::Intensity, |t| 10.0 * t.min(0.15)), [Holds, Holds]);
+        assert_eq!(verdicts(Parameter::Intensity, |t| 10.0 * t), [Holds, Fails]);
+        assert_eq!(verdicts(Parameter::Intensity, |t| 2.0 - 5.0 * t)[0], Fails);
+        let sigmoid = |d: f64| 1.0 / (1.0 + (-(d * 1e6 - 100.0) / 15.0).exp()) + 0.2;
+        assert_eq!(verdicts(Parameter::Diameter, sigmoid), [Holds, Holds]);
+        assert_eq!(verdicts(Parameter::Diameter, |d| (d * 1e6).sqrt()), [Holds, Fails]);
+        assert_eq!(verdicts(Parameter::Cutoff, |f| 1.0 / f), [Holds]);
+        assert_eq!(verdicts(Parameter::LengthScale, |l| 1.0 / l), [Fails]);
+    }
+
+    #[test]
+    fn analytic_errors_in_proportion_to_the_step() {
+        let good = [(1e-6, 0.01, 0.02), (4e-6, 0.04, 0.08), (1.6e-5, 0.16, 0.32)];
+        assert!(claims_of_step_errors(&good).iter().all(|c| c.verdict == Verdict::Holds));
+        let quadratic = [(1e-6, 2.0, 1.5), (4e-6, 32.0, 24.0)];
+        assert!(claims_of_step_errors(&quadratic).iter().all(|c| c.verdict == Verdict::Fails));
+    }
+}
