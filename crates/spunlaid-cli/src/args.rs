@@ -122,10 +122,10 @@ pub(crate) struct CaseSource {
 }
 
 fn key_and_value(text: &str) -> Result<(String, String), String> {
-    let (key, value) = text
-        .split_once('=')
-        .ok_or_else(|| "write a key and a value, as air.velocity=\"20 m/s\"".to_owned())?;
-    Ok((key.trim().to_owned(), value.trim().to_owned()))
+    match text.split_once('=').map(|(key, value)| (key.trim(), value.trim())) {
+        Some((key, value)) if !key.is_empty() => Ok((key.to_owned(), value.to_owned())),
+        _ => Err("write a key and a value, as air.velocity=\"20 m/s\"".to_owned()),
+    }
 }
 
 #[derive(Debug, Args)]

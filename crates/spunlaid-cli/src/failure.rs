@@ -1,5 +1,6 @@
 //! Why the program ends without doing what it was asked.
 
+use parquet::errors::ParquetError;
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -19,6 +20,8 @@ pub(crate) enum Failure {
     Exists { path: PathBuf },
     /// A figure cannot be drawn.
     Figure { name: String, reason: String },
+    /// What was to be read on standard output could not be written there.
+    Unheard { why: &'static io::Error },
     /// A study was interrupted.
     Paused { done: u64, of: u64 },
     /// The output folder holds another study.
@@ -32,7 +35,7 @@ pub(crate) enum Failure {
     /// Fibres stopped being finite.
     FibresLost { lost: u64, of: u64, first: Vec<String> },
     /// A table cannot be encoded.
-    Table { path: PathBuf, source: parquet::errors::ParquetError },
+    Table { path: PathBuf, source: ParquetError },
 }
 
 impl Failure {
@@ -40,12 +43,24 @@ impl Failure {
         |source| Self::Unwritable { path: path.to_owned(), source }
     }
 
+    /// A table that could not be written: what the system says, where it is the one that refused.
+    pub(crate) fn table(path: &Path, error: ParquetError) -> Self {
+        let path = path.to_owned();
+        match error {
+            ParquetError::External(cause) => match cause.downcast::<io::Error>() {
+                Ok(source) => Self::Unwritable { path, source: *source },
+                Err(cause) => Self::Table { path, source: ParquetError::External(cause) },
+            },
+            source => Self::Table { path, source },
+        }
+    }
+
     /// 1 the input is wrong, 2 the run failed, 130 interrupted.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Library(spunlaid::error::Error::Interrupted) | Self::Paused { .. } => 130,
             Self::Library(error) => error.exit_code(),
-            Self::Figure { .. } | Self::FibresLost { .. } => 2,
+            Self::Figure { .. } | Self::FibresLost { .. } | Self::Unheard { .. } => 2,
             _ => 1,
         }
     }
@@ -88,6 +103,9 @@ impl fmt::Display for Failure {
                 write!(f, "{}: exists already and is left alone; name another file", path.display())
             }
             Self::Figure { name, reason } => write!(f, "figure {name} cannot be drawn: {reason}"),
+            Self::Unheard { why } => {
+                write!(f, "standard output: cannot be written: {why}; all else is done")
+            }
             Self::Paused { done, of } => {
                 write!(f, "interrupted; {done} of {of} fibres are done and kept. The same command goes on")
             }

@@ -11,6 +11,7 @@ mod say;
 
 use args::{Arguments, Command};
 use clap::Parser;
+use failure::Failure;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
         Command::New(new) => commands::new(&new),
         Command::Completions(completions) => commands::completions(&completions),
     };
+    let done = done.and_then(|()| say::lost().map_or(Ok(()), |why| Err(Failure::Unheard { why })));
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

@@ -1,58 +1,70 @@
 //! Words to the person: results to standard output, remarks and errors to standard error.
+//!
+//! Who reads may have gone, as `head` does when it has enough: that is no error. A standard output that cannot
+//! be written for another reason is one, and [`lost`] tells it at the end.
 
-use anstream::{eprintln, print, println};
 use anstyle::{AnsiColor, Style};
 use spunlaid::case::Note;
 use spunlaid::input::StudyNote;
 use std::fmt::Display;
+use std::io::{Error, ErrorKind, Write};
+use std::sync::OnceLock;
 
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 const WARNING: Style = AnsiColor::Yellow.on_default().bold();
 const NOTE: Style = AnsiColor::Cyan.on_default();
 
+static LOST: OnceLock<Error> = OnceLock::new();
+
+/// Why words to standard output were lost, if they were.
+pub(crate) fn lost() -> Option<&'static Error> {
+    LOST.get()
+}
+
 /// What went wrong, a line for each thing that did.
-#[allow(clippy::print_stderr)]
 pub(crate) fn error(what: &impl Display) {
     for line in what.to_string().lines() {
-        eprintln!("{ERROR}error:{ERROR:#} {line}");
+        aside(&format!("{ERROR}error:{ERROR:#} {line}"));
     }
 }
 
 /// What to know of the case all the same.
-#[allow(clippy::print_stderr)]
 pub(crate) fn note(note: &Note) {
-    let (style, word) = if note.what.is_warning() { (WARNING, "warning") } else { (NOTE, "note") };
-    eprintln!("{style}{word}:{style:#} {note}");
+    remark(note.what.is_warning(), note);
 }
 
 /// What to know of the points of a study all the same.
-#[allow(clippy::print_stderr)]
 pub(crate) fn study_note(note: &StudyNote) {
-    let is_warning = note.note.what.is_warning();
-    let (style, word) = if is_warning { (WARNING, "warning") } else { (NOTE, "note") };
-    eprintln!("{style}{word}:{style:#} {note}");
+    remark(note.note.what.is_warning(), note);
 }
 
 /// What is not as it should be, but no reason to stop.
-#[allow(clippy::print_stderr)]
 pub(crate) fn warning(text: &str) {
-    eprintln!("{WARNING}warning:{WARNING:#} {text}");
+    remark(true, &text);
+}
+
+fn remark(is_warning: bool, what: &impl Display) {
+    let (style, word) = if is_warning { (WARNING, "warning") } else { (NOTE, "note") };
+    aside(&format!("{style}{word}:{style:#} {what}"));
 }
 
 /// What is going on, beside the results.
-#[allow(clippy::print_stderr)]
 pub(crate) fn aside(text: &str) {
-    eprintln!("{text}");
+    // There is nowhere left to say that this does not work.
+    let _ = writeln!(anstream::stderr(), "{text}");
 }
 
 /// A line of results.
-#[allow(clippy::print_stdout)]
-pub(crate) fn line(text: &str) {
-    println!("{text}");
+pub(crate) fn line(line: &str) {
+    text(&format!("{line}\n"));
 }
 
 /// Text as it is.
-#[allow(clippy::print_stdout)]
 pub(crate) fn text(text: &str) {
-    print!("{text}");
+    let mut out = anstream::stdout().lock();
+    if let Err(error) = out.write_all(text.as_bytes()).and_then(|()| out.flush())
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        let _ = LOST.set(error);
+    }
 }

@@ -29,8 +29,8 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     let (case, notes) = read_case(&run.source.case, &overrides(run))?;
     notes.iter().for_each(say::note);
     let folder = run.out.clone().unwrap_or_else(|| default_folder(run));
-    let staging = Staging::new(&folder, run.force)?;
     let stop = stop_on_ctrl_c();
+    let staging = Staging::new(&folder, run.force, stop)?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing =
@@ -86,9 +86,9 @@ fn case_name(run: &Run) -> &OsStr {
 }
 
 /// Flies all replicates; tables are written as they come.
-fn flights(case: &Case, computing: Computing<'_>, staging: &Staging) -> Result<Results, Failure> {
-    let mut end_node = Table::create(&staging.path("end_node.parquet"), END_NODE)?;
-    let mut energy = Table::create(&staging.path("energy.parquet"), ENERGY)?;
+fn flights(case: &Case, computing: Computing<'_>, staging: &Staging<'_>) -> Result<Results, Failure> {
+    let mut end_node = Table::create(staging.place("end_node.parquet"), END_NODE)?;
+    let mut energy = Table::create(staging.place("energy.parquet"), ENERGY)?;
     let mut collector = Results::collector(case, KEPT);
     fly(case, KeepShapes::within(case, POSITIONS), computing, |flight| {
         end_node.add(&flight)?;
@@ -124,7 +124,7 @@ struct Written<'a> {
 }
 
 impl Written<'_> {
-    fn to(&self, staging: &Staging, computing: Computing<'_>) -> Result<(), Failure> {
+    fn to(&self, staging: &Staging<'_>, computing: Computing<'_>) -> Result<(), Failure> {
         let case_toml = write_case(self.case);
         let turbulence = turbulence_spectrum(self.case, computing);
         let figures = run_figures(self.case, self.results, &turbulence);

@@ -1,10 +1,12 @@
 //! A results folder that is written whole or not at all.
 
+use super::leftovers::{self, Claim};
 use crate::failure::Failure;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What a results folder holds; the last one written says that it is complete.
+/// What a results folder holds; the last one says that it is complete.
 const ENTRIES: [&str; 8] = [
     "case.toml",
     "end_node.parquet",
@@ -16,88 +18,135 @@ const ENTRIES: [&str; 8] = [
     COMPLETE,
 ];
 const COMPLETE: &str = "summary.json";
+/// The new results and, while they take their place, the old ones: folders of the staging.
+const NEW: &str = "new";
+const OLD: &str = "old";
 
-/// A folder beside the wanted one that collects the files; gone again unless [`Staging::publish`]ed.
+/// A hidden folder beside or in the wanted one that collects the files; gone again unless
+/// [`Staging::publish`]ed.
 #[derive(Debug)]
-pub(crate) struct Staging {
+pub(crate) struct Staging<'a> {
     folder: PathBuf,
-    staging: tempfile::TempDir,
+    staging: PathBuf,
+    replace: bool,
+    /// Tells other runs that this one lives.
+    claim: Option<Claim>,
     /// Folders above that were made for it, the deepest first, removed again if nothing is published.
     made: Vec<PathBuf>,
+    stop: &'a AtomicBool,
 }
 
-impl Staging {
+impl<'a> Staging<'a> {
     /// Gets ready to write results to `folder`; finds out now whether that will be possible.
-    pub(crate) fn new(folder: &Path, replace: bool) -> Result<Self, Failure> {
-        if folder.exists() && !folder.is_dir() {
+    ///
+    /// * `stop` – set from elsewhere, nothing is written any more
+    pub(crate) fn new(folder: &Path, replace: bool, stop: &'a AtomicBool) -> Result<Self, Failure> {
+        let exists = folder.symlink_metadata().is_ok();
+        if exists && !folder.is_dir() {
             return Err(Failure::NotAFolder { path: folder.to_owned() });
         }
-        if !replace {
-            if let Some(found) = ENTRIES.iter().find(|e| folder.join(e).exists()) {
-                return Err(Failure::HoldsResults { folder: folder.to_owned(), found: (*found).to_owned() });
-            }
-        }
-        let mut made: Vec<PathBuf> = folder
-            .ancestors()
-            .skip(1)
-            .take_while(|above| !above.as_os_str().is_empty() && !above.exists())
-            .map(Path::to_owned)
-            .collect();
+        refuse_results(folder, replace)?;
+        let unwritable = |source| Failure::Unwritable { path: folder.to_owned(), source };
+        let above = match folder.parent() {
+            Some(above) if above.as_os_str().is_empty() => Path::new("."),
+            Some(above) => above,
+            None => folder,
+        };
+        leftovers::remove(above);
         // An existing folder is staged inside, so that publishing never crosses file systems.
-        let above = if folder.is_dir() { folder } else { folder.parent().unwrap_or(folder) };
-        let above = if above.as_os_str().is_empty() { Path::new(".") } else { above };
-        let made_all = fs::create_dir_all(above).and_then(|()| {
-            tempfile::Builder::new().prefix(".spunlaid-").suffix(".partial").tempdir_in(above)
-        });
-        match made_all {
-            Ok(staging) => Ok(Self { folder: folder.to_owned(), staging, made: std::mem::take(&mut made) }),
-            Err(source) => {
-                remove_empty(&made);
-                Err(Failure::Unwritable { path: folder.to_owned(), source })
-            }
+        let home = if exists { folder } else { above };
+        if exists {
+            leftovers::remove(folder);
         }
+        let made: Vec<PathBuf> =
+            above.ancestors().take_while(|above| !above.exists()).map(Path::to_owned).collect();
+        let staging = fs::create_dir_all(home)
+            .and_then(|()| leftovers::hidden_folder(home))
+            .inspect_err(|_| remove_empty(&made))
+            .map_err(unwritable)?;
+        let claim = Claim::on(&staging);
+        let staging = Self { folder: folder.to_owned(), staging, replace, claim, made, stop };
+        fs::create_dir(staging.staging.join(NEW)).map_err(unwritable)?;
+        Ok(staging)
     }
 
-    /// Where a file of the results goes for now.
-    pub(crate) fn path(&self, name: &str) -> PathBuf {
-        self.staging.path().join(name)
+    /// Where a file of the results goes for now, and where it will be.
+    pub(crate) fn place(&self, name: &str) -> (PathBuf, PathBuf) {
+        (self.staging.join(NEW).join(name), self.folder.join(name))
     }
 
     /// Writes a file, making the folders above it.
     pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), Failure> {
-        let path = self.path(name);
-        path.parent()
+        self.go_on()?;
+        let (now, later) = self.place(name);
+        now.parent()
             .map_or(Ok(()), fs::create_dir_all)
-            .and_then(|()| fs::write(&path, content))
-            .map_err(|source| Failure::Unwritable { path: self.folder.join(name), source })
+            .and_then(|()| fs::write(&now, content))
+            .map_err(|source| Failure::Unwritable { path: later, source })
     }
 
-    /// Moves everything to where it belongs.
+    /// Moves everything to where it belongs: at once where there was no folder, else entry by entry, the one
+    /// that marks the results as complete last.
     pub(crate) fn publish(mut self) -> Result<(), Failure> {
-        let folder = self.folder.clone();
-        fs::create_dir_all(&folder).map_err(Failure::unwritable(&folder))?;
+        self.go_on()?;
+        // Another run may have been faster.
+        refuse_results(&self.folder, self.replace)?;
+        let (new, folder) = (self.staging.join(NEW), self.folder.clone());
+        let moved = if folder.exists() { self.swap(&new, &folder) } else { fs::rename(&new, &folder) };
+        moved.map_err(Failure::unwritable(&folder))?;
         self.made.clear();
-        let remove =
-            |path: &Path| if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
-        // Incomplete from here until the last entry, which marks it complete, is in place.
-        for name in std::iter::once(&COMPLETE).chain(&ENTRIES) {
-            let (from, to) = (self.path(name), folder.join(name));
-            if to.exists() {
-                remove(&to).map_err(Failure::unwritable(&to))?;
+        Ok(())
+    }
+
+    /// Puts the new entries in the place of the old ones, and these back should that fail.
+    fn swap(&self, new: &Path, folder: &Path) -> std::io::Result<()> {
+        let old = self.staging.join(OLD);
+        fs::create_dir(&old)?;
+        let there = |path: &Path| path.symlink_metadata().is_ok();
+        let mut moved: Vec<(PathBuf, PathBuf)> = Vec::new();
+        let mut step = |from: PathBuf, to: PathBuf| {
+            if !there(&from) {
+                return Ok(());
             }
-            if *name != COMPLETE && from.exists() {
-                fs::rename(&from, &to).map_err(Failure::unwritable(&to))?;
+            fs::rename(&from, &to)?;
+            moved.push((from, to));
+            Ok(())
+        };
+        let swapped = (ENTRIES.iter().rev().try_for_each(|name| step(folder.join(name), old.join(name))))
+            .and_then(|()| ENTRIES.iter().try_for_each(|name| step(new.join(name), folder.join(name))));
+        if swapped.is_err() {
+            for (from, to) in moved.iter().rev() {
+                let _ = fs::rename(to, from);
             }
         }
-        let to = folder.join(COMPLETE);
-        fs::rename(self.path(COMPLETE), &to).map_err(Failure::unwritable(&to))
+        swapped
+    }
+
+    fn go_on(&self) -> Result<(), Failure> {
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(spunlaid::error::Error::Interrupted.into());
+        }
+        Ok(())
     }
 }
 
-impl Drop for Staging {
+impl Drop for Staging<'_> {
     fn drop(&mut self) {
-        let _ = fs::remove_dir_all(self.staging.path());
+        // Some systems do not remove what is open.
+        self.claim = None;
+        let _ = fs::remove_dir_all(&self.staging);
         remove_empty(&self.made);
+    }
+}
+
+/// Says no to a folder that holds any part of results, unless they may be replaced.
+fn refuse_results(folder: &Path, replace: bool) -> Result<(), Failure> {
+    let holds = |entry: &&&str| folder.join(entry).symlink_metadata().is_ok();
+    match ENTRIES.iter().find(holds) {
+        Some(found) if !replace => {
+            Err(Failure::HoldsResults { folder: folder.to_owned(), found: (*found).to_owned() })
+        }
+        _ => Ok(()),
     }
 }
 

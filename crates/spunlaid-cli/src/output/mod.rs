@@ -1,6 +1,7 @@
 //! Files of a results folder.
 
 pub(crate) mod folder;
+mod leftovers;
 pub(crate) mod paraview;
 pub(crate) mod study;
 pub(crate) mod summary;

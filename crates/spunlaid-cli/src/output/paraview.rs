@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 /// Writes the kept shapes: one VTK PolyData file per recorded instant with a line per replicate, and the
 /// collection that puts them in time.
-pub(crate) fn write(staging: &Staging, flights: &[Flight], rest_length: f64) -> Result<(), Failure> {
+pub(crate) fn write(staging: &Staging<'_>, flights: &[Flight], rest_length: f64) -> Result<(), Failure> {
     let flights: Vec<&Flight> = flights.iter().filter(|f| !f.shapes.is_empty()).collect();
     let Some(first) = flights.first() else { return Ok(()) };
     let mut collection = String::from(

@@ -10,7 +10,7 @@ use parquet::schema::types::Type;
 use spunlaid::ensemble::{Flight, Sample};
 use std::fs::File;
 use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A column of doubles: its name, unit included, and its value at an instant.
@@ -40,6 +40,7 @@ const ROWS: usize = 1 << 18;
 
 /// A table with a row per replicate and recorded instant: `replicate` (from 1), then the columns.
 pub(crate) struct Table {
+    /// Where it will be.
     path: PathBuf,
     writer: SerializedFileWriter<BufWriter<File>>,
     columns: &'static [Column],
@@ -48,8 +49,13 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    pub(crate) fn create(path: &Path, columns: &'static [Column]) -> Result<Self, Failure> {
-        let file = File::create(path).map_err(Failure::unwritable(path))?;
+    /// * `now`, `later` – where the table is written, and where it will be
+    pub(crate) fn create(
+        (now, later): (PathBuf, PathBuf),
+        columns: &'static [Column],
+    ) -> Result<Self, Failure> {
+        let path = later;
+        let file = File::create(now).map_err(Failure::unwritable(&path))?;
         let field = |name: &str, physical| {
             Type::primitive_type_builder(name, physical).with_repetition(Repetition::REQUIRED).build()
         };
@@ -67,9 +73,9 @@ impl Table {
                     .build();
                 SerializedFileWriter::new(BufWriter::new(file), Arc::new(schema), Arc::new(properties))
             })
-            .map_err(|source| Failure::Table { path: path.to_owned(), source })?;
+            .map_err(|error| Failure::table(&path, error))?;
         Ok(Self {
-            path: path.to_owned(),
+            path,
             writer,
             columns,
             replicates: Vec::new(),
@@ -90,8 +96,7 @@ impl Table {
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
         self.flush()?;
         let Self { path, writer, .. } = self;
-        let failed = |source| Failure::Table { path: path.clone(), source };
-        let file = writer.into_inner().map_err(failed)?;
+        let file = writer.into_inner().map_err(|error| Failure::table(&path, error))?;
         file.into_inner().map(drop).map_err(|error| Failure::unwritable(&path)(error.into_error()))
     }
 
@@ -99,7 +104,7 @@ impl Table {
         if self.replicates.is_empty() {
             return Ok(());
         }
-        self.write_group().map_err(|source| Failure::Table { path: self.path.clone(), source })?;
+        self.write_group().map_err(|error| Failure::table(&self.path, error))?;
         self.replicates.clear();
         self.values.iter_mut().for_each(Vec::clear);
         Ok(())

@@ -57,7 +57,7 @@ impl Parquet {
                     .build();
                 SerializedFileWriter::new(BufWriter::new(file), Arc::new(schema), Arc::new(properties))
             })
-            .map_err(|source| Failure::Table { path: path.to_owned(), source })?;
+            .map_err(|error| Failure::table(path, error))?;
         let empty = |column: &Column| {
             if column.whole { Gathered::Whole(Vec::new()) } else { Gathered::Numbers(Vec::new(), Vec::new()) }
         };
@@ -87,8 +87,7 @@ impl Parquet {
     pub(super) fn finish(mut self) -> Result<(), Failure> {
         self.flush()?;
         let Self { path, writer, .. } = self;
-        let failed = |source| Failure::Table { path: path.clone(), source };
-        let file = writer.into_inner().map_err(failed)?;
+        let file = writer.into_inner().map_err(|error| Failure::table(&path, error))?;
         let file = file.into_inner().map_err(|error| Failure::unwritable(&path)(error.into_error()))?;
         file.sync_all().map_err(Failure::unwritable(&path))
     }
@@ -101,7 +100,7 @@ impl Parquet {
         if self.columns.iter().all(is_empty) {
             return Ok(());
         }
-        self.write_group().map_err(|source| Failure::Table { path: self.path.clone(), source })?;
+        self.write_group().map_err(|error| Failure::table(&self.path, error))?;
         for gathered in &mut self.columns {
             match gathered {
                 Gathered::Whole(values) => values.clear(),
