@@ -43,6 +43,7 @@ struct EstimateSummary<'a> {
 struct Energy {
     work_error_percent: ErrorSummary,
     balance_error_percent: ErrorSummary,
+    tension_dissipation_percent: ErrorSummary,
 }
 
 #[derive(Debug, Serialize)]
@@ -143,6 +144,7 @@ impl<'a> Summary<'a> {
             energy: Energy {
                 work_error_percent: ledger(results.work_error_percent),
                 balance_error_percent: ledger(results.balance_error_percent),
+                tension_dissipation_percent: ledger(results.tension_dissipation_percent),
             },
             fibre: FibreSummary { max_strain: results.max_strain },
             performance,

@@ -1,6 +1,7 @@
 //! The table of results on the terminal.
 
 use spunlaid::case::Case;
+use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::Results;
 use spunlaid::statistics::Estimate;
 use std::fmt::Write;
@@ -23,8 +24,12 @@ pub(crate) fn results(case: &Case, results: &Results) -> String {
         let _ = writeln!(text, "  {name:<16}{} {unit}", mean_and_error(estimate, scale));
     }
     text.push_str("energy errors, at the end and median over time\n");
+    let dissipates = case.run.scheme == Scheme::ImplicitTension;
+    let of_tension = dissipates.then_some(("taken by scheme", results.tension_dissipation_percent));
     for (name, error) in
         [("work check", results.work_error_percent), ("full balance", results.balance_error_percent)]
+            .into_iter()
+            .chain(of_tension)
     {
         let _ = writeln!(
             text,

@@ -30,6 +30,7 @@ pub(crate) const ENERGY: &[Column] = &[
     ("gravity_work_j", |s| s.gravity_work),
     ("air_work_j", |s| s.air_work),
     ("damping_work_j", |s| s.damping_work),
+    ("tension_dissipation_j", |s| s.tension_dissipation),
     ("imbalance_j", |s| s.imbalance),
     ("work_error_percent", Sample::work_error_percent),
     ("balance_error_percent", Sample::balance_error_percent),

@@ -56,7 +56,7 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
         summary: words::case(input.case),
         notes: input.notes,
         frames: frames::pack(input.case, results),
-        rows: table::rows(results),
+        rows: table::rows(input.case, results),
         replicates: replicates as u64,
         replicate_heads: table::replicate_heads(results),
         replicate_rows: table::replicate_rows(results, LISTED),

@@ -2,6 +2,8 @@
 
 use super::words::{number, plus_minus};
 use crate::figures::signed;
+use spunlaid::case::Case;
+use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::Results;
 use spunlaid::statistics::Estimate;
 
@@ -44,7 +46,7 @@ fn per_replicate(results: &Results) -> [Result<'_>; 5] {
 }
 
 /// One row per result.
-pub(super) fn rows(results: &Results) -> Vec<Row> {
+pub(super) fn rows(case: &Case, results: &Results) -> Vec<Row> {
     let of = |(name, unit, factor, estimate, meaning): Result<'_>| Row {
         name,
         value: plus_minus(estimate, factor),
@@ -54,6 +56,7 @@ pub(super) fn rows(results: &Results) -> Vec<Row> {
     };
     let n = results.end_node.amplitude_y.values.len();
     let (work, balance) = (&results.work_error_percent, &results.balance_error_percent);
+    let dissipated = results.tension_dissipation_percent.final_mean;
     let single = |name, value: f64, meaning| Row { name, value: number(value), unit: "%", n, meaning };
     per_replicate(results)
         .into_iter()
@@ -65,6 +68,10 @@ pub(super) fn rows(results: &Results) -> Vec<Row> {
             single("Energy balance, at the end", balance.final_mean, "mean over the replicates"),
             single("Energy balance, typical", balance.time_median, "median over time and replicates"),
         ])
+        .chain((case.run.scheme == Scheme::ImplicitTension).then(|| {
+            let meaning = "of the air’s work, taken out by the scheme with the waves of tension that it damps";
+            single("Dissipated by the scheme, at the end", dissipated, meaning)
+        }))
         .collect()
 }
 

@@ -94,6 +94,9 @@ pub struct Sample {
     pub air_work: f64,
     /// Work of the damping [J].
     pub damping_work: f64,
+    /// What the implicit tension has taken out of the motion beyond what the elements store [J]; zero with
+    /// the explicit schemes.
+    pub tension_dissipation: f64,
     /// What the energy balance leaves over [J].
     pub imbalance: f64,
 }
@@ -111,25 +114,36 @@ impl Sample {
             gravity_work: e.gravity_work.0[lane],
             air_work: e.drag_work.0[lane],
             damping_work: e.damping_work.0[lane],
+            tension_dissipation: e.tension_dissipation.0[lane],
             imbalance: e.imbalance().0[lane],
         }
     }
 
     /// The work check `100 |W − T|/T` [%]; NaN at rest.                      theory.md (35)
     pub fn work_error_percent(&self) -> f64 {
-        percent(self.work - self.kinetic, self.kinetic)
+        percent(self.work - self.kinetic, self.kinetic).abs()
     }
 
     /// What the energy balance leaves over, by the work of the air [%]; without air by that of gravity,
     /// without either by the kinetic energy; NaN while that is zero.         theory.md (36)
     pub fn balance_error_percent(&self) -> f64 {
+        percent(self.imbalance, self.input()).abs()
+    }
+
+    /// What the implicit tension has dissipated, by the same as the balance [%].
+    pub fn tension_dissipation_percent(&self) -> f64 {
+        percent(self.tension_dissipation, self.input().abs())
+    }
+
+    /// What the energies are compared with [J].
+    fn input(&self) -> f64 {
         let scales = [self.air_work, self.gravity_work, self.kinetic];
-        percent(self.imbalance, scales.into_iter().find(|&w| w != 0.0).unwrap_or(0.0))
+        scales.into_iter().find(|&w| w != 0.0).unwrap_or(0.0)
     }
 }
 
 fn percent(part: f64, whole: f64) -> f64 {
-    if whole == 0.0 { f64::NAN } else { 100.0 * (part / whole).abs() }
+    if whole == 0.0 { f64::NAN } else { 100.0 * (part / whole) }
 }
 
 /// Flies one to eight jobs side by side. Their cases must agree in number of elements, eddy of each element,

@@ -14,6 +14,9 @@ pub struct Results {
     pub work_error_percent: LedgerError,
     /// The full energy balance, relative to the work of the air [%].          theory.md (36)
     pub balance_error_percent: LedgerError,
+    /// What the implicit tension has dissipated, relative to the work of the air [%]; zero with the
+    /// explicit schemes.
+    pub tension_dissipation_percent: LedgerError,
     /// Largest strain of any element at any recorded instant [-].
     pub max_strain: f64,
     /// Motion of the `N+1` nodes.
@@ -83,9 +86,9 @@ pub struct Collector {
     rest_length: f64,
     /// Per replicate: amplitude y, z, frequency y, z, mean x.
     end_node: [Vec<f64>; 5],
-    /// Per replicate, work check and balance: final value and median over time.
-    finals: [Vec<f64>; 2],
-    medians: [Vec<f64>; 2],
+    /// Per replicate, work check, balance and dissipation: final value and median over time.
+    finals: [Vec<f64>; 3],
+    medians: [Vec<f64>; 3],
     max_strain: f64,
     /// Per node, y and z: running mean and sum of squares over the replicates.
     nodes: Vec<[(f64, f64); 2]>,
@@ -155,10 +158,11 @@ impl Collector {
 
     fn take_errors(&mut self, flight: &Flight) {
         self.errors.resize(flight.samples.len(), Default::default());
-        let mut over_time = [Vec::new(), Vec::new()];
+        let mut over_time = [Vec::new(), Vec::new(), Vec::new()];
         for ((time, sums), sample) in self.errors.iter_mut().zip(&flight.samples) {
             *time = sample.time;
             let errors = [sample.work_error_percent(), sample.balance_error_percent()];
+            over_time[2].push(sample.tension_dissipation_percent());
             for ((error, over_time), (count, sum, largest)) in
                 errors.into_iter().zip(&mut over_time).zip(sums)
             {
@@ -202,6 +206,7 @@ impl Collector {
             end_node: EndNodeResults { amplitude_y, amplitude_z, frequency_y, frequency_z, mean_x },
             work_error_percent: ledger(0),
             balance_error_percent: ledger(1),
+            tension_dissipation_percent: ledger(2),
             max_strain: self.max_strain,
             nodes: nodes.collect(),
             errors: errors.collect(),
