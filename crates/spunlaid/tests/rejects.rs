@@ -159,7 +159,7 @@ fn rejects_a_case_that_code_built() {
             "fibre.direction = [1.1, 0, 0] is not a unit vector; divide it by its length",
             "fibre.elements = 0 is out of range; write a whole number from 1 to 18446744073709551615",
             "air.harmonics = 0 is out of range; write a whole number from 1 to 18446744073709551615",
-            "run.replicates = 0 is out of range; write a whole number from 1 to 100000000",
+            "run.replicates = 0 is out of range; write a whole number from 1 to 10000000",
             "run.duration = 0 s is not positive; a time greater than zero is needed here",
             "run.output_interval = 0 s is not positive; a time greater than zero is needed here",
         ]

@@ -11,8 +11,13 @@ use crate::units::Dimension;
 
 /// Most steps of a run.
 pub const MOST_STEPS: u64 = 1_000_000_000_000;
-/// Most recorded instants, over all replicates.
-pub const MOST_RECORDS: f64 = 1e8;
+/// Most replicates: their values, and the summary that lists them, take half a kilobyte of memory each.
+pub const MOST_REPLICATES: u64 = 10_000_000;
+/// Most recorded instants, over all replicates. They are written as they come, so that memory does not grow
+/// with them; a table of them takes [`RECORD_ON_DISK`] each, these 150 GB.
+pub const MOST_RECORDS: f64 = 1e9;
+/// What a recorded instant takes in tables of everything that is recorded [bytes].
+pub const RECORD_ON_DISK: f64 = 150.0;
 
 impl Case {
     /// Checks everything that must hold for the case to be run.
@@ -127,7 +132,7 @@ impl Check<'_> {
         for (key, value, most) in [
             ("fibre.elements", fibre.elements as u64, u64::MAX),
             (keys::HARMONICS, air.harmonics as u64, u64::MAX),
-            (keys::REPLICATES, run.replicates, MOST_RECORDS as u64),
+            (keys::REPLICATES, run.replicates, MOST_REPLICATES),
         ] {
             if !(1..=most).contains(&value) {
                 self.blame_key(key, value.to_string(), Fault::OutOfRange { least: 1, most });

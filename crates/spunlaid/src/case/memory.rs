@@ -11,7 +11,7 @@ const VECTORS_PER_NODE: f64 = 10.0;
 /// Bytes of such a vector.
 const VECTOR: f64 = 192.0;
 /// Bytes of the end nodes and energies of eight fibres at a recorded instant.
-const RECORD: f64 = 8.0 * 13.0 * 8.0;
+const RECORD: f64 = 8.0 * 14.0 * 8.0;
 /// Bytes of scratch space that the synthesis of turbulence takes per harmonic.
 const SYNTHESIS: f64 = 1200.0;
 

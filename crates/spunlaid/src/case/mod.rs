@@ -6,7 +6,7 @@ mod memory;
 mod note;
 mod step;
 
-pub use check::{MOST_RECORDS, MOST_STEPS};
+pub use check::{MOST_RECORDS, MOST_REPLICATES, MOST_STEPS, RECORD_ON_DISK};
 pub use memory::{BUNDLE_MEMORY_LIMIT, BundleMemory};
 pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};

@@ -5,7 +5,7 @@ use super::document::{Document, Entry, kind};
 use super::layout::VERSION;
 use crate::air::Air;
 use crate::case::keys::{self, Quantity};
-use crate::case::{Case, ERROR_TOLERANCE, MOST_RECORDS, MOST_STEPS, Note, Remark, Run};
+use crate::case::{Case, ERROR_TOLERANCE, MOST_REPLICATES, MOST_STEPS, Note, Remark, Run};
 use crate::chain::schemes::Scheme;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::error::{Error, Fault, Finding, Place};
@@ -209,7 +209,7 @@ impl Written {
             steps: 0,
             spin_up_steps: 0,
             output_steps: 0,
-            replicates: d.whole_number(keys::REPLICATES, 1, MOST_RECORDS as u64).unwrap_or(REPLICATES),
+            replicates: d.whole_number(keys::REPLICATES, 1, MOST_REPLICATES).unwrap_or(REPLICATES),
             seed: d.whole_number("run.seed", 0, u64::MAX).unwrap_or(SEED),
             scheme: d
                 .choice("run.scheme", &keys::SCHEMES.map(|one| (one.name(), one)))
