@@ -38,16 +38,13 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     };
     let Some(base) = table1(scheme, asked.replicates) else { return Ok(()) };
     let folder = asked.out.clone().unwrap_or_else(|| PathBuf::from("results").join("paper"));
-    let staging = Staging::new(&folder, asked.force)?;
+    let stop = stop_on_ctrl_c();
+    let staging = Staging::new(&folder, asked.force, stop)?;
     let flying = Flying::new(&base, &wanted);
 
     let fibre_steps = AtomicU64::new(0);
-    let computing = Computing {
-        threads: threads(asked.threads),
-        isa: Isa::detect(),
-        stop: stop_on_ctrl_c(),
-        fibre_steps: &fibre_steps,
-    };
+    let computing =
+        Computing { threads: threads(asked.threads), isa: Isa::detect(), stop, fibre_steps: &fibre_steps };
     let label = format!("flying {}", plural(flying.fibres(), "fibre"));
     let flown =
         progress::follow(&fibre_steps, flying.steps(), &label, asked.quiet, || flying.fly(computing))?;
@@ -65,7 +62,8 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     let drawn: Vec<Figure> = figures.into_iter().map(|(figure, _)| figure).collect();
     let case_toml = write_case(&base);
     let how = format!(
-        "{} at each point, scheme {}, time step {} µs, the same random phases at all points of a figure.",
+        "{} at each point, scheme {}, time step {} µs, the same random phases at all points of a figure. Figures 8 by \
+         the paper’s own scheme whatever the others.",
         plural(base.run.replicates, "replicate"),
         scheme.name(),
         base.run.time_step * 1e6

@@ -75,13 +75,7 @@ impl Table {
                 SerializedFileWriter::new(BufWriter::new(file), Arc::new(schema), Arc::new(properties))
             })
             .map_err(|error| Failure::table(&path, error))?;
-        Ok(Self {
-            path,
-            writer,
-            columns,
-            replicates: Vec::new(),
-            values: vec![Vec::new(); columns.len()],
-        })
+        Ok(Self { path, writer, columns, replicates: Vec::new(), values: vec![Vec::new(); columns.len()] })
     }
 
     /// Adds a flight.

@@ -69,7 +69,8 @@ pub(super) fn rows(case: &Case, results: &Results) -> Vec<Row> {
             single("Energy balance, typical", balance.time_median, "median over time and replicates"),
         ])
         .chain((case.run.scheme == Scheme::ImplicitTension).then(|| {
-            let meaning = "of the air’s work, taken out by the scheme with the waves of tension that it damps";
+            let meaning =
+                "of the air’s work, taken out by the scheme with the waves of tension that it damps";
             single("Dissipated by the scheme, at the end", dissipated, meaning)
         }))
         .collect()
