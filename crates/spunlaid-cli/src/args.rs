@@ -2,6 +2,8 @@
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
+use spunlaid::record::{IntegralRule, Window};
+use spunlaid::units::Dimension;
 use std::path::PathBuf;
 
 /// Simulate fibres in turbulent air: how far and how often the free end swings, and why.
@@ -19,6 +21,7 @@ Examples:
   spunlaid run my.toml                              fly it; then open results/my/report.html
   spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
   spunlaid sweep my_study.toml                      fly it at many values of what you vary
+  spunlaid analyse wire.csv                         make the air of a case from a velocity record
 
 A case is a small text file: the fibre, the air, the run. Lengths, speeds and the like carry
 their unit (\"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\").
@@ -37,6 +40,9 @@ pub(crate) enum Command {
     /// Draw every result figure of the paper anew and put its claims to the test
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(Reproduce),
+    /// Make the air of a case from a measured velocity record: mean, intensity, scales, spectrum
+    #[command(after_help = ANALYSE_HELP)]
+    Analyse(Analyse),
     /// Read a case and print what it means, without flying it
     #[command(after_help = CHECK_HELP)]
     Check(Check),
@@ -102,6 +108,32 @@ Examples:
   spunlaid reproduce                                       as the paper did it
   spunlaid reproduce --scheme implicit-tension --replicates 40   in seconds, with smaller errors
   spunlaid reproduce --figures 9,11a --out results/two";
+
+const ANALYSE_HELP: &str = "\
+A record is a CSV file (comma, semicolon, tab or blanks; decimal point or comma; # comments) or a
+Parquet file with a column of time and one to three of velocity, evenly sampled:
+
+  time_s,u_m_s,v_m_s          Zeit [ms];u [m/s]          (or no time column and --rate \"20 kHz\")
+  0.00000,10.12,-0.31         0,00;10,12
+  0.00005,10.25,-0.28         0,05;10,25
+
+The first velocity, or the one called u, is along the mean flow. Missing samples (empty, NaN, rows
+that the times skip) are filled in along straight lines, up to --max-gap in a row.
+
+The results folder holds
+  report.html          open it in a browser: record, histogram, spectrum, autocorrelation, table
+  analysis.json        every result as {value, low, high}, a 95 % confidence interval
+  air.toml             the [air] of a case, ready to be pasted; or to be given key by key with --set
+  spectrum.csv, autocorrelation.csv      the curves          figures/   the figures as SVG and PNG
+
+Integral time: the autocorrelation integrated up to
+  first-zero           its first zero (the usual choice)
+  e-fold               where it has fallen to 1/e; of an exponential this keeps 63 %
+  fixed=\"50 ms\"        a lag of your choice
+
+Examples:
+  spunlaid analyse cases/records/probe.csv
+  spunlaid analyse wire.csv --rate \"20 kHz\" --velocity-unit m/s --integral e-fold --out results/wire";
 
 const CHECK_HELP: &str = "\
 Prints the case with every default written out, the mesh, the longest stable time step, and the
@@ -205,6 +237,64 @@ pub(crate) struct Reproduce {
     pub(crate) force: bool,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct Analyse {
+    /// Velocity record (CSV or Parquet)
+    #[arg(value_name = "RECORD", value_hint = ValueHint::FilePath)]
+    pub(crate) record: PathBuf,
+    /// Folder for the results [default: results/<name of the record>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Sampling rate, as "20 kHz"; a column of time is then not needed, and not used
+    #[arg(long, value_name = "RATE", value_parser = |t: &str| quantity(Dimension::Frequency, t))]
+    pub(crate) rate: Option<f64>,
+    /// Unit of the time where the header has none: s, ms, us
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) time_unit: Option<String>,
+    /// Unit of the velocities where the header has none: m/s, cm/s, km/h
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) velocity_unit: Option<String>,
+    /// Columns that are velocities, by name or number, that along the flow first, as u,v
+    #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
+    pub(crate) columns: Vec<String>,
+    /// Column that is the time, by name or number
+    #[arg(long, value_name = "COLUMN")]
+    pub(crate) time_column: Option<String>,
+    /// Lines to leave out at the start of a CSV file
+    #[arg(long, value_name = "LINES", default_value_t = 0)]
+    pub(crate) skip: u64,
+    /// Most missing samples in a row that are filled in
+    #[arg(long, value_name = "SAMPLES", default_value_t = spunlaid::record::LONGEST_GAP)]
+    pub(crate) max_gap: usize,
+    /// Mean velocity, as "10 m/s", where the record holds the fluctuation only
+    #[arg(long, value_name = "SPEED", value_parser = |t: &str| quantity(Dimension::Velocity, t))]
+    pub(crate) mean_velocity: Option<f64>,
+    /// How far the autocorrelation is integrated: first-zero, e-fold or fixed="50 ms"
+    #[arg(long, value_name = "RULE", default_value = "first-zero", value_parser = integral)]
+    pub(crate) integral: IntegralRule,
+    /// Samples in a segment of the spectrum, a power of two [default: by the integral time]
+    #[arg(long, value_name = "SAMPLES")]
+    pub(crate) segment: Option<usize>,
+    /// Window of the segments: hann, hamming or rectangular
+    #[arg(long, value_name = "NAME", default_value = "hann", value_parser = window)]
+    pub(crate) window: Window,
+    /// Share of a segment that the next one overlaps, 0 to 0.9
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, value_parser = overlap)]
+    pub(crate) overlap: f64,
+    /// End of the flat part of the spectrum, as "20 Hz" [default: an eighth of the cut-off]
+    #[arg(long, value_name = "FREQUENCY", value_parser = |t: &str| quantity(Dimension::Frequency, t))]
+    pub(crate) flat_until: Option<f64>,
+    /// No table; warnings and errors still show
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Print analysis.json instead of the table
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace the results in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
 /// A scheme by its name in a case file.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 pub(crate) enum SchemeName {
@@ -214,6 +304,29 @@ pub(crate) enum SchemeName {
     Leapfrog,
     /// Long steps: hundreds of times faster
     ImplicitTension,
+}
+
+fn quantity(dimension: Dimension, text: &str) -> Result<f64, String> {
+    let value = dimension.parse(text).map_err(|fault| fault.to_string())?;
+    let signed = dimension == Dimension::Velocity;
+    if value > 0.0 || (signed && value < 0.0) { Ok(value) } else { Err("is not above zero".to_owned()) }
+}
+
+fn integral(text: &str) -> Result<IntegralRule, String> {
+    match IntegralRule::parse(text) {
+        Some(rule) => rule.map_err(|fault| fault.to_string()),
+        None => Err("write first-zero, e-fold or fixed=\"50 ms\"".to_owned()),
+    }
+}
+
+fn window(text: &str) -> Result<Window, String> {
+    let known = Window::ALL.into_iter().find(|window| window.name() == text);
+    known.ok_or_else(|| "write hann, hamming or rectangular".to_owned())
+}
+
+fn overlap(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share| (0.0..=0.9).contains(share));
+    share.ok_or_else(|| "write a number from 0 to 0.9, like 0.5".to_owned())
 }
 
 #[derive(Debug, Args)]

@@ -28,6 +28,7 @@ fn main() -> ExitCode {
         Command::Run(run) => commands::run(&run),
         Command::Sweep(sweep) => commands::sweep(&sweep),
         Command::Reproduce(asked) => commands::reproduce(&asked),
+        Command::Analyse(analyse) => commands::analyse(&analyse),
         Command::Check(check) => commands::check(&check),
         Command::New(new) => commands::new(&new),
         Command::Completions(completions) => commands::completions(&completions),

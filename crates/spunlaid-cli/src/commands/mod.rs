@@ -1,5 +1,6 @@
 //! What the program can be asked to do.
 
+mod analyse;
 mod check;
 mod interrupt;
 mod reproduce;
@@ -7,6 +8,7 @@ mod run;
 mod small;
 mod sweep;
 
+pub(crate) use analyse::analyse;
 pub(crate) use check::check;
 pub(crate) use reproduce::reproduce;
 pub(crate) use run::run;

@@ -11,7 +11,10 @@ mod legend;
 mod palette;
 pub(crate) mod paper;
 mod png;
+mod record;
 mod run;
+#[cfg(test)]
+pub(crate) mod record_sample;
 #[cfg(test)]
 pub(crate) mod sample;
 mod scale;
@@ -22,6 +25,7 @@ mod tests;
 
 pub(crate) use decimate::even;
 pub(crate) use png::png;
+pub(crate) use record::record_figures;
 pub(crate) use run::{run_figures, significant};
 pub(crate) use scale::signed;
 pub(crate) use study::{name_of_key, study_figures};

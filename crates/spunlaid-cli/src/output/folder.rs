@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What a results folder holds; the last one says that it is complete.
-const ENTRIES: [&str; 8] = [
+const ENTRIES: [&str; 12] = [
     "case.toml",
     "end_node.parquet",
     "energy.parquet",
@@ -15,6 +15,10 @@ const ENTRIES: [&str; 8] = [
     "shape",
     "figures",
     "report.html",
+    "air.toml",
+    "spectrum.csv",
+    "autocorrelation.csv",
+    "analysis.json",
     COMPLETE,
 ];
 const COMPLETE: &str = "summary.json";

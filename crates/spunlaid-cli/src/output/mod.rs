@@ -1,5 +1,6 @@
 //! Files of a results folder.
 
+pub(crate) mod analysis;
 pub(crate) mod folder;
 mod leftovers;
 pub(crate) mod paraview;

@@ -4,6 +4,7 @@
 //! Results → words (headline, numbers), table (rows), frames (the moving fibre) → page (assets/report.html)
 //! ```
 
+mod analysis;
 mod frames;
 mod page;
 mod paper;
@@ -14,6 +15,7 @@ mod tests;
 mod words;
 
 pub(crate) use paper::{PaperReport, paper_html};
+pub(crate) use analysis::{AnalysisReport, analysis_html};
 pub(crate) use study::{StudyReport, study_html};
 
 use crate::figures::Figure;

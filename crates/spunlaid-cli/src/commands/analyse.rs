@@ -1,0 +1,111 @@
+//! `spunlaid analyse`: make the air of a case from a velocity record.
+
+use crate::args::Analyse;
+use crate::failure::Failure;
+use crate::figures::{png, record_figures};
+use crate::output::analysis::{air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv};
+use crate::output::folder::Staging;
+use crate::report::{AnalysisReport, analysis_html};
+use crate::say;
+use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
+use std::path::{Path, PathBuf};
+
+pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
+    let name = name(&analyse.record);
+    let folder = analyse.out.clone().unwrap_or_else(|| PathBuf::from("results").join(&name));
+    let staging = Staging::new(&folder, analyse.force, super::interrupt::stop_on_ctrl_c())?;
+    let record = read_record(&analyse.record, &layout(analyse))?;
+    let of = spunlaid::record::analyse(&record, &settings(analyse))?;
+    let remarks = remarks(&record);
+    remarks.iter().for_each(|remark| say::aside(&format!("note: {remark}")));
+    of.warnings.iter().for_each(|warning| say::warning(&warning.to_string()));
+
+    let json = analysis_json(&record, &of);
+    write(&staging, &name, &record, &of, &remarks, &json)?;
+    staging.publish()?;
+    if analyse.json {
+        say::text(&json);
+    } else if !analyse.quiet {
+        say::text(&result_table(&record, &of));
+        say::line(&format!("\nthe [air] of a case is in {}", folder.join("air.toml").display()));
+        say::line(&format!("open {}", folder.join("report.html").display()));
+    }
+    Ok(())
+}
+
+/// What the record is called: the name of its file.
+fn name(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "record".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+fn layout(analyse: &Analyse) -> Layout {
+    Layout {
+        rate: analyse.rate,
+        time_unit: analyse.time_unit.clone(),
+        velocity_unit: analyse.velocity_unit.clone(),
+        columns: analyse.columns.clone(),
+        time_column: analyse.time_column.clone(),
+        skip_lines: analyse.skip,
+        longest_gap: analyse.max_gap,
+    }
+}
+
+fn settings(analyse: &Analyse) -> Settings {
+    Settings {
+        integral: analyse.integral,
+        spectrum: SpectrumSettings {
+            window: analyse.window,
+            overlap: analyse.overlap,
+            segment: analyse.segment,
+        },
+        flat_until: analyse.flat_until,
+        mean_velocity: analyse.mean_velocity,
+    }
+}
+
+/// What was done to the record while it was read.
+fn remarks(record: &Record) -> Vec<String> {
+    let r = &record.reading;
+    let mut remarks = Vec::new();
+    if r.filled > 0 {
+        let skipped = if r.skipped > 0 {
+            format!(", {} of them rows that the times skip", r.skipped)
+        } else {
+            String::new()
+        };
+        remarks.push(format!("{} missing samples were filled in along straight lines{skipped}", r.filled));
+    }
+    if r.cut_off > 0 {
+        remarks
+            .push(format!("{} rows with samples missing were cut off at the start and the end", r.cut_off));
+    }
+    if !r.unused.is_empty() {
+        remarks.push(format!("not used: {}", r.unused.join(", ")));
+    }
+    remarks
+}
+
+fn write(
+    staging: &Staging<'_>,
+    name: &str,
+    record: &Record,
+    of: &Analysis,
+    remarks: &[String],
+    json: &str,
+) -> Result<(), Failure> {
+    let figures = record_figures(record, of);
+    for figure in &figures {
+        staging.write(&format!("figures/{}.svg", figure.name), &figure.svg)?;
+        let png = png(&figure.svg)
+            .map_err(|reason| Failure::Figure { name: figure.name.clone(), reason: reason.to_string() })?;
+        staging.write(&format!("figures/{}.png", figure.name), png)?;
+    }
+    let air = air_block(&record.file, of);
+    let page =
+        analysis_html(&AnalysisReport { name, record, analysis: of, figures: &figures, remarks, air: &air });
+    staging.write("report.html", page)?;
+    staging.write("spectrum.csv", spectrum_csv(of))?;
+    staging.write("autocorrelation.csv", autocorrelation_csv(of))?;
+    staging.write("air.toml", air)?;
+    staging.write("analysis.json", json)
+}

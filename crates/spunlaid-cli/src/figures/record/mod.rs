@@ -1,0 +1,32 @@
+//! The figures of a velocity record.
+
+mod spectrum;
+#[cfg(test)]
+mod tests;
+mod time;
+
+use super::Figure;
+use super::chart::{Chart, Series};
+use super::palette::{BLUE, GREEN, VERMILION};
+use spunlaid::record::{Analysis, Record};
+
+/// The figures of a record, in the order a reader wants them.
+pub(crate) fn record_figures(record: &Record, of: &Analysis) -> Vec<Figure> {
+    vec![
+        time::history(record, of),
+        time::histogram(record, of),
+        spectrum::density(of),
+        time::autocorrelation(of),
+    ]
+}
+
+fn figure(chart: &Chart, caption: String) -> Figure {
+    Figure { name: chart.name.clone(), title: chart.title.clone(), caption, svg: chart.svg() }
+}
+
+/// The line of a component: green along the flow, blue and vermilion across.
+fn series(name: &str, index: usize) -> Series {
+    // A name may hold the signs of the labels' mark-up.
+    let plain = name.replace(['*', '^', '_', '{', '}'], " ");
+    Series::new(&format!("*{}*", plain.trim()), [GREEN, BLUE, VERMILION][index % 3]).width(1.2)
+}

@@ -1,0 +1,73 @@
+//! The spectrum of a record, with its flat part and the cut-off.
+
+use super::super::Figure;
+use super::super::chart::{Chart, Series};
+use super::super::palette::{INK, ORANGE};
+use super::super::run::significant;
+use super::super::scale::Axis;
+use super::{figure, series};
+use spunlaid::record::{Analysis, Spectrum};
+
+/// Neighbouring frequencies within this ratio are drawn as one point.
+const RATIO: f64 = 1.02;
+
+/// The spectrum of each component; flat part and cut-off of the one along the flow.
+pub(super) fn density(of: &Analysis) -> Figure {
+    let along = &of.components[0];
+    let (spectrum, flat) = (&along.spectrum, &along.flat);
+    let mut chart = Chart::new(
+        "spectrum",
+        "Spectrum of the fluctuation",
+        Axis::logarithmic("Frequency *f* (Hz)").tight(),
+        Axis::logarithmic("Power spectral density [(m/s)²/Hz]").decades(9),
+    )
+    .when_empty("no fluctuation")
+    .stretch(Series::new("taken as flat", ORANGE), spectrum.step, flat.until);
+    for (i, component) in of.components.iter().enumerate() {
+        let points = thinned(&component.spectrum);
+        if i == 0 {
+            let per_frequency = spectrum.effective_duration * spectrum.step;
+            let band: Vec<_> = points
+                .iter()
+                .map(|&(f, p, n)| {
+                    let factor = (1.96 / (n as f64 * per_frequency).sqrt()).exp();
+                    (f, p / factor, p * factor)
+                })
+                .collect();
+            chart = chart.band(series("", i).unlabelled(), &band);
+        }
+        let line: Vec<_> = points.iter().map(|&(f, p, _)| (f, p)).collect();
+        chart = chart.line(series(&component.name, i).width(1.5), &line);
+    }
+    let (level, cutoff) = (flat.density.value, flat.cutoff.value);
+    let bottom = spectrum.density.iter().copied().filter(|p| *p > 0.0).fold(level, f64::min);
+    let model = [(spectrum.step, level), (cutoff, level), (cutoff, bottom)];
+    let chart = chart.path(Series::new("flat, same plateau and variance", INK).dashed("6 4"), &model);
+    let caption = format!(
+        "How the variance is spread over frequencies: Welch’s method with {} segments of {} samples, {} window, {} % \
+         overlap; shaded around the line its 95 % interval. Orange: the part whose mean is the plateau. Dashed: the flat \
+         spectrum that holds the same variance at the same plateau, which is what the simulation uses; it ends at the \
+         cut-off of {} Hz, where the real one has long begun to fall.",
+        spectrum.segments,
+        spectrum.segment,
+        spectrum.window.name(),
+        significant(100.0 * spectrum.overlap, 2),
+        significant(cutoff, 3),
+    );
+    figure(&chart, caption)
+}
+
+/// Frequency, density, and how many frequencies they are the mean of.
+fn thinned(spectrum: &Spectrum) -> Vec<(f64, f64, usize)> {
+    let mut points = Vec::new();
+    let mut from = 0;
+    while from < spectrum.density.len() {
+        let end = ((from + 1) as f64 * RATIO) as usize;
+        let end = end.clamp(from + 1, spectrum.density.len());
+        let count = end - from;
+        let mean = spectrum.density[from..end].iter().sum::<f64>() / count as f64;
+        points.push((0.5 * (spectrum.frequency(from) + spectrum.frequency(end - 1)), mean, count));
+        from = end;
+    }
+    points
+}

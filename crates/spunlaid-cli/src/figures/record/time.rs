@@ -1,0 +1,155 @@
+//! A record over time, its values, its memory.
+
+use super::super::Figure;
+use super::super::chart::{Chart, Series};
+use super::super::draw::stacked;
+use super::super::palette::GREY;
+use super::super::run::significant;
+use super::super::scale::Axis;
+use super::{figure, series};
+use spunlaid::record::{Analysis, Record};
+
+/// Points along a panel, two for each.
+const ACROSS: usize = 1000;
+/// Integral times in the close-up.
+const CLOSE_UP: f64 = 40.0;
+/// Classes of the histogram within four rms of the mean.
+const CLASSES: usize = 64;
+
+/// The whole record, and a close-up of its middle.
+pub(super) fn history(record: &Record, of: &Analysis) -> Figure {
+    let samples = record.samples();
+    let close = ((CLOSE_UP * of.integral_time.value / of.interval) as usize).clamp(16, samples);
+    let first = (samples - close) / 2;
+    let panel = |name: &str, range: std::ops::Range<usize>, label: &str| {
+        let chart =
+            Chart::new(name, "The record", Axis::linear(label).tight(), Axis::linear("Velocity (m/s)"));
+        record.components.iter().enumerate().fold(chart, |chart, (i, component)| {
+            let line = extremes(&component.values[range.clone()], range.start, of.interval);
+            chart.line(series(&component.name, i).width(1.0), &line)
+        })
+    };
+    let whole = panel("record", 0..samples, "");
+    let part = panel("record_part", first..first + close, "Time *t* (s)");
+    let whole = whole.stretch(
+        Series::new("shown below", GREY),
+        first as f64 * of.interval,
+        (first + close) as f64 * of.interval,
+    );
+    let caption = format!(
+        "Above the whole record, at each place its lowest and highest sample; below {} s from its middle, {} integral \
+         times. A steady flow looks the same everywhere above.",
+        significant(close as f64 * of.interval, 2),
+        significant(close as f64 * of.interval / of.integral_time.value, 2),
+    );
+    let (whole, part) = (whole.sized(640.0, 230.0), part.sized(640.0, 250.0));
+    Figure { svg: stacked(&whole.title, &[&whole, &part]), ..figure(&whole, caption) }
+}
+
+/// The lowest and the highest sample of each of so many stretches, in their order.
+fn extremes(values: &[f64], first: usize, interval: f64) -> Vec<(f64, f64)> {
+    let each = values.len().div_ceil(ACROSS).max(1);
+    let mut line = Vec::new();
+    for (c, chunk) in values.chunks(each).enumerate() {
+        let by_value = |a: &usize, b: &usize| chunk[*a].total_cmp(&chunk[*b]);
+        let low = (0..chunk.len()).min_by(by_value).unwrap_or(0);
+        let high = (0..chunk.len()).max_by(by_value).unwrap_or(0);
+        let mut both = vec![low, high];
+        both.sort_unstable();
+        both.dedup();
+        line.extend(both.into_iter().map(|i| ((first + c * each + i) as f64 * interval, chunk[i])));
+    }
+    line
+}
+
+/// How often each velocity occurs, against the Gaussian.
+pub(super) fn histogram(record: &Record, of: &Analysis) -> Figure {
+    let single = of.components.len() == 1;
+    let (x, y) = if single {
+        ("Velocity (m/s)", "Probability density (s/m)")
+    } else {
+        ("Fluctuation over its rms", "Probability density")
+    };
+    let mut chart = Chart::new(
+        "histogram",
+        "Distribution of the velocity",
+        Axis::linear(x).tight(),
+        Axis::linear(y).zero_based(),
+    );
+    let mut gaussian = Vec::new();
+    for (i, (component, samples)) in of.components.iter().zip(&record.components).enumerate() {
+        let (mean, rms) = (component.mean.value, component.rms.value);
+        let (place, unit) = if single { (mean, rms) } else { (0.0, 1.0) };
+        let reach =
+            4.0f64.max(((component.range.1 - mean) / rms).max((mean - component.range.0) / rms)).min(8.0);
+        let width = 2.0 * 4.0 / CLASSES as f64;
+        let count = (2.0 * reach / width).ceil() as usize;
+        let mut classes = vec![0u64; count];
+        for value in &samples.values {
+            let class = ((value - mean) / rms + reach) / width;
+            if class >= 0.0 && (class as usize) < count {
+                classes[class as usize] += 1;
+            }
+        }
+        let height = |n: u64| n as f64 / (samples.values.len() as f64 * width * unit);
+        let edge = |k: usize| place + (k as f64 * width - reach) * unit;
+        let steps: Vec<_> = (classes.iter().enumerate())
+            .flat_map(|(k, n)| [(edge(k), height(*n)), (edge(k + 1), height(*n))])
+            .collect();
+        chart = chart.path(series(&component.name, i).width(1.4), &steps);
+        if i == 0 {
+            let bell = |z: f64| (-0.5 * z * z).exp() / ((2.0 * std::f64::consts::PI).sqrt() * unit);
+            gaussian = (-100..=100)
+                .map(|k| f64::from(k) * reach / 100.0)
+                .map(|z| (place + z * unit, bell(z)))
+                .collect();
+        }
+    }
+    let chart = chart.line(Series::reference("Gaussian of the same mean and rms"), &gaussian);
+    let caption = "How often each velocity occurs, in steps of an eighth of the rms, against the Gaussian with the same \
+                   mean and rms (dashed), which is what the simulated turbulence has. A peak at either end is \
+                   clipping."
+        .to_owned();
+    figure(&chart, caption)
+}
+
+/// The memory of the record, with the part that is integrated.
+pub(super) fn autocorrelation(of: &Analysis) -> Figure {
+    let along = &of.components[0].autocorrelation;
+    let limit = along.limit * 1e3;
+    let shown = 3.0 * limit.max(of.interval * 2e3);
+    let mut chart = Chart::new(
+        "autocorrelation",
+        "Autocorrelation of the fluctuation",
+        Axis::linear("Lag *τ* (ms)").tight().including(0.0),
+        Axis::linear("Autocorrelation coefficient *ρ*").including(0.0),
+    )
+    .stretch(Series::new("integrated", GREY), 0.0, limit);
+    for (i, component) in of.components.iter().enumerate() {
+        let coefficients = component.autocorrelation.coefficients.iter().enumerate();
+        let line: Vec<_> = coefficients
+            .map(|(k, c)| (k as f64 * of.interval * 1e3, *c))
+            .take_while(|(lag, _)| *lag <= shown)
+            .collect();
+        chart = chart.line(series(&component.name, i).width(1.5), &line);
+    }
+    let omega = 2.0 * std::f64::consts::PI * of.cutoff_frequency.value * 1e-3;
+    let sinc = |lag: f64| if lag == 0.0 { 1.0 } else { (omega * lag).sin() / (omega * lag) };
+    let end = (along.coefficients.len().saturating_sub(1) as f64 * of.interval * 1e3).min(shown);
+    let flat: Vec<_> = (0..=300).map(|k| f64::from(k) * end / 300.0).map(|lag| (lag, sinc(lag))).collect();
+    let zero = [(0.0, 0.0), (end, 0.0)];
+    let chart = chart
+        .line(Series::new("", GREY).unlabelled().width(0.8), &zero)
+        .line(Series::reference("of the flat spectrum"), &flat)
+        .vertical(Series::new("limit of the integral", GREY).dashed("2 3").width(1.2), limit);
+    let caption = format!(
+        "How long the velocity remembers itself: the mean product of fluctuations a lag apart, over the variance; \
+         products are divided by the number of pairs there are. The shaded part, {}, makes the integral time of {} ms. \
+         Dashed: what the simulated turbulence with the flat spectrum has, sin(*ω*τ)/(*ω*τ); its integral over all lags \
+         is a quarter of the period of the cut-off.",
+        of.integral.words(),
+        significant(of.integral_time.value * 1e3, 3),
+    )
+    .replace('*', "");
+    figure(&chart, caption)
+}

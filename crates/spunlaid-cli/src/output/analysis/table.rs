@@ -1,0 +1,139 @@
+//! The results of an analysis in rows, for the terminal and the report.
+
+use super::decimals;
+use crate::figures::signed;
+use spunlaid::record::{Analysis, Interval, Record};
+use spunlaid::units::Dimension;
+use std::fmt::Write;
+
+/// A result with its interval and how it was come by.
+pub(crate) struct ResultRow {
+    pub(crate) name: String,
+    pub(crate) value: String,
+    pub(crate) low: String,
+    pub(crate) high: String,
+    pub(crate) unit: &'static str,
+    pub(crate) meaning: String,
+}
+
+fn row(name: &str, of: &Interval, factor: f64, unit: &'static str, meaning: String) -> ResultRow {
+    let decimals = decimals(of, factor);
+    let text = |x: f64| if x.is_finite() { signed(x * factor, decimals) } else { "–".to_owned() };
+    ResultRow {
+        name: name.to_owned(),
+        value: text(of.value),
+        low: text(of.low),
+        high: text(of.high),
+        unit,
+        meaning,
+    }
+}
+
+/// What the model needs, then each component.
+pub(crate) fn results(of: &Analysis) -> (Vec<ResultRow>, Vec<(String, Vec<ResultRow>)>) {
+    let along = of.components.first().map_or("u", |c| c.name.as_str());
+    let isotropic = if of.components.len() > 1 {
+        "square root of the mean of the components’ variances, over the mean velocity"
+    } else {
+        "rms of the fluctuation over the mean velocity"
+    };
+    let air = vec![
+        row("Mean velocity", &of.mean_velocity, 1.0, "m/s", format!("mean of {along}")),
+        row("Turbulence intensity", &of.turbulence_intensity, 100.0, "%", isotropic.to_owned()),
+        row(
+            "Integral time",
+            &of.integral_time,
+            1e3,
+            "ms",
+            format!("autocorrelation of {along}, integrated {}", of.integral.words()),
+        ),
+        row(
+            "Length scale",
+            &of.length_scale,
+            1e3,
+            "mm",
+            "integral time × mean velocity: Taylor’s hypothesis".to_owned(),
+        ),
+        row(
+            "Cut-off frequency",
+            &of.cutoff_frequency,
+            1.0,
+            "Hz",
+            format!(
+                "variance of {along} over the plateau of its spectrum: where the flat spectrum with both ends"
+            ),
+        ),
+    ];
+    (air, of.components.iter().map(|c| (c.name.clone(), component(of, c))).collect())
+}
+
+fn component(of: &Analysis, c: &spunlaid::record::Component) -> Vec<ResultRow> {
+    let time = |s: f64| Dimension::Time.pretty_to(s, 3);
+    let hertz = |f: f64| Dimension::Frequency.pretty_to(f, 3);
+    vec![
+        row("Mean", &c.mean, 1.0, "m/s", String::new()),
+        row("Rms", &c.rms, 1.0, "m/s", "root mean square of the fluctuation about the mean".to_owned()),
+        row("Skewness", &c.skewness, 1.0, "", "0 for a Gaussian".to_owned()),
+        row("Flatness", &c.flatness, 1.0, "", "3 for a Gaussian".to_owned()),
+        row(
+            "Integral time",
+            &c.integral_time,
+            1e3,
+            "ms",
+            format!(
+                "{}, here {}; by the plateau of the spectrum {}",
+                of.integral.words(),
+                time(c.autocorrelation.limit),
+                time(c.flat.integral_time())
+            ),
+        ),
+        row(
+            "Plateau of the spectrum",
+            &c.flat.density,
+            1e3,
+            "10⁻³ (m/s)²/Hz",
+            format!("mean density up to {}", hertz(c.flat.until)),
+        ),
+        row("Cut-off frequency", &c.flat.cutoff, 1.0, "Hz", "variance over plateau".to_owned()),
+        row(
+            "Drift of the mean",
+            &c.mean_trend.change,
+            1.0,
+            "m/s",
+            "from start to end, by a straight line".to_owned(),
+        ),
+        row(
+            "Drift of the rms",
+            &c.rms_trend.change,
+            1.0,
+            "m/s",
+            "from start to end, by a straight line".to_owned(),
+        ),
+    ]
+}
+
+/// The table for the terminal.
+pub(crate) fn result_table(record: &Record, of: &Analysis) -> String {
+    let mut text = format!(
+        "{}: {} samples of {} at {} over {}, 95 % confidence intervals\n",
+        record.file,
+        of.samples,
+        of.components.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", "),
+        Dimension::Frequency.pretty(1.0 / of.interval),
+        Dimension::Time.pretty(of.duration),
+    );
+    let (air, components) = results(of);
+    let write = |text: &mut String, rows: &[ResultRow]| {
+        for r in rows {
+            let range = format!("{} to {}", r.low, r.high);
+            let line = format!("  {:<24}{:>10}   {range:<22}{:<5} {}", r.name, r.value, r.unit, r.meaning);
+            let _ = writeln!(text, "{}", line.trim_end());
+        }
+    };
+    write(&mut text, &air);
+    for (name, rows) in &components {
+        let _ = writeln!(text, "{name}");
+        write(&mut text, rows);
+    }
+    text
+}

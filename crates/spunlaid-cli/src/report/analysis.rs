@@ -1,0 +1,219 @@
+//! `report.html` of the analysis of a velocity record.
+
+use super::words::{count, time};
+use crate::figures::Figure;
+use crate::output::analysis::{ResultRow, decimals, results};
+use askama::Template;
+use spunlaid::record::{Analysis, Interval, Record};
+use spunlaid::units::Dimension;
+
+const THIN: char = '\u{202f}';
+const HARD: char = '\u{a0}';
+
+/// Everything the report shows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AnalysisReport<'a> {
+    /// What the record is called: the name of its file.
+    pub(crate) name: &'a str,
+    pub(crate) record: &'a Record,
+    pub(crate) analysis: &'a Analysis,
+    pub(crate) figures: &'a [Figure],
+    /// What was done to the record while it was read.
+    pub(crate) remarks: &'a [String],
+    /// The [air] of a case.
+    pub(crate) air: &'a str,
+}
+
+/// What `assets/analysis.html` is filled with; everything is escaped there but what is marked safe.
+#[derive(Template)]
+#[template(path = "analysis.html")]
+struct Page<'a> {
+    name: &'a str,
+    headline: String,
+    summary: String,
+    warnings: Vec<String>,
+    remarks: &'a [String],
+    air_rows: Vec<ResultRow>,
+    components: Vec<(String, Vec<ResultRow>)>,
+    durations: String,
+    figures: &'a [Figure],
+    air: &'a str,
+    methods: Vec<(&'static str, String)>,
+    version: &'static str,
+    style: &'static str,
+    study_style: &'static str,
+}
+
+/// The report as one HTML file.
+pub(crate) fn analysis_html(input: &AnalysisReport<'_>) -> String {
+    let of = input.analysis;
+    let (air_rows, components) = results(of);
+    let page = Page {
+        name: input.name,
+        headline: headline(of),
+        summary: summary(input.record, of),
+        warnings: of.warnings.iter().map(ToString::to_string).collect(),
+        remarks: input.remarks,
+        air_rows,
+        components,
+        durations: durations(of),
+        figures: input.figures,
+        air: input.air,
+        methods: methods(of),
+        version: env!("CARGO_PKG_VERSION"),
+        style: include_str!("../../assets/report.css"),
+        study_style: include_str!("../../assets/study.css"),
+    };
+    // Writing to a string fails only where a value's own formatting does, and none here can.
+    page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
+}
+
+/// `10.02 ± 0.04 m/s`, half the interval behind the sign.
+fn around(of: &Interval, factor: f64, unit: &str) -> String {
+    let decimals = decimals(of, factor);
+    let half = 0.5 * (of.high - of.low) * factor;
+    let value = crate::figures::signed(of.value * factor, decimals);
+    if half > 0.0 && half.is_finite() {
+        format!("{value}{HARD}±{HARD}{half:.decimals$}{THIN}{unit}")
+    } else {
+        format!("{value}{THIN}{unit}")
+    }
+}
+
+fn headline(of: &Analysis) -> String {
+    format!(
+        "Air at {} with {} of turbulence, in eddies of {}.",
+        around(&of.mean_velocity, 1.0, "m/s"),
+        around(&of.turbulence_intensity, 100.0, "%"),
+        around(&of.length_scale, 1e3, "mm"),
+    )
+}
+
+fn summary(record: &Record, of: &Analysis) -> String {
+    let names: Vec<&str> = of.components.iter().map(|c| c.name.as_str()).collect();
+    format!(
+        "From {}: {} of {} at {} over {}, {} integral times. Behind each ± and in each table: 95{THIN}% confidence \
+         intervals.",
+        record.file,
+        count(of.samples as u64, "sample"),
+        names.join(", "),
+        Dimension::Frequency.pretty(1.0 / of.interval),
+        time(of.duration),
+        crate::figures::significant((of.duration / of.integral_time.value).round(), 3),
+    )
+}
+
+fn durations(of: &Analysis) -> String {
+    let long = |interval: &Interval| time(of.duration_for(interval, 0.05));
+    format!(
+        "Intervals shrink with the square root of the length of the record. For ±{THIN}5{THIN}% of the value this flow \
+         would have to be measured for {} to know its turbulence intensity, {} its integral time and length scale, {} \
+         its cut-off.",
+        long(&of.turbulence_intensity),
+        long(&of.integral_time),
+        long(&of.cutoff_frequency),
+    )
+}
+
+fn methods(of: &Analysis) -> Vec<(&'static str, String)> {
+    let Some(along) = of.components.first() else { return Vec::new() };
+    let (spectrum, flat) = (&along.spectrum, &along.flat);
+    let hertz = |f: f64| Dimension::Frequency.pretty_to(f, 3);
+    vec![
+        (
+            "Intervals",
+            format!(
+                "The record is cut into {} blocks, each many integral times long, and every result is computed again with \
+                 each block left out; the scatter of these gives the interval, by Student’s distribution (block jackknife). \
+                 For plateau and cut-off the number of independent values averaged, here {}, gives it.",
+                of.blocks,
+                flat.independent.round()
+            ),
+        ),
+        (
+            "Autocorrelation",
+            "Mean product of fluctuations a lag apart, divided by the number of pairs at that lag (the unbiased estimate), \
+             over the variance."
+                .to_owned(),
+        ),
+        (
+            "Integral time",
+            format!(
+                "The autocorrelation of {} by the trapezoidal rule, {}: here a lag of {}. First zero, 1/e or a fixed lag \
+                 can be chosen with --integral. An autocorrelation that turns negative loses by its first zero what comes \
+                 after: of a flat spectrum the integral to the first zero is 18{THIN}% too long.",
+                along.name,
+                of.integral.words(),
+                time(along.autocorrelation.limit)
+            ),
+        ),
+        (
+            "Spectrum",
+            format!(
+                "Welch’s method: {} of {}, {} window, overlapping by {}{THIN}%, about the mean of the whole record; one-sided, \
+                 so that its integral over frequency is the variance.",
+                count(spectrum.segments as u64, "segment"),
+                count(spectrum.segment as u64, "sample"),
+                spectrum.window.name(),
+                (100.0 * spectrum.overlap).round()
+            ),
+        ),
+        (
+            "Plateau and cut-off",
+            format!(
+                "The mean density up to {}, an eighth of the cut-off unless given with --flat-until. The cut-off is the \
+                 variance over this plateau: a spectrum flat up to there and empty beyond holds the same energy at the same \
+                 low-frequency level. Since spectra have begun to fall a little by an eighth of the cut-off, the plateau is \
+                 one to two per cent low and the cut-off as much high.",
+                hertz(flat.until)
+            ),
+        ),
+        (
+            "Length scale",
+            "Integral time times mean velocity: Taylor’s hypothesis that the turbulence is carried past the probe faster \
+             than it changes."
+                .to_owned(),
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::{record_figures, record_sample};
+
+    fn page(name: &str, components: usize, samples: usize) -> String {
+        let (record, of) = record_sample::autoregression(components, samples);
+        let figures = record_figures(&record, &of);
+        let remarks = [format!("{name} remark")];
+        analysis_html(&AnalysisReport {
+            name,
+            record: &record,
+            analysis: &of,
+            figures: &figures,
+            remarks: &remarks,
+            air: "[air]\n",
+        })
+    }
+
+    #[test]
+    fn holds_what_it_should_and_asks_nothing_of_the_network() {
+        for (components, samples) in [(1, 64), (3, 20_000)] {
+            let page = page("wire", components, samples);
+            assert!(page.len() < 2_000_000 && !page.contains("NaN"), "{} bytes", page.len());
+            assert_eq!(page.matches("<svg").count(), 4);
+            for word in ["Mean velocity", "Cut-off frequency", "Flatness", "[air]", "Student"] {
+                assert!(page.contains(word), "{word}");
+            }
+            for word in ["src=\"", "href=\"http", "@import", "url(http", "<script"] {
+                assert!(!page.contains(word), "{word}");
+            }
+        }
+    }
+
+    #[test]
+    fn escapes_what_the_user_wrote() {
+        let page = page("<script>alert('x')</script>", 1, 300);
+        assert!(!page.contains("<script>"));
+    }
+}
