@@ -12,9 +12,9 @@ mod palette;
 pub(crate) mod paper;
 mod png;
 mod record;
-mod run;
 #[cfg(test)]
 pub(crate) mod record_sample;
+mod run;
 #[cfg(test)]
 pub(crate) mod sample;
 mod scale;

@@ -5,7 +5,7 @@ use super::chart::{Chart, Series};
 use super::palette::{BLUE, GREEN, VERMILION};
 use super::scale::Axis;
 use spunlaid::ensemble::{ErrorOverTime, SpectrumPoint};
-use spunlaid::paper::{Parameter, TrendPoint};
+use spunlaid::paper::{Both, Parameter, TrendPoint};
 use spunlaid::vec3::Vec3;
 
 /// Millimetres per metre.
@@ -133,7 +133,7 @@ fn chart(
     name: &str,
     what: &str,
     label: &str,
-    of: fn(&TrendPoint) -> [(f64, Option<f64>); 2],
+    of: fn(&TrendPoint) -> Both,
     scale: f64,
 ) -> Figure {
     let (symbol, unit, to_unit) = parameter.unit();

@@ -14,8 +14,8 @@ mod table;
 mod tests;
 mod words;
 
-pub(crate) use paper::{PaperReport, paper_html};
 pub(crate) use analysis::{AnalysisReport, analysis_html};
+pub(crate) use paper::{PaperReport, paper_html};
 pub(crate) use study::{StudyReport, study_html};
 
 use crate::figures::Figure;

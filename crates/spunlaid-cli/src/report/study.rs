@@ -210,7 +210,7 @@ fn cell(rankings: &[Ranking], measure: usize, factor: usize, unit: f64) -> Cell 
         |effect| {
             let (mean, standard_error) = (effect.change, effect.half_width);
             let estimate = Estimate { mean, standard_error, values: Vec::new() };
-            let faint = effect.half_width.is_none_or(|half| !(half < effect.change.abs()));
+            let faint = effect.half_width.is_none_or(|half| half.is_nan() || half >= effect.change.abs());
             Cell { text: plus_minus(&estimate, unit), faint }
         },
     )

@@ -1,7 +1,7 @@
 //! The paper's claims, each with its evidence and a verdict from the data.
 
 use super::fits::{Spot, line, significance, slopes, worst_step_back};
-use super::{Parameter, TrendPoint};
+use super::{Both, Parameter, TrendPoint};
 
 /// Share of the variance that a line must explain to be called almost straight.
 const ALMOST_LINEAR: f64 = 0.97;
@@ -114,11 +114,7 @@ pub fn claims_of_step_errors(errors: &[(f64, f64, f64)]) -> Vec<Claim> {
 }
 
 /// The mean of y and z with its error, in units of `1/scale`; none where a point has no error.
-fn spots(
-    points: &[TrendPoint],
-    of: fn(&TrendPoint) -> [(f64, Option<f64>); 2],
-    scale: f64,
-) -> Option<Vec<Spot>> {
+fn spots(points: &[TrendPoint], of: fn(&TrendPoint) -> Both, scale: f64) -> Option<Vec<Spot>> {
     points
         .iter()
         .map(|point| {

@@ -159,15 +159,18 @@ pub fn choices(base: &Case) -> Vec<(&'static str, Case)> {
     ]
 }
 
+/// Of y and of z: mean and standard error of the mean.
+pub type Both = [(f64, Option<f64>); 2];
+
 /// What a point of a figure shows: y and z, mean and standard error of the mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrendPoint {
     /// Value of the parameter [SI].
     pub value: f64,
     /// Amplitudes of y and z [m].
-    pub amplitude: [(f64, Option<f64>); 2],
+    pub amplitude: Both,
     /// Frequencies of y and z [Hz].
-    pub frequency: [(f64, Option<f64>); 2],
+    pub frequency: Both,
     /// Number of replicates.
     pub n: u64,
 }

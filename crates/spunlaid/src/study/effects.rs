@@ -195,7 +195,7 @@ fn inverse(mut matrix: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
     for pivot in 0..size {
         // What is left of the diagonal: the part of this factor that no earlier one explains.
         let value = matrix[pivot][pivot];
-        if !(value > 1e-9 * scale[pivot]) {
+        if value.is_nan() || value <= 1e-9 * scale[pivot] {
             return None;
         }
         for row in [&mut matrix[pivot], &mut inverse[pivot]] {

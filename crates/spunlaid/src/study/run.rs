@@ -132,13 +132,12 @@ fn fly_missing(
         lacking.landed(&records, progress);
         Ok(())
     };
-    let done = with_sync(journal, |failed| {
+    with_sync(journal, |failed| {
         fly_and_land(&study.points, &batches, KeepShapes::NONE, computing, land, |()| match failed() {
             Some(error) => Err(error),
             None => Ok(()),
         })
-    })?;
-    done
+    })?
 }
 
 /// Does `work` while what is added to the journal is brought to the disk twice a second, and once more at
