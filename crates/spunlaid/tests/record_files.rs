@@ -1,4 +1,6 @@
 //! Records as instruments write them, and what is said of those that cannot be read.
+
+#![allow(clippy::panic)]
 #![allow(clippy::unwrap_used)]
 
 use parquet::basic::{Compression, Repetition, Type as Physical};

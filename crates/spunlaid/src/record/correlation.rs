@@ -158,7 +158,8 @@ mod tests {
     #[test]
     fn analytic_autocorrelation_of_four_samples() {
         // 1, 2, 4, 5 about 3: products 10, 3, −4, −4 over 4, 3, 2, 1 pairs.
-        let sums = lagged_products(&[1.0, 2.0, 4.0, 5.0], 3.0, &[0..4], 4);
+        let whole = 0..4;
+        let sums = lagged_products(&[1.0, 2.0, 4.0, 5.0], 3.0, std::slice::from_ref(&whole), 4);
         let coefficients: Vec<f64> =
             (0..4).map(|k| sums[0][k] / pairs(&(0..4), k, 4) / (sums[0][0] / 4.0)).collect();
         for (found, wanted) in coefficients.iter().zip([1.0, 0.4, -0.8, -1.6]) {
