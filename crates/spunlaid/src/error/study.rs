@@ -19,8 +19,13 @@ pub enum StudyFault {
         /// The key that may be meant, or all there are.
         advice: String,
     },
+    /// A table of a case.
+    #[error(
+        "is a table of a case; a study names its case, as case = \"table1.toml\", and `spunlaid run` flies a case"
+    )]
+    TableOfCase,
     /// A key that cannot be varied or linked.
-    #[error("cannot be varied; {advice}")]
+    #[error("cannot be set by a study; {advice}")]
     NotVaried {
         /// Why, or which can.
         advice: String,

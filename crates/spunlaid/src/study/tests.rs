@@ -1,11 +1,44 @@
 //! What the tests of this room share.
 
-use crate::case::Case;
-use crate::input::{parse_case, starter_case};
+use crate::air::Air;
+use crate::case::{Case, Run};
+use crate::chain::schemes::Scheme;
+use crate::drag::{Drag, FrictionLaw, NormalLaw};
+use crate::fibre::{Fibre, Root};
+use crate::vec3::Vec3;
 
 /// Table 1 of the paper, short and coarse in time.
 pub(super) fn table1() -> Case {
-    let changes = [("run.duration", "20 ms"), ("run.time_step", "20 µs"), ("fibre.element_length", "50 mm")];
-    let changes = changes.map(|(key, value)| (key.to_owned(), value.to_owned()));
-    parse_case(starter_case(), "starter.toml", &changes).expect("the starter case").0
+    Case {
+        fibre: Fibre {
+            length: 1.0,
+            diameter: 50e-6,
+            density: 950.0,
+            youngs_modulus: 2e9,
+            elements: 20,
+            root: Root::Pinned,
+            direction: Vec3::new(1.0, 0.0, 0.0),
+        },
+        air: Air {
+            velocity: 10.0,
+            turbulence_intensity: 0.1,
+            length_scale: 0.05,
+            cutoff_frequency: 100.0,
+            density: 1.204,
+            kinematic_viscosity: 1.51e-5,
+            harmonics: 256,
+        },
+        drag: Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient: 0.9 },
+        run: Run {
+            time_step: 2e-5,
+            steps: 1000,
+            spin_up_steps: 0,
+            output_steps: 50,
+            replicates: 10,
+            seed: 1,
+            scheme: Scheme::SemiImplicitEuler,
+            gravity: 9.81,
+            damping: 0.0,
+        },
+    }
 }

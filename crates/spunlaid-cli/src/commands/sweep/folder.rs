@@ -42,12 +42,7 @@ impl StudyFolder {
         }
         let at = path.join(JOURNAL);
         if !force && !at.exists() {
-            let entries = MADE.iter().chain(&OF_A_RUN).chain(&[STUDY, CASE]);
-            let mut there = entries.filter(|name| path.join(name).exists());
-            // A study killed before its journal was there left its own two files at most.
-            if let Some(found) = there.find(|name| ![STUDY, CASE].contains(name)) {
-                return Err(Failure::HoldsResults { folder: path.to_owned(), found: (*found).to_owned() });
-            }
+            holds_nothing_else(path)?;
         }
         fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
         let folder = Self { path: path.to_owned() };
@@ -61,8 +56,13 @@ impl StudyFolder {
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
         let state = match header.filter(|_| !force) {
             None => {
+                if !force {
+                    holds_nothing_else(path)?;
+                }
                 folder.begin(file)?;
                 journal.begin(&wanted, file.study.points.len()).map_err(Error::from)?;
+                // That the file is there must outlast a power cut too; where folders cannot be synced, so be it.
+                let _ = fs::File::open(path).and_then(|folder| folder.sync_all());
                 State::New
             }
             Some(found) if found.version != wanted.version => {
@@ -134,6 +134,15 @@ impl StudyFolder {
             all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
         }
         Failure::OtherStudy { folder: self.path, differences: all }
+    }
+}
+
+/// Refuses a folder with results that no journal accounts for. A study killed before it had one left its own two
+/// files at most.
+fn holds_nothing_else(path: &Path) -> Result<(), Failure> {
+    match MADE.iter().chain(&OF_A_RUN).find(|name| path.join(name).exists()) {
+        Some(found) => Err(Failure::HoldsResults { folder: path.to_owned(), found: (*found).to_owned() }),
+        None => Ok(()),
     }
 }
 

@@ -77,13 +77,13 @@ fn tell_found(sweep: &Sweep, study: &Study, found: &folder::State) {
                 say::aside(&format!("going on: {done} of {} there already", study.most_fibres()));
             }
             if found.damaged > 0 {
+                let records = if found.damaged == 1 {
+                    "1 record".to_owned()
+                } else {
+                    format!("{} records", found.damaged)
+                };
                 say::warning(&format!(
-                    "{} of the journal damaged; the fibres are flown again, all others are kept",
-                    if found.damaged == 1 {
-                        "1 record was".to_owned()
-                    } else {
-                        format!("{} records were", found.damaged)
-                    }
+                    "damaged in the journal: {records}; these fibres are flown again, all others are kept"
                 ));
             }
             if found.torn {

@@ -3,7 +3,7 @@
 use super::super::Figure;
 use super::super::chart::{Chart, Series};
 use super::super::palette::{BLUE, GREEN, INK, Marker, ORANGE, PURPLE, VERMILION};
-use super::quantity::{Along, Group, label_of_key, name_of_key};
+use super::quantity::{Along, Group, name_of_key};
 use super::{FAMILY, figure, file_name};
 use spunlaid::study::{PointResults, Study};
 
@@ -97,10 +97,10 @@ pub(super) fn family(
         _ => String::new(),
     };
     let caption = format!(
-        "{} over {}, a colour for each value of {}, means over the replicates.{signs} {BARS}",
+        "{} over {}, a colour for each value of the {}, means over the replicates.{signs} {BARS}",
         group.label,
         name_of_key(key),
-        super::super::svg::plain(label_of_key(of.key)),
+        name_of_key(of.key),
     );
     figure(&chart, caption)
 }

@@ -68,7 +68,7 @@ impl<'a> Reader<'a> {
         let DeValue::Table(table) = value else {
             return None;
         };
-        let whole = Entry { at, place, shown, value: DeValue::Boolean(true) };
+        let mut whole = Entry { at, place, shown, value: DeValue::Boolean(true) };
         let (mut ends, mut steps, mut spacing, mut sound) = ([None; 2], None, Spacing::Linear, true);
         for ((at, name), value) in in_order(table) {
             let (key, entry) = (format!("{}.{name}", numeric.key), self.entry(at, value));
@@ -112,6 +112,7 @@ impl<'a> Reader<'a> {
             return None;
         }
         let [Some(from), Some(to)] = ends else {
+            whole.shown = None;
             for (end, line) in ends.into_iter().zip(["from = and the first value", "to = and the last value"])
             {
                 if end.is_none() {

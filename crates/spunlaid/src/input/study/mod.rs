@@ -126,7 +126,7 @@ fn advice(name: &str) -> String {
     }
     let (table, key) = name.split_once('.').unwrap_or(("", name));
     if layout::keys_of(table).contains(&key) && !table.is_empty() {
-        return "only keys whose value is a number can".to_owned();
+        return "take a key whose value is a number".to_owned();
     }
     match layout::nearest_key(table, key) {
         Some((table, key)) if Numeric::of(&format!("{table}.{key}")).is_some() => {

@@ -2,7 +2,7 @@
 
 use super::super::FORMAT_VERSION;
 use super::super::document::kind;
-use super::super::layout::nearest;
+use super::super::layout::{self, nearest};
 use super::super::resolve::Base;
 use super::super::source::{Source, fit};
 use super::super::values::integer;
@@ -30,6 +30,8 @@ pub(super) struct Reader<'a> {
     pub(super) source: Source<'a>,
     entries: BTreeMap<String, Entry<'a>>,
     problems: Vec<Problem>,
+    /// Keys that are missed only because they are misspelt.
+    excused: Vec<&'static str>,
 }
 
 /// A study whose points are still to be made.
@@ -62,24 +64,36 @@ impl<'a> Reader<'a> {
         if !faults.is_empty() {
             return Err(Error::Rejected(faults.iter().map(|fault| source.syntax(fault)).collect()));
         }
-        let mut reader = Self { source, entries: BTreeMap::new(), problems: Vec::new() };
+        let mut reader = Self { source, entries: BTreeMap::new(), problems: Vec::new(), excused: Vec::new() };
+        let mut tables = Vec::new();
         for (key, value) in root.into_inner() {
             let (at, name) = (key.span().start, key.into_inner());
             let entry = reader.entry(at, value);
             if KEYS.contains(&name.as_ref()) {
                 reader.entries.insert(name.into_owned(), entry);
             } else {
+                if layout::table(&name).is_some() {
+                    tables.push((entry, name.into_owned()));
+                    continue;
+                }
                 let advice = match nearest(&name, KEYS.iter().map(|key| (*key, 0.0))) {
-                    _ if ["fibre", "air", "drag", "run"].contains(&name.as_ref()) => {
-                        "it is one of a case; a study names its case, as case = \"table1.toml\", \
-                         and `spunlaid run` flies a case"
-                            .to_owned()
+                    Some(key) => {
+                        reader.excused.push(key);
+                        format!("did you mean {key}?")
                     }
-                    Some(key) => format!("did you mean {key}?"),
                     None => format!("it takes {} and {}", KEYS[..8].join(", "), KEYS[8]),
                 };
                 reader.reject(&entry, &name, StudyFault::UnknownKey { advice });
             }
+        }
+        tables.sort_by_key(|(entry, _)| entry.at);
+        if let Some((entry, name)) = tables.first() {
+            if !reader.entries.contains_key("case") {
+                // All else would only repeat it.
+                reader.problems.clear();
+                reader.excused.push("case");
+            }
+            reader.reject(entry, &format!("[{name}]"), StudyFault::TableOfCase);
         }
         Ok(reader)
     }
@@ -98,6 +112,9 @@ impl<'a> Reader<'a> {
 
     /// A problem of the whole file.
     fn reject_whole(&mut self, key: &str, fault: StudyFault) {
+        if self.excused.contains(&key) && matches!(fault, StudyFault::Missing { .. }) {
+            return;
+        }
         let place = self.source.whole();
         self.problems.push(Finding { place, key: key.to_owned(), value: None, what: fault.into() });
     }
@@ -132,7 +149,7 @@ impl<'a> Reader<'a> {
                 _ => self.reject(&version, "version", Fault::OutOfRange { least: 1, most: u64::from(known) }),
             }
         }
-        let line = "case = \"table1.toml\", the case to vary, beside this file";
+        let line = "case = \"table1.toml\" (the case to vary, beside this file)";
         let Some(entry) = self.entries.remove("case") else {
             self.reject_whole("case", StudyFault::Missing { line });
             return None;
@@ -335,6 +352,11 @@ impl<'a> Reader<'a> {
                 self.reject(&entry, &key, StudyFault::Twice);
                 continue;
             }
+            if links.iter().any(|link: &Link| link.key == numeric.key) {
+                let entry = Entry { shown: None, ..entry };
+                self.reject(&entry, "", Fault::Duplicate { key });
+                continue;
+            }
             let DeValue::String(text) = &entry.value else {
                 self.wrong_type(
                     &entry,
@@ -356,12 +378,9 @@ impl<'a> Reader<'a> {
         for (link, entry) in links.iter().zip(&entries) {
             if let Some(name) = links::unwritten(link, &keys, base) {
                 let purpose = "use it in a formula";
-                let name = name.to_owned();
-                self.reject(
-                    &Entry { shown: None, place: entry.place.clone(), at: 0, value: DeValue::Boolean(true) },
-                    &name,
-                    StudyFault::NotWritten { purpose },
-                );
+                let (place, key) = (entry.place.clone(), name.to_owned());
+                let what = StudyFault::NotWritten { purpose }.into();
+                self.problems.push(Finding { place, key, value: None, what });
             }
         }
         if let Err((link, fault)) = links::order(&links) {
@@ -385,7 +404,7 @@ impl<'a> Reader<'a> {
         for ((at, key), value) in in_order(table) {
             let entry = self.entry(at, value);
             match entry.value {
-                DeValue::Table(inner) if super::layout::table(&key).is_some() => {
+                DeValue::Table(inner) if layout::table(&key).is_some() => {
                     for ((at, inner_key), value) in in_order(inner) {
                         flat.push((format!("{key}.{inner_key}"), self.entry(at, value)));
                     }
@@ -418,6 +437,11 @@ impl<'a> Reader<'a> {
             let Some(numeric) = self.numeric(&entry, &key) else {
                 continue;
             };
+            if factors.iter().any(|factor: &Factor| factor.key == numeric.key) {
+                let entry = Entry { shown: None, ..entry };
+                self.reject(&entry, "", Fault::Duplicate { key });
+                continue;
+            }
             if let Some(levels) = self.levels(&numeric, entry, design) {
                 let Numeric { key, dimension, .. } = numeric;
                 factors.push(Factor { key, dimension, whole: numeric.is_whole(), levels });
@@ -479,7 +503,7 @@ impl<'a> Reader<'a> {
             self.reject(entry, "design", StudyFault::TooManyPoints { points, most, advice });
         }
         let fibres = count * replicates.at_most as f64;
-        if fibres > MOST_FIBRES as f64 {
+        if fibres > MOST_FIBRES as f64 && count <= MOST_POINTS as f64 {
             let most = MOST_FIBRES as f64;
             self.reject(entry, "design", StudyFault::TooManyFibres { fibres, most });
         }

@@ -1,0 +1,260 @@
+//! `spunlaid sweep`: what it writes, what it goes on with and what it refuses.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::{Place, assert_same, case, contents, results, said};
+use std::fs;
+
+const STUDY: &str = "case = 'case.toml'
+design = 'grid'
+replicates = 3
+[vary]
+'air.velocity' = ['5 m/s', '10 m/s', '20 m/s']
+'fibre.diameter' = ['20 µm', '50 µm']
+";
+
+fn place() -> Place {
+    Place::new(&case(0.02), STUDY)
+}
+
+fn csv(place: &Place, out: &str) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(place.path(out).join("results.csv")).unwrap();
+    text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn writes_what_it_says() {
+    let place = place();
+    let output = said(&place.swept("out", &[]));
+    assert!(output.contains("18 fibres at 6 points") && output.contains("open out"), "{output}");
+    let names: Vec<String> =
+        results(&place.path("out")).keys().map(|path| path.to_string_lossy().into_owned()).collect();
+    for name in [
+        "report.html",
+        "results.csv",
+        "results.parquet",
+        "replicates.parquet",
+        "study.toml",
+        "case.toml",
+        "figures/amplitude_over_air_velocity.svg",
+        "figures/amplitude_over_air_velocity.png",
+        "figures/amplitude_ranking.svg",
+    ] {
+        assert!(names.contains(&name.replace('/', std::path::MAIN_SEPARATOR_STR)), "{name} of {names:?}");
+    }
+    let rows = csv(&place, "out");
+    assert_eq!(rows.len(), 7);
+    assert_eq!(
+        rows[0][..8],
+        [
+            "point",
+            "seed",
+            "air.velocity_m_s",
+            "fibre.diameter_m",
+            "n",
+            "lost",
+            "amplitude_y_m",
+            "amplitude_y_m_se"
+        ]
+    );
+    assert_eq!(rows[4][..6], ["4", "1", "10", "5e-5", "3", "0"]);
+    assert!(rows[1..].iter().flatten().all(|cell| cell.parse::<f64>().is_ok_and(f64::is_finite)), "{rows:?}");
+    assert_eq!(place.swept("quiet", &["--quiet"]).stdout, b"");
+    assert_eq!(place.swept("quiet", &["--quiet"]).stderr, b"");
+}
+
+#[test]
+fn identical_for_any_number_of_threads() {
+    let place = place();
+    place.swept("one", &["--threads", "1"]);
+    place.swept("three", &["--threads", "3"]);
+    assert_same(&results(&place.path("one")), &results(&place.path("three")));
+}
+
+/// A number of `summary.json`, to the last bit.
+fn of_run(summary: &str, name: &str, key: &str) -> f64 {
+    let after = |text: &str, key: &str| text.split_once(&format!("\"{key}\": ")).unwrap().1.to_owned();
+    let rest = after(&after(summary, name), key);
+    rest[..rest.find([',', '\n']).unwrap()].parse().unwrap()
+}
+
+#[test]
+fn identical_to_single_runs_of_its_points() {
+    for common in ["true", "false"] {
+        let place = Place::new(&case(0.02), &format!("common_phases = {common}\n{STUDY}"));
+        place.swept("out", &[]);
+        let rows = csv(&place, "out");
+        for number in [1, 6] {
+            let point = place
+                .spunlaid(&["sweep", "study.toml", "--print-point", &number.to_string()])
+                .output()
+                .unwrap();
+            fs::write(place.path("point.toml"), &point.stdout).unwrap();
+            let ran = place
+                .spunlaid(&["run", "point.toml", "--out", "point", "--json", "--force"])
+                .output()
+                .unwrap();
+            assert!(ran.status.success(), "{}", said(&ran));
+            let summary = String::from_utf8(ran.stdout).unwrap();
+            for name in ["amplitude_y_m", "amplitude_z_m", "frequency_y_hz", "frequency_z_hz", "mean_x_m"] {
+                let column = rows[0].iter().position(|head| head == name).unwrap();
+                for (key, cell) in
+                    [("mean", &rows[number][column]), ("standard_error", &rows[number][column + 1])]
+                {
+                    assert_eq!(of_run(&summary, name, key), cell.parse().unwrap(), "{name} {key}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_finished_study_is_not_flown_again() {
+    let place = place();
+    place.swept("out", &[]);
+    let before = contents(&place.path("out"));
+    let output = said(&place.swept("out", &[]));
+    assert!(output.contains("finished already"), "{output}");
+    assert_same(&before, &contents(&place.path("out")));
+    // What was deleted but the journal comes back.
+    for name in ["results.csv", "report.html", "study.toml"] {
+        fs::remove_file(place.path("out").join(name)).unwrap();
+    }
+    place.swept("out", &[]);
+    assert_same(&before, &contents(&place.path("out")));
+}
+
+#[test]
+fn its_results_folder_is_a_study() {
+    let place = place();
+    place.swept("out", &[]);
+    let again = place.spunlaid(&["sweep", "out/study.toml", "--out", "again"]).output().unwrap();
+    assert!(again.status.success(), "{}", said(&again));
+    assert_same(&results(&place.path("out")), &results(&place.path("again")));
+}
+
+#[test]
+fn rejects_another_study_in_the_same_folder_showing_what_differs() {
+    let place = place();
+    place.swept("out", &[]);
+    fs::write(place.path("study.toml"), STUDY.replace("replicates = 3", "replicates = 4")).unwrap();
+    let refusal = place.refused("out", &[]);
+    assert!(refusal.contains("study.toml: replicates was 3, is 4"), "{refusal}");
+    fs::write(place.path("study.toml"), STUDY.replace("'20 m/s'", "'25 m/s'")).unwrap();
+    let refusal = place.refused("out", &[]);
+    assert!(
+        refusal.contains(
+            r#"vary.air.velocity was ["5 m/s", "10 m/s", "20 m/s"], is ["5 m/s", "10 m/s", "25 m/s"]"#
+        ),
+        "{refusal}"
+    );
+    fs::write(place.path("study.toml"), STUDY).unwrap();
+    fs::write(place.path("case.toml"), case(0.02).replace("950 kg", "951 kg")).unwrap();
+    let refusal = place.refused("out", &[]);
+    assert!(refusal.contains("case.toml: fibre.density was '950 kg/m³', is '951 kg/m³'"), "{refusal}");
+    assert!(refusal.contains("--force") && refusal.contains("--out"), "{refusal}");
+    place.swept("out", &["--force"]);
+    place.swept("new", &[]);
+    assert_same(&results(&place.path("out")), &results(&place.path("new")));
+}
+
+#[test]
+fn a_study_written_otherwise_is_the_same() {
+    let place = place();
+    place.swept("out", &[]);
+    let otherwise =
+        format!("# A comment.\nseed = 1\ncommon_phases = true\n{}", STUDY.replace("'50 µm'", "'0.05 mm'"));
+    fs::write(place.path("study.toml"), otherwise).unwrap();
+    fs::write(place.path("case.toml"), format!("# Another.\n{}", case(0.02))).unwrap();
+    let output = said(&place.swept("out", &[]));
+    assert!(output.contains("finished already"), "{output}");
+}
+
+#[test]
+fn damage_to_the_journal_is_told_and_made_good() {
+    let place = place();
+    place.swept("out", &[]);
+    let journal = place.path("out").join("journal");
+    let (whole, before) = (fs::read(&journal).unwrap(), results(&place.path("out")));
+    let mut damaged = whole.clone();
+    damaged[whole.len() / 2] ^= 0x10;
+    fs::write(&journal, &damaged).unwrap();
+    let output = said(&place.swept("out", &[]));
+    assert!(output.contains("damaged in the journal: 1 record;"), "{output}");
+    assert_same(&before, &results(&place.path("out")));
+    fs::write(&journal, &whole[..whole.len() - 5]).unwrap();
+    let output = said(&place.swept("out", &[]));
+    assert!(output.contains("cut off half written"), "{output}");
+    assert_same(&before, &results(&place.path("out")));
+    // Nothing but half a header, and results all the same: those are not overwritten unasked.
+    fs::write(&journal, &whole[..9]).unwrap();
+    assert!(place.refused("out", &[]).contains("holds results already (results.csv)"));
+    place.swept("out", &["--force"]);
+    assert_same(&before, &results(&place.path("out")));
+    // Without results it is a study killed as it began.
+    for name in ["results.csv", "results.parquet", "replicates.parquet", "report.html"] {
+        fs::remove_file(place.path("out").join(name)).unwrap();
+    }
+    fs::remove_dir_all(place.path("out").join("figures")).unwrap();
+    fs::write(&journal, &whole[..9]).unwrap();
+    place.swept("out", &[]);
+    assert_same(&before, &results(&place.path("out")));
+}
+
+#[test]
+fn rejects_the_journals_of_others() {
+    let place = place();
+    place.swept("out", &[]);
+    let journal = place.path("out").join("journal");
+    let whole = fs::read(&journal).unwrap();
+    let end = whole.iter().position(|byte| *byte == b'\n').unwrap();
+    let header = String::from_utf8(whole[..end].to_vec()).unwrap();
+    let version = format!("version={}", env!("CARGO_PKG_VERSION"));
+    for (header, told) in [
+        (header.replace(&version, "version=0.0.1"), "spunlaid 0.0.1"),
+        (header.replace("format=1", "format=77"), "format 77"),
+        (header.replace("spunlaid-journal", "something-else"), "is not the journal of a study"),
+    ] {
+        let mut other = header.into_bytes();
+        other.extend(&whole[end..]);
+        fs::write(&journal, &other).unwrap();
+        let refusal = place.refused("out", &[]);
+        assert!(
+            refusal.contains(told) && refusal.contains("--out") && refusal.contains("--force"),
+            "{refusal}"
+        );
+    }
+    place.swept("out", &["--force"]);
+}
+
+#[test]
+fn rejects_folders_with_other_results_and_files() {
+    let place = place();
+    let ran = place.spunlaid(&["run", "case.toml", "--out", "out", "--replicates", "1"]).output().unwrap();
+    assert!(ran.status.success(), "{}", said(&ran));
+    assert!(place.refused("out", &[]).contains("holds results already"));
+    assert!(place.refused("case.toml", &[]).contains("is a file"));
+    // The journal of a study keeps a run away as well.
+    place.swept("study", &[]);
+    let ran = place.spunlaid(&["run", "case.toml", "--out", "study"]).output().unwrap();
+    assert_eq!(ran.status.code(), Some(1), "{}", said(&ran));
+}
+
+#[test]
+fn rejects_points_that_are_not_there() {
+    let place = place();
+    for number in ["0", "7"] {
+        let output = place.spunlaid(&["sweep", "study.toml", "--print-point", number]).output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        assert!(said(&output).contains("the study has 6 points, counted from 1"), "{}", said(&output));
+    }
+    assert!(!place.path("results").exists());
+}
+
+#[test]
+fn rejects_bad_studies_before_anything_is_written() {
+    let place = Place::new(&case(0.02), &STUDY.replace("'20 m/s'", "'20 m'"));
+    assert!(place.refused("out", &[]).contains("study.toml:5: air.velocity = '20 m' is a length"));
+    assert!(!place.path("out").exists());
+}

@@ -1,0 +1,61 @@
+//! Bad studies and what is said of them: each file `bad_studies/NAME.toml` is refused with the message in
+//! `bad_studies/NAME.txt`. With `BLESS=1` in the environment the messages are written, to be read over.
+#![allow(clippy::unwrap_used)]
+
+use spunlaid::error::Error;
+use spunlaid::input::read_study;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+#[test]
+fn rejects_every_bad_study_with_its_message() {
+    let entries = fs::read_dir("tests/bad_studies").unwrap();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    paths.sort();
+    assert!(paths.len() > 25);
+    let mut wrong = Vec::new();
+    for path in paths {
+        let said = match read_study(&path, None) {
+            Ok(_) => "nothing\n".to_owned(),
+            Err(error) => {
+                assert_eq!(error.exit_code(), 1);
+                format!("{error}\n").replace("bad_studies\\", "bad_studies/")
+            }
+        };
+        let kept = path.with_extension("txt");
+        if std::env::var_os("BLESS").is_some() {
+            fs::write(&kept, &said).unwrap();
+        }
+        let meant = fs::read_to_string(&kept).unwrap_or_default();
+        if said != meant {
+            wrong.push(format!("{} says\n{said}and should say\n{meant}", path.display()));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn rejects_what_is_no_readable_file() {
+    let refusal = |path: &str| read_study(Path::new(path), None).unwrap_err();
+    assert!(matches!(refusal("no/such/study.toml"), Error::NoStudy { .. }));
+    assert!(matches!(refusal("tests"), Error::IsFolder { .. }));
+}
+
+#[test]
+fn enormous_studies_are_read_when_asked_for_by_number() {
+    let path = Path::new("tests/bad_studies/enormous.toml");
+    assert_eq!(read_study(path, Some(40_000)).unwrap().study.points.len(), 40_000);
+    let other = read_study(path, Some(40)).unwrap_err().to_string();
+    assert!(other.ends_with("makes 40000 points, not the 40 that --points asks for"), "{other}");
+}
+
+#[test]
+fn every_study_in_cases_is_sound() {
+    let mut count = 0;
+    for entry in fs::read_dir("../../cases/studies").unwrap() {
+        read_study(&entry.unwrap().path(), None).unwrap();
+        count += 1;
+    }
+    assert!(count >= 2);
+}
