@@ -32,7 +32,6 @@ fn peak(points: u64, replicates: u64) -> u64 {
     assert!(exit.success());
     let rows = fs::read_to_string(place.path("out").join("results.csv")).unwrap().lines().count();
     assert_eq!(rows as u64, points + 1);
-    println!("{points} points of {replicates}: {peak} KiB");
     peak
 }
 

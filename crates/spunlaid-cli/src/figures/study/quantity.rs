@@ -116,6 +116,7 @@ pub(super) fn label_of_key(key: &str) -> &str {
         "drag.friction_coefficient" => "Friction coefficient *β*",
         "run.duration" => "Simulated time",
         "run.time_step" => "Time step *h*",
+        "run.error_tolerance" => "Error tolerance",
         "run.gravity" => "Gravity *g*",
         "run.spin_up" => "Spin-up",
         "run.output_interval" => "Output interval",
