@@ -12,6 +12,8 @@ pub(crate) enum Failure {
     Library(spunlaid::error::Error),
     /// A file or folder cannot be written.
     Unwritable { path: PathBuf, source: io::Error },
+    /// The file of `new` cannot be written.
+    NotWritten { path: PathBuf, source: io::Error },
     /// The output folder holds results already.
     HoldsResults { folder: PathBuf, found: String },
     /// The output folder is a file.
@@ -87,6 +89,9 @@ impl fmt::Display for Failure {
                     }
                     _ => write!(f, "name another folder with --out"),
                 }
+            }
+            Self::NotWritten { path, source } => {
+                write!(f, "{}: cannot be written: {source}; name another file", path.display())
             }
             Self::HoldsResults { folder, found } => write!(
                 f,

@@ -1,10 +1,11 @@
 //! `spunlaid check`: what a case means, without flying it.
 
+use super::run::POSITIONS;
 use crate::args::Check;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::case::Case;
-use spunlaid::ensemble::pace;
+use spunlaid::case::{Case, RECORD_ON_DISK};
+use spunlaid::ensemble::{KeepShapes, pace};
 use spunlaid::input::{read_case, write_case};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::units::Dimension;
@@ -65,10 +66,26 @@ fn cost(case: &Case) {
     let rounds = bundles.div_ceil(busy) as f64;
     let seconds = pace(case, Isa::detect()) * case.run.steps as f64 * rounds;
     say::line(&format!(
-        "# to expect: {} on {busy} of {threads} threads, {:.0} MiB",
+        "# to expect: {} on {busy} of {threads} threads, {:.0} MiB of memory, {} of results",
         duration(seconds),
-        memory + 30.0
+        memory + 30.0,
+        size(on_disk(case))
     ));
+}
+
+/// What the results take: tables, shapes as text, figures and report [bytes].
+fn on_disk(case: &Case) -> f64 {
+    const POSITION: f64 = 90.0;
+    const FIGURES_AND_REPORT: f64 = 1e6;
+    let run = &case.run;
+    let instants = (run.steps / run.output_steps + 1) as f64;
+    let kept = KeepShapes::within(case, POSITIONS);
+    let positions = instants / kept.every as f64 * kept.replicates as f64 * (case.fibre.elements + 1) as f64;
+    instants * run.replicates as f64 * RECORD_ON_DISK + positions * POSITION + FIGURES_AND_REPORT
+}
+
+fn size(bytes: f64) -> String {
+    if bytes < 1e9 { format!("{:.0} MB", bytes / 1e6) } else { format!("{:.1} GB", bytes / 1e9) }
 }
 
 /// A time to wait, in words.

@@ -23,7 +23,7 @@ use std::time::Instant;
 /// Replicates kept whole for the report and ParaView.
 const KEPT: usize = WIDTH;
 /// Node positions kept for the report and ParaView: 24 bytes each.
-const POSITIONS: u64 = 4_000_000;
+pub(super) const POSITIONS: u64 = 4_000_000;
 
 pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     let (case, notes) = read_case(&run.source.case, &overrides(run))?;

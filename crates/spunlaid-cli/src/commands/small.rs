@@ -22,7 +22,7 @@ pub(crate) fn new(new: &New) -> Result<(), Failure> {
             Ok(())
         }
         Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Failure::Exists { path: path.clone() }),
-        Err(source) => Err(Failure::Unwritable { path: path.clone(), source }),
+        Err(source) => Err(Failure::NotWritten { path: path.clone(), source }),
     }
 }
 
