@@ -1,0 +1,133 @@
+//! The program in a folder of its own.
+#![allow(dead_code, clippy::unwrap_used, clippy::panic)]
+
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use tempfile::TempDir;
+
+/// A case that is flown in an instant: three fibres of four elements, 500 steps.
+pub const BRIEF: &str = r#"
+version = 1
+
+[fibre]
+length = "0.2 m"
+diameter = "50 µm"
+density = "950 kg/m³"
+youngs_modulus = "2 GPa"
+
+[air]
+velocity = "10 m/s"
+turbulence_intensity = 0.1
+length_scale = "50 mm"
+cutoff_frequency = "100 Hz"
+
+[run]
+duration = "10 ms"
+time_step = "20 µs"
+replicates = 3
+seed = 7
+"#;
+
+/// What a results folder holds.
+pub const ENTRIES: [&str; 8] = [
+    "case.toml",
+    "end_node.parquet",
+    "energy.parquet",
+    "figures",
+    "report.html",
+    "shape",
+    "shape.pvd",
+    "summary.json",
+];
+
+/// A folder with a case in it, `brief.toml`, where the program is called.
+pub struct Desk {
+    pub folder: TempDir,
+}
+
+impl Desk {
+    pub fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("brief.toml"), BRIEF).unwrap();
+        Self { folder }
+    }
+
+    /// The program with arguments, as written in a shell without quotes.
+    pub fn spunlaid(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_spunlaid"));
+        command.current_dir(self.folder.path()).args(arguments.split_whitespace());
+        command
+    }
+
+    /// The same for a case that differs from the brief one.
+    pub fn with(&self, arguments: &str, changes: &[&str]) -> Command {
+        let mut command = self.spunlaid(arguments);
+        command.args(changes.iter().flat_map(|change| ["--set", change]));
+        command
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub fn read(&self, name: &str) -> Vec<u8> {
+        fs::read(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    pub fn summary(&self, folder: &str) -> Value {
+        serde_json::from_slice(&self.read(&format!("{folder}/summary.json"))).unwrap()
+    }
+
+    /// What lies in a folder, hidden files too.
+    pub fn entries(&self, folder: &str) -> BTreeSet<String> {
+        entries(&self.path(folder))
+    }
+}
+
+pub fn entries(folder: &Path) -> BTreeSet<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+}
+
+pub fn names(names: &[&str]) -> BTreeSet<String> {
+    names.iter().map(ToString::to_string).collect()
+}
+
+/// Standard error of a command that ends with a code and says nothing on standard output.
+pub fn refusal(command: &mut Command, code: i32) -> String {
+    let output = command.output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{said}");
+    assert!(output.stdout.is_empty());
+    said
+}
+
+/// Standard output of a command that succeeds.
+pub fn success(command: &mut Command) -> String {
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// All that must be the same bits when a case is run again: every table and shape, and the summary but for
+/// how fast it went.
+pub fn assert_identical(desk: &Desk, one: &str, other: &str) {
+    for name in ["case.toml", "end_node.parquet", "energy.parquet", "shape.pvd"] {
+        assert!(desk.read(&format!("{one}/{name}")) == desk.read(&format!("{other}/{name}")), "{name}");
+    }
+    let shapes = desk.entries(&format!("{one}/shape"));
+    assert_eq!(shapes, desk.entries(&format!("{other}/shape")));
+    for name in shapes {
+        let of = |folder: &str| desk.read(&format!("{folder}/shape/{name}"));
+        assert!(of(one) == of(other), "{name}");
+    }
+    let [a, b] = [one, other].map(|folder| {
+        let mut summary = desk.summary(folder);
+        assert!(summary["performance"].take().is_object());
+        summary
+    });
+    assert_eq!(a, b);
+}

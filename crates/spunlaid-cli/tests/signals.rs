@@ -1,0 +1,174 @@
+//! Runs that are stopped, killed or cannot write: nothing is left, or the next run clears it up.
+#![cfg(unix)]
+#![allow(clippy::unwrap_used)]
+
+mod desk;
+
+use desk::{Desk, ENTRIES, entries, names, success};
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+/// A run that would take hours, up to where it has begun to fly.
+fn long_run(desk: &Desk, arguments: &str, home: &str) -> Child {
+    let before = hidden(&desk.path(home));
+    let child = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
+        .current_dir(desk.folder.path())
+        .args(["run", "brief.toml", "--set", "run.duration=10000 s", "--set", "run.output_interval=1 s"])
+        .args(["--set", "air.cutoff_frequency=1 Hz"])
+        .args(arguments.split_whitespace())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let flying = |folder: &Path| {
+        let begun = |name: &String| folder.join(name).join("new/energy.parquet").exists();
+        hidden(folder).iter().any(|name| !before.contains(name) && begun(name))
+    };
+    while !flying(&desk.path(home)) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child
+}
+
+fn hidden(folder: &Path) -> Vec<String> {
+    let all = if folder.exists() { entries(folder) } else { Default::default() };
+    all.into_iter().filter(|name| name.starts_with(".spunlaid-")).collect()
+}
+
+fn signal(child: &Child, name: &str) {
+    let kill = format!("kill -{name} {}", child.id());
+    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+}
+
+fn end(child: Child, name: &str) -> Output {
+    signal(&child, name);
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn interrupted_nothing_is_left() {
+    let desk = Desk::new();
+    for signal in ["INT", "TERM"] {
+        let output = end(long_run(&desk, "--out some/where/deep", "some/where"), signal);
+        assert_eq!(output.status.code(), Some(130));
+        assert!(output.stdout.is_empty());
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            said.ends_with("error: interrupted; nothing was written. The same command starts again\n"),
+            "{said}"
+        );
+        assert_eq!(desk.entries(""), names(&["brief.toml"]));
+    }
+}
+
+#[test]
+fn interrupted_old_results_stay() {
+    let desk = Desk::new();
+    success(&mut desk.spunlaid("run brief.toml --out r"));
+    let before = desk.read("r/summary.json");
+    assert_eq!(end(long_run(&desk, "--out r --force", "r"), "INT").status.code(), Some(130));
+    assert_eq!(desk.entries("r"), names(&ENTRIES));
+    assert!(desk.read("r/summary.json") == before);
+}
+
+#[test]
+fn killed_nothing_looks_like_results_and_the_next_run_clears_up() {
+    let desk = Desk::new();
+    assert_eq!(end(long_run(&desk, "--out r", ""), "KILL").status.code(), None);
+    assert!(!desk.path("r").exists());
+    assert_eq!(hidden(&desk.path("")).len(), 1);
+    // A run that lives is left alone, whoever clears up.
+    let live = long_run(&desk, "--out elsewhere", "");
+    success(&mut desk.spunlaid("run brief.toml --out r"));
+    assert_eq!(hidden(&desk.path("")).len(), 1);
+    assert_eq!(end(live, "INT").status.code(), Some(130));
+    assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
+
+    // The same inside a folder that is there.
+    end(long_run(&desk, "--out r --force", "r"), "KILL");
+    assert_eq!(hidden(&desk.path("r")).len(), 1);
+    assert_eq!(desk.summary("r")["steps"], 500, "the old results are still there");
+    success(&mut desk.spunlaid("run brief.toml --out r --force"));
+    assert_eq!(desk.entries("r"), names(&ENTRIES));
+}
+
+#[test]
+fn what_only_looks_like_a_leftover_stays() {
+    let desk = Desk::new();
+    fs::create_dir(desk.path(".spunlaid-mine.partial")).unwrap();
+    fs::write(desk.path(".spunlaid-notes.partial"), "mine").unwrap();
+    success(&mut desk.spunlaid("run brief.toml --out r"));
+    assert_eq!(hidden(&desk.path("")).len(), 2);
+}
+
+#[test]
+fn results_that_appear_during_a_run_are_not_overwritten() {
+    let desk = Desk::new();
+    // Held up while another run is done with the same folder.
+    let slow = long_run(&desk, "--out r --set run.duration=200s", "");
+    signal(&slow, "STOP");
+    success(&mut desk.spunlaid("run brief.toml --out r --seed 8"));
+    let output = end(slow, "CONT");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.starts_with("error: r: holds results already"), "{said}");
+    assert_eq!(desk.summary("r")["case"]["run"]["seed"], 8);
+    assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
+}
+
+#[test]
+fn a_disk_that_takes_no_more_leaves_nothing() {
+    let desk = Desk::new();
+    // Files may grow to so many blocks of 512 or 1024 bytes.
+    for blocks in [1, 16, 100] {
+        let shell = format!(
+            "trap '' XFSZ; ulimit -f {blocks}; exec {} run brief.toml --out a/b",
+            env!("CARGO_BIN_EXE_spunlaid")
+        );
+        let output =
+            Command::new("sh").args(["-c", &shell]).current_dir(desk.folder.path()).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.starts_with("error: a/b/") && said.contains(": cannot be written: "), "{said}");
+        assert!(said.ends_with("name another folder with --out\n"), "{said}");
+        assert_eq!(desk.entries(""), names(&["brief.toml"]));
+    }
+}
+
+#[test]
+fn a_reader_that_has_enough_is_no_error() {
+    let desk = Desk::new();
+    for arguments in ["check brief.toml", "run brief.toml --json", "completions bash", "run --help"] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
+            .current_dir(desk.folder.path())
+            .args(arguments.split_whitespace())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!((output.status.code(), said.as_str()), (Some(0), ""), "{arguments}");
+    }
+    assert_eq!(desk.entries("results/brief"), names(&ENTRIES));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_standard_output_that_is_full_is_told() {
+    let desk = Desk::new();
+    for arguments in ["check brief.toml", "run brief.toml --json"] {
+        let output = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
+            .current_dir(desk.folder.path())
+            .args(arguments.split_whitespace())
+            .stdout(fs::File::create("/dev/full").unwrap())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(said.starts_with("error: standard output: cannot be written: "), "{said}");
+    }
+}
