@@ -11,24 +11,26 @@
 
 #[path = "../tests/common/mod.rs"]
 mod common;
+#[path = "../benches/speed/flights.rs"]
+mod flights;
 #[path = "../benches/speed/measure.rs"]
 mod measure;
 
 use common::*;
+use flights::{Difference, bundle_of_flights, compare, table1};
 use measure::{Trial, in_rounds, processor_time};
 use spunlaid::air::{Air, Eddies, StreamKey, Turbulence, Wind};
-use spunlaid::case::{Case, Run};
+use spunlaid::case::Case;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
+use spunlaid::ensemble::Flight;
 use spunlaid::ensemble::bundle::Bundle;
-use spunlaid::ensemble::{Computing, Flight, Job, KeepShapes, Sample, fly_together};
 use spunlaid::fibre::{Fibre, Root};
 use spunlaid::lanes::{Isa, WIDTH};
 use std::fmt::Write as _;
 use std::fs;
 use std::hint::black_box;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Spacing of the table of the wind [s]: linear interpolation in it is off by 4e-5 of the turbulence.
 const WIND_SPACING: f64 = 5e-5;
@@ -119,59 +121,17 @@ fn path() -> String {
 }
 
 fn converged() -> Vec<Flight> {
-    flights(&table1(Scheme::Leapfrog, 2e-6), WIDTH as u64)
+    bundle_of_flights(&second(Scheme::Leapfrog, 2e-6))
 }
 
-fn table1(scheme: Scheme, time_step: f64) -> Case {
-    let run = Run {
-        time_step,
-        steps: (1.0 / time_step).round() as u64,
-        spin_up_steps: 0,
-        output_steps: ((1e-3 / time_step).round() as u64).max(1),
-        replicates: WIDTH as u64,
-        seed: 1,
-        scheme,
-        gravity: 9.81,
-        damping: 0.0,
-    };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
-}
-
-fn flights(case: &Case, count: u64) -> Vec<Flight> {
-    let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps };
-    let jobs: Vec<Job<'_>> = (0..count).map(|replicate| Job { case, replicate }).collect();
-    fly_together(&jobs, KeepShapes::NONE, computing).expect("the case flies")
-}
-
-/// The recorded instants that all steps share: every 4 ms.
-fn shared(flight: &Flight) -> impl Iterator<Item = &Sample> {
-    let whole = |time: f64| (time / 4e-3 - (time / 4e-3).round()).abs() < 1e-6;
-    flight.samples.iter().filter(move |sample| whole(sample.time))
-}
-
-/// Root mean square distance of the end nodes' paths across the air, over that of the converged ones from
-/// their means, and how far the amplitude is off.
-fn errors(flights: &[Flight], exact: &[Flight]) -> (f64, f64) {
-    let square = |y: f64, z: f64| y * y + z * z;
-    let (mut off, mut spread) = (0.0, 0.0);
-    let (mut found, mut wanted) = (0.0, 0.0);
-    for (flight, exact) in flights.iter().zip(exact) {
-        for (a, b) in shared(flight).zip(shared(exact)) {
-            let mean = exact.end_node.mean;
-            off += square(a.end.y - b.end.y, a.end.z - b.end.z);
-            spread += square(b.end.y - mean.y, b.end.z - mean.z);
-        }
-        found += flight.end_node.amplitude_y + flight.end_node.amplitude_z;
-        wanted += exact.end_node.amplitude_y + exact.end_node.amplitude_z;
-    }
-    ((off / spread).sqrt(), found / wanted - 1.0)
+fn second(scheme: Scheme, h: f64) -> Case {
+    table1(scheme, h, 1.0, WIDTH as u64)
 }
 
 fn measure() {
     let turbulence = &turbulence(1.1);
     let eddies = &Eddies::along(1.0, 20, 0.05);
-    let cases = STEPS.map(|(scheme, h)| table1(scheme, h));
+    let cases = STEPS.map(|(scheme, h)| second(scheme, h));
     let mut trials: Vec<Trial<'_>> = Vec::new();
     for case in &cases {
         let strands = [case.strand(); WIDTH];
@@ -183,13 +143,13 @@ fn measure() {
             processor_time(|| bundle.advance(steps))
         }));
         trials.push(Trial::new(WIDTH as f64, move || {
-            processor_time(|| drop(black_box(flights(case, WIDTH as u64))))
+            processor_time(|| drop(black_box(bundle_of_flights(case))))
         }));
     }
     in_rounds(&mut trials, 0.5);
     let exact = converged();
     for (case, times) in cases.iter().zip(trials.chunks(2)) {
-        let (path, amplitude) = errors(&flights(case, WIDTH as u64), &exact);
+        let Difference { path, amplitude } = compare(&bundle_of_flights(case), &exact);
         let row = |fibres: usize| {
             let share = 1.0 / fibres as f64;
             println!(

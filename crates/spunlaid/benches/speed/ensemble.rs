@@ -1,32 +1,17 @@
 //! Whole ensembles: turbulence, flight, records and statistics.
 
-use crate::common::*;
+use crate::flights::{bundle_of_flights, table1};
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::case::{Case, Run};
+use cpu_time::ProcessTime;
+use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, Flight, KeepShapes, Results, fly, fly_together};
-use spunlaid::ensemble::{Job, turbulence_spectrum};
+use spunlaid::ensemble::{Computing, KeepShapes, Results, fly, turbulence_spectrum};
 use spunlaid::error::Error;
 use spunlaid::lanes::{Isa, WIDTH};
 use std::hint::black_box;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
-
-fn table1(scheme: Scheme, h: f64, duration: f64, replicates: u64) -> Case {
-    let run = Run {
-        time_step: h,
-        steps: (duration / h).round() as u64,
-        spin_up_steps: 0,
-        output_steps: ((1e-3 / h).round() as u64).max(1),
-        replicates,
-        seed: 1,
-        scheme,
-        gravity: 9.81,
-        damping: 0.0,
-    };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
-}
 
 fn computing<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Computing<'a> {
     Computing { threads, isa: Isa::detect(), stop, fibre_steps }
@@ -44,12 +29,6 @@ fn fly_all(case: &Case, threads: usize) {
     black_box(collector.finish());
 }
 
-fn bundle_of_flights(case: &Case) -> Vec<Flight> {
-    let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case, replicate }).collect();
-    fly_together(&jobs, KeepShapes::NONE, computing(1, &stop, &fibre_steps)).expect("the case flies")
-}
-
 /// A second of a fibre of Table 1, all included, in a large ensemble.
 pub fn costs() {
     title(
@@ -64,10 +43,12 @@ pub fn costs() {
         (Scheme::ImplicitTension, 2e-4, 1e-2),
         (Scheme::ImplicitTension, 5e-4, 1e-3),
         (Scheme::ImplicitTension, 5e-4, 1e-2),
+        (Scheme::ImplicitTension, 8e-4, 1e-3),
+        (Scheme::ImplicitTension, 1e-3, 1e-3),
     ];
     let cases = kinds.map(|(scheme, h, interval)| {
         let mut case = table1(scheme, h, 1.0, WIDTH as u64);
-        case.run.output_steps = (interval / h).round() as u64;
+        case.run.output_steps = ((interval / h).round() as u64).max(1);
         case
     });
     // Flown on one thread here, so that its processor time is all there is.
@@ -106,21 +87,32 @@ pub fn costs() {
     println!("  the spectrum of the turbulence, once per run: {:.1} ms", trials[0].each() * 1e3);
 }
 
-/// Two threads against one, by the clock on the wall: of use on a machine with nothing else to do.
+/// Two threads against one: by the clock on the wall, of use on a machine with nothing else to do, and by
+/// the processor time of all threads, which tells what sharing the work out costs.
 pub fn threads() {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    title(&format!("threads: 128 fibres of Table 1 at 200 µs, wall time ({cores} cores)"));
+    title(&format!("threads: 128 fibres of Table 1 at 200 µs ({cores} cores)"));
     let case = &table1(Scheme::ImplicitTension, 2e-4, 1.0, 128);
-    let mut trials: Vec<Trial<'_>> = [1, 2]
-        .map(|threads| {
-            Trial::new(1.0, move || {
-                let started = Instant::now();
-                fly_all(case, threads);
-                started.elapsed()
-            })
-        })
-        .into();
+    let mut trials: Vec<Trial<'_>> = Vec::new();
+    for threads in [1, 2] {
+        trials.push(Trial::new(1.0, move || {
+            let started = Instant::now();
+            fly_all(case, threads);
+            started.elapsed()
+        }));
+        trials.push(Trial::new(1.0, move || {
+            let started = ProcessTime::now();
+            fly_all(case, threads);
+            started.elapsed()
+        }));
+    }
     in_rounds(&mut trials, 4.0);
-    let (one, two) = (trials[0].each(), trials[1].each());
-    println!("  one {:.1} ms, two {:.1} ms: {:.2} times as fast", one * 1e3, two * 1e3, one / two);
+    let time = |i: usize| trials[i].each() * 1e3;
+    println!(
+        "  wall time: one {:.1} ms, two {:.1} ms: {:.2} times as fast",
+        time(0),
+        time(2),
+        time(0) / time(2)
+    );
+    println!("  processor time: one {:.1} ms, two {:.1} ms", time(1), time(3));
 }

@@ -1,7 +1,8 @@
 //! What a flight costs on this machine, in nanoseconds per element and step of a fibre.
 //!
-//!     cargo bench -p spunlaid                       # all of it, about a minute
-//!     cargo bench -p spunlaid -- kernel threads     # parts: kernel, growth, wind, ensemble, threads
+//!     cargo bench -p spunlaid                       # all of it, two minutes
+//!     cargo bench -p spunlaid -- kernel threads     # parts: kernel, growth, wind, ensemble, threads,
+//!                                                   # accuracy
 //!
 //! Processor time, the least of many short repetitions taken in turn; absolute figures wander with the
 //! machine's clock, ratios within a run hold. What the figures were, and the least they could be, is in
@@ -10,21 +11,24 @@
 // The tests' shared models come with the licences of tests.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
+mod accuracy;
 #[path = "../../tests/common/mod.rs"]
 mod common;
 mod ensemble;
+mod flights;
 mod kernel;
 mod measure;
 mod wind;
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    let parts: [(&str, fn()); 5] = [
+    let parts: [(&str, fn()); 6] = [
         ("kernel", kernel::instruction_sets),
         ("growth", kernel::growth),
         ("wind", wind::costs),
         ("ensemble", ensemble::costs),
         ("threads", ensemble::threads),
+        ("accuracy", accuracy::of_steps),
     ];
     for (name, part) in parts {
         if asked.is_empty() || asked.iter().any(|a| a == name) {

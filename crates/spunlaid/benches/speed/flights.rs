@@ -1,0 +1,63 @@
+//! Whole flights for the tables of speed and accuracy: Table 1 by any scheme and step, and how far its
+//! paths are off.
+
+use crate::common::*;
+use spunlaid::case::{Case, Run};
+use spunlaid::chain::schemes::Scheme;
+use spunlaid::ensemble::{Computing, Flight, Job, KeepShapes, Sample, fly_together};
+use spunlaid::lanes::{Isa, WIDTH};
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+/// The paper's Table 1, recorded every millisecond or every step.
+pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) -> Case {
+    let run = Run {
+        time_step,
+        steps: (duration / time_step).round() as u64,
+        spin_up_steps: 0,
+        output_steps: ((1e-3 / time_step).round() as u64).max(1),
+        replicates,
+        seed: 1,
+        scheme,
+        gravity: 9.81,
+        damping: 0.0,
+    };
+    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
+}
+
+/// The first eight flights of a case, on this thread.
+pub fn bundle_of_flights(case: &Case) -> Vec<Flight> {
+    let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
+    let computing = Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps };
+    let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case, replicate }).collect();
+    fly_together(&jobs, KeepShapes::NONE, computing).expect("the case flies")
+}
+
+/// How flights differ from others with the same phases.
+pub struct Difference {
+    /// Root mean square distance of the end nodes' paths across the air, over the spread of the others'.
+    pub path: f64,
+    /// Relative difference of the amplitudes.
+    pub amplitude: f64,
+}
+
+/// Compares flights with converged ones, at the recorded instants that all steps share: every 4 ms.
+pub fn compare(flights: &[Flight], exact: &[Flight]) -> Difference {
+    let square = |y: f64, z: f64| y * y + z * z;
+    let (mut off, mut spread) = (0.0, 0.0);
+    let (mut found, mut wanted) = (0.0, 0.0);
+    for (flight, exact) in flights.iter().zip(exact) {
+        let mean = exact.end_node.mean;
+        for (a, b) in shared(flight).zip(shared(exact)) {
+            off += square(a.end.y - b.end.y, a.end.z - b.end.z);
+            spread += square(b.end.y - mean.y, b.end.z - mean.z);
+        }
+        found += flight.end_node.amplitude_y + flight.end_node.amplitude_z;
+        wanted += exact.end_node.amplitude_y + exact.end_node.amplitude_z;
+    }
+    Difference { path: (off / spread).sqrt(), amplitude: found / wanted - 1.0 }
+}
+
+fn shared(flight: &Flight) -> impl Iterator<Item = &Sample> {
+    let whole = |time: f64| (time / 4e-3 - (time / 4e-3).round()).abs() < 1e-6;
+    flight.samples.iter().filter(move |sample| whole(sample.time))
+}
