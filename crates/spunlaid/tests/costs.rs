@@ -182,10 +182,10 @@ fn frozen_memory_of_steps_flights_and_statistics() {
         let mut collector = Results::collector(&case, 0);
         collector.take(&flights[0]);
         let taken = memory_of(|| flights[1..].iter().for_each(|flight| collector.take(flight))).1;
-        // Eight flights of 101 records; the turbulence and the growing of the records are the most of it.
+        // Eight flights of 101 records of 14 numbers, 90,496 bytes; the turbulence and the growing of the records are the most of it.
         let name = scheme.name();
         assert!(flown.blocks <= 640, "{name}: {} blocks", flown.blocks);
-        assert!(flown.kept <= 110_000, "{name}: {} bytes kept", flown.kept);
+        assert!(flown.kept <= 116_000, "{name}: {} bytes kept", flown.kept);
         assert!(flown.peak <= 480_000, "{name}: {} bytes at once", flown.peak);
         // Statistics of seven of them: nothing stays but five numbers of each.
         assert!(taken.blocks <= 400, "{name}: {} blocks", taken.blocks);
