@@ -60,7 +60,7 @@ fn identical_after_many_kills() {
     let place = Place::new(&case(0.5), STUDY);
     place.swept("whole", &["--threads", "2"]);
     let expected = results(&place.path("whole"));
-    let kills = killed(&place, "killed", 25, 400);
+    let kills = killed(&place, "killed", 25, 60);
     assert!(kills >= 10, "only {kills} kills before the end");
     let output = said(&place.swept("killed", &["--threads", "1"]));
     assert!(output.contains("going on: "), "{output}");
