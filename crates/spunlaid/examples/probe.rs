@@ -30,16 +30,8 @@ fn main() -> ExitCode {
 
 fn record() -> String {
     let (rate, samples) = (1000.0, 10_000);
-    let air = Air {
-        velocity: 10.0,
-        turbulence_intensity: 0.1,
-        length_scale: 0.05,
-        cutoff_frequency: 100.0,
-        density: 1.204,
-        kinematic_viscosity: 1.51e-5,
-        harmonics: 1 << 12,
-    };
-    let stream = [(air, StreamKey { seed: 1, replicate: 0 })];
+    let air = Air { harmonics: 1 << 12, ..Air::uniform(10.0, 0.1, 0.05, 100.0) };
+    let stream = [(air.clone(), StreamKey { seed: 1, replicate: 0 })];
     let turbulence = Turbulence::synthesise(Isa::detect(), &stream, 1, f64::from(samples) / rate);
     let mut wind = Wind::new(&turbulence);
     let mut text = String::from(

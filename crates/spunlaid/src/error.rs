@@ -1,8 +1,10 @@
 //! What can go wrong, and how it is told: where, which key, what value, what is allowed, the way out.
 
+mod data;
 mod record;
 mod study;
 
+pub use data::{DataError, TableFault};
 pub use record::{RecordFault, RecordPlace, RecordProblem};
 pub use study::{JournalError, StudyFault};
 
@@ -289,6 +291,61 @@ pub enum Fault {
     Negative {
         /// What is needed, with its article.
         quantity: &'static str,
+    },
+    /// A file that the case names.
+    #[error("cannot be used: {0}")]
+    Data(DataError),
+    /// A number that the flow tells already.
+    #[error("has no effect where {flow} tells the velocity; leave it out, and scale with air.speed_factor")]
+    FlowTells {
+        /// The key that names the flow.
+        flow: &'static str,
+    },
+    /// A key that needs another.
+    #[error("has no effect without {needed}; {remedy}")]
+    Needs {
+        /// What it needs.
+        needed: &'static str,
+        /// The way out.
+        remedy: &'static str,
+    },
+    /// Two keys that exclude each other.
+    #[error("cannot go with {other}; {remedy}")]
+    Excludes {
+        /// The other key.
+        other: &'static str,
+        /// The way out.
+        remedy: &'static str,
+    },
+    /// A record too short for the fibre.
+    #[error(
+        "is too short: the turbulence along one fibre takes {stretches} stretches of {} that begin 5 integral times apart, \
+         a record of {}; shorten run.duration, lengthen air.length_scale or measure for longer",
+        Dimension::Time.pretty(*duration), Dimension::Time.pretty_to(*wanted, 3)
+    )]
+    RecordTooShort {
+        /// Stretches that one fibre takes.
+        stretches: u64,
+        /// Time that each lasts [s].
+        duration: f64,
+        /// How long a record would do [s].
+        wanted: f64,
+    },
+    /// Another number of records than eddies.
+    #[error("names {records} records where the fibre has {eddies} eddies; name one for all, or one for each")]
+    RecordsPerEddy {
+        /// Records there are.
+        records: usize,
+        /// Eddies along the fibre.
+        eddies: usize,
+    },
+    /// Records of different sampling rates.
+    #[error("names records of different sampling rates, {first} and {other} Hz; resample them to the same")]
+    RecordRates {
+        /// Of the first [Hz].
+        first: f64,
+        /// Of another [Hz].
+        other: f64,
     },
     /// A direction of length zero.
     #[error("points nowhere; write a vector like [1.0, 0.0, 0.0], of any length but zero")]

@@ -87,15 +87,7 @@ fn table_1_is_read_in_si_units() {
             root: Root::Pinned,
             direction: Vec3::new(1.0, 0.0, 0.0),
         },
-        air: Air {
-            velocity: 10.0,
-            turbulence_intensity: 0.1,
-            length_scale: 0.05,
-            cutoff_frequency: 100.0,
-            density: 1.204,
-            kinematic_viscosity: 1.51e-5,
-            harmonics: 256,
-        },
+        air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient: 0.9 },
         run: Run {
             time_step: 1e-6,
@@ -150,15 +142,15 @@ fn what_was_rounded_is_said() {
         ),
         (
             "time_step = \"3 µs\"",
-            "case.toml:30: run.time_step = \"3 µs\" leaves no whole number of steps in run.duration: 333334 of 2.999994 µs are taken",
+            "case.toml:34: run.time_step = \"3 µs\" leaves no whole number of steps in run.duration: 333334 of 2.999994 µs are taken",
         ),
         (
             "spin_up = \"1.4 µs\"",
-            "case.toml:30: run.spin_up = \"1.4 µs\" is no whole number of time steps: 1 µs is taken",
+            "case.toml:34: run.spin_up = \"1.4 µs\" is no whole number of time steps: 1 µs is taken",
         ),
         (
             "output_interval = \"0.1 µs\"",
-            "case.toml:30: run.output_interval = \"0.1 µs\" is no whole number of time steps: 1 µs is taken",
+            "case.toml:34: run.output_interval = \"0.1 µs\" is no whole number of time steps: 1 µs is taken",
         ),
         (
             "diameter = \"500 µm\"",
@@ -221,6 +213,7 @@ prop_compose! {
     ) -> Case {
         let air = Air {
             velocity, turbulence_intensity, length_scale, cutoff_frequency, density, kinematic_viscosity, harmonics: 1,
+            ..Air::uniform(1.0, 0.0, 1.0, 1.0)
         };
         let scheme = if leapfrog { Scheme::Leapfrog } else { Scheme::SemiImplicitEuler };
         let spin_up_steps = (spin_up * steps as f64) as u64;

@@ -26,7 +26,7 @@ fn analytic_every_element_feels_its_own_eddy() {
     for length_scale in [0.07, l, 0.019, 2.0] {
         let eddies = Eddies::along(fibre.length, fibre.elements, length_scale);
         let key = StreamKey { seed: 2, replicate: 0 };
-        let turbulence = Turbulence::synthesise(Isa::detect(), &[(air, key)], eddies.count(), 0.1);
+        let turbulence = Turbulence::synthesise(Isa::detect(), &[(air.clone(), key)], eddies.count(), 0.1);
         let wind = Wind::new(&turbulence).at(0.0);
         // theory.md (23), with a nudge against rounding where a centre lies on a border.
         let eddy = |j: usize| ((j as f64 + 0.5) * l / length_scale + 1e-9) as usize;

@@ -149,7 +149,7 @@ fn identical_for_any_number_of_threads_and_any_packing() {
     }
     // Fewer replicates: others, or none, in the neighbouring lanes.
     for replicates in [1, 3, 11] {
-        let mut fewer = case;
+        let mut fewer = case.clone();
         fewer.run.replicates = replicates;
         let found = flights(&fewer, 1);
         assert_same(&expected[replicates as usize - 1], &found[replicates as usize - 1]);
@@ -166,7 +166,7 @@ fn assert_same(a: &Flight, b: &Flight) {
 #[test]
 fn invariant_spin_up_leaves_the_flight_and_changes_the_statistics() {
     let whole = table1(2e-5, 0.1, 1);
-    let mut late = whole;
+    let mut late = whole.clone();
     late.run.spin_up_steps = late.run.steps / 2;
     let (whole, late) = (&flights(&whole, 1)[0], &flights(&late, 1)[0]);
     assert!(whole.samples == late.samples);

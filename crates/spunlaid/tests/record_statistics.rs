@@ -53,7 +53,7 @@ fn in_wind(values: Vec<f64>) -> Vec<f64> {
 
 /// The air of Table 1 as a probe sees it that sits in one eddy: [component][sample].
 fn probe(air: Air, seed: u64, interval: f64, samples: usize) -> Vec<Vec<f64>> {
-    let stream = [(air, StreamKey { seed, replicate: 0 })];
+    let stream = [(air.clone(), StreamKey { seed, replicate: 0 })];
     let turbulence = Turbulence::synthesise(Isa::detect(), &stream, 1, interval * samples as f64);
     let mut wind = Wind::new(&turbulence);
     let mut components = vec![Vec::new(); 3];
@@ -68,15 +68,7 @@ fn probe(air: Air, seed: u64, interval: f64, samples: usize) -> Vec<Vec<f64>> {
 
 /// 100 Hz, 10 m/s, a tenth; enough harmonics to be Gaussian, and longer than any record made of it.
 fn air() -> Air {
-    Air {
-        velocity: 10.0,
-        turbulence_intensity: 0.1,
-        length_scale: 0.05,
-        cutoff_frequency: 100.0,
-        density: 1.204,
-        kinematic_viscosity: 1.51e-5,
-        harmonics: 1 << 14,
-    }
+    Air { harmonics: 1 << 14, ..Air::uniform(10.0, 0.1, 0.05, 100.0) }
 }
 
 #[test]

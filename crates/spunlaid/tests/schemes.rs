@@ -22,7 +22,7 @@ fn flown(isa: Isa, scheme: Scheme, damping: f64, h: f64, duration: f64) -> (Snap
     let eddies = Eddies::along(1.0, 20, 0.05);
     let air = table1_air();
     let streams: Vec<(Air, StreamKey)> =
-        (0..WIDTH as u64).map(|replicate| (air, StreamKey { seed: 4, replicate })).collect();
+        (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed: 4, replicate })).collect();
     let turbulence = Turbulence::synthesise(isa, &streams, eddies.count(), duration + h);
     let strands = [table1_strand(damping); WIDTH];
     let mut bundle = Bundle::new(isa, &strands, &eddies, &turbulence, scheme, h, 0);
@@ -121,7 +121,7 @@ fn invariant_implicit_tension_is_stable_far_beyond_the_axial_limit() {
     let drag = paper_drag().of_element(&fibre, air.density, air.kinematic_viscosity);
     let strand = Strand { fibre, drag, gravity: 9.81, damping: 0.0 };
     let eddies = Eddies::along(fibre.length, fibre.elements, 0.02);
-    let streams = [(air, StreamKey { seed: 4, replicate: 0 })];
+    let streams = [(air.clone(), StreamKey { seed: 4, replicate: 0 })];
     let duration = 0.25;
     let turbulence = Turbulence::synthesise(Isa::detect(), &streams, eddies.count(), duration + 1e-3);
     let end = |scheme, h: f64| {

@@ -224,9 +224,9 @@ fn a_lost_fibre_costs_its_neighbours_nothing() {
     // Beyond the stability limit of the axial waves, which the check would refuse; its neighbours are not.
     let (mut good, _) = parse_case(SHORT, "case.toml", &[]).unwrap();
     good.run.steps = 5000;
-    let mut bad = good;
+    let mut bad = good.clone();
     bad.fibre.youngs_modulus *= 16.0;
-    let study = Study::of_cases([good, bad, good], Replicates::fixed(3));
+    let study = Study::of_cases([good.clone(), bad, good.clone()], Replicates::fixed(3));
     let mut journal = flown(&study, 1);
     let alone = flown(&Study::of_cases([good], Replicates::fixed(3)), 1).records(0, 9).unwrap();
     for point in [0, 2] {

@@ -11,12 +11,12 @@ use std::f64::consts::PI;
 
 const EDDIES: usize = 6;
 
-fn streams(air: Air, seed: u64) -> Vec<(Air, StreamKey)> {
-    (0..WIDTH as u64).map(|replicate| (air, StreamKey { seed, replicate })).collect()
+fn streams(air: &Air, seed: u64) -> Vec<(Air, StreamKey)> {
+    (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed, replicate })).collect()
 }
 
 /// Fluctuations `[lane][eddy][component][sample]`, sampled every `interval` over `duration`.
-fn records(air: Air, seed: u64, interval: f64, duration: f64) -> Vec<Vec<f64>> {
+fn records(air: &Air, seed: u64, interval: f64, duration: f64) -> Vec<Vec<f64>> {
     let turbulence = Turbulence::synthesise(Isa::detect(), &streams(air, seed), EDDIES, duration);
     let mut wind = Wind::new(&turbulence);
     let mut records = vec![Vec::new(); WIDTH * EDDIES * 3];
@@ -65,7 +65,7 @@ fn analytic_signal_is_the_sum_of_cosines_to_1e_7() {
     let period = 2.0 * air.repeat_time();
     let samples = 3 * 17 * 16;
     let interval = period / samples as f64;
-    let turbulence = Turbulence::synthesise(Isa::detect(), &streams(air, 7), EDDIES, period);
+    let turbulence = Turbulence::synthesise(Isa::detect(), &streams(&air, 7), EDDIES, period);
     let mut wind = Wind::new(&turbulence);
     let record: Vec<f64> = (0..samples).map(|i| wind.at(i as f64 * interval)[2].lane(5).y).collect();
     let (amplitudes, residual) = fitted_harmonics(&air, &record, interval);
@@ -83,7 +83,7 @@ fn stat_mean_variance_and_independence() {
     let air = table1_air();
     // Over the full period a component's mean is 0 and its variance u² exactly, whatever the phases.
     let period = 2.0 * air.repeat_time();
-    let all = records(air, 3, period / 4096.0, period);
+    let all = records(&air, 3, period / 4096.0, period);
     let u2 = air.rms() * air.rms();
     for (i, record) in all.iter().enumerate() {
         let n = record.len() as f64;
@@ -117,7 +117,7 @@ fn stat_phases_are_uniform_between_replicates() {
     let air = table1_air();
     let mut values = Vec::new();
     for seed in 0..12 {
-        let turbulence = Turbulence::synthesise(Isa::detect(), &streams(air, seed), EDDIES, 0.5);
+        let turbulence = Turbulence::synthesise(Isa::detect(), &streams(&air, seed), EDDIES, 0.5);
         let mut wind = Wind::new(&turbulence);
         let at = wind.at(0.3);
         for (eddy, lane) in (0..EDDIES).flat_map(|e| (0..WIDTH).map(move |l| (e, l))) {
@@ -142,7 +142,7 @@ fn stat_spectrum_is_flat_to_the_cutoff_and_nothing_above() {
     let interval = 1.0 / 800.0;
     let mut spectrum = PowerSpectrum::new(interval, 512);
     let mut segments = 0;
-    for record in records(air, 11, interval, 10.0) {
+    for record in records(&air, 11, interval, 10.0) {
         spectrum.add(&record);
         segments += record.len() / 256 - 1;
     }
@@ -171,7 +171,7 @@ fn stat_autocorrelation_is_the_cardinal_sine() {
     let interval = period / samples as f64;
     let u2 = air.rms().powi(2);
     let step = 2.0 * PI * air.cutoff_frequency / air.harmonics as f64;
-    for record in records(air, 5, interval, period).iter().take(5) {
+    for record in records(&air, 5, interval, period).iter().take(5) {
         for lag in [1, 7, 16, 33, 64, 150] {
             let c =
                 (0..samples).map(|i| record[i] * record[(i + lag) % samples]).sum::<f64>() / samples as f64;
@@ -188,8 +188,8 @@ fn stat_autocorrelation_is_the_cardinal_sine() {
 #[test]
 fn identical_turbulence_alone_or_in_company_and_on_any_instruction_set() {
     let air = table1_air();
-    let alone = [(air, StreamKey { seed: 9, replicate: 5 })];
-    let company = streams(air, 9);
+    let alone = [(air.clone(), StreamKey { seed: 9, replicate: 5 })];
+    let company = streams(&air, 9);
     let mut reference: Option<Vec<u64>> = None;
     for isa in Isa::available() {
         for (lanes, lane) in [(&alone[..], 0), (&company[..], 5)] {
@@ -211,7 +211,7 @@ fn identical_turbulence_alone_or_in_company_and_on_any_instruction_set() {
 
 #[test]
 fn identical_wind_in_any_order_of_times() {
-    let turbulence = Turbulence::synthesise(Isa::detect(), &streams(table1_air(), 1), EDDIES, 0.2);
+    let turbulence = Turbulence::synthesise(Isa::detect(), &streams(&table1_air(), 1), EDDIES, 0.2);
     let times: Vec<f64> = (0..200).map(|i| 0.1 + 0.09 * scatter(i)).collect();
     let mut hopping = Wind::new(&turbulence);
     for &t in &times {

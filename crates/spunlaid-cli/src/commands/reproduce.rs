@@ -157,12 +157,12 @@ impl Flying {
         let steps = if wanted.contains(&"8b") {
             ERROR_STEPS.into_iter().map(euler).collect()
         } else if wanted.contains(&"8a") {
-            vec![*base]
+            vec![base.clone()]
         } else {
             Vec::new()
         };
         let study = Study::of_cases(cases, Replicates::fixed(base.run.replicates));
-        Self { wanted: wanted.to_vec(), steps, trends, choices, study, base: *base }
+        Self { wanted: wanted.to_vec(), steps, trends, choices, study, base: base.clone() }
     }
 
     fn fibres(&self) -> u64 {

@@ -21,15 +21,7 @@ pub(crate) fn case(elements: usize, instants: usize, replicates: u64) -> Case {
             root: Root::Pinned,
             direction: Vec3::new(1.0, 0.0, 0.0),
         },
-        air: Air {
-            velocity: 10.0,
-            turbulence_intensity: 0.1,
-            length_scale: 0.05,
-            cutoff_frequency: 100.0,
-            density: 1.204,
-            kinematic_viscosity: 1.51e-5,
-            harmonics: 256,
-        },
+        air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient: 0.9 },
         run: Run {
             time_step: 1e-3,

@@ -37,7 +37,7 @@ impl Setup {
         let eddies = Eddies::along(length, elements, length_scale);
         let steps = (30_000 / elements as u64).clamp(12, 1500);
         let streams: Vec<(Air, StreamKey)> =
-            (0..WIDTH as u64).map(|replicate| (air, StreamKey { seed: 1, replicate })).collect();
+            (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed: 1, replicate })).collect();
         let horizon = (steps + 3) as f64 * h;
         let turbulence = Turbulence::synthesise(Isa::detect(), &streams, eddies.count(), horizon);
         let drag = paper_drag().of_element(&fibre, air.density, air.kinematic_viscosity);

@@ -14,7 +14,7 @@ pub fn costs() {
     title("turbulence of Table 1: 20 eddies, 256 harmonics, one second");
     let air = table1_air();
     let streams: Vec<(Air, StreamKey)> =
-        (0..WIDTH as u64).map(|replicate| (air, StreamKey { seed: 1, replicate })).collect();
+        (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed: 1, replicate })).collect();
     let streams = &streams;
     let isas = Isa::available();
     let mut trials: Vec<Trial<'_>> = isas

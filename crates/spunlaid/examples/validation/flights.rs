@@ -49,7 +49,7 @@ fn flown(scheme: Scheme, h: f64, duration: f64) -> (Snapshot, Snapshot) {
     let (fibre, air) = (table1_fibre(), table1_air());
     let eddies = Eddies::along(1.0, 20, 0.05);
     let streams: Vec<(Air, StreamKey)> =
-        (0..WIDTH as u64).map(|replicate| (air, StreamKey { seed: 4, replicate })).collect();
+        (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed: 4, replicate })).collect();
     let turbulence = Turbulence::synthesise(Isa::detect(), &streams, eddies.count(), duration + 2.0 * h);
     let drag = paper_drag().of_element(&fibre, air.density, air.kinematic_viscosity);
     let strands = [Strand { fibre, drag, gravity: 9.81, damping: 0.0 }; WIDTH];

@@ -10,9 +10,9 @@ use std::f64::consts::PI;
 const EDDIES: usize = 6;
 
 /// Fluctuations of 144 independent components, sampled every `interval` over `duration`.
-fn records(air: Air, seed: u64, interval: f64, duration: f64) -> Vec<Vec<f64>> {
+fn records(air: &Air, seed: u64, interval: f64, duration: f64) -> Vec<Vec<f64>> {
     let streams: Vec<(Air, StreamKey)> =
-        (0..WIDTH as u64).map(|replicate| (air, StreamKey { seed, replicate })).collect();
+        (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed, replicate })).collect();
     let turbulence = Turbulence::synthesise(Isa::detect(), &streams, EDDIES, duration);
     let mut wind = Wind::new(&turbulence);
     let mut records = vec![Vec::new(); WIDTH * EDDIES * 3];
@@ -34,7 +34,7 @@ pub fn sum_of_cosines() {
     let interval = period / samples as f64;
     let expected = (2.0 / air.harmonics as f64).sqrt() * air.rms();
     let (mut residual, mut amplitude): (f64, f64) = (0.0, 0.0);
-    for record in records(air, 7, interval, period) {
+    for record in records(&air, 7, interval, period) {
         let mut rest = record.clone();
         for k in 0..air.harmonics {
             let w = (k as f64 + 0.5) * 2.0 * PI * air.cutoff_frequency / air.harmonics as f64;
@@ -60,7 +60,7 @@ pub fn statistics() {
     let period = 2.0 * air.repeat_time();
     let samples = 8192;
     let interval = period / samples as f64;
-    let all = records(air, 3, interval, period);
+    let all = records(&air, 3, interval, period);
     let u2 = air.rms().powi(2);
     let n = samples as f64;
     let worst = |f: &dyn Fn(&Vec<f64>) -> f64| all.iter().map(|r| f(r).abs()).fold(0.0, f64::max);
@@ -96,7 +96,7 @@ pub fn spectrum() {
     let air = Air { harmonics: 1024, ..table1_air() };
     let interval = 1.0 / 800.0;
     let mut spectrum = PowerSpectrum::new(interval, 512);
-    for record in records(air, 11, interval, 10.0) {
+    for record in records(&air, 11, interval, 10.0) {
         spectrum.add(&record);
     }
     let wanted = air.rms().powi(2) / air.cutoff_frequency;

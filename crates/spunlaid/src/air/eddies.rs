@@ -1,6 +1,31 @@
-//! Which eddy an element lies in.
+//! How the turbulence is strung along a fibre: which elements move in the same air.
 
-/// Eddies of one length side by side along a fibre.
+/// How the turbulence at one place on the fibre hangs together with that at the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum EddyModel {
+    /// Eddies of one length scale each, side by side along the fibre and independent of one another.
+    /// theory.md (23)
+    #[default]
+    Independent,
+    /// A frozen pattern that the mean flow carries along the fibre (Taylor's hypothesis), which forgets itself
+    /// in the course of `decay_time` [s]; infinite where it never does.       theory.md (38)
+    Convected {
+        /// Time constant of the correlation of what is carried along [s].
+        decay_time: f64,
+    },
+}
+
+impl EddyModel {
+    /// Name in the case file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Independent => "independent",
+            Self::Convected { .. } => "convected",
+        }
+    }
+}
+
+/// The eddy of each element of a fibre.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Eddies {
     of_element: Vec<u32>,
@@ -12,10 +37,30 @@ impl Eddies {
     /// the eddy that its centre lies in, by arc length.                       theory.md (23)
     pub fn along(length: f64, elements: usize, length_scale: f64) -> Self {
         let size = length / elements as f64;
-        let of_element: Vec<u32> = (0..elements)
-            // A centre on a border, but for rounding, belongs to the eddy below it.
-            .map(|j| ((j as f64 + 0.5) * size / length_scale + 1e-9).floor() as u32)
-            .collect();
+        // A centre on a border, but for rounding, belongs to the eddy below it.
+        Self::of((0..elements).map(|j| ((j as f64 + 0.5) * size / length_scale + 1e-9).floor() as u32))
+    }
+
+    /// Eddies as long as the length scale [m] where they begin, by arc length [m]; never shorter than an
+    /// element.
+    pub fn growing(length: f64, elements: usize, length_scale: impl Fn(f64) -> f64) -> Self {
+        let size = length / elements as f64;
+        let (mut eddy, mut end) = (0, length_scale(0.0).max(size));
+        Self::of((0..elements).map(|j| {
+            if (j as f64 + 0.5) * size >= end * (1.0 - 1e-9) {
+                (eddy, end) = (eddy + 1, end + length_scale(end).max(size));
+            }
+            eddy
+        }))
+    }
+
+    /// An eddy for every element: for what is carried along the fibre.
+    pub fn of_each(elements: usize) -> Self {
+        Self::of(0..elements as u32)
+    }
+
+    fn of(eddies: impl Iterator<Item = u32>) -> Self {
+        let of_element: Vec<u32> = eddies.collect();
         let count = of_element.last().map_or(0, |&last| last as usize + 1);
         Self { of_element, count }
     }
@@ -28,5 +73,23 @@ impl Eddies {
     /// Number of eddies.
     pub const fn count(&self) -> usize {
         self.count
+    }
+
+    /// Middle of each eddy's elements, in elements from the root; of an eddy without any, that of the next.
+    pub fn middles(&self) -> Vec<f64> {
+        let mut middles = vec![0.0; self.count];
+        let mut first = 0;
+        for (j, &eddy) in self.of_element.iter().enumerate() {
+            if j > 0 && self.of_element[j - 1] != eddy {
+                first = j;
+            }
+            middles[eddy as usize] = 0.5 * (first + j + 1) as f64;
+        }
+        for eddy in (0..self.count.saturating_sub(1)).rev() {
+            if middles[eddy] == 0.0 {
+                middles[eddy] = middles[eddy + 1];
+            }
+        }
+        middles
     }
 }

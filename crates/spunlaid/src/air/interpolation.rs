@@ -1,14 +1,15 @@
 //! From evenly spaced samples back to the velocity at any time.
 
 use super::Turbulence;
+use super::synthesis::Signal;
 use crate::lanes::{Lanes, Plain, Register, Wide};
 use crate::vec3::Vec3;
 use std::f64::consts::PI;
 
 /// How many samples an interpolated value rests on.
 pub(super) const SPREAD: usize = 8;
-/// Cells of a cubic per sample spacing.
-const CELLS: usize = 16;
+/// Cells of a cubic per sample spacing of a synthesised signal. Of a record each spacing is one.
+const CELLS: u64 = 16;
 
 /// The Kaiser-Bessel taper `φ(x) = I₀(β √(1−(2x/w)²))/I₀(β)`, |x| ≤ w/2 = SPREAD/2 sample spacings.
 ///
@@ -71,6 +72,7 @@ pub struct Wind<'a> {
     turbulence: &'a Turbulence,
     /// Weights of the `SPREAD` samples for value and slope (per cell) at the `CELLS` cell ends.
     weights: Vec<[(f64, f64); SPREAD]>,
+    cells_per_sample: u64,
     cell: Option<u64>,
     /// Value and slope at the two ends of the cell, `[eddy][component]`.
     start: Vec<(Lanes, Lanes)>,
@@ -94,9 +96,14 @@ impl<'a> Wind<'a> {
             })
             .collect();
         let columns = 3 * turbulence.eddies;
+        let cells_per_sample = match turbulence.signal {
+            Signal::Synthesised(_) => CELLS,
+            Signal::Measured(_) => 1,
+        };
         Self {
             turbulence,
             weights,
+            cells_per_sample,
             cell: None,
             start: vec![(Lanes::ZERO, Lanes::ZERO); columns],
             end: vec![(Lanes::ZERO, Lanes::ZERO); columns],
@@ -116,7 +123,7 @@ impl<'a> Wind<'a> {
     /// [`Wind::at`] for the kernel, to be asked eddy by eddy.
     #[inline(always)]
     pub(crate) fn blow<S: Register>(&mut self, t: f64) -> Gust<'_, S> {
-        let cells = t / self.turbulence.spacing * CELLS as f64;
+        let cells = t / self.turbulence.spacing * self.cells_per_sample as f64;
         let cell = cells as u64;
         if self.cell != Some(cell) {
             self.enter::<S>(cell);
@@ -138,7 +145,8 @@ impl<'a> Wind<'a> {
             let a = (Wide::load(&a.0), Wide::load(&a.1));
             let b = (Wide::load(&b.0), Wide::load(&b.1));
             let rise = b.0 - a.0;
-            let mean = if column % 3 == 0 { Wide::load(&self.turbulence.mean) } else { Wide::zero() };
+            let mean =
+                if column % 3 == 0 { Wide::load(&self.turbulence.mean[column / 3]) } else { Wide::zero() };
             *cubic = [
                 (a.0 + mean).store(),
                 a.1.store(),
@@ -152,10 +160,20 @@ impl<'a> Wind<'a> {
     /// Puts the value and slope at a cell's start into `end`.
     #[inline(always)]
     fn move_end<S: Register>(&mut self, cell: u64) {
+        let samples = match &self.turbulence.signal {
+            Signal::Synthesised(samples) => samples,
+            Signal::Measured(stretches) => {
+                for (end, stretch) in self.end.iter_mut().zip(stretches) {
+                    let (value, slope) = stretch.value_and_slope::<S>(cell as usize);
+                    *end = (value.store(), slope.store());
+                }
+                return;
+            }
+        };
         let columns = self.end.len();
-        let first = (cell / CELLS as u64) as usize;
-        let weights = &self.weights[(cell % CELLS as u64) as usize];
-        let samples = &self.turbulence.samples[first * columns..][..SPREAD * columns];
+        let first = (cell / CELLS) as usize;
+        let weights = &self.weights[(cell % CELLS) as usize];
+        let samples = &samples[first * columns..][..SPREAD * columns];
         for (column, end) in self.end.iter_mut().enumerate() {
             let (mut value, mut slope) = (Wide::<S>::zero(), Wide::<S>::zero());
             for (tap, &(for_value, for_slope)) in weights.iter().enumerate() {

@@ -1,18 +1,36 @@
-//! The air: mean flow, and turbulence synthesised along the fibre.
+//! The air: its mean flow, and the turbulence along the fibre.
+//!
+//! ```text
+//! Flow (uniform, profile, field) → mean velocity, rms, length scale and cut-off at each place
+//! SpectrumShape, or a Measured record → signals of the turbulence, one to an eddy and direction
+//! EddyModel → how the signals hang together along the fibre
+//! ```
 
 mod eddies;
+mod flow;
+mod from_file;
 mod interpolation;
+mod measured;
+mod profile;
 pub mod spectrum;
+mod stretches;
 mod synthesis;
+mod tone;
 
-pub use eddies::Eddies;
+pub use eddies::{Eddies, EddyModel};
+pub use flow::{Flow, FromFlow, LocalAir};
+pub use from_file::FromFile;
 pub(crate) use interpolation::Gust;
 pub use interpolation::Wind;
-pub use spectrum::Spectrum;
-pub use synthesis::{StreamKey, Turbulence};
+pub use measured::{APART, Measured, Said};
+pub use profile::Profile;
+pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
+pub use synthesis::{Stream, StreamKey, Turbulence};
+pub use tone::Tone;
 
-/// A uniform mean flow along x with isotropic turbulence, in SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The air of a case, in SI units. Where its flow varies from place to place, the numbers that the flow tells
+/// are those along the fibre, see [`Air::settle`].
+#[derive(Clone, Debug, PartialEq)]
 pub struct Air {
     /// Mean velocity `Ū` along x [m/s].
     pub velocity: f64,
@@ -28,17 +46,62 @@ pub struct Air {
     pub kinematic_viscosity: f64,
     /// Number of harmonics `N_h` a component is summed from.
     pub harmonics: usize,
+    /// How the mean flow varies from place to place.
+    pub flow: Flow,
+    /// Which of the numbers above the flow tells.
+    pub from_flow: FromFlow,
+    /// Factor on all velocities of a flow that is not uniform [-].
+    pub speed_factor: f64,
+    /// How the turbulence spreads over frequency.
+    pub spectrum: SpectrumShape,
+    /// How the turbulence hangs together along the fibre.
+    pub eddies: EddyModel,
+    /// Records that the fluctuation is taken from, one for all eddies or one for each; none where it is
+    /// synthesised.
+    pub records: Vec<FromFile<Measured>>,
 }
 
 impl Air {
+    /// A uniform flow with the paper's turbulence: flat spectrum, independent eddies.
+    ///
+    /// * `velocity` – [m/s]
+    /// * `turbulence_intensity` – [-]
+    /// * `length_scale` – of the eddies [m]
+    /// * `cutoff_frequency` – [Hz]
+    ///
+    /// Density and viscosity are those of air at 20 °C, the harmonics as many as last for a second.
+    pub fn uniform(
+        velocity: f64,
+        turbulence_intensity: f64,
+        length_scale: f64,
+        cutoff_frequency: f64,
+    ) -> Self {
+        Self {
+            velocity,
+            turbulence_intensity,
+            length_scale,
+            cutoff_frequency,
+            density: 1.204,
+            kinematic_viscosity: 1.51e-5,
+            harmonics: Self::default_harmonics(cutoff_frequency, 1.0),
+            flow: Flow::Uniform,
+            from_flow: FromFlow::default(),
+            speed_factor: 1.0,
+            spectrum: SpectrumShape::Flat,
+            eddies: EddyModel::Independent,
+            records: Vec::new(),
+        }
+    }
+
     /// Rms of each velocity component `u = Tu Ū` [m/s].
     pub fn rms(&self) -> f64 {
         self.turbulence_intensity * self.velocity.abs()
     }
 
-    /// Energy spectrum of each velocity component.
-    pub fn spectrum(&self) -> Spectrum {
-        Spectrum::flat(self.rms(), self.cutoff_frequency)
+    /// Energy spectrum of a velocity component, 0 along the mean flow.
+    pub fn energy_spectrum(&self, component: usize) -> Spectrum<'_> {
+        let tone = self.tone();
+        tone.spectrum(self, component)
     }
 
     /// The time after which the synthesised turbulence repeats but for its sign, `N_h/f` [s].

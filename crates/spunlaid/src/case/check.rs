@@ -101,7 +101,7 @@ impl Check<'_> {
 
     /// Each value on its own.
     fn values(&mut self) {
-        let Case { fibre, air, drag, run } = *self.case;
+        let Case { fibre, air, drag, run } = self.case;
         for (quantity, value) in [
             (&keys::LENGTH, fibre.length),
             (&keys::DIAMETER, fibre.diameter),
@@ -113,6 +113,7 @@ impl Check<'_> {
             (&keys::CUTOFF_FREQUENCY, air.cutoff_frequency),
             (&keys::AIR_DENSITY, air.density),
             (&keys::VISCOSITY, air.kinematic_viscosity),
+            (&keys::SPEED_FACTOR, air.speed_factor),
             (&keys::FRICTION_COEFFICIENT, drag.friction_coefficient),
             (&keys::TIME_STEP, run.time_step),
             (&keys::GRAVITY, run.gravity),
@@ -219,7 +220,7 @@ impl Check<'_> {
         }
         let fault = |what, remedy| Fault::TooMuchMemory { bytes, most, what, remedy };
         let (air, largest) =
-            (case.air, memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.records));
+            (&case.air, memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.records));
         let chosen = Air::default_harmonics(air.cutoff_frequency, case.run.duration());
         if largest == memory.chain {
             let fault = fault("the chain", "write a longer one");
@@ -271,7 +272,7 @@ impl Check<'_> {
 
     /// The turbulence must not repeat within the run.
     fn repetition(&mut self) {
-        let (air, duration) = (self.case.air, self.case.run.duration());
+        let (air, duration) = (&self.case.air, self.case.run.duration());
         let cycles = air.cutoff_frequency * duration;
         if air.rms() != 0.0 && air.harmonics as f64 <= cycles {
             let (repeat_time, least) = (air.repeat_time(), (cycles + 1.0).floor());

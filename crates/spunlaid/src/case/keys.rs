@@ -46,6 +46,10 @@ pub(crate) const AIR_DENSITY: Quantity = quantity("air.density", Dimension::Dens
 pub(crate) const VISCOSITY: Quantity =
     quantity("air.kinematic_viscosity", Dimension::KinematicViscosity, Positive);
 
+pub(crate) const SPEED_FACTOR: Quantity = quantity("air.speed_factor", Dimension::Ratio, Positive);
+pub(crate) const RECORD_RATE: Quantity = quantity("air.record_rate", Dimension::Frequency, Positive);
+pub(crate) const DECAY_TIME: Quantity = quantity("air.decay_time", Dimension::Time, Positive);
+
 pub(crate) const FRICTION_COEFFICIENT: Quantity =
     quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative);
 
@@ -58,7 +62,7 @@ pub(crate) const OUTPUT_INTERVAL: Quantity = quantity("run.output_interval", Dim
 pub(crate) const DAMPING: Quantity = quantity("run.damping", Dimension::Rate, NotNegative);
 
 /// Every key whose value is a quantity.
-pub(crate) const QUANTITIES: [&Quantity; 19] = [
+pub(crate) const QUANTITIES: [&Quantity; 21] = [
     &LENGTH,
     &DIAMETER,
     &FIBRE_DENSITY,
@@ -70,6 +74,8 @@ pub(crate) const QUANTITIES: [&Quantity; 19] = [
     &CUTOFF_FREQUENCY,
     &AIR_DENSITY,
     &VISCOSITY,
+    &SPEED_FACTOR,
+    &DECAY_TIME,
     &FRICTION_COEFFICIENT,
     &DURATION,
     &TIME_STEP,
@@ -80,6 +86,10 @@ pub(crate) const QUANTITIES: [&Quantity; 19] = [
     &DAMPING,
 ];
 
+pub(crate) const PROFILE: &str = "air.profile";
+pub(crate) const SPECTRUM: &str = "air.spectrum";
+pub(crate) const RECORD: &str = "air.record";
+pub(crate) const EDDIES: &str = "air.eddies";
 pub(crate) const HARMONICS: &str = "air.harmonics";
 pub(crate) const DIRECTION: &str = "fibre.direction";
 pub(crate) const REPLICATES: &str = "run.replicates";

@@ -1,7 +1,7 @@
 //! What a run takes of memory.
 
 use super::Case;
-use crate::air::Turbulence;
+use crate::air::{EddyModel, Turbulence};
 
 /// Most memory a bundle of eight fibres may take [bytes].
 pub const BUNDLE_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
@@ -39,9 +39,13 @@ impl Case {
     /// Estimate of the memory of a bundle of eight fibres [bytes].
     pub fn bundle_memory(&self) -> BundleMemory {
         let (air, elements) = (&self.air, self.fibre.elements as f64);
-        let eddies = (self.fibre.length / air.length_scale).ceil().max(1.0);
+        let eddies = match air.eddies {
+            EddyModel::Convected { .. } => elements,
+            EddyModel::Independent if air.from_flow.length_scale => elements,
+            EddyModel::Independent => (self.fibre.length / air.length_scale).ceil().max(1.0),
+        };
         let harmonics = air.harmonics as f64;
-        let synthesis = SYNTHESIS * 2.0 * harmonics;
+        let synthesis = if air.records.is_empty() { SYNTHESIS * 2.0 * harmonics } else { 0.0 };
         let turbulence = if synthesis <= BUNDLE_MEMORY_LIMIT {
             Turbulence::memory(air, 1, self.run.duration()) * eddies
         } else {

@@ -11,14 +11,15 @@ pub use memory::{BUNDLE_MEMORY_LIMIT, BundleMemory};
 pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
 
-use crate::air::{Air, Eddies};
+use crate::air::{Air, Eddies, Tone};
 use crate::chain::Strand;
 use crate::chain::schemes::Scheme;
 use crate::drag::Drag;
 use crate::fibre::Fibre;
+use crate::vec3::Vec3;
 
 /// A fibre, the air it flies in and how the flight is computed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     /// The fibre and its mesh.
     pub fibre: Fibre,
@@ -106,9 +107,19 @@ impl Case {
         StepLimit { cause: "waves of the taut string", limit: 1.5 * self.fibre.rest_length() / speed }
     }
 
+    /// From the root to the end of the straight fibre [m].
+    pub fn along(&self) -> Vec3<f64> {
+        self.fibre.direction * self.fibre.length
+    }
+
     /// The eddies along the fibre.
     pub fn eddies(&self) -> Eddies {
-        Eddies::along(self.fibre.length, self.fibre.elements, self.air.length_scale)
+        self.air.eddies_along(self.along(), self.fibre.elements)
+    }
+
+    /// The turbulence of each of them.
+    pub fn tones(&self, eddies: &Eddies) -> Vec<Tone> {
+        self.air.tones(self.along(), self.fibre.elements, eddies)
     }
 
     /// The fibre and what acts on it, as the chain takes it.

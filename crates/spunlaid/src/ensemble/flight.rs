@@ -2,7 +2,7 @@
 
 use super::Computing;
 use super::bundle::{Bundle, Snapshot};
-use crate::air::{Air, StreamKey, Turbulence};
+use crate::air::{Stream, StreamKey, Tone, Turbulence};
 use crate::case::Case;
 use crate::chain::Strand;
 use crate::energy::Energy;
@@ -21,6 +21,14 @@ pub struct Job<'a> {
     pub case: &'a Case,
     /// Which replicate of it.
     pub replicate: u64,
+}
+
+impl<'a> Job<'a> {
+    /// Where its turbulence comes from.
+    pub(super) fn stream(&self, tones: &'a [Tone]) -> Stream<'a> {
+        let key = StreamKey { seed: self.case.run.seed, replicate: self.replicate };
+        Stream { air: &self.case.air, tones, key }
+    }
 }
 
 /// What is kept of one replicate.
@@ -159,13 +167,11 @@ pub fn fly_together(
     let case = jobs[0].case;
     let run = &case.run;
     let eddies = case.eddies();
-    let streams: Vec<(Air, StreamKey)> = jobs
-        .iter()
-        .map(|job| (job.case.air, StreamKey { seed: job.case.run.seed, replicate: job.replicate }))
-        .collect();
+    let tones: Vec<Vec<Tone>> = jobs.iter().map(|job| job.case.tones(&eddies)).collect();
+    let streams: Vec<Stream<'_>> = jobs.iter().zip(&tones).map(|(job, tones)| job.stream(tones)).collect();
     // One step more than the run: the last instant's energies look one step ahead.
     let horizon = run.duration() + run.time_step;
-    let turbulence = Turbulence::synthesise(computing.isa, &streams, eddies.count(), horizon);
+    let turbulence = Turbulence::of(computing.isa, &streams, horizon);
     let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
     let start = || {
         let (scheme, h) = (run.scheme, run.time_step);
@@ -218,10 +224,11 @@ pub fn pace(case: &Case, isa: Isa) -> f64 {
     const TRIAL: f64 = 0.05;
     let run = &case.run;
     let eddies = case.eddies();
-    let stream = [(case.air, StreamKey { seed: run.seed, replicate: 0 })];
+    let tones = case.tones(&eddies);
+    let stream = [Job { case, replicate: 0 }.stream(&tones)];
     let steps = (2e5 / case.fibre.elements as f64).clamp(1.0, 1e4) as u64;
     let horizon = (steps * 100) as f64 * run.time_step;
-    let turbulence = Turbulence::synthesise(isa, &stream, eddies.count(), horizon.min(run.duration()));
+    let turbulence = Turbulence::of(isa, &stream, horizon.min(run.duration()));
     let strands = [case.strand()];
     let bundle = Bundle::new(isa, &strands, &eddies, &turbulence, run.scheme, run.time_step, 0);
     let (mut done, started) = (0, Instant::now());

@@ -1,7 +1,7 @@
 //! The turbulence the fibres fly in, measured as a hot wire would.
 
-use super::Computing;
-use crate::air::{Air, StreamKey, Turbulence, Wind};
+use super::{Computing, Job};
+use crate::air::{Spectrum, Stream, StreamKey, Turbulence, Wind};
 use crate::case::Case;
 use crate::lanes::{Isa, WIDTH};
 use crate::statistics::PowerSpectrum;
@@ -26,10 +26,11 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<Spectru
     }
     let duration = case.run.duration();
     let eddies = case.eddies();
+    let tones = case.tones(&eddies);
     let lanes = case.run.replicates.min(WIDTH as u64) as usize;
-    let streams: Vec<(Air, StreamKey)> =
-        (0..lanes).map(|i| (case.air, StreamKey { seed: case.run.seed, replicate: i as u64 })).collect();
-    let turbulence = Turbulence::synthesise(computing.isa, &streams, eddies.count(), duration);
+    let streams: Vec<Stream<'_>> =
+        (0..lanes as u64).map(|replicate| Job { case, replicate }.stream(&tones)).collect();
+    let turbulence = Turbulence::of(computing.isa, &streams, duration);
     let mut wind = Wind::new(&turbulence);
     let interval = 1.0 / (8.0 * case.air.cutoff_frequency);
     let samples = ((duration / interval) as usize).min(1 << 16);
@@ -45,14 +46,17 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<Spectru
     for record in &records {
         spectrum.add(record);
     }
-    let wanted = case.air.spectrum();
+    // What the mean flow does not vary in is the same in all eddies.
+    let wanted: Vec<Spectrum<'_>> =
+        tones.iter().flat_map(|tone| (0..3).map(|c| tone.spectrum(&case.air, c))).collect();
     let density = spectrum.density();
     density
         .into_iter()
         .map(|(frequency, realised)| {
             let omega = 2.0 * std::f64::consts::PI * frequency;
             // Per hertz instead of per radian a second.
-            let wanted = wanted.energy(omega) * 2.0 * std::f64::consts::PI;
+            let sum: f64 = wanted.iter().map(|spectrum| spectrum.energy(omega)).sum();
+            let wanted = sum / wanted.len() as f64 * 2.0 * std::f64::consts::PI;
             SpectrumPoint { frequency, realised, wanted }
         })
         .collect()
@@ -62,7 +66,7 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<Spectru
 /// the shortest period, over the run or `most` [s] of it.
 pub fn velocity_record(case: &Case, isa: Isa, most: f64) -> Vec<(f64, f64)> {
     let duration = case.run.duration().min(most);
-    let stream = [(case.air, StreamKey { seed: case.run.seed, replicate: 0 })];
+    let stream = [(case.air.clone(), StreamKey { seed: case.run.seed, replicate: 0 })];
     let turbulence = Turbulence::synthesise(isa, &stream, 1, duration);
     let mut wind = Wind::new(&turbulence);
     let interval = 1.0 / (16.0 * case.air.cutoff_frequency);

@@ -286,7 +286,7 @@ pub enum RecordFault {
     },
 }
 
-fn listed(names: &[String]) -> String {
+pub(super) fn listed(names: &[String]) -> String {
     const MOST: usize = 12;
     let mut shown: Vec<&str> = names.iter().take(MOST).map(String::as_str).collect();
     let more = format!("{} more", names.len().saturating_sub(MOST));

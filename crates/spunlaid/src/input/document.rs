@@ -2,8 +2,10 @@
 
 use super::layout::{self, VERSION};
 use super::source::{Source, fit};
+use crate::case::keys::Quantity;
 use crate::error::{Error, Fault, Finding, Place, Problem};
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -17,6 +19,7 @@ pub(super) struct Entry<'a> {
 
 /// The entries of a case file and of the overrides, by full key, and what is wrong with them so far.
 pub(super) struct Document<'a> {
+    name: String,
     source: Source<'a>,
     entries: BTreeMap<String, Entry<'a>>,
     pub(super) problems: Vec<Problem>,
@@ -31,6 +34,7 @@ impl<'a> Document<'a> {
     /// When the text is not TOML.
     pub(super) fn new(text: &'a str, name: &str, overrides: &'a [(String, String)]) -> Result<Self, Error> {
         let mut document = Self {
+            name: name.to_owned(),
             source: Source::new(text, name),
             entries: BTreeMap::new(),
             problems: Vec::new(),
@@ -50,6 +54,11 @@ impl<'a> Document<'a> {
     /// Takes out the entry of a full key, `fibre.length`.
     pub(super) fn take(&mut self, key: &str) -> Option<Entry<'a>> {
         self.entries.remove(key)
+    }
+
+    /// Whether there is an entry of a key.
+    pub(super) fn has(&self, quantity: &Quantity) -> bool {
+        self.entries.contains_key(quantity.key)
     }
 
     /// Place and text of every entry, by full key.
@@ -177,6 +186,14 @@ impl<'a> Document<'a> {
         }
         let nearest = nearest.map(|table| format!("[{table}]"));
         self.reject(place, &format!("[{}]", fit(name)), None, Fault::UnknownTable { nearest });
+    }
+
+    /// The path that an entry names: from the folder of the file, or from here where it is an override.
+    pub(super) fn beside(&self, place: &Place, named: &str) -> PathBuf {
+        match (place, Path::new(&self.name).parent()) {
+            (Place::Override, _) | (_, None) => PathBuf::from(named),
+            (_, Some(folder)) => folder.join(named),
+        }
     }
 
     /// Notes down a problem.

@@ -3,6 +3,8 @@
 //! A quantity is written with its unit, `diameter = "50 µm"`. Everything wrong with a file is told at
 //! once, each with its line, key, value, what is allowed and the way out.
 
+mod air;
+mod data;
 mod document;
 mod file;
 mod layout;
@@ -47,7 +49,17 @@ pub fn parse_case(
     name: &str,
     overrides: &[(String, String)],
 ) -> Result<(Case, Vec<Note>), Error> {
-    resolve::resolve(document::Document::new(text, name, overrides)?)
+    parse_with(&data::DataFiles::default(), text, name, overrides)
+}
+
+/// [`parse_case`] with files that may have been read before.
+fn parse_with(
+    files: &data::DataFiles,
+    text: &str,
+    name: &str,
+    overrides: &[(String, String)],
+) -> Result<(Case, Vec<Note>), Error> {
+    resolve::resolve(document::Document::new(text, name, overrides)?, files)
 }
 
 /// A commented case file to start from: Table 1 of the paper, every optional key with its default.

@@ -1,9 +1,10 @@
 //! From what is written to what is meant: defaults, whole elements, whole steps.
 
-use super::FORMAT_VERSION;
+use super::data::DataFiles;
 use super::document::{Document, Entry, kind};
 use super::layout::VERSION;
-use crate::air::Air;
+use super::{FORMAT_VERSION, air};
+use crate::air::{Air, EddyModel};
 use crate::case::keys::{self, Quantity};
 use crate::case::{Case, ERROR_TOLERANCE, MOST_REPLICATES, MOST_STEPS, Note, Remark, Run};
 use crate::chain::schemes::Scheme;
@@ -14,10 +15,6 @@ use crate::vec3::Vec3;
 use std::collections::BTreeMap;
 use toml::de::DeValue;
 
-/// Default density `ρ_a` of air at 20 °C [kg/m³].
-const AIR_DENSITY: f64 = 1.204;
-/// Default kinematic viscosity `ν` of air at 20 °C [m²/s].
-const AIR_VISCOSITY: f64 = 1.51e-5;
 /// Default `β`: a single fibre in a tube.
 const FRICTION_COEFFICIENT: f64 = 0.9;
 /// Default acceleration of gravity [m/s²].
@@ -30,10 +27,10 @@ const REPLICATES: u64 = 10;
 const SEED: u64 = 1;
 
 /// Makes a case of a document and checks it.
-pub(super) fn resolve(mut document: Document<'_>) -> Result<(Case, Vec<Note>), Error> {
+pub(super) fn resolve(mut document: Document<'_>, files: &DataFiles) -> Result<(Case, Vec<Note>), Error> {
     version(&mut document)?;
     let sources = Sources::of(&document);
-    let written = Written::read(&mut document);
+    let written = Written::read(&mut document, files);
     if !document.problems.is_empty() {
         return Err(Document::sorted(document.problems).into());
     }
@@ -63,9 +60,9 @@ pub(super) struct Base {
 }
 
 /// Reads what a document says.
-pub(super) fn base(mut document: Document<'_>) -> Result<Base, Error> {
+pub(super) fn base(mut document: Document<'_>, files: &DataFiles) -> Result<Base, Error> {
     version(&mut document)?;
-    let written = Written::read(&mut document);
+    let written = Written::read(&mut document, files);
     if !document.problems.is_empty() {
         return Err(Document::sorted(document.problems).into());
     }
@@ -93,13 +90,22 @@ pub(super) fn base(mut document: Document<'_>) -> Result<Base, Error> {
             (&keys::CUTOFF_FREQUENCY, air.cutoff_frequency),
             (&keys::AIR_DENSITY, air.density),
             (&keys::VISCOSITY, air.kinematic_viscosity),
+            (&keys::SPEED_FACTOR, air.speed_factor),
             (&keys::FRICTION_COEFFICIENT, drag.friction_coefficient),
             (&keys::DURATION, duration),
             (&keys::GRAVITY, written.run.gravity),
             (&keys::SPIN_UP, spin_up),
             (&keys::DAMPING, written.run.damping),
         ]
-        .map(|(quantity, value)| (quantity.key, Some(value))),
+        // What the flow tells is no number yet.
+        .map(|(quantity, value)| (quantity.key, Some(value).filter(|value| !value.is_nan()))),
+    );
+    values.insert(
+        keys::DECAY_TIME.key,
+        match air.eddies {
+            EddyModel::Convected { decay_time } => Some(decay_time).filter(|time| time.is_finite()),
+            EddyModel::Independent => None,
+        },
     );
     values.insert(keys::ELEMENT_LENGTH.key, element_length);
     values.insert(keys::TIME_STEP.key, time_step);
@@ -169,7 +175,7 @@ struct Written {
 }
 
 impl Written {
-    fn read(d: &mut Document<'_>) -> Self {
+    fn read(d: &mut Document<'_>, files: &DataFiles) -> Self {
         let fibre = Fibre {
             length: d.required(&keys::LENGTH, "length = \"1 m\""),
             diameter: d.required(&keys::DIAMETER, "diameter = \"50 µm\""),
@@ -180,15 +186,7 @@ impl Written {
             direction: d.direction(keys::DIRECTION).unwrap_or(Vec3::new(1.0, 0.0, 0.0)),
         };
         let element_length = d.optional(&keys::ELEMENT_LENGTH);
-        let air = Air {
-            velocity: d.required(&keys::VELOCITY, "velocity = \"10 m/s\""),
-            turbulence_intensity: d.required(&keys::TURBULENCE_INTENSITY, "turbulence_intensity = 0.1"),
-            length_scale: d.required(&keys::LENGTH_SCALE, "length_scale = \"50 mm\""),
-            cutoff_frequency: d.required(&keys::CUTOFF_FREQUENCY, "cutoff_frequency = \"100 Hz\""),
-            density: d.optional(&keys::AIR_DENSITY).unwrap_or(AIR_DENSITY),
-            kinematic_viscosity: d.optional(&keys::VISCOSITY).unwrap_or(AIR_VISCOSITY),
-            harmonics: 0,
-        };
+        let air = air::read(d, files);
         let harmonics = d.whole_number(keys::HARMONICS, 1, usize::MAX as u64);
         let drag = Drag {
             along: d
@@ -234,7 +232,9 @@ impl Written {
 
     /// The case that is meant, before it is checked.
     fn case(&self, sources: &Sources, notes: &mut Vec<Note>) -> Result<Case, Error> {
-        let Self { mut fibre, mut air, mut run, drag, .. } = *self;
+        let Self { mut fibre, mut run, drag, .. } = *self;
+        let mut air = self.air.clone();
+        air.settle(fibre.direction * fibre.length);
         let mut chosen = Vec::new();
         let mut note = |quantity: &Quantity, value: f64, remark: Remark| {
             let value = Some(quantity.dimension.pretty(value));
@@ -252,7 +252,7 @@ impl Written {
         }
 
         let time_step = self.time_step.unwrap_or_else(|| {
-            let open = Case { fibre, air, drag, run };
+            let open = Case { fibre, air: air.clone(), drag, run };
             let tolerance = self.error_tolerance.unwrap_or(ERROR_TOLERANCE);
             let (time_step, choice) = open.suggested_time_step(tolerance, self.duration);
             let limits = open.stable_step_limits();

@@ -22,13 +22,19 @@ impl Document<'_> {
 
     /// A quantity that the case may leave open.
     pub(super) fn optional(&mut self, quantity: &Quantity) -> Option<f64> {
-        let Entry { place, shown, value } = self.take(quantity.key)?;
+        let entry = self.take(quantity.key)?;
+        Some(self.quantity(quantity, entry))
+    }
+
+    /// The quantity that an entry holds.
+    pub(super) fn quantity(&mut self, quantity: &Quantity, entry: Entry<'_>) -> f64 {
+        let Entry { place, shown, value } = entry;
         let read = number(quantity.dimension, &value);
         match read.and_then(|value| quantity.fault(value).map_or(Ok(value), Err)) {
-            Ok(value) => Some(value),
+            Ok(value) => value,
             Err(fault) => {
                 self.reject(place, quantity.key, shown, fault);
-                Some(f64::NAN)
+                f64::NAN
             }
         }
     }

@@ -2,10 +2,12 @@
 
 use super::FORMAT_VERSION;
 use super::resolve::nearest_whole;
+use crate::air::{Air, EddyModel, Flow, SpectrumShape};
 use crate::case::Case;
 use crate::case::keys::{self, Quantity};
 use crate::units::shortest;
 use std::fmt::Write;
+use std::path::Path;
 
 /// Writes a case as TOML: every key, in SI units.
 ///
@@ -29,13 +31,7 @@ pub fn write_case(case: &Case) -> String {
     w.line("direction", &format!("[{x}, {y}, {z}]"));
 
     w.table("air");
-    w.quantity(&keys::VELOCITY, air.velocity);
-    w.line("turbulence_intensity", &float(air.turbulence_intensity));
-    w.quantity(&keys::LENGTH_SCALE, air.length_scale);
-    w.quantity(&keys::CUTOFF_FREQUENCY, air.cutoff_frequency);
-    w.quantity(&keys::AIR_DENSITY, air.density);
-    w.quantity(&keys::VISCOSITY, air.kinematic_viscosity);
-    w.line("harmonics", &air.harmonics.to_string());
+    w.air(air);
 
     w.table("drag");
     w.name("along", drag.along.name());
@@ -66,6 +62,57 @@ impl Writer {
         let _ = writeln!(self.text, "\n[{name}]");
     }
 
+    /// What the flow tells is left to it.
+    fn air(&mut self, air: &Air) {
+        match &air.flow {
+            Flow::Uniform => self.quantity(&keys::VELOCITY, air.velocity),
+            Flow::Profile(profile) => self.file(keys::PROFILE, profile.path()),
+        }
+        if !air.is_uniform() {
+            self.line("speed_factor", &float(air.speed_factor));
+        }
+        let from = air.from_flow;
+        if !from.turbulence_intensity {
+            self.line("turbulence_intensity", &float(air.turbulence_intensity));
+        }
+        if !from.length_scale {
+            self.quantity(&keys::LENGTH_SCALE, air.length_scale);
+        }
+        if !from.cutoff_frequency {
+            self.quantity(&keys::CUTOFF_FREQUENCY, air.cutoff_frequency);
+        }
+        self.quantity(&keys::AIR_DENSITY, air.density);
+        self.quantity(&keys::VISCOSITY, air.kinematic_viscosity);
+        match &air.spectrum {
+            SpectrumShape::Flat => self.name("spectrum", "flat"),
+            SpectrumShape::VonKarman => self.name("spectrum", "von-karman"),
+            SpectrumShape::Measured(table) => self.file(keys::SPECTRUM, table.path()),
+        }
+        match &air.records[..] {
+            [] => {}
+            [record] => self.file(keys::RECORD, record.path()),
+            records => {
+                let names: Vec<String> = records.iter().map(|record| text(record.path())).collect();
+                self.line("record", &format!("[{}]", names.join(", ")));
+            }
+        }
+        if let Some(rate) = air.records.first().and_then(|record| record.rate) {
+            self.quantity(&keys::RECORD_RATE, rate);
+        }
+        self.name("eddies", air.eddies.name());
+        if let EddyModel::Convected { decay_time } = air.eddies
+            && decay_time.is_finite()
+        {
+            self.quantity(&keys::DECAY_TIME, decay_time);
+        }
+        self.line("harmonics", &air.harmonics.to_string());
+    }
+
+    fn file(&mut self, key: &str, path: &Path) {
+        let key = key.split_once('.').map_or(key, |(_, key)| key);
+        self.line(key, &text(path));
+    }
+
     fn line(&mut self, key: &str, value: &str) {
         let _ = writeln!(self.text, "{key} = {value}");
     }
@@ -78,6 +125,19 @@ impl Writer {
         let key = quantity.key.split_once('.').map_or(quantity.key, |(_, key)| key);
         self.line(key, &format!("\"{}\"", quantity.dimension.exact(value)));
     }
+}
+
+/// A path as a TOML text.
+fn text(path: &Path) -> String {
+    let escaped = path.to_string_lossy().chars().fold(String::new(), |mut text, c| {
+        match c {
+            '"' | '\\' => text.extend(['\\', c]),
+            c if c.is_control() => text.push_str(&format!("\\u{:04X}", u32::from(c))),
+            c => text.push(c),
+        }
+        text
+    });
+    format!("\"{escaped}\"")
 }
 
 /// A TOML float that reads back to the same bits.

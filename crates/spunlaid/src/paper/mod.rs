@@ -93,7 +93,7 @@ impl Parameter {
     /// The case with another value of the parameter, as the paper varies it: an eddy to each element, and the
     /// rms kept where the frequency changes.
     pub fn set(self, base: &Case, value: f64) -> Case {
-        let mut case = *base;
+        let mut case = base.clone();
         match self {
             Self::Velocity => case.air.velocity = value,
             Self::Intensity => case.air.turbulence_intensity = value,
@@ -129,7 +129,7 @@ pub fn table1(scheme: Scheme, replicates: u64) -> Option<Case> {
 /// The case with another time step, recorded at the same instants as far as whole steps allow.
 pub fn with_time_step(case: &Case, time_step: f64) -> Case {
     let (duration, interval) = (case.run.duration(), case.run.output_interval());
-    let mut case = *case;
+    let mut case = case.clone();
     case.run.time_step = time_step;
     case.run.steps = (duration / time_step).round().max(1.0) as u64;
     case.run.output_steps = (interval / time_step).round().max(1.0) as u64;
@@ -142,12 +142,12 @@ pub const ERROR_STEPS: [f64; 3] = [1e-6, 4e-6, 1.6e-5];
 /// What the paper's text leaves open, with what Table 1 becomes of it: name, case.
 pub fn choices(base: &Case) -> Vec<(&'static str, Case)> {
     let changed = |change: &dyn Fn(&mut Case)| {
-        let mut case = *base;
+        let mut case = base.clone();
         change(&mut case);
         case
     };
     vec![
-        ("as taken here: pinned root, β = 0.9, variance u²", *base),
+        ("as taken here: pinned root, β = 0.9, variance u²", base.clone()),
         ("clamped root", changed(&|c| c.fibre.root = Root::Clamped)),
         ("β = 0.78 (Majumdar & Shambaugh)", changed(&|c| c.drag.friction_coefficient = 0.78)),
         ("β = 0.37 (Matsui)", changed(&|c| c.drag.friction_coefficient = 0.37)),

@@ -1,6 +1,7 @@
 //! Bundles filled across points, so that ten replicates of six points leave no lane empty.
 
 use super::Point;
+use crate::air::FromFile;
 use crate::case::Case;
 use crate::ensemble::{Computing, Flight, Job, KeepShapes, fly_together, in_order};
 use crate::error::Error;
@@ -28,6 +29,8 @@ struct Common {
     time_step: u64,
     steps: [u64; 3],
     cutoff_frequency: u64,
+    records: Vec<u32>,
+    uniform_flow: bool,
     harmonics: usize,
     scheme: &'static str,
     damped: bool,
@@ -42,6 +45,8 @@ impl Common {
             time_step: run.time_step.to_bits(),
             steps: [run.steps, run.spin_up_steps, run.output_steps],
             cutoff_frequency: air.cutoff_frequency.to_bits(),
+            records: air.records.iter().map(FromFile::checksum).collect(),
+            uniform_flow: air.is_uniform(),
             harmonics: air.harmonics,
             scheme: run.scheme.name(),
             damped: run.damping != 0.0,

@@ -35,15 +35,7 @@ pub fn table1_fibre() -> Fibre {
 
 /// The air of the paper's Table 1.
 pub fn table1_air() -> Air {
-    Air {
-        velocity: 10.0,
-        turbulence_intensity: 0.1,
-        length_scale: 0.05,
-        cutoff_frequency: 100.0,
-        density: 1.204,
-        kinematic_viscosity: 1.51e-5,
-        harmonics: 256,
-    }
+    Air::uniform(10.0, 0.1, 0.05, 100.0)
 }
 
 pub fn paper_drag() -> Drag {

@@ -22,7 +22,7 @@ fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
         .collect();
     let rows = design.rows(&factors, &vec![1e-3; factors.len()], 1);
     let case = sample::case(2, 2, 1);
-    let points: Vec<Point> = rows.into_iter().map(|values| Point { values, case }).collect();
+    let points: Vec<Point> = rows.into_iter().map(|values| Point { values, case: case.clone() }).collect();
     let results = (points.iter().enumerate())
         .map(|(i, point)| PointResults {
             n: 10,

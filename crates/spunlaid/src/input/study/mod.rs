@@ -10,6 +10,7 @@ mod write;
 pub use differences::differences;
 pub use points::StudyNote;
 
+use super::data::DataFiles;
 use super::document::Document;
 use super::{file, layout, resolve};
 use crate::case::keys::{self, Quantity};
@@ -72,12 +73,14 @@ pub fn parse_study(
         Some(named) => case(&named)?,
         None => return Err(reader.rejected()),
     };
-    let base = resolve::base(Document::new(&case_text, &case_name, &[])?)?;
+    let files = DataFiles::default();
+    let base = resolve::base(Document::new(&case_text, &case_name, &[])?, &files)?;
     let plan = reader.plan(&base, points);
     let Some(plan) = plan else {
         return Err(reader.rejected());
     };
-    let resolver = points::Resolver { study: name, case: (&case_text, &case_name), base: &base, plan: &plan };
+    let case = (case_text.as_str(), case_name.as_str());
+    let resolver = points::Resolver { study: name, case, files: &files, base: &base, plan: &plan };
     let (resolved, notes) = resolver.points()?;
     let study = plan.study(resolved);
     let text = write::write_study(&study);

@@ -1,5 +1,6 @@
 //! Every point of a study as a case of its own, checked.
 
+use super::super::data::DataFiles;
 use super::super::resolve::Base;
 use super::read::Plan;
 use super::{Numeric, links};
@@ -37,6 +38,8 @@ pub(super) struct Resolver<'a> {
     pub(super) study: &'a str,
     /// Text and name of the base case.
     pub(super) case: (&'a str, &'a str),
+    /// Files that the case names.
+    pub(super) files: &'a DataFiles,
     pub(super) base: &'a Base,
     pub(super) plan: &'a Plan,
 }
@@ -106,7 +109,7 @@ impl Resolver<'_> {
             .map(|(numeric, value)| (numeric.key.to_owned(), numeric.exact(*value)))
             .chain(own.map(|(key, value)| (key.to_owned(), value.to_string())))
             .collect();
-        match super::super::parse_case(self.case.0, self.case.1, &changes) {
+        match super::super::parse_with(self.files, self.case.0, self.case.1, &changes) {
             Ok((case, mut notes)) => {
                 for note in notes.iter_mut().filter(|note| note.place == Place::Override) {
                     note.place = at();

@@ -1,0 +1,126 @@
+//! How the mean flow, and the strength and size of its turbulence, change from place to place.
+
+use super::{Air, FromFile, Profile};
+use crate::vec3::Vec3;
+
+/// Where the mean flow comes from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Flow {
+    /// The same everywhere: the numbers of the case.
+    #[default]
+    Uniform,
+    /// Along x as in a table.
+    Profile(FromFile<Profile>),
+}
+
+/// Which of the case's numbers the flow tells in their place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FromFlow {
+    /// [`Air::turbulence_intensity`].
+    pub turbulence_intensity: bool,
+    /// [`Air::length_scale`].
+    pub length_scale: bool,
+    /// [`Air::cutoff_frequency`].
+    pub cutoff_frequency: bool,
+}
+
+/// The air at a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LocalAir {
+    /// Mean velocity [m/s].
+    pub velocity: Vec3<f64>,
+    /// Rms of each component of the fluctuation [m/s].
+    pub rms: f64,
+    /// Length of an eddy [m].
+    pub length_scale: f64,
+    /// Cut-off frequency of the spectrum [Hz].
+    pub cutoff_frequency: f64,
+    /// Whether the place is inside what the flow knows.
+    pub inside: bool,
+}
+
+impl Flow {
+    /// What the flow can tell besides the velocity.
+    pub fn tells(&self) -> FromFlow {
+        match self {
+            Self::Uniform => FromFlow::default(),
+            Self::Profile(profile) => FromFlow {
+                turbulence_intensity: !profile.turbulence_intensity.is_empty(),
+                length_scale: !profile.length_scale.is_empty(),
+                cutoff_frequency: !profile.cutoff_frequency.is_empty(),
+            },
+        }
+    }
+}
+
+impl Air {
+    /// Whether the mean flow and the turbulence are the same everywhere.
+    pub fn is_uniform(&self) -> bool {
+        self.flow == Flow::Uniform
+    }
+
+    /// The air at a place, from the root, x along the fibre's axis of gravity [m].
+    pub fn local(&self, at: Vec3<f64>) -> LocalAir {
+        match &self.flow {
+            Flow::Uniform => LocalAir {
+                velocity: Vec3::new(self.velocity, 0.0, 0.0),
+                rms: self.rms(),
+                length_scale: self.length_scale,
+                cutoff_frequency: self.cutoff_frequency,
+                inside: true,
+            },
+            Flow::Profile(profile) => self.of_profile(profile, at.x),
+        }
+    }
+
+    fn of_profile(&self, profile: &Profile, x: f64) -> LocalAir {
+        let column = |wanted: bool, column: &[f64], otherwise: f64| {
+            if wanted { profile.at(column, x).unwrap_or(otherwise) } else { otherwise }
+        };
+        let velocity = self.speed_factor * profile.at(&profile.velocity, x).unwrap_or(0.0);
+        let from = self.from_flow;
+        let intensity =
+            column(from.turbulence_intensity, &profile.turbulence_intensity, self.turbulence_intensity);
+        let (first, last) = profile.range();
+        LocalAir {
+            velocity: Vec3::new(velocity, 0.0, 0.0),
+            rms: intensity * velocity.abs(),
+            length_scale: column(from.length_scale, &profile.length_scale, self.length_scale),
+            cutoff_frequency: if from.cutoff_frequency {
+                // In faster air the same eddies pass sooner.
+                let cutoff = profile.at(&profile.cutoff_frequency, x);
+                self.speed_factor * cutoff.unwrap_or(self.cutoff_frequency)
+            } else {
+                self.cutoff_frequency
+            },
+            inside: (first..=last).contains(&x),
+        }
+    }
+
+    /// Sets the numbers that the flow tells to what they are along a fibre: the mean of the velocity, the
+    /// intensity and the length scale, the highest cut-off.
+    ///
+    /// They stand for the air wherever one number must do: in messages, and where a time step is chosen.
+    ///
+    /// * `along` – from the root to the end of the straight fibre [m]
+    pub fn settle(&mut self, along: Vec3<f64>) {
+        if self.is_uniform() {
+            return;
+        }
+        const PLACES: usize = 256;
+        let places = (0..PLACES).map(|i| along * ((i as f64 + 0.5) / PLACES as f64));
+        let local: Vec<LocalAir> = places.map(|at| self.local(at)).collect();
+        let mean = |of: &dyn Fn(&LocalAir) -> f64| local.iter().map(of).sum::<f64>() / PLACES as f64;
+        let speed = mean(&|air| air.velocity.norm());
+        self.velocity = if mean(&|air| air.velocity.x) < 0.0 { -speed } else { speed };
+        if self.from_flow.turbulence_intensity && speed > 0.0 {
+            self.turbulence_intensity = mean(&|air| air.rms) / speed;
+        }
+        if self.from_flow.length_scale {
+            self.length_scale = mean(&|air| air.length_scale);
+        }
+        if self.from_flow.cutoff_frequency {
+            self.cutoff_frequency = local.iter().map(|air| air.cutoff_frequency).fold(0.0, f64::max);
+        }
+    }
+}

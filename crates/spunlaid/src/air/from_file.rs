@@ -1,0 +1,65 @@
+//! What was read from a file beside the case.
+
+use std::fmt;
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The content of a file, read once and shared by all fibres that fly in it.
+pub struct FromFile<T> {
+    path: PathBuf,
+    checksum: u32,
+    content: Arc<T>,
+}
+
+impl<T> FromFile<T> {
+    /// The content of the file at `path`; `checksum` tells this content from another.
+    pub fn new(path: PathBuf, checksum: u32, content: Arc<T>) -> Self {
+        Self { path, checksum, content }
+    }
+
+    /// Where the file is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Checksum of the file.
+    pub const fn checksum(&self) -> u32 {
+        self.checksum
+    }
+
+    /// The same content, to be found elsewhere.
+    pub fn moved_to(&self, path: PathBuf) -> Self {
+        Self { path, checksum: self.checksum, content: Arc::clone(&self.content) }
+    }
+}
+
+// Derived, it would ask for a content that can be cloned.
+impl<T> Clone for FromFile<T> {
+    fn clone(&self) -> Self {
+        self.moved_to(self.path.clone())
+    }
+}
+
+impl<T> Deref for FromFile<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.content
+    }
+}
+
+/// By content: where a file lies does not matter.
+impl<T> PartialEq for FromFile<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.checksum == other.checksum && self.path.file_name() == other.path.file_name()
+    }
+}
+
+/// Name and checksum stand for the content.
+impl<T> fmt::Debug for FromFile<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
+        write!(f, "{name}#{:08x}", self.checksum)
+    }
+}

@@ -1,0 +1,101 @@
+//! What the turbulence of one eddy is made of.
+
+use super::{Air, Eddies, EddyModel, Spectrum};
+use crate::vec3::Vec3;
+
+/// The turbulence of one eddy: how strong, how fast, and how it follows from that of the eddy above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tone {
+    /// Mean velocity along x that its signal is to contain [m/s].
+    pub mean: f64,
+    /// Rms of each component [m/s].
+    pub rms: f64,
+    /// Cut-off frequency [Hz].
+    pub cutoff_frequency: f64,
+    /// Integral time of the component along the flow, by Taylor's hypothesis `L_T/Ū` [s].
+    pub integral_time: f64,
+    /// Time that the flow takes from the eddy above to this one [s]; none where the two are independent.
+    pub carried: Option<f64>,
+    /// What part of the time constant of its memory that is [-].
+    pub forgotten: f64,
+}
+
+impl Tone {
+    /// Whether the energy spectra of two eddies are the same.
+    pub(super) fn same_spectrum(&self, other: &Self) -> bool {
+        let of = |tone: &Self| (tone.rms, tone.cutoff_frequency, tone.integral_time);
+        of(self) == of(other)
+    }
+
+    /// Energy spectrum of a component of its signal. Harmonics stand as close in every eddy, so that all
+    /// repeat after the same time.
+    pub fn spectrum<'a>(&self, air: &'a Air, component: usize) -> Spectrum<'a> {
+        let times = (self.cutoff_frequency, self.integral_time);
+        Spectrum::new(&air.spectrum, self.rms, times, component, 1.0 / air.repeat_time())
+    }
+}
+
+impl Air {
+    /// The turbulence of every eddy of a uniform flow.
+    pub(super) fn tone(&self) -> Tone {
+        Tone {
+            mean: self.velocity,
+            rms: self.rms(),
+            cutoff_frequency: self.cutoff_frequency,
+            integral_time: self.length_scale / self.velocity.abs(),
+            carried: None,
+            forgotten: 0.0,
+        }
+    }
+
+    /// The eddies along a straight fibre.
+    ///
+    /// * `along` – from its root to its end [m]
+    pub fn eddies_along(&self, along: Vec3<f64>, elements: usize) -> Eddies {
+        let length = along.norm();
+        match self.eddies {
+            EddyModel::Convected { .. } => Eddies::of_each(elements),
+            EddyModel::Independent if self.from_flow.length_scale => {
+                let place = |s: f64| along * (s / length).min(1.0);
+                Eddies::growing(length, elements, |s| self.local(place(s)).length_scale)
+            }
+            EddyModel::Independent => Eddies::along(length, elements, self.length_scale),
+        }
+    }
+
+    /// The turbulence of each eddy along a straight fibre.
+    ///
+    /// In a uniform flow it has its strength and contains the mean flow; elsewhere its rms is one and its mean
+    /// zero, for the strength and the mean are those of the place where an element happens to be.
+    ///
+    /// * `along` – from its root to its end [m]
+    pub fn tones(&self, along: Vec3<f64>, elements: usize, eddies: &Eddies) -> Vec<Tone> {
+        let mut above = 0.0;
+        let spacing = along.norm() / elements as f64;
+        let middles = eddies.middles().into_iter();
+        middles
+            .enumerate()
+            .map(|(eddy, middle)| {
+                let mut tone = self.tone();
+                let mut speed = self.velocity.abs();
+                if !self.is_uniform() {
+                    let air = self.local(along * (middle / elements as f64));
+                    speed = air.velocity.norm();
+                    tone.mean = 0.0;
+                    tone.rms = 1.0;
+                    tone.cutoff_frequency = air.cutoff_frequency.min(self.cutoff_frequency);
+                    tone.integral_time = air.length_scale / speed;
+                }
+                if let EddyModel::Convected { decay_time } = self.eddies {
+                    let time = (middle - above) * spacing / speed;
+                    // Nothing is carried through air at rest.
+                    if eddy > 0 && time.is_finite() {
+                        (tone.carried, tone.forgotten) = (Some(time), time / decay_time);
+                    }
+                }
+                above = middle;
+                tone
+            })
+            .collect()
+    }
+}

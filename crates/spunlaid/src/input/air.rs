@@ -1,0 +1,218 @@
+//! The air of a case file.
+
+use super::data::DataFiles;
+use super::document::{Document, Entry, kind};
+use crate::air::{Air, EddyModel, Flow, FromFile, FromFlow, Measured, Said, SpectrumShape};
+use crate::case::keys::{self, Quantity};
+use crate::error::{DataError, Fault, Place};
+use std::path::PathBuf;
+use toml::de::DeValue;
+
+/// Default density `ρ_a` of air at 20 °C [kg/m³].
+const AIR_DENSITY: f64 = 1.204;
+/// Default kinematic viscosity `ν` of air at 20 °C [m²/s].
+const AIR_VISCOSITY: f64 = 1.51e-5;
+
+/// What a document says of the air. Numbers that the flow tells are NaN until it is settled.
+pub(super) fn read(d: &mut Document<'_>, files: &DataFiles) -> Air {
+    let flow = flow(d, files);
+    let spectrum = spectrum(d, files);
+    let records = records(d, files);
+    let said = records.first().map_or_else(Said::default, |record| record.says);
+    let tells = flow.tells();
+    let mut from_flow = FromFlow::default();
+    let velocity = if flow == Flow::Uniform {
+        number(d, &keys::VELOCITY, said.velocity, "velocity = \"10 m/s\"")
+    } else {
+        if let Some(Entry { place, shown, .. }) = d.take(keys::VELOCITY.key) {
+            d.reject(place, keys::VELOCITY.key, shown, Fault::FlowTells { flow: keys::PROFILE });
+        }
+        f64::NAN
+    };
+    let unless_told = |d: &mut Document<'_>, quantity, told: bool, from: &mut bool, said, line| {
+        *from = told && !d.has(quantity);
+        if *from { f64::NAN } else { number(d, quantity, said, line) }
+    };
+    let turbulence_intensity = unless_told(
+        d,
+        &keys::TURBULENCE_INTENSITY,
+        tells.turbulence_intensity,
+        &mut from_flow.turbulence_intensity,
+        said.turbulence_intensity,
+        "turbulence_intensity = 0.1",
+    );
+    let length_scale = unless_told(
+        d,
+        &keys::LENGTH_SCALE,
+        tells.length_scale,
+        &mut from_flow.length_scale,
+        said.length_scale,
+        "length_scale = \"50 mm\"",
+    );
+    let highest = match &spectrum {
+        SpectrumShape::Measured(table) => Some(table.highest()),
+        _ => None,
+    };
+    let cutoff_frequency = unless_told(
+        d,
+        &keys::CUTOFF_FREQUENCY,
+        tells.cutoff_frequency,
+        &mut from_flow.cutoff_frequency,
+        highest.or(records.first().map(|_| said.cutoff_frequency)),
+        "cutoff_frequency = \"100 Hz\"",
+    );
+    let speed_factor = match d.take(keys::SPEED_FACTOR.key) {
+        Some(Entry { place, shown, .. }) if flow == Flow::Uniform => {
+            let (needed, remedy) = ("air.profile", "change air.velocity");
+            d.reject(place, keys::SPEED_FACTOR.key, shown, Fault::Needs { needed, remedy });
+            1.0
+        }
+        Some(entry) => d.quantity(&keys::SPEED_FACTOR, entry),
+        None => 1.0,
+    };
+    Air {
+        velocity,
+        turbulence_intensity,
+        length_scale,
+        cutoff_frequency,
+        density: d.optional(&keys::AIR_DENSITY).unwrap_or(AIR_DENSITY),
+        kinematic_viscosity: d.optional(&keys::VISCOSITY).unwrap_or(AIR_VISCOSITY),
+        harmonics: 0,
+        flow,
+        from_flow,
+        speed_factor,
+        spectrum,
+        eddies: eddies(d),
+        records,
+    }
+}
+
+/// A quantity as written, or else as measured.
+fn number(d: &mut Document<'_>, quantity: &Quantity, said: Option<f64>, line: &'static str) -> f64 {
+    match said {
+        Some(said) => d.optional(quantity).unwrap_or(said),
+        None => d.required(quantity, line),
+    }
+}
+
+fn flow(d: &mut Document<'_>, files: &DataFiles) -> Flow {
+    match d.file(keys::PROFILE) {
+        Some(named) => match d.loaded(keys::PROFILE, named, |path| files.profile(path)) {
+            Some(profile) => Flow::Profile(profile),
+            None => Flow::Uniform,
+        },
+        None => Flow::Uniform,
+    }
+}
+
+fn spectrum(d: &mut Document<'_>, files: &DataFiles) -> SpectrumShape {
+    match d.file(keys::SPECTRUM) {
+        None => SpectrumShape::Flat,
+        Some(named) => match named.text.as_str() {
+            "flat" => SpectrumShape::Flat,
+            "von-karman" => SpectrumShape::VonKarman,
+            _ => match d.loaded(keys::SPECTRUM, named, |path| files.spectrum(path)) {
+                Some(table) => SpectrumShape::Measured(table),
+                None => SpectrumShape::Flat,
+            },
+        },
+    }
+}
+
+fn records(d: &mut Document<'_>, files: &DataFiles) -> Vec<FromFile<Measured>> {
+    let rate = d.take(keys::RECORD_RATE.key);
+    let Some(entry) = d.take(keys::RECORD) else {
+        if let Some(Entry { place, shown, .. }) = rate {
+            let (needed, remedy) = ("air.record", "leave it out");
+            d.reject(place, keys::RECORD_RATE.key, shown, Fault::Needs { needed, remedy });
+        }
+        return Vec::new();
+    };
+    let rate = rate.map(|entry| d.quantity(&keys::RECORD_RATE, entry));
+    let names: Option<Vec<String>> = match &entry.value {
+        DeValue::String(text) => Some(vec![text.to_string()]),
+        DeValue::Array(list) if !list.is_empty() => {
+            list.iter().map(|one| one.get_ref().as_str().map(str::to_owned)).collect()
+        }
+        _ => None,
+    };
+    let Some(names) = names else {
+        let found = kind(&entry.value);
+        let wanted = "the path of a record, \"probe.csv\", or a list with one for each eddy".to_owned();
+        d.reject(entry.place, keys::RECORD, entry.shown, Fault::WrongType { found, wanted });
+        return Vec::new();
+    };
+    let mut records = Vec::new();
+    for text in names {
+        let path = d.beside(&entry.place, &text);
+        let named = Named { place: entry.place.clone(), shown: entry.shown.clone(), text, path };
+        match d.loaded(keys::RECORD, named, |path| files.record(path, rate)) {
+            Some(record) => records.push(record),
+            None => return Vec::new(),
+        }
+    }
+    let first = records.first().map_or(0.0, |record| 1.0 / record.interval);
+    let same = |rate: f64| (rate / first - 1.0).abs() < 1e-9;
+    if let Some(other) = records.iter().map(|record| 1.0 / record.interval).find(|rate| !same(*rate)) {
+        d.reject(entry.place, keys::RECORD, entry.shown, Fault::RecordRates { first, other });
+    }
+    records
+}
+
+fn eddies(d: &mut Document<'_>) -> EddyModel {
+    let convected = d.choice(keys::EDDIES, &[("independent", false), ("convected", true)]).unwrap_or(false);
+    match d.take(keys::DECAY_TIME.key) {
+        Some(Entry { place, shown, .. }) if !convected => {
+            let (needed, remedy) =
+                ("air.eddies = \"convected\"", "leave it out, or have the eddies convected");
+            d.reject(place, keys::DECAY_TIME.key, shown, Fault::Needs { needed, remedy });
+            EddyModel::Independent
+        }
+        Some(entry) => EddyModel::Convected { decay_time: d.quantity(&keys::DECAY_TIME, entry) },
+        None if convected => EddyModel::Convected { decay_time: f64::INFINITY },
+        None => EddyModel::Independent,
+    }
+}
+
+/// A file as the case names it.
+struct Named {
+    place: Place,
+    shown: Option<String>,
+    text: String,
+    path: PathBuf,
+}
+
+impl Document<'_> {
+    /// A text that may be the path of a file.
+    fn file(&mut self, key: &str) -> Option<Named> {
+        let Entry { place, shown, value } = self.take(key)?;
+        match &value {
+            DeValue::String(text) if !text.is_empty() => {
+                let (path, text) = (self.beside(&place, text), text.to_string());
+                Some(Named { place, shown, text, path })
+            }
+            other => {
+                let wanted = "the path of a file, in quotes".to_owned();
+                let found = if other.is_str() { "an empty text" } else { kind(other) };
+                self.reject(place, key, shown, Fault::WrongType { found, wanted });
+                None
+            }
+        }
+    }
+
+    /// The content of a file; what is wrong with it is told.
+    fn loaded<T>(
+        &mut self,
+        key: &str,
+        named: Named,
+        load: impl FnOnce(&std::path::Path) -> Result<T, DataError>,
+    ) -> Option<T> {
+        match load(&named.path) {
+            Ok(content) => Some(content),
+            Err(error) => {
+                self.reject(named.place, key, named.shown, Fault::Data(error));
+                None
+            }
+        }
+    }
+}
