@@ -1,10 +1,12 @@
 //! What can go wrong, and how it is told: where, which key, what value, what is allowed, the way out.
 
 mod data;
+mod field;
 mod record;
 mod study;
 
 pub use data::{DataError, TableFault};
+pub use field::{FieldError, FieldFault, FieldPlace};
 pub use record::{RecordFault, RecordPlace, RecordProblem};
 pub use study::{JournalError, StudyFault};
 
@@ -71,6 +73,9 @@ pub enum Error {
     /// A velocity record cannot be used.
     #[error("{0}")]
     Record(Box<RecordProblem>),
+    /// A field of air cannot be used.
+    #[error(transparent)]
+    Field(#[from] Box<FieldError>),
     /// A fibre's positions are no longer numbers.
     #[error("replicate {replicate}: node {node} is no longer finite at {time:e} s; {cause}")]
     NotFinite {

@@ -57,6 +57,8 @@ pub mod error;
 
 pub mod fibre;
 
+pub mod field;
+
 pub mod air;
 pub mod drag;
 

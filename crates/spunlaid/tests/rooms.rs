@@ -13,6 +13,7 @@ const ROOMS: &[&[&str]] = &[
     &["vec3", "fft", "units"],
     &["error"],
     &["fibre"],
+    &["field"],
     &["air", "drag"],
     &["chain"],
     &["energy", "observe"],

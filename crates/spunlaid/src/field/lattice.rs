@@ -1,0 +1,100 @@
+//! Values on a lattice, linear in each coordinate between the points.
+
+use super::mean;
+use super::values::{Quantities, in_range};
+use crate::error::{FieldError, FieldFault};
+
+#[derive(Debug)]
+pub(super) struct Lattice {
+    axes: [Axis; 3],
+    /// Along x first, then y, then z.
+    values: Vec<Quantities>,
+}
+
+/// The coordinates of the points along an axis.
+#[derive(Debug)]
+struct Axis {
+    /// Increasing [m].
+    at: Vec<f64>,
+    /// Points per length, on average [1/m].
+    density: f64,
+}
+
+impl Lattice {
+    pub(super) fn new(axes: [Vec<f64>; 3], values: Vec<Quantities>) -> Result<Self, FieldError> {
+        for (axis, name) in axes.iter().zip(["x", "y", "z"]) {
+            if let Some(value) = axis.iter().find(|x| !in_range(**x)) {
+                let fault = FieldFault::OutOfRange { value: *value, most: super::values::LARGEST };
+                return Err(FieldError::from(fault).array(name));
+            }
+            if axis.is_empty() {
+                return Err(FieldError::from(FieldFault::Empty).array(name));
+            }
+            if let Some(pair) = axis.windows(2).find(|pair| pair[0] >= pair[1]) {
+                let fault = FieldFault::NotIncreasing { before: pair[0], after: pair[1] };
+                return Err(FieldError::from(fault).array(name));
+            }
+        }
+        Ok(Self { axes: axes.map(Axis::new), values })
+    }
+
+    pub(super) fn points(&self) -> [usize; 3] {
+        [0, 1, 2].map(|i| self.axes[i].at.len())
+    }
+
+    pub(super) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+        ([0, 1, 2].map(|i| self.axes[i].at[0]), [0, 1, 2].map(|i| self.axes[i].at[self.axes[i].at.len() - 1]))
+    }
+
+    #[inline]
+    pub(super) fn sample(&self, at: [f64; 3]) -> (Quantities, bool) {
+        let [x, y, z] = [0, 1, 2].map(|i| self.axes[i].locate(at[i]));
+        let [across, up] = [self.axes[0].at.len(), self.axes[0].at.len() * self.axes[1].at.len()];
+        let first = x.before + across * y.before + up * z.before;
+        let line = |from: usize| {
+            mean([(1.0 - x.share, &self.values[from]), (x.share, &self.values[from + x.step])].into_iter())
+        };
+        let plane = |from: usize| {
+            let lines = [line(from), line(from + across * y.step)];
+            mean([(1.0 - y.share, &lines[0]), (y.share, &lines[1])].into_iter())
+        };
+        let planes = [plane(first), plane(first + up * z.step)];
+        let values = mean([(1.0 - z.share, &planes[0]), (z.share, &planes[1])].into_iter());
+        (values, x.inside && y.inside && z.inside)
+    }
+}
+
+/// Where a coordinate lies on an axis.
+struct Place {
+    /// The point before it.
+    before: usize,
+    /// To the point after it: one, or none on an axis of a single point.
+    step: usize,
+    /// How far it is on the way there, 0 to 1.
+    share: f64,
+    inside: bool,
+}
+
+impl Axis {
+    fn new(at: Vec<f64>) -> Self {
+        let length = at[at.len() - 1] - at[0];
+        let density = if length > 0.0 { (at.len() - 1) as f64 / length } else { 0.0 };
+        Self { at, density }
+    }
+
+    #[inline]
+    fn locate(&self, x: f64) -> Place {
+        let last = self.at.len() - 1;
+        if last == 0 {
+            return Place { before: 0, step: 0, share: 0.0, inside: true };
+        }
+        // Where it would be if the points were evenly spaced; they often are.
+        let mut before = (((x - self.at[0]) * self.density) as usize).min(last - 1);
+        if x < self.at[before] || x > self.at[before + 1] {
+            before = self.at.partition_point(|point| *point <= x).saturating_sub(1).min(last - 1);
+        }
+        let (low, high) = (self.at[before], self.at[before + 1]);
+        let share = ((x - low) / (high - low)).clamp(0.0, 1.0);
+        Place { before, step: 1, share, inside: x >= low && x <= high }
+    }
+}

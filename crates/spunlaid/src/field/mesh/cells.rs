@@ -1,0 +1,203 @@
+//! The cells of a mesh and their faces.
+
+use crate::error::{FieldError, FieldFault, FieldPlace};
+
+/// What kind of cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Four points.
+    Tetrahedron,
+    /// Five: those of the base in turn, then the tip.
+    Pyramid,
+    /// Six, a triangular prism: those of one triangle in turn, then the ones across from them.
+    Wedge,
+    /// Eight: those of one face in turn, then the ones across from them.
+    Hexahedron,
+    /// Ten: those of one pentagon in turn, then the ones across from them.
+    PentagonalPrism,
+    /// Twelve: those of one hexagon in turn, then the ones across from them.
+    HexagonalPrism,
+    /// Any number of faces; made with [`Cells::push_polyhedron`].
+    Polyhedron,
+}
+
+impl Shape {
+    /// The faces, each as corners in turn, all seen from the same side; none for a polyhedron.
+    const fn faces(self) -> &'static [&'static [usize]] {
+        match self {
+            Self::Tetrahedron => &[&[0, 1, 3], &[1, 2, 3], &[2, 0, 3], &[0, 2, 1]],
+            Self::Pyramid => &[&[0, 3, 2, 1], &[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4]],
+            Self::Wedge => &[&[0, 1, 2], &[5, 4, 3], &[0, 3, 4, 1], &[1, 4, 5, 2], &[2, 5, 3, 0]],
+            Self::Hexahedron => {
+                &[&[0, 4, 7, 3], &[1, 2, 6, 5], &[0, 1, 5, 4], &[3, 7, 6, 2], &[0, 3, 2, 1], &[4, 5, 6, 7]]
+            }
+            Self::PentagonalPrism => &[
+                &[0, 4, 3, 2, 1],
+                &[5, 6, 7, 8, 9],
+                &[0, 1, 6, 5],
+                &[1, 2, 7, 6],
+                &[2, 3, 8, 7],
+                &[3, 4, 9, 8],
+                &[4, 0, 5, 9],
+            ],
+            Self::HexagonalPrism => &[
+                &[0, 5, 4, 3, 2, 1],
+                &[6, 7, 8, 9, 10, 11],
+                &[0, 1, 7, 6],
+                &[1, 2, 8, 7],
+                &[2, 3, 9, 8],
+                &[3, 4, 10, 9],
+                &[4, 5, 11, 10],
+                &[5, 0, 6, 11],
+            ],
+            Self::Polyhedron => &[],
+        }
+    }
+
+    /// Number of corners; none for a polyhedron, which has any.
+    pub const fn corners(self) -> usize {
+        match self {
+            Self::Tetrahedron => 4,
+            Self::Pyramid => 5,
+            Self::Wedge => 6,
+            Self::Hexahedron => 8,
+            Self::PentagonalPrism => 10,
+            Self::HexagonalPrism => 12,
+            Self::Polyhedron => 0,
+        }
+    }
+
+    /// With its article.
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Tetrahedron => "a tetrahedron",
+            Self::Pyramid => "a pyramid",
+            Self::Wedge => "a wedge",
+            Self::Hexahedron => "a hexahedron",
+            Self::PentagonalPrism => "a pentagonal prism",
+            Self::HexagonalPrism => "a hexagonal prism",
+            Self::Polyhedron => "a polyhedron",
+        }
+    }
+}
+
+/// The cells of a mesh, by the numbers of their points, from 0.
+#[derive(Clone, Debug, Default)]
+pub struct Cells {
+    /// What each is, and where its entries begin.
+    list: Vec<(Shape, usize)>,
+    /// Points; for a polyhedron, of each face their number and then they.
+    entries: Vec<u32>,
+}
+
+impl Cells {
+    /// No cells.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// How many.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Adds a cell.
+    ///
+    /// * `points` – as many as the shape has corners, in its order
+    ///
+    /// # Errors
+    /// When the number of points is another.
+    pub fn push(&mut self, shape: Shape, points: &[u32]) -> Result<(), FieldError> {
+        if points.len() != shape.corners() || shape == Shape::Polyhedron {
+            let (name, found, wanted) = (shape.name(), points.len(), shape.corners());
+            let place = FieldPlace::Cell(self.len() as u64 + 1);
+            return Err(FieldError::from(FieldFault::CellPoints { name, found, wanted }).at(place));
+        }
+        self.list.push((shape, self.entries.len()));
+        self.entries.extend_from_slice(points);
+        Ok(())
+    }
+
+    /// Adds a polyhedron.
+    ///
+    /// * `faces` – each as its points in turn, from whichever side
+    pub fn push_polyhedron<'a>(&mut self, faces: impl IntoIterator<Item = &'a [u32]>) {
+        self.list.push((Shape::Polyhedron, self.entries.len()));
+        for face in faces {
+            // No face has more points than can be numbered.
+            self.entries.push(face.len() as u32);
+            self.entries.extend_from_slice(face);
+        }
+    }
+
+    /// Adds cells of points that are numbered anew, from `first`.
+    pub(in crate::field) fn append(&mut self, more: &Self, first: u32) {
+        for cell in 0..more.len() {
+            let polyhedron = more.is_polyhedron(cell);
+            self.list.push((more.list[cell].0, self.entries.len()));
+            let mut faces = more.entries(cell);
+            if !polyhedron {
+                self.entries.extend(faces.iter().map(|point| point + first));
+            }
+            while let (true, Some((&count, rest))) = (polyhedron, faces.split_first()) {
+                let (points, rest) = rest.split_at((count as usize).min(rest.len()));
+                self.entries.push(count);
+                self.entries.extend(points.iter().map(|point| point + first));
+                faces = rest;
+            }
+        }
+    }
+
+    /// Puts the points of a cell in the place of the list’s, each once, in order.
+    pub(in crate::field) fn corners(&self, cell: usize, list: &mut Vec<u32>) {
+        list.clear();
+        self.each_face(cell, |points| list.extend_from_slice(points));
+        list.sort_unstable();
+        list.dedup();
+    }
+
+    pub(super) fn is_polyhedron(&self, cell: usize) -> bool {
+        self.list[cell].0 == Shape::Polyhedron
+    }
+
+    fn entries(&self, cell: usize) -> &[u32] {
+        let end = self.list.get(cell + 1).map_or(self.entries.len(), |next| next.1);
+        &self.entries[self.list[cell].1..end]
+    }
+
+    /// Hands out each face of a cell, as its points in turn.
+    pub(super) fn each_face(&self, cell: usize, mut face: impl FnMut(&[u32])) {
+        let mut entries = self.entries(cell);
+        if !self.is_polyhedron(cell) {
+            let mut points = [0; 6];
+            for corners in self.list[cell].0.faces() {
+                for (point, corner) in points.iter_mut().zip(*corners) {
+                    *point = entries[*corner];
+                }
+                face(&points[..corners.len()]);
+            }
+            return;
+        }
+        while let Some((&count, rest)) = entries.split_first() {
+            let (points, rest) = rest.split_at((count as usize).min(rest.len()));
+            face(points);
+            entries = rest;
+        }
+    }
+
+    /// The first point named that is not among so many, and its cell.
+    pub(super) fn beyond(&self, points: usize) -> Option<(usize, u32)> {
+        (0..self.len()).find_map(|cell| {
+            let mut wrong = None;
+            self.each_face(cell, |face| {
+                wrong = wrong.or_else(|| face.iter().copied().find(|point| *point as usize >= points));
+            });
+            wrong.map(|point| (cell, point))
+        })
+    }
+}

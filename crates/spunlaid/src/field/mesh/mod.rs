@@ -1,0 +1,266 @@
+//! Values on a mesh of cells, linear in each of the tetrahedra they are cut into.
+
+pub(super) mod cells;
+mod cut;
+mod faces;
+
+use super::values::{LARGEST, Quantities, in_range};
+use super::{FieldWarning, Hint, mean, vector};
+use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::vec3::Vec3;
+use cells::Cells;
+use cut::Cut;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+/// Most tetrahedra that are kept; they take 32 bytes each.
+pub(super) const MOST_TETRAHEDRA: usize = 1 << 28;
+/// How far beyond a face, as a share of a tetrahedron's height, a point still counts as within: rounding.
+const EDGE: f64 = 1e-9;
+/// Steps from tetrahedron to tetrahedron before the tree is asked.
+const LONGEST_WALK: usize = 64;
+/// Where there is no neighbour.
+const NOTHING: u32 = u32::MAX;
+
+#[derive(Debug)]
+pub(super) struct Mesh {
+    nodes: Vec<Node>,
+    tetrahedra: Vec<Tetrahedron>,
+    /// Of each cell its box and its tetrahedra, first and end.
+    cells: RTree<GeomWithData<Rectangle<[f64; 3]>, [u32; 2]>>,
+    /// The nodes of the surface.
+    surface: RTree<GeomWithData<[f64; 3], u32>>,
+    /// Points that were given.
+    points: usize,
+    bounds: ([f64; 3], [f64; 3]),
+}
+
+/// A corner of tetrahedra: one line of a processor's cache.
+#[derive(Clone, Debug, Default)]
+#[repr(C, align(64))]
+pub(super) struct Node {
+    /// [m]
+    at: [f64; 3],
+    values: Quantities,
+}
+
+#[derive(Debug)]
+struct Tetrahedron {
+    /// Its nodes, so that its volume is positive.
+    nodes: [u32; 4],
+    /// The tetrahedron beyond the face across from each node, or [`NOTHING`].
+    beyond: [u32; 4],
+}
+
+impl Mesh {
+    pub(super) fn new(
+        points: &[Vec3<f64>],
+        cells: &Cells,
+        values: Vec<Quantities>,
+    ) -> Result<(Self, Vec<FieldWarning>), FieldError> {
+        for (i, point) in points.iter().enumerate() {
+            if let Some(value) = [point.x, point.y, point.z].into_iter().find(|x| !in_range(*x)) {
+                let fault = FieldFault::OutOfRange { value, most: LARGEST };
+                return Err(FieldError::from(fault).at(FieldPlace::Point(i as u64 + 1)));
+            }
+        }
+        if let Some((cell, point)) = cells.beyond(points.len()) {
+            let fault = FieldFault::NoPoint { point: point.into(), points: points.len() };
+            return Err(FieldError::from(fault).at(FieldPlace::Cell(cell as u64 + 1)));
+        }
+        let mut nodes: Vec<Node> = points
+            .iter()
+            .zip(values)
+            .map(|(point, values)| Node { at: [point.x, point.y, point.z], values })
+            .collect();
+        let mut warnings = Vec::new();
+        let (place_of, merged) = merge(&mut nodes);
+        if merged > 0 {
+            warnings.push(FieldWarning::Merged { points: merged });
+        }
+        let mut cut = Cut::default();
+        for cell in 0..cells.len() {
+            cut.add(cells, cell, &place_of, &mut nodes);
+            if cut.tetrahedra.len().max(nodes.len()) > MOST_TETRAHEDRA {
+                let fault = FieldFault::TooMany { most: MOST_TETRAHEDRA as u64, of: "tetrahedra" };
+                return Err(fault.into());
+            }
+        }
+        if cut.flat > 0 {
+            warnings.push(FieldWarning::Flat { cells: cut.flat });
+        }
+        if cut.folded > 0 {
+            warnings.push(FieldWarning::Folded { cells: cut.folded });
+        }
+        if cut.tetrahedra.is_empty() {
+            return Err(FieldFault::NoVolume { flat: 0 }.into());
+        }
+        Ok((Self::of_tetrahedra(nodes, cut, points.len()), warnings))
+    }
+
+    fn of_tetrahedra(nodes: Vec<Node>, cut: Cut, points: usize) -> Self {
+        let mut on_surface = Vec::new();
+        faces::match_up(
+            nodes.len(),
+            cut.triangles.iter().copied(),
+            |_, _| {},
+            |i| {
+                on_surface.extend_from_slice(&cut.triangles[i as usize]);
+            },
+        );
+        on_surface.sort_unstable();
+        on_surface.dedup();
+        let surface = on_surface.into_iter().map(|i| GeomWithData::new(nodes[i as usize].at, i)).collect();
+
+        let mut start = 0;
+        let boxes = cut.ends.iter().map(|&end| {
+            let own = cut.tetrahedra[start as usize..end as usize].iter().flatten();
+            let (low, high) = bounding_box(own.map(|node| nodes[*node as usize].at));
+            let cell = GeomWithData::new(Rectangle::from_corners(low, high), [start, end]);
+            start = end;
+            cell
+        });
+        let cells = RTree::bulk_load(boxes.collect());
+
+        let bounds = bounding_box(cut.tetrahedra.iter().flatten().map(|node| nodes[*node as usize].at));
+        let mut tetrahedra: Vec<Tetrahedron> =
+            cut.tetrahedra.iter().map(|&nodes| Tetrahedron { nodes, beyond: [NOTHING; 4] }).collect();
+        let across = |[a, b, c, d]: [u32; 4]| [[b, c, d], [a, c, d], [a, b, d], [a, b, c]];
+        let triangles = cut.tetrahedra.iter().flat_map(|nodes| across(*nodes));
+        faces::match_up(
+            nodes.len(),
+            triangles,
+            |one, other| {
+                tetrahedra[one as usize / 4].beyond[one as usize % 4] = other / 4;
+                tetrahedra[other as usize / 4].beyond[other as usize % 4] = one / 4;
+            },
+            |_| {},
+        );
+        Self { nodes, tetrahedra, cells, surface: RTree::bulk_load(surface), points, bounds }
+    }
+
+    pub(super) fn points(&self) -> usize {
+        self.points
+    }
+
+    pub(super) fn cells(&self) -> usize {
+        self.cells.size()
+    }
+
+    pub(super) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+        self.bounds
+    }
+
+    pub(super) fn sample(&self, at: [f64; 3], hint: &mut Hint) -> (Quantities, bool) {
+        if let Some((found, weights)) = self.walk(at, *hint).or_else(|| self.search(at)) {
+            *hint = Hint(found + 1);
+            let nodes = self.tetrahedra[found as usize].nodes;
+            let values = nodes.map(|node| &self.nodes[node as usize].values);
+            return (mean(weights.into_iter().zip(values)), true);
+        }
+        (self.nearest(at), false)
+    }
+
+    /// Goes from the tetrahedron of the hint through the face that the point lies farthest beyond, and on.
+    fn walk(&self, at: [f64; 3], hint: Hint) -> Option<(u32, [f64; 4])> {
+        let mut here = hint.0.checked_sub(1)?;
+        for _ in 0..LONGEST_WALK {
+            let tetrahedron = self.tetrahedra.get(here as usize)?;
+            let weights = self.weights(tetrahedron, at);
+            let (mut face, mut least) = (0, weights[0]);
+            for (i, weight) in weights.into_iter().enumerate().skip(1) {
+                if weight < least {
+                    (face, least) = (i, weight);
+                }
+            }
+            if least >= -EDGE {
+                return Some((here, weights));
+            }
+            here = tetrahedron.beyond[face];
+        }
+        None
+    }
+
+    /// Looks into all cells around the point and takes the tetrahedron that it is deepest in.
+    fn search(&self, at: [f64; 3]) -> Option<(u32, [f64; 4])> {
+        let mut best = None;
+        let mut deepest = -EDGE;
+        for cell in self.cells.locate_in_envelope_intersecting(AABB::from_point(at)) {
+            for i in cell.data[0]..cell.data[1] {
+                let weights = self.weights(&self.tetrahedra[i as usize], at);
+                let least = weights.into_iter().fold(f64::INFINITY, f64::min);
+                if least >= deepest {
+                    deepest = least;
+                    best = Some((i, weights));
+                }
+            }
+        }
+        best
+    }
+
+    /// The values at the nearest node of the surface, that of the smallest number where several are as near.
+    fn nearest(&self, at: [f64; 3]) -> Quantities {
+        let mut nearest = self.surface.nearest_neighbor_iter_with_distance_2(at);
+        let Some((first, distance)) = nearest.next() else {
+            return Quantities::default();
+        };
+        let as_near = nearest.take_while(|(_, other)| *other <= distance);
+        let node = as_near.map(|(node, _)| node.data).fold(first.data, u32::min);
+        self.nodes[node as usize].values
+    }
+
+    /// Barycentric coordinates: the weights of the nodes, with the sum of one.
+    #[inline]
+    fn weights(&self, tetrahedron: &Tetrahedron, at: [f64; 3]) -> [f64; 4] {
+        let [o, a, b, c] = tetrahedron.nodes.map(|node| vector(self.nodes[node as usize].at));
+        let (a, b, c, p) = (a - o, b - o, c - o, vector(at) - o);
+        let face = b.cross(c);
+        let turned = a.cross(p);
+        let per_volume = 1.0 / a.dot(face);
+        let [of_a, of_b, of_c] = [p.dot(face), -c.dot(turned), b.dot(turned)].map(|part| part * per_volume);
+        [1.0 - of_a - of_b - of_c, of_a, of_b, of_c]
+    }
+}
+
+/// For each point the first one at the same place, which gets the mean of their values; and how many points
+/// differ from the first one.
+fn merge(nodes: &mut [Node]) -> (Vec<u32>, u64) {
+    let mut order: Vec<u32> = (0..nodes.len() as u32).collect();
+    let compare = |a: &[f64; 3], b: &[f64; 3]| {
+        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
+    };
+    for node in nodes.iter_mut() {
+        // −0 and 0 are one place.
+        node.at = node.at.map(|x| x + 0.0);
+    }
+    order.sort_unstable_by(|a, b| compare(&nodes[*a as usize].at, &nodes[*b as usize].at).then(a.cmp(b)));
+    let mut place_of: Vec<u32> = (0..nodes.len() as u32).collect();
+    let mut differ = 0;
+    let mut rest = order.as_slice();
+    while let Some(&first) = rest.first() {
+        let at = nodes[first as usize].at;
+        let (here, after) = rest.split_at(rest.iter().take_while(|i| nodes[**i as usize].at == at).count());
+        let values = nodes[first as usize].values;
+        let others = here.iter().filter(|i| nodes[**i as usize].values != values).count();
+        if others > 0 {
+            let share = 1.0 / here.len() as f64;
+            nodes[first as usize].values = mean(here.iter().map(|i| (share, &nodes[*i as usize].values)));
+        }
+        for i in here {
+            place_of[*i as usize] = first;
+        }
+        differ += others as u64;
+        rest = after;
+    }
+    (place_of, differ)
+}
+
+fn bounding_box(points: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], [f64; 3]) {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for point in points {
+        for ((low, high), x) in low.iter_mut().zip(&mut high).zip(point) {
+            (*low, *high) = (low.min(x), high.max(x));
+        }
+    }
+    (low, high)
+}

@@ -1,0 +1,199 @@
+//! The air as computational fluid dynamics gives it: velocity and turbulence in space, sampled at points.
+//!
+//! file (VTK, CSV) → [`Field`] → [`Field::sample`] → [`Local`]
+//!
+//! A field is a lattice, a mesh or a set of points; whichever it is, what is linear in space comes out exactly.
+//!
+//! ```
+//! use spunlaid::field::{Field, Hint, Values};
+//! use spunlaid::vec3::Vec3;
+//!
+//! # fn main() -> Result<(), spunlaid::error::FieldError> {
+//! // Plane shear between y = 0 and y = 1 m: points along x first, then y, then z.
+//! let axes = [vec![0.0, 2.0], vec![0.0, 1.0], vec![0.0, 1.0]];
+//! let velocity = [0.0, 0.0, 10.0, 10.0, 0.0, 0.0, 10.0, 10.0].map(|u| Vec3::new(u, 0.0, 0.0));
+//! let values = Values { velocity: velocity.to_vec(), ..Values::default() };
+//! let field = Field::lattice(axes, &values)?;
+//!
+//! let local = field.sample(Vec3::new(0.3, 0.25, 0.5), &mut Hint::default());
+//! assert_eq!(local.velocity, Vec3::new(2.5, 0.0, 0.0));
+//! assert!(local.inside && !field.has_turbulence());
+//! # Ok(())
+//! # }
+//! ```
+
+mod lattice;
+mod mesh;
+mod read;
+mod values;
+mod warning;
+
+pub use mesh::cells::{Cells, Shape};
+pub use values::Values;
+pub use warning::FieldWarning;
+
+use crate::error::FieldError;
+use crate::vec3::Vec3;
+use lattice::Lattice;
+use mesh::Mesh;
+use std::fmt;
+use values::Quantities;
+
+/// The air in a part of space, steady in time, in SI units.
+#[derive(Debug)]
+pub struct Field {
+    support: Support,
+    turbulence: bool,
+}
+
+/// What carries the values.
+#[derive(Debug)]
+enum Support {
+    Lattice(Lattice),
+    Mesh(Mesh),
+}
+
+/// The air at a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Local {
+    /// Mean velocity [m/s].
+    pub velocity: Vec3<f64>,
+    /// Turbulent kinetic energy `k` [m²/s²]; zero where the field has none.
+    pub k: f64,
+    /// Dissipation rate `ε` of the turbulent kinetic energy [m²/s³]; zero where the field has none.
+    pub epsilon: f64,
+    /// Whether the point lies in the field; outside, the values are those of its edge.
+    pub inside: bool,
+}
+
+/// Where a point was found, so that the next one near by is found in a few steps.
+///
+/// It saves time and changes nothing else: a hint from elsewhere, or of another field, does no harm.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Hint(u32);
+
+impl Field {
+    /// A field on a lattice whose points are all combinations of three rows of coordinates; between them the
+    /// values are linear in each coordinate.
+    ///
+    /// A row of one point makes a field that does not change in that direction. Outside, the field is as at
+    /// the nearest point of the lattice’s box.
+    ///
+    /// * `axes` – coordinates along x, y and z, each increasing [m]
+    /// * `values` – at the points, those along x first, then along y, then along z
+    ///
+    /// # Errors
+    /// When coordinates do not increase, or values are too few, too many or not finite.
+    pub fn lattice(axes: [Vec<f64>; 3], values: &Values) -> Result<Self, FieldError> {
+        let count = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
+        let quantities = values.check(count.unwrap_or(usize::MAX))?;
+        let lattice = Lattice::new(axes, quantities)?;
+        Ok(Self { support: Support::Lattice(lattice), turbulence: values.has_turbulence() })
+    }
+
+    /// A field on a mesh of cells, each cut into tetrahedra within which the values are linear.
+    ///
+    /// Neighbours agree on how the face between them is cut, so that the field is continuous. Points at one
+    /// place are taken for one, with the mean of their values. Outside, the field is as at the nearest point
+    /// of the mesh’s surface: where that is a wall, the air beyond it stands still.
+    ///
+    /// * `points` – [m]
+    /// * `cells` – of these points
+    /// * `values` – at the points
+    ///
+    /// # Errors
+    /// When a cell names a point that is not there, no cell has a volume, or numbers are too few, too many or
+    /// not finite.
+    pub fn mesh(
+        points: &[Vec3<f64>],
+        cells: &Cells,
+        values: &Values,
+    ) -> Result<(Self, Vec<FieldWarning>), FieldError> {
+        let quantities = values.check(points.len())?;
+        let (mesh, warnings) = Mesh::new(points, cells, quantities)?;
+        Ok((Self { support: Support::Mesh(mesh), turbulence: values.has_turbulence() }, warnings))
+    }
+
+    /// Whether the field has `k` and `ε`.
+    pub const fn has_turbulence(&self) -> bool {
+        self.turbulence
+    }
+
+    /// The lowest and the highest coordinates [m].
+    pub fn bounds(&self) -> (Vec3<f64>, Vec3<f64>) {
+        let (low, high) = match &self.support {
+            Support::Lattice(lattice) => lattice.bounds(),
+            Support::Mesh(mesh) => mesh.bounds(),
+        };
+        (vector(low), vector(high))
+    }
+
+    /// The air at a point.
+    ///
+    /// * `at` – [m]
+    /// * `hint` – where the last point was found, and then this one; not used by all kinds of field
+    pub fn sample(&self, at: Vec3<f64>, hint: &mut Hint) -> Local {
+        let at = [at.x, at.y, at.z];
+        let (values, inside) = match &self.support {
+            Support::Lattice(lattice) => lattice.sample(at),
+            Support::Mesh(mesh) => mesh.sample(at, hint),
+        };
+        let [u, v, w, k, epsilon] = values;
+        Local { velocity: Vec3::new(u, v, w), k: k.max(0.0), epsilon: epsilon.max(0.0), inside }
+    }
+
+    /// What kind of field it is and how large.
+    pub fn describe(&self) -> Description {
+        match &self.support {
+            Support::Lattice(lattice) => Description::Lattice { points: lattice.points() },
+            Support::Mesh(mesh) => Description::Mesh { points: mesh.points(), cells: mesh.cells() },
+        }
+    }
+}
+
+/// What kind of field it is and how large; reads as `a mesh of 3120 points and 2400 cells`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Description {
+    /// A lattice.
+    Lattice {
+        /// Points along x, y and z.
+        points: [usize; 3],
+    },
+    /// A mesh.
+    Mesh {
+        /// Points of its cells.
+        points: usize,
+        /// Cells with a volume.
+        cells: usize,
+    },
+    /// Points without cells.
+    Points {
+        /// How many.
+        points: usize,
+    },
+}
+
+impl fmt::Display for Description {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Lattice { points: [x, y, z] } => write!(f, "a lattice of {x} × {y} × {z} points"),
+            Self::Mesh { points, cells } => write!(f, "a mesh of {points} points and {cells} cells"),
+            Self::Points { points } => write!(f, "{points} scattered points"),
+        }
+    }
+}
+
+const fn vector([x, y, z]: [f64; 3]) -> Vec3<f64> {
+    Vec3::new(x, y, z)
+}
+
+/// The weighted sum of the values at some nodes.
+fn mean<'a>(nodes: impl Iterator<Item = (f64, &'a Quantities)>) -> Quantities {
+    let mut sum = Quantities::default();
+    for (weight, values) in nodes {
+        for (sum, value) in sum.iter_mut().zip(values) {
+            *sum += weight * value;
+        }
+    }
+    sum
+}

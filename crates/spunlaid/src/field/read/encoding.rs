@@ -1,0 +1,157 @@
+//! Blocks of bytes as VTK’s XML files hold them: with a header, perhaps compressed, perhaps in base 64.
+
+use crate::error::FieldFault;
+use base64::Engine;
+use base64::alphabet::STANDARD;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use std::borrow::Cow;
+use std::io::Read;
+
+/// Most bytes of a file that are decoded.
+pub(super) const MOST_DECODED: u64 = 1 << 32;
+/// LZ4 makes no more bytes than so many out of one.
+const LZ4_EXPANSION: usize = 255;
+
+/// How blocks of bytes are packed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Packing {
+    pub(super) base64: bool,
+    pub(super) compressor: Compressor,
+    /// Whether the numbers of the header have 64 bits.
+    pub(super) wide_header: bool,
+}
+
+/// How blocks of bytes are compressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Compressor {
+    None,
+    Zlib,
+    Lz4,
+}
+
+/// How many bytes may still be decoded.
+#[derive(Debug)]
+pub(super) struct Budget(u64);
+
+impl Budget {
+    pub(super) const fn new() -> Self {
+        Self(MOST_DECODED)
+    }
+
+    fn spend(&mut self, bytes: usize) -> Result<(), FieldFault> {
+        let left = self.0.checked_sub(bytes as u64);
+        self.0 = left.ok_or(FieldFault::TooLarge { most: MOST_DECODED })?;
+        Ok(())
+    }
+}
+
+/// The bytes that are packed here; what follows them is not looked at.
+pub(super) fn unpack<'a>(
+    packed: &'a [u8],
+    packing: Packing,
+    big_endian: bool,
+    budget: &mut Budget,
+) -> Result<Cow<'a, [u8]>, FieldFault> {
+    let packed = if packing.base64 { Cow::Owned(of_base64(packed, budget)?) } else { Cow::Borrowed(packed) };
+    let mut header = Header { bytes: &packed, at: 0, wide: packing.wide_header, big_endian };
+    if packing.compressor == Compressor::None {
+        let length = header.number("the number of bytes")?;
+        let (start, end) = (header.at, header.at.saturating_add(length));
+        if end > packed.len() {
+            return Err(FieldFault::CutOff { wanted: "the rest of the numbers" });
+        }
+        return Ok(match packed {
+            Cow::Borrowed(bytes) => Cow::Borrowed(&bytes[start..end]),
+            Cow::Owned(bytes) => Cow::Owned(bytes[start..end].to_vec()),
+        });
+    }
+    let blocks = header.number("the number of blocks")?;
+    let [size, last] = [header.number("the size of blocks")?, header.number("the size of the last block")?];
+    let width = if packing.wide_header { 8 } else { 4 };
+    if blocks > (packed.len() - header.at) / width {
+        return Err(FieldFault::CutOff { wanted: "the sizes of the blocks" });
+    }
+    let mut rest = &packed[header.at + blocks * width..];
+    let mut bytes = Vec::new();
+    for block in 0..blocks {
+        let length = header.number("the size of a block")?;
+        let Some((compressed, after)) = rest.split_at_checked(length) else {
+            return Err(FieldFault::CutOff { wanted: "the rest of a compressed block" });
+        };
+        rest = after;
+        let wanted = if block + 1 == blocks && last > 0 { last } else { size };
+        expand(compressed, wanted, packing.compressor, &mut bytes, budget)?;
+    }
+    Ok(Cow::Owned(bytes))
+}
+
+/// Adds a block of so many bytes, expanded.
+fn expand(
+    compressed: &[u8],
+    wanted: usize,
+    compressor: Compressor,
+    bytes: &mut Vec<u8>,
+    budget: &mut Budget,
+) -> Result<(), FieldFault> {
+    budget.spend(wanted)?;
+    let before = bytes.len();
+    let expanded = match compressor {
+        Compressor::None | Compressor::Zlib => {
+            let decoder = flate2::bufread::ZlibDecoder::new(compressed);
+            decoder.take(wanted as u64).read_to_end(bytes).map_err(|error| error.to_string())
+        }
+        // Memory for what a header promises is taken only as far as the block can hold it.
+        Compressor::Lz4 if wanted / LZ4_EXPANSION > compressed.len() => Ok(0),
+        Compressor::Lz4 => {
+            bytes.resize(before + wanted, 0);
+            lz4_flex::block::decompress_into(compressed, &mut bytes[before..])
+                .map_err(|error| error.to_string())
+        }
+    };
+    let found = expanded.map_err(|message| FieldFault::Encoding { message })?;
+    if found == wanted {
+        return Ok(());
+    }
+    Err(FieldFault::Encoding { message: format!("a block holds {found} bytes where {wanted} are announced") })
+}
+
+/// Reads the numbers of a header one after the other.
+struct Header<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    wide: bool,
+    big_endian: bool,
+}
+
+impl Header<'_> {
+    fn number(&mut self, wanted: &'static str) -> Result<usize, FieldFault> {
+        let size = if self.wide { 8 } else { 4 };
+        let written = self.bytes.get(self.at..self.at + size).ok_or(FieldFault::CutOff { wanted })?;
+        self.at += size;
+        let number = written.iter().enumerate().fold(0, |sum, (i, byte)| {
+            let place = if self.big_endian { size - 1 - i } else { i };
+            sum | u64::from(*byte) << (8 * place)
+        });
+        Ok(usize::try_from(number).unwrap_or(usize::MAX))
+    }
+}
+
+/// Bytes in base 64; a header may be encoded apart from what follows it, and ends with padding then.
+fn of_base64(text: &[u8], budget: &mut Budget) -> Result<Vec<u8>, FieldFault> {
+    let config = GeneralPurposeConfig::new()
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
+        .with_decode_allow_trailing_bits(true);
+    let engine = GeneralPurpose::new(&STANDARD, config);
+    budget.spend(text.len() / 4 * 3)?;
+    let text: Cow<'_, [u8]> = if text.iter().any(u8::is_ascii_whitespace) {
+        Cow::Owned(text.iter().copied().filter(|byte| !byte.is_ascii_whitespace()).collect())
+    } else {
+        Cow::Borrowed(text)
+    };
+    let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 3);
+    for part in text.split(|byte| *byte == b'=').filter(|part| !part.is_empty()) {
+        let decoded = engine.decode_vec(part, &mut bytes);
+        decoded.map_err(|error| FieldFault::Encoding { message: error.to_string() })?;
+    }
+    Ok(bytes)
+}

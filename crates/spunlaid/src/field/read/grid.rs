@@ -1,0 +1,114 @@
+//! Where the points of a piece of a file are, and which cells they make.
+
+use super::unstructured::{Listed, Solid};
+use crate::error::{FieldError, FieldFault};
+use crate::vec3::Vec3;
+
+/// Where the points of a piece are.
+pub(super) enum Grid {
+    /// On a lattice of even steps; so many points along each axis.
+    Image { origin: [f64; 3], spacing: [f64; 3], size: [usize; 3] },
+    /// On a lattice.
+    Lattice([Vec<f64>; 3]),
+    /// In rows, rows of rows, and rows of these.
+    Structured { size: [usize; 3], points: Vec<Vec3<f64>> },
+    /// Anywhere.
+    Unstructured { points: Vec<Vec3<f64>>, solid: Solid, cells: usize },
+}
+
+impl Grid {
+    pub(super) fn unstructured(points: Vec<Vec3<f64>>, listed: &Listed) -> Result<Self, FieldError> {
+        let solid = listed.solid(points.len())?;
+        Ok(Self::Unstructured { points, solid, cells: listed.types.len() })
+    }
+
+    /// Points along each axis, of a grid that has axes.
+    fn size(&self) -> Option<[usize; 3]> {
+        match self {
+            Self::Image { size, .. } | Self::Structured { size, .. } => Some(*size),
+            Self::Lattice(axes) => Some([0, 1, 2].map(|i| axes[i].len())),
+            Self::Unstructured { .. } => None,
+        }
+    }
+
+    /// Numbers of points and of cells.
+    pub(super) fn counts(&self) -> Result<(usize, usize), FieldError> {
+        match self {
+            Self::Unstructured { points, cells, .. } => Ok((points.len(), *cells)),
+            _ => {
+                let size = self.size().unwrap_or_default();
+                Ok((counted(size)?, counted(size.map(|n| n.saturating_sub(1).max(1)))?))
+            }
+        }
+    }
+
+    /// Hands out every cell with the numbers of its corners.
+    pub(super) fn each_cell(&self, mut cell: impl FnMut(usize, &[u32])) {
+        let mut corners = Vec::new();
+        let Some([nx, ny, nz]) = self.size() else {
+            if let Self::Unstructured { solid, .. } = self {
+                for (i, place) in solid.places.iter().enumerate() {
+                    solid.cells.corners(i, &mut corners);
+                    cell(*place, &corners);
+                }
+            }
+            return;
+        };
+        let [mx, my, mz] = [nx, ny, nz].map(|n| n.saturating_sub(1).max(1));
+        for number in 0..mx * my * mz {
+            let (x, y, z) = (number % mx, number / mx % my, number / mx / my);
+            corners.clear();
+            // Around each of two faces, as a hexahedron has them; a grid one point thick has only one.
+            for k in z..(z + 2).min(nz) {
+                for (i, j) in [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)] {
+                    if i < nx && j < ny {
+                        corners.push((i + nx * (j + ny * k)) as u32);
+                    }
+                }
+            }
+            cell(number, &corners);
+        }
+    }
+
+    /// From values of cells to values of points: the mean of the cells around.
+    pub(super) fn to_points(&self, values: &[f64], components: usize, points: usize) -> Vec<f64> {
+        let mut sums = vec![0.0; points * components];
+        let mut around = vec![0u32; points];
+        self.each_cell(|cell, corners| {
+            for corner in corners.iter().map(|corner| *corner as usize) {
+                around[corner] += 1;
+                for i in 0..components {
+                    sums[corner * components + i] += values[cell * components + i];
+                }
+            }
+        });
+        for (sums, around) in sums.chunks_exact_mut(components).zip(around) {
+            sums.iter_mut().for_each(|sum| *sum /= f64::from(around.max(1)));
+        }
+        sums
+    }
+
+    /// The axes of a lattice.
+    pub(super) fn axes(&self) -> Option<[Vec<f64>; 3]> {
+        match self {
+            Self::Image { origin, spacing, size } => Some(
+                [0, 1, 2]
+                    .map(|axis| (0..size[axis]).map(|i| origin[axis] + i as f64 * spacing[axis]).collect()),
+            ),
+            Self::Lattice(axes) => Some(axes.clone()),
+            _ => None,
+        }
+    }
+}
+
+/// The product, if points of that number can be told apart.
+pub(super) fn counted(size: [usize; 3]) -> Result<usize, FieldError> {
+    let product = size.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
+    let product = product.filter(|product| u32::try_from(*product).is_ok());
+    product.ok_or_else(|| FieldFault::TooMany { most: u32::MAX.into(), of: "points" }.into())
+}
+
+/// From rows of three numbers to vectors.
+pub(super) fn vectors(numbers: &[f64]) -> Vec<Vec3<f64>> {
+    numbers.chunks_exact(3).map(|v| Vec3::new(v[0], v[1], v[2])).collect()
+}

@@ -1,0 +1,358 @@
+//! VTK’s legacy files, as text or as bytes of which the largest of a number comes first.
+
+use super::array::{Array, Number, Source};
+use super::encoding::Budget;
+use super::grid::{Grid, counted, vectors};
+use super::piece::{Piece, assemble};
+use super::unstructured::{Listed, Polyhedra};
+use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::field::{Field, FieldWarning};
+use crate::units::excerpt;
+use crate::vec3::Vec3;
+
+/// How such files begin.
+pub(super) const START: &[u8] = b"# vtk DataFile Version";
+
+/// Reads a file.
+pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FieldError> {
+    let mut scanner = Scanner { bytes, at: 0, binary: false };
+    let mut budget = Budget::new();
+    let piece = scanner.piece(&mut budget).map_err(|error| {
+        let place = if scanner.binary { FieldPlace::Byte(scanner.at as u64 + 1) } else { scanner.line() };
+        error.at(place)
+    })?;
+    assemble(vec![piece], &mut budget)
+}
+
+/// Goes through the file from front to back.
+struct Scanner<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    binary: bool,
+}
+
+impl<'a> Scanner<'a> {
+    fn piece(&mut self, budget: &mut Budget) -> Result<Piece<'a>, FieldError> {
+        let first = self.rest_of_line();
+        // Since version 5 cells are listed with their ends, before that with their numbers of points.
+        let version = first.strip_prefix(START).and_then(|version| str::from_utf8(version).ok());
+        let version: f64 = version.and_then(|version| version.trim().parse().ok()).unwrap_or(3.0);
+        self.rest_of_line();
+        self.binary = match self.word()? {
+            "ASCII" => false,
+            "BINARY" => true,
+            other => return Err(wrong(other, "ASCII or BINARY")),
+        };
+        self.keyword("DATASET")?;
+        let grid = match self.word()? {
+            "STRUCTURED_POINTS" => self.image()?,
+            "RECTILINEAR_GRID" => self.rectilinear(budget)?,
+            "STRUCTURED_GRID" => {
+                self.next_keyword("DIMENSIONS")?;
+                let size = self.size()?;
+                self.next_keyword("POINTS")?;
+                Grid::Structured { size, points: self.points(Some(counted(size)?), budget)? }
+            }
+            "UNSTRUCTURED_GRID" => {
+                self.next_keyword("POINTS")?;
+                let points = self.points(None, budget)?;
+                let listed = self.cells(version >= 5.0, budget)?;
+                Grid::unstructured(points, &listed)?
+            }
+            other => {
+                return Err(wrong(
+                    other,
+                    "STRUCTURED_POINTS, RECTILINEAR_GRID, STRUCTURED_GRID or UNSTRUCTURED_GRID",
+                ));
+            }
+        };
+        let mut piece = Piece { grid, point_data: Vec::new(), cell_data: Vec::new() };
+        self.data(&mut piece)?;
+        Ok(piece)
+    }
+
+    fn image(&mut self) -> Result<Grid, FieldError> {
+        let (mut size, mut origin, mut spacing) = (None, [0.0; 3], [1.0; 3]);
+        loop {
+            match self.peek() {
+                Some("DIMENSIONS") => {
+                    self.word()?;
+                    size = Some(self.size()?);
+                }
+                Some(keyword @ ("ORIGIN" | "SPACING" | "ASPECT_RATIO")) => {
+                    self.word()?;
+                    let numbers = [self.parse("a number")?, self.parse("a number")?, self.parse("a number")?];
+                    *(if keyword == "ORIGIN" { &mut origin } else { &mut spacing }) = numbers;
+                }
+                _ => break,
+            }
+        }
+        let size = size.ok_or(FieldFault::CutOff { wanted: "DIMENSIONS" })?;
+        Ok(Grid::Image { origin, spacing, size })
+    }
+
+    fn rectilinear(&mut self, budget: &mut Budget) -> Result<Grid, FieldError> {
+        self.next_keyword("DIMENSIONS")?;
+        let size = self.size()?;
+        let mut axis = |keyword, size: usize| {
+            self.next_keyword(keyword)?;
+            let count = self.parse("a number of coordinates")?;
+            let number = self.number()?;
+            let array = self.array(keyword.to_owned(), number, 1, count)?;
+            array.floats(size, budget)
+        };
+        Ok(Grid::Lattice([
+            axis("X_COORDINATES", size[0])?,
+            axis("Y_COORDINATES", size[1])?,
+            axis("Z_COORDINATES", size[2])?,
+        ]))
+    }
+
+    fn points(&mut self, wanted: Option<usize>, budget: &mut Budget) -> Result<Vec<Vec3<f64>>, FieldError> {
+        let count: usize = self.parse("a number of points")?;
+        let number = self.number()?;
+        let array = self.array("POINTS".to_owned(), number, 3, count)?;
+        Ok(vectors(&array.floats(wanted.unwrap_or(count), budget)?))
+    }
+
+    fn cells(&mut self, with_ends: bool, budget: &mut Budget) -> Result<Listed, FieldError> {
+        self.next_keyword("CELLS")?;
+        let count: usize = self.parse("a number of cells")?;
+        let size: usize = self.parse("a number of entries")?;
+        let mut listed = Listed { polyhedra: Polyhedra::Inline, ..Listed::default() };
+        if with_ends {
+            let mut list = |keyword, size| {
+                self.keyword(keyword)?;
+                let number = self.number()?;
+                self.array(keyword.to_owned(), number, 1, size)?.integers(budget)
+            };
+            listed.ends = list("OFFSETS", count)?;
+            listed.connectivity = list("CONNECTIVITY", size)?;
+            // The first is where the first cell begins.
+            listed.ends = listed.ends.into_iter().skip(1).collect();
+        } else {
+            let array = self.array("CELLS".to_owned(), Number::I32, 1, size)?;
+            let entries = array.integers(budget)?;
+            let mut rest = entries.as_slice();
+            while let Some((&length, after)) = rest.split_first() {
+                let own = usize::try_from(length).ok().and_then(|length| after.split_at_checked(length));
+                let (own, after) = own.ok_or_else(|| array.fault(FieldFault::CutOff { wanted: "a cell" }))?;
+                listed.connectivity.extend_from_slice(own);
+                listed.ends.push(listed.connectivity.len() as i64);
+                rest = after;
+            }
+        }
+        self.next_keyword("CELL_TYPES")?;
+        let count: usize = self.parse("a number of cells")?;
+        listed.types = self.array("CELL_TYPES".to_owned(), Number::I32, 1, count)?.integers(budget)?;
+        Ok(listed)
+    }
+
+    /// The arrays at the end of the file.
+    fn data(&mut self, piece: &mut Piece<'a>) -> Result<(), FieldError> {
+        // Of points or of cells, and how many there are.
+        let mut of = None;
+        while let Some(keyword) = self.peek() {
+            self.word()?;
+            match (keyword, of) {
+                ("POINT_DATA" | "CELL_DATA", _) => {
+                    of = Some((keyword == "CELL_DATA", self.parse("a number of points or cells")?));
+                }
+                ("METADATA", _) => self.metadata(),
+                // Fields of the data set as a whole are left out.
+                ("FIELD", None) => drop(self.fields()?),
+                (_, None) => return Err(wrong(keyword, "POINT_DATA or CELL_DATA")),
+                (_, Some((of_cells, count))) => {
+                    let arrays = self.arrays(keyword, count)?;
+                    let list = if of_cells { &mut piece.cell_data } else { &mut piece.point_data };
+                    list.extend(arrays);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn arrays(&mut self, keyword: &str, count: usize) -> Result<Vec<Array<'a>>, FieldError> {
+        if keyword == "FIELD" {
+            return self.fields();
+        }
+        let name = self.word()?.to_owned();
+        let one = |scanner: &mut Self, components| {
+            let number = scanner.number()?;
+            Ok(vec![scanner.array(name.clone(), number, components, count)?])
+        };
+        match keyword {
+            "VECTORS" | "NORMALS" => one(self, 3),
+            "TENSORS" => one(self, 9),
+            "TENSORS6" => one(self, 6),
+            "GLOBAL_IDS" | "PEDIGREE_IDS" => one(self, 1),
+            "TEXTURE_COORDINATES" => {
+                let components = self.parse("a number of components")?;
+                one(self, components)
+            }
+            "SCALARS" => {
+                let number = self.number()?;
+                let components = match self.peek() {
+                    Some(word) if word.bytes().all(|byte| byte.is_ascii_digit()) => self.parse("a number")?,
+                    _ => 1,
+                };
+                self.keyword("LOOKUP_TABLE")?;
+                self.word()?;
+                Ok(vec![self.array(name, number, components, count)?])
+            }
+            // Colours: bytes in binary files, text otherwise.
+            "COLOR_SCALARS" => {
+                let components = self.parse("a number of components")?;
+                self.array(name, Number::U8, components, count)?;
+                Ok(Vec::new())
+            }
+            "LOOKUP_TABLE" => {
+                let size = self.parse("a number of colours")?;
+                self.array(name, Number::U8, 4, size)?;
+                Ok(Vec::new())
+            }
+            other => Err(wrong(other, "SCALARS, VECTORS or FIELD")),
+        }
+    }
+
+    fn fields(&mut self) -> Result<Vec<Array<'a>>, FieldError> {
+        self.word()?;
+        let count: usize = self.parse("a number of arrays")?;
+        let mut arrays = Vec::new();
+        for _ in 0..count {
+            while self.peek() == Some("METADATA") {
+                self.word()?;
+                self.metadata();
+            }
+            let name = self.word()?.to_owned();
+            let components = self.parse("a number of components")?;
+            let tuples: usize = self.parse("a number of points or cells")?;
+            match self.word()? {
+                // A field of texts: one a line.
+                "string" if !self.binary => {
+                    for _ in 0..tuples.saturating_add(1).min(self.bytes.len()) {
+                        self.rest_of_line();
+                    }
+                }
+                word => {
+                    let number = Number::of_legacy(word).ok_or_else(|| wrong(word, "a type of number"))?;
+                    arrays.push(self.array(name, number, components, tuples)?);
+                }
+            }
+        }
+        Ok(arrays)
+    }
+
+    /// Passes over remarks on an array, which end with an empty line.
+    fn metadata(&mut self) {
+        self.rest_of_line();
+        while self.at < self.bytes.len() && !self.rest_of_line().trim_ascii().is_empty() {}
+    }
+
+    /// Takes an array of so many times so many numbers, from the next line on in binary files.
+    fn array(
+        &mut self,
+        name: String,
+        number: Number,
+        components: usize,
+        count: usize,
+    ) -> Result<Array<'a>, FieldError> {
+        let place = if self.binary { FieldPlace::Whole } else { self.line() };
+        let numbers = components.saturating_mul(count);
+        let missing =
+            || FieldError::from(FieldFault::CutOff { wanted: "more numbers" }).array(&name).at(place);
+        let source = if self.binary {
+            self.rest_of_line();
+            let rest = &self.bytes[self.at..];
+            let bytes = rest.get(..numbers.saturating_mul(number.size())).ok_or_else(missing)?;
+            self.at += bytes.len();
+            Source::Bytes { bytes, big_endian: true }
+        } else {
+            self.skip_blanks();
+            let start = self.at;
+            // More words than bytes there are not.
+            if numbers > self.bytes.len() {
+                return Err(missing());
+            }
+            for _ in 0..numbers {
+                self.word().map_err(|_| missing())?;
+            }
+            Source::Text(&self.bytes[start..self.at])
+        };
+        Ok(Array { name, number, components, source, place })
+    }
+
+    fn size(&mut self) -> Result<[usize; 3], FieldError> {
+        let mut one = || match self.parse("a number of points along an axis")? {
+            0 => Err(wrong("0", "a number of points of one or more")),
+            size => Ok(size),
+        };
+        Ok([one()?, one()?, one()?])
+    }
+
+    fn number(&mut self) -> Result<Number, FieldError> {
+        let word = self.word()?;
+        Number::of_legacy(word).ok_or_else(|| wrong(word, "a type of number"))
+    }
+
+    fn parse<T: std::str::FromStr>(&mut self, wanted: &'static str) -> Result<T, FieldError> {
+        let word = self.word()?;
+        word.parse().map_err(|_| wrong(word, wanted))
+    }
+
+    fn keyword(&mut self, wanted: &'static str) -> Result<(), FieldError> {
+        match self.word()? {
+            word if word == wanted => Ok(()),
+            word => Err(wrong(word, wanted)),
+        }
+    }
+
+    /// As [`Scanner::keyword`], past fields of the data set as a whole and remarks.
+    fn next_keyword(&mut self, wanted: &'static str) -> Result<(), FieldError> {
+        loop {
+            match self.peek() {
+                Some("FIELD") => {
+                    self.word()?;
+                    self.fields()?;
+                }
+                Some("METADATA") => self.metadata(),
+                _ => return self.keyword(wanted),
+            }
+        }
+    }
+
+    fn skip_blanks(&mut self) {
+        let rest = &self.bytes[self.at..];
+        self.at += rest.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
+    }
+
+    fn peek(&mut self) -> Option<&'a str> {
+        self.skip_blanks();
+        let rest = &self.bytes[self.at..];
+        let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        str::from_utf8(&rest[..end]).ok().filter(|word| !word.is_empty())
+    }
+
+    fn word(&mut self) -> Result<&'a str, FieldError> {
+        let word = self.peek().ok_or(FieldFault::CutOff { wanted: "a word" })?;
+        self.at += word.len();
+        Ok(word)
+    }
+
+    /// What is left of the line, and on to the next.
+    fn rest_of_line(&mut self) -> &'a [u8] {
+        let rest = &self.bytes[self.at..];
+        let end = rest.iter().position(|byte| *byte == b'\n');
+        self.at += end.map_or(rest.len(), |end| end + 1);
+        &rest[..end.unwrap_or(rest.len())]
+    }
+
+    fn line(&self) -> FieldPlace {
+        let before = &self.bytes[..self.at];
+        FieldPlace::Line(before.iter().filter(|byte| **byte == b'\n').count() as u64 + 1)
+    }
+}
+
+fn wrong(found: &str, wanted: &'static str) -> FieldError {
+    FieldFault::Syntax { found: excerpt(found, 40), wanted }.into()
+}

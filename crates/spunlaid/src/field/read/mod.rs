@@ -1,0 +1,60 @@
+//! Fields from files.
+//!
+//! A file is read as a whole; what is taken of memory beyond that follows from the bytes there are, never from
+//! what a header promises.
+
+mod array;
+mod encoding;
+mod grid;
+mod legacy;
+mod names;
+mod piece;
+mod unstructured;
+mod xml;
+
+use super::{Field, FieldWarning};
+use crate::error::{FieldError, FieldFault};
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+
+impl Field {
+    /// Reads a field from a file, VTK or a table; which, its content says.
+    ///
+    /// `docs/air.md` of the repository names the formats, and what arrays and columns may be called.
+    ///
+    /// # Errors
+    /// When the file cannot be read or holds no field of air; the message says where and why.
+    pub fn read(path: &Path) -> Result<(Self, Vec<FieldWarning>), FieldError> {
+        let name = path.display().to_string();
+        let failed = |source: std::io::Error| {
+            let fault = match source.kind() {
+                ErrorKind::NotFound => FieldFault::NotThere,
+                ErrorKind::IsADirectory => FieldFault::IsFolder,
+                _ => FieldFault::Unreadable { message: source.to_string() },
+            };
+            FieldError::from(fault).file(&name)
+        };
+        if fs::metadata(path).map_err(failed)?.is_dir() {
+            return Err(FieldError::from(FieldFault::IsFolder).file(&name));
+        }
+        Self::parse(&fs::read(path).map_err(failed)?, &name)
+    }
+
+    /// Reads a field from the bytes of a file; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// As [`Field::read`].
+    pub fn parse(bytes: &[u8], name: &str) -> Result<(Self, Vec<FieldWarning>), FieldError> {
+        let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let read = if start.trim_ascii_start().starts_with(b"<") {
+            xml::read(start)
+        } else if start.starts_with(legacy::START) {
+            legacy::read(start)
+        } else {
+            let found = "neither VTK nor a table".to_owned();
+            Err(FieldFault::Format { found, advice: "write it as VTK" }.into())
+        };
+        read.map_err(|error| error.file(name))
+    }
+}

@@ -1,0 +1,195 @@
+//! What programs call the quantities, and in which units.
+
+use crate::error::{FieldError, FieldFault};
+use crate::units::excerpt;
+
+/// Names of the velocity vector, the preferred first: turbulence is added to the mean, so that goes before
+/// what a transient solver has at one instant.
+const VECTORS: [&str; 8] = ["umean", "u_mean", "velocity_mean", "mean_velocity", "u", "velocity", "vel", "v"];
+/// Endings that tell the components.
+const ENDINGS: [[&str; 3]; 4] = [["x", "y", "z"], ["0", "1", "2"], ["i", "j", "k"], ["u", "v", "w"]];
+/// What a component may be called on its own.
+const COMPONENTS: [[&str; 3]; 2] = [["u", "v", "w"], ["x_velocity", "y_velocity", "z_velocity"]];
+const K: [&str; 7] = [
+    "kmean",
+    "k",
+    "tke",
+    "turb_kinetic_energy",
+    "turbulence_kinetic_energy",
+    "turbulent_kinetic_energy",
+    "turbulencekineticenergy",
+];
+const EPSILON: [&str; 9] = [
+    "epsilonmean",
+    "epsilon",
+    "eps",
+    "ep",
+    "turb_diss_rate",
+    "turbulent_dissipation_rate",
+    "turbulence_dissipation_rate",
+    "turbulence_eddy_dissipation",
+    "dissipation_rate",
+];
+const OMEGA: [&str; 6] = [
+    "omegamean",
+    "omega",
+    "om",
+    "specific_diss_rate",
+    "specific_dissipation_rate",
+    "turbulence_eddy_frequency",
+];
+
+/// What a quantity is measured in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Measure {
+    Velocity,
+    K,
+    Epsilon,
+    Omega,
+}
+
+impl Measure {
+    /// Units by their letters and digits alone, and what they are in SI units.
+    const fn units(self) -> &'static [(&'static str, f64)] {
+        match self {
+            Self::Velocity => {
+                &[("ms", 1.0), ("ms1", 1.0), ("cms", 1e-2), ("cms1", 1e-2), ("mms", 1e-3), ("mms1", 1e-3)]
+            }
+            Self::K => &[("m2s2", 1.0), ("jkg", 1.0), ("jkg1", 1.0)],
+            Self::Epsilon => &[("m2s3", 1.0), ("wkg", 1.0), ("wkg1", 1.0), ("jkgs", 1.0)],
+            Self::Omega => &[("s", 1.0), ("1s", 1.0), ("s1", 1.0)],
+        }
+    }
+
+    const fn wanted(self) -> &'static str {
+        match self {
+            Self::Velocity => "m/s, cm/s or mm/s",
+            Self::K => "m2/s2",
+            Self::Epsilon => "m2/s3",
+            Self::Omega => "1/s",
+        }
+    }
+}
+
+/// The name of an array or a column.
+#[derive(Clone, Debug)]
+pub(super) struct Name {
+    /// As written.
+    pub(super) written: String,
+    /// In small letters, with one `_` for whatever parts its words, units too.
+    plain: String,
+}
+
+impl Name {
+    pub(super) fn new(written: &str) -> Self {
+        let mut plain = String::new();
+        for c in written.trim().chars().flat_map(char::to_lowercase) {
+            if c.is_alphanumeric() {
+                plain.push(if c == 'μ' { 'µ' } else { c });
+            } else if !plain.is_empty() && !plain.ends_with('_') {
+                plain.push('_');
+            }
+        }
+        plain.truncate(plain.trim_end_matches('_').len());
+        Self { written: written.to_owned(), plain }
+    }
+
+    /// What its unit is in SI units if this is the name, perhaps followed by a unit.
+    fn is(&self, name: &str, measure: Measure) -> Option<Result<f64, FieldError>> {
+        let unit = self.plain.strip_prefix(name)?;
+        if unit.is_empty() {
+            return Some(Ok(1.0));
+        }
+        let unit: String = unit.strip_prefix('_')?.split('_').collect();
+        let known = measure.units().iter().find(|(spelt, _)| *spelt == unit);
+        if let Some((_, factor)) = known {
+            return Some(Ok(*factor));
+        }
+        // In brackets it can be nothing else.
+        let bracket = self.written.trim_end().strip_suffix([']', ')'])?.rsplit(['[', '(']).next()?;
+        if Self::new(bracket).plain.split('_').collect::<String>() != unit {
+            return None;
+        }
+        let fault = FieldFault::WrongUnit { unit: excerpt(bracket, 20), wanted: measure.wanted() };
+        Some(Err(FieldError::from(fault).array(&self.written)))
+    }
+}
+
+/// Where a quantity is: its place in the list of arrays, and what its unit is in SI units.
+pub(super) type Found = (usize, f64);
+
+/// Where the velocity is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Velocity {
+    /// An array of three components.
+    Vector(Found),
+    /// Three arrays, or two in a plane flow.
+    Components([Option<Found>; 3]),
+}
+
+/// The first of some names that is there.
+fn first(
+    names: &[Name],
+    wanted: &[&str],
+    measure: Measure,
+    fits: impl Fn(usize) -> bool,
+) -> Result<Option<Found>, FieldError> {
+    for name in wanted {
+        for (i, there) in names.iter().enumerate() {
+            if fits(i)
+                && let Some(factor) = there.is(name, measure)
+            {
+                return Ok(Some((i, factor?)));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// Finds the velocity.
+///
+/// * `components` – of each array
+pub(super) fn velocity(names: &[Name], components: &[usize]) -> Result<Option<Velocity>, FieldError> {
+    let one = |i: usize| components[i] == 1;
+    for vector in VECTORS {
+        let found = first(names, &[vector], Measure::Velocity, |i| components[i] == 3)?;
+        if let Some(found) = found {
+            return Ok(Some(Velocity::Vector(found)));
+        }
+        for endings in ENDINGS {
+            let mut parts = [None; 3];
+            for (part, ending) in parts.iter_mut().zip(endings) {
+                let spelt = [format!("{vector}_{ending}"), format!("{vector}{ending}")];
+                *part = first(names, &spelt.each_ref().map(String::as_str), Measure::Velocity, one)?;
+            }
+            if parts[0].is_some() && parts[1].is_some() {
+                return Ok(Some(Velocity::Components(parts)));
+            }
+        }
+    }
+    for letters in COMPONENTS {
+        let mut parts = [None; 3];
+        for (part, letter) in parts.iter_mut().zip(letters) {
+            *part = first(names, &[letter], Measure::Velocity, one)?;
+        }
+        if parts[0].is_some() && parts[1].is_some() {
+            return Ok(Some(Velocity::Components(parts)));
+        }
+    }
+    Ok(None)
+}
+
+/// Finds a quantity of one component.
+pub(super) fn scalar(
+    names: &[Name],
+    components: &[usize],
+    measure: Measure,
+) -> Result<Option<Found>, FieldError> {
+    let wanted: &[&str] = match measure {
+        Measure::K => &K,
+        Measure::Epsilon => &EPSILON,
+        Measure::Omega => &OMEGA,
+        Measure::Velocity => &[],
+    };
+    first(names, wanted, measure, |i| components[i] == 1)
+}

@@ -1,0 +1,175 @@
+//! From the pieces of a file to a field.
+
+use super::array::Array;
+use super::encoding::Budget;
+use super::grid::{Grid, vectors};
+use super::names::{self, Measure, Name, Velocity};
+use crate::error::{FieldError, FieldFault};
+use crate::field::values::C_MU;
+use crate::field::{Cells, Field, FieldWarning, Shape, Values};
+use crate::vec3::Vec3;
+
+/// A piece of a file.
+pub(super) struct Piece<'a> {
+    pub(super) grid: Grid,
+    pub(super) point_data: Vec<Array<'a>>,
+    pub(super) cell_data: Vec<Array<'a>>,
+}
+
+/// Makes a field of the pieces.
+pub(super) fn assemble(
+    mut pieces: Vec<Piece<'_>>,
+    budget: &mut Budget,
+) -> Result<(Field, Vec<FieldWarning>), FieldError> {
+    let mut warnings = Vec::new();
+    let mut values = Vec::new();
+    for piece in &pieces {
+        values.push(Reader { piece, budget, warnings: &mut warnings }.values()?);
+    }
+    if let ([piece], [values]) = (pieces.as_slice(), values.as_slice())
+        && let Some(axes) = piece.grid.axes()
+    {
+        return Ok((Field::lattice(axes, values)?, warnings));
+    }
+    let mut points = Vec::new();
+    let mut cells = Cells::new();
+    let mut all = Values::default();
+    let (mut flat, mut higher_order) = (0, 0);
+    for (piece, values) in pieces.iter_mut().zip(values) {
+        let before = points.len() as u32;
+        match &mut piece.grid {
+            Grid::Unstructured { points: own, solid, .. } => {
+                points.append(own);
+                cells.append(&solid.cells, before);
+                flat += solid.flat;
+                higher_order += solid.higher_order;
+            }
+            grid => {
+                if let Some([x, y, z]) = &grid.axes() {
+                    let plane =
+                        |z: f64| y.iter().flat_map(move |&y| x.iter().map(move |&x| Vec3::new(x, y, z)));
+                    for &z in z {
+                        points.extend(plane(z));
+                    }
+                } else if let Grid::Structured { points: own, .. } = grid {
+                    points.append(own);
+                }
+                let mut pushed = Ok(());
+                grid.each_cell(|_, corners| {
+                    let corners: Vec<u32> = corners.iter().map(|corner| corner + before).collect();
+                    if corners.len() == 8 && pushed.is_ok() {
+                        pushed = cells.push(Shape::Hexahedron, &corners);
+                    } else {
+                        flat += 1;
+                    }
+                });
+                pushed?;
+            }
+        }
+        all.append(values);
+    }
+    if cells.is_empty() {
+        return Err(if points.is_empty() { FieldFault::Empty } else { FieldFault::NoVolume { flat } }.into());
+    }
+    if flat > 0 {
+        warnings.push(FieldWarning::NotSolid { cells: flat });
+    }
+    if higher_order > 0 {
+        warnings.push(FieldWarning::HigherOrder { cells: higher_order });
+    }
+    let (field, more) = Field::mesh(&points, &cells, &all)?;
+    warnings.extend(more);
+    Ok((field, warnings))
+}
+
+/// Reads the values of a piece.
+struct Reader<'a, 'b> {
+    piece: &'a Piece<'a>,
+    budget: &'b mut Budget,
+    warnings: &'b mut Vec<FieldWarning>,
+}
+
+impl Reader<'_, '_> {
+    fn values(&mut self) -> Result<Values, FieldError> {
+        let velocity = self.velocity()?;
+        let k = self.scalar(Measure::K)?;
+        let epsilon = match self.scalar(Measure::Epsilon)? {
+            Some(epsilon) => Some(epsilon),
+            None => {
+                let omega = self.scalar(Measure::Omega)?;
+                k.as_ref()
+                    .zip(omega)
+                    .map(|(k, omega)| k.iter().zip(omega).map(|(k, omega)| C_MU * k * omega).collect())
+            }
+        };
+        let (k, epsilon) = k.zip(epsilon).unwrap_or_default();
+        Ok(Values { velocity, k, epsilon })
+    }
+
+    fn velocity(&mut self) -> Result<Vec<Vec3<f64>>, FieldError> {
+        for of_cells in [false, true] {
+            let (names, components) = self.list(of_cells);
+            match names::velocity(&names, &components)? {
+                None => {}
+                Some(Velocity::Vector((array, factor))) => {
+                    let numbers = self.numbers(of_cells, array, factor)?;
+                    return Ok(vectors(&numbers));
+                }
+                Some(Velocity::Components(parts)) => {
+                    let mut part = |part: Option<(usize, f64)>| match part {
+                        Some((array, factor)) => self.numbers(of_cells, array, factor),
+                        None => Ok(Vec::new()),
+                    };
+                    let [u, v, w] = [part(parts[0])?, part(parts[1])?, part(parts[2])?];
+                    let w = w.into_iter().chain(std::iter::repeat(0.0));
+                    return Ok(u.into_iter().zip(v).zip(w).map(|((u, v), w)| Vec3::new(u, v, w)).collect());
+                }
+            }
+        }
+        let arrays = self.piece.point_data.iter().chain(&self.piece.cell_data);
+        Err(FieldFault::NoVelocity { found: arrays.map(|array| array.name.clone()).collect() }.into())
+    }
+
+    /// A quantity of one component, zero where the file has it negative.
+    fn scalar(&mut self, measure: Measure) -> Result<Option<Vec<f64>>, FieldError> {
+        for of_cells in [false, true] {
+            let (names, components) = self.list(of_cells);
+            let Some((array, factor)) = names::scalar(&names, &components, measure)? else {
+                continue;
+            };
+            let mut numbers = self.numbers(of_cells, array, factor)?;
+            let negative = numbers.iter().filter(|value| **value < 0.0).count() as u64;
+            if negative > 0 {
+                numbers.iter_mut().filter(|value| **value < 0.0).for_each(|value| *value = 0.0);
+                let array = crate::units::excerpt(&names[array].written, 40);
+                self.warnings.push(FieldWarning::Negative { array, points: negative });
+            }
+            return Ok(Some(numbers));
+        }
+        Ok(None)
+    }
+
+    fn arrays(&self, of_cells: bool) -> &[Array<'_>] {
+        if of_cells { &self.piece.cell_data } else { &self.piece.point_data }
+    }
+
+    fn list(&self, of_cells: bool) -> (Vec<Name>, Vec<usize>) {
+        self.arrays(of_cells).iter().map(|array| (Name::new(&array.name), array.components)).unzip()
+    }
+
+    /// The numbers of an array, at the points and in SI units.
+    fn numbers(&mut self, of_cells: bool, array: usize, factor: f64) -> Result<Vec<f64>, FieldError> {
+        let (points, cells) = self.piece.grid.counts()?;
+        let array = if of_cells { &self.piece.cell_data[array] } else { &self.piece.point_data[array] };
+        let mut numbers = array.floats(if of_cells { cells } else { points }, self.budget)?;
+        if of_cells {
+            numbers = self.piece.grid.to_points(&numbers, array.components, points);
+            let name = crate::units::excerpt(&array.name, 40);
+            self.warnings.push(FieldWarning::OfCells { array: name });
+        }
+        if factor != 1.0 {
+            numbers.iter_mut().for_each(|number| *number *= factor);
+        }
+        Ok(numbers)
+    }
+}

@@ -1,0 +1,289 @@
+//! VTK’s XML files: unstructured and structured grids, rectilinear grids, images.
+//!
+//! What stands before the bytes at the end of such a file is a small tree; arrays stay where they are in the
+//! file until they are asked for.
+
+use super::array::{Array, Number, Source};
+use super::encoding::{Budget, Compressor, Packing};
+use super::grid::{Grid, counted, vectors};
+use super::piece::{Piece, assemble};
+use super::unstructured::{Listed, Polyhedra};
+use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::field::{Field, FieldWarning};
+use crate::units::excerpt;
+use roxmltree::{Document, Node};
+use std::borrow::Cow;
+
+/// Reads a file.
+pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FieldError> {
+    let (text, appended) = parted(bytes)?;
+    let document = Document::parse(&text).map_err(|error| {
+        let fault = FieldFault::Xml { message: excerpt(&error.to_string(), 100) };
+        FieldError::from(fault).at(FieldPlace::Line(error.pos().row.into()))
+    })?;
+    let root = document.root_element();
+    if root.tag_name().name() != "VTKFile" {
+        let found = format!("an XML file of {}", excerpt(root.tag_name().name(), 40));
+        return Err(FieldFault::Format { found, advice: "write the field as a VTK file" }.into());
+    }
+    let kind = root.attribute("type").unwrap_or_default();
+    let Some(grid) = root.children().find(|node| node.has_tag_name(kind)) else {
+        return Err(FieldFault::CutOff { wanted: "the grid" }.into());
+    };
+    let mut budget = Budget::new();
+    let mut file = File { document: &document, format: Format::of(root)?, appended, offsets: offsets(grid) };
+    let mut pieces = Vec::new();
+    for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {
+        let read = file.piece(kind, grid, piece, &mut budget);
+        pieces.push(read.map_err(|error| error.at(file.line(piece)))?);
+    }
+    assemble(pieces, &mut budget)
+}
+
+/// Bytes at the end of a file.
+#[derive(Clone, Copy)]
+struct Appended<'a> {
+    bytes: &'a [u8],
+    base64: bool,
+}
+
+/// The text of a file, closed where bytes follow, and these.
+fn parted(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<Appended<'_>>), FieldError> {
+    const TAG: &[u8] = b"<AppendedData";
+    let tag = bytes.windows(TAG.len()).position(|window| window == TAG);
+    let text = str::from_utf8(&bytes[..tag.unwrap_or(bytes.len())]).map_err(|error| {
+        let fault = FieldFault::Xml { message: "it is not UTF-8 text".to_owned() };
+        FieldError::from(fault).at(FieldPlace::Byte(error.valid_up_to() as u64 + 1))
+    })?;
+    let Some(tag) = tag else {
+        return Ok((Cow::Borrowed(text), None));
+    };
+    let mut after = bytes[tag..].splitn(2, |byte| *byte == b'_');
+    let (attributes, Some(bytes)) = (after.next().unwrap_or_default(), after.next()) else {
+        return Err(FieldFault::CutOff { wanted: "the appended data" }.into());
+    };
+    let base64 = attributes.windows(6).any(|window| window == b"base64");
+    Ok((Cow::Owned(format!("{text}</VTKFile>")), Some(Appended { bytes, base64 })))
+}
+
+/// What a file says of its numbers.
+#[derive(Clone, Copy)]
+struct Format {
+    big_endian: bool,
+    compressor: Compressor,
+    wide_header: bool,
+}
+
+impl Format {
+    fn of(root: Node<'_, '_>) -> Result<Self, FieldError> {
+        let compressor = match root.attribute("compressor") {
+            None | Some("") => Compressor::None,
+            Some("vtkZLibDataCompressor") => Compressor::Zlib,
+            Some("vtkLZ4DataCompressor") => Compressor::Lz4,
+            Some(other) => {
+                let fault = FieldFault::Unsupported {
+                    found: format!("the compressor {}", excerpt(other, 40)),
+                    advice: "zlib, LZ4 or none",
+                };
+                return Err(fault.into());
+            }
+        };
+        Ok(Self {
+            big_endian: root.attribute("byte_order") == Some("BigEndian"),
+            compressor,
+            wide_header: root.attribute("header_type") == Some("UInt64"),
+        })
+    }
+}
+
+/// Where in the appended data arrays begin, in order.
+fn offsets(grid: Node<'_, '_>) -> Vec<usize> {
+    let mut offsets: Vec<usize> =
+        grid.descendants().filter_map(|node| node.attribute("offset")?.parse().ok()).collect();
+    offsets.sort_unstable();
+    offsets
+}
+
+struct File<'a, 'input> {
+    document: &'a Document<'input>,
+    format: Format,
+    appended: Option<Appended<'a>>,
+    offsets: Vec<usize>,
+}
+
+impl<'a> File<'a, '_> {
+    fn line(&self, node: Node<'_, '_>) -> FieldPlace {
+        FieldPlace::Line(self.document.text_pos_at(node.range().start).row.into())
+    }
+
+    fn piece(
+        &mut self,
+        kind: &str,
+        grid: Node<'a, '_>,
+        piece: Node<'a, '_>,
+        budget: &mut Budget,
+    ) -> Result<Piece<'a>, FieldError> {
+        let extent = || extent(piece).or_else(|_| extent(grid));
+        let [point_data, cell_data] = [self.arrays(piece, "PointData")?, self.arrays(piece, "CellData")?];
+        let grid = match kind {
+            "ImageData" => self.image(grid, extent()?)?,
+            "RectilinearGrid" => {
+                let (_, size) = extent()?;
+                let mut axes = self.arrays(piece, "Coordinates")?.into_iter();
+                let mut axis = |i: usize| match axes.next() {
+                    Some(axis) => axis.floats(size[i], budget),
+                    None => Err(FieldFault::CutOff { wanted: "the coordinates" }.into()),
+                };
+                Grid::Lattice([axis(0)?, axis(1)?, axis(2)?])
+            }
+            "StructuredGrid" => {
+                let (_, size) = extent()?;
+                Grid::Structured { size, points: self.points(piece, counted(size)?, budget)? }
+            }
+            "UnstructuredGrid" => {
+                let count = |name| number(piece, name);
+                let points = self.points(piece, count("NumberOfPoints")?, budget)?;
+                let listed = self.listed(piece, count("NumberOfCells")?, budget)?;
+                Grid::unstructured(points, &listed)?
+            }
+            other => {
+                let found = format!("a VTK file of {}", excerpt(other, 40));
+                let advice = "write an unstructured grid (.vtu), or name the file that holds one";
+                return Err(FieldFault::Format { found, advice }.into());
+            }
+        };
+        Ok(Piece { grid, point_data, cell_data })
+    }
+
+    fn image(&self, grid: Node<'_, '_>, (first, size): ([f64; 3], [usize; 3])) -> Result<Grid, FieldError> {
+        let origin = numbers(grid, "Origin")?.unwrap_or([0.0; 3]);
+        let spacing = numbers(grid, "Spacing")?.unwrap_or([1.0; 3]);
+        let upright = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        if numbers(grid, "Direction")?.is_some_and(|direction: [f64; 9]| direction != upright) {
+            let found = "an image whose axes are turned".to_owned();
+            return Err(FieldFault::Format { found, advice: "resample it along x, y and z" }.into());
+        }
+        Ok(Grid::Image { origin: [0, 1, 2].map(|i| origin[i] + first[i] * spacing[i]), spacing, size })
+    }
+
+    fn points(
+        &self,
+        piece: Node<'a, '_>,
+        count: usize,
+        budget: &mut Budget,
+    ) -> Result<Vec<crate::vec3::Vec3<f64>>, FieldError> {
+        let arrays = self.arrays(piece, "Points")?;
+        let array = arrays.first().ok_or(FieldFault::CutOff { wanted: "the points" })?;
+        if array.components != 3 {
+            return Err(array.fault(FieldFault::Count {
+                found: array.components,
+                wanted: 3,
+                of: "components",
+            }));
+        }
+        Ok(vectors(&array.floats(count, budget)?))
+    }
+
+    fn listed(&self, piece: Node<'a, '_>, count: usize, budget: &mut Budget) -> Result<Listed, FieldError> {
+        let arrays = self.arrays(piece, "Cells")?;
+        let find = |name: &str| arrays.iter().find(|array| array.name == name);
+        let need = |name: &'static str| find(name).ok_or(FieldFault::CutOff { wanted: name });
+        let types = need("types")?.so_many_integers(count, budget)?;
+        let ends = need("offsets")?.so_many_integers(count, budget)?;
+        let connectivity = need("connectivity")?.integers(budget)?;
+        let polyhedra = if let (Some(faces), Some(ends)) = (find("faces"), find("faceoffsets")) {
+            Polyhedra::Stream { faces: faces.integers(budget)?, ends: ends.integers(budget)? }
+        } else if let Some(points) = find("face_connectivity") {
+            Polyhedra::Table {
+                points: points.integers(budget)?,
+                ends: need("face_offsets")?.integers(budget)?,
+                faces: need("polyhedron_to_faces")?.integers(budget)?,
+                cell_ends: need("polyhedron_offsets")?.integers(budget)?,
+            }
+        } else {
+            Polyhedra::Inline
+        };
+        Ok(Listed { types, connectivity, ends, polyhedra })
+    }
+
+    /// The arrays of a part of a piece.
+    fn arrays(&self, piece: Node<'a, '_>, part: &str) -> Result<Vec<Array<'a>>, FieldError> {
+        let parts = piece.children().filter(|node| node.has_tag_name(part));
+        let arrays = parts.flat_map(|part| part.children()).filter(|node| node.has_tag_name("DataArray"));
+        arrays.map(|node| self.array(node).map_err(|error| error.at(self.line(node)))).collect()
+    }
+
+    fn array(&self, node: Node<'a, '_>) -> Result<Array<'a>, FieldError> {
+        let name = node.attribute("Name").unwrap_or_default().to_owned();
+        let written = node.attribute("type").unwrap_or_default();
+        let Some(number_type) = Number::of_xml(written) else {
+            let fault = FieldFault::Syntax { found: excerpt(written, 40), wanted: "a type of number" };
+            return Err(FieldError::from(fault).array(&name));
+        };
+        let components = match node.attribute("NumberOfComponents") {
+            None => 1,
+            Some(_) => number(node, "NumberOfComponents")?,
+        };
+        let Format { big_endian, compressor, wide_header } = self.format;
+        let inline = || node.children().filter_map(|child| child.text()).find(|text| !text.trim().is_empty());
+        let source = match node.attribute("format") {
+            Some("appended") => {
+                let Some(appended) = self.appended else {
+                    return Err(
+                        FieldError::from(FieldFault::CutOff { wanted: "the appended data" }).array(&name)
+                    );
+                };
+                let start = number(node, "offset")?;
+                let next = self.offsets.partition_point(|offset| *offset <= start);
+                let end = self.offsets.get(next).copied().unwrap_or(usize::MAX).min(appended.bytes.len());
+                let Some(bytes) = appended.bytes.get(start..end) else {
+                    return Err(FieldError::from(FieldFault::CutOff { wanted: "an array" }).array(&name));
+                };
+                let packing = Packing { base64: appended.base64, compressor, wide_header };
+                // In base 64 the file goes on after the last array.
+                let end = bytes.iter().position(|byte| *byte == b'<').filter(|_| appended.base64);
+                Source::Packed { bytes: &bytes[..end.unwrap_or(bytes.len())], packing, big_endian }
+            }
+            Some("binary") => {
+                let packing = Packing { base64: true, compressor, wide_header };
+                Source::Packed { bytes: inline().unwrap_or_default().trim().as_bytes(), packing, big_endian }
+            }
+            _ => Source::Text(inline().unwrap_or_default().as_bytes()),
+        };
+        Ok(Array { name, number: number_type, components, source, place: self.line(node) })
+    }
+}
+
+/// The first index along each axis and the number of points.
+fn extent(node: Node<'_, '_>) -> Result<([f64; 3], [usize; 3]), FieldError> {
+    let name = if node.has_tag_name("Piece") { "Extent" } else { "WholeExtent" };
+    let ends: [f64; 6] = numbers(node, name)?.ok_or(FieldFault::CutOff { wanted: name })?;
+    let size = [0, 1, 2].map(|i| ends[2 * i + 1] - ends[2 * i] + 1.0);
+    match size.into_iter().find(|size| !(*size >= 1.0 && *size <= 1e15)) {
+        None => Ok(([ends[0], ends[2], ends[4]], size.map(|size| size as usize))),
+        Some(size) => {
+            let fault =
+                FieldFault::Syntax { found: format!("{size}"), wanted: "a number of points of one or more" };
+            Err(FieldError::from(fault).array(name))
+        }
+    }
+}
+
+/// Numbers parted by blanks.
+fn numbers<const N: usize>(node: Node<'_, '_>, name: &'static str) -> Result<Option<[f64; N]>, FieldError> {
+    let Some(text) = node.attribute(name) else {
+        return Ok(None);
+    };
+    let numbers: Option<Vec<f64>> =
+        text.split_ascii_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    let fault = || FieldFault::Syntax { found: excerpt(text, 40), wanted: "a few numbers" };
+    let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+    numbers.map(Some).ok_or_else(|| FieldError::from(fault()).array(name))
+}
+
+/// A number of things.
+fn number(node: Node<'_, '_>, name: &'static str) -> Result<usize, FieldError> {
+    let text = node.attribute(name).unwrap_or_default();
+    let fault = || FieldFault::Syntax { found: excerpt(text, 40), wanted: "a whole number" };
+    text.trim().parse().map_err(|_| FieldError::from(fault()).array(name))
+}

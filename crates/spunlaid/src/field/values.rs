@@ -1,0 +1,70 @@
+//! Values at points, as they come in and as they are kept.
+
+use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::vec3::Vec3;
+
+/// Largest coordinate [m] and largest value [SI] that are taken; beyond, volumes and squares overflow.
+pub(super) const LARGEST: f64 = 1e30;
+
+/// `C_µ` of the k-ε model, by which the dissipation rate is `ε = C_µ k ω`        Wilcox 1988.
+pub(super) const C_MU: f64 = 0.09;
+
+/// Velocity along x, y and z [m/s], `k` [m²/s²] and `ε` [m²/s³] at a point.
+pub(super) type Quantities = [f64; 5];
+
+/// What a field says at its points, in SI units.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Values {
+    /// Mean velocity [m/s].
+    pub velocity: Vec<Vec3<f64>>,
+    /// Turbulent kinetic energy `k` [m²/s²]; empty where it is not known.
+    pub k: Vec<f64>,
+    /// Dissipation rate `ε` [m²/s³]; empty where it is not known.
+    pub epsilon: Vec<f64>,
+}
+
+impl Values {
+    /// Whether both `k` and `ε` are there.
+    pub fn has_turbulence(&self) -> bool {
+        !self.k.is_empty() && !self.epsilon.is_empty()
+    }
+
+    /// Adds values of further points.
+    pub(super) fn append(&mut self, mut more: Self) {
+        self.velocity.append(&mut more.velocity);
+        self.k.append(&mut more.k);
+        self.epsilon.append(&mut more.epsilon);
+    }
+
+    /// The values point by point, if each of `points` has its own.
+    pub(super) fn check(&self, points: usize) -> Result<Vec<Quantities>, FieldError> {
+        let lengths = [
+            ("velocity", self.velocity.len(), false),
+            ("k", self.k.len(), true),
+            ("epsilon", self.epsilon.len(), true),
+        ];
+        for (array, found, optional) in lengths {
+            if found != points && !(optional && found == 0) {
+                let fault = FieldFault::Count { found, wanted: points, of: "values" };
+                return Err(FieldError::from(fault).array(array));
+            }
+        }
+        let turbulent = self.has_turbulence();
+        let mut quantities = Vec::with_capacity(points);
+        for (i, velocity) in self.velocity.iter().enumerate() {
+            let [k, epsilon] = if turbulent { [self.k[i], self.epsilon[i]] } else { [0.0; 2] };
+            let values = [velocity.x, velocity.y, velocity.z, k, epsilon];
+            if let Some(value) = values.into_iter().find(|value| !in_range(*value)) {
+                return Err(FieldError::from(FieldFault::OutOfRange { value, most: LARGEST })
+                    .at(FieldPlace::Point(i as u64 + 1)));
+            }
+            quantities.push(values);
+        }
+        Ok(quantities)
+    }
+}
+
+/// Whether a number is finite and can be computed with.
+pub(super) fn in_range(value: f64) -> bool {
+    value.abs() <= LARGEST
+}
