@@ -4,11 +4,11 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
 use crate::args::Run;
 use crate::failure::Failure;
-use crate::figures::{png, run_figures};
+use crate::figures::{png, run_figures, significant};
 use crate::output::folder::Staging;
 use crate::output::summary::{Performance, Summary};
 use crate::output::tables::{END_NODE, ENERGY, Table};
-use crate::output::{paraview, table};
+use crate::output::{beside, paraview, table};
 use crate::report::{self, ReportInput};
 use crate::{progress, say};
 use spunlaid::case::{Case, Note};
@@ -45,7 +45,11 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     )?;
     let performance = performance(&case, computing, started.elapsed().as_secs_f64());
 
-    let notes: Vec<String> = notes.iter().map(Note::to_string).collect();
+    let mut notes: Vec<String> = notes.iter().map(Note::to_string).collect();
+    if let Some(outside) = outside(&results) {
+        say::warning(&outside);
+        notes.push(outside);
+    }
     let summary = Summary::new(&case, &results, performance, notes.clone()).to_json();
     let name = case_name(run).to_string_lossy().into_owned();
     let written = Written { name, case: &case, results: &results, notes, performance, summary: &summary };
@@ -101,6 +105,16 @@ fn flights(case: &Case, computing: Computing<'_>, staging: &Staging<'_>) -> Resu
     Ok(collector.finish())
 }
 
+/// What to say of fibres that leave the flow.
+fn outside(results: &Results) -> Option<String> {
+    let share = 100.0 * results.outside.filter(|share| *share > 0.0)?;
+    Some(format!(
+        "the fibres’ elements spend {} % of the time outside of what the flow knows, beyond its walls or its ends; there \
+         they fly in the air of the nearest known place. Is the root where it should be, and the fibre not too long?",
+        significant(share, 2)
+    ))
+}
+
 fn performance(case: &Case, computing: Computing<'_>, wall_s: f64) -> Performance {
     let threads = computing.threads.min(case.run.replicates.div_ceil(WIDTH as u64) as usize);
     let element_steps = case.fibre.elements as u64 * case.run.steps * case.run.replicates;
@@ -125,7 +139,8 @@ struct Written<'a> {
 
 impl Written<'_> {
     fn to(&self, staging: &Staging<'_>, computing: Computing<'_>) -> Result<(), Failure> {
-        let case_toml = write_case(self.case);
+        let copied = beside::copy([self.case], &staging.place(beside::CASE_FILES).0)?;
+        let case_toml = write_case(&beside::relocated(self.case, &copied));
         let turbulence = turbulence_spectrum(self.case, computing);
         let figures = run_figures(self.case, self.results, &turbulence);
         for figure in &figures {

@@ -1,5 +1,6 @@
 //! A results folder that is written whole or not at all.
 
+use super::beside::CASE_FILES;
 use super::leftovers::{self, Claim};
 use crate::failure::Failure;
 use std::fs;
@@ -7,8 +8,9 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What a results folder holds; the last one says that it is complete.
-const ENTRIES: [&str; 12] = [
+const ENTRIES: [&str; 13] = [
     "case.toml",
+    CASE_FILES,
     "end_node.parquet",
     "energy.parquet",
     "shape.pvd",

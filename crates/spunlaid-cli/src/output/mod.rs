@@ -1,6 +1,7 @@
 //! Files of a results folder.
 
 pub(crate) mod analysis;
+pub(crate) mod beside;
 pub(crate) mod folder;
 mod leftovers;
 pub(crate) mod paraview;

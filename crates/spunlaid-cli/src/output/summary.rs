@@ -55,6 +55,8 @@ struct ErrorSummary {
 #[derive(Debug, Serialize)]
 struct FibreSummary {
     max_strain: f64,
+    /// Share of the time outside of what the flow knows; null in a uniform flow.
+    share_outside_flow: Option<f64>,
 }
 
 /// How fast it went; the only part that differs from run to run.
@@ -97,6 +99,11 @@ struct CaseAir {
     density_kg_m3: f64,
     kinematic_viscosity_m2_s: f64,
     harmonics: usize,
+    /// Of a flow that is not uniform, the numbers above are those along the fibre.
+    flow: &'static str,
+    spectrum: &'static str,
+    eddies: &'static str,
+    records: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -146,7 +153,7 @@ impl<'a> Summary<'a> {
                 balance_error_percent: ledger(results.balance_error_percent),
                 tension_dissipation_percent: ledger(results.tension_dissipation_percent),
             },
-            fibre: FibreSummary { max_strain: results.max_strain },
+            fibre: FibreSummary { max_strain: results.max_strain, share_outside_flow: results.outside },
             performance,
             notes,
         }
@@ -188,6 +195,10 @@ fn resolved(case: &Case) -> CaseSummary {
             density_kg_m3: air.density,
             kinematic_viscosity_m2_s: air.kinematic_viscosity,
             harmonics: air.harmonics,
+            flow: air.flow.name(),
+            spectrum: air.spectrum.name(),
+            eddies: air.eddies.name(),
+            records: air.records.len(),
         },
         drag: CaseDrag {
             along: drag.along.name(),

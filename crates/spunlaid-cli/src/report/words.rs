@@ -1,6 +1,7 @@
 //! Numbers and sentences.
 
 use crate::figures::{signed, significant};
+use spunlaid::air::EddyModel;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::Results;
@@ -141,11 +142,16 @@ pub(super) fn case(case: &Case) -> String {
     } else if air.rms() == 0.0 {
         format!("in air of {} without turbulence", quantity(air.velocity, "m/s"))
     } else {
+        let along = if air.is_uniform() { "" } else { ", on average along the fibre" };
+        let eddies = match air.eddies {
+            EddyModel::Independent => format!("in eddies of {}", length(air.length_scale)),
+            EddyModel::Convected { .. } => "that is carried along the fibre".to_owned(),
+        };
+        let measured = if air.records.is_empty() { "" } else { "measured " };
         format!(
-            "in air of {} with {} turbulence in eddies of {}",
+            "in air of {} with {} {measured}turbulence {eddies}{along}",
             quantity(air.velocity, "m/s"),
             quantity(air.turbulence_intensity * 100.0, "%"),
-            length(air.length_scale)
         )
     };
     let scheme = match run.scheme {

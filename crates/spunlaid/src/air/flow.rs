@@ -40,6 +40,14 @@ pub struct LocalAir {
 }
 
 impl Flow {
+    /// What it is called.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::Profile(_) => "profile",
+        }
+    }
+
     /// What the flow can tell besides the velocity.
     pub fn tells(&self) -> FromFlow {
         match self {

@@ -61,6 +61,11 @@ impl Measured {
         }
     }
 
+    /// Stretches that one eddy takes at a time.
+    pub fn stretches_each(&self) -> usize {
+        self.directions().0
+    }
+
     /// Samples that a stretch of `duration` [s] takes, those before and after it included that its
     /// interpolation rests on.
     pub fn stretch(&self, duration: f64) -> f64 {

@@ -14,6 +14,7 @@ mod measured;
 mod profile;
 pub mod spectrum;
 mod stretches;
+mod surroundings;
 mod synthesis;
 mod tone;
 
@@ -25,8 +26,12 @@ pub use interpolation::Wind;
 pub use measured::{APART, Measured, Said};
 pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
+pub(crate) use surroundings::Breeze;
+pub use surroundings::Surroundings;
 pub use synthesis::{Stream, StreamKey, Turbulence};
 pub use tone::Tone;
+
+use std::path::{Path, PathBuf};
 
 /// The air of a case, in SI units. Where its flow varies from place to place, the numbers that the flow tells
 /// are those along the fibre, see [`Air::settle`].
@@ -91,6 +96,36 @@ impl Air {
             eddies: EddyModel::Independent,
             records: Vec::new(),
         }
+    }
+
+    /// The files that the air was read from.
+    pub fn files(&self) -> Vec<&Path> {
+        let mut files: Vec<&Path> = self.records.iter().map(FromFile::path).collect();
+        if let Flow::Profile(profile) = &self.flow {
+            files.push(profile.path());
+        }
+        if let SpectrumShape::Measured(table) = &self.spectrum {
+            files.push(table.path());
+        }
+        files
+    }
+
+    /// The same air, its files to be found elsewhere.
+    pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
+        fn moved<T>(file: &FromFile<T>, place: impl Fn(&Path) -> PathBuf) -> FromFile<T> {
+            file.moved_to(place(file.path()))
+        }
+        let mut air = self.clone();
+        for record in &mut air.records {
+            *record = moved(record, &place);
+        }
+        if let Flow::Profile(profile) = &mut air.flow {
+            *profile = moved(profile, &place);
+        }
+        if let SpectrumShape::Measured(table) = &mut air.spectrum {
+            *table = moved(table, &place);
+        }
+        air
     }
 
     /// Rms of each velocity component `u = Tu Ū` [m/s].

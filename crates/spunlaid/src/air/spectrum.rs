@@ -16,6 +16,17 @@ pub enum SpectrumShape {
     Measured(FromFile<SpectrumTable>),
 }
 
+impl SpectrumShape {
+    /// What it is called.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Flat => "flat",
+            Self::VonKarman => "von-karman",
+            Self::Measured(_) => "measured",
+        }
+    }
+}
+
 /// A spectrum as a table: straight lines between its points, nothing outside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectrumTable {

@@ -4,10 +4,11 @@ use super::keys::{self, Quantity};
 use super::memory::BUNDLE_MEMORY_LIMIT;
 use super::note::{Note, Remark};
 use super::{Case, StepLimit};
-use crate::air::Air;
+use crate::air::{Air, FromFile, Measured};
 use crate::chain::schemes::Scheme;
 use crate::error::{Fault, Finding, Place, Problem};
 use crate::units::Dimension;
+use crate::vec3::Vec3;
 
 /// Most steps of a run.
 pub const MOST_STEPS: u64 = 1_000_000_000_000;
@@ -38,6 +39,7 @@ impl Case {
             check.memory();
             check.times();
             check.repetition();
+            check.records();
         }
         if check.problems.is_empty() { Ok(self.notes()) } else { Err(check.problems) }
     }
@@ -70,6 +72,10 @@ impl Case {
         }
         if fibre.diameter > l {
             note(&keys::DIAMETER, fibre.diameter, Remark::ElementsStubby { element_length: l });
+        }
+        let (start, end) = (self.air.local(Vec3::default()), self.air.local(self.along()));
+        if !(start.inside && end.inside) {
+            note(&keys::LENGTH, fibre.length, Remark::LeavesFlow);
         }
         let felt = self.air.density > 0.0 && self.air.rms() > 0.0;
         if felt && self.air.length_scale < l * (1.0 - 1e-9) {
@@ -274,11 +280,50 @@ impl Check<'_> {
     fn repetition(&mut self) {
         let (air, duration) = (&self.case.air, self.case.run.duration());
         let cycles = air.cutoff_frequency * duration;
-        if air.rms() != 0.0 && air.harmonics as f64 <= cycles {
+        if air.records.is_empty() && air.rms() != 0.0 && air.harmonics as f64 <= cycles {
             let (repeat_time, least) = (air.repeat_time(), (cycles + 1.0).floor());
             let fault = Fault::Repeats { repeat_time, duration, least };
             self.blame_key(keys::HARMONICS, air.harmonics.to_string(), fault);
         }
+    }
+}
+
+/// The records that the turbulence is taken from.
+impl Check<'_> {
+    /// They must last for the flight of a fibre.
+    fn records(&mut self) {
+        let Some(shared) = self.case.air.records.first() else {
+            return;
+        };
+        let eddies = self.case.eddies();
+        let tones = self.case.tones(&eddies);
+        let (records, convected) = (self.case.air.records.len(), tones.iter().any(|t| t.carried.is_some()));
+        if convected && tones.iter().any(|tone| tone.forgotten > 0.0) {
+            let (other, remedy) =
+                (keys::DECAY_TIME.key, "a record is carried along as it is; leave that out");
+            self.blame_key(keys::RECORD, self.names(), Fault::Excludes { other, remedy });
+        } else if convected && records > 1 {
+            let (other, remedy) = ("air.eddies = \"convected\"", "one record is carried along; name one");
+            self.blame_key(keys::RECORD, self.names(), Fault::Excludes { other, remedy });
+        } else if records > 1 && records != eddies.count() {
+            let fault = Fault::RecordsPerEddy { records, eddies: eddies.count() };
+            self.blame_key(keys::RECORD, self.names(), fault);
+        }
+        let delay: f64 = tones.iter().filter_map(|tone| tone.carried).sum();
+        let duration = self.case.run.duration() + self.case.run.time_step + delay;
+        let sharing = if records == 1 && !convected { eddies.count() } else { 1 };
+        let stretches = (sharing * shared.stretches_each()) as f64;
+        let records: Vec<FromFile<Measured>> = self.case.air.records.clone();
+        for record in records.iter().filter(|record| record.stretches(duration) < stretches) {
+            let wanted = record.duration_for(stretches, duration);
+            let fault = Fault::RecordTooShort { stretches: stretches as u64, duration, wanted };
+            self.blame_key(keys::RECORD, format!("{}", record.path().display()), fault);
+        }
+    }
+
+    fn names(&self) -> String {
+        let paths = self.case.air.records.iter().map(|record| record.path().display().to_string());
+        paths.collect::<Vec<_>>().join(", ")
     }
 }
 

@@ -11,7 +11,7 @@ pub use memory::{BUNDLE_MEMORY_LIMIT, BundleMemory};
 pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
 
-use crate::air::{Air, Eddies, Tone};
+use crate::air::{Air, Eddies, Surroundings, Tone};
 use crate::chain::Strand;
 use crate::chain::schemes::Scheme;
 use crate::drag::Drag;
@@ -115,6 +115,21 @@ impl Case {
     /// The eddies along the fibre.
     pub fn eddies(&self) -> Eddies {
         self.air.eddies_along(self.along(), self.fibre.elements)
+    }
+
+    /// What fibres of as many elements have around them in these airs; nothing where they are uniform.
+    pub(crate) fn surroundings<'a>(&self, airs: impl Iterator<Item = &'a Air>) -> Option<Surroundings<'a>> {
+        if self.air.is_uniform() {
+            return None;
+        }
+        Some(Surroundings::new(airs.collect(), self.fibre.elements, self.steps_between_looks()))
+    }
+
+    /// Steps from one look at the flow around the fibre to the next: those in which the mean flow passes 1/64
+    /// of an eddy.
+    pub fn steps_between_looks(&self) -> u64 {
+        let passing = self.air.length_scale / self.air.velocity.abs();
+        ((passing / 64.0 / self.run.time_step) as u64).clamp(1, self.run.steps.max(1))
     }
 
     /// The turbulence of each of them.

@@ -75,6 +75,11 @@ pub enum Remark {
         /// Rest length of an element [m].
         element_length: f64,
     },
+    /// A fibre longer than the air is known along it.
+    #[error(
+        "reaches from the root beyond what the flow of the case knows; out there the air of the nearest known place is taken"
+    )]
+    LeavesFlow,
     /// Elements shorter than the fibre is thick.
     #[error("is longer than the elements, {}: the chain is finer than the fibre is thick", Dimension::Length.pretty(*element_length))]
     ElementsStubby {
@@ -86,6 +91,12 @@ pub enum Remark {
 impl Remark {
     /// Whether the results may mislead, rather than the input merely having been rounded.
     pub const fn is_warning(&self) -> bool {
-        matches!(self, Self::OutsideFit { .. } | Self::EddiesSkipped { .. } | Self::ElementsStubby { .. })
+        matches!(
+            self,
+            Self::OutsideFit { .. }
+                | Self::EddiesSkipped { .. }
+                | Self::LeavesFlow
+                | Self::ElementsStubby { .. }
+        )
     }
 }

@@ -4,7 +4,7 @@ use super::forces::Element;
 use super::ledger::{Sums, Work};
 use super::sweep::{Block, Motion, sweep};
 use super::{Chain, Constants};
-use crate::air::Gust;
+use crate::air::Breeze;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
@@ -18,7 +18,7 @@ use crate::vec3::Vec3;
 #[inline(always)]
 pub(crate) fn step<S: Register, const LEAPFROG: bool, const DAMPED: bool, const SPLIT: bool>(
     chain: &mut Chain,
-    wind: Gust<'_, S>,
+    wind: impl Breeze<S>,
     eddy: &[u32],
     (kick, drift): (f64, f64),
     work: &mut Work,

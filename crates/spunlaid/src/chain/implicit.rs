@@ -17,7 +17,7 @@ use super::forces::Element;
 use super::ledger::{Sums, Work};
 use super::sweep::{Block, Motion, sweep};
 use super::{Chain, Constants};
-use crate::air::Gust;
+use crate::air::Breeze;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
@@ -57,7 +57,7 @@ impl Tensions {
 #[inline(always)]
 pub(crate) fn step<S: Register, const DAMPED: bool, const SPLIT: bool>(
     chain: &mut Chain,
-    wind: Gust<'_, S>,
+    wind: impl Breeze<S>,
     eddy: &[u32],
     h: f64,
     work: &mut Work,

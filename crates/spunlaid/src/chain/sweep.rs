@@ -2,7 +2,7 @@
 
 use super::Constants;
 use super::forces::{Element, bending};
-use crate::air::Gust;
+use crate::air::Breeze;
 use crate::drag::{DragLanes, Split};
 use crate::lanes::{Register, Wide};
 use crate::vec3::Vec3;
@@ -32,10 +32,10 @@ pub(crate) trait Motion<S: Register> {
 /// long one, and a block stays in the nearest cache. The force on a node is complete, and handed over, when
 /// the element below it is done.
 #[inline(always)]
-pub(crate) fn sweep<S: Register, M: Motion<S>>(
+pub(crate) fn sweep<S: Register, M: Motion<S>, B: Breeze<S>>(
     motion: &mut M,
     c: &Constants,
-    wind: Gust<'_, S>,
+    wind: B,
     eddy: &[u32],
     block: &mut Block<S>,
 ) {
@@ -113,16 +113,18 @@ fn relative_velocity<S: Register>(
     motion: &impl Motion<S>,
     start: usize,
     block: &mut [Link<S>],
-    wind: Gust<'_, S>,
+    wind: impl Breeze<S>,
     eddy: &[u32],
 ) {
     let mut upper = motion.drag_velocity(start);
-    let (mut here, mut air) = (eddy[0], wind.velocity(eddy[0]));
+    let (mut here, mut signal) = (eddy[0], wind.signal(eddy[0]));
     for (j, (link, &eddy)) in (start + 1..).zip(block.iter_mut().zip(eddy)) {
         let lower = motion.drag_velocity(j);
         if eddy != here {
-            (here, air) = (eddy, wind.velocity(eddy));
+            (here, signal) = (eddy, wind.signal(eddy));
         }
+        // Element `j−1` lies above node `j`.
+        let air = wind.at(j - 1, signal);
         let relative = (upper + lower).neg_mul_add(Wide::splat(0.5), air);
         link.split = DragLanes::split(relative, link.element.tangent);
         upper = lower;

@@ -1,6 +1,6 @@
 //! Eight fibres flying side by side.
 
-use crate::air::{Eddies, Turbulence, Wind};
+use crate::air::{Eddies, Surroundings, Turbulence, Wind};
 use crate::chain::ledger::Work;
 use crate::chain::schemes::Scheme;
 use crate::chain::sweep::Block;
@@ -22,6 +22,8 @@ pub struct Bundle<'a> {
     start: Start,
     eddies: &'a Eddies,
     wind: Wind<'a>,
+    /// Where the air is not the same everywhere: what of it is around the fibres.
+    surroundings: Option<Surroundings<'a>>,
     work: Work,
     steps_done: u64,
     /// Steps whose positions the end-node statistics leave out.
@@ -51,12 +53,27 @@ pub struct Snapshot {
 }
 
 impl<'a> Bundle<'a> {
-    /// Straight fibres at rest in a wind, to be advanced by steps of `h` [s].
+    /// Straight fibres at rest in a wind that is the same everywhere but for its eddies, to be advanced by
+    /// steps of `h` [s].
     pub fn new(
         isa: Isa,
         strands: &[Strand],
         eddies: &'a Eddies,
         turbulence: &'a Turbulence,
+        scheme: Scheme,
+        h: f64,
+        spin_up: u64,
+    ) -> Self {
+        Self::within(isa, strands, (eddies, turbulence, None), scheme, h, spin_up)
+    }
+
+    /// Straight fibres at rest in air that may differ from place to place, to be advanced by steps of `h` [s].
+    ///
+    /// * `air` – with `surroundings`, the turbulence has a mean of zero and a rms of one
+    pub fn within(
+        isa: Isa,
+        strands: &[Strand],
+        (eddies, turbulence, surroundings): (&'a Eddies, &'a Turbulence, Option<Surroundings<'a>>),
         scheme: Scheme,
         h: f64,
         spin_up: u64,
@@ -71,6 +88,7 @@ impl<'a> Bundle<'a> {
             chain,
             eddies,
             wind: Wind::new(turbulence),
+            surroundings,
             work: Work::default(),
             steps_done: 0,
             spin_up,
@@ -149,12 +167,21 @@ impl<'a> Bundle<'a> {
         Snapshot { time, position, velocity, energy }
     }
 
+    /// Share of the time that the elements of a lane's fibre have spent outside of what the flow knows; none
+    /// where the air is the same everywhere.
+    pub fn outside(&self, lane: usize) -> Option<f64> {
+        self.surroundings.as_ref().map(|surroundings| surroundings.outside(lane))
+    }
+
     /// Remembers the start, and takes the first half kick where the scheme wants it.
     fn begin(&mut self) {
         let (position, velocity) = (self.chain.position.clone(), self.chain.velocity.clone());
         let energy = Energy::held(self.isa, &self.chain, &position, &velocity, &position);
         self.start = Start { position, velocity, energy };
         self.start_staggered();
+        if let Some(surroundings) = &mut self.surroundings {
+            surroundings.forget();
+        }
     }
 
     /// Takes the velocities from time 0 to half a step before, and makes the first extrapolation of the
@@ -194,6 +221,24 @@ impl<'a> Bundle<'a> {
     }
 }
 
+/// So many steps of a bundle in the wind of their time; a macro, for a closure would be called, not inlined.
+macro_rules! in_wind {
+    ($steps:expr, $b:ident, |$wind:ident, $eddy:ident| $step:block) => {
+        for _ in 0..$steps {
+            let gust = $b.wind.blow::<S>($b.steps_done as f64 * $b.h);
+            let $eddy = $b.eddies.of_element();
+            if let Some(surroundings) = &mut $b.surroundings {
+                let $wind = surroundings.around::<S>($b.steps_done, &$b.chain.position, gust);
+                $step
+            } else {
+                let $wind = gust;
+                $step
+            }
+            $b.count_step::<S>();
+        }
+    };
+}
+
 /// Steps of a bundle; with `SPLIT` the ledger keeps apart what the velocities before each kick gave.
 struct Advance<'b, 'a, const SPLIT: bool> {
     bundle: &'b mut Bundle<'a>,
@@ -222,9 +267,7 @@ impl<const SPLIT: bool> Advance<'_, '_, SPLIT> {
     fn steps<S: Register, const LEAPFROG: bool, const DAMPED: bool>(self) {
         let (b, by) = (self.bundle, self.kick_and_drift);
         let mut block = Block::new();
-        for _ in 0..self.steps {
-            let wind = b.wind.blow::<S>(b.steps_done as f64 * b.h);
-            let eddy = b.eddies.of_element();
+        in_wind!(self.steps, b, |wind, eddy| {
             explicit::step::<S, LEAPFROG, DAMPED, SPLIT>(
                 &mut b.chain,
                 wind,
@@ -233,20 +276,16 @@ impl<const SPLIT: bool> Advance<'_, '_, SPLIT> {
                 &mut b.work,
                 &mut block,
             );
-            b.count_step::<S>();
-        }
+        });
     }
 
     #[inline(always)]
     fn implicit_steps<S: Register, const DAMPED: bool>(self) {
         let b = self.bundle;
         let mut block = Block::new();
-        for _ in 0..self.steps {
-            let wind = b.wind.blow::<S>(b.steps_done as f64 * b.h);
-            let eddy = b.eddies.of_element();
+        in_wind!(self.steps, b, |wind, eddy| {
             implicit::step::<S, DAMPED, SPLIT>(&mut b.chain, wind, eddy, b.h, &mut b.work, &mut block);
-            b.count_step::<S>();
-        }
+        });
     }
 }
 

@@ -38,6 +38,9 @@ pub struct Flight {
     pub replicate: u64,
     /// Motion of the end node, from every step after the spin-up.
     pub end_node: EndNodeMotion,
+    /// Share of the time that its elements have spent outside of what the flow knows; none where the air is the
+    /// same everywhere.
+    pub outside: Option<f64>,
     /// Largest strain of an element at the recorded instants, by size [-].
     pub max_strain: f64,
     /// End node and energies at the recorded instants, the start included.
@@ -174,8 +177,8 @@ pub fn fly_together(
     let turbulence = Turbulence::of(computing.isa, &streams, horizon);
     let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
     let start = || {
-        let (scheme, h) = (run.scheme, run.time_step);
-        Bundle::new(computing.isa, &strands, &eddies, &turbulence, scheme, h, run.spin_up_steps)
+        let air = (&eddies, &turbulence, case.surroundings(jobs.iter().map(|job| &job.case.air)));
+        Bundle::within(computing.isa, &strands, air, run.scheme, run.time_step, run.spin_up_steps)
     };
     let mut bundle = start();
 
@@ -215,6 +218,7 @@ pub fn fly_together(
     for (lane, flight) in flights.iter_mut().enumerate() {
         flight.end_node = bundle.end_node().motion(lane, observed);
         flight.nodes = spread.nodes(lane);
+        flight.outside = bundle.outside(lane);
     }
     Ok(flights)
 }
@@ -230,7 +234,8 @@ pub fn pace(case: &Case, isa: Isa) -> f64 {
     let horizon = (steps * 100) as f64 * run.time_step;
     let turbulence = Turbulence::of(isa, &stream, horizon.min(run.duration()));
     let strands = [case.strand()];
-    let bundle = Bundle::new(isa, &strands, &eddies, &turbulence, run.scheme, run.time_step, 0);
+    let air = (&eddies, &turbulence, case.surroundings(std::iter::once(&case.air)));
+    let bundle = Bundle::within(isa, &strands, air, run.scheme, run.time_step, 0);
     let (mut done, started) = (0, Instant::now());
     while done == 0 || started.elapsed().as_secs_f64() < TRIAL {
         bundle.clone().advance(steps.min(run.steps));

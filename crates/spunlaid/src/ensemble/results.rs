@@ -19,6 +19,9 @@ pub struct Results {
     pub tension_dissipation_percent: LedgerError,
     /// Largest strain of any element at any recorded instant [-].
     pub max_strain: f64,
+    /// Share of the time that the fibres' elements have spent outside of what the flow knows, mean over the
+    /// replicates [-]; none where the air is the same everywhere.
+    pub outside: Option<f64>,
     /// Motion of the `N+1` nodes.
     pub nodes: Vec<NodeResults>,
     /// Both energy errors at the recorded instants.
@@ -90,6 +93,7 @@ pub struct Collector {
     finals: [Vec<f64>; 3],
     medians: [Vec<f64>; 3],
     max_strain: f64,
+    outside: Option<f64>,
     /// Per node, y and z: running mean and sum of squares over the replicates.
     nodes: Vec<[(f64, f64); 2]>,
     /// Per instant: time, and of both errors count, sum and largest.
@@ -114,6 +118,7 @@ impl Results {
             finals: Default::default(),
             medians: Default::default(),
             max_strain: 0.0,
+            outside: None,
             nodes: vec![Default::default(); case.fibre.elements + 1],
             errors: Vec::new(),
             spectra: [spectrum.clone(), spectrum],
@@ -132,6 +137,9 @@ impl Collector {
             all.push(value);
         }
         self.max_strain = self.max_strain.max(flight.max_strain);
+        if let Some(outside) = flight.outside {
+            *self.outside.get_or_insert(0.0) += outside;
+        }
         self.take_nodes(&flight.nodes);
         self.take_errors(flight);
         let flown = |axis: fn(&super::Sample) -> f64| -> Vec<f64> {
@@ -208,6 +216,7 @@ impl Collector {
             balance_error_percent: ledger(1),
             tension_dissipation_percent: ledger(2),
             max_strain: self.max_strain,
+            outside: self.outside.map(|sum| sum / n),
             nodes: nodes.collect(),
             errors: errors.collect(),
             motion_spectrum: y.iter().zip(&z).map(|(&(f, py), &(_, pz))| (f, py, pz)).collect(),

@@ -99,7 +99,11 @@ fn flow(d: &mut Document<'_>, files: &DataFiles) -> Flow {
     match d.file(keys::PROFILE) {
         Some(named) => match d.loaded(keys::PROFILE, named, |path| files.profile(path)) {
             Some(profile) => Flow::Profile(profile),
-            None => Flow::Uniform,
+            None => {
+                // Who knows what it would have told.
+                d.excuse("air.");
+                Flow::Uniform
+            }
         },
         None => Flow::Uniform,
     }
@@ -113,7 +117,10 @@ fn spectrum(d: &mut Document<'_>, files: &DataFiles) -> SpectrumShape {
             "von-karman" => SpectrumShape::VonKarman,
             _ => match d.loaded(keys::SPECTRUM, named, |path| files.spectrum(path)) {
                 Some(table) => SpectrumShape::Measured(table),
-                None => SpectrumShape::Flat,
+                None => {
+                    d.excuse(keys::CUTOFF_FREQUENCY.key);
+                    SpectrumShape::Flat
+                }
             },
         },
     }
@@ -148,7 +155,10 @@ fn records(d: &mut Document<'_>, files: &DataFiles) -> Vec<FromFile<Measured>> {
         let named = Named { place: entry.place.clone(), shown: entry.shown.clone(), text, path };
         match d.loaded(keys::RECORD, named, |path| files.record(path, rate)) {
             Some(record) => records.push(record),
-            None => return Vec::new(),
+            None => {
+                d.excuse("air.");
+                return Vec::new();
+            }
         }
     }
     let first = records.first().map_or(0.0, |record| 1.0 / record.interval);

@@ -56,6 +56,11 @@ impl<'a> Document<'a> {
         self.entries.remove(key)
     }
 
+    /// Has nothing told of keys that are missed; a table ends in a dot.
+    pub(super) fn excuse(&mut self, keys: &str) {
+        self.excused.push(keys.to_owned());
+    }
+
     /// Whether there is an entry of a key.
     pub(super) fn has(&self, quantity: &Quantity) -> bool {
         self.entries.contains_key(quantity.key)

@@ -243,7 +243,11 @@ impl Written {
         };
 
         let element_length = self.element_length.unwrap_or(air.length_scale.min(fibre.length));
-        let (elements, whole) = nearest_whole(fibre.length, element_length);
+        let (mut elements, whole) = nearest_whole(fibre.length, element_length);
+        if self.element_length.is_none() && !whole && (elements as f64) < fibre.length / element_length {
+            // No longer than an eddy: none is to be skipped.
+            elements += 1;
+        }
         fibre.elements = usize::try_from(elements.max(1)).unwrap_or(usize::MAX);
         if !whole {
             let remark =

@@ -30,7 +30,7 @@ struct Common {
     steps: [u64; 3],
     cutoff_frequency: u64,
     records: Vec<u32>,
-    uniform_flow: bool,
+    steps_between_looks: u64,
     harmonics: usize,
     scheme: &'static str,
     damped: bool,
@@ -46,7 +46,8 @@ impl Common {
             steps: [run.steps, run.spin_up_steps, run.output_steps],
             cutoff_frequency: air.cutoff_frequency.to_bits(),
             records: air.records.iter().map(FromFile::checksum).collect(),
-            uniform_flow: air.is_uniform(),
+            // None is in a uniform flow.
+            steps_between_looks: if air.is_uniform() { 0 } else { case.steps_between_looks() },
             harmonics: air.harmonics,
             scheme: run.scheme.name(),
             damped: run.damping != 0.0,

@@ -1,6 +1,7 @@
 //! The results folder of a study: what it holds, whose it is, and how it is filled.
 
 use crate::failure::Failure;
+use crate::output::beside::{self, CASE_FILES};
 use spunlaid::error::{Error, JournalError};
 use spunlaid::input::{StudyFile, differences};
 use spunlaid::study::{Found, Header, Journal};
@@ -119,11 +120,24 @@ impl StudyFolder {
 
     fn describe(&self, file: &StudyFile) -> Result<(), Failure> {
         let staging = self.staging()?;
-        for (name, text) in [(CASE, &file.case_text), (STUDY, &file.text)] {
+        let case_text = self.keep_files(file)?;
+        for (name, text) in [(CASE, &case_text), (STUDY, &file.text)] {
             let (from, to) = (staging.join(name), self.path.join(name));
             fs::write(&from, text).and_then(|()| fs::rename(&from, &to)).map_err(Failure::unwritable(&to))?;
         }
         remove(&staging)
+    }
+
+    /// Copies the files that the case names; gives the case's text with the paths of the copies.
+    fn keep_files(&self, file: &StudyFile) -> Result<String, Failure> {
+        let cases = file.study.points.iter().map(|point| &point.case);
+        let copied = beside::copy(cases, &self.path.join(CASE_FILES))?;
+        let folder = file.case_path.parent().unwrap_or(Path::new(""));
+        Ok(copied.iter().fold(file.case_text.clone(), |text, (from, to)| {
+            let written = from.strip_prefix(folder).unwrap_or(from);
+            let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());
+            text.replace(&quoted(written), &quoted(to))
+        }))
     }
 
     /// What the study found here says otherwise.

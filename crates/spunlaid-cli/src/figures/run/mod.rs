@@ -1,5 +1,6 @@
 //! The figures of a run.
 
+mod air;
 mod energy;
 mod motion;
 mod spectra;
@@ -21,6 +22,9 @@ pub(crate) fn run_figures(case: &Case, results: &Results, turbulence: &[Spectrum
         motion::amplitude_along_fibre(case, &results.nodes),
         spectra::motion(results),
     ];
+    if !case.air.is_uniform() {
+        figures.push(air::along_fibre(case));
+    }
     if !turbulence.is_empty() {
         figures.push(spectra::turbulence(case, turbulence));
     }

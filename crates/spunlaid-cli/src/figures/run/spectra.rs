@@ -5,6 +5,7 @@ use super::super::chart::{Chart, Series};
 use super::super::palette::GREEN;
 use super::super::scale::Axis;
 use super::{MM, figure, significant};
+use spunlaid::air::SpectrumShape;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Results, SpectrumPoint};
 
@@ -43,25 +44,49 @@ pub(super) fn motion(results: &Results) -> Figure {
 
 /// The spectrum of the turbulence, as made and as asked for.
 pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
-    let cutoff = case.air.cutoff_frequency;
+    let air = &case.air;
+    let cutoff = air.cutoff_frequency;
     let shown: Vec<_> = turbulence.iter().filter(|p| p.frequency <= 2.0 * cutoff).collect();
     let realised: Vec<_> = shown.iter().map(|p| (p.frequency, p.realised)).collect();
-    let level = case.air.rms().powi(2) / cutoff;
-    let wanted = [(0.0, level), (cutoff, level), (cutoff, 0.0), (2.0 * cutoff, 0.0)];
     let chart = Chart::new(
         "turbulence_spectrum",
         "Spectrum of the turbulence",
         Axis::linear("Frequency *f* (Hz)").tight(),
-        Axis::linear("Power spectral density [(m/s)²/Hz]").zero_based(),
+        Axis::linear(if air.is_uniform() {
+            "Power spectral density [(m/s)²/Hz]"
+        } else {
+            "Power spectral density over variance (1/Hz)"
+        })
+        .zero_based(),
     )
-    .line(Series::new("realised", GREEN), &realised)
-    .line(Series::reference("wanted"), &wanted);
+    .line(Series::new("realised", GREEN), &realised);
+    let what = "What the simulated turbulence holds at each frequency, averaged over components, eddies and up to eight \
+                replicates";
+    let rms = if air.is_uniform() {
+        format!("rms {} m/s per component", significant(air.rms(), 3))
+    } else {
+        "each eddy’s by its own variance".to_owned()
+    };
+    if !air.records.is_empty() {
+        let caption = format!("{what}: stretches of the record as it was measured, {rms}.");
+        return figure(&chart, caption);
+    }
+    let wanted: Vec<_> = match air.spectrum {
+        SpectrumShape::Flat if air.is_uniform() => {
+            let level = air.rms().powi(2) / cutoff;
+            vec![(0.0, level), (cutoff, level), (cutoff, 0.0), (2.0 * cutoff, 0.0)]
+        }
+        _ => shown.iter().map(|p| (p.frequency, p.wanted)).collect(),
+    };
+    let shape = match air.spectrum {
+        SpectrumShape::Flat => "flat",
+        SpectrumShape::VonKarman => "von Kármán",
+        SpectrumShape::Measured(_) => "measured",
+    };
     let caption = format!(
-        "What the simulated turbulence holds at each frequency, averaged over components, eddies and up to \
-         eight replicates, against the flat spectrum asked for (dashed): rms {} m/s per component, nothing \
-         above {} Hz. The lowest point and the flank at the cut-off are blurred by the analysis.",
-        significant(case.air.rms(), 3),
+        "{what}, against the {shape} spectrum asked for (dashed): {rms}, nothing above {} Hz. The lowest point and the flank \
+         at the cut-off are blurred by the analysis.",
         significant(cutoff, 3),
     );
-    figure(&chart, caption)
+    figure(&chart.line(Series::reference("wanted"), &wanted), caption)
 }

@@ -218,7 +218,8 @@ fn take_apart<'h>(header: &'h str, wanted: &Wanted) -> Option<(String, Option<&'
     if wanted.names.contains(&whole.as_str()) {
         return Some((whole, None));
     }
-    let joints = header.char_indices().filter(|(_, c)| *c == '_');
+    // The longest name that is known: of cutoff_frequency_hz it is not cutoff.
+    let joints = header.char_indices().rev().filter(|(_, c)| *c == '_');
     joints
         .map(|(at, _)| (tidy(&header[..at]), Some(&header[at + 1..])))
         .find(|(name, _)| wanted.names.contains(&name.as_str()))

@@ -35,6 +35,8 @@ pub struct StudyFile {
     pub notes: Vec<StudyNote>,
     /// The text of the base case, as it is.
     pub case_text: String,
+    /// What the base case is called: its path, where it is a file.
+    pub case_path: PathBuf,
     /// The study as a file, every default written out; it names the case `case.toml`.
     pub text: String,
 }
@@ -84,7 +86,7 @@ pub fn parse_study(
     let (resolved, notes) = resolver.points()?;
     let study = plan.study(resolved);
     let text = write::write_study(&study);
-    Ok(StudyFile { study, notes, case_text, text })
+    Ok(StudyFile { study, notes, case_path: PathBuf::from(&case_name), case_text, text })
 }
 
 /// A key whose value is a number.

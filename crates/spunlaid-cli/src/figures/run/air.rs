@@ -1,0 +1,47 @@
+//! The air that the fibre flies in, where it is not the same everywhere.
+
+use super::super::Figure;
+use super::super::chart::{Chart, Series};
+use super::super::palette::GREEN;
+use super::super::scale::Axis;
+use super::{MM, figure, significant};
+use spunlaid::air::LocalAir;
+use spunlaid::case::Case;
+
+/// Places that are asked along the fibre.
+const PLACES: usize = 201;
+
+/// Mean velocity and turbulence along the straight fibre.
+pub(super) fn along_fibre(case: &Case) -> Figure {
+    let (along, length) = (case.along(), case.fibre.length);
+    let share = |i: usize| i as f64 / (PLACES - 1) as f64;
+    let places: Vec<(f64, LocalAir)> =
+        (0..PLACES).map(|i| (length * share(i) * MM, case.air.local(along * share(i)))).collect();
+    let mean: Vec<_> = places.iter().map(|(s, air)| (*s, air.velocity.x)).collect();
+    let band: Vec<_> =
+        places.iter().map(|(s, air)| (*s, air.velocity.x - air.rms, air.velocity.x + air.rms)).collect();
+    let chart = Chart::new(
+        "air_along_fibre",
+        "Air along the fibre",
+        Axis::linear("Distance from the root (mm)").tight(),
+        Axis::linear("Velocity along *x* (m/s)"),
+    )
+    .band(Series::new("± rms of the fluctuation", GREEN), &band)
+    .line(Series::new("mean", GREEN), &mean);
+    let between = |of: fn(&LocalAir) -> f64, scale: f64, unit: &str| {
+        let values = || places.iter().map(|(_, air)| of(air) * scale);
+        let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));
+        if most - least <= 1e-9 * most {
+            format!("{} {unit}", significant(most, 3))
+        } else {
+            format!("{} to {} {unit}", significant(least, 3), significant(most, 3))
+        }
+    };
+    let caption = format!(
+        "The air where the straight fibre would lie: mean velocity along x, and the rms of each component of the turbulence \
+         about it. Eddies of {} length, nothing above {}.",
+        between(|air| air.length_scale, MM, "mm"),
+        between(|air| air.cutoff_frequency, 1.0, "Hz"),
+    );
+    figure(&chart, caption)
+}

@@ -1,0 +1,135 @@
+//! The air that eight fibres have around them, where it is not the same everywhere.
+
+use super::{Air, Gust};
+use crate::lanes::{Lanes, Register, WIDTH, Wide};
+use crate::vec3::Vec3;
+
+/// The wind at one instant, element by element.
+pub(crate) trait Breeze<S: Register>: Copy {
+    /// What is the same in all of an eddy.
+    fn signal(&self, eddy: u32) -> Vec3<Wide<S>>;
+
+    /// Velocity of the air at element `j` [m/s], `signal` that of its eddy.
+    fn at(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>>;
+}
+
+impl<S: Register> Breeze<S> for Gust<'_, S> {
+    #[inline(always)]
+    fn signal(&self, eddy: u32) -> Vec3<Wide<S>> {
+        self.velocity(eddy)
+    }
+
+    #[inline(always)]
+    fn at(&self, _: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
+        signal
+    }
+}
+
+/// Mean velocity and rms where an element is, of eight fibres.
+///
+/// Looked up every few steps and carried on along a straight line from the last two looks in between: the
+/// error is of second order in the time between them.
+#[derive(Clone, Copy, Debug, Default)]
+struct Place {
+    /// Velocity x, y, z and rms at the last look [m/s].
+    value: [Lanes; 4],
+    /// Their rise in a step [m/s].
+    rise: [Lanes; 4],
+}
+
+/// The air around the elements of eight fibres.
+#[derive(Clone, Debug)]
+pub struct Surroundings<'a> {
+    airs: Vec<&'a Air>,
+    places: Vec<Place>,
+    /// Steps from one look to the next.
+    every: u64,
+    looked: bool,
+    /// Of each fibre's looks, those at elements outside of what the flow knows, and all.
+    outside: [u64; WIDTH],
+    looks: u64,
+}
+
+impl<'a> Surroundings<'a> {
+    /// * `airs` – of up to eight fibres; lanes left over repeat the first
+    /// * `every` – steps from one look at the flow to the next
+    pub fn new(airs: Vec<&'a Air>, elements: usize, every: u64) -> Self {
+        let places = vec![Place::default(); elements];
+        Self { airs, places, every, looked: false, outside: [0; WIDTH], looks: 0 }
+    }
+
+    /// Share of the time that the elements of a lane's fibre have spent outside of what the flow knows.
+    pub fn outside(&self, lane: usize) -> f64 {
+        if self.looks == 0 { 0.0 } else { self.outside[lane] as f64 / self.looks as f64 }
+    }
+
+    /// Forgets the looks so far.
+    pub(crate) fn forget(&mut self) {
+        *self = Self::new(std::mem::take(&mut self.airs), self.places.len(), self.every);
+    }
+
+    /// The wind before a step: `gust` where and as strong as the elements feel it.
+    pub(crate) fn around<'s, S: Register>(
+        &'s mut self,
+        step: u64,
+        position: &[Vec3<Lanes>],
+        gust: Gust<'s, S>,
+    ) -> LocalGust<'s, S> {
+        let since = step % self.every;
+        if since == 0 {
+            self.look(position);
+        }
+        LocalGust { gust, places: &self.places, steps: Wide::splat(since as f64) }
+    }
+
+    #[inline(never)]
+    fn look(&mut self, position: &[Vec3<Lanes>]) {
+        let per_step = 1.0 / self.every as f64;
+        for (place, ends) in self.places.iter_mut().zip(position.windows(2)) {
+            let mut value = [Lanes::ZERO; 4];
+            for lane in 0..WIDTH {
+                if lane >= self.airs.len() {
+                    value.iter_mut().for_each(|of| of.0[lane] = of.0[0]);
+                    continue;
+                }
+                let centre = (ends[0].lane(lane) + ends[1].lane(lane)) * 0.5;
+                let air = self.airs[lane].local(centre);
+                self.outside[lane] += u64::from(!air.inside);
+                let found = [air.velocity.x, air.velocity.y, air.velocity.z, air.rms];
+                value.iter_mut().zip(found).for_each(|(of, found)| of.0[lane] = found);
+            }
+            let rise = |i: usize| (value[i] - place.value[i]) * Lanes::splat(per_step);
+            let rise = if self.looked { std::array::from_fn(rise) } else { [Lanes::ZERO; 4] };
+            *place = Place { value, rise };
+        }
+        self.looks += self.places.len() as u64;
+        self.looked = true;
+    }
+}
+
+/// A [`Gust`] of rms one and mean zero in the flow around the elements.
+#[derive(Clone, Copy)]
+pub(crate) struct LocalGust<'a, S: Register> {
+    gust: Gust<'a, S>,
+    places: &'a [Place],
+    /// Steps since the last look.
+    steps: Wide<S>,
+}
+
+impl<S: Register> Breeze<S> for LocalGust<'_, S> {
+    #[inline(always)]
+    fn signal(&self, eddy: u32) -> Vec3<Wide<S>> {
+        self.gust.velocity(eddy)
+    }
+
+    #[inline(always)]
+    fn at(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
+        let Place { value, rise } = &self.places[j];
+        // No closures here: they would be called, not inlined.
+        let rms = Wide::load(&rise[3]).mul_add(self.steps, Wide::load(&value[3]));
+        let x = Wide::load(&rise[0]).mul_add(self.steps, Wide::load(&value[0]));
+        let y = Wide::load(&rise[1]).mul_add(self.steps, Wide::load(&value[1]));
+        let z = Wide::load(&rise[2]).mul_add(self.steps, Wide::load(&value[2]));
+        Vec3::new(signal.x.mul_add(rms, x), signal.y.mul_add(rms, y), signal.z.mul_add(rms, z))
+    }
+}
