@@ -1,6 +1,7 @@
 //! How the mean flow, and the strength and size of its turbulence, change from place to place.
 
-use super::{Air, FromFile, Profile};
+use super::{Air, FromFile, PlacedField, Profile};
+use crate::field::Hint;
 use crate::vec3::Vec3;
 
 /// Where the mean flow comes from.
@@ -11,6 +12,8 @@ pub enum Flow {
     Uniform,
     /// Along x as in a table.
     Profile(FromFile<Profile>),
+    /// In space as a CFD solution has it.
+    Field(PlacedField),
 }
 
 /// Which of the case's numbers the flow tells in their place.
@@ -45,6 +48,7 @@ impl Flow {
         match self {
             Self::Uniform => "uniform",
             Self::Profile(_) => "profile",
+            Self::Field(_) => "field",
         }
     }
 
@@ -57,6 +61,14 @@ impl Flow {
                 length_scale: !profile.length_scale.is_empty(),
                 cutoff_frequency: !profile.cutoff_frequency.is_empty(),
             },
+            Self::Field(PlacedField { field, .. }) => {
+                let turbulent = field.has_turbulence();
+                FromFlow {
+                    turbulence_intensity: turbulent,
+                    length_scale: turbulent,
+                    cutoff_frequency: turbulent,
+                }
+            }
         }
     }
 }
@@ -67,8 +79,10 @@ impl Air {
         self.flow == Flow::Uniform
     }
 
-    /// The air at a place, from the root, x along the fibre's axis of gravity [m].
-    pub fn local(&self, at: Vec3<f64>) -> LocalAir {
+    /// The air at a place, from the root, x the way of gravity [m].
+    ///
+    /// * `hint` – of the last place near by: saves time and changes nothing
+    pub fn local(&self, at: Vec3<f64>, hint: &mut Hint) -> LocalAir {
         match &self.flow {
             Flow::Uniform => LocalAir {
                 velocity: Vec3::new(self.velocity, 0.0, 0.0),
@@ -78,6 +92,38 @@ impl Air {
                 inside: true,
             },
             Flow::Profile(profile) => self.of_profile(profile, at.x),
+            Flow::Field(field) => self.of_field(field, at, hint),
+        }
+    }
+
+    /// Turbulence from `k` and `ε`: rms √(2k/3), length `C_L k^1.5/ε`, and the cut-off `1/(4T)` of the flat
+    /// spectrum whose integral time is that of eddies which pass by and turn over, `1/T = |U|/L + ε/(C_T k)`.
+    /// theory.md (39), (40)
+    fn of_field(&self, placed: &PlacedField, at: Vec3<f64>, hint: &mut Hint) -> LocalAir {
+        let found = placed.at(at, hint);
+        let factor = self.speed_factor;
+        let velocity = found.velocity * factor;
+        let (k, epsilon) = (found.k * factor * factor, found.epsilon * factor * factor * factor);
+        let speed = velocity.norm();
+        let from = self.from_flow;
+        let turbulent = k > 0.0 && epsilon > 0.0;
+        let told = if turbulent { placed.length_constant * k * k.sqrt() / epsilon } else { f64::INFINITY };
+        let length_scale = if from.length_scale { told.min(placed.size()) } else { self.length_scale };
+        let turnover = if turbulent { epsilon / (placed.time_constant * k) } else { 0.0 };
+        LocalAir {
+            velocity,
+            rms: if from.turbulence_intensity {
+                (2.0 / 3.0 * k).sqrt()
+            } else {
+                self.turbulence_intensity * speed
+            },
+            length_scale,
+            cutoff_frequency: if from.cutoff_frequency {
+                0.25 * (speed / length_scale + turnover)
+            } else {
+                self.cutoff_frequency
+            },
+            inside: found.inside,
         }
     }
 
@@ -117,7 +163,8 @@ impl Air {
         }
         const PLACES: usize = 256;
         let places = (0..PLACES).map(|i| along * ((i as f64 + 0.5) / PLACES as f64));
-        let local: Vec<LocalAir> = places.map(|at| self.local(at)).collect();
+        let mut hint = Hint::default();
+        let local: Vec<LocalAir> = places.map(|at| self.local(at, &mut hint)).collect();
         let mean = |of: &dyn Fn(&LocalAir) -> f64| local.iter().map(of).sum::<f64>() / PLACES as f64;
         let speed = mean(&|air| air.velocity.norm());
         self.velocity = if mean(&|air| air.velocity.x) < 0.0 { -speed } else { speed };

@@ -11,6 +11,7 @@ mod flow;
 mod from_file;
 mod interpolation;
 mod measured;
+mod placed_field;
 mod profile;
 pub mod spectrum;
 mod stretches;
@@ -24,6 +25,7 @@ pub use from_file::FromFile;
 pub(crate) use interpolation::Gust;
 pub use interpolation::Wind;
 pub use measured::{APART, Measured, Said};
+pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
 pub(crate) use surroundings::Breeze;
@@ -101,8 +103,10 @@ impl Air {
     /// The files that the air was read from.
     pub fn files(&self) -> Vec<&Path> {
         let mut files: Vec<&Path> = self.records.iter().map(FromFile::path).collect();
-        if let Flow::Profile(profile) = &self.flow {
-            files.push(profile.path());
+        match &self.flow {
+            Flow::Uniform => {}
+            Flow::Profile(profile) => files.push(profile.path()),
+            Flow::Field(placed) => files.push(placed.field.path()),
         }
         if let SpectrumShape::Measured(table) = &self.spectrum {
             files.push(table.path());
@@ -119,8 +123,10 @@ impl Air {
         for record in &mut air.records {
             *record = moved(record, &place);
         }
-        if let Flow::Profile(profile) = &mut air.flow {
-            *profile = moved(profile, &place);
+        match &mut air.flow {
+            Flow::Uniform => {}
+            Flow::Profile(profile) => *profile = moved(profile, &place),
+            Flow::Field(placed) => placed.field = moved(&placed.field, &place),
         }
         if let SpectrumShape::Measured(table) = &mut air.spectrum {
             *table = moved(table, &place);

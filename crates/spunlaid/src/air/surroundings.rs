@@ -1,6 +1,7 @@
 //! The air that eight fibres have around them, where it is not the same everywhere.
 
 use super::{Air, Gust};
+use crate::field::Hint;
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use crate::vec3::Vec3;
 
@@ -42,6 +43,8 @@ struct Place {
 pub struct Surroundings<'a> {
     airs: Vec<&'a Air>,
     places: Vec<Place>,
+    /// Where each fibre's element was found last.
+    hints: Vec<[Hint; WIDTH]>,
     /// Steps from one look to the next.
     every: u64,
     looked: bool,
@@ -55,7 +58,8 @@ impl<'a> Surroundings<'a> {
     /// * `every` – steps from one look at the flow to the next
     pub fn new(airs: Vec<&'a Air>, elements: usize, every: u64) -> Self {
         let places = vec![Place::default(); elements];
-        Self { airs, places, every, looked: false, outside: [0; WIDTH], looks: 0 }
+        let hints = vec![[Hint::default(); WIDTH]; elements];
+        Self { airs, places, hints, every, looked: false, outside: [0; WIDTH], looks: 0 }
     }
 
     /// Share of the time that the elements of a lane's fibre have spent outside of what the flow knows.
@@ -85,7 +89,8 @@ impl<'a> Surroundings<'a> {
     #[inline(never)]
     fn look(&mut self, position: &[Vec3<Lanes>]) {
         let per_step = 1.0 / self.every as f64;
-        for (place, ends) in self.places.iter_mut().zip(position.windows(2)) {
+        let places = self.places.iter_mut().zip(&mut self.hints);
+        for ((place, hints), ends) in places.zip(position.windows(2)) {
             let mut value = [Lanes::ZERO; 4];
             for lane in 0..WIDTH {
                 if lane >= self.airs.len() {
@@ -93,7 +98,7 @@ impl<'a> Surroundings<'a> {
                     continue;
                 }
                 let centre = (ends[0].lane(lane) + ends[1].lane(lane)) * 0.5;
-                let air = self.airs[lane].local(centre);
+                let air = self.airs[lane].local(centre, &mut hints[lane]);
                 self.outside[lane] += u64::from(!air.inside);
                 let found = [air.velocity.x, air.velocity.y, air.velocity.z, air.rms];
                 value.iter_mut().zip(found).for_each(|(of, found)| of.0[lane] = found);

@@ -1,6 +1,7 @@
 //! What the turbulence of one eddy is made of.
 
 use super::{Air, Eddies, EddyModel, Spectrum};
+use crate::field::Hint;
 use crate::vec3::Vec3;
 
 /// The turbulence of one eddy: how strong, how fast, and how it follows from that of the eddy above.
@@ -57,7 +58,7 @@ impl Air {
             EddyModel::Convected { .. } => Eddies::of_each(elements),
             EddyModel::Independent if self.from_flow.length_scale => {
                 let place = |s: f64| along * (s / length).min(1.0);
-                Eddies::growing(length, elements, |s| self.local(place(s)).length_scale)
+                Eddies::growing(length, elements, |s| self.local(place(s), &mut Hint::default()).length_scale)
             }
             EddyModel::Independent => Eddies::along(length, elements, self.length_scale),
         }
@@ -70,7 +71,7 @@ impl Air {
     ///
     /// * `along` – from its root to its end [m]
     pub fn tones(&self, along: Vec3<f64>, elements: usize, eddies: &Eddies) -> Vec<Tone> {
-        let mut above = 0.0;
+        let (mut above, mut hint) = (0.0, Hint::default());
         let spacing = along.norm() / elements as f64;
         let middles = eddies.middles().into_iter();
         middles
@@ -79,7 +80,7 @@ impl Air {
                 let mut tone = self.tone();
                 let mut speed = self.velocity.abs();
                 if !self.is_uniform() {
-                    let air = self.local(along * (middle / elements as f64));
+                    let air = self.local(along * (middle / elements as f64), &mut hint);
                     speed = air.velocity.norm();
                     tone.mean = 0.0;
                     tone.rms = 1.0;

@@ -7,6 +7,7 @@ use super::{Case, StepLimit};
 use crate::air::{Air, FromFile, Measured};
 use crate::chain::schemes::Scheme;
 use crate::error::{Fault, Finding, Place, Problem};
+use crate::field::Hint;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 
@@ -73,8 +74,10 @@ impl Case {
         if fibre.diameter > l {
             note(&keys::DIAMETER, fibre.diameter, Remark::ElementsStubby { element_length: l });
         }
-        let (start, end) = (self.air.local(Vec3::default()), self.air.local(self.along()));
-        if !(start.inside && end.inside) {
+        // At the centres of the first and the last element.
+        let centres = [0.5 * l, fibre.length - 0.5 * l].map(|s| fibre.direction * s);
+        let knows = |at: Vec3<f64>| self.air.local(at, &mut Hint::default()).inside;
+        if !centres.into_iter().all(knows) {
             note(&keys::LENGTH, fibre.length, Remark::LeavesFlow);
         }
         let felt = self.air.density > 0.0 && self.air.rms() > 0.0;

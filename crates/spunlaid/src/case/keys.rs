@@ -48,6 +48,9 @@ pub(crate) const VISCOSITY: Quantity =
 
 pub(crate) const SPEED_FACTOR: Quantity = quantity("air.speed_factor", Dimension::Ratio, Positive);
 pub(crate) const RECORD_RATE: Quantity = quantity("air.record_rate", Dimension::Frequency, Positive);
+pub(crate) const FIELD_UNIT: Quantity = quantity("air.field_unit", Dimension::Length, Positive);
+pub(crate) const LENGTH_CONSTANT: Quantity = quantity("air.length_constant", Dimension::Ratio, Positive);
+pub(crate) const TIME_CONSTANT: Quantity = quantity("air.time_constant", Dimension::Ratio, Positive);
 pub(crate) const DECAY_TIME: Quantity = quantity("air.decay_time", Dimension::Time, Positive);
 
 pub(crate) const FRICTION_COEFFICIENT: Quantity =
@@ -62,7 +65,7 @@ pub(crate) const OUTPUT_INTERVAL: Quantity = quantity("run.output_interval", Dim
 pub(crate) const DAMPING: Quantity = quantity("run.damping", Dimension::Rate, NotNegative);
 
 /// Every key whose value is a quantity.
-pub(crate) const QUANTITIES: [&Quantity; 21] = [
+pub(crate) const QUANTITIES: [&Quantity; 23] = [
     &LENGTH,
     &DIAMETER,
     &FIBRE_DENSITY,
@@ -76,6 +79,8 @@ pub(crate) const QUANTITIES: [&Quantity; 21] = [
     &VISCOSITY,
     &SPEED_FACTOR,
     &DECAY_TIME,
+    &LENGTH_CONSTANT,
+    &TIME_CONSTANT,
     &FRICTION_COEFFICIENT,
     &DURATION,
     &TIME_STEP,
@@ -87,6 +92,9 @@ pub(crate) const QUANTITIES: [&Quantity; 21] = [
 ];
 
 pub(crate) const PROFILE: &str = "air.profile";
+pub(crate) const FIELD: &str = "air.field";
+pub(crate) const FIELD_ROOT: &str = "air.field_root";
+pub(crate) const FIELD_AXIS: &str = "air.field_axis";
 pub(crate) const SPECTRUM: &str = "air.spectrum";
 pub(crate) const RECORD: &str = "air.record";
 pub(crate) const EDDIES: &str = "air.eddies";

@@ -2,6 +2,7 @@
 
 use super::StepChoice;
 use crate::error::Finding;
+use crate::field::FieldWarning;
 use crate::units::Dimension;
 
 /// A remark on a case that can be run all the same.
@@ -75,6 +76,9 @@ pub enum Remark {
         /// Rest length of an element [m].
         element_length: f64,
     },
+    /// Something about a CFD field.
+    #[error("{0}")]
+    Field(FieldWarning),
     /// A fibre longer than the air is known along it.
     #[error(
         "reaches from the root beyond what the flow of the case knows; out there the air of the nearest known place is taken"
@@ -95,6 +99,7 @@ impl Remark {
             self,
             Self::OutsideFit { .. }
                 | Self::EddiesSkipped { .. }
+                | Self::Field(_)
                 | Self::LeavesFlow
                 | Self::ElementsStubby { .. }
         )

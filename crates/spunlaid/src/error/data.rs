@@ -1,7 +1,7 @@
 //! What can be wrong with a file that a case names.
 
 use super::record::listed;
-use super::{RecordProblem, memory};
+use super::{FieldError, RecordProblem, memory};
 use crate::units::{Dimension, Wanted, shortest};
 use std::path::PathBuf;
 
@@ -22,6 +22,9 @@ pub enum DataError {
     /// A velocity record.
     #[error("{0}")]
     Record(Box<RecordProblem>),
+    /// A field.
+    #[error("{0}")]
+    Field(Box<FieldError>),
 }
 
 /// What is wrong with a table of numbers, and the way out.

@@ -2,8 +2,12 @@
 
 use super::data::DataFiles;
 use super::document::{Document, Entry, kind};
-use crate::air::{Air, EddyModel, Flow, FromFile, FromFlow, Measured, Said, SpectrumShape};
+use crate::air::{
+    Air, Axis, EddyModel, Flow, FromFile, FromFlow, LENGTH_CONSTANT, Measured, PlacedField, Said,
+    SpectrumShape, TIME_CONSTANT,
+};
 use crate::case::keys::{self, Quantity};
+use crate::case::{Note, Remark};
 use crate::error::{DataError, Fault, Place};
 use std::path::PathBuf;
 use toml::de::DeValue;
@@ -25,7 +29,8 @@ pub(super) fn read(d: &mut Document<'_>, files: &DataFiles) -> Air {
         number(d, &keys::VELOCITY, said.velocity, "velocity = \"10 m/s\"")
     } else {
         if let Some(Entry { place, shown, .. }) = d.take(keys::VELOCITY.key) {
-            d.reject(place, keys::VELOCITY.key, shown, Fault::FlowTells { flow: keys::PROFILE });
+            let flow = if matches!(flow, Flow::Field(_)) { keys::FIELD } else { keys::PROFILE };
+            d.reject(place, keys::VELOCITY.key, shown, Fault::FlowTells { flow });
         }
         f64::NAN
     };
@@ -63,7 +68,7 @@ pub(super) fn read(d: &mut Document<'_>, files: &DataFiles) -> Air {
     );
     let speed_factor = match d.take(keys::SPEED_FACTOR.key) {
         Some(Entry { place, shown, .. }) if flow == Flow::Uniform => {
-            let (needed, remedy) = ("air.profile", "change air.velocity");
+            let (needed, remedy) = ("air.profile or air.field", "change air.velocity");
             d.reject(place, keys::SPEED_FACTOR.key, shown, Fault::Needs { needed, remedy });
             1.0
         }
@@ -96,16 +101,56 @@ fn number(d: &mut Document<'_>, quantity: &Quantity, said: Option<f64>, line: &'
 }
 
 fn flow(d: &mut Document<'_>, files: &DataFiles) -> Flow {
-    match d.file(keys::PROFILE) {
-        Some(named) => match d.loaded(keys::PROFILE, named, |path| files.profile(path)) {
-            Some(profile) => Flow::Profile(profile),
-            None => {
-                // Who knows what it would have told.
-                d.excuse("air.");
-                Flow::Uniform
-            }
-        },
-        None => Flow::Uniform,
+    let (profile, field) = (d.file(keys::PROFILE), d.file(keys::FIELD));
+    if let (Some(profile), Some(_)) = (&profile, &field) {
+        let (other, remedy) = (keys::FIELD, "the air is one or the other; leave one out");
+        let fault = Fault::Excludes { other, remedy };
+        d.reject(profile.place.clone(), keys::PROFILE, profile.shown.clone(), fault);
+    }
+    let flow = match (profile, field) {
+        (None, None) => {
+            refuse_without_field(d);
+            return Flow::Uniform;
+        }
+        (_, Some(named)) => placed_field(d, files, named).map(Flow::Field),
+        (Some(named), None) => {
+            refuse_without_field(d);
+            d.loaded(keys::PROFILE, named, |path| files.profile(path)).map(Flow::Profile)
+        }
+    };
+    flow.unwrap_or_else(|| {
+        // Who knows what it would have told.
+        d.excuse("air.");
+        Flow::Uniform
+    })
+}
+
+fn placed_field(d: &mut Document<'_>, files: &DataFiles, named: Named) -> Option<PlacedField> {
+    let place = named.place.clone();
+    let shown = named.shown.clone();
+    let axis = d.choice(keys::FIELD_AXIS, &Axis::ALL.map(|axis| (axis.name(), axis)));
+    let axis = axis.unwrap_or(Axis::ALL[0]);
+    let unit = d.optional(&keys::FIELD_UNIT).unwrap_or(1.0);
+    let length_constant = d.optional(&keys::LENGTH_CONSTANT).unwrap_or(LENGTH_CONSTANT);
+    let time_constant = d.optional(&keys::TIME_CONSTANT).unwrap_or(TIME_CONSTANT);
+    let root = d.point(keys::FIELD_ROOT);
+    let (field, warnings) = d.loaded(keys::FIELD, named, |path| files.field(path))?;
+    for warning in warnings {
+        let (place, key) = (place.clone(), keys::FIELD.to_owned());
+        d.notes.push(Note { place, key, value: shown.clone(), what: Remark::Field(warning) });
+    }
+    let root = root.unwrap_or_else(|| PlacedField::middle_of_inlet(&field, axis, unit));
+    Some(PlacedField { field, root, axis, unit, length_constant, time_constant })
+}
+
+/// Keys that only a field gives a meaning.
+fn refuse_without_field(d: &mut Document<'_>) {
+    let (length_constant, time_constant) = (keys::LENGTH_CONSTANT.key, keys::TIME_CONSTANT.key);
+    for key in [keys::FIELD_ROOT, keys::FIELD_AXIS, keys::FIELD_UNIT.key, length_constant, time_constant] {
+        if let Some(Entry { place, shown, .. }) = d.take(key) {
+            let (needed, remedy) = (keys::FIELD, "leave it out, or name the file of a CFD field");
+            d.reject(place, key, shown, Fault::Needs { needed, remedy });
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::layout::{self, VERSION};
 use super::source::{Source, fit};
+use crate::case::Note;
 use crate::case::keys::Quantity;
 use crate::error::{Error, Fault, Finding, Place, Problem};
 use std::collections::BTreeMap;
@@ -23,6 +24,8 @@ pub(super) struct Document<'a> {
     source: Source<'a>,
     entries: BTreeMap<String, Entry<'a>>,
     pub(super) problems: Vec<Problem>,
+    /// What there is to remark so far.
+    pub(super) notes: Vec<Note>,
     /// Keys that are missed only because they are misspelt or misplaced; tables end in a dot.
     excused: Vec<String>,
 }
@@ -38,6 +41,7 @@ impl<'a> Document<'a> {
             source: Source::new(text, name),
             entries: BTreeMap::new(),
             problems: Vec::new(),
+            notes: Vec::new(),
             excused: Vec::new(),
         };
         let (root, faults) = DeTable::parse_recoverable(text);

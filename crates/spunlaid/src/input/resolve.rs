@@ -34,7 +34,7 @@ pub(super) fn resolve(mut document: Document<'_>, files: &DataFiles) -> Result<(
     if !document.problems.is_empty() {
         return Err(Document::sorted(document.problems).into());
     }
-    let mut notes = Vec::new();
+    let mut notes = std::mem::take(&mut document.notes);
     let case = written.case(&sources, &mut notes)?;
     match case.check() {
         Ok(more) => {

@@ -77,6 +77,25 @@ impl Document<'_> {
         None
     }
 
+    /// A point in space [m].
+    pub(super) fn point(&mut self, key: &str) -> Option<Vec3<f64>> {
+        let Entry { place, shown, value } = self.take(key)?;
+        let length = |value: &DeValue<'_>| number(Dimension::Length, value);
+        let coordinates: Option<Result<Vec<f64>, Fault>> =
+            value.as_array().map(|list| list.iter().map(|one| length(one.get_ref())).collect());
+        let fault = match coordinates {
+            Some(Ok(list)) if list.len() == 3 => return Some(Vec3::new(list[0], list[1], list[2])),
+            Some(Err(fault)) => fault,
+            other => {
+                let found = if other.is_some() { "a list of another length" } else { kind(&value) };
+                let wanted = "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned();
+                Fault::WrongType { found, wanted }
+            }
+        };
+        self.reject(place, key, shown, fault);
+        None
+    }
+
     /// A direction, made a unit vector.
     pub(super) fn direction(&mut self, key: &str) -> Option<Vec3<f64>> {
         let Entry { place, shown, value } = self.take(key)?;

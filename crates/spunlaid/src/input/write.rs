@@ -2,10 +2,10 @@
 
 use super::FORMAT_VERSION;
 use super::resolve::nearest_whole;
-use crate::air::{Air, EddyModel, Flow, SpectrumShape};
+use crate::air::{Air, EddyModel, Flow, PlacedField, SpectrumShape};
 use crate::case::Case;
 use crate::case::keys::{self, Quantity};
-use crate::units::shortest;
+use crate::units::{Dimension, shortest};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -67,6 +67,16 @@ impl Writer {
         match &air.flow {
             Flow::Uniform => self.quantity(&keys::VELOCITY, air.velocity),
             Flow::Profile(profile) => self.file(keys::PROFILE, profile.path()),
+            Flow::Field(placed) => {
+                let PlacedField { field, root, axis, unit, length_constant, time_constant } = placed;
+                self.file(keys::FIELD, field.path());
+                let root = [root.x, root.y, root.z].map(|x| format!("\"{}\"", Dimension::Length.exact(x)));
+                self.line("field_root", &format!("[{}]", root.join(", ")));
+                self.name("field_axis", axis.name());
+                self.quantity(&keys::FIELD_UNIT, *unit);
+                self.line("length_constant", &float(*length_constant));
+                self.line("time_constant", &float(*time_constant));
+            }
         }
         if !air.is_uniform() {
             self.line("speed_factor", &float(air.speed_factor));

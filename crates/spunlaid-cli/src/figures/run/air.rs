@@ -7,6 +7,7 @@ use super::super::scale::Axis;
 use super::{MM, figure, significant};
 use spunlaid::air::LocalAir;
 use spunlaid::case::Case;
+use spunlaid::field::Hint;
 
 /// Places that are asked along the fibre.
 const PLACES: usize = 201;
@@ -14,9 +15,10 @@ const PLACES: usize = 201;
 /// Mean velocity and turbulence along the straight fibre.
 pub(super) fn along_fibre(case: &Case) -> Figure {
     let (along, length) = (case.along(), case.fibre.length);
+    let mut hint = Hint::default();
     let share = |i: usize| i as f64 / (PLACES - 1) as f64;
     let places: Vec<(f64, LocalAir)> =
-        (0..PLACES).map(|i| (length * share(i) * MM, case.air.local(along * share(i)))).collect();
+        (0..PLACES).map(|i| (length * share(i) * MM, case.air.local(along * share(i), &mut hint))).collect();
     let mean: Vec<_> = places.iter().map(|(s, air)| (*s, air.velocity.x)).collect();
     let band: Vec<_> =
         places.iter().map(|(s, air)| (*s, air.velocity.x - air.rms, air.velocity.x + air.rms)).collect();

@@ -4,6 +4,7 @@ mod table;
 
 use crate::air::{FromFile, Measured, Profile, Said, SpectrumTable};
 use crate::error::{DataError, Error, RecordFault, RecordPlace, RecordProblem, TableFault};
+use crate::field::{Field, FieldWarning};
 use crate::record::{Interval, Layout, Record, Settings, analyse, read_record};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -18,6 +19,8 @@ pub(super) struct DataFiles {
     profiles: Shelf<Profile>,
     spectra: Shelf<SpectrumTable>,
     records: Shelf<Measured>,
+    fields: Shelf<Field>,
+    field_warnings: RefCell<BTreeMap<PathBuf, Vec<FieldWarning>>>,
 }
 
 /// A file's content, or why there is none; the text tells apart ways to read it.
@@ -38,6 +41,16 @@ impl DataFiles {
             let (text, checksum) = small(path)?;
             Ok((table::spectrum(path, &text)?, checksum))
         })
+    }
+
+    /// A CFD field, and what to know of it.
+    pub(super) fn field(&self, path: &Path) -> Result<(FromFile<Field>, Vec<FieldWarning>), DataError> {
+        let field = once(&self.fields, path, "", || {
+            let (field, warnings) = Field::read(path).map_err(|error| DataError::Field(Box::new(error)))?;
+            self.field_warnings.borrow_mut().insert(path.to_owned(), warnings);
+            Ok((field, checksum(path)?))
+        })?;
+        Ok((field, self.field_warnings.borrow().get(path).cloned().unwrap_or_default()))
     }
 
     /// A velocity record.
