@@ -1,6 +1,7 @@
 //! What can be wrong with a field of air.
 
-use super::{all_of, memory};
+use super::memory;
+use super::record::listed;
 use crate::units::{excerpt, shortest};
 use std::fmt;
 
@@ -176,6 +177,9 @@ pub enum FieldFault {
     /// Nothing there.
     #[error("holds no points; a field needs some")]
     Empty,
+    /// A table without names.
+    #[error("has no line of names above its numbers; write one, like x_m,y_m,z_m,u_m_s,v_m_s,w_m_s")]
+    NoHeader,
     /// No velocity among the arrays.
     #[error(
         "no array is a velocity, among {}; name it U or velocity, with three components, or write u, v and w",
@@ -274,14 +278,4 @@ pub enum FieldFault {
         /// Least number.
         least: usize,
     },
-}
-
-fn listed(names: &[String]) -> String {
-    const MOST: usize = 12;
-    let mut shown: Vec<String> = names.iter().take(MOST).map(|name| excerpt(name, 40)).collect();
-    if names.len() > MOST {
-        shown.push(format!("{} more", names.len() - MOST));
-    }
-    let shown: Vec<&str> = shown.iter().map(String::as_str).collect();
-    if shown.is_empty() { "none".to_owned() } else { all_of(&shown) }
 }

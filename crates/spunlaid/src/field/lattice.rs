@@ -1,8 +1,12 @@
 //! Values on a lattice, linear in each coordinate between the points.
 
 use super::mean;
+use super::node::Node;
 use super::values::{Quantities, in_range};
 use crate::error::{FieldError, FieldFault};
+
+/// How much coordinates of one level may differ, as a share of the extent.
+const ROUNDING: f64 = 1e-9;
 
 #[derive(Debug)]
 pub(super) struct Lattice {
@@ -38,6 +42,27 @@ impl Lattice {
         Ok(Self { axes: axes.map(Axis::new), values })
     }
 
+    /// The lattice that points make, in whatever order, if they do: all combinations of three rows of
+    /// coordinates, each once.
+    pub(super) fn of_points(nodes: &[Node]) -> Option<Self> {
+        let axes = [0, 1, 2].map(|axis| levels(nodes.iter().map(|node| node.at[axis]).collect()));
+        let size = axes.each_ref().map(Vec::len);
+        let count = size.iter().try_fold(1usize, |product, n| product.checked_mul(*n))?;
+        if count != nodes.len() || count < 2 {
+            return None;
+        }
+        let mut values = vec![None; count];
+        for node in nodes {
+            let [x, y, z] = [0, 1, 2].map(|axis| {
+                let after = axes[axis].partition_point(|level| *level <= node.at[axis]);
+                after.saturating_sub(1)
+            });
+            values[x + size[0] * (y + size[1] * z)] = Some(node.values);
+        }
+        let values = values.into_iter().collect::<Option<Vec<_>>>()?;
+        Some(Self { axes: axes.map(Axis::new), values })
+    }
+
     pub(super) fn points(&self) -> [usize; 3] {
         [0, 1, 2].map(|i| self.axes[i].at.len())
     }
@@ -62,6 +87,14 @@ impl Lattice {
         let values = mean([(1.0 - z.share, &planes[0]), (z.share, &planes[1])].into_iter());
         (values, x.inside && y.inside && z.inside)
     }
+}
+
+/// The coordinates that differ by more than rounding, increasing; of those that do not, the least.
+fn levels(mut coordinates: Vec<f64>) -> Vec<f64> {
+    coordinates.sort_unstable_by(f64::total_cmp);
+    let extent = coordinates.first().zip(coordinates.last()).map_or(0.0, |(low, high)| high - low);
+    coordinates.dedup_by(|next, level| *next - *level <= ROUNDING * extent);
+    coordinates
 }
 
 /// Where a coordinate lies on an axis.

@@ -24,6 +24,8 @@
 
 mod lattice;
 mod mesh;
+mod node;
+mod points;
 mod read;
 mod values;
 mod warning;
@@ -36,6 +38,8 @@ use crate::error::FieldError;
 use crate::vec3::Vec3;
 use lattice::Lattice;
 use mesh::Mesh;
+use node::Node;
+use points::Points;
 use std::fmt;
 use values::Quantities;
 
@@ -51,6 +55,7 @@ pub struct Field {
 enum Support {
     Lattice(Lattice),
     Mesh(Mesh),
+    Points(Points),
 }
 
 /// The air at a point.
@@ -114,6 +119,33 @@ impl Field {
         Ok((Self { support: Support::Mesh(mesh), turbulence: values.has_turbulence() }, warnings))
     }
 
+    /// A field of points without cells, in any order.
+    ///
+    /// If they are those of a lattice, see [`Field::lattice`]. Otherwise the value anywhere is the mean of what
+    /// the nearest eight make of it by their gradients, which are fitted to their neighbours. Outside of the
+    /// box around all points, and farther from the nearest point than its neighbours are, the field is as at
+    /// that point. If all points have one coordinate along an axis, the field does not change along it.
+    ///
+    /// Points at one place are taken for one, with the mean of their values.
+    ///
+    /// * `points` – [m]
+    /// * `values` – at the points
+    ///
+    /// # Errors
+    /// When points are too few, or values are too few, too many or not finite.
+    pub fn points(points: &[Vec3<f64>], values: &Values) -> Result<(Self, Vec<FieldWarning>), FieldError> {
+        let mut nodes = node::nodes(points, values.check(points.len())?)?;
+        let (place_of, merged) = node::merge(&mut nodes);
+        let firsts = nodes.into_iter().zip(0..).filter(|(_, i)| place_of[*i as usize] == *i);
+        let nodes: Vec<Node> = firsts.map(|(node, _)| node).collect();
+        let support = match Lattice::of_points(&nodes) {
+            Some(lattice) => Support::Lattice(lattice),
+            None => Support::Points(Points::new(nodes)?),
+        };
+        let merged = (merged > 0).then_some(FieldWarning::Merged { points: merged });
+        Ok((Self { support, turbulence: values.has_turbulence() }, merged.into_iter().collect()))
+    }
+
     /// Whether the field has `k` and `ε`.
     pub const fn has_turbulence(&self) -> bool {
         self.turbulence
@@ -124,6 +156,7 @@ impl Field {
         let (low, high) = match &self.support {
             Support::Lattice(lattice) => lattice.bounds(),
             Support::Mesh(mesh) => mesh.bounds(),
+            Support::Points(points) => points.bounds(),
         };
         (vector(low), vector(high))
     }
@@ -137,6 +170,7 @@ impl Field {
         let (values, inside) = match &self.support {
             Support::Lattice(lattice) => lattice.sample(at),
             Support::Mesh(mesh) => mesh.sample(at, hint),
+            Support::Points(points) => points.sample(at),
         };
         let [u, v, w, k, epsilon] = values;
         Local { velocity: Vec3::new(u, v, w), k: k.max(0.0), epsilon: epsilon.max(0.0), inside }
@@ -147,6 +181,7 @@ impl Field {
         match &self.support {
             Support::Lattice(lattice) => Description::Lattice { points: lattice.points() },
             Support::Mesh(mesh) => Description::Mesh { points: mesh.points(), cells: mesh.cells() },
+            Support::Points(points) => Description::Points { points: points.points() },
         }
     }
 }

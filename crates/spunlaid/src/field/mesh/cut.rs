@@ -6,8 +6,8 @@
 //! is the pulling triangulation of a convex polyhedron; Dompierre et al. 1999 use it for hexahedra, wedges and
 //! pyramids. A cell that is not convex is cut from its centroid, where the mean of its points' values is put.
 
-use super::Node;
 use super::cells::Cells;
+use crate::field::node::{Node, bounding_box};
 
 /// Least volume of a tetrahedron or a cell, by the third power of the cell's diagonal: less is rounding.
 const FLAT: f64 = 1e-12;
@@ -163,7 +163,7 @@ fn centroid(triangles: &[[u32; 3]], nodes: &[Node]) -> Node {
 
 fn cube_of_diagonal(triangles: &[[u32; 3]], nodes: &[Node]) -> f64 {
     let corners = triangles.iter().flatten().map(|corner| nodes[*corner as usize].at);
-    let (low, high) = super::bounding_box(corners);
+    let (low, high) = bounding_box(corners);
     let diagonal = (super::vector(high) - super::vector(low)).norm();
     diagonal * diagonal * diagonal
 }

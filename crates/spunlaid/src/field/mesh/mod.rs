@@ -4,7 +4,8 @@ pub(super) mod cells;
 mod cut;
 mod faces;
 
-use super::values::{LARGEST, Quantities, in_range};
+use super::node::{self, Node, bounding_box, merge};
+use super::values::Quantities;
 use super::{FieldWarning, Hint, mean, vector};
 use crate::error::{FieldError, FieldFault, FieldPlace};
 use crate::vec3::Vec3;
@@ -35,15 +36,6 @@ pub(super) struct Mesh {
     bounds: ([f64; 3], [f64; 3]),
 }
 
-/// A corner of tetrahedra: one line of a processor's cache.
-#[derive(Clone, Debug, Default)]
-#[repr(C, align(64))]
-pub(super) struct Node {
-    /// [m]
-    at: [f64; 3],
-    values: Quantities,
-}
-
 #[derive(Debug)]
 struct Tetrahedron {
     /// Its nodes, so that its volume is positive.
@@ -58,21 +50,11 @@ impl Mesh {
         cells: &Cells,
         values: Vec<Quantities>,
     ) -> Result<(Self, Vec<FieldWarning>), FieldError> {
-        for (i, point) in points.iter().enumerate() {
-            if let Some(value) = [point.x, point.y, point.z].into_iter().find(|x| !in_range(*x)) {
-                let fault = FieldFault::OutOfRange { value, most: LARGEST };
-                return Err(FieldError::from(fault).at(FieldPlace::Point(i as u64 + 1)));
-            }
-        }
         if let Some((cell, point)) = cells.beyond(points.len()) {
             let fault = FieldFault::NoPoint { point: point.into(), points: points.len() };
             return Err(FieldError::from(fault).at(FieldPlace::Cell(cell as u64 + 1)));
         }
-        let mut nodes: Vec<Node> = points
-            .iter()
-            .zip(values)
-            .map(|(point, values)| Node { at: [point.x, point.y, point.z], values })
-            .collect();
+        let mut nodes = node::nodes(points, values)?;
         let mut warnings = Vec::new();
         let (place_of, merged) = merge(&mut nodes);
         if merged > 0 {
@@ -220,47 +202,4 @@ impl Mesh {
         let [of_a, of_b, of_c] = [p.dot(face), -c.dot(turned), b.dot(turned)].map(|part| part * per_volume);
         [1.0 - of_a - of_b - of_c, of_a, of_b, of_c]
     }
-}
-
-/// For each point the first one at the same place, which gets the mean of their values; and how many points
-/// differ from the first one.
-fn merge(nodes: &mut [Node]) -> (Vec<u32>, u64) {
-    let mut order: Vec<u32> = (0..nodes.len() as u32).collect();
-    let compare = |a: &[f64; 3], b: &[f64; 3]| {
-        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
-    };
-    for node in nodes.iter_mut() {
-        // −0 and 0 are one place.
-        node.at = node.at.map(|x| x + 0.0);
-    }
-    order.sort_unstable_by(|a, b| compare(&nodes[*a as usize].at, &nodes[*b as usize].at).then(a.cmp(b)));
-    let mut place_of: Vec<u32> = (0..nodes.len() as u32).collect();
-    let mut differ = 0;
-    let mut rest = order.as_slice();
-    while let Some(&first) = rest.first() {
-        let at = nodes[first as usize].at;
-        let (here, after) = rest.split_at(rest.iter().take_while(|i| nodes[**i as usize].at == at).count());
-        let values = nodes[first as usize].values;
-        let others = here.iter().filter(|i| nodes[**i as usize].values != values).count();
-        if others > 0 {
-            let share = 1.0 / here.len() as f64;
-            nodes[first as usize].values = mean(here.iter().map(|i| (share, &nodes[*i as usize].values)));
-        }
-        for i in here {
-            place_of[*i as usize] = first;
-        }
-        differ += others as u64;
-        rest = after;
-    }
-    (place_of, differ)
-}
-
-fn bounding_box(points: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], [f64; 3]) {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for point in points {
-        for ((low, high), x) in low.iter_mut().zip(&mut high).zip(point) {
-            (*low, *high) = (low.min(x), high.max(x));
-        }
-    }
-    (low, high)
 }

@@ -74,6 +74,8 @@ pub(super) enum Source<'a> {
     Text(&'a [u8]),
     /// As bytes and nothing else; whether the largest byte of a number comes first.
     Bytes { bytes: &'a [u8], big_endian: bool },
+    /// As they are.
+    Numbers(&'a [f64]),
     /// As blocks of bytes with a header.
     Packed { bytes: &'a [u8], packing: Packing, big_endian: bool },
 }
@@ -131,16 +133,19 @@ impl Array<'_> {
     }
 
     fn all_floats(&self, budget: &mut Budget) -> Result<Vec<f64>, FieldFault> {
-        if let Source::Text(text) = self.source {
-            return words(text, |word| word.parse().ok());
+        match self.source {
+            Source::Text(text) => words(text, |word| word.parse().ok()),
+            Source::Numbers(numbers) => Ok(numbers.to_vec()),
+            _ => {
+                let (bytes, big_endian) = self.bytes(budget)?;
+                self.converted(&bytes, big_endian, |x| x, |x| x as f64, |x| x as f64)
+            }
         }
-        let (bytes, big_endian) = self.bytes(budget)?;
-        self.converted(&bytes, big_endian, |x| x, |x| x as f64, |x| x as f64)
     }
 
     fn bytes(&self, budget: &mut Budget) -> Result<(Cow<'_, [u8]>, bool), FieldFault> {
         match &self.source {
-            Source::Text(text) => Ok((Cow::Borrowed(text), false)),
+            Source::Text(_) | Source::Numbers(_) => Ok((Cow::Borrowed(&[]), false)),
             Source::Bytes { bytes, big_endian } => Ok((Cow::Borrowed(bytes), *big_endian)),
             Source::Packed { bytes, packing, big_endian } => {
                 Ok((encoding::unpack(bytes, *packing, *big_endian, budget)?, *big_endian))

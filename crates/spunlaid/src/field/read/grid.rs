@@ -12,6 +12,8 @@ pub(super) enum Grid {
     Lattice([Vec<f64>; 3]),
     /// In rows, rows of rows, and rows of these.
     Structured { size: [usize; 3], points: Vec<Vec3<f64>> },
+    /// Anywhere, without cells.
+    Scattered(Vec<Vec3<f64>>),
     /// Anywhere.
     Unstructured { points: Vec<Vec3<f64>>, solid: Solid, cells: usize },
 }
@@ -27,7 +29,7 @@ impl Grid {
         match self {
             Self::Image { size, .. } | Self::Structured { size, .. } => Some(*size),
             Self::Lattice(axes) => Some([0, 1, 2].map(|i| axes[i].len())),
-            Self::Unstructured { .. } => None,
+            Self::Unstructured { .. } | Self::Scattered(_) => None,
         }
     }
 
@@ -35,6 +37,7 @@ impl Grid {
     pub(super) fn counts(&self) -> Result<(usize, usize), FieldError> {
         match self {
             Self::Unstructured { points, cells, .. } => Ok((points.len(), *cells)),
+            Self::Scattered(points) => Ok((points.len(), 0)),
             _ => {
                 let size = self.size().unwrap_or_default();
                 Ok((counted(size)?, counted(size.map(|n| n.saturating_sub(1).max(1)))?))

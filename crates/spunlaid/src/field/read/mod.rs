@@ -9,6 +9,7 @@ mod grid;
 mod legacy;
 mod names;
 mod piece;
+mod table;
 mod unstructured;
 mod xml;
 
@@ -52,8 +53,7 @@ impl Field {
         } else if start.starts_with(legacy::START) {
             legacy::read(start)
         } else {
-            let found = "neither VTK nor a table".to_owned();
-            Err(FieldFault::Format { found, advice: "write it as VTK" }.into())
+            table::read(start)
         };
         read.map_err(|error| error.file(name))
     }

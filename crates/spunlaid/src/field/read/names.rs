@@ -10,6 +10,13 @@ const VECTORS: [&str; 8] = ["umean", "u_mean", "velocity_mean", "mean_velocity",
 const ENDINGS: [[&str; 3]; 4] = [["x", "y", "z"], ["0", "1", "2"], ["i", "j", "k"], ["u", "v", "w"]];
 /// What a component may be called on its own.
 const COMPONENTS: [[&str; 3]; 2] = [["u", "v", "w"], ["x_velocity", "y_velocity", "z_velocity"]];
+const COORDINATES: [[&str; 3]; 5] = [
+    ["x", "y", "z"],
+    ["x_coordinate", "y_coordinate", "z_coordinate"],
+    ["points_0", "points_1", "points_2"],
+    ["points_x", "points_y", "points_z"],
+    ["coordinates_0", "coordinates_1", "coordinates_2"],
+];
 const K: [&str; 7] = [
     "kmean",
     "k",
@@ -42,6 +49,7 @@ const OMEGA: [&str; 6] = [
 /// What a quantity is measured in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Measure {
+    Length,
     Velocity,
     K,
     Epsilon,
@@ -52,6 +60,7 @@ impl Measure {
     /// Units by their letters and digits alone, and what they are in SI units.
     const fn units(self) -> &'static [(&'static str, f64)] {
         match self {
+            Self::Length => &[("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6)],
             Self::Velocity => {
                 &[("ms", 1.0), ("ms1", 1.0), ("cms", 1e-2), ("cms1", 1e-2), ("mms", 1e-3), ("mms1", 1e-3)]
             }
@@ -63,6 +72,7 @@ impl Measure {
 
     const fn wanted(self) -> &'static str {
         match self {
+            Self::Length => "m, cm, mm or µm",
             Self::Velocity => "m/s, cm/s or mm/s",
             Self::K => "m2/s2",
             Self::Epsilon => "m2/s3",
@@ -179,6 +189,22 @@ pub(super) fn velocity(names: &[Name], components: &[usize]) -> Result<Option<Ve
     Ok(None)
 }
 
+/// Finds the coordinates; the third is not there in a plane flow.
+pub(super) fn coordinates(names: &[Name]) -> Result<[Option<Found>; 3], FieldError> {
+    let mut best = [None; 3];
+    for spelt in COORDINATES {
+        let mut parts = [None; 3];
+        for (part, name) in parts.iter_mut().zip(spelt) {
+            *part = first(names, &[name], Measure::Length, |_| true)?;
+        }
+        let count = |parts: &[Option<Found>; 3]| parts.iter().flatten().count();
+        if count(&parts) > count(&best) {
+            best = parts;
+        }
+    }
+    Ok(best)
+}
+
 /// Finds a quantity of one component.
 pub(super) fn scalar(
     names: &[Name],
@@ -189,7 +215,24 @@ pub(super) fn scalar(
         Measure::K => &K,
         Measure::Epsilon => &EPSILON,
         Measure::Omega => &OMEGA,
-        Measure::Velocity => &[],
+        Measure::Length | Measure::Velocity => &[],
     };
     first(names, wanted, measure, |i| components[i] == 1)
+}
+
+/// The columns of a table that are used, by their places.
+pub(super) fn used(names: &[Name]) -> Result<Vec<usize>, FieldError> {
+    let ones = vec![1; names.len()];
+    let velocity = match velocity(names, &ones)? {
+        Some(Velocity::Components(columns)) => columns,
+        _ => {
+            let found = names.iter().map(|name| excerpt(&name.written, 40)).collect();
+            return Err(FieldFault::NoVelocity { found }.into());
+        }
+    };
+    let mut used: Vec<Found> = coordinates(names)?.into_iter().chain(velocity).flatten().collect();
+    for measure in [Measure::K, Measure::Epsilon, Measure::Omega] {
+        used.extend(scalar(names, &ones, measure)?);
+    }
+    Ok(used.into_iter().map(|(column, _)| column).collect())
 }

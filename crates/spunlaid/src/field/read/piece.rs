@@ -26,10 +26,14 @@ pub(super) fn assemble(
     for piece in &pieces {
         values.push(Reader { piece, budget, warnings: &mut warnings }.values()?);
     }
-    if let ([piece], [values]) = (pieces.as_slice(), values.as_slice())
-        && let Some(axes) = piece.grid.axes()
-    {
-        return Ok((Field::lattice(axes, values)?, warnings));
+    if let ([piece], [values]) = (pieces.as_slice(), values.as_slice()) {
+        if let Grid::Scattered(points) = &piece.grid {
+            let (field, more) = Field::points(points, values)?;
+            return Ok((field, [warnings, more].concat()));
+        }
+        if let Some(axes) = piece.grid.axes() {
+            return Ok((Field::lattice(axes, values)?, warnings));
+        }
     }
     let mut points = Vec::new();
     let mut cells = Cells::new();
@@ -127,7 +131,10 @@ impl Reader<'_, '_> {
             }
         }
         let arrays = self.piece.point_data.iter().chain(&self.piece.cell_data);
-        Err(FieldFault::NoVelocity { found: arrays.map(|array| array.name.clone()).collect() }.into())
+        Err(FieldFault::NoVelocity {
+            found: arrays.map(|array| crate::units::excerpt(&array.name, 40)).collect(),
+        }
+        .into())
     }
 
     /// A quantity of one component, zero where the file has it negative.

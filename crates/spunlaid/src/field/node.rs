@@ -1,0 +1,71 @@
+//! Points and the air there.
+
+use super::mean;
+use super::values::{LARGEST, Quantities, in_range};
+use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::vec3::Vec3;
+use std::cmp::Ordering;
+
+/// A point and its values: one line of a processor's cache.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, align(64))]
+pub(super) struct Node {
+    /// [m]
+    pub(super) at: [f64; 3],
+    pub(super) values: Quantities,
+}
+
+/// Points that can be computed with, each with its values.
+pub(super) fn nodes(points: &[Vec3<f64>], values: Vec<Quantities>) -> Result<Vec<Node>, FieldError> {
+    let node = |(i, (point, values)): (usize, (&Vec3<f64>, Quantities))| {
+        // With zero added, −0 and 0 are one place.
+        let at = [point.x + 0.0, point.y + 0.0, point.z + 0.0];
+        match at.into_iter().find(|x| !in_range(*x)) {
+            None => Ok(Node { at, values }),
+            Some(value) => Err(FieldError::from(FieldFault::OutOfRange { value, most: LARGEST })
+                .at(FieldPlace::Point(i as u64 + 1))),
+        }
+    };
+    points.iter().zip(values).enumerate().map(node).collect()
+}
+
+/// For each point the first one at the same place, which gets the mean of their values; and how many points
+/// differ from the first one.
+pub(super) fn merge(nodes: &mut [Node]) -> (Vec<u32>, u64) {
+    let mut order: Vec<u32> = (0..nodes.len() as u32).collect();
+    order.sort_unstable_by(|a, b| compare(&nodes[*a as usize].at, &nodes[*b as usize].at).then(a.cmp(b)));
+    let mut place_of: Vec<u32> = (0..nodes.len() as u32).collect();
+    let mut differ = 0;
+    let mut rest = order.as_slice();
+    while let Some(&first) = rest.first() {
+        let Node { at, values } = nodes[first as usize];
+        let (here, after) = rest.split_at(rest.iter().take_while(|i| nodes[**i as usize].at == at).count());
+        let others = here.iter().filter(|i| nodes[**i as usize].values != values).count();
+        if others > 0 {
+            let share = 1.0 / here.len() as f64;
+            nodes[first as usize].values = mean(here.iter().map(|i| (share, &nodes[*i as usize].values)));
+        }
+        for i in here {
+            place_of[*i as usize] = first;
+        }
+        differ += others as u64;
+        rest = after;
+    }
+    (place_of, differ)
+}
+
+/// By z, then y, then x.
+pub(super) fn compare(a: &[f64; 3], b: &[f64; 3]) -> Ordering {
+    a[2].total_cmp(&b[2]).then(a[1].total_cmp(&b[1])).then(a[0].total_cmp(&b[0]))
+}
+
+/// The lowest and the highest coordinates.
+pub(super) fn bounding_box(points: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], [f64; 3]) {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for point in points {
+        for ((low, high), x) in low.iter_mut().zip(&mut high).zip(point) {
+            (*low, *high) = (low.min(x), high.max(x));
+        }
+    }
+    (low, high)
+}

@@ -1,0 +1,129 @@
+//! Values at points without cells.
+//!
+//! Every point knows the gradients that fit its neighbours best. The value anywhere is the mean of what the
+//! nearest points make of it, each along its own gradients; a point's weight falls to zero with its distance as
+//! another one takes its place, so that the field is continuous. The weights are those of Franke & Little, in
+//! Franke 1982.
+
+mod fit;
+
+use super::mean;
+use super::node::{Node, bounding_box};
+use super::values::Quantities;
+use crate::error::{FieldError, FieldFault};
+use fit::Fit;
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
+/// Points that a value is the mean of; the next one sets how far they reach.
+const NEAREST: usize = 8;
+/// Neighbours that gradients are fitted to: twice as many again until they tell of all directions.
+const NEIGHBOURS: [usize; 4] = [16, 32, 64, 128];
+
+#[derive(Debug)]
+pub(super) struct Points {
+    sites: Vec<Site>,
+    tree: RTree<GeomWithData<[f64; 3], u32>>,
+    /// Axes along which all points have one coordinate: a plane flow.
+    plane: [bool; 3],
+    bounds: ([f64; 3], [f64; 3]),
+}
+
+/// A point.
+#[derive(Debug)]
+struct Site {
+    node: Node,
+    /// Change of the values along x, y and z [per m].
+    gradients: [Quantities; 3],
+    /// Square of the distance to the farthest neighbour that the gradients are fitted to [m²].
+    reach_2: f64,
+}
+
+impl Points {
+    /// * `nodes` – each at a place of its own
+    pub(super) fn new(nodes: Vec<Node>) -> Result<Self, FieldError> {
+        if nodes.len() <= NEAREST {
+            return Err(FieldFault::TooFewPoints { found: nodes.len(), least: NEAREST + 1 }.into());
+        }
+        let bounds = bounding_box(nodes.iter().map(|node| node.at));
+        let plane = [0, 1, 2].map(|axis| bounds.0[axis] == bounds.1[axis]);
+        let places = nodes.iter().zip(0..).map(|(node, i)| GeomWithData::new(node.at, i));
+        let tree = RTree::bulk_load(places.collect());
+        let mut points = Self { sites: Vec::new(), tree, plane, bounds };
+        points.sites = nodes.iter().map(|node| points.site(*node, &nodes)).collect();
+        Ok(points)
+    }
+
+    fn site(&self, node: Node, nodes: &[Node]) -> Site {
+        let mut fit = Fit::new(self.plane, NEIGHBOURS[NEIGHBOURS.len() - 1]);
+        let mut neighbours = self.by_distance(node.at).filter(|(_, distance_2)| *distance_2 > 0.0);
+        let (mut count, mut reach_2) = (0, 0.0);
+        for wanted in NEIGHBOURS {
+            for (neighbour, distance_2) in neighbours.by_ref().take(wanted - count) {
+                let other = &nodes[neighbour as usize];
+                let to = [0, 1, 2].map(|axis| other.at[axis] - node.at[axis]);
+                let change = [0, 1, 2, 3, 4].map(|i| other.values[i] - node.values[i]);
+                fit.add(to, distance_2, change);
+                reach_2 = distance_2;
+            }
+            count = wanted;
+            if fit.is_spread() {
+                break;
+            }
+        }
+        Site { node, gradients: fit.gradients(), reach_2 }
+    }
+
+    pub(super) fn points(&self) -> usize {
+        self.sites.len()
+    }
+
+    pub(super) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+        self.bounds
+    }
+
+    pub(super) fn sample(&self, at: [f64; 3]) -> (Quantities, bool) {
+        let (low, high) = self.bounds;
+        let at = [0, 1, 2].map(|axis| if self.plane[axis] { low[axis] } else { at[axis] });
+        let mut nearest = [(0, 0.0); NEAREST + 1];
+        for (place, found) in nearest.iter_mut().zip(self.by_distance(at)) {
+            *place = found;
+        }
+        let (first, least_2) = nearest[0];
+        let site = &self.sites[first as usize];
+        let inside =
+            (0..3).all(|axis| low[axis] <= at[axis] && at[axis] <= high[axis]) && least_2 <= site.reach_2;
+        let (least, reach) = (least_2.sqrt(), nearest[NEAREST].1.sqrt());
+        if !inside || least_2 == 0.0 || least == reach {
+            return (site.node.values, inside);
+        }
+        let weights = nearest.map(|(_, distance_2)| {
+            let distance = distance_2.sqrt();
+            // As a share of what the nearest would have if there were no limit to its reach.
+            let weight = (1.0 - distance / reach) * (least / distance);
+            weight * weight
+        });
+        let total: f64 = weights.iter().sum();
+        let parts = nearest.map(|(i, _)| self.sites[i as usize].continued(at));
+        (mean(weights.map(|weight| weight / total).into_iter().zip(&parts)), true)
+    }
+
+    /// The points and the squares of their distances, the nearest first.
+    fn by_distance(&self, at: [f64; 3]) -> impl Iterator<Item = (u32, f64)> {
+        self.tree
+            .nearest_neighbor_iter_with_distance_2(at)
+            .map(|(place, distance_2)| (place.data, distance_2))
+    }
+}
+
+impl Site {
+    /// What the values are elsewhere, by the gradients here.
+    fn continued(&self, at: [f64; 3]) -> Quantities {
+        let mut values = self.node.values;
+        for (axis, gradient) in self.gradients.iter().enumerate() {
+            let along = at[axis] - self.node.at[axis];
+            values.iter_mut().zip(gradient).for_each(|(value, change)| *value += along * change);
+        }
+        values
+    }
+}
