@@ -150,21 +150,22 @@ impl DragLanes {
     pub(crate) fn split<S: Simd>(relative: Vec3<Wide<S>>, tangent: Vec3<Wide<S>>) -> Split<S> {
         let along = relative.dot(tangent);
         let across = tangent.neg_mul_add(along, relative);
-        Split { along, across, powers: [along.abs(), across.dot(across)] }
+        Split { along, across, powers: Wide([along.abs().0, across.dot(across).0]) }
     }
 
     /// Takes the two powers, `|V_t|^p` and `(|V_n|²)^q`.
     #[inline(always)]
     pub(crate) fn raise<S: Simd>(&self, split: &mut Split<S>) {
-        split.powers[0] = power(split.powers[0], Wide::load(&self.tangential_exponent));
-        split.powers[1] = power(split.powers[1], Wide::load(&self.normal_exponent));
+        let exponents = [S::load(&self.tangential_exponent), S::load(&self.normal_exponent)];
+        split.powers = power(split.powers, Wide(exponents));
     }
 
     /// Force of the air on an element [N].                                   theory.md (8)
     #[inline(always)]
     pub(crate) fn force<S: Simd>(&self, split: &Split<S>, tangent: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
-        let friction = Wide::load(&self.tangential) * split.along * split.powers[0];
-        split.across.mul_add(Wide::load(&self.normal) * split.powers[1], tangent * friction)
+        let [tangential, normal] = split.powers.0;
+        let friction = Wide::load(&self.tangential) * split.along * Wide(tangential);
+        split.across.mul_add(Wide::load(&self.normal) * Wide(normal), tangent * friction)
     }
 }
 
@@ -173,13 +174,13 @@ impl DragLanes {
 pub(crate) struct Split<S: Simd> {
     along: Wide<S>,
     across: Vec3<Wide<S>>,
-    /// `|V_t|` and `|V_n|²`, then their powers.
-    powers: [Wide<S>; 2],
+    /// `|V_t|` and `|V_n|²` abreast, then their powers.
+    powers: Wide<[S; 2]>,
 }
 
 impl<S: Simd> Split<S> {
     #[inline(always)]
     pub(crate) fn none() -> Self {
-        Self { along: Wide::zero(), across: Vec3::zero(), powers: [Wide::zero(); 2] }
+        Self { along: Wide::zero(), across: Vec3::zero(), powers: Wide::zero() }
     }
 }

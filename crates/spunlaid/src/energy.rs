@@ -129,8 +129,8 @@ impl Task for Held<'_> {
 #[inline(always)]
 fn angle_squared<S: Register>(a: Vec3<Wide<S>>, b: Vec3<Wide<S>>) -> Wide<S> {
     let turn = b - a;
-    let x = turn.dot(turn) * Wide::splat(0.25);
-    let ratio = bend_ratio(x);
-    let sine_squared = Wide::splat(4.0) * x * (Wide::splat(1.0) - x);
-    ratio * ratio * sine_squared
+    let turn_squared = turn.dot(turn);
+    let ratio = bend_ratio(turn_squared);
+    let cosine_squared = turn_squared.neg_mul_add(Wide::splat(0.25), Wide::splat(1.0));
+    ratio * ratio * turn_squared * cosine_squared
 }

@@ -41,8 +41,8 @@ fn analytic_every_element_feels_its_own_eddy() {
         let rounding = fibre.axial_stiffness() * 4.0 * f64::EPSILON;
         for (i, &f) in expected.iter().enumerate() {
             let found = bundle.chain().velocity[i].lane(0) * (fibre.node_mass(i) / h);
-            // The kernel's powers are good to some 1e-9.
-            let bound = 1e-8 * f.norm() + rounding;
+            // The kernel's powers are good to 1e-7.
+            let bound = 1e-7 * f.norm() + rounding;
             assert!((found - f).norm() < bound, "eddies of {length_scale} m, node {i}: {found:?}, not {f:?}");
         }
     }

@@ -38,8 +38,8 @@ fn largest(f: &[V]) -> f64 {
     f.iter().map(|f| f.norm()).fold(0.0, f64::max)
 }
 
-/// Relative error of the drag that the kernel is allowed: 4e-9 is stated of its power laws.
-const KERNEL: f64 = 1e-8;
+/// Relative error of the drag that the kernel is allowed: 1e-7 is stated of its power laws.
+const KERNEL: f64 = 1e-7;
 /// And of the forces inside the chain: 2e-13 is stated of the bending, the rest is rounding.
 const INTERNAL: f64 = 1e-11;
 

@@ -31,22 +31,26 @@ impl<S: Simd> Element<S> {
     }
 }
 
-/// Bending at the node between two elements: the forces `(a, b)` [N] with which the upper neighbour gets
-/// `−a`, the node `a + b`, the lower neighbour `−b`.                          theory.md (13)
+/// Forces inside the chain that come with an element, `(a, b)` [N]: its own `tension` and the bending at the
+/// node above it. The element's upper node gets `a + b`, its lower `−b`, the node above both `−a`.
+///                                                                            theory.md (10), (13)
 ///
-/// It is exactly `−∇ ½ k_θ θ²`. With unit tangents `t₀`, `t₁`, `δ = t₁ − t₀` and `x = sin²(θ/2) = δ²/4`:
-/// `a = (k_θ θ/sin θ)/ℓ₀ · (δ + 2x t₀)`, `b = (k_θ θ/sin θ)/ℓ₁ · (δ − 2x t₁)`: no division by a vanishing
-/// angle, no cancellation near straight.
+/// Bending is exactly `−∇ ½ k_θ θ²`. With unit tangents `t₀`, `t₁`, `δ = t₁ − t₀`, `2x = 2 sin²(θ/2) = δ²/2`:
+/// `a = (k_θ θ/sin θ)/ℓ₀ · (δ + 2x t₀)`, `b = (k_θ θ/sin θ)/ℓ₁ · (δ − 2x t₁) + T t₁`: no division by a
+/// vanishing angle, no cancellation near straight.
 #[inline(always)]
-pub(crate) fn bending<S: Register>(
+pub(crate) fn internal<S: Register>(
     upper: &Element<S>,
     lower: &Element<S>,
     stiffness: Wide<S>,
+    tension: Wide<S>,
 ) -> (Vec3<Wide<S>>, Vec3<Wide<S>>) {
     let turn = lower.tangent - upper.tangent;
-    let twice_x = turn.dot(turn) * Wide::splat(0.5);
-    let moment = stiffness * bend_ratio(twice_x * Wide::splat(0.5));
+    let turn_squared = turn.dot(turn);
+    let twice_x = turn_squared * Wide::splat(0.5);
+    let moment = stiffness * bend_ratio(turn_squared);
     let a = upper.tangent.mul_add(twice_x, turn) * (moment * upper.inverse_length);
-    let b = lower.tangent.neg_mul_add(twice_x, turn) * (moment * lower.inverse_length);
+    let push = moment * lower.inverse_length;
+    let b = turn.mul_add(push, lower.tangent * push.neg_mul_add(twice_x, tension));
     (a, b)
 }

@@ -1,7 +1,7 @@
 //! One pass along eight chains: all forces on every node.
 
 use super::Constants;
-use super::forces::{Element, bending};
+use super::forces::{Element, internal};
 use crate::air::Breeze;
 use crate::drag::{DragLanes, Split};
 use crate::lanes::{Register, Wide};
@@ -27,10 +27,11 @@ pub(crate) trait Motion<S: Register> {
 ///
 /// * `eddy` – index into the wind for each of the `N` elements
 ///
-/// From the root down in blocks of elements: first their geometry, then their drag, then the bending of the
-/// nodes above them, then the sum on those nodes. Short loops keep the machine's pipelines fuller than one
-/// long one, and a block stays in the nearest cache. The force on a node is complete, and handed over, when
-/// the element below it is done.
+/// From the root down in blocks of elements: first how they lie and move in the air, then the powers of the
+/// drag, then all forces and their sum on the nodes. A machine keeps only so many operations in flight:
+/// with short loops these belong to several elements, in one long one they wait for each other. A block
+/// stays in the nearest cache. The force on a node is complete, and handed over, when the element below it
+/// is done.
 #[inline(always)]
 pub(crate) fn sweep<S: Register, M: Motion<S>, B: Breeze<S>>(
     motion: &mut M,
@@ -49,23 +50,22 @@ pub(crate) fn sweep<S: Register, M: Motion<S>, B: Breeze<S>>(
     let (mut drag, mut drag_above) = (Vec3::zero(), Vec3::zero());
     for (start, eddy) in (0..).step_by(BLOCK).zip(eddy.chunks(BLOCK)) {
         let links = &mut block.0[..eddy.len()];
-        geometry(motion, start, links);
-        relative_velocity(motion, start, links, wind, eddy);
+        kinematics(motion, start, links, wind, eddy);
         for link in &mut *links {
             c.half_drag.raise(&mut link.split);
         }
-        bend(c, start, above, links);
         for (j, link) in (start..).zip(&*links) {
-            let (a, b) = link.bending;
+            let stiffness = if j == 0 { &c.root_stiffness } else { &c.bending_stiffness };
+            let tension = motion.tension(j, &link.element);
+            let (a, pull) = internal(&above, &link.element, Wide::load(stiffness), tension);
             if j > 0 {
                 motion.node(j - 1, force_above - a, drag_above);
             }
-            let pull = link.element.tangent.mul_add(motion.tension(j, &link.element), b);
             let air = c.half_drag.force(&link.split, link.element.tangent);
             (force_above, force) = (force + (a + pull + air), air - pull);
             (drag_above, drag) = (drag + air, air);
+            above = link.element;
         }
-        above = links[eddy.len() - 1].element;
     }
     motion.node(eddy.len() - 1, force_above, drag_above);
     motion.node(eddy.len(), force, drag);
@@ -74,14 +74,12 @@ pub(crate) fn sweep<S: Register, M: Motion<S>, B: Breeze<S>>(
 /// Elements in a block.
 const BLOCK: usize = 8;
 
-/// An element and the node above it, within a sweep.
+/// An element within a sweep.
 #[derive(Clone, Copy)]
 struct Link<S: Register> {
     element: Element<S>,
     /// On the way to half the element's drag.
     split: Split<S>,
-    /// Bending of the node: see [`bending`].
-    bending: (Vec3<Wide<S>>, Vec3<Wide<S>>),
 }
 
 /// Room for the elements of a block.
@@ -92,51 +90,34 @@ impl<S: Register> Block<S> {
     pub(crate) fn new() -> Self {
         let (vector, number) = (Vec3::zero(), Wide::zero());
         let element = Element { tangent: vector, inverse_length: number, length: number };
-        Self([Link { element, split: Split::none(), bending: (vector, vector) }; BLOCK])
+        Self([Link { element, split: Split::none() }; BLOCK])
     }
 }
 
-/// The elements of a block from `start` on.
+/// Geometry of the elements of a block from `start` on, and velocity of the air relative to them.
+///
+/// Root and quotient of one element take the divider as long as the products of the rest take the
+/// multipliers.
 #[inline(always)]
-fn geometry<S: Register>(motion: &impl Motion<S>, start: usize, block: &mut [Link<S>]) {
-    let mut upper = motion.position(start);
-    for (j, link) in (start + 1..).zip(block) {
-        let lower = motion.position(j);
-        link.element = Element::between(upper, lower);
-        upper = lower;
-    }
-}
-
-/// Velocity of the air relative to the elements of a block from `start` on.
-#[inline(always)]
-fn relative_velocity<S: Register>(
+fn kinematics<S: Register>(
     motion: &impl Motion<S>,
     start: usize,
     block: &mut [Link<S>],
     wind: impl Breeze<S>,
     eddy: &[u32],
 ) {
-    let mut upper = motion.drag_velocity(start);
+    let mut upper = (motion.position(start), motion.drag_velocity(start));
     let (mut here, mut signal) = (eddy[0], wind.signal(eddy[0]));
     for (j, (link, &eddy)) in (start + 1..).zip(block.iter_mut().zip(eddy)) {
-        let lower = motion.drag_velocity(j);
+        let lower = (motion.position(j), motion.drag_velocity(j));
+        link.element = Element::between(upper.0, lower.0);
         if eddy != here {
             (here, signal) = (eddy, wind.signal(eddy));
         }
         // Element `j−1` lies above node `j`.
         let air = wind.at(j - 1, signal);
-        let relative = (upper + lower).neg_mul_add(Wide::splat(0.5), air);
+        let relative = (upper.1 + lower.1).neg_mul_add(Wide::splat(0.5), air);
         link.split = DragLanes::split(relative, link.element.tangent);
         upper = lower;
-    }
-}
-
-/// Bending of the nodes of a block, the first of them below the element `above`.
-#[inline(always)]
-fn bend<S: Register>(c: &Constants, start: usize, mut above: Element<S>, block: &mut [Link<S>]) {
-    for (j, link) in (start..).zip(block) {
-        let stiffness = if j == 0 { &c.root_stiffness } else { &c.bending_stiffness };
-        link.bending = bending(&above, &link.element, Wide::load(stiffness));
-        above = link.element;
     }
 }

@@ -8,68 +8,62 @@
 
 use super::{Lanes, Register, Simd, Wide};
 
-/// `Σ cᵢ xⁱ`, even and odd terms side by side by Horner's rule in `x²`: half the wait, one more product.
+/// `Σ cᵢ xⁱ` by Horner's rule: the fewest operations; what they wait for each other, others fill.
 #[inline(always)]
 fn polynomial<S: Simd, const N: usize>(x: Wide<S>, c: &[f64; N]) -> Wide<S> {
-    const { assert!(N >= 2) };
-    let x2 = x * x;
-    let (mut last, mut other) = (Wide::splat(c[N - 1]), Wide::splat(c[N - 2]));
-    for i in (0..N - 2).rev() {
-        (last, other) = (other, last.mul_add(x2, Wide::splat(c[i])));
+    let mut sum = Wide::splat(c[N - 1]);
+    for i in (0..N - 1).rev() {
+        sum = sum.mul_add(x, Wide::splat(c[i]));
     }
-    // `other` holds the even terms, `last` the odd ones.
-    last.mul_add(x, other)
+    sum
 }
 
-/// `log2(1+f)/f` for `1+f` in [√½, √2], to 7.8e-9.
-const LOG2: [f64; 10] = [
-    1.442_695_039_999_188_4,
-    -0.721_347_354_478_905_3,
-    0.480_898_520_324_064_2,
-    -0.360_696_541_807_505_1,
-    0.288_552_561_437_467_4,
-    -0.239_608_121_909_572_85,
-    0.204_857_647_786_219_3,
-    -0.191_388_376_566_725_4,
-    0.184_760_333_651_813_8,
-    -0.107_497_894_180_832_06,
+/// `log2(1+f)/f` for `1+f` in [√½, √2], `log2(1+f)` to 4.9e-8.
+const LOG2: [f64; 8] = [
+    1.442_694_772_308_484_024,
+    -0.721_357_147_623_069_291_6,
+    0.480_939_459_441_339_921_8,
+    -0.360_087_267_892_780_057_2,
+    0.286_707_137_436_586_439_3,
+    -0.250_068_272_038_381_442_4,
+    0.236_892_264_557_206_750_8,
+    -0.145_748_660_825_513_837_1,
 ];
 
-/// `2^r` for r in [−½, ½], to 2.0e-9.
-const EXP2: [f64; 7] = [
-    1.0,
-    0.693_147_206_702_832_6,
-    0.240_226_509_222_887_58,
-    0.055_503_272_266_703_02,
-    0.009_618_056_678_524_638,
-    0.001_340_042_817_761_583_8,
-    0.000_154_614_446_985_691_3,
+/// `2^r` for r in [−½, ½], to 7.5e-8 relative.
+const EXP2: [f64; 6] = [
+    1.000_000_071_669_896_481,
+    0.693_146_967_218_494_789_4,
+    0.240_221_196_834_190_199_8,
+    0.055_507_130_278_307_851_89,
+    0.009_675_542_989_262_678_982,
+    0.001_327_654_753_763_408_038,
 ];
 
-/// `θ/sin θ` as a function of `x = sin²(θ/2)` in [0, 1/16], to 1.9e-13.
+/// `θ/sin θ` as a function of `δ² = 4 sin²(θ/2)` in [0, ¼], to 1.9e-13.
 const NARROW_BEND: [f64; 7] = [
-    1.000_000_000_000_178_7,
-    0.666_666_666_386_659_8,
-    0.533_333_404_794_306_6,
-    0.457_136_038_904_004_56,
-    0.406_657_550_423_975_9,
-    0.362_312_343_291_399_2,
-    0.420_259_299_214_237_5,
+    1.000_000_000_000_184_199,
+    0.166_666_666_595_071_680_7,
+    0.033_333_337_874_179_846_29,
+    0.007_142_749_333_326_964_89,
+    0.001_588_515_902_818_558_907,
+    0.000_353_785_599_991_397_257_2,
+    0.000_102_649_137_481_651_149_2,
 ];
 
-/// `θ/sin θ` as a function of `x = sin²(θ/2)` in [0, ¼], to 1.7e-13.
+/// `θ/sin θ` as a function of `δ² = 4 sin²(θ/2)` in [0, 1], to 1.5e-13.
 const BEND: [f64; 11] = [
-    1.000_000_000_000_126_8,
-    0.666_666_666_544_056_9,
-    0.533_333_352_852_226_8,
-    0.457_141_650_607_714_3,
-    0.406_387_254_367_918_7,
-    0.368_713_109_185_019_33,
-    0.348_839_196_959_667_5,
-    0.262_179_555_059_688_65,
-    0.550_974_518_495_669_9,
-    -0.384_386_190_510_997_44,
-    1.159_925_416_559_732,
+    1.000_000_000_000_146_228,
+    0.166_666_666_632_101_755_2,
+    0.033_333_334_683_048_653_73,
+    0.007_142_836_622_277_689_827,
+    0.001_587_461_097_506_760_32,
+    0.000_360_030_628_318_844_193_3,
+    0.000_085_258_730_419_921_384_06,
+    0.000_015_871_161_956_598_320_44,
+    0.000_008_518_803_437_859_721_532,
+    -0.000_001_518_936_717_846_449_014,
+    0.000_001_116_733_502_542_407_263,
 ];
 
 /// Bits of √½: mantissas are taken from here up, so that `log2` is smooth through 1.
@@ -81,7 +75,7 @@ const TWO_52: f64 = 4_503_599_627_370_496.0;
 /// 1.5·2⁵²; adding it rounds a small number to the nearest integer.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
-/// Base-2 logarithm of positive, normal numbers, to 3.3e-9 absolute.
+/// Base-2 logarithm of positive, normal numbers, to 4.9e-8 absolute.
 ///
 /// Zero and subnormals give −1022 (the smallest normal's), so that a positive power of them is
 /// negligibly small instead of undefined. NaN and infinity give some finite number: callers multiply
@@ -94,7 +88,7 @@ fn log2<S: Simd>(x: Wide<S>) -> Wide<S> {
     f.mul_add(polynomial(f, &LOG2), exponent)
 }
 
-/// `2^x` for `x` in [−1022, 1023], to 2e-9 relative.
+/// `2^x` for `x` in [−1022, 1023], to 7.5e-8 relative.
 #[inline(always)]
 fn exp2<S: Simd>(x: Wide<S>) -> Wide<S> {
     let rounded = x + Wide::splat(ROUND);
@@ -104,26 +98,28 @@ fn exp2<S: Simd>(x: Wide<S>) -> Wide<S> {
     Wide(polynomial(rest, &EXP2).0.add_as_integers(rounded.0.shift_left::<52>()))
 }
 
-/// `x^exponent` for `x ≥ 0` and exponents between 0 and 1, to 4e-9 relative; tends to 0 with `x`.
+/// `x^exponent` for `x ≥ 0` and exponents between 0 and ½, to 1e-7 relative; tends to 0 with `x`.
 #[inline(always)]
 pub(crate) fn power<S: Simd>(x: Wide<S>, exponent: Wide<S>) -> Wide<S> {
     exp2(log2(x) * exponent)
 }
 
-/// `θ/sin θ` for two unit vectors at the angle `θ`, from `x = sin²(θ/2)`, to 2e-13 relative.
+/// `θ/sin θ` for two unit vectors at the angle `θ`, from the square of their difference,
+/// `δ² = 4 sin²(θ/2)`, to 2e-13 relative.
 ///
 /// Up to 29° a short polynomial, up to 60° a longer one, beyond the arctangent lane by lane. A lane's
 /// value does not depend on which way its neighbours go.
 #[inline(always)]
-pub(crate) fn bend_ratio<S: Register>(x: Wide<S>) -> Wide<S> {
-    const NARROW: f64 = 1.0 / 16.0;
-    const WIDE: f64 = 0.25;
-    let mut ratio = polynomial(x, &NARROW_BEND);
-    if x.any_above(NARROW) {
-        ratio = Wide::select_less(Wide::splat(NARROW), x, polynomial(x, &BEND), ratio);
-        if x.any_above(WIDE) {
-            let arc = Wide::load(&arc_ratios(x.store(), WIDE));
-            ratio = Wide::select_less(Wide::splat(WIDE), x, arc, ratio);
+pub(crate) fn bend_ratio<S: Register>(turn_squared: Wide<S>) -> Wide<S> {
+    const NARROW: f64 = 0.25;
+    const WIDE: f64 = 1.0;
+    let mut ratio = polynomial(turn_squared, &NARROW_BEND);
+    if turn_squared.any_above(NARROW) {
+        let wider = polynomial(turn_squared, &BEND);
+        ratio = Wide::select_less(Wide::splat(NARROW), turn_squared, wider, ratio);
+        if turn_squared.any_above(WIDE) {
+            let arc = Wide::load(&arc_ratios(turn_squared.store(), WIDE));
+            ratio = Wide::select_less(Wide::splat(WIDE), turn_squared, arc, ratio);
         }
     }
     ratio
@@ -131,8 +127,8 @@ pub(crate) fn bend_ratio<S: Register>(x: Wide<S>) -> Wide<S> {
 
 #[cold]
 #[inline(never)]
-fn arc_ratios(x: Lanes, above: f64) -> Lanes {
-    Lanes::from_fn(|i| if x.0[i] > above { arc_ratio(x.0[i]) } else { 1.0 })
+fn arc_ratios(turn_squared: Lanes, above: f64) -> Lanes {
+    Lanes::from_fn(|i| if turn_squared.0[i] > above { arc_ratio(0.25 * turn_squared.0[i]) } else { 1.0 })
 }
 
 /// `θ/sin θ` from `x = sin²(θ/2)` by the arctangent.

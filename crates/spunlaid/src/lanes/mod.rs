@@ -7,6 +7,7 @@
 //!
 //! [`Lanes`] is how they lie in memory, `Wide` how they stand in registers.
 
+mod abreast;
 mod functions;
 mod isa;
 mod simd;

@@ -4,7 +4,7 @@
 
 use super::{Lanes, WIDTH};
 
-/// Eight numbers in registers, with the operations the kernel needs.
+/// Eight numbers in registers, or several times eight, with the operations the kernel needs.
 ///
 /// The types that implement it never leave the crate: [`super::Isa::run`] alone picks one, after it has
 /// found its instructions on the machine.

@@ -4,7 +4,7 @@ use super::Lanes;
 use super::simd::{Register, Simd};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-/// Eight numbers in registers: what the kernel calculates with.
+/// Eight numbers in registers, or several times eight: what the kernel calculates with.
 #[derive(Clone, Copy)]
 pub(crate) struct Wide<S: Simd>(pub(crate) S);
 
