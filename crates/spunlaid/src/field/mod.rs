@@ -43,6 +43,9 @@ use points::Points;
 use std::fmt;
 use values::Quantities;
 
+/// Coordinates beyond are as good as these: squares of distances are still numbers [m].
+const FARTHEST: f64 = 1e3 * values::LARGEST;
+
 /// The air in a part of space, steady in time, in SI units.
 #[derive(Debug)]
 pub struct Field {
@@ -163,10 +166,13 @@ impl Field {
 
     /// The air at a point.
     ///
-    /// * `at` – [m]
+    /// * `at` – [m]; at a place that is no number the air stands still
     /// * `hint` – where the last point was found, and then this one; not used by all kinds of field
     pub fn sample(&self, at: Vec3<f64>, hint: &mut Hint) -> Local {
-        let at = [at.x, at.y, at.z];
+        let at = [at.x, at.y, at.z].map(|x| x.clamp(-FARTHEST, FARTHEST));
+        if at.iter().any(|x| x.is_nan()) {
+            return Local::default();
+        }
         let (values, inside) = match &self.support {
             Support::Lattice(lattice) => lattice.sample(at),
             Support::Mesh(mesh) => mesh.sample(at, hint),

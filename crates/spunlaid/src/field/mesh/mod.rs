@@ -199,7 +199,7 @@ impl Mesh {
         let face = b.cross(c);
         let turned = a.cross(p);
         let per_volume = 1.0 / a.dot(face);
-        let [of_a, of_b, of_c] = [p.dot(face), -c.dot(turned), b.dot(turned)].map(|part| part * per_volume);
+        let [of_a, of_b, of_c] = [p.dot(face), c.dot(turned), -b.dot(turned)].map(|part| part * per_volume);
         [1.0 - of_a - of_b - of_c, of_a, of_b, of_c]
     }
 }

@@ -1,0 +1,358 @@
+//! Fields of air at points: what is linear comes out exactly, what is smooth to second order, what is next to
+//! each other agrees, and what lies outside is as the rule says.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "common/meshes.rs"]
+mod meshes;
+
+use meshes::{ALL, Block, Made, at_points, field, noise};
+use proptest::prelude::*;
+use spunlaid::field::{Cells, Description, Field, FieldWarning, Hint, Local, Shape, Values};
+use spunlaid::vec3::Vec3;
+
+type V = Vec3<f64>;
+
+fn linear([x, y, z]: [f64; 3]) -> [f64; 5] {
+    [1.0 + 2.0 * x - y, 0.5 * z - 3.0 * y, x + y + z, 4.0 + x - 2.0 * z, 3.0 - y]
+}
+
+fn smooth([x, y, z]: [f64; 3]) -> [f64; 5] {
+    let wave = (2.0 * x + y).sin() * (1.5 * z).cos();
+    [wave, x * y * z, (x - z).exp(), 1.0 + x * x, 2.0 + (y * z).sin()]
+}
+
+fn numbers(local: Local) -> [f64; 5] {
+    let Local { velocity: v, k, epsilon, .. } = local;
+    [v.x, v.y, v.z, k, epsilon]
+}
+
+/// Points within a unit cube.
+fn inside(count: usize) -> impl Iterator<Item = [f64; 3]> {
+    (0..count).map(|i| [0, 1, 2].map(|axis| 0.5 + 0.5 * noise(7000 + 3 * i + axis)))
+}
+
+fn at([x, y, z]: [f64; 3]) -> V {
+    V::new(x, y, z)
+}
+
+/// Largest difference from a function over points within.
+fn error(field: &Field, exact: impl Fn([f64; 3]) -> [f64; 5], count: usize) -> f64 {
+    let mut hint = Hint::default();
+    let mut worst = 0.0_f64;
+    for point in inside(count) {
+        let local = field.sample(at(point), &mut hint);
+        assert!(local.inside, "{point:?}");
+        for (found, wanted) in numbers(local).into_iter().zip(exact(point)) {
+            worst = worst.max((found - wanted).abs());
+        }
+    }
+    worst
+}
+
+fn lattice(cells: usize, values: impl Fn([f64; 3]) -> [f64; 5]) -> Field {
+    // Uneven steps.
+    let axis: Vec<f64> = (0..=cells).map(|i| i as f64 / cells as f64).map(|s| s * (0.6 + 0.4 * s)).collect();
+    let mut points = Vec::new();
+    for z in &axis {
+        for y in &axis {
+            points.extend(axis.iter().map(|x| [*x, *y, *z]));
+        }
+    }
+    Field::lattice([axis.clone(), axis.clone(), axis], &at_points(&points, values)).unwrap()
+}
+
+fn scattered(count: usize, values: impl Fn([f64; 3]) -> [f64; 5]) -> Field {
+    let corners = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from));
+    let anywhere = (0..count).map(|i| [0, 1, 2].map(|axis| 0.5 + 0.5 * noise(3 * i + axis)));
+    let points: Vec<[f64; 3]> = corners.chain(anywhere).collect();
+    let places: Vec<V> = points.iter().map(|point| at(*point)).collect();
+    let (field, warnings) = Field::points(&places, &at_points(&points, values)).unwrap();
+    assert!(warnings.is_empty() && matches!(field.describe(), Description::Points { .. }));
+    field
+}
+
+#[test]
+fn analytic_linear_fields_are_exact_in_every_cell() {
+    // Values up to 10, weights exact to a few roundings over the tetrahedron's least angle.
+    let tolerance = 1e-12;
+    for kind in ALL {
+        for jitter in [0.0, 0.2] {
+            if jitter > 0.0 && kind == Made::Voxels {
+                continue;
+            }
+            let field = field(&Block::cube(4, jitter), kind, linear);
+            let error = error(&field, linear, 2000);
+            assert!(error < tolerance, "{kind:?}, {jitter}: {error:e}");
+        }
+    }
+    let error_of_lattice = error(&lattice(4, linear), linear, 2000);
+    assert!(error_of_lattice < tolerance, "lattice: {error_of_lattice:e}");
+}
+
+#[test]
+fn analytic_linear_fields_are_exact_between_points() {
+    // As far as the ridge of the fit and the condition of its neighbours, at worst 1e2, leave it.
+    let field = scattered(3000, linear);
+    let mut hint = Hint::default();
+    for point in inside(2000) {
+        let local = field.sample(at(point), &mut hint);
+        for (found, wanted) in numbers(local).into_iter().zip(linear(point)) {
+            assert!(!local.inside || (found - wanted).abs() < 1e-10, "{point:?}: {found} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn order_of_interpolation_is_two() {
+    // Halving the cells divides the error by four; the largest error of 2000 points wanders by less than 20 %.
+    let orders = |error: &dyn Fn(usize) -> f64| (error(8) / error(16)).log2();
+    for kind in ALL {
+        let order = orders(&|cells| error(&field(&Block::cube(cells, 0.0), kind, smooth), smooth, 2000));
+        assert!((order - 2.0).abs() < 0.26, "{kind:?}: {order}");
+    }
+    let order = orders(&|cells| error(&lattice(cells, smooth), smooth, 2000));
+    assert!((order - 2.0).abs() < 0.26, "lattice: {order}");
+}
+
+#[test]
+fn order_between_points_is_two() {
+    // Eight times the points are twice as close. Mean errors, for the gaps between random points vary.
+    let mean = |count: usize| {
+        let field = scattered(count, smooth);
+        let mut hint = Hint::default();
+        // Away from the edge, where neighbours are on one side only.
+        let within = inside(4000).filter(|point| point.iter().all(|x| (0.2..0.8).contains(x)));
+        let errors: Vec<f64> = within
+            .map(|point| (numbers(field.sample(at(point), &mut hint))[0] - smooth(point)[0]).abs())
+            .collect();
+        errors.iter().sum::<f64>() / errors.len() as f64
+    };
+    let order = (mean(2000) / mean(16000)).log2();
+    assert!((order - 2.0).abs() < 0.3, "{order}");
+}
+
+#[test]
+fn invariant_hints_change_nothing() {
+    for kind in [Made::Mixed, Made::Tetrahedra] {
+        let field = field(&Block::cube(5, 0.2), kind, smooth);
+        let mut walking = Hint::default();
+        for point in inside(2000) {
+            let by_walk = numbers(field.sample(at(point), &mut walking));
+            let by_tree = numbers(field.sample(at(point), &mut Hint::default()));
+            for (a, b) in by_walk.into_iter().zip(by_tree) {
+                // The same tetrahedron, or one across a face that the point is on.
+                assert!((a - b).abs() < 1e-8, "{point:?}: {a} {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn identical_along_one_path() {
+    let field = field(&Block::cube(5, 0.2), Made::Mixed, smooth);
+    let fly = || {
+        let mut hint = Hint::default();
+        (0..500)
+            .map(|i| field.sample(at([0.002, 0.0017, 0.0013].map(|v| v * f64::from(i))), &mut hint))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(fly(), fly());
+}
+
+#[test]
+fn analytic_outside_of_a_lattice_its_nearest_point_counts() {
+    let field = lattice(3, linear);
+    let local = field.sample(V::new(-0.5, 0.25, 7.0), &mut Hint::default());
+    assert!(!local.inside);
+    for (found, wanted) in numbers(local).into_iter().zip(linear([0.0, 0.25, 1.0])) {
+        assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
+    }
+}
+
+#[test]
+fn analytic_outside_of_a_mesh_its_surface_counts() {
+    // A flow that rests at y = 0 and y = 1, as at walls.
+    let still = |[_, y, _]: [f64; 3]| [y * (1.0 - y), 0.0, 0.0, y * (1.0 - y), 1.0];
+    let field = field(&Block::cube(4, 0.0), Made::Hexahedra, still);
+    for y in [-0.3, 1.001, 40.0] {
+        let local = field.sample(V::new(0.4, y, 0.6), &mut Hint::default());
+        assert_eq!((local.velocity, local.inside), (V::default(), false));
+    }
+    // Beyond an end it is as at the nearest point there.
+    let local = field.sample(V::new(1.2, 0.45, 0.5), &mut Hint::default());
+    assert_eq!((local.velocity.x, local.inside), (0.25, false));
+}
+
+#[test]
+fn analytic_outside_of_points_the_nearest_counts() {
+    let field = scattered(500, linear);
+    let local = field.sample(V::new(2.0, 3.0, 2.0), &mut Hint::default());
+    assert_eq!((numbers(local), local.inside), (linear([1.0; 3]), false));
+}
+
+#[test]
+fn analytic_a_single_layer_is_a_plane_flow() {
+    let axes = [vec![0.0, 1.0], vec![0.0, 1.0], vec![5.0]];
+    let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[x, y]| [x, y, 5.0]);
+    let plane = |[x, y, _]: [f64; 3]| [x, y, 0.0, 1.0, 1.0];
+    let field = Field::lattice(axes, &at_points(&points, plane)).unwrap();
+    let local = field.sample(V::new(0.25, 0.5, -100.0), &mut Hint::default());
+    assert_eq!((local.velocity, local.inside), (V::new(0.25, 0.5, 0.0), true));
+    // And so is a table of points in one plane.
+    let points: Vec<[f64; 3]> = (0..400).map(|i| [0.5 * noise(2 * i), 0.5 * noise(2 * i + 1), 5.0]).collect();
+    let places: Vec<V> = points.iter().map(|point| at(*point)).collect();
+    let (field, _) = Field::points(&places, &at_points(&points, plane)).unwrap();
+    let local = field.sample(V::new(0.25, 0.125, 0.0), &mut Hint::default());
+    assert!(local.inside && (local.velocity - V::new(0.25, 0.125, 0.0)).norm() < 1e-10, "{local:?}");
+}
+
+#[test]
+fn identical_points_in_any_order_are_a_lattice() {
+    let axes = [vec![0.0, 0.1, 0.5, 1.0], vec![-1.0, 2.0, 2.5], vec![0.0, 1.0]];
+    let mut points = Vec::new();
+    for z in &axes[2] {
+        for y in &axes[1] {
+            points.extend(axes[0].iter().map(|x| [*x, *y, *z]));
+        }
+    }
+    let lattice = Field::lattice(axes, &at_points(&points, smooth)).unwrap();
+    points.sort_by(|a, b| {
+        noise((a[0] * 640.0 + a[1] * 10.0 + a[2]) as usize)
+            .total_cmp(&noise((b[0] * 640.0 + b[1] * 10.0 + b[2]) as usize))
+    });
+    let places: Vec<V> = points.iter().map(|point| at(*point)).collect();
+    let (found, _) = Field::points(&places, &at_points(&points, smooth)).unwrap();
+    assert_eq!(found.describe(), lattice.describe());
+    for point in inside(200) {
+        let (a, b) =
+            (found.sample(at(point), &mut Hint::default()), lattice.sample(at(point), &mut Hint::default()));
+        assert_eq!(a, b);
+    }
+}
+
+#[test]
+fn analytic_cells_that_are_not_convex_keep_their_volume() {
+    // A hexahedron with a corner pushed in beyond the plane of its neighbours.
+    let mut block = Block::cube(2, 0.0);
+    block.points[13] = [0.2, 0.2, 0.2];
+    let field = field(&block, Made::Hexahedra, linear);
+    let error = error(&field, linear, 3000);
+    assert!(error < 1e-12, "{error:e}");
+}
+
+fn hexahedron() -> (Vec<V>, Cells) {
+    let block = Block::cube(1, 0.0);
+    let mut cells = Cells::new();
+    cells.push(Shape::Hexahedron, &block.hexahedra()[0].map(|i| i as u32)).unwrap();
+    (block.points.iter().map(|point| at(*point)).collect(), cells)
+}
+
+fn still(points: usize) -> Values {
+    Values { velocity: vec![V::default(); points], ..Values::default() }
+}
+
+#[test]
+fn warnings_count_flat_cells_and_points_at_one_place() {
+    let (mut points, mut cells) = hexahedron();
+    cells.push(Shape::Tetrahedron, &[0, 1, 2, 3]).unwrap();
+    cells.push(Shape::Tetrahedron, &[0, 0, 0, 0]).unwrap();
+    points.push(points[7]);
+    let mut values = still(9);
+    values.velocity[8].x = 2.0;
+    let (field, warnings) = Field::mesh(&points, &cells, &values).unwrap();
+    assert_eq!(warnings, [FieldWarning::Merged { points: 1 }, FieldWarning::Flat { cells: 2 }]);
+    assert_eq!(field.sample(points[7], &mut Hint::default()).velocity.x, 1.0);
+}
+
+#[test]
+fn rejects_what_is_no_field() {
+    let (points, cells) = hexahedron();
+    let said = |points: &[V], cells: &Cells, values: &Values| {
+        Field::mesh(points, cells, values).unwrap_err().to_string()
+    };
+    assert_eq!(
+        said(&points, &cells, &still(7)),
+        "velocity: has 7 values where 8 are needed; is the file whole?"
+    );
+    let mut wrong = still(8);
+    wrong.velocity[3].y = f64::NAN;
+    assert_eq!(
+        said(&points, &cells, &wrong),
+        "point 4: NaN is no number between −1e30 and 1e30; mend the value, or leave out what has none"
+    );
+    let mut beyond = Cells::new();
+    beyond.push(Shape::Tetrahedron, &[0, 1, 2, 8]).unwrap();
+    assert_eq!(
+        said(&points, &beyond, &still(8)),
+        "cell 1: names point 8, counted from 0, where there are 8; is the file whole?"
+    );
+    let mut flat = Cells::new();
+    flat.push(Shape::Tetrahedron, &[0, 1, 2, 3]).unwrap();
+    assert_eq!(
+        said(&points, &flat, &still(8)),
+        "has no cells with a volume; write the inside of the flow too, and a plane flow one cell thick or as a table of points"
+    );
+    assert_eq!(
+        Cells::new().push(Shape::Wedge, &[1, 2]).unwrap_err().to_string(),
+        "cell 1: a wedge of 2 points, where 6 are needed; is the file whole?"
+    );
+    let said = |axes: [Vec<f64>; 3]| Field::lattice(axes, &still(4)).unwrap_err().to_string();
+    assert_eq!(said([vec![0.0, 1.0], vec![1.0, 1.0], vec![0.0]]), "y: goes from 1 to 1; it must increase");
+    assert_eq!(
+        said([vec![0.0, f64::INFINITY], vec![0.0, 1.0], vec![0.0]]),
+        "x: inf is no number between −1e30 and 1e30; mend the value, or leave out what has none"
+    );
+    let few: Vec<V> = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(at).to_vec();
+    assert_eq!(
+        Field::points(&few, &still(3)).unwrap_err().to_string(),
+        "has 3 points; at least 9 are needed between which the air can be known"
+    );
+}
+
+proptest! {
+    /// Steps of 1e-7 change the values by no more than the steepest slope allows, across faces as within.
+    #[test]
+    fn invariant_fields_are_continuous(
+        start in prop::array::uniform3(0.01..0.99f64),
+        step in prop::array::uniform3(-1e-7..1e-7f64),
+        kind in 0..ALL.len(),
+    ) {
+        // Slopes of the interpolation are those of `smooth`, below 3, and 1/sin of the least angle more.
+        let slope = 30.0;
+        let next = [0, 1, 2].map(|axis| start[axis] + step[axis]);
+        let jitter = if ALL[kind] == Made::Voxels || ALL[kind] == Made::Mixed { 0.0 } else { 0.2 };
+        for field in [field(&Block::cube(3, jitter), ALL[kind], smooth), lattice(3, smooth)] {
+            let [a, b] = [start, next].map(|point| numbers(field.sample(at(point), &mut Hint::default())));
+            for (a, b) in a.into_iter().zip(b) {
+                prop_assert!((a - b).abs() < slope * 2e-7, "{a} {b}");
+            }
+        }
+    }
+
+    /// Any point gives finite numbers, far away too.
+    #[test]
+    fn invariant_samples_are_finite(point in prop::array::uniform3(prop::num::f64::ANY)) {
+        for field in [field(&Block::cube(2, 0.0), Made::Mixed, smooth), lattice(3, smooth), scattered(50, smooth)] {
+            let mut hint = Hint::default();
+            field.sample(at([0.5; 3]), &mut hint);
+            let local = field.sample(at(point), &mut hint);
+            prop_assert!(numbers(local).into_iter().all(f64::is_finite), "{local:?}");
+        }
+    }
+}
+
+#[test]
+fn invariant_fields_between_points_are_continuous() {
+    let field = scattered(300, smooth);
+    let mut hint = Hint::default();
+    // Along a line, finer and finer: the largest jump falls with the step.
+    let jump = |steps: usize| {
+        let along = (0..=steps).map(|i| 0.2 + 0.6 * i as f64 / steps as f64);
+        let values: Vec<f64> =
+            along.map(|s| field.sample(V::new(s, 0.5, 1.0 - s), &mut Hint::default()).velocity.x).collect();
+        values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max)
+    };
+    field.sample(V::default(), &mut hint);
+    assert!(jump(100_000) < 0.02 * jump(1000), "{} {}", jump(100_000), jump(1000));
+}
