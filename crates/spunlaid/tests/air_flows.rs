@@ -1,4 +1,5 @@
 //! Air that differs from place to place, against flows known in closed form.
+#![allow(clippy::unwrap_used)]
 
 use spunlaid::air::{Air, Axis, Eddies, Flow, FromFile, FromFlow, PlacedField, Profile, StreamKey};
 use spunlaid::air::{Surroundings, Turbulence};

@@ -1,5 +1,6 @@
 //! The turbulence other than the paper's: spectra by name and by table, eddies that are carried along,
 //! fluctuations out of a record.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 

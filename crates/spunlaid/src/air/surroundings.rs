@@ -92,13 +92,13 @@ impl<'a> Surroundings<'a> {
         let places = self.places.iter_mut().zip(&mut self.hints);
         for ((place, hints), ends) in places.zip(position.windows(2)) {
             let mut value = [Lanes::ZERO; 4];
-            for lane in 0..WIDTH {
-                if lane >= self.airs.len() {
+            for (lane, hint) in hints.iter_mut().enumerate() {
+                let Some(air) = self.airs.get(lane) else {
                     value.iter_mut().for_each(|of| of.0[lane] = of.0[0]);
                     continue;
-                }
+                };
                 let centre = (ends[0].lane(lane) + ends[1].lane(lane)) * 0.5;
-                let air = self.airs[lane].local(centre, &mut hints[lane]);
+                let air = air.local(centre, hint);
                 self.outside[lane] += u64::from(!air.inside);
                 let found = [air.velocity.x, air.velocity.y, air.velocity.z, air.rms];
                 value.iter_mut().zip(found).for_each(|(of, found)| of.0[lane] = found);

@@ -116,7 +116,7 @@ pub enum TableFault {
         after: f64,
     },
     /// Too few rows.
-    #[error("has {found} rows of numbers; {least} at least are needed to draw lines between")]
+    #[error("has {found} {} of numbers; {least} at least are needed to draw lines between", if *found == 1 { "row" } else { "rows" })]
     TooFewRows {
         /// Rows there are.
         found: usize,

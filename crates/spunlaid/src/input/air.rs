@@ -2,6 +2,7 @@
 
 use super::data::DataFiles;
 use super::document::{Document, Entry, kind};
+use super::layout;
 use crate::air::{
     Air, Axis, EddyModel, Flow, FromFile, FromFlow, LENGTH_CONSTANT, Measured, PlacedField, Said,
     SpectrumShape, TIME_CONSTANT,
@@ -160,6 +161,14 @@ fn spectrum(d: &mut Document<'_>, files: &DataFiles) -> SpectrumShape {
         Some(named) => match named.text.as_str() {
             "flat" => SpectrumShape::Flat,
             "von-karman" => SpectrumShape::VonKarman,
+            // No name of a table.
+            text if !text.contains('.') => {
+                let allowed = vec!["flat", "von-karman", "spectrum.csv"];
+                let nearest = layout::nearest(text, allowed.iter().map(|name| (*name, 0.0)));
+                let nearest = nearest.map(|name| format!("\"{name}\""));
+                d.reject(named.place, keys::SPECTRUM, named.shown, Fault::NotOneOf { nearest, allowed });
+                SpectrumShape::Flat
+            }
             _ => match d.loaded(keys::SPECTRUM, named, |path| files.spectrum(path)) {
                 Some(table) => SpectrumShape::Measured(table),
                 None => {
