@@ -38,7 +38,7 @@ fn identical_every_case_of_the_repository() {
             continue;
         }
         let (case, notes) = read_case(&path, &[]).unwrap();
-        assert_eq!(notes, []);
+        assert!(!notes.iter().any(|note| note.what.is_warning()), "{}: {notes:?}", path.display());
         assert_eq!(bits(&read_again(&case)), bits(&case));
         seen += 1;
     }
