@@ -115,9 +115,7 @@ pub enum FieldFault {
         advice: &'static str,
     },
     /// Something else where a certain thing belongs.
-    #[error(
-        "\"{found}\" stands where {wanted} belongs; is the file whole, and written by the program that it should be?"
-    )]
+    #[error("\"{found}\" stands in the place of {wanted}; is the file whole, and the right one?")]
     Syntax {
         /// As written.
         found: String,

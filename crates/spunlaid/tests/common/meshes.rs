@@ -58,6 +58,9 @@ impl Block {
     }
 }
 
+/// VTK type, points and, of a polyhedron, faces of a cell.
+pub type Cell = (u8, Vec<usize>, Vec<Vec<usize>>);
+
 /// What the cells of a block are made into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Made {
@@ -93,8 +96,8 @@ pub fn faces(c: [usize; 8]) -> [[usize; 4]; 6] {
     ]
 }
 
-/// VTK type, points and faces of the cells, and the points, to which centres may have been added.
-pub fn made(block: &Block, kind: Made) -> (Vec<[f64; 3]>, Vec<(u8, Vec<usize>, Vec<Vec<usize>>)>) {
+/// The cells, and the points, to which centres may have been added.
+pub fn made(block: &Block, kind: Made) -> (Vec<[f64; 3]>, Vec<Cell>) {
     let mut points = block.points.clone();
     let mut cells = Vec::new();
     for (number, c) in block.hexahedra().into_iter().enumerate() {

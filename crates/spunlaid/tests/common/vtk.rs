@@ -117,7 +117,8 @@ impl File {
             .chunks(size)
             .map(|block| match self.style.squeeze {
                 Squeeze::Zlib => {
-                    let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
+                    let mut encoder =
+                        flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
                     encoder.write_all(block).unwrap();
                     encoder.finish().unwrap()
                 }
@@ -217,7 +218,8 @@ pub fn vtu(pieces: &[Mesh], style: Style) -> Vec<u8> {
         file.array("offsets", 1, style.integer, &ends);
         file.array("types", 1, "UInt8", &types);
         if mesh.cells.iter().any(|cell| cell.0 == 42) {
-            let polyhedra = mesh.cells.iter().map(|cell| if cell.0 == 42 { face_stream(&cell.2) } else { vec![] });
+            let polyhedra =
+                mesh.cells.iter().map(|cell| if cell.0 == 42 { face_stream(&cell.2) } else { vec![] });
             let (faces, mut ends) = flat(polyhedra);
             for (end, cell) in ends.iter_mut().zip(&mesh.cells).filter(|(_, cell)| cell.0 != 42) {
                 let _ = cell;
@@ -233,7 +235,14 @@ pub fn vtu(pieces: &[Mesh], style: Style) -> Vec<u8> {
 }
 
 /// A grid of rows, image, rectilinear or structured: what it has of its own is written by a function.
-fn gridded(kind: &str, size: [usize; 3], more: &str, data: [&[Data]; 2], style: Style, own: impl Fn(&mut File)) -> Vec<u8> {
+fn gridded(
+    kind: &str,
+    size: [usize; 3],
+    more: &str,
+    data: [&[Data]; 2],
+    style: Style,
+    own: impl Fn(&mut File),
+) -> Vec<u8> {
     let mut file = File::new(kind, style);
     let [x, y, z] = size.map(|n| n - 1);
     let extent = format!("0 {x} 0 {y} 0 {z}");
@@ -246,7 +255,13 @@ fn gridded(kind: &str, size: [usize; 3], more: &str, data: [&[Data]; 2], style: 
 }
 
 /// An image.
-pub fn vti(size: [usize; 3], origin: [f64; 3], spacing: [f64; 3], data: [&[Data]; 2], style: Style) -> Vec<u8> {
+pub fn vti(
+    size: [usize; 3],
+    origin: [f64; 3],
+    spacing: [f64; 3],
+    data: [&[Data]; 2],
+    style: Style,
+) -> Vec<u8> {
     let text = |v: [f64; 3]| v.map(|x| x.to_string()).join(" ");
     let more = format!(" Origin=\"{}\" Spacing=\"{}\"", text(origin), text(spacing));
     gridded("ImageData", size, &more, data, style, |_| {})
@@ -322,7 +337,8 @@ pub fn legacy(mesh: &Mesh, version: &str, binary: bool) -> Vec<u8> {
     let mut file = Legacy::new(version, binary, "UNSTRUCTURED_GRID");
     let count = mesh.cells.len();
     file.line(&format!("POINTS {} double", mesh.points.len())).numbers(mesh.points.as_flattened(), "Float64");
-    let lists = mesh.cells.iter().map(|cell| if cell.0 == 42 { face_stream(&cell.2) } else { cell.1.clone() });
+    let lists =
+        mesh.cells.iter().map(|cell| if cell.0 == 42 { face_stream(&cell.2) } else { cell.1.clone() });
     if version.starts_with('5') {
         let (connectivity, ends) = flat(lists);
         let ends = [vec![0.0], ends].concat();

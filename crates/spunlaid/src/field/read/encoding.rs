@@ -66,6 +66,9 @@ pub(super) fn unpack<'a>(
         });
     }
     let blocks = header.number("the number of blocks")?;
+    if blocks == 0 {
+        return Ok(Cow::Borrowed(&[]));
+    }
     let [size, last] = [header.number("the size of blocks")?, header.number("the size of the last block")?];
     let width = if packing.wide_header { 8 } else { 4 };
     if blocks > (packed.len() - header.at) / width {

@@ -52,6 +52,13 @@ impl Field {
             xml::read(start)
         } else if start.starts_with(legacy::START) {
             legacy::read(start)
+        } else if start.trim_ascii_start().starts_with(b"FoamFile") || start.starts_with(b"/*----") {
+            let found = "a file of OpenFOAM’s own".to_owned();
+            Err(FieldFault::Format {
+                found,
+                advice: "convert the case with foamToVTK and name its internal.vtu",
+            }
+            .into())
         } else {
             table::read(start)
         };

@@ -27,6 +27,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FieldErro
         return Err(FieldFault::Format { found, advice: "write the field as a VTK file" }.into());
     }
     let kind = root.attribute("type").unwrap_or_default();
+    if !["ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid"].contains(&kind) {
+        let found = format!("a VTK file of {}", excerpt(kind, 40));
+        let advice = "write an unstructured grid (.vtu), or name the file that holds one";
+        return Err(FieldFault::Format { found, advice }.into());
+    }
     let Some(grid) = root.children().find(|node| node.has_tag_name(kind)) else {
         return Err(FieldFault::CutOff { wanted: "the grid" }.into());
     };
@@ -140,16 +145,11 @@ impl<'a> File<'a, '_> {
                 let (_, size) = extent()?;
                 Grid::Structured { size, points: self.points(piece, counted(size)?, budget)? }
             }
-            "UnstructuredGrid" => {
+            _ => {
                 let count = |name| number(piece, name);
                 let points = self.points(piece, count("NumberOfPoints")?, budget)?;
                 let listed = self.listed(piece, count("NumberOfCells")?, budget)?;
                 Grid::unstructured(points, &listed)?
-            }
-            other => {
-                let found = format!("a VTK file of {}", excerpt(other, 40));
-                let advice = "write an unstructured grid (.vtu), or name the file that holds one";
-                return Err(FieldFault::Format { found, advice }.into());
             }
         };
         Ok(Piece { grid, point_data, cell_data })
@@ -276,7 +276,7 @@ fn numbers<const N: usize>(node: Node<'_, '_>, name: &'static str) -> Result<Opt
     };
     let numbers: Option<Vec<f64>> =
         text.split_ascii_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
-    let fault = || FieldFault::Syntax { found: excerpt(text, 40), wanted: "a few numbers" };
+    let fault = || FieldFault::Syntax { found: excerpt(text, 40), wanted: "numbers parted by blanks" };
     let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
     numbers.map(Some).ok_or_else(|| FieldError::from(fault()).array(name))
 }
