@@ -22,7 +22,10 @@ fn runs_every_case_of_the_repository() {
         let short = ["run.duration=20 ms", "run.spin_up=5 ms", "run.output_interval=1 ms"];
         let said = success(command.args(short.iter().flat_map(|change| ["--set", change])));
         assert!(said.contains("amplitude y"), "{name}: {said}");
-        assert_eq!(desk.entries(&name), names(&ENTRIES), "{name}");
+        let mut entries = desk.entries(&name);
+        // Of cases whose air is in files.
+        entries.remove("case_files");
+        assert_eq!(entries, names(&ENTRIES), "{name}");
         let summary = desk.summary(&name);
         let strain = summary["fibre"]["max_strain"].as_f64().unwrap();
         assert!(strain < 0.1, "{name}: {strain}");

@@ -2,9 +2,10 @@
 
 use crate::args::Analyse;
 use crate::failure::Failure;
-use crate::figures::{png, record_figures};
+use crate::figures::record_figures;
 use crate::output::analysis::{air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv};
 use crate::output::folder::Staging;
+use crate::output::pictures;
 use crate::report::{AnalysisReport, analysis_html};
 use crate::say;
 use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
@@ -94,12 +95,7 @@ fn write(
     json: &str,
 ) -> Result<(), Failure> {
     let figures = record_figures(record, of);
-    for figure in &figures {
-        staging.write(&format!("figures/{}.svg", figure.name), &figure.svg)?;
-        let png = png(&figure.svg)
-            .map_err(|reason| Failure::Figure { name: figure.name.clone(), reason: reason.to_string() })?;
-        staging.write(&format!("figures/{}.png", figure.name), png)?;
-    }
+    pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let air = air_block(&record.file, of);
     let page =
         analysis_html(&AnalysisReport { name, record, analysis: of, figures: &figures, remarks, air: &air });

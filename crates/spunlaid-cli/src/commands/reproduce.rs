@@ -4,8 +4,9 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
 use crate::args::{Reproduce, SchemeName};
 use crate::failure::Failure;
-use crate::figures::{Figure, paper as draw, png};
+use crate::figures::{Figure, paper as draw};
 use crate::output::folder::Staging;
+use crate::output::pictures;
 use crate::report::{PaperReport, mean_and_error, paper_html};
 use crate::{progress, say};
 use serde::Serialize;
@@ -53,13 +54,10 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     let claims = flown.claims();
     let choices = flown.choices();
     for (figure, table) in &figures {
-        staging.write(&format!("figures/{}.svg", figure.name), &figure.svg)?;
         staging.write(&format!("figures/{}.csv", figure.name), table)?;
-        let png = png(&figure.svg)
-            .map_err(|reason| Failure::Figure { name: figure.name.clone(), reason: reason.to_string() })?;
-        staging.write(&format!("figures/{}.png", figure.name), png)?;
     }
     let drawn: Vec<Figure> = figures.into_iter().map(|(figure, _)| figure).collect();
+    pictures::write(&drawn, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let case_toml = write_case(&base);
     let how = format!(
         "{} at each point, scheme {}, time step {} µs, the same random phases at all points of a figure. Figures 8 by \

@@ -4,11 +4,11 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
 use crate::args::Run;
 use crate::failure::Failure;
-use crate::figures::{png, run_figures, significant};
+use crate::figures::{run_figures, significant};
 use crate::output::folder::Staging;
 use crate::output::summary::{Performance, Summary};
 use crate::output::tables::{END_NODE, ENERGY, Table};
-use crate::output::{beside, paraview, table};
+use crate::output::{beside, paraview, pictures, table};
 use crate::report::{self, ReportInput};
 use crate::{progress, say};
 use spunlaid::case::{Case, Note};
@@ -143,14 +143,7 @@ impl Written<'_> {
         let case_toml = write_case(&beside::relocated(self.case, &copied));
         let turbulence = turbulence_spectrum(self.case, computing);
         let figures = run_figures(self.case, self.results, &turbulence);
-        for figure in &figures {
-            staging.write(&format!("figures/{}.svg", figure.name), &figure.svg)?;
-            let png = png(&figure.svg).map_err(|reason| Failure::Figure {
-                name: figure.name.clone(),
-                reason: reason.to_string(),
-            })?;
-            staging.write(&format!("figures/{}.png", figure.name), png)?;
-        }
+        pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
         let report = report::html(&ReportInput {
             name: &self.name,
             case: self.case,

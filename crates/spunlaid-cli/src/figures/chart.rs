@@ -8,7 +8,8 @@
 //!     .svg()
 //! ```
 
-use super::palette::{BLUE, GREY, Marker, VERMILION};
+use super::map::Map;
+use super::palette::{BLUE, GREY, INK, Marker, VERMILION};
 use super::scale::Axis;
 
 /// How one quantity is drawn throughout a chart.
@@ -84,6 +85,8 @@ pub(crate) enum Mark {
     Vertical(f64),
     /// A shaded stretch of x, over the whole height.
     Stretch(f64, f64),
+    /// Colours over the plane.
+    Map(Map),
 }
 
 /// A chart in the making.
@@ -162,6 +165,11 @@ impl Chart {
         self.with(series, Mark::Stretch(from, to))
     }
 
+    /// Lays colours under everything else.
+    pub(crate) fn map(self, map: Map) -> Self {
+        self.with(Series::new("", INK).unlabelled(), Mark::Map(map))
+    }
+
     fn with(mut self, series: Series, mark: Mark) -> Self {
         self.marks.push((series, mark));
         self
@@ -195,6 +203,10 @@ impl Chart {
                         xs.push(x);
                         ys.extend([lower, upper]);
                     }
+                }
+                Mark::Map(map) => {
+                    xs.extend([map.x.0, map.x.1]);
+                    ys.extend([map.y.0, map.y.1]);
                 }
                 Mark::Vertical(_) | Mark::Stretch(..) => {}
             }

@@ -3,6 +3,7 @@
 use super::chart::{Chart, Mark, Series};
 use super::decimate::{along_x, path, runs};
 use super::legend;
+use super::map::{KEY, Map};
 use super::palette::{GREY, GRID, INK, Marker, PAPER};
 use super::scale::{Scale, Spacing, factor};
 use super::svg::{Anchor, Stroke, Svg, Text, width};
@@ -64,6 +65,11 @@ fn draw(svg: &mut Svg, chart: &Chart) {
     if !empty {
         let (width, height) = (plot.right - plot.left, plot.bottom - plot.top);
         svg.open_clip(&format!("clip_{}", chart.name), plot.left, plot.top, width, height);
+        for (_, mark) in &chart.marks {
+            if let Mark::Map(map) = mark {
+                map.draw(svg, |point| plot.at(point));
+            }
+        }
         for (series, mark) in &chart.marks {
             draw_shade(svg, &plot, series, mark);
         }
@@ -73,6 +79,9 @@ fn draw(svg: &mut Svg, chart: &Chart) {
         svg.close();
     }
     draw_axes(svg, &plot, chart);
+    if let Some(map) = maps(chart).next() {
+        map.draw_key(svg, plot.right, (plot.top, plot.bottom));
+    }
     if empty {
         let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
         let style = Text { size: LABEL, colour: GREY, anchor: Anchor::Middle, upright: true };
@@ -91,7 +100,7 @@ fn lay_out(chart: &Chart, xs: &[f64], ys: &[f64]) -> Plot {
     let mut x = Scale::fit(&chart.x, xs.iter().copied(), 7);
     let words = if chart.x.label.is_empty() { 0.0 } else { 22.0 };
     let left = 34.0 + y_label_width(&y);
-    let right = w - 18.0;
+    let right = w - maps(chart).next().map_or(18.0, |_| KEY);
     let entries = if xs.is_empty() { Vec::new() } else { legend::entries(chart) };
     let factors = if y.exponent != 0 { 20.0 } else { 0.0 };
     let top = 12.0 + legend::height(&entries, right - left) + factors;
@@ -103,6 +112,10 @@ fn lay_out(chart: &Chart, xs: &[f64], ys: &[f64]) -> Plot {
         y = Scale::between(Spacing::Linear, widened(y.ends, per * (bottom - top)), 6);
     }
     Plot { left, top, right, bottom, x, y }
+}
+
+fn maps(chart: &Chart) -> impl Iterator<Item = &Map> {
+    chart.marks.iter().filter_map(|(_, mark)| if let Mark::Map(map) = mark { Some(map) } else { None })
 }
 
 fn y_label_width(y: &Scale) -> f64 {
@@ -203,7 +216,7 @@ fn draw_line(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark) {
             let x = plot.along(*x);
             svg.line((x, plot.top), (x, plot.bottom), &stroke);
         }
-        Mark::Vertical(_) | Mark::Scatter(_) | Mark::Band(_) | Mark::Stretch(..) => {}
+        Mark::Vertical(_) | Mark::Scatter(_) | Mark::Band(_) | Mark::Stretch(..) | Mark::Map(_) => {}
     }
 }
 

@@ -68,6 +68,8 @@ fn draw_key(svg: &mut Svg, &Entry { series, mark, .. }: &Entry<'_>, x: f64, y: f
     let stroke = Stroke { colour: series.colour, width: series.width, dash: series.dash };
     let middle = (x + KEY / 2.0, y);
     match mark {
+        // Its key stands beside the picture.
+        Mark::Map(_) => {}
         Mark::Band(_) | Mark::Stretch(..) => {
             let corners = [(x, y - 6.0), (x + KEY, y - 6.0), (x + KEY, y + 6.0), (x, y + 6.0)];
             svg.polygon(&corners, series.colour, 0.2, None);

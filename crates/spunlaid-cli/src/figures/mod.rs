@@ -8,6 +8,7 @@ mod chart;
 mod decimate;
 mod draw;
 mod legend;
+mod map;
 mod palette;
 pub(crate) mod paper;
 mod png;

@@ -80,6 +80,7 @@ fn flight(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Flight {
             mean: position(0.0, nodes - 1),
         },
         max_strain: 1e-4,
+        outside: None,
         samples: times.iter().map(sample).collect(),
         nodes: (0..nodes).map(spread).collect(),
         shapes: times.iter().map(shape).collect(),

@@ -5,6 +5,7 @@ pub(crate) mod beside;
 pub(crate) mod folder;
 mod leftovers;
 pub(crate) mod paraview;
+pub(crate) mod pictures;
 pub(crate) mod study;
 pub(crate) mod summary;
 pub(crate) mod table;

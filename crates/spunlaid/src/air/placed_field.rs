@@ -97,6 +97,15 @@ impl PlacedField {
         (high - low).norm() * self.unit
     }
 
+    /// The lowest and the highest coordinates of the field in the fibre's frame [m].
+    pub fn extent(&self) -> (Vec3<f64>, Vec3<f64>) {
+        let (low, high) = self.field.bounds();
+        let [a, b] = [low, high].map(|corner| self.axis.to_fibre(corner * self.unit - self.root));
+        let least = |a: f64, b: f64| (a.min(b), a.max(b));
+        let ((x0, x1), (y0, y1), (z0, z1)) = (least(a.x, b.x), least(a.y, b.y), least(a.z, b.z));
+        (Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1))
+    }
+
     /// The middle of the side at which x enters the field's box: where a root is put by default [m].
     pub fn middle_of_inlet(field: &Field, axis: Axis, unit: f64) -> Vec3<f64> {
         let (low, high) = field.bounds();

@@ -8,7 +8,7 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
 use crate::args::Sweep;
 use crate::failure::Failure;
-use crate::figures::{Figure, png, study_figures};
+use crate::figures::{Figure, study_figures};
 use crate::output;
 use crate::report::{StudyReport, study_html};
 use crate::say;
@@ -163,13 +163,7 @@ fn write(
 
 fn write_figures(folder: &Path, figures: &[Figure]) -> Result<(), Failure> {
     fs::create_dir(folder).map_err(Failure::unwritable(folder))?;
-    for figure in figures {
-        write_file(&folder.join(format!("{}.svg", figure.name)), figure.svg.as_bytes())?;
-        let png = png(&figure.svg)
-            .map_err(|reason| Failure::Figure { name: figure.name.clone(), reason: reason.to_string() })?;
-        write_file(&folder.join(format!("{}.png", figure.name)), &png)?;
-    }
-    Ok(())
+    output::pictures::write(figures, |name, content| write_file(&folder.join(name), content))
 }
 
 fn write_file(path: &Path, content: &[u8]) -> Result<(), Failure> {

@@ -2,12 +2,16 @@
 
 use super::super::Figure;
 use super::super::chart::{Chart, Series};
-use super::super::palette::GREEN;
+use super::super::draw::stacked;
+use super::super::map::Map;
+use super::super::palette::{GREEN, VERMILION};
 use super::super::scale::Axis;
 use super::{MM, figure, significant};
-use spunlaid::air::LocalAir;
+use spunlaid::air::{Flow, LocalAir};
 use spunlaid::case::Case;
+use spunlaid::ensemble::Results;
 use spunlaid::field::Hint;
+use spunlaid::vec3::Vec3;
 
 /// Places that are asked along the fibre.
 const PLACES: usize = 201;
@@ -46,4 +50,75 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
         between(|air| air.cutoff_frequency, 1.0, "Hz"),
     );
     figure(&chart, caption)
+}
+
+/// Columns and rows of a slice.
+const GRID: (usize, usize) = (140, 56);
+
+/// The speed of the air of a CFD field in the planes of x and y and of x and z, with where the fibres ended.
+pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
+    let Flow::Field(placed) = &case.air.flow else {
+        return None;
+    };
+    let (low, high) = placed.extent();
+    let length = case.fibre.length;
+    // As much of the field as the fibre could reach, and a little more.
+    let x = (low.x.max(-0.1 * length), high.x.min(1.1 * length));
+    type Of = fn(&Vec3<f64>) -> f64;
+    let planes: [(&str, (f64, f64), Of, fn(f64) -> Vec3<f64>); 2] = [
+        ("*y*", (low.y, high.y), |p| p.y, |y| Vec3::new(0.0, y, 0.0)),
+        ("*z*", (low.z, high.z), |p| p.z, |z| Vec3::new(0.0, 0.0, z)),
+    ];
+    let mut maps = planes.map(|(_, across, _, at)| {
+        let across = (across.0.max(-length), across.1.min(length));
+        let mut hint = Hint::default();
+        let mut speed = |i: usize, j: usize| {
+            let share = |n: usize, of: usize| (n as f64 + 0.5) / of as f64;
+            let along = Vec3::new(x.0 + (x.1 - x.0) * share(i, GRID.0), 0.0, 0.0);
+            let air =
+                case.air.local(at(across.0 + (across.1 - across.0) * share(j, GRID.1)) + along, &mut hint);
+            if air.inside { air.velocity.norm() } else { f64::NAN }
+        };
+        let values = (0..GRID.0 * GRID.1).map(|n| speed(n % GRID.0, n / GRID.0)).collect();
+        Map {
+            x: (x.0 * MM, x.1 * MM),
+            y: (across.0 * MM, across.1 * MM),
+            columns: GRID.0,
+            values,
+            range: (0.0, 1.0),
+            label: "|*U*| (m/s)".to_owned(),
+        }
+    });
+    let fastest =
+        maps.iter().flat_map(|map| &map.values).copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
+    if fastest > 0.0 {
+        maps.iter_mut().for_each(|map| map.range = (0.0, fastest));
+    }
+    let mut planes = planes.into_iter();
+    let charts = maps.map(|map| {
+        let (name, of) = planes.next().map_or(("", (|p| p.y) as Of), |(name, _, of, _)| (name, of));
+        let chart = Chart::new(
+            &format!("air_slice_{}", name.trim_matches('*')),
+            "The field and the fibres",
+            Axis::linear("*x* from the root (mm)").tight(),
+            Axis::linear(&format!("{name} (mm)")).tight(),
+        )
+        .sized(640.0, 300.0)
+        .map(map);
+        results.flights.iter().enumerate().fold(chart, |chart, (i, flight)| {
+            let end = flight.shapes.last().map_or(&[][..], |shape| &shape.position);
+            let path: Vec<_> = end.iter().map(|p| (p.x * MM, of(p) * MM)).collect();
+            let series = Series::new("fibres at the end", VERMILION).width(1.3);
+            chart.path(if i == 0 { series } else { series.unlabelled() }, &path)
+        })
+    });
+    let caption = format!(
+        "Speed of the mean flow in two planes through the root, of {}, and up to {} fibres as they were at the end. White: \
+         outside of the field.",
+        placed.field.describe(),
+        results.flights.len(),
+    );
+    let figure = figure(&charts[0], caption);
+    let name = "air_slices".to_owned();
+    Some(Figure { name, svg: stacked("The field and the fibres", &[&charts[0], &charts[1]]), ..figure })
 }

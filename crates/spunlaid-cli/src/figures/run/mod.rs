@@ -24,6 +24,7 @@ pub(crate) fn run_figures(case: &Case, results: &Results, turbulence: &[Spectrum
     ];
     if !case.air.is_uniform() {
         figures.push(air::along_fibre(case));
+        figures.extend(air::slices(case, results));
     }
     if !turbulence.is_empty() {
         figures.push(spectra::turbulence(case, turbulence));
