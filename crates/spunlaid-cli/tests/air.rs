@@ -7,7 +7,7 @@ use desk::{Desk, ENTRIES, assert_identical, names, refusal, success};
 use std::path::{Path, PathBuf};
 
 const SHORT: [&str; 6] =
-    ["--set", "run.duration=30 ms", "--set", "run.output_interval=1 ms", "--replicates", "2"];
+    ["--set", "run.duration=30 ms", "--set", "run.time_step=100 µs", "--replicates", "2"];
 
 fn cases() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases")
@@ -52,7 +52,8 @@ fn a_sweep_through_a_field_keeps_it_and_goes_on_from_its_own_folder() {
     let field = "fields/openfoam_diffuser.vtu";
     std::fs::copy(cases().join(field), desk.path(field)).unwrap();
     std::fs::write(desk.path("case.toml"), case.replace("\"1 s\"", "\"20 ms\"")).unwrap();
-    let study = "case = 'case.toml'\nreplicates = 2\n[vary]\n'air.speed_factor' = [0.8, 1.25]\n";
+    let study =
+        "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'air.speed_factor' = [0.8, 1.25]\n";
     std::fs::write(desk.path("study.toml"), study).unwrap();
     success(desk.spunlaid("sweep").arg(desk.path("study.toml")).args(["--out", "out"]));
     let read = |name: &str| std::fs::read_to_string(desk.path(name)).unwrap();
@@ -79,7 +80,7 @@ fn a_study_of_another_field_is_another_study() {
     let case = std::fs::read_to_string(cases().join("profile.toml")).unwrap();
     let case = case.replace("tables/diffuser.csv", "air.csv").replace("\"1 s\"", "\"20 ms\"");
     std::fs::write(desk.path("case.toml"), case).unwrap();
-    let study = "case = 'case.toml'\nreplicates = 2\n[vary]\n'fibre.diameter' = ['20 µm', '50 µm']\n";
+    let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'fibre.diameter' = ['20 µm', '50 µm']\n";
     std::fs::write(desk.path("study.toml"), study).unwrap();
     let sweep = || {
         let mut command = desk.spunlaid("sweep");
