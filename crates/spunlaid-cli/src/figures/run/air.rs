@@ -55,6 +55,15 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
 /// Columns and rows of a slice.
 const GRID: (usize, usize) = (140, 56);
 
+/// A plane along the fibre, and the direction across the fibre in it.
+struct Plane {
+    name: &'static str,
+    /// Of the field [m].
+    across: (f64, f64),
+    of: fn(&Vec3<f64>) -> f64,
+    at: fn(f64) -> Vec3<f64>,
+}
+
 /// The speed of the air of a CFD field in the planes of x and y and of x and z, with where the fibres ended.
 pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
     let Flow::Field(placed) = &case.air.flow else {
@@ -64,12 +73,11 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
     let length = case.fibre.length;
     // As much of the field as the fibre could reach, and a little more.
     let x = (low.x.max(-0.1 * length), high.x.min(1.1 * length));
-    type Of = fn(&Vec3<f64>) -> f64;
-    let planes: [(&str, (f64, f64), Of, fn(f64) -> Vec3<f64>); 2] = [
-        ("*y*", (low.y, high.y), |p| p.y, |y| Vec3::new(0.0, y, 0.0)),
-        ("*z*", (low.z, high.z), |p| p.z, |z| Vec3::new(0.0, 0.0, z)),
+    let planes = [
+        Plane { name: "*y*", across: (low.y, high.y), of: |p| p.y, at: |y| Vec3::new(0.0, y, 0.0) },
+        Plane { name: "*z*", across: (low.z, high.z), of: |p| p.z, at: |z| Vec3::new(0.0, 0.0, z) },
     ];
-    let mut maps = planes.map(|(_, across, _, at)| {
+    let mut maps = planes.each_ref().map(|Plane { across, at, .. }| {
         let across = (across.0.max(-length), across.1.min(length));
         let mut hint = Hint::default();
         let mut speed = |i: usize, j: usize| {
@@ -94,9 +102,7 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
     if fastest > 0.0 {
         maps.iter_mut().for_each(|map| map.range = (0.0, fastest));
     }
-    let mut planes = planes.into_iter();
-    let charts = maps.map(|map| {
-        let (name, of) = planes.next().map_or(("", (|p| p.y) as Of), |(name, _, of, _)| (name, of));
+    let charts = maps.into_iter().zip(&planes).map(|(map, Plane { name, of, .. })| {
         let chart = Chart::new(
             &format!("air_slice_{}", name.trim_matches('*')),
             "The field and the fibres",
@@ -112,6 +118,7 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
             chart.path(if i == 0 { series } else { series.unlabelled() }, &path)
         })
     });
+    let charts: Vec<Chart> = charts.collect();
     let caption = format!(
         "Speed of the mean flow in two planes through the root, of {}, and up to {} fibres as they were at the end. White: \
          outside of the field.",
