@@ -14,33 +14,37 @@ use crate::vec3::Vec3;
 /// * `wind` – the air at the time of the positions
 /// * `eddy` – index into the wind for each of the `N` elements
 /// * `work` – ledger the step adds to
-/// * `SPLIT` – whether the ledger also keeps apart what the velocities before the kick gave
+/// * `damped` – whether there is any damping
+/// * `split` – whether the ledger also keeps apart what the velocities before the kick gave
 #[inline(always)]
-pub(crate) fn step<S: Register, const LEAPFROG: bool, const DAMPED: bool, const SPLIT: bool>(
+pub(crate) fn step<S: Register, const LEAPFROG: bool>(
     chain: &mut Chain,
     wind: impl Breeze<S>,
     eddy: &[u32],
     (kick, drift): (f64, f64),
+    (damped, split): (bool, bool),
     work: &mut Work,
     block: &mut Block<S>,
 ) {
     let elements = chain.elements();
     let Chain { position, velocity, earlier, constants: c, .. } = chain;
-    let mut mover = Mover::<S, LEAPFROG, DAMPED, SPLIT> {
+    let mut mover = Mover::<S, LEAPFROG> {
+        damped,
         position: &mut position[..=elements],
         velocity: &mut velocity[..=elements],
         earlier: &mut earlier[..=elements],
         c,
         kick: Wide::splat(kick),
         drift: Wide::splat(drift),
-        work: Sums::of(work),
+        work: Sums::of(work, split),
     };
     sweep(&mut mover, c, wind, eddy, block);
     mover.work.put(work);
 }
 
 /// Moves each node on as soon as its force is complete, and keeps the ledger.
-struct Mover<'a, S: Register, const LEAPFROG: bool, const DAMPED: bool, const SPLIT: bool> {
+struct Mover<'a, S: Register, const LEAPFROG: bool> {
+    damped: bool,
     position: &'a mut [Vec3<Lanes>],
     velocity: &'a mut [Vec3<Lanes>],
     earlier: &'a mut [Vec3<Lanes>],
@@ -50,9 +54,7 @@ struct Mover<'a, S: Register, const LEAPFROG: bool, const DAMPED: bool, const SP
     work: Sums<S>,
 }
 
-impl<S: Register, const LEAPFROG: bool, const DAMPED: bool, const SPLIT: bool> Motion<S>
-    for Mover<'_, S, LEAPFROG, DAMPED, SPLIT>
-{
+impl<S: Register, const LEAPFROG: bool> Motion<S> for Mover<'_, S, LEAPFROG> {
     #[inline(always)]
     fn position(&self, i: usize) -> Vec3<Wide<S>> {
         Vec3::load(&self.position[i])
@@ -80,13 +82,14 @@ impl<S: Register, const LEAPFROG: bool, const DAMPED: bool, const SPLIT: bool> M
         let before = Vec3::load(&self.velocity[i]);
         let mut force = force;
         force.x += Wide::load(&node.weight);
-        let mut damping = Vec3::zero();
-        if DAMPED {
-            damping = self.drag_velocity(i) * -(Wide::load(&node.mass) * Wide::load(&self.c.damping));
-            force += damping;
+        let mut damping = None;
+        if self.damped {
+            let slowed = self.drag_velocity(i) * -(Wide::load(&node.mass) * Wide::load(&self.c.damping));
+            force += slowed;
+            damping = Some(slowed);
         }
         let after = force.mul_add(self.kick * Wide::load(&node.inverse_mass), before);
-        self.work.add::<DAMPED, SPLIT>([force, drag, damping], before, after);
+        self.work.add((force, drag, damping), before, after);
         if LEAPFROG {
             self.earlier[i] = before.store();
         }

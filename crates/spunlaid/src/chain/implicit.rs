@@ -55,16 +55,18 @@ impl Tensions {
 
 /// Advances eight chains by one step of `h` [s]. Arguments as of the explicit step.
 #[inline(always)]
-pub(crate) fn step<S: Register, const DAMPED: bool, const SPLIT: bool>(
+pub(crate) fn step<S: Register>(
     chain: &mut Chain,
     wind: impl Breeze<S>,
     eddy: &[u32],
     h: f64,
+    (damped, split): (bool, bool),
     work: &mut Work,
     block: &mut Block<S>,
 ) {
     let c = &chain.constants;
-    let mut predictor = Predictor::<S, DAMPED> {
+    let mut predictor = Predictor::<S> {
+        damped,
         position: &chain.position,
         velocity: &chain.velocity,
         earlier: &chain.earlier,
@@ -76,14 +78,15 @@ pub(crate) fn step<S: Register, const DAMPED: bool, const SPLIT: bool>(
     };
     sweep(&mut predictor, c, wind, eddy, block);
     predict_and_eliminate::<S>(&chain.position, &chain.velocity, c, h, &mut chain.tensions);
-    let mut sums = Sums::of(work);
-    correct_and_move::<S, DAMPED, SPLIT>(chain, h, &mut sums);
+    let mut sums = Sums::of(work, split);
+    correct_and_move::<S>(chain, h, damped, &mut sums);
     sums.put(work);
 }
 
 /// Keeps the forces with the last tensions, and eliminates `(M + K') a = F` from the root down, `K'` the
 /// averaging's share of the stiffness of the string under those tensions.
-struct Predictor<'a, S: Register, const DAMPED: bool> {
+struct Predictor<'a, S: Register> {
+    damped: bool,
     position: &'a [Vec3<Lanes>],
     velocity: &'a [Vec3<Lanes>],
     earlier: &'a [Vec3<Lanes>],
@@ -97,7 +100,7 @@ struct Predictor<'a, S: Register, const DAMPED: bool> {
     above: (Vec3<Wide<S>>, Wide<S>),
 }
 
-impl<S: Register, const DAMPED: bool> Motion<S> for Predictor<'_, S, DAMPED> {
+impl<S: Register> Motion<S> for Predictor<'_, S> {
     #[inline(always)]
     fn position(&self, i: usize) -> Vec3<Wide<S>> {
         Vec3::load(&self.position[i])
@@ -125,7 +128,7 @@ impl<S: Register, const DAMPED: bool> Motion<S> for Predictor<'_, S, DAMPED> {
         let node = self.c.node(i, nodes);
         let mut force = force;
         force.x += Wide::load(&node.weight);
-        if DAMPED {
+        if self.damped {
             let damping = Wide::load(&node.mass) * Wide::load(&self.c.damping);
             force = self.drag_velocity(i).neg_mul_add(damping, force);
         }
@@ -201,11 +204,7 @@ fn predict_and_eliminate<S: Register>(
 
 /// From the root down: the corrections of the tensions, and with them the motion of the nodes.
 #[inline(always)]
-fn correct_and_move<S: Register, const DAMPED: bool, const SPLIT: bool>(
-    chain: &mut Chain,
-    h: f64,
-    sums: &mut Sums<S>,
-) {
+fn correct_and_move<S: Register>(chain: &mut Chain, h: f64, damped: bool, sums: &mut Sums<S>) {
     let elements = chain.elements();
     let Chain { position, velocity, earlier, constants: c, tensions: t } = chain;
     let (rate, h) = (Wide::<S>::splat(1.0 / h), Wide::<S>::splat(h));
@@ -229,13 +228,13 @@ fn correct_and_move<S: Register, const DAMPED: bool, const SPLIT: bool>(
         // The force that moved the node; what no other force accounts for is the tension's.
         let force = (after - before) * (Wide::load(&node.mass) * rate);
         let tension = force - Vec3::load(&t.force[i]) + (pull - pull_above);
-        let mut damping = Vec3::zero();
-        if DAMPED {
+        let mut damping = None;
+        if damped {
             let v = (before - Vec3::load(&earlier[i])).mul_add(Wide::splat(0.5), before);
-            damping = v * -(Wide::load(&node.mass) * Wide::load(&c.damping));
+            damping = Some(v * -(Wide::load(&node.mass) * Wide::load(&c.damping)));
         }
-        sums.add::<DAMPED, SPLIT>([force, Vec3::load(&t.drag[i]), damping], before, after);
-        sums.add_tension::<SPLIT>(tension, before, after);
+        sums.add((force, Vec3::load(&t.drag[i]), damping), before, after);
+        sums.add_tension(tension, before, after);
         earlier[i] = before.store();
         velocity[i] = after.store();
         position[i] = after.mul_add(h, Vec3::load(&position[i])).store();

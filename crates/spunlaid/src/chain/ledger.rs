@@ -47,14 +47,17 @@ impl Work {
 
 /// A [`Work`] in registers: of the total force, the drag, the damping and the implicit tension.
 pub(crate) struct Sums<S: Register> {
+    /// Whether `before` is kept.
+    split: bool,
     both: [Wide<S>; 4],
     before: [Wide<S>; 4],
 }
 
 impl<S: Register> Sums<S> {
     #[inline(always)]
-    pub(crate) fn of(work: &Work) -> Self {
+    pub(crate) fn of(work: &Work, split: bool) -> Self {
         Self {
+            split,
             both: [
                 Wide::load(&work.total.both),
                 Wide::load(&work.drag.both),
@@ -65,43 +68,32 @@ impl<S: Register> Sums<S> {
         }
     }
 
-    /// Adds `F·(v_before + v_after)` of the total, the drag and the damping force.
+    /// Adds `F·(v_before + v_after)` of the total force and the drag, and of the damping where there is any.
     #[inline(always)]
-    pub(crate) fn add<const DAMPED: bool, const SPLIT: bool>(
+    pub(crate) fn add(
         &mut self,
-        forces: [Vec3<Wide<S>>; 3],
+        (total, drag, damping): (Vec3<Wide<S>>, Vec3<Wide<S>>, Option<Vec3<Wide<S>>>),
         before: Vec3<Wide<S>>,
         after: Vec3<Wide<S>>,
     ) {
         let velocities = before + after;
-        self.add_to::<SPLIT>(0, forces[0], before, velocities);
-        self.add_to::<SPLIT>(1, forces[1], before, velocities);
-        if DAMPED {
-            self.add_to::<SPLIT>(2, forces[2], before, velocities);
+        self.add_to(0, total, before, velocities);
+        self.add_to(1, drag, before, velocities);
+        if let Some(damping) = damping {
+            self.add_to(2, damping, before, velocities);
         }
     }
 
     /// Adds `F·(v_before + v_after)` of the implicit tension.
     #[inline(always)]
-    pub(crate) fn add_tension<const SPLIT: bool>(
-        &mut self,
-        force: Vec3<Wide<S>>,
-        before: Vec3<Wide<S>>,
-        after: Vec3<Wide<S>>,
-    ) {
-        self.add_to::<SPLIT>(3, force, before, before + after);
+    pub(crate) fn add_tension(&mut self, force: Vec3<Wide<S>>, before: Vec3<Wide<S>>, after: Vec3<Wide<S>>) {
+        self.add_to(3, force, before, before + after);
     }
 
     #[inline(always)]
-    fn add_to<const SPLIT: bool>(
-        &mut self,
-        i: usize,
-        force: Vec3<Wide<S>>,
-        before: Vec3<Wide<S>>,
-        velocities: Vec3<Wide<S>>,
-    ) {
+    fn add_to(&mut self, i: usize, force: Vec3<Wide<S>>, before: Vec3<Wide<S>>, velocities: Vec3<Wide<S>>) {
         self.both[i] = force.dot_add(velocities, self.both[i]);
-        if SPLIT {
+        if self.split {
             self.before[i] = force.dot_add(before, self.before[i]);
         }
     }

@@ -207,16 +207,10 @@ impl<'a> Bundle<'a> {
 
     fn run(&mut self, steps: u64, kick_and_drift: (f64, f64), split: bool) {
         let isa = self.isa;
+        // The very first step always: the ledger begins with it.
         let first = steps.min(u64::from(self.steps_done == 0));
-        if split || first == 1 {
-            isa.run(Advance::<true> {
-                bundle: self,
-                steps: if split { steps } else { first },
-                kick_and_drift,
-            });
-        }
-        if !split {
-            isa.run(Advance::<false> { bundle: self, steps: steps - first, kick_and_drift });
+        for (steps, split) in [(first, true), (steps - first, split)] {
+            isa.run(Advance { bundle: self, steps, kick_and_drift, split });
         }
     }
 }
@@ -239,52 +233,45 @@ macro_rules! in_wind {
     };
 }
 
-/// Steps of a bundle; with `SPLIT` the ledger keeps apart what the velocities before each kick gave.
-struct Advance<'b, 'a, const SPLIT: bool> {
+/// Steps of a bundle; with `split` the ledger keeps apart what the velocities before each kick gave.
+struct Advance<'b, 'a> {
     bundle: &'b mut Bundle<'a>,
     steps: u64,
     kick_and_drift: (f64, f64),
+    split: bool,
 }
 
-impl<const SPLIT: bool> Task for Advance<'_, '_, SPLIT> {
+impl Task for Advance<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn call<S: Register>(self) {
-        match (self.bundle.scheme, self.bundle.damped) {
-            (Scheme::SemiImplicitEuler, false) => self.steps::<S, false, false>(),
-            (Scheme::SemiImplicitEuler, true) => self.steps::<S, false, true>(),
-            (Scheme::Leapfrog, false) => self.steps::<S, true, false>(),
-            (Scheme::Leapfrog, true) => self.steps::<S, true, true>(),
-            (Scheme::ImplicitTension, false) => self.implicit_steps::<S, false>(),
-            (Scheme::ImplicitTension, true) => self.implicit_steps::<S, true>(),
+        match self.bundle.scheme {
+            Scheme::SemiImplicitEuler => self.steps::<S, false>(),
+            Scheme::Leapfrog => self.steps::<S, true>(),
+            Scheme::ImplicitTension => self.implicit_steps::<S>(),
         }
     }
 }
 
-impl<const SPLIT: bool> Advance<'_, '_, SPLIT> {
+impl Advance<'_, '_> {
     #[inline(always)]
-    fn steps<S: Register, const LEAPFROG: bool, const DAMPED: bool>(self) {
+    fn steps<S: Register, const LEAPFROG: bool>(self) {
         let (b, by) = (self.bundle, self.kick_and_drift);
+        let how = (b.damped, self.split);
         let mut block = Block::new();
         in_wind!(self.steps, b, |wind, eddy| {
-            explicit::step::<S, LEAPFROG, DAMPED, SPLIT>(
-                &mut b.chain,
-                wind,
-                eddy,
-                by,
-                &mut b.work,
-                &mut block,
-            );
+            explicit::step::<S, LEAPFROG>(&mut b.chain, wind, eddy, by, how, &mut b.work, &mut block);
         });
     }
 
     #[inline(always)]
-    fn implicit_steps<S: Register, const DAMPED: bool>(self) {
+    fn implicit_steps<S: Register>(self) {
         let b = self.bundle;
+        let how = (b.damped, self.split);
         let mut block = Block::new();
         in_wind!(self.steps, b, |wind, eddy| {
-            implicit::step::<S, DAMPED, SPLIT>(&mut b.chain, wind, eddy, b.h, &mut b.work, &mut block);
+            implicit::step::<S>(&mut b.chain, wind, eddy, b.h, how, &mut b.work, &mut block);
         });
     }
 }
