@@ -210,7 +210,9 @@ impl<'a> Bundle<'a> {
         // The very first step always: the ledger begins with it.
         let first = steps.min(u64::from(self.steps_done == 0));
         for (steps, split) in [(first, true), (steps - first, split)] {
-            isa.run(Advance { bundle: self, steps, kick_and_drift, split });
+            if steps > 0 {
+                isa.run(Advance { bundle: self, steps, kick_and_drift, split });
+            }
         }
     }
 }
