@@ -8,7 +8,7 @@ pub enum EddyModel {
     #[default]
     Independent,
     /// A frozen pattern that the mean flow carries along the fibre (Taylor's hypothesis), which forgets itself
-    /// in the course of `decay_time` [s]; infinite where it never does.       theory.md (38)
+    /// in the course of `decay_time` [s]; infinite where it never does.       theory.md (47)
     Convected {
         /// Time constant of the correlation of what is carried along [s].
         decay_time: f64,

@@ -98,7 +98,7 @@ impl Air {
 
     /// Turbulence from `k` and `ε`: rms √(2k/3), length `C_L k^1.5/ε`, and the cut-off `1/(4T)` of the flat
     /// spectrum whose integral time is that of eddies which pass by and turn over, `1/T = |U|/L + ε/(C_T k)`.
-    /// theory.md (39), (40)
+    /// theory.md (48), (49)
     fn of_field(&self, placed: &PlacedField, at: Vec3<f64>, hint: &mut Hint) -> LocalAir {
         let found = placed.at(at, hint);
         let factor = self.speed_factor;

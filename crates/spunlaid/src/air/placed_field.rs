@@ -70,9 +70,9 @@ pub struct PlacedField {
     pub axis: Axis,
     /// Length of a unit of its coordinates [m].
     pub unit: f64,
-    /// `C_L` of the length scale `C_L k^1.5/ε` [-].                           theory.md (39)
+    /// `C_L` of the length scale `C_L k^1.5/ε` [-].                           theory.md (48)
     pub length_constant: f64,
-    /// `C_T` of the lifetime `C_T k/ε` of an eddy [-].                        theory.md (40)
+    /// `C_T` of the lifetime `C_T k/ε` of an eddy [-].                        theory.md (49)
     pub time_constant: f64,
 }
 

@@ -10,7 +10,7 @@ pub enum SpectrumShape {
     #[default]
     Flat,
     /// Von Kármán's for isotropic turbulence, along and across the mean flow, up to the cut-off.
-    /// theory.md (37)
+    /// theory.md (46)
     VonKarman,
     /// As measured, up to the cut-off.
     Measured(FromFile<SpectrumTable>),

@@ -225,7 +225,7 @@ impl<'a> Harmonics<'a> {
         let phase = self.phase[component].iter_mut().map(|of| &mut of.0[lane]);
         match tone.carried {
             None => phase.for_each(|phase| *phase = uniform(&mut stream)),
-            // What arrives later lags behind; what is forgotten walks away at random: theory.md (38).
+            // What arrives later lags behind; what is forgotten walks away at random: theory.md (47).
             Some(time) => {
                 let lag = time / air.repeat_time();
                 let step = (2.0 * tone.forgotten).sqrt() / (2.0 * PI);
