@@ -1,32 +1,23 @@
 //! Air drag on a fibre, along and across its axis.
+//!
+//! ```text
+//! law (friction, normal; boundary_layer) → ElementDrag → DragLanes (powers and curve), in the kernel
+//! ```
+
+mod boundary_layer;
+mod curve;
+mod friction;
+mod normal;
+
+pub use boundary_layer::BoundaryLayer;
+pub use curve::Curve;
+pub use friction::FrictionLaw;
+pub use normal::NormalLaw;
 
 use crate::fibre::Fibre;
-use crate::lanes::{Lanes, Simd, Wide, power};
+use crate::lanes::{Lanes, Register, Simd, WIDTH, Wide, exp2, log2, power};
 use crate::vec3::Vec3;
 use std::f64::consts::PI;
-
-/// Law of the friction along the fibre.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FrictionLaw {
-    /// `C_f = β Re^-0.61`, turbulent boundary layer of a long cylinder (Matsui 1976).
-    Matsui,
-}
-
-impl FrictionLaw {
-    /// Name in the case file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Matsui => "matsui",
-        }
-    }
-}
-
-/// Law of the drag across the fibre.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NormalLaw {
-    /// `C_n = 6.96 Re^-0.440 (d/78 µm)^0.404`, fitted for 13–390 µm (Ju & Shambaugh 1994).
-    JuShambaugh,
-}
 
 /// The drag laws and their constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,111 +26,132 @@ pub struct Drag {
     pub along: FrictionLaw,
     /// Law across the fibre.
     pub across: NormalLaw,
-    /// `β` of the friction law [-]: 0.37 Matsui's own, 0.78 Majumdar & Shambaugh's, 0.9 for a single
-    /// fibre in a tube.
-    pub friction_coefficient: f64,
-}
-
-/// Exponent of the Reynolds number in [`FrictionLaw::Matsui`].
-const MATSUI: f64 = 0.61;
-/// Constants of [`NormalLaw::JuShambaugh`]: factor, exponents of Re and of d, reference diameter [m].
-const JU_SHAMBAUGH: (f64, f64, f64, f64) = (6.96, 0.440, 0.404, 78e-6);
-
-impl NormalLaw {
-    /// Name in the case file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::JuShambaugh => "ju-shambaugh",
-        }
-    }
-
-    /// The diameters the law was fitted to [m].
-    pub const fn fitted_diameters(self) -> (f64, f64) {
-        match self {
-            Self::JuShambaugh => (13e-6, 390e-6),
-        }
-    }
 }
 
 impl Drag {
-    /// Friction coefficient `C_f = β Re^-0.61` [-] along the fibre.           theory.md (2)
-    ///
-    /// * `re` – Reynolds number on diameter and tangential velocity [-], `re > 0`
-    ///
-    /// Source: Matsui 1976.
-    pub fn tangential_coefficient(&self, re: f64) -> f64 {
-        match self.along {
-            FrictionLaw::Matsui => self.friction_coefficient * libm::pow(re, -MATSUI),
-        }
-    }
-
-    /// Normal drag coefficient `C_n = 6.96 Re^-0.440 (d/d₀)^0.404`, `d₀ = 78 µm` [-].  theory.md (4)
-    ///
-    /// * `re` – Reynolds number on diameter and normal velocity [-], `re > 0`
-    /// * `diameter` – [m], fitted for 13–390 µm
-    ///
-    /// Source: Ju & Shambaugh 1994.
-    pub fn normal_coefficient(&self, re: f64, diameter: f64) -> f64 {
-        let NormalLaw::JuShambaugh = self.across;
-        let (a, b, c, d0) = JU_SHAMBAUGH;
-        a * libm::pow(re, -b) * libm::pow(diameter / d0, c)
-    }
-
-    /// The laws as factors and exponents of the velocity, for the element of a fibre in air of
-    /// `density` [kg/m³] and `viscosity` (kinematic) [m²/s].
+    /// The laws for the element of a fibre in air of `density` [kg/m³] and `viscosity` (kinematic) [m²/s].
     pub fn of_element(&self, fibre: &Fibre, density: f64, viscosity: f64) -> ElementDrag {
         let d = fibre.diameter;
         let l = fibre.rest_length();
         let re_per_velocity = d / viscosity;
         let pressure_area = 0.5 * density * d * l;
-        let (_, b, _, _) = JU_SHAMBAUGH;
+        // Of |V| = 1 m/s, and the shift of a curve over log2 V².
+        let power = |factor, exponent| Share { factor, growth: Growth::Power(exponent) };
+        let curve = |factor, curve, s: f64| Share {
+            factor: factor * density * viscosity * l,
+            growth: Growth::Curve(curve, 2.0 * libm::log2(s)),
+        };
+        let layer = |of| curve(2.0 * PI, of, 0.25 * d * re_per_velocity / l);
+        let (along, across) = (self.along, self.across);
         ElementDrag {
-            tangential: PI * pressure_area * self.tangential_coefficient(re_per_velocity),
-            tangential_exponent: 1.0 - MATSUI,
-            normal: pressure_area * self.normal_coefficient(re_per_velocity, d),
-            normal_exponent: (1.0 - b) / 2.0,
+            along: match along {
+                FrictionLaw::Matsui { .. } | FrictionLaw::MajumdarShambaugh => {
+                    let coefficient = along.coefficient(re_per_velocity, 1.0);
+                    power(PI * pressure_area * coefficient, 1.0 - friction::MATSUI)
+                }
+                FrictionLaw::Sakiadis => layer(Curve::Moving),
+                FrictionLaw::GlauertLighthill => layer(Curve::Held),
+            },
+            across: match across {
+                NormalLaw::JuShambaugh => {
+                    let (_, b, _, _) = normal::JU_SHAMBAUGH;
+                    power(pressure_area * across.coefficient(re_per_velocity, d), 1.0 - b)
+                }
+                NormalLaw::MarheinekeWegener => curve(1.0, Curve::Normal, re_per_velocity),
+            },
         }
     }
 }
 
-/// Drag of one element as `F = c_t |V_t|^p V_t t + c_n (|V_n|²)^q V_n`.      theory.md (8)
+/// Drag of one element as `F = c_t g_t(|V_t|) V_t t + c_n g_n(|V_n|) V_n`.   theory.md (8), (45)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElementDrag {
-    /// `c_t` [N/(m/s)^(1+p)].
-    pub tangential: f64,
-    /// `p` [-].
-    pub tangential_exponent: f64,
-    /// `c_n` [N/(m/s)^(1+2q)].
-    pub normal: f64,
-    /// `q` [-].
-    pub normal_exponent: f64,
+    /// Friction along the element.
+    pub along: Share,
+    /// Drag across it.
+    pub across: Share,
+}
+
+/// The drag in one direction, `F = c g(|V|) V`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
+    /// `c`: the force [N] where `g V = 1`.
+    pub factor: f64,
+    /// `g`.
+    pub growth: Growth,
+}
+
+/// How drag by velocity grows with the velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Growth {
+    /// `|V|^p`, `V` in m/s; `p` between 0 and 1 [-].
+    Power(f64),
+    /// A curve over `s`, with `log2 s² = log2 V² + shift`; along the fibre, `V` is first divided by the
+    /// distance of the element's centre from the root in elements.
+    Curve(Curve, f64),
 }
 
 impl ElementDrag {
     /// Half of it: the share of each of the element's two nodes.
     pub(crate) fn half(self) -> Self {
-        Self { tangential: 0.5 * self.tangential, normal: 0.5 * self.normal, ..self }
+        let half = |share: Share| Share { factor: 0.5 * share.factor, ..share };
+        Self { along: half(self.along), across: half(self.across) }
+    }
+}
+
+impl Share {
+    /// The force [N] at a speed [m/s], as the law has it.
+    ///
+    /// * `place` – of the element's centre, in elements from the root
+    pub fn force(&self, speed: f64, place: f64) -> f64 {
+        let speed = speed.abs();
+        self.factor
+            * match self.growth {
+                Growth::Power(p) => libm::pow(speed, 1.0 + p),
+                Growth::Curve(..) if speed == 0.0 => 0.0,
+                Growth::Curve(curve, shift) => {
+                    let by = if curve.fades() { place } else { 1.0 };
+                    speed * curve.exact(speed / by * libm::exp2(0.5 * shift))
+                }
+            }
+    }
+
+    fn curve(&self) -> Option<Curve> {
+        match self.growth {
+            Growth::Power(_) => None,
+            Growth::Curve(curve, _) => Some(curve),
+        }
+    }
+}
+
+impl ElementDrag {
+    /// The curves along and across, which all fibres of a bundle have in common.
+    pub(crate) fn curves(&self) -> [Option<Curve>; 2] {
+        [self.along.curve(), self.across.curve()]
     }
 }
 
 /// [`ElementDrag`] of eight fibres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DragLanes {
-    tangential: Lanes,
-    tangential_exponent: Lanes,
-    normal: Lanes,
-    normal_exponent: Lanes,
+    /// Along and across.
+    factor: [Lanes; 2],
+    curve: [Option<Curve>; 2],
+    /// Exponent, of `|V_t|` and of `|V_n|²`, or shift of the curve.
+    growth: [Lanes; 2],
 }
 
 impl DragLanes {
-    /// Packs the element drag of each lane's fibre.
-    pub fn pack(lanes: &[ElementDrag; crate::lanes::WIDTH]) -> Self {
-        Self {
-            tangential: Lanes::from_fn(|i| lanes[i].tangential),
-            tangential_exponent: Lanes::from_fn(|i| lanes[i].tangential_exponent),
-            normal: Lanes::from_fn(|i| lanes[i].normal),
-            normal_exponent: Lanes::from_fn(|i| lanes[i].normal_exponent),
-        }
+    /// Packs the element drag of each lane's fibre. All must have the curves of the first.
+    pub fn pack(lanes: &[ElementDrag; WIDTH]) -> Self {
+        let both = |of: &dyn Fn(&Share, f64) -> f64| {
+            [Lanes::from_fn(|i| of(&lanes[i].along, 1.0)), Lanes::from_fn(|i| of(&lanes[i].across, 0.5))]
+        };
+        let growth = |share: &Share, per_square| match share.growth {
+            Growth::Power(p) => per_square * p,
+            Growth::Curve(_, shift) => shift,
+        };
+        Self { factor: both(&|share, _| share.factor), curve: lanes[0].curves(), growth: both(&growth) }
     }
 
     /// What the powers of the law are taken of: the relative velocity along the element and across it.
@@ -153,19 +165,47 @@ impl DragLanes {
         Split { along, across, powers: Wide([along.abs().0, across.dot(across).0]) }
     }
 
-    /// Takes the two powers, `|V_t|^p` and `(|V_n|²)^q`.
+    /// Whether both laws are powers, as the paper's are.
+    #[inline(always)]
+    pub(crate) fn is_powers(&self) -> bool {
+        self.curve[0].is_none() && self.curve[1].is_none()
+    }
+
+    /// Takes `g_t` and `g_n` where both laws are powers.
     #[inline(always)]
     pub(crate) fn raise<S: Simd>(&self, split: &mut Split<S>) {
-        let exponents = [S::load(&self.tangential_exponent), S::load(&self.normal_exponent)];
+        let exponents = [S::load(&self.growth[0]), S::load(&self.growth[1])];
         split.powers = power(split.powers, Wide(exponents));
     }
 
-    /// Force of the air on an element [N].                                   theory.md (8)
+    /// Takes `g_t` and `g_n` of element `j`, whatever the laws.
+    #[inline(always)]
+    pub(crate) fn look_up<S: Register>(&self, j: usize, split: &mut Split<S>) {
+        let [mut along, across] = split.powers.0;
+        if matches!(self.curve[0], Some(curve) if curve.fades()) {
+            along = along.mul(S::splat(1.0 / (j as f64 + 0.5)));
+        }
+        let [along, across] = log2(Wide([along, across])).0;
+        split.powers = Wide([self.grown(0, Wide(along), 2.0).0, self.grown(1, Wide(across), 1.0).0]);
+    }
+
+    /// `g` in one direction from the logarithm of what its power is taken of, `to_square` times which is
+    /// `log2 V²`.
+    #[inline(always)]
+    fn grown<S: Register>(&self, direction: usize, log2: Wide<S>, to_square: f64) -> Wide<S> {
+        let growth = Wide::load(&self.growth[direction]);
+        match self.curve[direction] {
+            None => exp2(log2 * growth),
+            Some(curve) => curve.table().at(log2.mul_add(Wide::splat(to_square), growth)),
+        }
+    }
+
+    /// Force of the air on an element [N].                                   theory.md (8), (45)
     #[inline(always)]
     pub(crate) fn force<S: Simd>(&self, split: &Split<S>, tangent: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
         let [tangential, normal] = split.powers.0;
-        let friction = Wide::load(&self.tangential) * split.along * Wide(tangential);
-        split.across.mul_add(Wide::load(&self.normal) * Wide(normal), tangent * friction)
+        let friction = Wide::load(&self.factor[0]) * split.along * Wide(tangential);
+        split.across.mul_add(Wide::load(&self.factor[1]) * Wide(normal), tangent * friction)
     }
 }
 
@@ -174,7 +214,7 @@ impl DragLanes {
 pub(crate) struct Split<S: Simd> {
     along: Wide<S>,
     across: Vec3<Wide<S>>,
-    /// `|V_t|` and `|V_n|²` abreast, then their powers.
+    /// `|V_t|` and `|V_n|²` abreast, then `g_t` and `g_n`.
     powers: Wide<[S; 2]>,
 }
 

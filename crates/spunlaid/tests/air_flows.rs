@@ -122,8 +122,8 @@ fn analytic_elements_feel_the_velocity_at_their_centres() {
         let v = shear(Vec3::new((j as f64 + 0.5) / n as f64, 0.0, 0.0));
         let across = Vec3::new(0.0, v.y, v.z);
         let d = strand.drag;
-        let along = d.tangential * v.x.abs().powf(d.tangential_exponent) * v.x;
-        across * (d.normal * across.dot(across).powf(d.normal_exponent)) + Vec3::new(along, 0.0, 0.0)
+        let along = d.along.force(v.x, 0.0) * v.x.signum();
+        across * (d.across.force(across.norm(), 0.0) / across.norm()) + Vec3::new(along, 0.0, 0.0)
     };
     for i in 1..n {
         let force = (drag(i - 1) + drag(i)) * 0.5;

@@ -88,7 +88,7 @@ fn table_1_is_read_in_si_units() {
             direction: Vec3::new(1.0, 0.0, 0.0),
         },
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
-        drag: Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient: 0.9 },
+        drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         run: Run {
             time_step: 1e-6,
             steps: 1_000_000,
@@ -155,11 +155,34 @@ fn what_was_rounded_is_said() {
         (
             "diameter = \"500 µm\"",
             "case.toml:7: fibre.diameter = \"500 µm\" is outside 13 µm to 390 µm, the diameters drag.across = \"ju-shambaugh\" \
-             was fitted for; the drag across the fibre is extrapolated",
+             was fitted for; the drag across the fibre is extrapolated, \"marheineke-wegener\" is for any diameter",
         ),
     ] {
         assert_eq!(remarks(&with(line)).join("\n"), said);
     }
+}
+
+#[test]
+fn a_drag_law_says_once_where_it_ends() {
+    let set = |pairs: &[(&str, &str)]| {
+        let set: Vec<_> = pairs.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        let (_, notes) = parse_case(starter_case(), "case.toml", &set).unwrap();
+        notes.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let (law, thick) = (("drag.across", "marheineke-wegener"), ("fibre.diameter", "6 mm"));
+    assert_eq!(set(&[law]), [""; 0]);
+    // Three times 10 % of 100 m/s, over 6 mm.
+    let fast = set(&[law, thick, ("air.velocity", "100 m/s"), ("run.time_step", "0.1 µs")]);
+    assert_eq!(
+        fast,
+        [
+            "--set fibre.diameter = \"6 mm\" lets the air pass across the fibre at Reynolds numbers up to 11900, beyond \
+          1e4, where drag.across = \"marheineke-wegener\" ends; the drag across the fibre is extrapolated, no law \
+          here is for so thick a fibre in so fast air"
+        ]
+    );
+    let vacuum = set(&[law, thick, ("air.velocity", "100 m/s"), ("air.density", "0 kg/m^3")]);
+    assert_eq!(vacuum, [""; 0]);
 }
 
 /// A file, or after `--set` overrides of the starter: as the fuzzer `case_reader` takes its input.
@@ -203,11 +226,21 @@ prop_compose! {
     }
 }
 
+fn friction_law() -> impl Strategy<Value = FrictionLaw> {
+    let [_, others @ ..] = FrictionLaw::ALL;
+    prop_oneof![
+        (0f64..2.0).prop_map(|factor| FrictionLaw::Matsui { factor }),
+        prop::sample::select(others.to_vec())
+    ]
+}
+
 prop_compose! {
     fn case()(
         fibre in fibre(),
         (velocity, turbulence_intensity, length_scale, cutoff_frequency) in (-50f64..50.0, 0f64..1.0, between(-2, 1), between(0, 3)),
-        (density, kinematic_viscosity, more_harmonics, friction_coefficient) in (0f64..2.0, between(-6, -4), 1usize..50, 0f64..2.0),
+        (density, kinematic_viscosity, more_harmonics, along, across) in (
+            0f64..2.0, between(-6, -4), 1usize..50, friction_law(), prop::sample::select(NormalLaw::ALL.to_vec()),
+        ),
         (share, steps, spin_up, output, damping) in (0.01f64..0.99, 1u64..1_000_000_000, 0f64..1.0, 0f64..1.0, 0f64..100.0),
         (replicates, seed, leapfrog, gravity) in (1u64..100, any::<u64>(), any::<bool>(), -10f64..10.0),
     ) -> Case {
@@ -221,7 +254,7 @@ prop_compose! {
         let run = Run {
             time_step: 1.0, steps, spin_up_steps, output_steps, replicates, seed, scheme, gravity, damping,
         };
-        let drag = Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient };
+        let drag = Drag { along, across };
         let mut case = Case { fibre, air, drag, run };
         let limit = case.stable_step_limits().iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
         case.run.time_step = share * limit;

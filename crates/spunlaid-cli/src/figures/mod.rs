@@ -6,6 +6,8 @@
 
 mod chart;
 mod decimate;
+#[cfg(test)]
+mod drag_laws;
 mod draw;
 mod legend;
 mod map;

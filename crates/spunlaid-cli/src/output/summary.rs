@@ -110,7 +110,7 @@ struct CaseAir {
 struct CaseDrag {
     along: &'static str,
     across: &'static str,
-    friction_coefficient: f64,
+    friction_coefficient: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -203,7 +203,7 @@ fn resolved(case: &Case) -> CaseSummary {
         drag: CaseDrag {
             along: drag.along.name(),
             across: drag.across.name(),
-            friction_coefficient: drag.friction_coefficient,
+            friction_coefficient: drag.along.factor(),
         },
         run: CaseRun {
             duration_s: run.duration(),

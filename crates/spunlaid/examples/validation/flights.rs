@@ -6,6 +6,7 @@ use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
 use spunlaid::case::{Case, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
+use spunlaid::drag::FrictionLaw;
 use spunlaid::ensemble::bundle::{Bundle, Snapshot};
 use spunlaid::ensemble::{Computing, KeepShapes, Results, fly};
 use spunlaid::error::Error;
@@ -157,7 +158,7 @@ pub fn trends() {
         ("diameter [µm]", |c, x| c.fibre.diameter = x * 1e-6, &[15.0, 25.0, 50.0, 100.0, 200.0, 350.0]),
         ("eddy length [mm]", |c, x| c.air.length_scale = x * 1e-3, &[12.5, 25.0, 50.0, 100.0]),
         ("cut-off [Hz]", |c, x| c.air.cutoff_frequency = x, &[25.0, 50.0, 100.0, 200.0]),
-        ("β", |c, x| c.drag.friction_coefficient = x, &[0.37, 0.78, 0.9]),
+        ("β", |c, x| c.drag.along = FrictionLaw::Matsui { factor: x }, &[0.37, 0.78, 0.9]),
     ];
     for (name, change, values) in changes {
         for &value in values {

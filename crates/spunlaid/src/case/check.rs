@@ -6,6 +6,7 @@ use super::note::{Note, Remark};
 use super::{Case, StepLimit};
 use crate::air::{Air, FromFile, Measured};
 use crate::chain::schemes::Scheme;
+use crate::drag::NormalLaw;
 use crate::error::{Fault, Finding, Place, Problem};
 use crate::field::Hint;
 use crate::units::Dimension;
@@ -66,10 +67,23 @@ impl Case {
         let (fibre, l) = (&self.fibre, self.fibre.rest_length());
         let mut notes = Vec::new();
         let mut note = |quantity: &Quantity, value, remark| notes.push(finding(quantity, value, remark));
-        let (from, to) = self.drag.across.fitted_diameters();
-        if self.air.density > 0.0 && !(from..=to).contains(&fibre.diameter) {
-            let law = self.drag.across.name();
-            note(&keys::DIAMETER, fibre.diameter, Remark::OutsideFit { law, from, to });
+        let across = self.drag.across;
+        let there_is_air = self.air.density > 0.0;
+        if let Some(fitted) = across.fitted_diameters()
+            && there_is_air
+            && !fitted.contains(&fibre.diameter)
+        {
+            let (law, from, to) = (across.name(), *fitted.start(), *fitted.end());
+            let instead = NormalLaw::MarheinekeWegener.name();
+            note(&keys::DIAMETER, fibre.diameter, Remark::OutsideFit { law, from, to, instead });
+        }
+        if let Some(fitted) = across.fitted_reynolds()
+            && there_is_air
+            && !fitted.contains(&self.reynolds_across())
+        {
+            let (law, to) = (across.name(), *fitted.end());
+            let remark = Remark::ReynoldsOutsideFit { law, reynolds: self.reynolds_across(), to };
+            note(&keys::DIAMETER, fibre.diameter, remark);
         }
         if fibre.diameter > l {
             note(&keys::DIAMETER, fibre.diameter, Remark::ElementsStubby { element_length: l });
@@ -80,7 +94,7 @@ impl Case {
         if !centres.into_iter().all(knows) {
             note(&keys::LENGTH, fibre.length, Remark::LeavesFlow);
         }
-        let felt = self.air.density > 0.0 && self.air.rms() > 0.0;
+        let felt = there_is_air && self.air.rms() > 0.0;
         if felt && self.air.length_scale < l * (1.0 - 1e-9) {
             note(&keys::LENGTH_SCALE, self.air.length_scale, Remark::EddiesSkipped { element_length: l });
         }
@@ -123,7 +137,7 @@ impl Check<'_> {
             (&keys::AIR_DENSITY, air.density),
             (&keys::VISCOSITY, air.kinematic_viscosity),
             (&keys::SPEED_FACTOR, air.speed_factor),
-            (&keys::FRICTION_COEFFICIENT, drag.friction_coefficient),
+            (&keys::FRICTION_COEFFICIENT, drag.along.factor().unwrap_or(0.0)),
             (&keys::TIME_STEP, run.time_step),
             (&keys::GRAVITY, run.gravity),
             (&keys::DAMPING, run.damping),
@@ -187,13 +201,13 @@ impl Check<'_> {
                 &keys::VISCOSITY,
                 self.case.air.kinematic_viscosity,
                 "the drag along an element",
-                strand.drag.tangential,
+                strand.drag.along.factor,
             ),
             (
                 &keys::VISCOSITY,
                 self.case.air.kinematic_viscosity,
                 "the drag across an element",
-                strand.drag.normal,
+                strand.drag.across.factor,
             ),
             (
                 &keys::TURBULENCE_INTENSITY,

@@ -105,9 +105,9 @@ pub(crate) const REPLICATES: &str = "run.replicates";
 /// The ways to hold the root.
 pub(crate) const ROOTS: [Root; 3] = [Root::Pinned, Root::Clamped, Root::Free];
 /// The laws along the fibre.
-pub(crate) const FRICTION_LAWS: [FrictionLaw; 1] = [FrictionLaw::Matsui];
+pub(crate) const FRICTION_LAWS: [FrictionLaw; 4] = FrictionLaw::ALL;
 /// The laws across the fibre.
-pub(crate) const NORMAL_LAWS: [NormalLaw; 1] = [NormalLaw::JuShambaugh];
+pub(crate) const NORMAL_LAWS: [NormalLaw; 2] = NormalLaw::ALL;
 /// The schemes.
 pub(crate) const SCHEMES: [Scheme; 3] = Scheme::ALL;
 

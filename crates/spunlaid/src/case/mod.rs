@@ -94,14 +94,13 @@ impl Case {
     /// Longest step that the waves of the string under its tension stand with implicit tension [s]: 1.5
     /// times what they need to pass an element, half of where flights were seen to fail. theory.md (32)
     ///
-    /// The tension is estimated at the root, from the fibre's weight and the friction of the mean flow.
+    /// The tension is estimated at the root, from the fibre's weight and the friction of the mean flow half
+    /// way down.
     fn string_step_limit(&self) -> StepLimit {
         let strand = self.strand();
         let elements = self.fibre.elements as f64;
         let weight = self.fibre.element_mass() * elements * self.run.gravity.abs();
-        let friction = strand.drag.tangential
-            * libm::pow(self.air.velocity.abs(), 1.0 + strand.drag.tangential_exponent)
-            * elements;
+        let friction = strand.drag.along.force(self.air.velocity, 0.5 * elements) * elements;
         let line_density = self.fibre.density * self.fibre.cross_section();
         let speed = ((weight + friction) / line_density).sqrt();
         StepLimit { cause: "waves of the taut string", limit: 1.5 * self.fibre.rest_length() / speed }
@@ -130,6 +129,14 @@ impl Case {
     pub fn steps_between_looks(&self) -> u64 {
         let passing = self.air.length_scale / self.air.velocity.abs();
         ((passing / 64.0 / self.run.time_step) as u64).clamp(1, self.run.steps.max(1))
+    }
+
+    /// Largest Reynolds number across the fibre to expect [-]: of the mean flow's part across it as it starts,
+    /// or of three times the rms of the air's fluctuation, whichever is more.
+    pub fn reynolds_across(&self) -> f64 {
+        let sine = self.fibre.direction.y.hypot(self.fibre.direction.z);
+        let speed = (self.air.velocity.abs() * sine).max(3.0 * self.air.rms());
+        speed * self.fibre.diameter / self.air.kinematic_viscosity
     }
 
     /// The turbulence of each of them.

@@ -56,7 +56,8 @@ pub enum Remark {
     },
     /// A diameter that the drag law was not fitted for.
     #[error(
-        "is outside {} to {}, the diameters drag.across = \"{law}\" was fitted for; the drag across the fibre is extrapolated",
+        "is outside {} to {}, the diameters drag.across = \"{law}\" was fitted for; the drag across the fibre is extrapolated, \
+         \"{instead}\" is for any diameter",
         Dimension::Length.pretty(*from), Dimension::Length.pretty(*to)
     )]
     OutsideFit {
@@ -65,6 +66,22 @@ pub enum Remark {
         /// Thinnest fitted [m].
         from: f64,
         /// Thickest fitted [m].
+        to: f64,
+        /// A law for other diameters.
+        instead: &'static str,
+    },
+    /// Reynolds numbers that the drag law is not for.
+    #[error(
+        "lets the air pass across the fibre at Reynolds numbers up to {}, beyond {}, where drag.across = \"{law}\" ends; \
+         the drag across the fibre is extrapolated, no law here is for so thick a fibre in so fast air",
+        Dimension::Ratio.pretty_to(*reynolds, 3), Dimension::Ratio.pretty(*to)
+    )]
+    ReynoldsOutsideFit {
+        /// Name of the law.
+        law: &'static str,
+        /// Largest to expect [-].
+        reynolds: f64,
+        /// Largest fitted [-].
         to: f64,
     },
     /// Elements longer than eddies.
@@ -98,6 +115,7 @@ impl Remark {
         matches!(
             self,
             Self::OutsideFit { .. }
+                | Self::ReynoldsOutsideFit { .. }
                 | Self::EddiesSkipped { .. }
                 | Self::Field(_)
                 | Self::LeavesFlow

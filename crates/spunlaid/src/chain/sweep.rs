@@ -51,8 +51,14 @@ pub(crate) fn sweep<S: Register, M: Motion<S>, B: Breeze<S>>(
     for (start, eddy) in (0..).step_by(BLOCK).zip(eddy.chunks(BLOCK)) {
         let links = &mut block.0[..eddy.len()];
         kinematics(motion, start, links, wind, eddy);
-        for link in &mut *links {
-            c.half_drag.raise(&mut link.split);
+        if c.half_drag.is_powers() {
+            for link in &mut *links {
+                c.half_drag.raise(&mut link.split);
+            }
+        } else {
+            for (j, link) in (start..).zip(&mut *links) {
+                c.half_drag.look_up(j, &mut link.split);
+            }
         }
         for (j, link) in (start..).zip(&*links) {
             let stiffness = if j == 0 { &c.root_stiffness } else { &c.bending_stiffness };

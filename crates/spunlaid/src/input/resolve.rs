@@ -15,8 +15,6 @@ use crate::vec3::Vec3;
 use std::collections::BTreeMap;
 use toml::de::DeValue;
 
-/// Default `β`: a single fibre in a tube.
-const FRICTION_COEFFICIENT: f64 = 0.9;
 /// Default acceleration of gravity [m/s²].
 const GRAVITY: f64 = 9.81;
 /// Default time between recorded instants [s].
@@ -91,7 +89,6 @@ pub(super) fn base(mut document: Document<'_>, files: &DataFiles) -> Result<Base
             (&keys::AIR_DENSITY, air.density),
             (&keys::VISCOSITY, air.kinematic_viscosity),
             (&keys::SPEED_FACTOR, air.speed_factor),
-            (&keys::FRICTION_COEFFICIENT, drag.friction_coefficient),
             (&keys::DURATION, duration),
             (&keys::GRAVITY, written.run.gravity),
             (&keys::SPIN_UP, spin_up),
@@ -107,6 +104,7 @@ pub(super) fn base(mut document: Document<'_>, files: &DataFiles) -> Result<Base
             EddyModel::Independent => None,
         },
     );
+    values.insert(keys::FRICTION_COEFFICIENT.key, drag.along.factor());
     values.insert(keys::ELEMENT_LENGTH.key, element_length);
     values.insert(keys::TIME_STEP.key, time_step);
     values.insert(keys::ERROR_TOLERANCE.key, error_tolerance);
@@ -188,14 +186,24 @@ impl Written {
         let element_length = d.optional(&keys::ELEMENT_LENGTH);
         let air = air::read(d, files);
         let harmonics = d.whole_number(keys::HARMONICS, 1, usize::MAX as u64);
+        let mut along = d
+            .choice("drag.along", &keys::FRICTION_LAWS.map(|one| (one.name(), one)))
+            .unwrap_or(keys::FRICTION_LAWS[0]);
+        if let Some(entry) = d.take(keys::FRICTION_COEFFICIENT.key) {
+            match &mut along {
+                FrictionLaw::Matsui { factor } => *factor = d.quantity(&keys::FRICTION_COEFFICIENT, entry),
+                _ => {
+                    let (needed, remedy) = ("drag.along = \"matsui\"", "strike it out, the law has its own");
+                    let fault = Fault::Needs { needed, remedy };
+                    d.reject(entry.place, keys::FRICTION_COEFFICIENT.key, entry.shown, fault);
+                }
+            }
+        }
         let drag = Drag {
-            along: d
-                .choice("drag.along", &keys::FRICTION_LAWS.map(|one| (one.name(), one)))
-                .unwrap_or(FrictionLaw::Matsui),
+            along,
             across: d
                 .choice("drag.across", &keys::NORMAL_LAWS.map(|one| (one.name(), one)))
                 .unwrap_or(NormalLaw::JuShambaugh),
-            friction_coefficient: d.optional(&keys::FRICTION_COEFFICIENT).unwrap_or(FRICTION_COEFFICIENT),
         };
         let duration = d.required(&keys::DURATION, "duration = \"1 s\"");
         let time_step = d.optional(&keys::TIME_STEP);

@@ -36,7 +36,9 @@ pub fn write_case(case: &Case) -> String {
     w.table("drag");
     w.name("along", drag.along.name());
     w.name("across", drag.across.name());
-    w.line("friction_coefficient", &float(drag.friction_coefficient));
+    if let Some(factor) = drag.along.factor() {
+        w.line("friction_coefficient", &float(factor));
+    }
 
     w.table("run");
     let time = |time: f64, steps: u64| tidy(time, |t| nearest_whole(t, run.time_step) == (steps, true));

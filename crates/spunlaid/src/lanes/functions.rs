@@ -81,7 +81,7 @@ const ROUND: f64 = 6_755_399_441_055_744.0;
 /// negligibly small instead of undefined. NaN and infinity give some finite number: callers multiply
 /// by the argument again.
 #[inline(always)]
-fn log2<S: Simd>(x: Wide<S>) -> Wide<S> {
+pub(crate) fn log2<S: Simd>(x: Wide<S>) -> Wide<S> {
     let shifted = x.max(Wide::splat(f64::MIN_POSITIVE)).0.add_bits(ONE - SQRT_HALF);
     let exponent = Wide(shifted.shift_right::<52>().or_bits(TWO_52.to_bits())) - Wide::splat(TWO_52 + 1023.0);
     let f = Wide(shifted.and_bits(MANTISSA).add_bits(SQRT_HALF)) - Wide::splat(1.0);
@@ -90,7 +90,7 @@ fn log2<S: Simd>(x: Wide<S>) -> Wide<S> {
 
 /// `2^x` for `x` in [−1022, 1023], to 7.5e-8 relative.
 #[inline(always)]
-fn exp2<S: Simd>(x: Wide<S>) -> Wide<S> {
+pub(crate) fn exp2<S: Simd>(x: Wide<S>) -> Wide<S> {
     let rounded = x + Wide::splat(ROUND);
     let rest = x - (rounded - Wide::splat(ROUND));
     // The low bits of `rounded` hold the integer in two's complement; the rest shifts out, and adding it

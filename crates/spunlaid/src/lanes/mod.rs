@@ -13,7 +13,7 @@ mod isa;
 mod simd;
 mod wide;
 
-pub(crate) use functions::{bend_ratio, cos_sin_turn, power};
+pub(crate) use functions::{bend_ratio, cos_sin_turn, exp2, log2, power};
 pub use isa::Isa;
 pub(crate) use isa::Task;
 pub(crate) use simd::{Plain, Register, Simd};

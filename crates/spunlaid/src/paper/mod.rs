@@ -11,6 +11,7 @@ pub use claims::{Claim, Verdict, claims_of_step_errors, claims_of_trend};
 use crate::air::Air;
 use crate::case::{Case, ERROR_TOLERANCE};
 use crate::chain::schemes::Scheme;
+use crate::drag::FrictionLaw;
 use crate::fibre::Root;
 use crate::input::{parse_case, starter_case};
 use crate::study::PointResults;
@@ -149,8 +150,8 @@ pub fn choices(base: &Case) -> Vec<(&'static str, Case)> {
     vec![
         ("as taken here: pinned root, β = 0.9, variance u²", base.clone()),
         ("clamped root", changed(&|c| c.fibre.root = Root::Clamped)),
-        ("β = 0.78 (Majumdar & Shambaugh)", changed(&|c| c.drag.friction_coefficient = 0.78)),
-        ("β = 0.37 (Matsui)", changed(&|c| c.drag.friction_coefficient = 0.37)),
+        ("β = 0.78 (Majumdar & Shambaugh)", changed(&|c| c.drag.along = FrictionLaw::MajumdarShambaugh)),
+        ("β = 0.37 (Matsui)", changed(&|c| c.drag.along = FrictionLaw::Matsui { factor: 0.37 })),
         (
             "variance 2u², as Eqs 6–7 read literally",
             changed(&|c| c.air.turbulence_intensity *= std::f64::consts::SQRT_2),

@@ -3,6 +3,7 @@
 use super::Point;
 use crate::air::FromFile;
 use crate::case::Case;
+use crate::drag::Curve;
 use crate::ensemble::{Computing, Flight, Job, KeepShapes, fly_together, in_order};
 use crate::error::Error;
 use crate::lanes::WIDTH;
@@ -34,6 +35,7 @@ struct Common {
     harmonics: usize,
     scheme: &'static str,
     damped: bool,
+    drag_curves: [Option<Curve>; 2],
 }
 
 impl Common {
@@ -51,6 +53,7 @@ impl Common {
             harmonics: air.harmonics,
             scheme: run.scheme.name(),
             damped: run.damping != 0.0,
+            drag_curves: case.strand().drag.curves(),
         }
     }
 }
@@ -179,6 +182,7 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drag::{FrictionLaw, NormalLaw};
     use crate::study::tests::table1;
 
     fn points(velocities: &[f64], lengths: &[f64]) -> Vec<Point> {
@@ -215,6 +219,17 @@ mod tests {
             jobs.iter().all(|job| common(job) == common(&jobs[0]))
         };
         assert!((0..packing.bundles).all(in_group));
+    }
+
+    #[test]
+    fn curves_of_the_drag_fly_with_their_like() {
+        let mut points = points(&[5.0, 10.0, 20.0, 30.0], &[0.05]);
+        points[1].case.drag.along = FrictionLaw::MajumdarShambaugh;
+        points[2].case.drag.across = NormalLaw::MarheinekeWegener;
+        points[3].case.drag.along = FrictionLaw::Sakiadis;
+        let batches: Vec<Batch> = (0..4).map(|point| Batch { point, replicates: 0..4 }).collect();
+        // Powers with powers, whatever their factors and exponents.
+        assert_eq!(Packing::new(&points, &batches).bundles, 3);
     }
 
     #[test]

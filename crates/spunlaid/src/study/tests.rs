@@ -20,7 +20,7 @@ pub(super) fn table1() -> Case {
             direction: Vec3::new(1.0, 0.0, 0.0),
         },
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
-        drag: Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient: 0.9 },
+        drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         run: Run {
             time_step: 2e-5,
             steps: 1000,

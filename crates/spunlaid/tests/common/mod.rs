@@ -7,7 +7,7 @@ pub mod reference;
 use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::drag::{Drag, ElementDrag, FrictionLaw, NormalLaw};
+use spunlaid::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
 use spunlaid::ensemble::bundle::Bundle;
 use spunlaid::fibre::{Fibre, Root};
 use spunlaid::lanes::{Isa, Lanes};
@@ -17,8 +17,10 @@ pub type V = Vec3<f64>;
 
 pub const X: V = V::new(1.0, 0.0, 0.0);
 pub const Y: V = V::new(0.0, 1.0, 0.0);
-pub const NO_DRAG: ElementDrag =
-    ElementDrag { tangential: 0.0, tangential_exponent: 0.39, normal: 0.0, normal_exponent: 0.28 };
+pub const NO_DRAG: ElementDrag = {
+    let none = Share { factor: 0.0, growth: Growth::Power(0.5) };
+    ElementDrag { along: none, across: none }
+};
 
 /// The fibre of the paper's Table 1.
 pub fn table1_fibre() -> Fibre {
@@ -39,7 +41,7 @@ pub fn table1_air() -> Air {
 }
 
 pub fn paper_drag() -> Drag {
-    Drag { along: FrictionLaw::Matsui, across: NormalLaw::JuShambaugh, friction_coefficient: 0.9 }
+    Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh }
 }
 
 /// A fibre in a vacuum.

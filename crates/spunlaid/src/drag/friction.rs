@@ -1,0 +1,71 @@
+//! Laws of the friction along the fibre.
+
+use super::boundary_layer::BoundaryLayer;
+
+/// Law of the friction along the fibre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FrictionLaw {
+    /// `C_f = β Re^-0.61`, turbulent boundary layer of a long cylinder (Matsui 1976).
+    Matsui {
+        /// `β` [-]: 0.37 Matsui's own, 0.9 for a single fibre in a tube.
+        factor: f64,
+    },
+    /// `C_f = 0.78 Re^-0.61`, measured in melt-blowing air (Majumdar & Shambaugh 1990).
+    MajumdarShambaugh,
+    /// Laminar boundary layer of a fibre drawn through air at rest (Sakiadis 1961).
+    Sakiadis,
+    /// Laminar boundary layer of a fibre that is held in a stream (Glauert & Lighthill 1955).
+    GlauertLighthill,
+}
+
+/// Exponent of the Reynolds number in Matsui's form.
+pub(super) const MATSUI: f64 = 0.61;
+/// `β` of [`FrictionLaw::MajumdarShambaugh`] [-].
+const MAJUMDAR_SHAMBAUGH: f64 = 0.78;
+
+impl FrictionLaw {
+    /// Every law, Matsui's with the factor that the paper takes.
+    pub const ALL: [Self; 4] =
+        [Self::Matsui { factor: 0.9 }, Self::MajumdarShambaugh, Self::Sakiadis, Self::GlauertLighthill];
+
+    /// Name in the case file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Matsui { .. } => "matsui",
+            Self::MajumdarShambaugh => "majumdar-shambaugh",
+            Self::Sakiadis => "sakiadis",
+            Self::GlauertLighthill => "glauert-lighthill",
+        }
+    }
+
+    /// `β` [-] of the law, where it is an input.
+    pub const fn factor(self) -> Option<f64> {
+        match self {
+            Self::Matsui { factor } => Some(factor),
+            Self::MajumdarShambaugh | Self::Sakiadis | Self::GlauertLighthill => None,
+        }
+    }
+
+    /// Friction coefficient `C_f` [-] along the fibre.
+    ///
+    /// `C_f = β Re^-0.61` by Matsui's form                                    theory.md (2),
+    /// `C_f = 4/(Re α)` of a laminar boundary layer                           theory.md (41)
+    ///
+    /// * `re` – Reynolds number on diameter and tangential velocity [-], `re > 0`
+    /// * `distance` – from where the boundary layer begins, over the diameter [-], `distance > 0`; it matters
+    ///   to the laminar laws alone
+    ///
+    /// The Reynolds numbers that Matsui's form was fitted to are not known here. The laminar laws are theory, for
+    /// a layer that nothing stirs up and that begins at the root, whichever way the air goes.
+    ///
+    /// Sources: Matsui 1976; Majumdar & Shambaugh 1990; Sakiadis 1961; Glauert & Lighthill 1955.
+    pub fn coefficient(self, re: f64, distance: f64) -> f64 {
+        let laminar = |layer: BoundaryLayer| 4.0 / (re * layer.thickness(4.0 * distance / re));
+        match self {
+            Self::Matsui { factor } => factor * libm::pow(re, -MATSUI),
+            Self::MajumdarShambaugh => MAJUMDAR_SHAMBAUGH * libm::pow(re, -MATSUI),
+            Self::Sakiadis => laminar(BoundaryLayer::Moving),
+            Self::GlauertLighthill => laminar(BoundaryLayer::Held),
+        }
+    }
+}
