@@ -132,7 +132,7 @@ fn the_summary_has_the_fields_that_are_promised() {
         assert_eq!(keys(ledger), sorted("final_mean time_median"));
         assert!(ledger["time_median"].as_f64().unwrap() < 10.0);
     }
-    assert_eq!(keys(&summary["fibre"]), ["max_strain"]);
+    assert_eq!(keys(&summary["fibre"]), ["max_strain", "share_outside_flow"]);
     let performance = &summary["performance"];
     let fields = "wall_s threads element_steps ns_per_element_step instruction_set";
     assert_eq!(keys(performance), sorted(fields));

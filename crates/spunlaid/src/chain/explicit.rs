@@ -89,7 +89,7 @@ impl<S: Register, const LEAPFROG: bool> Motion<S> for Mover<'_, S, LEAPFROG> {
             damping = Some(slowed);
         }
         let after = force.mul_add(self.kick * Wide::load(&node.inverse_mass), before);
-        self.work.add((force, drag, damping), before, after);
+        self.work.add([force, drag], damping, before, after);
         if LEAPFROG {
             self.earlier[i] = before.store();
         }

@@ -233,7 +233,7 @@ fn correct_and_move<S: Register>(chain: &mut Chain, h: f64, damped: bool, sums: 
             let v = (before - Vec3::load(&earlier[i])).mul_add(Wide::splat(0.5), before);
             damping = Some(v * -(Wide::load(&node.mass) * Wide::load(&c.damping)));
         }
-        sums.add((force, Vec3::load(&t.drag[i]), damping), before, after);
+        sums.add([force, Vec3::load(&t.drag[i])], damping, before, after);
         sums.add_tension(tension, before, after);
         earlier[i] = before.store();
         velocity[i] = after.store();

@@ -72,7 +72,8 @@ impl<S: Register> Sums<S> {
     #[inline(always)]
     pub(crate) fn add(
         &mut self,
-        (total, drag, damping): (Vec3<Wide<S>>, Vec3<Wide<S>>, Option<Vec3<Wide<S>>>),
+        [total, drag]: [Vec3<Wide<S>>; 2],
+        damping: Option<Vec3<Wide<S>>>,
         before: Vec3<Wide<S>>,
         after: Vec3<Wide<S>>,
     ) {
