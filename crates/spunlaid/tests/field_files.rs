@@ -29,7 +29,7 @@ fn styles() -> Vec<Style> {
                 (true, true, "Float32", "Int32"),
                 (false, true, "Float32", "UInt8"),
             ] {
-                styles.push(Style { place, squeeze, big_endian, wide_header, float, integer });
+                styles.push(Style { place, squeeze, big_endian, wide_header, float, integer, ..ASCII });
             }
         }
     }

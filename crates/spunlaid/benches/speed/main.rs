@@ -15,6 +15,7 @@ mod accuracy;
 #[path = "../../tests/common/mod.rs"]
 mod common;
 mod ensemble;
+mod field;
 mod flights;
 mod kernel;
 mod measure;
@@ -22,10 +23,11 @@ mod wind;
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    let parts: [(&str, fn()); 6] = [
+    let parts: [(&str, fn()); 7] = [
         ("kernel", kernel::instruction_sets),
         ("growth", kernel::growth),
         ("wind", wind::costs),
+        ("field", field::costs),
         ("ensemble", ensemble::costs),
         ("threads", ensemble::threads),
         ("accuracy", accuracy::of_steps),

@@ -1,6 +1,5 @@
 //! Values on a lattice, linear in each coordinate between the points.
 
-use super::mean;
 use super::node::Node;
 use super::values::{Quantities, in_range};
 use crate::error::{FieldError, FieldFault};
@@ -76,15 +75,21 @@ impl Lattice {
         let [x, y, z] = [0, 1, 2].map(|i| self.axes[i].locate(at[i]));
         let [across, up] = [self.axes[0].at.len(), self.axes[0].at.len() * self.axes[1].at.len()];
         let first = x.before + across * y.before + up * z.before;
-        let line = |from: usize| {
-            mean([(1.0 - x.share, &self.values[from]), (x.share, &self.values[from + x.step])].into_iter())
-        };
-        let plane = |from: usize| {
-            let lines = [line(from), line(from + across * y.step)];
-            mean([(1.0 - y.share, &lines[0]), (y.share, &lines[1])].into_iter())
-        };
-        let planes = [plane(first), plane(first + up * z.step)];
-        let values = mean([(1.0 - z.share, &planes[0]), (z.share, &planes[1])].into_iter());
+        let [back, front] = [1.0 - z.share, z.share].map(|of_z| [of_z * (1.0 - y.share), of_z * y.share]);
+        let rows = [
+            (back[0], first),
+            (back[1], first + across * y.step),
+            (front[0], first + up * z.step),
+            (front[1], first + up * z.step + across * y.step),
+        ];
+        let mut values = Quantities::default();
+        for (weight, row) in rows {
+            let (low, high) = (&self.values[row], &self.values[row + x.step]);
+            let (of_low, of_high) = (weight * (1.0 - x.share), weight * x.share);
+            for i in 0..values.len() {
+                values[i] += of_low * low[i] + of_high * high[i];
+            }
+        }
         (values, x.inside && y.inside && z.inside)
     }
 }

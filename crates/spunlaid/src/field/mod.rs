@@ -27,6 +27,7 @@ mod mesh;
 mod node;
 mod points;
 mod read;
+mod tree;
 mod values;
 mod warning;
 

@@ -27,6 +27,8 @@ pub enum Squeeze {
 pub struct Style {
     pub place: Place,
     pub squeeze: Squeeze,
+    /// Size of compressed blocks [bytes].
+    pub block: usize,
     pub big_endian: bool,
     pub wide_header: bool,
     pub float: &'static str,
@@ -36,6 +38,8 @@ pub struct Style {
 pub const ASCII: Style = Style {
     place: Place::Ascii,
     squeeze: Squeeze::None,
+    // So small that there are several.
+    block: 100,
     big_endian: false,
     wide_header: false,
     float: "Float64",
@@ -111,8 +115,7 @@ impl File {
         if self.style.squeeze == Squeeze::None {
             return [self.header(&[bytes.len()]), bytes.to_vec()];
         }
-        // Blocks so small that there are several.
-        let size = 100;
+        let size = self.style.block;
         let blocks: Vec<Vec<u8>> = bytes
             .chunks(size)
             .map(|block| match self.style.squeeze {

@@ -5,6 +5,7 @@ mod cut;
 mod faces;
 
 use super::node::{self, Node, bounding_box, merge};
+use super::tree::Tree;
 use super::values::Quantities;
 use super::{FieldWarning, Hint, mean, vector};
 use crate::error::{FieldError, FieldFault, FieldPlace};
@@ -30,7 +31,7 @@ pub(super) struct Mesh {
     /// Of each cell its box and its tetrahedra, first and end.
     cells: RTree<GeomWithData<Rectangle<[f64; 3]>, [u32; 2]>>,
     /// The nodes of the surface.
-    surface: RTree<GeomWithData<[f64; 3], u32>>,
+    surface: Tree,
     /// Points that were given.
     points: usize,
     bounds: ([f64; 3], [f64; 3]),
@@ -92,7 +93,7 @@ impl Mesh {
         );
         on_surface.sort_unstable();
         on_surface.dedup();
-        let surface = on_surface.into_iter().map(|i| GeomWithData::new(nodes[i as usize].at, i)).collect();
+        let surface = Tree::new(on_surface.into_iter().map(|i| (nodes[i as usize].at, i)).collect());
 
         let mut start = 0;
         let boxes = cut.ends.iter().map(|&end| {
@@ -118,7 +119,7 @@ impl Mesh {
             },
             |_| {},
         );
-        Self { nodes, tetrahedra, cells, surface: RTree::bulk_load(surface), points, bounds }
+        Self { nodes, tetrahedra, cells, surface, points, bounds }
     }
 
     pub(super) fn points(&self) -> usize {
@@ -134,7 +135,10 @@ impl Mesh {
     }
 
     pub(super) fn sample(&self, at: [f64; 3], hint: &mut Hint) -> (Quantities, bool) {
-        if let Some((found, weights)) = self.walk(at, *hint).or_else(|| self.search(at)) {
+        let (low, high) = self.bounds;
+        let within = (0..3).all(|axis| low[axis] <= at[axis] && at[axis] <= high[axis]);
+        let found = if within { self.walk(at, *hint).or_else(|| self.search(at)) } else { None };
+        if let Some((found, weights)) = found {
             *hint = Hint(found + 1);
             let nodes = self.tetrahedra[found as usize].nodes;
             let values = nodes.map(|node| &self.nodes[node as usize].values);
@@ -180,15 +184,11 @@ impl Mesh {
         best
     }
 
-    /// The values at the nearest node of the surface, that of the smallest number where several are as near.
+    /// The values at the nearest node of the surface.
     fn nearest(&self, at: [f64; 3]) -> Quantities {
-        let mut nearest = self.surface.nearest_neighbor_iter_with_distance_2(at);
-        let Some((first, distance)) = nearest.next() else {
-            return Quantities::default();
-        };
-        let as_near = nearest.take_while(|(_, other)| *other <= distance);
-        let node = as_near.map(|(node, _)| node.data).fold(first.data, u32::min);
-        self.nodes[node as usize].values
+        let mut found = [(0.0, 0)];
+        self.surface.nearest(at, &mut found);
+        self.nodes.get(found[0].1 as usize).map(|node| node.values).unwrap_or_default()
     }
 
     /// Barycentric coordinates: the weights of the nodes, with the sum of one.

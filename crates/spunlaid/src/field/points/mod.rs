@@ -9,11 +9,10 @@ mod fit;
 
 use super::mean;
 use super::node::{Node, bounding_box};
+use super::tree::Tree;
 use super::values::Quantities;
 use crate::error::{FieldError, FieldFault};
 use fit::Fit;
-use rstar::RTree;
-use rstar::primitives::GeomWithData;
 
 /// Points that a value is the mean of; the next one sets how far they reach.
 const NEAREST: usize = 8;
@@ -23,7 +22,7 @@ const NEIGHBOURS: [usize; 4] = [16, 32, 64, 128];
 #[derive(Debug)]
 pub(super) struct Points {
     sites: Vec<Site>,
-    tree: RTree<GeomWithData<[f64; 3], u32>>,
+    tree: Tree,
     /// Axes along which all points have one coordinate: a plane flow.
     plane: [bool; 3],
     bounds: ([f64; 3], [f64; 3]),
@@ -47,31 +46,30 @@ impl Points {
         }
         let bounds = bounding_box(nodes.iter().map(|node| node.at));
         let plane = [0, 1, 2].map(|axis| bounds.0[axis] == bounds.1[axis]);
-        let places = nodes.iter().zip(0..).map(|(node, i)| GeomWithData::new(node.at, i));
-        let tree = RTree::bulk_load(places.collect());
+        let tree = Tree::new(nodes.iter().map(|node| node.at).zip(0..).collect());
         let mut points = Self { sites: Vec::new(), tree, plane, bounds };
         points.sites = nodes.iter().map(|node| points.site(*node, &nodes)).collect();
         Ok(points)
     }
 
     fn site(&self, node: Node, nodes: &[Node]) -> Site {
-        let mut fit = Fit::new(self.plane, NEIGHBOURS[NEIGHBOURS.len() - 1]);
-        let mut neighbours = self.by_distance(node.at).filter(|(_, distance_2)| *distance_2 > 0.0);
-        let (mut count, mut reach_2) = (0, 0.0);
+        let mut nearest = [(0.0, 0); NEIGHBOURS[NEIGHBOURS.len() - 1] + 1];
         for wanted in NEIGHBOURS {
-            for (neighbour, distance_2) in neighbours.by_ref().take(wanted - count) {
-                let other = &nodes[neighbour as usize];
+            let mut fit = Fit::new(self.plane, wanted);
+            let mut reach_2 = 0.0;
+            let nearest = &mut nearest[..=wanted];
+            self.tree.nearest(node.at, nearest);
+            for (distance_2, neighbour) in nearest.iter().filter(|(far, _)| *far > 0.0 && far.is_finite()) {
+                let other = &nodes[*neighbour as usize];
                 let to = [0, 1, 2].map(|axis| other.at[axis] - node.at[axis]);
-                let change = [0, 1, 2, 3, 4].map(|i| other.values[i] - node.values[i]);
-                fit.add(to, distance_2, change);
-                reach_2 = distance_2;
+                fit.add(to, *distance_2, [0, 1, 2, 3, 4].map(|i| other.values[i] - node.values[i]));
+                reach_2 = *distance_2;
             }
-            count = wanted;
-            if fit.is_spread() {
-                break;
+            if fit.is_spread() || wanted == NEIGHBOURS[NEIGHBOURS.len() - 1] {
+                return Site { node, gradients: fit.gradients(), reach_2 };
             }
         }
-        Site { node, gradients: fit.gradients(), reach_2 }
+        Site { node, gradients: Default::default(), reach_2: 0.0 }
     }
 
     pub(super) fn points(&self) -> usize {
@@ -85,34 +83,25 @@ impl Points {
     pub(super) fn sample(&self, at: [f64; 3]) -> (Quantities, bool) {
         let (low, high) = self.bounds;
         let at = [0, 1, 2].map(|axis| if self.plane[axis] { low[axis] } else { at[axis] });
-        let mut nearest = [(0, 0.0); NEAREST + 1];
-        for (place, found) in nearest.iter_mut().zip(self.by_distance(at)) {
-            *place = found;
-        }
-        let (first, least_2) = nearest[0];
+        let mut nearest = [(0.0, 0); NEAREST + 1];
+        self.tree.nearest(at, &mut nearest);
+        let (least_2, first) = nearest[0];
         let site = &self.sites[first as usize];
         let inside =
             (0..3).all(|axis| low[axis] <= at[axis] && at[axis] <= high[axis]) && least_2 <= site.reach_2;
-        let (least, reach) = (least_2.sqrt(), nearest[NEAREST].1.sqrt());
+        let (least, reach) = (least_2.sqrt(), nearest[NEAREST].0.sqrt());
         if !inside || least_2 == 0.0 || least == reach {
             return (site.node.values, inside);
         }
-        let weights = nearest.map(|(_, distance_2)| {
+        let weights = nearest.map(|(distance_2, _)| {
             let distance = distance_2.sqrt();
             // As a share of what the nearest would have if there were no limit to its reach.
             let weight = (1.0 - distance / reach) * (least / distance);
             weight * weight
         });
         let total: f64 = weights.iter().sum();
-        let parts = nearest.map(|(i, _)| self.sites[i as usize].continued(at));
+        let parts = nearest.map(|(_, i)| self.sites[i as usize].continued(at));
         (mean(weights.map(|weight| weight / total).into_iter().zip(&parts)), true)
-    }
-
-    /// The points and the squares of their distances, the nearest first.
-    fn by_distance(&self, at: [f64; 3]) -> impl Iterator<Item = (u32, f64)> {
-        self.tree
-            .nearest_neighbor_iter_with_distance_2(at)
-            .map(|(place, distance_2)| (place.data, distance_2))
     }
 }
 
