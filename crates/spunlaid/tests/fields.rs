@@ -104,6 +104,34 @@ fn analytic_linear_fields_are_exact_between_points() {
 }
 
 #[test]
+fn analytic_linear_fields_are_exact_between_points_in_columns() {
+    // As in a boundary layer: the nearest neighbours of a point all stand in one column, 100 times as close.
+    let points: Vec<[f64; 3]> = (0..8 * 8 * 40)
+        .map(|i| {
+            let column = [0, 1].map(|axis| 0.02 * noise(2 * (i / 40) + axis));
+            [
+                (i / 40 % 8) as f64 / 7.0 + column[0],
+                (i % 40) as f64 / 1000.0,
+                (i / 320) as f64 / 7.0 + column[1],
+            ]
+        })
+        .collect();
+    let places: Vec<V> = points.iter().map(|point| at(*point)).collect();
+    let (field, _) = Field::points(&places, &at_points(&points, linear)).unwrap();
+    let mut between = 0;
+    for [x, y, z] in inside(1000) {
+        let point = [0.1 + 0.8 * x, 0.039 * y, 0.1 + 0.8 * z];
+        let local = field.sample(at(point), &mut Hint::default());
+        between += usize::from(local.inside);
+        for (found, wanted) in numbers(local).into_iter().zip(linear(point)) {
+            // The ridge counts for more where neighbours tell little of a direction: 1e-13 over 1e-2, times 10.
+            assert!(!local.inside || (found - wanted).abs() < 1e-9, "{point:?}: {found} {wanted}");
+        }
+    }
+    assert!(between > 900, "{between}");
+}
+
+#[test]
 fn order_of_interpolation_is_two() {
     // Halving the cells divides the error by four; the largest error of 2000 points wanders by less than 20 %.
     let orders = |error: &dyn Fn(usize) -> f64| (error(8) / error(16)).log2();
@@ -239,6 +267,21 @@ fn analytic_cells_that_are_not_convex_keep_their_volume() {
     let field = field(&block, Made::Hexahedra, linear);
     let error = error(&field, linear, 3000);
     assert!(error < 1e-12, "{error:e}");
+}
+
+#[test]
+fn warnings_count_cells_that_fold_over() {
+    // The points of one face not in turn.
+    let (points, _) = hexahedron();
+    let mut cells = Cells::new();
+    cells.push(Shape::Hexahedron, &[0, 1, 3, 2, 4, 5, 6, 7]).unwrap();
+    let (_, warnings) = Field::mesh(&points, &cells, &still(8)).unwrap();
+    assert_eq!(warnings, [FieldWarning::Folded { cells: 1 }]);
+    // One that is inside out as a whole is as good as any.
+    let mut cells = Cells::new();
+    cells.push(Shape::Hexahedron, &[4, 5, 7, 6, 0, 1, 3, 2]).unwrap();
+    let (field, warnings) = Field::mesh(&points, &cells, &still(8)).unwrap();
+    assert!(warnings.is_empty() && field.sample(V::new(0.1, 0.2, 0.9), &mut Hint::default()).inside);
 }
 
 fn hexahedron() -> (Vec<V>, Cells) {

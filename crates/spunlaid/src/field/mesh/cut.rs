@@ -12,7 +12,9 @@ use crate::field::node::{Node, bounding_box};
 /// Least volume of a tetrahedron or a cell, by the third power of the cell's diagonal: less is rounding.
 const FLAT: f64 = 1e-12;
 /// Share of a cell's volume that may be folded over before it is cut from its centroid.
-const FOLDED: f64 = 1e-3;
+const BENT: f64 = 1e-3;
+/// And before it is counted: meshers leave cells behind that are folded over by a hundredth or two.
+const FOLDED: f64 = 0.05;
 
 /// What cells are cut into.
 #[derive(Default)]
@@ -46,7 +48,7 @@ impl Cut {
             return;
         }
         let mut cone = from_corner;
-        if cone.folded() > FOLDED {
+        if cone.folded() > BENT {
             let centroid = centroid(&triangles, nodes);
             // Numbers that have run out leave no more nodes; see the limit on tetrahedra.
             let number = nodes.len() as u32;

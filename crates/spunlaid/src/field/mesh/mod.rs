@@ -16,7 +16,7 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 /// Most tetrahedra that are kept; they take 32 bytes each.
-pub(super) const MOST_TETRAHEDRA: usize = 1 << 28;
+pub(super) const MOST_TETRAHEDRA: usize = 1 << 26;
 /// How far beyond a face, as a share of a tetrahedron's height, a point still counts as within: rounding.
 const EDGE: f64 = 1e-9;
 /// Steps from tetrahedron to tetrahedron before the tree is asked.

@@ -3,7 +3,7 @@
 //! Every point knows the gradients that fit its neighbours best. The value anywhere is the mean of what the
 //! nearest points make of it, each along its own gradients; a point's weight falls to zero with its distance as
 //! another one takes its place, so that the field is continuous. The weights are those of Franke & Little, in
-//! Franke 1982.
+//! Franke 1982. No point makes less of `k` and `ε` than half of what it has itself.
 
 mod fit;
 
@@ -112,6 +112,10 @@ impl Site {
         for (axis, gradient) in self.gradients.iter().enumerate() {
             let along = at[axis] - self.node.at[axis];
             values.iter_mut().zip(gradient).for_each(|(value, change)| *value += along * change);
+        }
+        // Next to walls k and ε are so steep that gradients would carry them below zero.
+        for turbulent in 3..values.len() {
+            values[turbulent] = values[turbulent].max(0.5 * self.node.values[turbulent]);
         }
         values
     }

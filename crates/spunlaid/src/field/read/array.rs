@@ -3,7 +3,7 @@
 use super::encoding::{self, Budget, Packing};
 use crate::error::{FieldError, FieldFault, FieldPlace};
 use crate::units::excerpt;
-use std::borrow::Cow;
+use std::str::FromStr;
 
 /// A type of number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,82 +92,76 @@ pub(super) struct Array<'a> {
     pub(super) place: FieldPlace,
 }
 
-impl Array<'_> {
-    /// The numbers, so many of them for each of `count` points or cells.
-    pub(super) fn floats(&self, count: usize, budget: &mut Budget) -> Result<Vec<f64>, FieldError> {
-        let wanted = count.saturating_mul(self.components);
-        self.counted(wanted, self.all_floats(budget).map_err(|fault| self.fault(fault))?)
+/// What a number is read as: any number as `f64`, a whole one as `i64`.
+pub(super) trait Read: FromStr {
+    fn of_float(x: f64) -> Self;
+    fn of_signed(x: i64) -> Self;
+    fn of_unsigned(x: u64) -> Self;
+}
+
+impl Read for f64 {
+    fn of_float(x: f64) -> Self {
+        x
     }
 
-    /// All whole numbers there are.
-    pub(super) fn integers(&self, budget: &mut Budget) -> Result<Vec<i64>, FieldError> {
-        let read = |budget: &mut Budget| match self.source {
-            Source::Text(text) => words(text, |word| word.parse().ok()),
-            _ => {
-                let (bytes, big_endian) = self.bytes(budget)?;
-                self.converted(&bytes, big_endian, |x| x as i64, |x| x, |x| x as i64)
+    fn of_signed(x: i64) -> Self {
+        x as Self
+    }
+
+    fn of_unsigned(x: u64) -> Self {
+        x as Self
+    }
+}
+
+impl Read for i64 {
+    fn of_float(x: f64) -> Self {
+        x as Self
+    }
+
+    fn of_signed(x: i64) -> Self {
+        x
+    }
+
+    fn of_unsigned(x: u64) -> Self {
+        x as Self
+    }
+}
+
+impl Array<'_> {
+    /// All numbers there are.
+    pub(super) fn all<T: Read>(&self, budget: &mut Budget) -> Result<Vec<T>, FieldError> {
+        let numbers = match &self.source {
+            Source::Text(text) => words(text),
+            Source::Numbers(numbers) => Ok(numbers.iter().map(|x| T::of_float(*x)).collect()),
+            Source::Bytes { bytes, big_endian } => self.converted(bytes, *big_endian),
+            Source::Packed { bytes, packing, big_endian } => {
+                let bytes = encoding::unpack(bytes, *packing, *big_endian, budget);
+                bytes.and_then(|bytes| self.converted(&bytes, *big_endian))
             }
         };
-        read(budget).map_err(|fault| self.fault(fault))
+        let within = numbers.and_then(|numbers: Vec<T>| budget.spend(numbers.len()).map(|()| numbers));
+        within.map_err(|fault| self.fault(fault))
     }
 
-    /// As many whole numbers as these.
-    pub(super) fn so_many_integers(
-        &self,
-        wanted: usize,
-        budget: &mut Budget,
-    ) -> Result<Vec<i64>, FieldError> {
-        self.counted(wanted, self.integers(budget)?)
-    }
-
-    /// The same with the array’s name.
-    pub(super) fn fault(&self, fault: FieldFault) -> FieldError {
-        FieldError::from(fault).array(&self.name).at(self.place)
-    }
-
-    fn counted<T>(&self, wanted: usize, numbers: Vec<T>) -> Result<Vec<T>, FieldError> {
+    /// The numbers of so many points or cells.
+    pub(super) fn of<T: Read>(&self, count: usize, budget: &mut Budget) -> Result<Vec<T>, FieldError> {
+        let (numbers, wanted) = (self.all(budget)?, count.saturating_mul(self.components));
         if numbers.len() == wanted {
             return Ok(numbers);
         }
         Err(self.fault(FieldFault::Count { found: numbers.len(), wanted, of: "numbers" }))
     }
 
-    fn all_floats(&self, budget: &mut Budget) -> Result<Vec<f64>, FieldFault> {
-        match self.source {
-            Source::Text(text) => words(text, |word| word.parse().ok()),
-            Source::Numbers(numbers) => Ok(numbers.to_vec()),
-            _ => {
-                let (bytes, big_endian) = self.bytes(budget)?;
-                self.converted(&bytes, big_endian, |x| x, |x| x as f64, |x| x as f64)
-            }
-        }
+    /// What is wrong, with the array’s name and place.
+    pub(super) fn fault(&self, fault: FieldFault) -> FieldError {
+        FieldError::from(fault).array(&self.name).at(self.place)
     }
 
-    fn bytes(&self, budget: &mut Budget) -> Result<(Cow<'_, [u8]>, bool), FieldFault> {
-        match &self.source {
-            Source::Text(_) | Source::Numbers(_) => Ok((Cow::Borrowed(&[]), false)),
-            Source::Bytes { bytes, big_endian } => Ok((Cow::Borrowed(bytes), *big_endian)),
-            Source::Packed { bytes, packing, big_endian } => {
-                Ok((encoding::unpack(bytes, *packing, *big_endian, budget)?, *big_endian))
-            }
-        }
-    }
-
-    fn converted<T>(
-        &self,
-        bytes: &[u8],
-        big_endian: bool,
-        of_float: impl Fn(f64) -> T,
-        of_signed: impl Fn(i64) -> T,
-        of_unsigned: impl Fn(u64) -> T,
-    ) -> Result<Vec<T>, FieldFault> {
+    fn converted<T: Read>(&self, bytes: &[u8], big_endian: bool) -> Result<Vec<T>, FieldFault> {
         let size = self.number.size();
-        if !bytes.len().is_multiple_of(size) {
-            return Err(FieldFault::Count {
-                found: bytes.len() % size,
-                wanted: size,
-                of: "bytes of its last number",
-            });
+        let over = bytes.len() % size;
+        if over != 0 {
+            return Err(FieldFault::Count { found: over, wanted: size, of: "bytes of its last number" });
         }
         let number = |written: &[u8]| {
             let mut bits = [0; 8];
@@ -177,13 +171,13 @@ impl Array<'_> {
             }
             let bits = u64::from_le_bytes(bits);
             match self.number {
-                Number::F32 => of_float(f32::from_bits(bits as u32).into()),
-                Number::F64 => of_float(f64::from_bits(bits)),
-                Number::I8 => of_signed((bits as i8).into()),
-                Number::I16 => of_signed((bits as i16).into()),
-                Number::I32 => of_signed((bits as i32).into()),
-                Number::I64 => of_signed(bits as i64),
-                Number::U8 | Number::U16 | Number::U32 | Number::U64 => of_unsigned(bits),
+                Number::F32 => T::of_float(f32::from_bits(bits as u32).into()),
+                Number::F64 => T::of_float(f64::from_bits(bits)),
+                Number::I8 => T::of_signed((bits as i8).into()),
+                Number::I16 => T::of_signed((bits as i16).into()),
+                Number::I32 => T::of_signed((bits as i32).into()),
+                Number::I64 => T::of_signed(bits as i64),
+                Number::U8 | Number::U16 | Number::U32 | Number::U64 => T::of_unsigned(bits),
             }
         };
         Ok(bytes.chunks_exact(size).map(number).collect())
@@ -191,10 +185,10 @@ impl Array<'_> {
 }
 
 /// The numbers in a text.
-fn words<T>(text: &[u8], number: impl Fn(&str) -> Option<T>) -> Result<Vec<T>, FieldFault> {
+fn words<T: FromStr>(text: &[u8]) -> Result<Vec<T>, FieldFault> {
     let words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
     let parsed = words.map(|word| {
-        let number = str::from_utf8(word).ok().and_then(&number);
+        let number = str::from_utf8(word).ok().and_then(|word| word.parse().ok());
         number.ok_or_else(|| FieldFault::NotANumber { text: excerpt(&String::from_utf8_lossy(word), 40) })
     });
     parsed.collect()

@@ -7,8 +7,8 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use std::borrow::Cow;
 use std::io::Read;
 
-/// Most bytes of a file that are decoded.
-pub(super) const MOST_DECODED: u64 = 1 << 32;
+/// Most that is taken from a file, as numbers of eight bytes [bytes].
+const MOST: u64 = 1 << 32;
 /// LZ4 makes no more bytes than so many out of one.
 const LZ4_EXPANSION: usize = 255;
 
@@ -29,19 +29,25 @@ pub(super) enum Compressor {
     Lz4,
 }
 
-/// How many bytes may still be decoded.
+/// How many bytes may still be taken from a file.
 #[derive(Debug)]
 pub(super) struct Budget(u64);
 
 impl Budget {
     pub(super) const fn new() -> Self {
-        Self(MOST_DECODED)
+        Self(MOST)
     }
 
-    fn spend(&mut self, bytes: usize) -> Result<(), FieldFault> {
-        let left = self.0.checked_sub(bytes as u64);
-        self.0 = left.ok_or(FieldFault::TooLarge { most: MOST_DECODED })?;
+    /// Takes so many numbers.
+    pub(super) fn spend(&mut self, numbers: usize) -> Result<(), FieldFault> {
+        let left = self.0.checked_sub((numbers as u64).saturating_mul(8));
+        self.0 = left.ok_or(FieldFault::TooLarge { most: MOST })?;
         Ok(())
+    }
+
+    /// Whether so many bytes, soon to be numbers, may be decoded.
+    fn allow(&self, bytes: usize) -> Result<(), FieldFault> {
+        if bytes as u64 > self.0 { Err(FieldFault::TooLarge { most: MOST }) } else { Ok(()) }
     }
 }
 
@@ -50,9 +56,9 @@ pub(super) fn unpack<'a>(
     packed: &'a [u8],
     packing: Packing,
     big_endian: bool,
-    budget: &mut Budget,
+    budget: &Budget,
 ) -> Result<Cow<'a, [u8]>, FieldFault> {
-    let packed = if packing.base64 { Cow::Owned(of_base64(packed, budget)?) } else { Cow::Borrowed(packed) };
+    let packed = if packing.base64 { Cow::Owned(of_base64(packed)?) } else { Cow::Borrowed(packed) };
     let mut header = Header { bytes: &packed, at: 0, wide: packing.wide_header, big_endian };
     if packing.compressor == Compressor::None {
         let length = header.number("the number of bytes")?;
@@ -94,10 +100,10 @@ fn expand(
     wanted: usize,
     compressor: Compressor,
     bytes: &mut Vec<u8>,
-    budget: &mut Budget,
+    budget: &Budget,
 ) -> Result<(), FieldFault> {
-    budget.spend(wanted)?;
     let before = bytes.len();
+    budget.allow(before.saturating_add(wanted))?;
     let expanded = match compressor {
         Compressor::None | Compressor::Zlib => {
             let decoder = flate2::bufread::ZlibDecoder::new(compressed);
@@ -140,12 +146,11 @@ impl Header<'_> {
 }
 
 /// Bytes in base 64; a header may be encoded apart from what follows it, and ends with padding then.
-fn of_base64(text: &[u8], budget: &mut Budget) -> Result<Vec<u8>, FieldFault> {
+fn of_base64(text: &[u8]) -> Result<Vec<u8>, FieldFault> {
     let config = GeneralPurposeConfig::new()
         .with_decode_padding_mode(DecodePaddingMode::Indifferent)
         .with_decode_allow_trailing_bits(true);
     let engine = GeneralPurpose::new(&STANDARD, config);
-    budget.spend(text.len() / 4 * 3)?;
     let text: Cow<'_, [u8]> = if text.iter().any(u8::is_ascii_whitespace) {
         Cow::Owned(text.iter().copied().filter(|byte| !byte.is_ascii_whitespace()).collect())
     } else {

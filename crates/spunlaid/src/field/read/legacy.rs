@@ -99,7 +99,7 @@ impl<'a> Scanner<'a> {
             let count = self.parse("a number of coordinates")?;
             let number = self.number()?;
             let array = self.array(keyword.to_owned(), number, 1, count)?;
-            array.floats(size, budget)
+            array.of(size, budget)
         };
         Ok(Grid::Lattice([
             axis("X_COORDINATES", size[0])?,
@@ -112,7 +112,7 @@ impl<'a> Scanner<'a> {
         let count: usize = self.parse("a number of points")?;
         let number = self.number()?;
         let array = self.array("POINTS".to_owned(), number, 3, count)?;
-        Ok(vectors(&array.floats(wanted.unwrap_or(count), budget)?))
+        Ok(vectors(&array.of(wanted.unwrap_or(count), budget)?))
     }
 
     fn cells(&mut self, with_ends: bool, budget: &mut Budget) -> Result<Listed, FieldError> {
@@ -124,7 +124,7 @@ impl<'a> Scanner<'a> {
             let mut list = |keyword, size| {
                 self.keyword(keyword)?;
                 let number = self.number()?;
-                self.array(keyword.to_owned(), number, 1, size)?.integers(budget)
+                self.array(keyword.to_owned(), number, 1, size)?.all(budget)
             };
             listed.ends = list("OFFSETS", count)?;
             listed.connectivity = list("CONNECTIVITY", size)?;
@@ -132,7 +132,7 @@ impl<'a> Scanner<'a> {
             listed.ends = listed.ends.into_iter().skip(1).collect();
         } else {
             let array = self.array("CELLS".to_owned(), Number::I32, 1, size)?;
-            let entries = array.integers(budget)?;
+            let entries = array.all(budget)?;
             let mut rest = entries.as_slice();
             while let Some((&length, after)) = rest.split_first() {
                 let own = usize::try_from(length).ok().and_then(|length| after.split_at_checked(length));
@@ -144,7 +144,7 @@ impl<'a> Scanner<'a> {
         }
         self.next_keyword("CELL_TYPES")?;
         let count: usize = self.parse("a number of cells")?;
-        listed.types = self.array("CELL_TYPES".to_owned(), Number::I32, 1, count)?.integers(budget)?;
+        listed.types = self.array("CELL_TYPES".to_owned(), Number::I32, 1, count)?.all(budget)?;
         Ok(listed)
     }
 

@@ -136,7 +136,7 @@ impl<'a> File<'a, '_> {
                 let (_, size) = extent()?;
                 let mut axes = self.arrays(piece, "Coordinates")?.into_iter();
                 let mut axis = |i: usize| match axes.next() {
-                    Some(axis) => axis.floats(size[i], budget),
+                    Some(axis) => axis.of(size[i], budget),
                     None => Err(FieldFault::CutOff { wanted: "the coordinates" }.into()),
                 };
                 Grid::Lattice([axis(0)?, axis(1)?, axis(2)?])
@@ -181,24 +181,24 @@ impl<'a> File<'a, '_> {
                 of: "components",
             }));
         }
-        Ok(vectors(&array.floats(count, budget)?))
+        Ok(vectors(&array.of(count, budget)?))
     }
 
     fn listed(&self, piece: Node<'a, '_>, count: usize, budget: &mut Budget) -> Result<Listed, FieldError> {
         let arrays = self.arrays(piece, "Cells")?;
         let find = |name: &str| arrays.iter().find(|array| array.name == name);
         let need = |name: &'static str| find(name).ok_or(FieldFault::CutOff { wanted: name });
-        let types = need("types")?.so_many_integers(count, budget)?;
-        let ends = need("offsets")?.so_many_integers(count, budget)?;
-        let connectivity = need("connectivity")?.integers(budget)?;
+        let types = need("types")?.of(count, budget)?;
+        let ends = need("offsets")?.of(count, budget)?;
+        let connectivity = need("connectivity")?.all(budget)?;
         let polyhedra = if let (Some(faces), Some(ends)) = (find("faces"), find("faceoffsets")) {
-            Polyhedra::Stream { faces: faces.integers(budget)?, ends: ends.integers(budget)? }
+            Polyhedra::Stream { faces: faces.all(budget)?, ends: ends.all(budget)? }
         } else if let Some(points) = find("face_connectivity") {
             Polyhedra::Table {
-                points: points.integers(budget)?,
-                ends: need("face_offsets")?.integers(budget)?,
-                faces: need("polyhedron_to_faces")?.integers(budget)?,
-                cell_ends: need("polyhedron_offsets")?.integers(budget)?,
+                points: points.all(budget)?,
+                ends: need("face_offsets")?.all(budget)?,
+                faces: need("polyhedron_to_faces")?.all(budget)?,
+                cell_ends: need("polyhedron_offsets")?.all(budget)?,
             }
         } else {
             Polyhedra::Inline
