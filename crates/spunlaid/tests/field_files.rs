@@ -296,10 +296,10 @@ fn tables_of_many_programs_are_read() {
     let (field, _) = read(b"x,y,u,v\n0,0,1,2\n1,0,1,2\n0,1,3,2\n1,1,3,2\n", "a.csv");
     let local = field.sample(Vec3::new(0.5, 0.5, 9.0), &mut Hint::default());
     assert_eq!((local.velocity, local.inside), (Vec3::new(2.0, 2.0, 0.0), true));
-    // Rows without all their numbers are left out.
+    // Rows without all their numbers are left out, whichever is missing.
     let (field, warnings) =
-        read(b"x,y,u,v\n0,0,1,2\n1,0,1,2\n5,5,nan,2\n0,1,3,2\n7,7,,1\n1,1,3,2\n", "a.csv");
-    assert_eq!(warnings, [FieldWarning::Dropped { rows: 2, first: 4 }]);
+        read(b"x,y,u,v\n0,0,1,2\n1,0,1,2\n5,5,nan,2\n0,1,3,2\n7,7,,1\n1,1,3,2\n8,8,1,\n", "a.csv");
+    assert_eq!(warnings, [FieldWarning::Dropped { rows: 3, first: 4 }]);
     assert_eq!(field.describe(), Description::Lattice { points: [2, 2, 1] });
 }
 

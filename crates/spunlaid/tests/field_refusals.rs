@@ -192,7 +192,7 @@ fn rejects_legacy_files_with_place_and_way_out() {
         (
             "BINARY",
             "DATASET UNSTRUCTURED_GRID\nPOINTS 18446744073709551615 double\n0 0 0",
-            "a.vtu: byte 100: POINTS: ends where more numbers should follow; is the file cut off?",
+            "a.vtu: byte 99: POINTS: ends where more numbers should follow; is the file cut off?",
         ),
         (
             "ASCII",

@@ -84,10 +84,19 @@ impl Shape {
 /// The cells of a mesh, by the numbers of their points, from 0.
 #[derive(Clone, Debug, Default)]
 pub struct Cells {
-    /// What each is, and where its entries begin.
-    list: Vec<(Shape, usize)>,
-    /// Points; for a polyhedron, of each face their number and then they.
-    entries: Vec<u32>,
+    list: Vec<Entry>,
+    /// Of one cell after the other; of a polyhedron, those of one face after the other.
+    points: Vec<u32>,
+    /// Numbers of points of the faces of polyhedra.
+    faces: Vec<u32>,
+}
+
+/// What a cell is and where its points, and its faces if it is a polyhedron, begin.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    shape: Shape,
+    points: usize,
+    faces: usize,
 }
 
 impl Cells {
@@ -118,8 +127,8 @@ impl Cells {
             let place = FieldPlace::Cell(self.len() as u64 + 1);
             return Err(FieldError::from(FieldFault::CellPoints { name, found, wanted }).at(place));
         }
-        self.list.push((shape, self.entries.len()));
-        self.entries.extend_from_slice(points);
+        self.list.push(self.next(shape));
+        self.points.extend_from_slice(points);
         Ok(())
     }
 
@@ -127,29 +136,51 @@ impl Cells {
     ///
     /// * `faces` – each as its points in turn, from whichever side
     pub fn push_polyhedron<'a>(&mut self, faces: impl IntoIterator<Item = &'a [u32]>) {
-        self.list.push((Shape::Polyhedron, self.entries.len()));
+        self.list.push(self.next(Shape::Polyhedron));
         for face in faces {
             // No face has more points than can be numbered.
-            self.entries.push(face.len() as u32);
-            self.entries.extend_from_slice(face);
+            self.faces.push(face.len() as u32);
+            self.points.extend_from_slice(face);
         }
     }
 
     /// Adds cells of points that are numbered anew, from `first`.
     pub(in crate::field) fn append(&mut self, more: &Self, first: u32) {
-        for cell in 0..more.len() {
-            let polyhedron = more.is_polyhedron(cell);
-            self.list.push((more.list[cell].0, self.entries.len()));
-            let mut faces = more.entries(cell);
-            if !polyhedron {
-                self.entries.extend(faces.iter().map(|point| point + first));
+        let Entry { points, faces, .. } = self.next(Shape::Polyhedron);
+        let moved =
+            |entry: &Entry| Entry { points: entry.points + points, faces: entry.faces + faces, ..*entry };
+        self.list.extend(more.list.iter().map(moved));
+        self.points.extend(more.points.iter().map(|point| point + first));
+        self.faces.extend_from_slice(&more.faces);
+    }
+
+    /// Where a cell that comes next begins.
+    fn next(&self, shape: Shape) -> Entry {
+        Entry { shape, points: self.points.len(), faces: self.faces.len() }
+    }
+
+    pub(super) fn is_polyhedron(&self, cell: usize) -> bool {
+        self.list[cell].shape == Shape::Polyhedron
+    }
+
+    /// Hands out each face of a cell, as its points in turn.
+    pub(super) fn each_face(&self, cell: usize, mut face: impl FnMut(&[u32])) {
+        let Entry { shape, points, faces } = self.list[cell];
+        let mut rest = &self.points[points..];
+        if shape == Shape::Polyhedron {
+            let end = self.list.get(cell + 1).map_or(self.faces.len(), |next| next.faces);
+            for count in &self.faces[faces..end] {
+                let (points, after) = rest.split_at(*count as usize);
+                face(points);
+                rest = after;
             }
-            while let (true, Some((&count, rest))) = (polyhedron, faces.split_first()) {
-                let (points, rest) = rest.split_at((count as usize).min(rest.len()));
-                self.entries.push(count);
-                self.entries.extend(points.iter().map(|point| point + first));
-                faces = rest;
+        }
+        let mut points = [0; 6];
+        for corners in shape.faces() {
+            for (point, corner) in points.iter_mut().zip(*corners) {
+                *point = rest[*corner];
             }
+            face(&points[..corners.len()]);
         }
     }
 
@@ -159,35 +190,6 @@ impl Cells {
         self.each_face(cell, |points| list.extend_from_slice(points));
         list.sort_unstable();
         list.dedup();
-    }
-
-    pub(super) fn is_polyhedron(&self, cell: usize) -> bool {
-        self.list[cell].0 == Shape::Polyhedron
-    }
-
-    fn entries(&self, cell: usize) -> &[u32] {
-        let end = self.list.get(cell + 1).map_or(self.entries.len(), |next| next.1);
-        &self.entries[self.list[cell].1..end]
-    }
-
-    /// Hands out each face of a cell, as its points in turn.
-    pub(super) fn each_face(&self, cell: usize, mut face: impl FnMut(&[u32])) {
-        let mut entries = self.entries(cell);
-        if !self.is_polyhedron(cell) {
-            let mut points = [0; 6];
-            for corners in self.list[cell].0.faces() {
-                for (point, corner) in points.iter_mut().zip(*corners) {
-                    *point = entries[*corner];
-                }
-                face(&points[..corners.len()]);
-            }
-            return;
-        }
-        while let Some((&count, rest)) = entries.split_first() {
-            let (points, rest) = rest.split_at((count as usize).min(rest.len()));
-            face(points);
-            entries = rest;
-        }
     }
 
     /// The first point named that is not among so many, and its cell.

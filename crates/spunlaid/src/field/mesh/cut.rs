@@ -8,6 +8,8 @@
 
 use super::cells::Cells;
 use crate::field::node::{Node, bounding_box};
+use crate::field::{mean, vector};
+use crate::vec3::Vec3;
 
 /// Least volume of a tetrahedron or a cell, by the third power of the cell's diagonal: less is rounding.
 const FLAT: f64 = 1e-12;
@@ -42,17 +44,14 @@ impl Cut {
             return;
         };
         let least = FLAT * cube_of_diagonal(&triangles, nodes);
-        let from_corner = Cone::new(tip, nodes[tip as usize].at, &triangles, nodes);
-        if from_corner.volume() <= least {
+        let mut cone = Cone::new(tip, nodes[tip as usize].at, &triangles, nodes);
+        if cone.volume() <= least {
             self.flat += 1;
             return;
         }
-        let mut cone = from_corner;
         if cone.folded() > BENT {
             let centroid = centroid(&triangles, nodes);
-            // Numbers that have run out leave no more nodes; see the limit on tetrahedra.
-            let number = nodes.len() as u32;
-            let from_centroid = Cone::new(number, centroid.at, &triangles, nodes);
+            let from_centroid = Cone::new(nodes.len() as u32, centroid.at, &triangles, nodes);
             if from_centroid.folded() < cone.folded() {
                 cone = from_centroid;
                 nodes.push(centroid);
@@ -141,7 +140,7 @@ impl<'a> Cone<'a> {
 
 /// Six times the volume of the tetrahedron between a point and a triangle.
 fn volume(tip: [f64; 3], triangle: &[u32; 3], nodes: &[Node]) -> f64 {
-    let [a, b, c] = triangle.map(|node| super::vector(nodes[node as usize].at) - super::vector(tip));
+    let [a, b, c] = triangle.map(|node| vector(nodes[node as usize].at) - vector(tip));
     a.dot(b.cross(c))
 }
 
@@ -151,21 +150,15 @@ fn centroid(triangles: &[[u32; 3]], nodes: &[Node]) -> Node {
     corners.sort_unstable();
     corners.dedup();
     let share = 1.0 / corners.len() as f64;
-    let mut centroid = Node::default();
-    for node in corners.iter().map(|corner| &nodes[*corner as usize]) {
-        for (sum, x) in centroid.at.iter_mut().zip(&node.at) {
-            *sum += share * x;
-        }
-        for (sum, value) in centroid.values.iter_mut().zip(&node.values) {
-            *sum += share * value;
-        }
-    }
-    centroid
+    let corners = || corners.iter().map(|corner| (share, &nodes[*corner as usize]));
+    let at = corners().fold(Vec3::default(), |sum, (share, node)| sum + vector(node.at) * share);
+    let values = mean(corners().map(|(share, node)| (share, &node.values)));
+    Node { at: [at.x, at.y, at.z], values }
 }
 
 fn cube_of_diagonal(triangles: &[[u32; 3]], nodes: &[Node]) -> f64 {
     let corners = triangles.iter().flatten().map(|corner| nodes[*corner as usize].at);
     let (low, high) = bounding_box(corners);
-    let diagonal = (super::vector(high) - super::vector(low)).norm();
+    let diagonal = (vector(high) - vector(low)).norm();
     diagonal * diagonal * diagonal
 }

@@ -28,14 +28,16 @@ const NOTHING: u32 = u32::MAX;
 pub(super) struct Mesh {
     nodes: Vec<Node>,
     tetrahedra: Vec<Tetrahedron>,
-    /// Of each cell its box and its tetrahedra, first and end.
-    cells: RTree<GeomWithData<Rectangle<[f64; 3]>, [u32; 2]>>,
+    cells: RTree<CellBox>,
     /// The nodes of the surface.
     surface: Tree,
     /// Points that were given.
     points: usize,
     bounds: ([f64; 3], [f64; 3]),
 }
+
+/// The box around a cell and its tetrahedra, first and end.
+type CellBox = GeomWithData<Rectangle<[f64; 3]>, [u32; 2]>;
 
 #[derive(Debug)]
 struct Tetrahedron {
@@ -82,43 +84,11 @@ impl Mesh {
     }
 
     fn of_tetrahedra(nodes: Vec<Node>, cut: Cut, points: usize) -> Self {
-        let mut on_surface = Vec::new();
-        faces::match_up(
-            nodes.len(),
-            cut.triangles.iter().copied(),
-            |_, _| {},
-            |i| {
-                on_surface.extend_from_slice(&cut.triangles[i as usize]);
-            },
-        );
-        on_surface.sort_unstable();
-        on_surface.dedup();
-        let surface = Tree::new(on_surface.into_iter().map(|i| (nodes[i as usize].at, i)).collect());
-
-        let mut start = 0;
-        let boxes = cut.ends.iter().map(|&end| {
-            let own = cut.tetrahedra[start as usize..end as usize].iter().flatten();
-            let (low, high) = bounding_box(own.map(|node| nodes[*node as usize].at));
-            let cell = GeomWithData::new(Rectangle::from_corners(low, high), [start, end]);
-            start = end;
-            cell
-        });
-        let cells = RTree::bulk_load(boxes.collect());
-
-        let bounds = bounding_box(cut.tetrahedra.iter().flatten().map(|node| nodes[*node as usize].at));
-        let mut tetrahedra: Vec<Tetrahedron> =
-            cut.tetrahedra.iter().map(|&nodes| Tetrahedron { nodes, beyond: [NOTHING; 4] }).collect();
-        let across = |[a, b, c, d]: [u32; 4]| [[b, c, d], [a, c, d], [a, b, d], [a, b, c]];
-        let triangles = cut.tetrahedra.iter().flat_map(|nodes| across(*nodes));
-        faces::match_up(
-            nodes.len(),
-            triangles,
-            |one, other| {
-                tetrahedra[one as usize / 4].beyond[one as usize % 4] = other / 4;
-                tetrahedra[other as usize / 4].beyond[other as usize % 4] = one / 4;
-            },
-            |_| {},
-        );
+        let surface = surface(&cut.triangles, &nodes);
+        let cells = boxes(&cut, &nodes);
+        let tetrahedra = neighbours(&cut.tetrahedra, nodes.len());
+        let corners = tetrahedra.iter().flat_map(|of| of.nodes).map(|node| nodes[node as usize].at);
+        let bounds = bounding_box(corners);
         Self { nodes, tetrahedra, cells, surface, points, bounds }
     }
 
@@ -202,4 +172,40 @@ impl Mesh {
         let [of_a, of_b, of_c] = [p.dot(face), c.dot(turned), -b.dot(turned)].map(|part| part * per_volume);
         [1.0 - of_a - of_b - of_c, of_a, of_b, of_c]
     }
+}
+
+/// The nodes of the triangles that are of one cell only.
+fn surface(triangles: &[[u32; 3]], nodes: &[Node]) -> Tree {
+    let mut corners = Vec::new();
+    let alone = |i: u32| corners.extend_from_slice(&triangles[i as usize]);
+    faces::match_up(nodes.len(), triangles.iter().copied(), |_, _| {}, alone);
+    corners.sort_unstable();
+    corners.dedup();
+    Tree::new(corners.into_iter().map(|i| (nodes[i as usize].at, i)).collect())
+}
+
+fn boxes(cut: &Cut, nodes: &[Node]) -> RTree<CellBox> {
+    let mut start = 0;
+    let boxes = cut.ends.iter().map(|&end| {
+        let own = cut.tetrahedra[start as usize..end as usize].iter().flatten();
+        let (low, high) = bounding_box(own.map(|node| nodes[*node as usize].at));
+        let cell = CellBox::new(Rectangle::from_corners(low, high), [start, end]);
+        start = end;
+        cell
+    });
+    RTree::bulk_load(boxes.collect())
+}
+
+/// Tetrahedra that know what is beyond their faces.
+fn neighbours(tetrahedra: &[[u32; 4]], nodes: usize) -> Vec<Tetrahedron> {
+    let across = |[a, b, c, d]: [u32; 4]| [[b, c, d], [a, c, d], [a, b, d], [a, b, c]];
+    let faces = tetrahedra.iter().flat_map(|nodes| across(*nodes));
+    let alone = |nodes: &[u32; 4]| Tetrahedron { nodes: *nodes, beyond: [NOTHING; 4] };
+    let mut tetrahedra: Vec<Tetrahedron> = tetrahedra.iter().map(alone).collect();
+    let pair = |one: u32, other: u32| {
+        tetrahedra[one as usize / 4].beyond[one as usize % 4] = other / 4;
+        tetrahedra[other as usize / 4].beyond[other as usize % 4] = one / 4;
+    };
+    faces::match_up(nodes, faces, pair, |_| {});
+    tetrahedra
 }

@@ -114,8 +114,8 @@ impl Site {
             values.iter_mut().zip(gradient).for_each(|(value, change)| *value += along * change);
         }
         // Next to walls k and ε are so steep that gradients would carry them below zero.
-        for turbulent in 3..values.len() {
-            values[turbulent] = values[turbulent].max(0.5 * self.node.values[turbulent]);
+        for (value, here) in values.iter_mut().zip(self.node.values).skip(3) {
+            *value = value.max(0.5 * here);
         }
         values
     }

@@ -3,6 +3,7 @@
 use super::array::{Array, Number, Source};
 use super::encoding::Budget;
 use super::grid::{Grid, counted, vectors};
+use super::line;
 use super::piece::{Piece, assemble};
 use super::unstructured::{Listed, Polyhedra};
 use crate::error::{FieldError, FieldFault, FieldPlace};
@@ -17,11 +18,12 @@ pub(super) const START: &[u8] = b"# vtk DataFile Version";
 pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FieldError> {
     let mut scanner = Scanner { bytes, at: 0, binary: false };
     let mut budget = Budget::new();
-    let piece = scanner.piece(&mut budget).map_err(|error| {
-        let place = if scanner.binary { FieldPlace::Byte(scanner.at as u64 + 1) } else { scanner.line() };
-        error.at(place)
-    })?;
-    assemble(vec![piece], &mut budget)
+    let piece = scanner.piece(&mut budget).map_err(|error| error.at(scanner.place()));
+    let field = piece.and_then(|piece| assemble(vec![piece], &mut budget));
+    field.map_err(|error| match scanner.binary {
+        true => error,
+        false => FieldError { place: line(bytes, error.place), ..error },
+    })
 }
 
 /// Goes through the file from front to back.
@@ -257,7 +259,7 @@ impl<'a> Scanner<'a> {
         components: usize,
         count: usize,
     ) -> Result<Array<'a>, FieldError> {
-        let place = if self.binary { FieldPlace::Whole } else { self.line() };
+        let place = self.place();
         let numbers = components.saturating_mul(count);
         let missing =
             || FieldError::from(FieldFault::CutOff { wanted: "more numbers" }).array(&name).at(place);
@@ -347,9 +349,9 @@ impl<'a> Scanner<'a> {
         &rest[..end.unwrap_or(rest.len())]
     }
 
-    fn line(&self) -> FieldPlace {
-        let before = &self.bytes[..self.at];
-        FieldPlace::Line(before.iter().filter(|byte| **byte == b'\n').count() as u64 + 1)
+    /// The byte reached.
+    fn place(&self) -> FieldPlace {
+        FieldPlace::Byte(self.at as u64 + 1)
     }
 }
 

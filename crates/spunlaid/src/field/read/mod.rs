@@ -14,7 +14,7 @@ mod unstructured;
 mod xml;
 
 use super::{Field, FieldWarning};
-use crate::error::{FieldError, FieldFault};
+use crate::error::{FieldError, FieldFault, FieldPlace};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -64,4 +64,13 @@ impl Field {
         };
         read.map_err(|error| error.file(name))
     }
+}
+
+/// The line of a text that a place among its bytes is in.
+fn line(text: &[u8], place: FieldPlace) -> FieldPlace {
+    let FieldPlace::Byte(byte) = place else {
+        return place;
+    };
+    let before = text.iter().take(byte.saturating_sub(1) as usize);
+    FieldPlace::Line(before.filter(|byte| **byte == b'\n').count() as u64 + 1)
 }

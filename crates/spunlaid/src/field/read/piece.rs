@@ -149,11 +149,27 @@ impl Reader<'_, '_> {
             if negative > 0 {
                 numbers.iter_mut().filter(|value| **value < 0.0).for_each(|value| *value = 0.0);
                 let array = crate::units::excerpt(&names[array].written, 40);
-                self.warnings.push(FieldWarning::Negative { array, points: negative });
+                self.warn(FieldWarning::Negative { array, points: negative });
             }
             return Ok(Some(numbers));
         }
         Ok(None)
+    }
+
+    /// Adds a warning, once for all pieces.
+    fn warn(&mut self, warning: FieldWarning) {
+        use FieldWarning::{Negative, OfCells};
+        for told in self.warnings.iter_mut() {
+            match (told, &warning) {
+                (Negative { array, points }, Negative { array: same, points: more }) if array == same => {
+                    *points += more;
+                    return;
+                }
+                (OfCells { array }, OfCells { array: same }) if array == same => return,
+                _ => {}
+            }
+        }
+        self.warnings.push(warning);
     }
 
     fn arrays(&self, of_cells: bool) -> &[Array<'_>] {
@@ -172,7 +188,7 @@ impl Reader<'_, '_> {
         if of_cells {
             numbers = self.piece.grid.to_points(&numbers, array.components, points);
             let name = crate::units::excerpt(&array.name, 40);
-            self.warnings.push(FieldWarning::OfCells { array: name });
+            self.warn(FieldWarning::OfCells { array: name });
         }
         if factor != 1.0 {
             numbers.iter_mut().for_each(|number| *number *= factor);

@@ -67,8 +67,7 @@ impl Separator {
     fn cells(self, line: &str) -> impl Iterator<Item = &str> {
         let (mut by_sign, mut by_blanks) = (None, None);
         match self {
-            // A separator after the last cell parts nothing.
-            Self::Sign(sign) => by_sign = Some(line.trim_end().trim_end_matches(sign).split(sign)),
+            Self::Sign(sign) => by_sign = Some(line.split(sign)),
             Self::Blanks => by_blanks = Some(line.split_whitespace()),
         }
         let cells = by_sign.into_iter().flatten().chain(by_blanks.into_iter().flatten());
@@ -103,26 +102,28 @@ impl<'a, L: Iterator<Item = (&'a [u8], u64)>> Rows<'a, L> {
         while let Some((line, text)) = self.next() {
             let separator = Separator::of(&text);
             let cells: Vec<&str> = separator.cells(&text).collect();
-            let numbers = cells.iter().filter(|cell| separator.number(cell).is_some()).count();
-            if cells.len() < 2 || numbers < cells.len() {
-                header = Some((line, text));
+            let numbers = || cells.iter().map(|cell| separator.number(cell));
+            let row = cells.len() > 1
+                && numbers().all(|number| number.is_some())
+                && numbers().flatten().any(|number| !number.is_nan());
+            if !row {
+                header = Some(text);
                 continue;
             }
             self.separator = separator;
-            let Some((_, header)) = header else {
+            let Some(header) = header else {
                 return Err(FieldError::from(FieldFault::NoHeader).at(FieldPlace::Line(line)));
             };
             let header = header.trim_start_matches(['#', '%', '/', ' ']);
-            let named = |separator: Separator| separator.cells(header).map(str::to_owned).collect::<Vec<_>>();
             // Names may be parted otherwise than numbers are.
-            let names = [separator, Separator::of(header)].map(named);
-            return match names.into_iter().find(|names| names.len() == cells.len()) {
-                Some(names) => Ok((names, (line, text))),
-                None => {
-                    let fault = FieldFault::Cells { found: cells.len(), wanted: named(separator).len() };
-                    Err(FieldError::from(fault).at(FieldPlace::Line(line)))
-                }
-            };
+            let names = [separator, Separator::of(header)].map(|separator| {
+                let names: Vec<String> = separator.cells(header).map(str::to_owned).collect();
+                let named = names.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
+                names[..named].to_vec()
+            });
+            let [by_rows, by_itself] = names;
+            let fits = within(&cells, by_rows.len()).is_ok();
+            return Ok((if fits { by_rows } else { by_itself }, (line, text)));
         }
         Err(FieldFault::Empty.into())
     }
@@ -136,6 +137,14 @@ impl<'a, L: Iterator<Item = (&'a [u8], u64)>> Rows<'a, L> {
             Err(_) => Cow::Owned(line.iter().map(|byte| char::from(*byte)).collect()),
         };
         Some((number, text))
+    }
+}
+
+/// So many cells of a row; those left over must be empty, for a separator may stand after the last.
+fn within<'a, 'b>(cells: &'a [&'b str], wanted: usize) -> Result<&'a [&'b str], FieldFault> {
+    match cells.split_at_checked(wanted) {
+        Some((cells, rest)) if rest.iter().all(|cell| cell.is_empty()) => Ok(cells),
+        _ => Err(FieldFault::Cells { found: cells.len(), wanted }),
     }
 }
 
@@ -153,9 +162,7 @@ impl Columns {
     /// Takes in a row, unless it lacks a number.
     fn add(&mut self, line: u64, row: &str, separator: Separator) -> Result<(), FieldError> {
         let cells: Vec<&str> = separator.cells(row).collect();
-        if cells.len() != self.header.len() {
-            return Err(FieldFault::Cells { found: cells.len(), wanted: self.header.len() }.into());
-        }
+        let cells = within(&cells, self.header.len())?;
         let number = |column: &usize| {
             let fault = || FieldFault::NotANumber { text: excerpt(cells[*column], 40) };
             separator

@@ -6,6 +6,7 @@
 use super::array::{Array, Number, Source};
 use super::encoding::{Budget, Compressor, Packing};
 use super::grid::{Grid, counted, vectors};
+use super::line;
 use super::piece::{Piece, assemble};
 use super::unstructured::{Listed, Polyhedra};
 use crate::error::{FieldError, FieldFault, FieldPlace};
@@ -16,6 +17,10 @@ use std::borrow::Cow;
 
 /// Reads a file.
 pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FieldError> {
+    whole(bytes).map_err(|error| FieldError { place: line(bytes, error.place), ..error })
+}
+
+fn whole(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FieldError> {
     let (text, appended) = parted(bytes)?;
     let document = Document::parse(&text).map_err(|error| {
         let fault = FieldFault::Xml { message: excerpt(&error.to_string(), 100) };
@@ -36,11 +41,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FieldErro
         return Err(FieldFault::CutOff { wanted: "the grid" }.into());
     };
     let mut budget = Budget::new();
-    let mut file = File { document: &document, format: Format::of(root)?, appended, offsets: offsets(grid) };
+    let file = File { format: Format::of(root)?, appended, offsets: offsets(grid) };
     let mut pieces = Vec::new();
     for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {
         let read = file.piece(kind, grid, piece, &mut budget);
-        pieces.push(read.map_err(|error| error.at(file.line(piece)))?);
+        pieces.push(read.map_err(|error| error.at(place(piece)))?);
     }
     assemble(pieces, &mut budget)
 }
@@ -109,20 +114,19 @@ fn offsets(grid: Node<'_, '_>) -> Vec<usize> {
     offsets
 }
 
-struct File<'a, 'input> {
-    document: &'a Document<'input>,
+struct File<'a> {
     format: Format,
     appended: Option<Appended<'a>>,
     offsets: Vec<usize>,
 }
 
-impl<'a> File<'a, '_> {
-    fn line(&self, node: Node<'_, '_>) -> FieldPlace {
-        FieldPlace::Line(self.document.text_pos_at(node.range().start).row.into())
-    }
+fn place(node: Node<'_, '_>) -> FieldPlace {
+    FieldPlace::Byte(node.range().start as u64 + 1)
+}
 
+impl<'a> File<'a> {
     fn piece(
-        &mut self,
+        &self,
         kind: &str,
         grid: Node<'a, '_>,
         piece: Node<'a, '_>,
@@ -210,7 +214,7 @@ impl<'a> File<'a, '_> {
     fn arrays(&self, piece: Node<'a, '_>, part: &str) -> Result<Vec<Array<'a>>, FieldError> {
         let parts = piece.children().filter(|node| node.has_tag_name(part));
         let arrays = parts.flat_map(|part| part.children()).filter(|node| node.has_tag_name("DataArray"));
-        arrays.map(|node| self.array(node).map_err(|error| error.at(self.line(node)))).collect()
+        arrays.map(|node| self.array(node).map_err(|error| error.at(place(node)))).collect()
     }
 
     fn array(&self, node: Node<'a, '_>) -> Result<Array<'a>, FieldError> {
@@ -250,7 +254,7 @@ impl<'a> File<'a, '_> {
             }
             _ => Source::Text(inline().unwrap_or_default().as_bytes()),
         };
-        Ok(Array { name, number: number_type, components, source, place: self.line(node) })
+        Ok(Array { name, number: number_type, components, source, place: place(node) })
     }
 }
 
