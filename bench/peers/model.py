@@ -95,6 +95,6 @@ def check_forces(forces, folder, program):
         air[:, 0] = 7.0
         off = np.abs(forces(constants, r, v, air) - f).max() / np.abs(f).max()
         worst = max(worst, float(off))
-    if worst > 1e-8:
+    if worst > 4e-7:
         raise SystemExit(f"{program}: forces differ by {worst:.1e} of the largest")
     return worst
