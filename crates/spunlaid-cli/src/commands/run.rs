@@ -143,7 +143,13 @@ impl Written<'_> {
         let case_toml = write_case(&beside::relocated(self.case, &copied));
         let turbulence = turbulence_spectrum(self.case, computing);
         let figures = run_figures(self.case, self.results, &turbulence);
-        pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+        // A thousand small files keep the disk busy while pictures keep the processor.
+        std::thread::scope(|scope| {
+            let (flights, rest_length) = (&self.results.flights, self.case.fibre.rest_length());
+            let shapes = scope.spawn(move || paraview::write(staging, flights, rest_length));
+            pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+            shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        })?;
         let report = report::html(&ReportInput {
             name: &self.name,
             case: self.case,
@@ -159,7 +165,6 @@ impl Written<'_> {
             },
             version: env!("CARGO_PKG_VERSION"),
         });
-        paraview::write(staging, &self.results.flights, self.case.fibre.rest_length())?;
         staging.write("case.toml", case_toml)?;
         staging.write("report.html", report)?;
         staging.write("summary.json", self.summary)

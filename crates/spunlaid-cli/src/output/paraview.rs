@@ -5,17 +5,21 @@ use crate::failure::Failure;
 use spunlaid::ensemble::Flight;
 use std::fmt::Write;
 
-/// Writes the kept shapes: one VTK PolyData file per recorded instant with a line per replicate, and the
-/// collection that puts them in time.
+/// Most instants of a series: each is a file.
+const MOST_INSTANTS: usize = 500;
+
+/// Writes the kept shapes, evenly thinned to at most [`MOST_INSTANTS`]: one VTK PolyData file per instant with a
+/// line per replicate, and the collection that puts them in time.
 pub(crate) fn write(staging: &Staging<'_>, flights: &[Flight], rest_length: f64) -> Result<(), Failure> {
     let flights: Vec<&Flight> = flights.iter().filter(|f| !f.shapes.is_empty()).collect();
     let Some(first) = flights.first() else { return Ok(()) };
     let mut collection = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
     );
-    let digits = first.shapes.len().to_string().len();
-    for (k, shape) in first.shapes.iter().enumerate() {
-        let name = format!("shape/fibre_{k:0digits$}.vtp");
+    let every = first.shapes.len().div_ceil(MOST_INSTANTS).max(1);
+    let digits = first.shapes.len().div_ceil(every).to_string().len();
+    for (number, (k, shape)) in first.shapes.iter().enumerate().step_by(every).enumerate() {
+        let name = format!("shape/fibre_{number:0digits$}.vtp");
         staging.write(&name, poly_data(&flights, k, rest_length))?;
         let _ = writeln!(collection, "<DataSet timestep=\"{:?}\" part=\"0\" file=\"{name}\"/>", shape.time);
     }
