@@ -1,7 +1,7 @@
 //! How the mean flow, and the strength and size of its turbulence, change from place to place.
 
 use super::{Air, FromFile, PlacedField, Profile};
-use crate::field::Hint;
+use crate::field::{Hint, Local};
 use crate::vec3::Vec3;
 
 /// Where the mean flow comes from.
@@ -100,10 +100,7 @@ impl Air {
     /// spectrum whose integral time is that of eddies which pass by and turn over, `1/T = |U|/L + ε/(C_T k)`.
     /// theory.md (48), (49)
     fn of_field(&self, placed: &PlacedField, at: Vec3<f64>, hint: &mut Hint) -> LocalAir {
-        let found = placed.at(at, hint);
-        let factor = self.speed_factor;
-        let velocity = found.velocity * factor;
-        let (k, epsilon) = (found.k * factor * factor, found.epsilon * factor * factor * factor);
+        let Local { velocity, k, epsilon, inside } = self.in_field(placed, at, hint);
         let speed = velocity.norm();
         let from = self.from_flow;
         let turbulent = k > 0.0 && epsilon > 0.0;
@@ -112,18 +109,51 @@ impl Air {
         let turnover = if turbulent { epsilon / (placed.time_constant * k) } else { 0.0 };
         LocalAir {
             velocity,
-            rms: if from.turbulence_intensity {
-                (2.0 / 3.0 * k).sqrt()
-            } else {
-                self.turbulence_intensity * speed
-            },
+            rms: self.rms_in_field(velocity, k),
             length_scale,
             cutoff_frequency: if from.cutoff_frequency {
                 0.25 * (speed / length_scale + turnover)
             } else {
                 self.cutoff_frequency
             },
-            inside: found.inside,
+            inside,
+        }
+    }
+
+    /// What a fibre feels of the air at a place: mean velocity and rms of the fluctuation [m/s], and whether the
+    /// place is inside what the flow knows.
+    ///
+    /// * `hint` – as of [`Air::local`]
+    pub(super) fn felt(&self, at: Vec3<f64>, hint: &mut Hint) -> (Vec3<f64>, f64, bool) {
+        match &self.flow {
+            Flow::Field(placed) => {
+                let Local { velocity, k, inside, .. } = self.in_field(placed, at, hint);
+                (velocity, self.rms_in_field(velocity, k), inside)
+            }
+            Flow::Uniform | Flow::Profile(_) => {
+                let LocalAir { velocity, rms, inside, .. } = self.local(at, hint);
+                (velocity, rms, inside)
+            }
+        }
+    }
+
+    /// The field's own words, its speeds by the factor.
+    fn in_field(&self, placed: &PlacedField, at: Vec3<f64>, hint: &mut Hint) -> Local {
+        let Local { velocity, k, epsilon, inside } = placed.at(at, hint);
+        let factor = self.speed_factor;
+        Local {
+            velocity: velocity * factor,
+            k: k * factor * factor,
+            epsilon: epsilon * factor * factor * factor,
+            inside,
+        }
+    }
+
+    fn rms_in_field(&self, velocity: Vec3<f64>, k: f64) -> f64 {
+        if self.from_flow.turbulence_intensity {
+            (2.0 / 3.0 * k).sqrt()
+        } else {
+            self.turbulence_intensity * velocity.norm()
         }
     }
 

@@ -98,9 +98,9 @@ impl<'a> Surroundings<'a> {
                     continue;
                 };
                 let centre = (ends[0].lane(lane) + ends[1].lane(lane)) * 0.5;
-                let air = air.local(centre, hint);
-                self.outside[lane] += u64::from(!air.inside);
-                let found = [air.velocity.x, air.velocity.y, air.velocity.z, air.rms];
+                let (velocity, rms, inside) = air.felt(centre, hint);
+                self.outside[lane] += u64::from(!inside);
+                let found = [velocity.x, velocity.y, velocity.z, rms];
                 value.iter_mut().zip(found).for_each(|(of, found)| of.0[lane] = found);
             }
             let rise = |i: usize| (value[i] - place.value[i]) * Lanes::splat(per_step);
