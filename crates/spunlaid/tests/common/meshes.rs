@@ -1,7 +1,7 @@
-//! Meshes of every kind of cell on one block of points, shared by the tests of fields.
+//! Meshes of every kind of cell on one block of points, and air to put there, shared by the tests of fields.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use spunlaid::field::{Cells, Field, Shape, Values};
+use spunlaid::field::{Cells, Field, Local, Shape, Values};
 use spunlaid::vec3::Vec3;
 
 /// Rows of points with rows of cells between them.
@@ -176,4 +176,30 @@ pub fn at_points(points: &[[f64; 3]], values: impl Fn([f64; 3]) -> [f64; 5]) -> 
         k: all.iter().map(|v| v[3]).collect(),
         epsilon: all.iter().map(|v| v[4]).collect(),
     }
+}
+
+/// Something linear, with `k` and `ε` above one.
+pub fn linear([x, y, z]: [f64; 3]) -> [f64; 5] {
+    [1.0 + 2.0 * x - y, 0.5 * z - 3.0 * y, x + y + z, 4.0 + x - 2.0 * z, 3.0 - y]
+}
+
+/// Something smooth.
+pub fn smooth([x, y, z]: [f64; 3]) -> [f64; 5] {
+    let wave = (2.0 * x + y).sin() * (1.5 * z).cos();
+    [wave, x * y * z, (x - z).exp(), 1.0 + x * x, 2.0 + (y * z).sin()]
+}
+
+/// What a field says, as a list.
+pub fn numbers(local: Local) -> [f64; 5] {
+    let Local { velocity: v, k, epsilon, .. } = local;
+    [v.x, v.y, v.z, k, epsilon]
+}
+
+/// Points within a unit cube.
+pub fn inside(count: usize) -> impl Iterator<Item = [f64; 3]> {
+    (0..count).map(|i| [0, 1, 2].map(|axis| 0.5 + 0.5 * noise(7000 + 3 * i + axis)))
+}
+
+pub fn at([x, y, z]: [f64; 3]) -> Vec3<f64> {
+    Vec3::new(x, y, z)
 }

@@ -19,6 +19,8 @@ use rstar::{AABB, RTree};
 pub(super) const MOST_TETRAHEDRA: usize = 1 << 26;
 /// How far beyond a face, as a share of a tetrahedron's height, a point still counts as within: rounding.
 const EDGE: f64 = 1e-9;
+/// And if no tetrahedron has it within: rounding in slivers.
+const GAP: f64 = 1e-6;
 /// Steps from tetrahedron to tetrahedron before the tree is asked.
 const LONGEST_WALK: usize = 64;
 /// Where there is no neighbour.
@@ -140,7 +142,7 @@ impl Mesh {
     /// Looks into all cells around the point and takes the tetrahedron that it is deepest in.
     fn search(&self, at: [f64; 3]) -> Option<(u32, [f64; 4])> {
         let mut best = None;
-        let mut deepest = -EDGE;
+        let mut deepest = -GAP;
         for cell in self.cells.locate_in_envelope_intersecting(AABB::from_point(at)) {
             for i in cell.data[0]..cell.data[1] {
                 let weights = self.weights(&self.tetrahedra[i as usize], at);
