@@ -23,9 +23,9 @@ use spunlaid::air::{Air, Eddies, StreamKey, Turbulence, Wind};
 use spunlaid::case::Case;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::Flight;
-use spunlaid::ensemble::bundle::Bundle;
+use spunlaid::ensemble::Trajectory;
 use spunlaid::fibre::{Fibre, Root};
+use spunlaid::flight::Flight;
 use spunlaid::lanes::{Isa, WIDTH};
 use std::fmt::Write as _;
 use std::fs;
@@ -120,7 +120,7 @@ fn path() -> String {
     rows
 }
 
-fn converged() -> Vec<Flight> {
+fn converged() -> Vec<Trajectory> {
     bundle_of_flights(&second(Scheme::Leapfrog, 2e-6))
 }
 
@@ -137,7 +137,7 @@ fn measure() {
         let strands = [case.strand(); WIDTH];
         let (scheme, h) = (case.run.scheme, case.run.time_step);
         let steps = case.run.steps.min(2_000);
-        let start = Bundle::new(Isa::detect(), &strands, eddies, turbulence, scheme, h, 0);
+        let start = Flight::new(Isa::detect(), &strands, eddies, turbulence, scheme, h, 0);
         trials.push(Trial::new((steps * 20) as f64, move || {
             let mut bundle = start.clone();
             processor_time(|| bundle.advance(steps))

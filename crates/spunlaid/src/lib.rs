@@ -73,6 +73,8 @@ pub mod record;
 
 pub mod case;
 
+pub mod flight;
+
 pub mod ensemble;
 
 pub mod study;

@@ -5,10 +5,10 @@ use spunlaid::air::{Air, Axis, Eddies, Flow, FromFile, FromFlow, PlacedField, Pr
 use spunlaid::air::{Surroundings, Turbulence};
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::bundle::Bundle;
-use spunlaid::ensemble::{Computing, Flight, KeepShapes, fly};
+use spunlaid::ensemble::{Computing, KeepShapes, Trajectory, fly};
 use spunlaid::error::Error;
 use spunlaid::field::{Field, Hint, Values};
+use spunlaid::flight::Flight;
 use spunlaid::input::{parse_case, starter_case};
 use spunlaid::lanes::Isa;
 use spunlaid::vec3::Vec3;
@@ -22,7 +22,7 @@ fn table1(changes: &[(&str, &str)]) -> Case {
     parse_case(starter_case(), "Table 1", &changes).unwrap().0
 }
 
-fn flights(case: &Case) -> Vec<Flight> {
+fn flights(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing = Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps };
     let mut flights = Vec::new();
@@ -115,7 +115,7 @@ fn analytic_elements_feel_the_velocity_at_their_centres() {
     let surroundings = Surroundings::new(vec![&calm], n, 5);
     let strand = case.strand();
     let air = (&eddies, &turbulence, Some(surroundings));
-    let mut bundle = Bundle::within(Isa::detect(), &[strand], air, Scheme::SemiImplicitEuler, h, 0);
+    let mut bundle = Flight::within(Isa::detect(), &[strand], air, Scheme::SemiImplicitEuler, h, 0);
     bundle.advance(1);
 
     let drag = |j: usize| {
@@ -150,7 +150,7 @@ fn order_the_air_between_looks_is_of_second_order() {
     let path = |every: u64| {
         let surroundings = Surroundings::new(vec![&calm], case.fibre.elements, every);
         let air = (&eddies, &turbulence, Some(surroundings));
-        let mut bundle = Bundle::within(Isa::detect(), &[case.strand()], air, Scheme::Leapfrog, 1e-5, 0);
+        let mut bundle = Flight::within(Isa::detect(), &[case.strand()], air, Scheme::Leapfrog, 1e-5, 0);
         let mut path = Vec::new();
         for _ in 0..100 {
             bundle.advance(100);
@@ -274,7 +274,7 @@ fn identical_in_any_bundle_on_any_instruction_set() {
     case.air.from_flow = TOLD;
     case.air.settle(case.along());
     case.air.harmonics = Air::default_harmonics(case.air.cutoff_frequency, 0.1);
-    let bits = |flight: &Flight| -> Vec<u64> {
+    let bits = |flight: &Trajectory| -> Vec<u64> {
         flight.samples.iter().flat_map(|s| [s.end.x, s.end.y, s.end.z]).map(f64::to_bits).collect()
     };
     let whole = flights(&case);

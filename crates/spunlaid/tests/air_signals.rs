@@ -18,9 +18,9 @@ const ALONG: Vec3<f64> = Vec3::new(1.0, 0.0, 0.0);
 /// Fluctuations `[sample][element]` of eight replicates along a fibre of a metre.
 fn along(air: &Air, elements: usize, times: &[f64]) -> Vec<Vec<[Vec3<f64>; WIDTH]>> {
     let eddies = air.eddies_along(ALONG, elements);
-    let tones = air.tones(ALONG, elements, &eddies);
+    let tones = air.turbulence_of_eddies(ALONG, elements, &eddies);
     let streams: Vec<Stream<'_>> = (0..WIDTH as u64)
-        .map(|replicate| Stream { air, tones: &tones, key: StreamKey { seed: 3, replicate } })
+        .map(|replicate| Stream { air, turbulence_of_eddies: &tones, key: StreamKey { seed: 3, replicate } })
         .collect();
     let longest = times.iter().copied().fold(0.0, f64::max);
     let turbulence = Turbulence::of(Isa::detect(), &streams, longest);

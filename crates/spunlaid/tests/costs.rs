@@ -12,8 +12,8 @@ use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
 use spunlaid::case::{Case, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::bundle::Bundle;
-use spunlaid::ensemble::{Computing, Flight, Job, KeepShapes, Results, fly_together};
+use spunlaid::ensemble::{Computing, Job, KeepShapes, Results, Trajectory, fly_together};
+use spunlaid::flight::Flight;
 use spunlaid::lanes::{Isa, WIDTH};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -83,7 +83,7 @@ fn table1(scheme: Scheme, time_step: f64, duration: f64) -> Case {
     Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
 }
 
-fn flights(case: &Case) -> (Vec<Flight>, u64) {
+fn flights(case: &Case) -> (Vec<Trajectory>, u64) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing = Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps };
     let jobs: Vec<Job<'_>> = (0..case.run.replicates).map(|replicate| Job { case, replicate }).collect();
@@ -152,7 +152,7 @@ fn frozen_memory_of_a_bundle() {
             let fibre = spunlaid::fibre::Fibre { elements, ..table1_fibre() };
             let (eddies, turbulence) = steady_air(10.0, elements, 1e-3);
             let strand = in_vacuum(fibre, 9.81);
-            let new = || Bundle::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, 1e-9, 0);
+            let new = || Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, 1e-9, 0);
             memory_of(new).1.kept
         };
         // Linear in the number of nodes, whatever their number.
@@ -172,7 +172,7 @@ fn frozen_memory_of_steps_flights_and_statistics() {
         let stream = [(case.air.clone(), StreamKey { seed: 1, replicate: 0 })];
         let turbulence = Turbulence::synthesise(Isa::detect(), &stream, 20, 0.1);
         let strands: [Strand; 1] = [case.strand()];
-        let mut bundle = Bundle::new(Isa::detect(), &strands, &eddies, &turbulence, scheme, h, 0);
+        let mut bundle = Flight::new(Isa::detect(), &strands, &eddies, &turbulence, scheme, h, 0);
         // As much for one step as for a hundred: none for a step itself.
         bundle.advance(1);
         let [one, hundred] = [1, 100].map(|steps| memory_of(|| bundle.advance(steps)).1);

@@ -7,8 +7,8 @@ use common::*;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{BoundaryLayer, Drag, FrictionLaw, NormalLaw};
-use spunlaid::ensemble::bundle::Bundle;
 use spunlaid::fibre::{Fibre, Root};
+use spunlaid::flight::Flight;
 use spunlaid::lanes::Isa;
 use std::f64::consts::PI;
 
@@ -196,7 +196,7 @@ fn analytic_terminal_velocity_across_by_marheineke_and_wegener() {
         let steps = (30.0 * low / 9.81 / h) as u64;
         let (eddies, turbulence) = steady_air(0.0, 8, 100.0);
         let mut bundle =
-            Bundle::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
+            Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
         bundle.advance(steps);
         for v in &bundle.chain().velocity {
             let v = v.lane(0);
@@ -236,7 +236,7 @@ fn identical_alone_or_in_company_on_any_instruction_set() {
                 .map(|i| strand(drag, Root::Pinned, 7e-6 * f64::from(i), V::new(0.6, 0.0, 0.8)))
                 .collect();
             let fly = |isa: Isa, strands: &[Strand]| {
-                let mut bundle = Bundle::new(isa, strands, &eddies, &turbulence, scheme, 1e-7, 0);
+                let mut bundle = Flight::new(isa, strands, &eddies, &turbulence, scheme, 1e-7, 0);
                 bundle.advance(40);
                 let nodes = bundle.chain().position.clone();
                 (0..strands.len())

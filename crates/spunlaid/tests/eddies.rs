@@ -8,8 +8,8 @@ use common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Turbulence, Wind};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::bundle::Bundle;
 use spunlaid::fibre::{Fibre, Root};
+use spunlaid::flight::Flight;
 use spunlaid::lanes::Isa;
 
 #[test]
@@ -35,7 +35,7 @@ fn analytic_every_element_feels_its_own_eddy() {
 
         let h = 1e-6;
         let scheme = Scheme::SemiImplicitEuler;
-        let mut bundle = Bundle::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, h, 0);
+        let mut bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, h, 0);
         bundle.advance(1);
         // The axial stiffness times the rounding of positions.
         let rounding = fibre.axial_stiffness() * 4.0 * f64::EPSILON;

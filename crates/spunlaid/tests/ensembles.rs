@@ -7,7 +7,7 @@ mod common;
 use common::*;
 use spunlaid::case::{Case, Run};
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, Flight, KeepShapes, Results, fly};
+use spunlaid::ensemble::{Computing, KeepShapes, Results, Trajectory, fly};
 use spunlaid::error::Error;
 use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
@@ -32,7 +32,7 @@ fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
     }
 }
 
-fn flights(case: &Case, threads: usize) -> Vec<Flight> {
+fn flights(case: &Case, threads: usize) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing = Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps };
     let mut flights = Vec::new();
@@ -156,7 +156,7 @@ fn identical_for_any_number_of_threads_and_any_packing() {
     }
 }
 
-fn assert_same(a: &Flight, b: &Flight) {
+fn assert_same(a: &Trajectory, b: &Trajectory) {
     assert_eq!(a.replicate, b.replicate);
     assert_eq!(a.end_node, b.end_node, "replicate {}", a.replicate);
     assert_eq!(a.nodes, b.nodes);

@@ -164,7 +164,7 @@ fn analytic_terminal_velocity_along_and_across() {
 #[test]
 fn analytic_terminal_velocity_is_reached_by_falling() {
     use spunlaid::chain::schemes::Scheme;
-    use spunlaid::ensemble::bundle::Bundle;
+    use spunlaid::flight::Flight;
     use spunlaid::lanes::Isa;
     for heading in [X, Y] {
         let mut strand = stubby(Root::Free);
@@ -182,7 +182,7 @@ fn analytic_terminal_velocity_is_reached_by_falling() {
         let steps = (40.0 * expected / 9.81 / h) as u64;
         let (eddies, turbulence) = steady_air(0.0, strand.fibre.elements, 100.0);
         let mut bundle =
-            Bundle::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
+            Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
         bundle.advance(steps);
         for v in &bundle.chain().velocity {
             let v = v.lane(0);

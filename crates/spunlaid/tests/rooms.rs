@@ -20,6 +20,7 @@ const ROOMS: &[&[&str]] = &[
     &["statistics"],
     &["record"],
     &["case"],
+    &["flight"],
     &["ensemble"],
     &["study"],
     &["input"],

@@ -6,7 +6,7 @@ use common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::bundle::{Bundle, Snapshot};
+use spunlaid::flight::{Flight, Snapshot};
 use spunlaid::lanes::{Isa, WIDTH};
 
 const SCHEMES: [Scheme; 3] = Scheme::ALL;
@@ -25,7 +25,7 @@ fn flown(isa: Isa, scheme: Scheme, damping: f64, h: f64, duration: f64) -> (Snap
         (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed: 4, replicate })).collect();
     let turbulence = Turbulence::synthesise(isa, &streams, eddies.count(), duration + h);
     let strands = [table1_strand(damping); WIDTH];
-    let mut bundle = Bundle::new(isa, &strands, &eddies, &turbulence, scheme, h, 0);
+    let mut bundle = Flight::new(isa, &strands, &eddies, &turbulence, scheme, h, 0);
     let steps = (duration / h).round() as u64;
     bundle.advance(steps);
     let amplitude =
@@ -100,7 +100,7 @@ fn path_and_amplitude(scheme: Scheme, h: f64, duration: f64) -> (Vec<V>, f64) {
         (0..WIDTH as u64).map(|replicate| (table1_air(), StreamKey { seed: 4, replicate })).collect();
     let turbulence = Turbulence::synthesise(Isa::detect(), &streams, eddies.count(), duration + h);
     let strands = [table1_strand(0.0); WIDTH];
-    let mut bundle = Bundle::new(Isa::detect(), &strands, &eddies, &turbulence, scheme, h, 0);
+    let mut bundle = Flight::new(Isa::detect(), &strands, &eddies, &turbulence, scheme, h, 0);
     let mut path = Vec::new();
     for _ in 0..(duration / 1e-3).round() as usize {
         bundle.advance((1e-3 / h).round() as u64);
@@ -125,7 +125,7 @@ fn invariant_implicit_tension_is_stable_far_beyond_the_axial_limit() {
     let duration = 0.25;
     let turbulence = Turbulence::synthesise(Isa::detect(), &streams, eddies.count(), duration + 1e-3);
     let end = |scheme, h: f64| {
-        let mut bundle = Bundle::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, h, 0);
+        let mut bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, h, 0);
         bundle.advance((duration / h).round() as u64);
         let snapshot = bundle.snapshot();
         (snapshot.position[fibre.elements].lane(0), snapshot.energy.strain.0[0])
@@ -219,7 +219,7 @@ fn identical_where_the_fibre_folds() {
     let fly = |isa: Isa, turns: &[f64]| {
         let strands = vec![strand; turns.len()];
         let scheme = Scheme::SemiImplicitEuler;
-        let mut bundle = Bundle::new(isa, &strands, &eddies, &turbulence, scheme, 1e-5, 0);
+        let mut bundle = Flight::new(isa, &strands, &eddies, &turbulence, scheme, 1e-5, 0);
         let mut position = in_all_lanes(&folded(turns[0]));
         for (lane, &turn) in turns.iter().enumerate() {
             for (p, q) in position.iter_mut().zip(folded(turn)) {
@@ -247,7 +247,7 @@ fn analytic_no_work_done_at_the_start() {
         let streams = [(table1_air(), StreamKey { seed: 4, replicate: 0 })];
         let turbulence = Turbulence::synthesise(Isa::detect(), &streams, eddies.count(), 1.0);
         let strand = table1_strand(3.0);
-        let bundle = Bundle::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, 1e-5, 0);
+        let bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, 1e-5, 0);
         let e = bundle.snapshot().energy;
         for (name, value) in [
             ("kinetic", e.kinetic),

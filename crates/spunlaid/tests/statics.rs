@@ -8,8 +8,8 @@ mod common;
 use common::*;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::bundle::Bundle;
 use spunlaid::fibre::{Fibre, Root};
+use spunlaid::flight::Flight;
 use spunlaid::lanes::{Isa, Lanes, WIDTH};
 use spunlaid::vec3::Vec3;
 
@@ -42,7 +42,7 @@ fn at_rest(elements: usize, tip_load: [f64; WIDTH], gravity: [f64; WIDTH]) -> Ve
     let duration = 25.0 / w1;
     let (eddies, turbulence) = steady_air(0.0, elements, duration);
     let mut bundle =
-        Bundle::new(Isa::detect(), &strands, &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
+        Flight::new(Isa::detect(), &strands, &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
     // The tip load as a kick of the tip's momentum before every step.
     let kick =
         Vec3::new(Lanes(tip_load), Lanes::ZERO, Lanes::ZERO) * Lanes::splat(h / fibre.node_mass(elements));

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Computing, Flight, KeepShapes, Results, fly};
+use spunlaid::ensemble::{Computing, KeepShapes, Results, Trajectory, fly};
 use spunlaid::error::Error;
 use spunlaid::input::{StudyFile, parse_case, parse_study, starter_case, write_case};
 use spunlaid::lanes::Isa;
@@ -56,7 +56,7 @@ fn flown(study: &Study, threads: usize) -> Journal {
 }
 
 /// The flights of `spunlaid run`.
-fn single(case: &Case) -> Vec<Flight> {
+fn single(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let mut flights = Vec::new();
     let done: Result<(), Error> = fly(case, KeepShapes::NONE, computing(2, &stop, &steps), |flight| {

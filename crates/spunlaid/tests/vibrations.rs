@@ -6,8 +6,8 @@ mod common;
 use common::modes::{frequency_of, vibrations};
 use common::*;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::bundle::Bundle;
 use spunlaid::fibre::{Fibre, Root};
+use spunlaid::flight::Flight;
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::vec3::Vec3;
 use std::f64::consts::PI;
@@ -27,7 +27,7 @@ fn flown_frequencies(
 ) -> Vec<f64> {
     let strand = in_vacuum(fibre, gravity);
     let (eddies, turbulence) = steady_air(0.0, fibre.elements, duration);
-    let mut bundle = Bundle::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::Leapfrog, h, 0);
+    let mut bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::Leapfrog, h, 0);
     let scaled: Vec<Vec<f64>> = modes
         .iter()
         .map(|mode| {
@@ -229,7 +229,7 @@ fn analytic_taut_string() {
         let exact = w / (2.0 * PI);
         let duration = 12.0 / exact;
         let (eddies, turbulence) = steady_air(0.0, n, duration);
-        let mut bundle = Bundle::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::Leapfrog, h, 0);
+        let mut bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::Leapfrog, h, 0);
         let shape = |i: usize| (mode as f64 * PI * i as f64 / n as f64).sin();
         let start: Vec<V> = (0..=n).map(|i| stretched[i] + Y * (1e-5 * shape(i))).collect();
         bundle.restart_from(in_all_lanes(&start), vec![Vec3::ZERO; n + 1]);

@@ -4,7 +4,7 @@ use spunlaid::air::Air;
 use spunlaid::case::{Case, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
-use spunlaid::ensemble::{Flight, Results, Sample, Shape, SpectrumPoint};
+use spunlaid::ensemble::{Results, Sample, Shape, SpectrumPoint, Trajectory};
 use spunlaid::fibre::{Fibre, Root};
 use spunlaid::observe::{EndNodeMotion, NodeSpread};
 use spunlaid::vec3::Vec3;
@@ -47,7 +47,7 @@ pub(crate) fn results(case: &Case, amplitude: f64) -> Results {
     collector.finish()
 }
 
-fn flight(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Flight {
+fn flight(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Trajectory {
     let position = |time: f64, node: usize| {
         let along = node as f64 / (nodes - 1) as f64;
         let phase = 107.0 * time + replicate as f64;
@@ -70,7 +70,7 @@ fn flight(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Flight {
         NodeSpread { amplitude_y: amplitude, amplitude_z: 0.9 * amplitude, ..NodeSpread::default() }
     };
     let frequency = if amplitude == 0.0 { 0.0 } else { 17.0 + 0.1 * replicate as f64 };
-    Flight {
+    Trajectory {
         replicate,
         end_node: EndNodeMotion {
             amplitude_y: amplitude,

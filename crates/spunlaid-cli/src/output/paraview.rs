@@ -2,7 +2,7 @@
 
 use super::folder::Staging;
 use crate::failure::Failure;
-use spunlaid::ensemble::Flight;
+use spunlaid::ensemble::Trajectory;
 use std::fmt::Write;
 
 /// Most instants of a series: each is a file.
@@ -10,8 +10,8 @@ const MOST_INSTANTS: usize = 500;
 
 /// Writes the kept shapes, evenly thinned to at most [`MOST_INSTANTS`]: one VTK PolyData file per instant with a
 /// line per replicate, and the collection that puts them in time.
-pub(crate) fn write(staging: &Staging<'_>, flights: &[Flight], rest_length: f64) -> Result<(), Failure> {
-    let flights: Vec<&Flight> = flights.iter().filter(|f| !f.shapes.is_empty()).collect();
+pub(crate) fn write(staging: &Staging<'_>, flights: &[Trajectory], rest_length: f64) -> Result<(), Failure> {
+    let flights: Vec<&Trajectory> = flights.iter().filter(|f| !f.shapes.is_empty()).collect();
     let Some(first) = flights.first() else { return Ok(()) };
     let mut collection = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
@@ -28,7 +28,7 @@ pub(crate) fn write(staging: &Staging<'_>, flights: &[Flight], rest_length: f64)
 }
 
 /// VTK XML PolyData of all flights at instant `k`: points in metres, replicate and distance from the root.
-fn poly_data(flights: &[&Flight], k: usize, rest_length: f64) -> String {
+fn poly_data(flights: &[&Trajectory], k: usize, rest_length: f64) -> String {
     let nodes = flights[0].shapes[k].position.len();
     let count = flights.len() * nodes;
     let mut points = String::with_capacity(count * 48);

@@ -7,7 +7,7 @@ use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
-use spunlaid::ensemble::{Flight, Sample};
+use spunlaid::ensemble::{Sample, Trajectory};
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;
@@ -79,7 +79,7 @@ impl Table {
     }
 
     /// Adds a flight.
-    pub(crate) fn add(&mut self, flight: &Flight) -> Result<(), Failure> {
+    pub(crate) fn add(&mut self, flight: &Trajectory) -> Result<(), Failure> {
         self.replicates.resize(self.replicates.len() + flight.samples.len(), flight.replicate as i64 + 1);
         for (values, (_, of)) in self.values.iter_mut().zip(self.columns) {
             values.extend(flight.samples.iter().map(of));

@@ -6,7 +6,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Flight, Results, Shape};
+use spunlaid::ensemble::{Results, Shape, Trajectory};
 use spunlaid::fibre::Root;
 use spunlaid::vec3::Vec3;
 
@@ -59,10 +59,10 @@ struct Choice {
 
 /// Chooses and packs the shapes of a run.
 pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
-    let seen: Vec<&Flight> = results.flights.iter().filter(|f| !f.shapes.is_empty()).take(8).collect();
+    let seen: Vec<&Trajectory> = results.flights.iter().filter(|f| !f.shapes.is_empty()).take(8).collect();
     let shapes: &[Shape] = &seen.first()?.shapes;
-    let same = |f: &&&Flight| f.shapes.len() == shapes.len();
-    let flights: Vec<&Flight> = seen.iter().filter(same).copied().collect();
+    let same = |f: &&&Trajectory| f.shapes.len() == shapes.len();
+    let flights: Vec<&Trajectory> = seen.iter().filter(same).copied().collect();
     let nodes = shapes.first()?.position.len();
     let frequency = swing_frequency(results);
     let (choice, remarks) = choose(shapes, nodes, flights.len(), frequency);

@@ -5,7 +5,7 @@ use crate::title;
 use spunlaid::air::Air;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::Flight;
+use spunlaid::ensemble::Trajectory;
 use spunlaid::lanes::WIDTH;
 
 /// Table 1, and a fibre of 18 µm in elements of a millimetre.
@@ -57,10 +57,10 @@ fn header() {
     );
 }
 
-fn show(case: &Case, exact: &[Flight]) {
+fn show(case: &Case, exact: &[Trajectory]) {
     let flights = bundle_of_flights(case);
     let found = compare(&flights, exact);
-    let last = |of: &dyn Fn(&Flight) -> f64| flights.iter().map(of).sum::<f64>() / flights.len() as f64;
+    let last = |of: &dyn Fn(&Trajectory) -> f64| flights.iter().map(of).sum::<f64>() / flights.len() as f64;
     let air = last(&|flight| flight.samples.last().map_or(0.0, |s| s.air_work.abs()));
     let lost = last(&|flight| flight.samples.last().map_or(0.0, |s| s.tension_dissipation));
     let balance = last(&|flight| flight.samples.last().map_or(0.0, |s| s.imbalance.abs()));

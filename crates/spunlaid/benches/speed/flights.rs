@@ -4,7 +4,7 @@
 use crate::common::*;
 use spunlaid::case::{Case, Run};
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, Flight, Job, KeepShapes, Sample, fly_together};
+use spunlaid::ensemble::{Computing, Job, KeepShapes, Sample, Trajectory, fly_together};
 use spunlaid::lanes::{Isa, WIDTH};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -25,7 +25,7 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
 }
 
 /// The first eight flights of a case, on this thread.
-pub fn bundle_of_flights(case: &Case) -> Vec<Flight> {
+pub fn bundle_of_flights(case: &Case) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing = Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps };
     let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case, replicate }).collect();
@@ -41,7 +41,7 @@ pub struct Difference {
 }
 
 /// Compares flights with converged ones, at the recorded instants that all steps share: every 4 ms.
-pub fn compare(flights: &[Flight], exact: &[Flight]) -> Difference {
+pub fn compare(flights: &[Trajectory], exact: &[Trajectory]) -> Difference {
     let square = |y: f64, z: f64| y * y + z * z;
     let (mut off, mut spread) = (0.0, 0.0);
     let (mut found, mut wanted) = (0.0, 0.0);
@@ -57,7 +57,7 @@ pub fn compare(flights: &[Flight], exact: &[Flight]) -> Difference {
     Difference { path: (off / spread).sqrt(), amplitude: found / wanted - 1.0 }
 }
 
-fn shared(flight: &Flight) -> impl Iterator<Item = &Sample> {
+fn shared(flight: &Trajectory) -> impl Iterator<Item = &Sample> {
     let whole = |time: f64| (time / 4e-3 - (time / 4e-3).round()).abs() < 1e-6;
     flight.samples.iter().filter(move |sample| whole(sample.time))
 }

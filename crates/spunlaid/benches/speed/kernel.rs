@@ -6,8 +6,8 @@ use crate::title;
 use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::bundle::Bundle;
 use spunlaid::fibre::Fibre;
+use spunlaid::flight::Flight;
 use spunlaid::lanes::{Isa, WIDTH};
 
 /// The step each scheme is flown with: the paper's, and those with a like error or better.
@@ -52,7 +52,7 @@ impl Setup {
     /// Advances eight fibres from the start.
     pub fn trial(&self, isa: Isa, scheme: Scheme) -> Trial<'_> {
         let strands = [self.strand; WIDTH];
-        let mut start = Bundle::new(isa, &strands, &self.eddies, &self.turbulence, scheme, self.h, 0);
+        let mut start = Flight::new(isa, &strands, &self.eddies, &self.turbulence, scheme, self.h, 0);
         start.advance(2);
         let amount = (self.steps * self.strand.fibre.elements as u64 * WIDTH as u64) as f64;
         Trial::new(amount, move || {

@@ -122,13 +122,13 @@ impl<'a> Wind<'a> {
 
     /// [`Wind::at`] for the kernel, to be asked eddy by eddy.
     #[inline(always)]
-    pub(crate) fn blow<S: Register>(&mut self, t: f64) -> Gust<'_, S> {
+    pub(crate) fn blow<S: Register>(&mut self, t: f64) -> EddyVelocities<'_, S> {
         let cells = t / self.turbulence.spacing * self.cells_per_sample as f64;
         let cell = cells as u64;
         if self.cell != Some(cell) {
             self.enter::<S>(cell);
         }
-        Gust { cubic: &self.cubic, s: Wide::splat(cells - cell as f64) }
+        EddyVelocities { cubic: &self.cubic, s: Wide::splat(cells - cell as f64) }
     }
 
     #[inline(always)]
@@ -188,12 +188,12 @@ impl<'a> Wind<'a> {
 
 /// The wind at one instant.
 #[derive(Clone, Copy)]
-pub(crate) struct Gust<'a, S: Register> {
+pub(crate) struct EddyVelocities<'a, S: Register> {
     cubic: &'a [[[Lanes; 4]; 3]],
     s: Wide<S>,
 }
 
-impl<S: Register> Gust<'_, S> {
+impl<S: Register> EddyVelocities<'_, S> {
     /// Velocity of the air in an eddy [m/s].
     #[inline(always)]
     pub(crate) fn velocity(&self, eddy: u32) -> Vec3<Wide<S>> {

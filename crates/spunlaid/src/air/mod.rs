@@ -7,6 +7,7 @@
 //! ```
 
 mod eddies;
+mod eddy_turbulence;
 mod flow;
 mod from_file;
 mod interpolation;
@@ -17,21 +18,20 @@ pub mod spectrum;
 mod stretches;
 mod surroundings;
 mod synthesis;
-mod tone;
 
 pub use eddies::{Eddies, EddyModel};
+pub use eddy_turbulence::EddyTurbulence;
 pub use flow::{Flow, FromFlow, LocalAir};
 pub use from_file::FromFile;
-pub(crate) use interpolation::Gust;
+pub(crate) use interpolation::EddyVelocities;
 pub use interpolation::Wind;
 pub use measured::{APART, Measured, Said};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
-pub(crate) use surroundings::Breeze;
+pub(crate) use surroundings::AirAtElements;
 pub use surroundings::Surroundings;
 pub use synthesis::{Stream, StreamKey, Turbulence};
-pub use tone::Tone;
 
 use std::path::{Path, PathBuf};
 
@@ -141,8 +141,8 @@ impl Air {
 
     /// Energy spectrum of a velocity component, 0 along the mean flow.
     pub fn energy_spectrum(&self, component: usize) -> Spectrum<'_> {
-        let tone = self.tone();
-        tone.spectrum(self, component)
+        let eddy_turbulence = self.eddy_turbulence();
+        eddy_turbulence.spectrum(self, component)
     }
 
     /// The time after which the synthesised turbulence repeats but for its sign, `N_h/f` [s].

@@ -1,7 +1,7 @@
 //! Which stretch of a record which eddy flies in.
 
 use super::synthesis::Stream;
-use super::{Measured, Tone};
+use super::{EddyTurbulence, Measured};
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
@@ -42,14 +42,14 @@ pub(super) fn stretches(lanes: &[Stream<'_>], duration: f64) -> Vec<Stretch> {
     let starts: Vec<Vec<[usize; 3]>> = lanes.iter().map(|stream| starts(stream, duration)).collect();
     let first = pick(0);
     let mut stretches = Vec::new();
-    for (eddy, _) in first.tones.iter().enumerate() {
+    for (eddy, _) in first.turbulence_of_eddies.iter().enumerate() {
         let record = record_of(first, eddy);
         let (_, directions) = record.directions();
         for (direction, (_, component)) in directions.into_iter().enumerate() {
             stretches.push(Stretch {
                 values: Arc::clone(&record.components[component]),
                 start: std::array::from_fn(|i| starts[if i < lanes.len() { i } else { 0 }][eddy][direction]),
-                rms: Lanes::from_fn(|i| pick(i).tones[eddy].rms),
+                rms: Lanes::from_fn(|i| pick(i).turbulence_of_eddies[eddy].rms),
             });
         }
     }
@@ -63,23 +63,25 @@ fn record_of<'a>(stream: &Stream<'a>, eddy: usize) -> &'a Measured {
 
 /// Where the stretches of a fibre's eddies start, in samples of their record, by direction.
 fn starts(stream: &Stream<'_>, duration: f64) -> Vec<[usize; 3]> {
-    let convected = stream.tones.iter().any(|tone| tone.carried.is_some());
+    let convected =
+        stream.turbulence_of_eddies.iter().any(|eddy_turbulence| eddy_turbulence.carried.is_some());
     let mut random = stream.key.stream(u64::MAX, 0);
     let mut drawn = Vec::new();
     let mut earlier = 0.0;
-    let delay: f64 = stream.tones.iter().filter_map(|tone| tone.carried).sum();
+    let delay: f64 =
+        stream.turbulence_of_eddies.iter().filter_map(|eddy_turbulence| eddy_turbulence.carried).sum();
     let shared = stream.air.records.len() == 1 && !convected;
-    (stream.tones.iter().enumerate())
-        .map(|(eddy, tone): (usize, &Tone)| {
+    (stream.turbulence_of_eddies.iter().enumerate())
+        .map(|(eddy, eddy_turbulence): (usize, &EddyTurbulence)| {
             let record = record_of(stream, eddy);
             let (each, directions) = record.directions();
             if eddy == 0 || !shared && !convected {
                 let room = (record.samples() as f64 - record.stretch(duration + delay)).max(0.0);
-                let wanted = if shared { each * stream.tones.len() } else { each };
+                let wanted = if shared { each * stream.turbulence_of_eddies.len() } else { each };
                 drawn = scattered(room as usize + 1, wanted, &mut random);
                 drawn.iter_mut().for_each(|start| *start += 1 + (delay / record.interval) as usize);
             }
-            earlier += tone.carried.unwrap_or(0.0);
+            earlier += eddy_turbulence.carried.unwrap_or(0.0);
             let back = (earlier / record.interval).round() as usize;
             let first = if shared { each * eddy } else { 0 };
             directions.map(|(stretch, _)| drawn[first + stretch].saturating_sub(back))

@@ -1,12 +1,12 @@
 //! The air that eight fibres have around them, where it is not the same everywhere.
 
-use super::{Air, Gust};
+use super::{Air, EddyVelocities};
 use crate::field::Hint;
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use crate::vec3::Vec3;
 
 /// The wind at one instant, element by element.
-pub(crate) trait Breeze<S: Register>: Copy {
+pub(crate) trait AirAtElements<S: Register>: Copy {
     /// What is the same in all of an eddy.
     fn signal(&self, eddy: u32) -> Vec3<Wide<S>>;
 
@@ -14,7 +14,7 @@ pub(crate) trait Breeze<S: Register>: Copy {
     fn at(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>>;
 }
 
-impl<S: Register> Breeze<S> for Gust<'_, S> {
+impl<S: Register> AirAtElements<S> for EddyVelocities<'_, S> {
     #[inline(always)]
     fn signal(&self, eddy: u32) -> Vec3<Wide<S>> {
         self.velocity(eddy)
@@ -77,13 +77,13 @@ impl<'a> Surroundings<'a> {
         &'s mut self,
         step: u64,
         position: &[Vec3<Lanes>],
-        gust: Gust<'s, S>,
-    ) -> LocalGust<'s, S> {
+        gust: EddyVelocities<'s, S>,
+    ) -> LocalVelocities<'s, S> {
         let since = step % self.every;
         if since == 0 {
             self.look(position);
         }
-        LocalGust { gust, places: &self.places, steps: Wide::splat(since as f64) }
+        LocalVelocities { gust, places: &self.places, steps: Wide::splat(since as f64) }
     }
 
     #[inline(never)]
@@ -112,16 +112,16 @@ impl<'a> Surroundings<'a> {
     }
 }
 
-/// A [`Gust`] of rms one and mean zero in the flow around the elements.
+/// A [`EddyVelocities`] of rms one and mean zero in the flow around the elements.
 #[derive(Clone, Copy)]
-pub(crate) struct LocalGust<'a, S: Register> {
-    gust: Gust<'a, S>,
+pub(crate) struct LocalVelocities<'a, S: Register> {
+    gust: EddyVelocities<'a, S>,
     places: &'a [Place],
     /// Steps since the last look.
     steps: Wide<S>,
 }
 
-impl<S: Register> Breeze<S> for LocalGust<'_, S> {
+impl<S: Register> AirAtElements<S> for LocalVelocities<'_, S> {
     #[inline(always)]
     fn signal(&self, eddy: u32) -> Vec3<Wide<S>> {
         self.gust.velocity(eddy)

@@ -2,7 +2,7 @@
 
 use super::interpolation::{SPREAD, Taper};
 use super::stretches::{Stretch, stretches};
-use super::{Air, Tone};
+use super::{Air, EddyTurbulence};
 use crate::fft::{Complex, InverseTransform, WideComplex, unit};
 use crate::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide, cos_sin_turn};
 use rand_chacha::ChaCha8Rng;
@@ -47,8 +47,8 @@ fn normal(stream: &mut ChaCha8Rng) -> (f64, f64) {
 pub struct Stream<'a> {
     /// The air.
     pub air: &'a Air,
-    /// What the turbulence of each eddy is made of, see [`Air::tones`].
-    pub tones: &'a [Tone],
+    /// What the turbulence of each eddy is made of, see [`Air::turbulence_of_eddies`].
+    pub turbulence_of_eddies: &'a [EddyTurbulence],
     /// What its phases are drawn from.
     pub key: StreamKey,
 }
@@ -83,8 +83,12 @@ impl Turbulence {
     /// Lanes left over repeat the first. The air of all lanes must agree in cut-off frequency and
     /// number of harmonics.
     pub fn synthesise(isa: Isa, lanes: &[(Air, StreamKey)], eddies: usize, duration: f64) -> Self {
-        let tones: Vec<Vec<Tone>> = lanes.iter().map(|(air, _)| vec![air.tone(); eddies]).collect();
-        let streams = lanes.iter().zip(&tones).map(|((air, key), tones)| Stream { air, tones, key: *key });
+        let turbulence_of_eddies: Vec<Vec<EddyTurbulence>> =
+            lanes.iter().map(|(air, _)| vec![air.eddy_turbulence(); eddies]).collect();
+        let streams = lanes
+            .iter()
+            .zip(&turbulence_of_eddies)
+            .map(|((air, key), turbulence_of_eddies)| Stream { air, turbulence_of_eddies, key: *key });
         Self::of(isa, &streams.collect::<Vec<_>>(), duration)
     }
 
@@ -94,8 +98,9 @@ impl Turbulence {
     /// eddies, and in their records and whether they have any.
     pub fn of(isa: Isa, lanes: &[Stream<'_>], duration: f64) -> Self {
         let pick = |i: usize| &lanes[if i < lanes.len() { i } else { 0 }];
-        let eddies = lanes[0].tones.len();
-        let mean = (0..eddies).map(|eddy| Lanes::from_fn(|i| pick(i).tones[eddy].mean)).collect();
+        let eddies = lanes[0].turbulence_of_eddies.len();
+        let mean =
+            (0..eddies).map(|eddy| Lanes::from_fn(|i| pick(i).turbulence_of_eddies[eddy].mean)).collect();
         let (signal, spacing) = match lanes[0].air.records.first() {
             Some(record) => (Signal::Measured(stretches(lanes, duration)), record.interval),
             None => {
@@ -132,7 +137,7 @@ impl Task for Synthesis<'_> {
 
     #[inline(always)]
     fn call<S: Register>(self) -> Vec<Lanes> {
-        let eddies = self.lanes[0].tones.len();
+        let eddies = self.lanes[0].turbulence_of_eddies.len();
         let (period, spacing) = grid(self.lanes[0].air);
         let half = period / 2;
         let transform = InverseTransform::new(half);
@@ -210,12 +215,12 @@ impl<'a> Harmonics<'a> {
     }
 
     fn enter_lane(&mut self, lane: usize, eddy: usize, component: usize) {
-        let Stream { air, tones, key } = self.lanes[lane];
-        let tone = &tones[eddy];
+        let Stream { air, turbulence_of_eddies, key } = self.lanes[lane];
+        let eddy_turbulence = &turbulence_of_eddies[eddy];
         // Most eddies sound alike.
-        let like_above = eddy > 0 && tones[eddy - 1].same_spectrum(tone);
+        let like_above = eddy > 0 && turbulence_of_eddies[eddy - 1].same_spectrum(eddy_turbulence);
         if !like_above {
-            let amplitudes = tone.spectrum(air, component).amplitudes();
+            let amplitudes = eddy_turbulence.spectrum(air, component).amplitudes();
             let amplitudes = amplitudes.into_iter().chain(std::iter::repeat(0.0));
             for ((of, a), scale) in self.amplitude[component].iter_mut().zip(amplitudes).zip(&self.scale) {
                 of.0[lane] = a * scale;
@@ -223,12 +228,12 @@ impl<'a> Harmonics<'a> {
         }
         let mut stream = key.stream(eddy as u64, component);
         let phase = self.phase[component].iter_mut().map(|of| &mut of.0[lane]);
-        match tone.carried {
+        match eddy_turbulence.carried {
             None => phase.for_each(|phase| *phase = uniform(&mut stream)),
             // What arrives later lags behind; what is forgotten walks away at random: theory.md (47).
             Some(time) => {
                 let lag = time / air.repeat_time();
-                let step = (2.0 * tone.forgotten).sqrt() / (2.0 * PI);
+                let step = (2.0 * eddy_turbulence.forgotten).sqrt() / (2.0 * PI);
                 let mut spare = None;
                 for (n, phase) in phase.enumerate() {
                     let walk = match spare.take() {

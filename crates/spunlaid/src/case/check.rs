@@ -313,9 +313,10 @@ impl Check<'_> {
             return;
         };
         let eddies = self.case.eddies();
-        let tones = self.case.tones(&eddies);
-        let (records, convected) = (self.case.air.records.len(), tones.iter().any(|t| t.carried.is_some()));
-        if convected && tones.iter().any(|tone| tone.forgotten > 0.0) {
+        let turbulence_of_eddies = self.case.turbulence_of_eddies(&eddies);
+        let (records, convected) =
+            (self.case.air.records.len(), turbulence_of_eddies.iter().any(|t| t.carried.is_some()));
+        if convected && turbulence_of_eddies.iter().any(|eddy_turbulence| eddy_turbulence.forgotten > 0.0) {
             let (other, remedy) =
                 (keys::DECAY_TIME.key, "a record is carried along as it is; leave that out");
             self.blame_key(keys::RECORD, self.names(), Fault::Excludes { other, remedy });
@@ -326,7 +327,8 @@ impl Check<'_> {
             let fault = Fault::RecordsPerEddy { records, eddies: eddies.count() };
             self.blame_key(keys::RECORD, self.names(), fault);
         }
-        let delay: f64 = tones.iter().filter_map(|tone| tone.carried).sum();
+        let delay: f64 =
+            turbulence_of_eddies.iter().filter_map(|eddy_turbulence| eddy_turbulence.carried).sum();
         let duration = self.case.run.duration() + self.case.run.time_step + delay;
         let sharing = if records == 1 && !convected { eddies.count() } else { 1 };
         let stretches = (sharing * shared.stretches_each()) as f64;

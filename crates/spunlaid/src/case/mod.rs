@@ -11,7 +11,7 @@ pub use memory::{BUNDLE_MEMORY_LIMIT, BundleMemory};
 pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
 
-use crate::air::{Air, Eddies, Surroundings, Tone};
+use crate::air::{Air, Eddies, EddyTurbulence, Surroundings};
 use crate::chain::Strand;
 use crate::chain::schemes::Scheme;
 use crate::drag::Drag;
@@ -140,8 +140,8 @@ impl Case {
     }
 
     /// The turbulence of each of them.
-    pub fn tones(&self, eddies: &Eddies) -> Vec<Tone> {
-        self.air.tones(self.along(), self.fibre.elements, eddies)
+    pub fn turbulence_of_eddies(&self, eddies: &Eddies) -> Vec<EddyTurbulence> {
+        self.air.turbulence_of_eddies(self.along(), self.fibre.elements, eddies)
     }
 
     /// The fibre and what acts on it, as the chain takes it.

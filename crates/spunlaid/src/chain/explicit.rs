@@ -1,10 +1,10 @@
 //! The explicit schemes: semi-implicit Euler and leapfrog.
 
+use super::force_pass::{Block, Motion, force_pass};
 use super::forces::Element;
 use super::ledger::{Sums, Work};
-use super::sweep::{Block, Motion, sweep};
 use super::{Chain, Constants};
-use crate::air::Breeze;
+use crate::air::AirAtElements;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
@@ -19,7 +19,7 @@ use crate::vec3::Vec3;
 #[inline(always)]
 pub(crate) fn step<S: Register, const LEAPFROG: bool>(
     chain: &mut Chain,
-    wind: impl Breeze<S>,
+    wind: impl AirAtElements<S>,
     eddy: &[u32],
     (kick, drift): (f64, f64),
     (damped, split): (bool, bool),
@@ -38,7 +38,7 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool>(
         drift: Wide::splat(drift),
         work: Sums::of(work, split),
     };
-    sweep(&mut mover, c, wind, eddy, block);
+    force_pass(&mut mover, c, wind, eddy, block);
     mover.work.put(work);
 }
 

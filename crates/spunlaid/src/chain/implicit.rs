@@ -7,17 +7,17 @@
 //! element: next to nothing for short steps, where leapfrog is best left alone, and enough for long ones.
 //! Two scalar tridiagonal systems along the chain, and no more work than that.                       theory.md (29)
 //!
-//! 1. A sweep from the root gives the forces with the tensions of the last step, and eliminates the system
+//! 1. A force pass from the root gives the forces with the tensions of the last step, and eliminates the system
 //!    of the accelerations on its way.
 //! 2. From the free end up: accelerations, the velocities and edges they predict, and the elimination of
 //!    the system of the tensions' corrections `δ` (Newton's method, one iteration).
 //! 3. From the root down again: corrections and motion.
 
+use super::force_pass::{Block, Motion, force_pass};
 use super::forces::Element;
 use super::ledger::{Sums, Work};
-use super::sweep::{Block, Motion, sweep};
 use super::{Chain, Constants};
-use crate::air::Breeze;
+use crate::air::AirAtElements;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
@@ -57,7 +57,7 @@ impl Tensions {
 #[inline(always)]
 pub(crate) fn step<S: Register>(
     chain: &mut Chain,
-    wind: impl Breeze<S>,
+    wind: impl AirAtElements<S>,
     eddy: &[u32],
     h: f64,
     (damped, split): (bool, bool),
@@ -76,7 +76,7 @@ pub(crate) fn step<S: Register>(
         string: (Wide::zero(), Wide::zero()),
         above: (Vec3::zero(), Wide::zero()),
     };
-    sweep(&mut predictor, c, wind, eddy, block);
+    force_pass(&mut predictor, c, wind, eddy, block);
     predict_and_eliminate::<S>(&chain.position, &chain.velocity, c, h, &mut chain.tensions);
     let mut sums = Sums::of(work, split);
     correct_and_move::<S>(chain, h, damped, &mut sums);

@@ -1,11 +1,11 @@
 //! The fibre as a chain of beads: state, forces, time integration.
 
 pub(crate) mod explicit;
+pub(crate) mod force_pass;
 pub(crate) mod forces;
 pub(crate) mod implicit;
 pub mod ledger;
 pub mod schemes;
-pub(crate) mod sweep;
 
 use self::schemes::Scheme;
 use crate::drag::{DragLanes, ElementDrag};

@@ -1,14 +1,13 @@
 //! Ensembles: replicates packed eight to a bundle, bundles shared out to threads.
 
-pub mod bundle;
-mod flight;
 mod order;
 mod results;
+mod trajectory;
 mod turbulence;
 
-pub use flight::{Flight, Job, KeepShapes, Sample, Shape, fly_together, pace};
 pub use order::in_order;
 pub use results::{Collector, EndNodeResults, ErrorOverTime, LedgerError, NodeResults, Results};
+pub use trajectory::{Job, KeepShapes, Sample, Shape, Trajectory, fly_together, pace};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 
 use crate::case::Case;
@@ -40,7 +39,7 @@ pub fn fly<E: From<Error>>(
     case: &Case,
     keep_shapes: KeepShapes,
     computing: Computing<'_>,
-    mut take: impl FnMut(Flight) -> Result<(), E>,
+    mut take: impl FnMut(Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
     let bundles = case.run.replicates.div_ceil(WIDTH as u64);
     in_order(

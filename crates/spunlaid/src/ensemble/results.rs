@@ -1,6 +1,6 @@
 //! What an ensemble amounts to.
 
-use super::Flight;
+use super::Trajectory;
 use crate::case::Case;
 use crate::observe::NodeSpread;
 use crate::statistics::{Estimate, PowerSpectrum, median};
@@ -29,7 +29,7 @@ pub struct Results {
     /// Power spectral densities of the end node's y and z [m²/Hz] at frequencies [Hz], after the spin-up.
     pub motion_spectrum: Vec<(f64, f64, f64)>,
     /// The first flights, whole; see [`Results::collector`].
-    pub flights: Vec<Flight>,
+    pub flights: Vec<Trajectory>,
 }
 
 /// Motion of the end node over the replicates.
@@ -99,7 +99,7 @@ pub struct Collector {
     /// Per instant: time, and of both errors count, sum and largest.
     errors: Vec<(f64, [ErrorSums; 2])>,
     spectra: [PowerSpectrum; 2],
-    flights: Vec<Flight>,
+    flights: Vec<Trajectory>,
 }
 
 impl Results {
@@ -129,7 +129,7 @@ impl Results {
 
 impl Collector {
     /// Takes in one more flight.
-    pub fn take(&mut self, flight: &Flight) {
+    pub fn take(&mut self, flight: &Trajectory) {
         let motion = &flight.end_node;
         let values =
             [motion.amplitude_y, motion.amplitude_z, motion.frequency_y, motion.frequency_z, motion.mean.x];
@@ -164,7 +164,7 @@ impl Collector {
         }
     }
 
-    fn take_errors(&mut self, flight: &Flight) {
+    fn take_errors(&mut self, flight: &Trajectory) {
         self.errors.resize(flight.samples.len(), Default::default());
         let mut over_time = [Vec::new(), Vec::new(), Vec::new()];
         for ((time, sums), sample) in self.errors.iter_mut().zip(&flight.samples) {

@@ -26,10 +26,10 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<Spectru
     }
     let duration = case.run.duration();
     let eddies = case.eddies();
-    let tones = case.tones(&eddies);
+    let turbulence_of_eddies = case.turbulence_of_eddies(&eddies);
     let lanes = case.run.replicates.min(WIDTH as u64) as usize;
     let streams: Vec<Stream<'_>> =
-        (0..lanes as u64).map(|replicate| Job { case, replicate }.stream(&tones)).collect();
+        (0..lanes as u64).map(|replicate| Job { case, replicate }.stream(&turbulence_of_eddies)).collect();
     let turbulence = Turbulence::of(computing.isa, &streams, duration);
     let mut wind = Wind::new(&turbulence);
     let interval = 1.0 / (8.0 * case.air.cutoff_frequency);
@@ -47,8 +47,10 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<Spectru
         spectrum.add(record);
     }
     // What the mean flow does not vary in is the same in all eddies.
-    let wanted: Vec<Spectrum<'_>> =
-        tones.iter().flat_map(|tone| (0..3).map(|c| tone.spectrum(&case.air, c))).collect();
+    let wanted: Vec<Spectrum<'_>> = turbulence_of_eddies
+        .iter()
+        .flat_map(|eddy_turbulence| (0..3).map(|c| eddy_turbulence.spectrum(&case.air, c)))
+        .collect();
     let density = spectrum.density();
     density
         .into_iter()

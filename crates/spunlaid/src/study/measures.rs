@@ -1,6 +1,6 @@
 //! What a study keeps of a flight.
 
-use crate::ensemble::{Flight, Sample};
+use crate::ensemble::{Sample, Trajectory};
 use crate::statistics::median;
 
 /// Something measured of every fibre.
@@ -12,14 +12,14 @@ pub struct Measure {
     pub column: &'static str,
     /// What it is.
     pub meaning: &'static str,
-    of: fn(&Flight) -> f64,
+    of: fn(&Trajectory) -> f64,
 }
 
 const fn measure(
     name: &'static str,
     column: &'static str,
     meaning: &'static str,
-    of: fn(&Flight) -> f64,
+    of: fn(&Trajectory) -> f64,
 ) -> Measure {
     Measure { name, column, meaning, of }
 }
@@ -53,7 +53,7 @@ pub const MEASURES: [Measure; COUNT] = [
     }),
 ];
 
-fn over_time(flight: &Flight, of: fn(&Sample) -> f64) -> f64 {
+fn over_time(flight: &Trajectory, of: fn(&Sample) -> f64) -> f64 {
     median(&flight.samples.iter().map(of).collect::<Vec<_>>())
 }
 
@@ -97,7 +97,7 @@ impl Landing {
 
 impl Measure {
     /// All measures of a flight.
-    pub fn all(flight: &Flight) -> Measured {
+    pub fn all(flight: &Trajectory) -> Measured {
         MEASURES.map(|measure| (measure.of)(flight))
     }
 }

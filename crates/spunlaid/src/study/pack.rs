@@ -4,7 +4,7 @@ use super::Point;
 use crate::air::FromFile;
 use crate::case::Case;
 use crate::drag::Curve;
-use crate::ensemble::{Computing, Flight, Job, KeepShapes, fly_together, in_order};
+use crate::ensemble::{Computing, Job, KeepShapes, Trajectory, fly_together, in_order};
 use crate::error::Error;
 use crate::lanes::WIDTH;
 use std::collections::BTreeMap;
@@ -129,9 +129,9 @@ pub fn fly_batches<E: From<Error>>(
     batches: &[Batch],
     keep_shapes: KeepShapes,
     computing: Computing<'_>,
-    mut take: impl FnMut(usize, Flight) -> Result<(), E>,
+    mut take: impl FnMut(usize, Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
-    let flown = |flights: Vec<(usize, Flight)>, lost: Vec<Lost>| match lost.into_iter().next() {
+    let flown = |flights: Vec<(usize, Trajectory)>, lost: Vec<Lost>| match lost.into_iter().next() {
         Some((.., error)) => Err(error),
         None => Ok(flights),
     };
@@ -148,7 +148,7 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     batches: &[Batch],
     keep_shapes: KeepShapes,
     computing: Computing<'_>,
-    land: impl Fn(Vec<(usize, Flight)>, Vec<Lost>) -> Result<T, Error> + Sync,
+    land: impl Fn(Vec<(usize, Trajectory)>, Vec<Lost>) -> Result<T, Error> + Sync,
     mut take: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
     let packing = Packing::new(points, batches);

@@ -4,7 +4,7 @@ use super::journal::Journal;
 use super::measures::{Landing, MEASURES, Measure, Record};
 use super::pack::{Batch, Lost, fly_and_land};
 use super::{Replicates, Study};
-use crate::ensemble::{Computing, Flight, KeepShapes};
+use crate::ensemble::{Computing, KeepShapes, Trajectory};
 use crate::error::{Error, JournalError};
 use crate::statistics::Estimate;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -126,7 +126,7 @@ fn fly_missing(
     if batches.is_empty() {
         return Ok(());
     }
-    let land = |flights: Vec<(usize, Flight)>, lost: Vec<Lost>| {
+    let land = |flights: Vec<(usize, Trajectory)>, lost: Vec<Lost>| {
         let records = records(flights, lost);
         lock(journal).add(&records)?;
         lacking.landed(&records, progress);
@@ -237,7 +237,7 @@ impl Lacking {
     }
 }
 
-fn records(flights: Vec<(usize, Flight)>, lost: Vec<Lost>) -> Vec<Record> {
+fn records(flights: Vec<(usize, Trajectory)>, lost: Vec<Lost>) -> Vec<Record> {
     let measured = flights.into_iter().map(|(point, flight)| Record {
         point: point as u64,
         replicate: flight.replicate,

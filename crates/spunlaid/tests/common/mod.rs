@@ -8,8 +8,8 @@ use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
-use spunlaid::ensemble::bundle::Bundle;
 use spunlaid::fibre::{Fibre, Root};
+use spunlaid::flight::Flight;
 use spunlaid::lanes::{Isa, Lanes};
 use spunlaid::vec3::Vec3;
 
@@ -71,7 +71,7 @@ pub fn kernel_forces(strand: &Strand, air_velocity: f64, position: &[V], velocit
     let h = 1e-3;
     let (eddies, turbulence) = steady_air(air_velocity, strand.fibre.elements, 2.0 * h);
     let mut bundle =
-        Bundle::new(Isa::detect(), &[*strand], &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
+        Flight::new(Isa::detect(), &[*strand], &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
     bundle.restart_from(in_all_lanes(position), in_all_lanes(velocity));
     bundle.advance(1);
     let after = &bundle.chain().velocity;

@@ -1,13 +1,13 @@
 //! The flight of one replicate: what is kept of it.
 
 use super::Computing;
-use super::bundle::{Bundle, Snapshot};
-use crate::air::{Stream, StreamKey, Tone, Turbulence};
+use crate::air::{EddyTurbulence, Stream, StreamKey, Turbulence};
 use crate::case::Case;
 use crate::chain::Strand;
 use crate::energy::Energy;
 use crate::error::Error;
 use crate::fibre::Root;
+use crate::flight::{Flight, Snapshot};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use crate::observe::{EndNodeMotion, NodeSpread, SpreadObserver};
 use crate::vec3::Vec3;
@@ -25,15 +25,15 @@ pub struct Job<'a> {
 
 impl<'a> Job<'a> {
     /// Where its turbulence comes from.
-    pub(super) fn stream(&self, tones: &'a [Tone]) -> Stream<'a> {
+    pub(super) fn stream(&self, turbulence_of_eddies: &'a [EddyTurbulence]) -> Stream<'a> {
         let key = StreamKey { seed: self.case.run.seed, replicate: self.replicate };
-        Stream { air: &self.case.air, tones, key }
+        Stream { air: &self.case.air, turbulence_of_eddies, key }
     }
 }
 
 /// What is kept of one replicate.
 #[derive(Clone, Debug, Default)]
-pub struct Flight {
+pub struct Trajectory {
     /// Which replicate of its case.
     pub replicate: u64,
     /// Motion of the end node, from every step after the spin-up.
@@ -166,24 +166,29 @@ pub fn fly_together(
     jobs: &[Job<'_>],
     keep_shapes: KeepShapes,
     computing: Computing<'_>,
-) -> Result<Vec<Flight>, Error> {
+) -> Result<Vec<Trajectory>, Error> {
     let case = jobs[0].case;
     let run = &case.run;
     let eddies = case.eddies();
-    let tones: Vec<Vec<Tone>> = jobs.iter().map(|job| job.case.tones(&eddies)).collect();
-    let streams: Vec<Stream<'_>> = jobs.iter().zip(&tones).map(|(job, tones)| job.stream(tones)).collect();
+    let turbulence_of_eddies: Vec<Vec<EddyTurbulence>> =
+        jobs.iter().map(|job| job.case.turbulence_of_eddies(&eddies)).collect();
+    let streams: Vec<Stream<'_>> = jobs
+        .iter()
+        .zip(&turbulence_of_eddies)
+        .map(|(job, turbulence_of_eddies)| job.stream(turbulence_of_eddies))
+        .collect();
     // One step more than the run: the last instant's energies look one step ahead.
     let horizon = run.duration() + run.time_step;
     let turbulence = Turbulence::of(computing.isa, &streams, horizon);
     let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
     let start = || {
         let air = (&eddies, &turbulence, case.surroundings(jobs.iter().map(|job| &job.case.air)));
-        Bundle::within(computing.isa, &strands, air, run.scheme, run.time_step, run.spin_up_steps)
+        Flight::within(computing.isa, &strands, air, run.scheme, run.time_step, run.spin_up_steps)
     };
     let mut bundle = start();
 
-    let mut flights: Vec<Flight> =
-        jobs.iter().map(|job| Flight { replicate: job.replicate, ..Flight::default() }).collect();
+    let mut flights: Vec<Trajectory> =
+        jobs.iter().map(|job| Trajectory { replicate: job.replicate, ..Trajectory::default() }).collect();
     let mut spread = SpreadObserver::new(case.fibre.elements + 1);
     let mut step = 0;
     for instant in 0.. {
@@ -228,14 +233,14 @@ pub fn pace(case: &Case, isa: Isa) -> f64 {
     const TRIAL: f64 = 0.05;
     let run = &case.run;
     let eddies = case.eddies();
-    let tones = case.tones(&eddies);
-    let stream = [Job { case, replicate: 0 }.stream(&tones)];
+    let turbulence_of_eddies = case.turbulence_of_eddies(&eddies);
+    let stream = [Job { case, replicate: 0 }.stream(&turbulence_of_eddies)];
     let steps = (2e5 / case.fibre.elements as f64).clamp(1.0, 1e4) as u64;
     let horizon = (steps * 100) as f64 * run.time_step;
     let turbulence = Turbulence::of(isa, &stream, horizon.min(run.duration()));
     let strands = [case.strand()];
     let air = (&eddies, &turbulence, case.surroundings(std::iter::once(&case.air)));
-    let bundle = Bundle::within(isa, &strands, air, run.scheme, run.time_step, 0);
+    let bundle = Flight::within(isa, &strands, air, run.scheme, run.time_step, 0);
     let (mut done, started) = (0, Instant::now());
     while done == 0 || started.elapsed().as_secs_f64() < TRIAL {
         bundle.clone().advance(steps.min(run.steps));
@@ -250,7 +255,7 @@ fn is_finite(position: &[Vec3<Lanes>], lanes: usize) -> bool {
 }
 
 /// Says where a bundle lost its numbers first: flies it again, step by step after the last good one.
-fn divergence(jobs: &[Job<'_>], mut bundle: Bundle<'_>, good_steps: u64) -> Error {
+fn divergence(jobs: &[Job<'_>], mut bundle: Flight<'_>, good_steps: u64) -> Error {
     bundle.advance(good_steps);
     while is_finite(&bundle.chain().position, jobs.len()) {
         bundle.advance(1);

@@ -6,7 +6,7 @@ use crate::vec3::Vec3;
 
 /// The turbulence of one eddy: how strong, how fast, and how it follows from that of the eddy above.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tone {
+pub struct EddyTurbulence {
     /// Mean velocity along x that its signal is to contain [m/s].
     pub mean: f64,
     /// Rms of each component [m/s].
@@ -21,10 +21,12 @@ pub struct Tone {
     pub forgotten: f64,
 }
 
-impl Tone {
+impl EddyTurbulence {
     /// Whether the energy spectra of two eddies are the same.
     pub(super) fn same_spectrum(&self, other: &Self) -> bool {
-        let of = |tone: &Self| (tone.rms, tone.cutoff_frequency, tone.integral_time);
+        let of = |eddy_turbulence: &Self| {
+            (eddy_turbulence.rms, eddy_turbulence.cutoff_frequency, eddy_turbulence.integral_time)
+        };
         of(self) == of(other)
     }
 
@@ -38,8 +40,8 @@ impl Tone {
 
 impl Air {
     /// The turbulence of every eddy of a uniform flow.
-    pub(super) fn tone(&self) -> Tone {
-        Tone {
+    pub(super) fn eddy_turbulence(&self) -> EddyTurbulence {
+        EddyTurbulence {
             mean: self.velocity,
             rms: self.rms(),
             cutoff_frequency: self.cutoff_frequency,
@@ -70,32 +72,38 @@ impl Air {
     /// zero, for the strength and the mean are those of the place where an element happens to be.
     ///
     /// * `along` – from its root to its end [m]
-    pub fn tones(&self, along: Vec3<f64>, elements: usize, eddies: &Eddies) -> Vec<Tone> {
+    pub fn turbulence_of_eddies(
+        &self,
+        along: Vec3<f64>,
+        elements: usize,
+        eddies: &Eddies,
+    ) -> Vec<EddyTurbulence> {
         let (mut above, mut hint) = (0.0, Hint::default());
         let spacing = along.norm() / elements as f64;
         let middles = eddies.middles().into_iter();
         middles
             .enumerate()
             .map(|(eddy, middle)| {
-                let mut tone = self.tone();
+                let mut eddy_turbulence = self.eddy_turbulence();
                 let mut speed = self.velocity.abs();
                 if !self.is_uniform() {
                     let air = self.local(along * (middle / elements as f64), &mut hint);
                     speed = air.velocity.norm();
-                    tone.mean = 0.0;
-                    tone.rms = 1.0;
-                    tone.cutoff_frequency = air.cutoff_frequency.min(self.cutoff_frequency);
-                    tone.integral_time = air.length_scale / speed;
+                    eddy_turbulence.mean = 0.0;
+                    eddy_turbulence.rms = 1.0;
+                    eddy_turbulence.cutoff_frequency = air.cutoff_frequency.min(self.cutoff_frequency);
+                    eddy_turbulence.integral_time = air.length_scale / speed;
                 }
                 if let EddyModel::Convected { decay_time } = self.eddies {
                     let time = (middle - above) * spacing / speed;
                     // Nothing is carried through air at rest.
                     if eddy > 0 && time.is_finite() {
-                        (tone.carried, tone.forgotten) = (Some(time), time / decay_time);
+                        (eddy_turbulence.carried, eddy_turbulence.forgotten) =
+                            (Some(time), time / decay_time);
                     }
                 }
                 above = middle;
-                tone
+                eddy_turbulence
             })
             .collect()
     }

@@ -1,9 +1,9 @@
 //! Eight fibres flying side by side.
 
 use crate::air::{Eddies, Surroundings, Turbulence, Wind};
+use crate::chain::force_pass::Block;
 use crate::chain::ledger::Work;
 use crate::chain::schemes::Scheme;
-use crate::chain::sweep::Block;
 use crate::chain::{Chain, Strand};
 use crate::chain::{explicit, implicit};
 use crate::energy::Energy;
@@ -13,7 +13,7 @@ use crate::vec3::Vec3;
 
 /// A bundle of up to eight chains in flight.
 #[derive(Clone, Debug)]
-pub struct Bundle<'a> {
+pub struct Flight<'a> {
     isa: Isa,
     scheme: Scheme,
     damped: bool,
@@ -52,7 +52,7 @@ pub struct Snapshot {
     pub energy: Energy,
 }
 
-impl<'a> Bundle<'a> {
+impl<'a> Flight<'a> {
     /// Straight fibres at rest in a wind that is the same everywhere but for its eddies, to be advanced by
     /// steps of `h` [s].
     pub fn new(
@@ -237,7 +237,7 @@ macro_rules! in_wind {
 
 /// Steps of a bundle; with `split` the ledger keeps apart what the velocities before each kick gave.
 struct Advance<'b, 'a> {
-    bundle: &'b mut Bundle<'a>,
+    bundle: &'b mut Flight<'a>,
     steps: u64,
     kick_and_drift: (f64, f64),
     split: bool,
@@ -278,7 +278,7 @@ impl Advance<'_, '_> {
     }
 }
 
-impl Bundle<'_> {
+impl Flight<'_> {
     #[inline(always)]
     fn count_step<S: Register>(&mut self) {
         if self.steps_done == 0 {

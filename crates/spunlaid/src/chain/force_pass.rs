@@ -2,12 +2,12 @@
 
 use super::Constants;
 use super::forces::{Element, internal};
-use crate::air::Breeze;
+use crate::air::AirAtElements;
 use crate::drag::{DragLanes, Split};
 use crate::lanes::{Register, Wide};
 use crate::vec3::Vec3;
 
-/// What a scheme brings to a sweep, and what it does with the forces.
+/// What a scheme brings to a force pass, and what it does with the forces.
 pub(crate) trait Motion<S: Register> {
     /// Position of node `i` [m].
     fn position(&self, i: usize) -> Vec3<Wide<S>>;
@@ -19,11 +19,11 @@ pub(crate) trait Motion<S: Register> {
     fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S>;
 
     /// Takes the force on node `i` of all but gravity and damping, and the part of it that is drag [N].
-    /// The sweep is done with the node.
+    /// The pass is done with the node.
     fn node(&mut self, i: usize, force: Vec3<Wide<S>>, drag: Vec3<Wide<S>>);
 }
 
-/// Sweeps over eight chains in a wind.
+/// Passes over eight chains in a wind.
 ///
 /// * `eddy` – index into the wind for each of the `N` elements
 ///
@@ -33,7 +33,7 @@ pub(crate) trait Motion<S: Register> {
 /// stays in the nearest cache. The force on a node is complete, and handed over, when the element below it
 /// is done.
 #[inline(always)]
-pub(crate) fn sweep<S: Register, M: Motion<S>, B: Breeze<S>>(
+pub(crate) fn force_pass<S: Register, M: Motion<S>, B: AirAtElements<S>>(
     motion: &mut M,
     c: &Constants,
     wind: B,
@@ -80,7 +80,7 @@ pub(crate) fn sweep<S: Register, M: Motion<S>, B: Breeze<S>>(
 /// Elements in a block.
 const BLOCK: usize = 8;
 
-/// An element within a sweep.
+/// An element within a force pass.
 #[derive(Clone, Copy)]
 struct Link<S: Register> {
     element: Element<S>,
@@ -109,7 +109,7 @@ fn kinematics<S: Register>(
     motion: &impl Motion<S>,
     start: usize,
     block: &mut [Link<S>],
-    wind: impl Breeze<S>,
+    wind: impl AirAtElements<S>,
     eddy: &[u32],
 ) {
     let mut upper = (motion.position(start), motion.drag_velocity(start));
