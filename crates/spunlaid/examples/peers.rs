@@ -19,7 +19,7 @@ mod measure;
 use common::*;
 use flights::{Difference, bundle_of_flights, compare, table1};
 use measure::{Trial, in_rounds, processor_time};
-use spunlaid::air::{Air, Eddies, StreamKey, Turbulence, Wind};
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::case::Case;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
@@ -93,7 +93,7 @@ fn forces() -> String {
 /// The wind of eight Table 1 fibres over a second: `[instant][eddy][component][fibre]`, little-endian `f64`.
 fn wind() -> Vec<u8> {
     let turbulence = turbulence(1.0 + WIND_SPACING);
-    let mut wind = Wind::new(&turbulence);
+    let mut wind = turbulence.clone();
     let instants = (1.0 / WIND_SPACING).round() as usize + 1;
     (0..instants)
         .flat_map(|i| wind.at(i as f64 * WIND_SPACING))
@@ -103,10 +103,10 @@ fn wind() -> Vec<u8> {
         .collect()
 }
 
-fn turbulence(duration: f64) -> Turbulence {
+fn turbulence(duration: f64) -> Wind {
     let streams: Vec<(Air, StreamKey)> =
         (0..WIDTH as u64).map(|replicate| (table1_air(), StreamKey { seed: 1, replicate })).collect();
-    Turbulence::synthesise(Isa::detect(), &streams, 20, duration)
+    Wind::uniform(Isa::detect(), &streams, 20, duration).expect("fibres that agree")
 }
 
 /// The converged path of the end nodes of the eight, every millisecond.
@@ -137,7 +137,8 @@ fn measure() {
         let strands = [case.strand(); WIDTH];
         let (scheme, h) = (case.run.scheme, case.run.time_step);
         let steps = case.run.steps.min(2_000);
-        let start = Flight::new(Isa::detect(), &strands, eddies, turbulence, scheme, h, 0);
+        let start = Flight::assembled(Isa::detect(), &strands, (eddies, turbulence), scheme, h)
+            .expect("fibres that agree");
         trials.push(Trial::new((steps * 20) as f64, move || {
             let mut bundle = start.clone();
             processor_time(|| bundle.advance(steps))

@@ -9,7 +9,7 @@
 //! autocorrelation an integral time of Si(π)/(2π f) = 2.95 ms.
 #![allow(clippy::print_stderr)]
 
-use spunlaid::air::{Air, StreamKey, Turbulence, Wind};
+use spunlaid::air::{Air, StreamKey, Wind};
 use spunlaid::lanes::Isa;
 use std::fmt::Write;
 use std::process::ExitCode;
@@ -32,8 +32,8 @@ fn record() -> String {
     let (rate, samples) = (1000.0, 10_000);
     let air = Air { harmonics: 1 << 12, ..Air::uniform(10.0, 0.1, 0.05, 100.0) };
     let stream = [(air.clone(), StreamKey { seed: 1, replicate: 0 })];
-    let turbulence = Turbulence::synthesise(Isa::detect(), &stream, 1, f64::from(samples) / rate);
-    let mut wind = Wind::new(&turbulence);
+    let mut wind =
+        Wind::uniform(Isa::detect(), &stream, 1, f64::from(samples) / rate).expect("fibres that agree");
     let mut text = String::from(
         "# The simulated air of Table 1 at a point: 10 m/s, 10 % turbulence, flat to 100 Hz; seed 1.\n\
          # Made by: cargo run --release -p spunlaid --example probe -- cases/records/probe.csv\n\

@@ -2,11 +2,13 @@
 
 mod data;
 mod field;
+mod flight;
 mod record;
 mod study;
 
 pub use data::{DataError, TableFault};
 pub use field::{FieldError, FieldFault, FieldPlace};
+pub use flight::FlightFault;
 pub use record::{RecordFault, RecordPlace, RecordProblem};
 pub use study::{JournalError, StudyFault};
 
@@ -88,6 +90,9 @@ pub enum Error {
         /// Likely cause and remedy.
         cause: String,
     },
+    /// Fibres cannot fly side by side, or a flight cannot do what is asked of it.
+    #[error(transparent)]
+    Flight(#[from] FlightFault),
     /// The records of a study cannot be read or written.
     #[error(transparent)]
     Journal(#[from] JournalError),
@@ -413,19 +418,6 @@ pub enum Fault {
         records: f64,
         /// The most allowed.
         most: f64,
-    },
-    /// A turbulence signal that repeats within the run.
-    #[error(
-        "lets the turbulence repeat after {}, within the {} of the run; write at least {least}, or leave the key out",
-        Dimension::Time.pretty(*repeat_time), Dimension::Time.pretty(*duration)
-    )]
-    Repeats {
-        /// Time after which it repeats [s].
-        repeat_time: f64,
-        /// Time simulated [s].
-        duration: f64,
-        /// Least number of harmonics that will do.
-        least: f64,
     },
     /// A time not shorter than the run.
     #[error("leaves nothing to observe of run.duration = {}; shorten it", Dimension::Time.pretty(*duration))]

@@ -9,7 +9,7 @@
 //! program does, in short:
 //!
 //! ```
-//! use spunlaid::ensemble::{Computing, KeepShapes, Results, fly};
+//! use spunlaid::ensemble::{Computing, Keep, Results, fly};
 //! use spunlaid::error::Error;
 //! use spunlaid::input::{parse_case, starter_case};
 //! use spunlaid::lanes::Isa;
@@ -22,13 +22,14 @@
 //!
 //! let (stop, progress) = (AtomicBool::new(false), AtomicU64::new(0));
 //! let computing = Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &progress };
-//! let mut results = Results::collector(&case, 0);
-//! fly::<Error>(&case, KeepShapes::NONE, computing, |flight| {
+//! let mut results = Results::collector(0);
+//! fly::<Error>(&case, Keep::NUMBERS, computing, |flight| {
 //!     results.take(&flight);
 //!     Ok(())
 //! })?;
 //!
-//! let amplitude = results.finish().end_node.amplitude_y;
+//! let results = results.finish();
+//! let amplitude = results.estimate("amplitude_y");
 //! println!("{:.2} ± {:.2} mm", amplitude.mean * 1e3, amplitude.standard_error.unwrap_or(0.0) * 1e3);
 //! # assert!(amplitude.mean > 1e-3 && amplitude.mean < 2e-2);
 //! # Ok(())
@@ -65,7 +66,6 @@ pub mod drag;
 pub mod chain;
 
 pub mod energy;
-pub mod observe;
 
 pub mod statistics;
 
@@ -74,6 +74,8 @@ pub mod record;
 pub mod case;
 
 pub mod flight;
+
+pub mod observe;
 
 pub mod ensemble;
 

@@ -2,13 +2,13 @@
 #![allow(clippy::unwrap_used)]
 
 use spunlaid::air::{Air, Axis, Eddies, Flow, FromFile, FromFlow, PlacedField, Profile, StreamKey};
-use spunlaid::air::{Surroundings, Turbulence};
+use spunlaid::air::{Surroundings, Wind};
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, KeepShapes, Trajectory, fly};
+use spunlaid::ensemble::{Computing, Keep, KeepShapes, Trajectory, fly};
 use spunlaid::error::Error;
 use spunlaid::field::{Field, Hint, Values};
-use spunlaid::flight::Flight;
+use spunlaid::flight::{Flight, Surrounded};
 use spunlaid::input::{parse_case, starter_case};
 use spunlaid::lanes::Isa;
 use spunlaid::vec3::Vec3;
@@ -26,10 +26,15 @@ fn flights(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing = Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps };
     let mut flights = Vec::new();
-    fly::<Error>(case, KeepShapes { replicates: 1, every: 1 }, computing, |flight| {
-        flights.push(flight);
-        Ok(())
-    })
+    fly::<Error>(
+        case,
+        Keep { curves: false, shapes: KeepShapes { replicates: 1, every: 1 } },
+        computing,
+        |flight| {
+            flights.push(flight);
+            Ok(())
+        },
+    )
     .unwrap();
     flights
 }
@@ -87,7 +92,7 @@ fn analytic_a_constant_profile_is_the_uniform_flow() {
     case.air.settle(case.along());
     assert_eq!(case.check().unwrap(), []);
     for (one, other) in flights(&uniform).iter().zip(&flights(&case)) {
-        assert_eq!(other.outside, Some(0.0));
+        assert_eq!(other.number("share_outside_flow"), 0.0);
         for (a, b) in one.samples.iter().zip(&other.samples) {
             assert!((a.end - b.end).norm() < 1e-9, "{} s: {}", a.time, (a.end - b.end).norm());
         }
@@ -106,16 +111,18 @@ fn analytic_elements_feel_the_velocity_at_their_centres() {
     let key = StreamKey { seed: 1, replicate: 0 };
     let calm = Air { turbulence_intensity: 0.0, ..case.air.clone() };
     let eddies = Eddies::along(1.0, n, 0.05);
-    let turbulence = Turbulence::synthesise(
+    let turbulence = Wind::uniform(
         Isa::detect(),
         &[(Air { velocity: 0.0, flow: Flow::Uniform, ..calm.clone() }, key)],
         eddies.count(),
         0.01,
-    );
-    let surroundings = Surroundings::new(vec![&calm], n, 5);
+    )
+    .expect("fibres that agree");
+    let surroundings = Surroundings::new(vec![calm], n, 5).expect("one air");
     let strand = case.strand();
-    let air = (&eddies, &turbulence, Some(surroundings));
-    let mut bundle = Flight::within(Isa::detect(), &[strand], air, Scheme::SemiImplicitEuler, h, 0);
+    let air = Surrounded { surroundings: Some(surroundings), ..Surrounded::from((&eddies, &turbulence)) };
+    let mut bundle = Flight::assembled(Isa::detect(), &[strand], air, Scheme::SemiImplicitEuler, h)
+        .expect("fibres that agree");
     bundle.advance(1);
 
     let drag = |j: usize| {
@@ -145,12 +152,15 @@ fn order_the_air_between_looks_is_of_second_order() {
     let eddies = case.eddies();
     let still = Air { velocity: 0.0, flow: Flow::Uniform, ..case.air.clone() };
     let key = StreamKey { seed: 1, replicate: 0 };
-    let turbulence = Turbulence::synthesise(Isa::detect(), &[(still, key)], eddies.count(), 0.11);
+    let turbulence =
+        Wind::uniform(Isa::detect(), &[(still, key)], eddies.count(), 0.11).expect("fibres that agree");
     let calm = Air { turbulence_intensity: 0.0, ..case.air.clone() };
     let path = |every: u64| {
-        let surroundings = Surroundings::new(vec![&calm], case.fibre.elements, every);
-        let air = (&eddies, &turbulence, Some(surroundings));
-        let mut bundle = Flight::within(Isa::detect(), &[case.strand()], air, Scheme::Leapfrog, 1e-5, 0);
+        let surroundings =
+            Surroundings::new(vec![calm.clone()], case.fibre.elements, every).expect("one air");
+        let air = Surrounded { surroundings: Some(surroundings), ..Surrounded::from((&eddies, &turbulence)) };
+        let mut bundle = Flight::assembled(Isa::detect(), &[case.strand()], air, Scheme::Leapfrog, 1e-5)
+            .expect("fibres that agree");
         let mut path = Vec::new();
         for _ in 0..100 {
             bundle.advance(100);
@@ -225,7 +235,7 @@ fn analytic_a_field_turned_and_in_other_units_is_the_same_air() {
     for case in [&mut straight, &mut turned] {
         case.air.from_flow = TOLD;
         case.air.settle(case.along());
-        case.air.harmonics = Air::default_harmonics(case.air.cutoff_frequency, 0.1);
+        case.air.harmonics = case.air.default_harmonics(0.1);
         case.check().unwrap();
     }
     for (a, b) in flights(&straight).iter().zip(&flights(&turned)) {
@@ -257,7 +267,7 @@ fn a_fibre_that_leaves_the_flow_is_told_of() {
     assert_eq!(notes.len(), 1);
     assert!(notes[0].to_string().contains("beyond what the flow of the case knows"), "{}", notes[0]);
     // Ten of twenty elements hang below, but for the end's rising.
-    let outside = flights(&case)[0].outside.unwrap();
+    let outside = flights(&case)[0].number("share_outside_flow");
     assert!((0.45..=0.55).contains(&outside), "{outside}");
 }
 
@@ -273,7 +283,7 @@ fn identical_in_any_bundle_on_any_instruction_set() {
     case.air.flow = placed(air, Vec3::default(), Axis::ALL[0], 1.0);
     case.air.from_flow = TOLD;
     case.air.settle(case.along());
-    case.air.harmonics = Air::default_harmonics(case.air.cutoff_frequency, 0.1);
+    case.air.harmonics = case.air.default_harmonics(0.1);
     let bits = |flight: &Trajectory| -> Vec<u64> {
         flight.samples.iter().flat_map(|s| [s.end.x, s.end.y, s.end.z]).map(f64::to_bits).collect()
     };
@@ -285,7 +295,7 @@ fn identical_in_any_bundle_on_any_instruction_set() {
             let mut fewer = case.clone();
             fewer.run.replicates = 3;
             let mut n = 0;
-            fly::<Error>(&fewer, KeepShapes::NONE, computing, |flight| {
+            fly::<Error>(&fewer, Keep::NUMBERS, computing, |flight| {
                 assert_eq!(bits(&flight), bits(&whole[n]), "{} {threads}", isa.name());
                 n += 1;
                 Ok(())

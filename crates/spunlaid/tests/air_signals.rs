@@ -6,7 +6,7 @@ mod common;
 
 use common::*;
 use spunlaid::air::{APART, Air, Eddies, EddyModel, FromFile, Measured, Said, SpectrumShape, SpectrumTable};
-use spunlaid::air::{Stream, StreamKey, Turbulence, Wind};
+use spunlaid::air::{Stream, StreamKey, Wind};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::statistics::PowerSpectrum;
 use spunlaid::vec3::Vec3;
@@ -18,13 +18,15 @@ const ALONG: Vec3<f64> = Vec3::new(1.0, 0.0, 0.0);
 /// Fluctuations `[sample][element]` of eight replicates along a fibre of a metre.
 fn along(air: &Air, elements: usize, times: &[f64]) -> Vec<Vec<[Vec3<f64>; WIDTH]>> {
     let eddies = air.eddies_along(ALONG, elements);
-    let tones = air.turbulence_of_eddies(ALONG, elements, &eddies);
-    let streams: Vec<Stream<'_>> = (0..WIDTH as u64)
-        .map(|replicate| Stream { air, turbulence_of_eddies: &tones, key: StreamKey { seed: 3, replicate } })
-        .collect();
+    let turbulence = air.turbulence_along(ALONG, elements, &eddies);
+    let stream = |replicate| Stream {
+        air: air.clone(),
+        eddies: turbulence.clone(),
+        key: StreamKey { seed: 3, replicate },
+    };
+    let streams: Vec<Stream> = (0..WIDTH as u64).map(stream).collect();
     let longest = times.iter().copied().fold(0.0, f64::max);
-    let turbulence = Turbulence::of(Isa::detect(), &streams, longest);
-    let mut wind = Wind::new(&turbulence);
+    let mut wind = Wind::along(Isa::detect(), streams, longest).expect("fibres that agree");
     let mean = Vec3::new(air.velocity, 0.0, 0.0);
     let of_element = |eddies: &Eddies, now: &[Vec3<spunlaid::lanes::Lanes>]| {
         eddies

@@ -8,11 +8,11 @@
 mod common;
 
 use common::*;
-use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::case::{Case, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, Job, KeepShapes, Results, Trajectory, fly_together};
+use spunlaid::ensemble::{Computing, Job, Keep, Results, Trajectory, fly_together};
 use spunlaid::flight::Flight;
 use spunlaid::lanes::{Isa, WIDTH};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -87,7 +87,7 @@ fn flights(case: &Case) -> (Vec<Trajectory>, u64) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing = Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps };
     let jobs: Vec<Job<'_>> = (0..case.run.replicates).map(|replicate| Job { case, replicate }).collect();
-    let flights = fly_together(&jobs, KeepShapes::NONE, computing).expect("the case flies");
+    let flights = fly_together(&jobs, Keep::NUMBERS, computing).expect("the case flies");
     (flights, fibre_steps.into_inner())
 }
 
@@ -133,13 +133,13 @@ fn frozen_longest_steps_of_each_scheme() {
 #[test]
 fn frozen_harmonics_and_samples_of_the_turbulence() {
     // Harmonics of Table 1, by its duration; samples per second: four per harmonic in N_h/f.
-    for (duration, harmonics) in [(0.1, 128), (1.0, 256), (10.0, 2_048), (100.0, 32_768)] {
-        assert_eq!(Air::default_harmonics(100.0, duration), harmonics);
+    for (duration, harmonics) in [(0.1, 128), (1.0, 256), (10.0, 1_024), (100.0, 1_024)] {
+        assert_eq!(table1_air().default_harmonics(duration), harmonics);
     }
     let columns = 20.0 * 3.0 * 8.0 * 8.0;
     for (duration, samples) in [(0.1, 49.0), (1.0, 409.0), (10.0, 4_009.0)] {
-        let air = Air { harmonics: Air::default_harmonics(100.0, duration), ..table1_air() };
-        assert_eq!(Turbulence::memory(&air, 20, duration), samples * columns, "{duration} s");
+        let air = Air { harmonics: table1_air().default_harmonics(duration), ..table1_air() };
+        assert_eq!(Wind::memory(&air, 20, duration), samples * columns, "{duration} s");
     }
 }
 
@@ -152,7 +152,10 @@ fn frozen_memory_of_a_bundle() {
             let fibre = spunlaid::fibre::Fibre { elements, ..table1_fibre() };
             let (eddies, turbulence) = steady_air(10.0, elements, 1e-3);
             let strand = in_vacuum(fibre, 9.81);
-            let new = || Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, 1e-9, 0);
+            let new = || {
+                Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), scheme, 1e-9)
+                    .expect("fibres that agree")
+            };
             memory_of(new).1.kept
         };
         // Linear in the number of nodes, whatever their number.
@@ -170,16 +173,17 @@ fn frozen_memory_of_steps_flights_and_statistics() {
         let case = table1(scheme, h, 0.1);
         let eddies = Eddies::along(1.0, 20, 0.05);
         let stream = [(case.air.clone(), StreamKey { seed: 1, replicate: 0 })];
-        let turbulence = Turbulence::synthesise(Isa::detect(), &stream, 20, 0.1);
+        let turbulence = Wind::uniform(Isa::detect(), &stream, 20, 0.1).expect("fibres that agree");
         let strands: [Strand; 1] = [case.strand()];
-        let mut bundle = Flight::new(Isa::detect(), &strands, &eddies, &turbulence, scheme, h, 0);
+        let mut bundle = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), scheme, h)
+            .expect("fibres that agree");
         // As much for one step as for a hundred: none for a step itself.
         bundle.advance(1);
         let [one, hundred] = [1, 100].map(|steps| memory_of(|| bundle.advance(steps)).1);
         assert_eq!((one.blocks, one.kept), (hundred.blocks, hundred.kept), "{}", scheme.name());
 
         let ((flights, _), flown) = memory_of(|| flights(&case));
-        let mut collector = Results::collector(&case, 0);
+        let mut collector = Results::collector(0);
         collector.take(&flights[0]);
         let taken = memory_of(|| flights[1..].iter().for_each(|flight| collector.take(flight))).1;
         // Eight flights of 101 records of 14 numbers, 90,496 bytes; the turbulence and the growing of the records are the most of it.

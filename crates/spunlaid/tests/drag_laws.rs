@@ -196,7 +196,8 @@ fn analytic_terminal_velocity_across_by_marheineke_and_wegener() {
         let steps = (30.0 * low / 9.81 / h) as u64;
         let (eddies, turbulence) = steady_air(0.0, 8, 100.0);
         let mut bundle =
-            Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
+            Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
+                .expect("fibres that agree");
         bundle.advance(steps);
         for v in &bundle.chain().velocity {
             let v = v.lane(0);
@@ -236,7 +237,8 @@ fn identical_alone_or_in_company_on_any_instruction_set() {
                 .map(|i| strand(drag, Root::Pinned, 7e-6 * f64::from(i), V::new(0.6, 0.0, 0.8)))
                 .collect();
             let fly = |isa: Isa, strands: &[Strand]| {
-                let mut bundle = Flight::new(isa, strands, &eddies, &turbulence, scheme, 1e-7, 0);
+                let mut bundle = Flight::assembled(isa, strands, (&eddies, &turbulence), scheme, 1e-7)
+                    .expect("fibres that agree");
                 bundle.advance(40);
                 let nodes = bundle.chain().position.clone();
                 (0..strands.len())

@@ -5,7 +5,7 @@ mod common;
 
 use common::reference::{ReferenceDrag, forces};
 use common::*;
-use spunlaid::air::{Air, Eddies, StreamKey, Turbulence, Wind};
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::fibre::{Fibre, Root};
@@ -26,8 +26,9 @@ fn analytic_every_element_feels_its_own_eddy() {
     for length_scale in [0.07, l, 0.019, 2.0] {
         let eddies = Eddies::along(fibre.length, fibre.elements, length_scale);
         let key = StreamKey { seed: 2, replicate: 0 };
-        let turbulence = Turbulence::synthesise(Isa::detect(), &[(air.clone(), key)], eddies.count(), 0.1);
-        let wind = Wind::new(&turbulence).at(0.0);
+        let turbulence = Wind::uniform(Isa::detect(), &[(air.clone(), key)], eddies.count(), 0.1)
+            .expect("fibres that agree");
+        let wind = turbulence.clone().at(0.0);
         // theory.md (23), with a nudge against rounding where a centre lies on a border.
         let eddy = |j: usize| ((j as f64 + 0.5) * l / length_scale + 1e-9) as usize;
         let felt: Vec<V> = (0..fibre.elements).map(|j| wind[eddy(j)].lane(0)).collect();
@@ -35,7 +36,8 @@ fn analytic_every_element_feels_its_own_eddy() {
 
         let h = 1e-6;
         let scheme = Scheme::SemiImplicitEuler;
-        let mut bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, h, 0);
+        let mut bundle = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), scheme, h)
+            .expect("fibres that agree");
         bundle.advance(1);
         // The axial stiffness times the rounding of positions.
         let rounding = fibre.axial_stiffness() * 4.0 * f64::EPSILON;

@@ -182,7 +182,8 @@ fn analytic_terminal_velocity_is_reached_by_falling() {
         let steps = (40.0 * expected / 9.81 / h) as u64;
         let (eddies, turbulence) = steady_air(0.0, strand.fibre.elements, 100.0);
         let mut bundle =
-            Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
+            Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
+                .expect("fibres that agree");
         bundle.advance(steps);
         for v in &bundle.chain().velocity {
             let v = v.lane(0);

@@ -3,7 +3,7 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::air::{Air, StreamKey, Turbulence, Wind};
+use spunlaid::air::{Air, StreamKey, Wind};
 use spunlaid::error::Error;
 use spunlaid::lanes::Isa;
 use spunlaid::record::{
@@ -54,8 +54,8 @@ fn in_wind(values: Vec<f64>) -> Vec<f64> {
 /// The air of Table 1 as a probe sees it that sits in one eddy: [component][sample].
 fn probe(air: Air, seed: u64, interval: f64, samples: usize) -> Vec<Vec<f64>> {
     let stream = [(air.clone(), StreamKey { seed, replicate: 0 })];
-    let turbulence = Turbulence::synthesise(Isa::detect(), &stream, 1, interval * samples as f64);
-    let mut wind = Wind::new(&turbulence);
+    let mut wind =
+        Wind::uniform(Isa::detect(), &stream, 1, interval * samples as f64).expect("fibres that agree");
     let mut components = vec![Vec::new(); 3];
     for k in 0..samples {
         let v = wind.at(k as f64 * interval)[0].lane(0);

@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::flight::{Flight, Snapshot};
@@ -23,9 +23,10 @@ fn flown(isa: Isa, scheme: Scheme, damping: f64, h: f64, duration: f64) -> (Snap
     let air = table1_air();
     let streams: Vec<(Air, StreamKey)> =
         (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed: 4, replicate })).collect();
-    let turbulence = Turbulence::synthesise(isa, &streams, eddies.count(), duration + h);
+    let turbulence = Wind::uniform(isa, &streams, eddies.count(), duration + h).expect("fibres that agree");
     let strands = [table1_strand(damping); WIDTH];
-    let mut bundle = Flight::new(isa, &strands, &eddies, &turbulence, scheme, h, 0);
+    let mut bundle =
+        Flight::assembled(isa, &strands, (&eddies, &turbulence), scheme, h).expect("fibres that agree");
     let steps = (duration / h).round() as u64;
     bundle.advance(steps);
     let amplitude =
@@ -98,9 +99,11 @@ fn path_and_amplitude(scheme: Scheme, h: f64, duration: f64) -> (Vec<V>, f64) {
     let eddies = Eddies::along(1.0, 20, 0.05);
     let streams: Vec<(Air, StreamKey)> =
         (0..WIDTH as u64).map(|replicate| (table1_air(), StreamKey { seed: 4, replicate })).collect();
-    let turbulence = Turbulence::synthesise(Isa::detect(), &streams, eddies.count(), duration + h);
+    let turbulence =
+        Wind::uniform(Isa::detect(), &streams, eddies.count(), duration + h).expect("fibres that agree");
     let strands = [table1_strand(0.0); WIDTH];
-    let mut bundle = Flight::new(Isa::detect(), &strands, &eddies, &turbulence, scheme, h, 0);
+    let mut bundle = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), scheme, h)
+        .expect("fibres that agree");
     let mut path = Vec::new();
     for _ in 0..(duration / 1e-3).round() as usize {
         bundle.advance((1e-3 / h).round() as u64);
@@ -123,9 +126,11 @@ fn invariant_implicit_tension_is_stable_far_beyond_the_axial_limit() {
     let eddies = Eddies::along(fibre.length, fibre.elements, 0.02);
     let streams = [(air.clone(), StreamKey { seed: 4, replicate: 0 })];
     let duration = 0.25;
-    let turbulence = Turbulence::synthesise(Isa::detect(), &streams, eddies.count(), duration + 1e-3);
+    let turbulence =
+        Wind::uniform(Isa::detect(), &streams, eddies.count(), duration + 1e-3).expect("fibres that agree");
     let end = |scheme, h: f64| {
-        let mut bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, h, 0);
+        let mut bundle = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), scheme, h)
+            .expect("fibres that agree");
         bundle.advance((duration / h).round() as u64);
         let snapshot = bundle.snapshot();
         (snapshot.position[fibre.elements].lane(0), snapshot.energy.strain.0[0])
@@ -219,14 +224,15 @@ fn identical_where_the_fibre_folds() {
     let fly = |isa: Isa, turns: &[f64]| {
         let strands = vec![strand; turns.len()];
         let scheme = Scheme::SemiImplicitEuler;
-        let mut bundle = Flight::new(isa, &strands, &eddies, &turbulence, scheme, 1e-5, 0);
+        let mut bundle = Flight::assembled(isa, &strands, (&eddies, &turbulence), scheme, 1e-5)
+            .expect("fibres that agree");
         let mut position = in_all_lanes(&folded(turns[0]));
         for (lane, &turn) in turns.iter().enumerate() {
             for (p, q) in position.iter_mut().zip(folded(turn)) {
                 p.set_lane(lane, q);
             }
         }
-        bundle.restart_from(position, in_all_lanes(&[V::default(); 21]));
+        bundle.restart_from(position, in_all_lanes(&[V::default(); 21])).expect("as many as nodes");
         bundle.advance(20);
         let nodes = bundle.chain().position.clone();
         (0..turns.len()).map(|lane| nodes.iter().map(|p| p.lane(lane)).collect()).collect::<Vec<Vec<V>>>()
@@ -245,9 +251,11 @@ fn analytic_no_work_done_at_the_start() {
     for scheme in SCHEMES {
         let eddies = Eddies::along(1.0, 20, 0.05);
         let streams = [(table1_air(), StreamKey { seed: 4, replicate: 0 })];
-        let turbulence = Turbulence::synthesise(Isa::detect(), &streams, eddies.count(), 1.0);
+        let turbulence =
+            Wind::uniform(Isa::detect(), &streams, eddies.count(), 1.0).expect("fibres that agree");
         let strand = table1_strand(3.0);
-        let bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, scheme, 1e-5, 0);
+        let bundle = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), scheme, 1e-5)
+            .expect("fibres that agree");
         let e = bundle.snapshot().energy;
         for (name, value) in [
             ("kinetic", e.kinetic),

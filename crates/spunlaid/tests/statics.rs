@@ -42,7 +42,8 @@ fn at_rest(elements: usize, tip_load: [f64; WIDTH], gravity: [f64; WIDTH]) -> Ve
     let duration = 25.0 / w1;
     let (eddies, turbulence) = steady_air(0.0, elements, duration);
     let mut bundle =
-        Flight::new(Isa::detect(), &strands, &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
+        Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
+            .expect("fibres that agree");
     // The tip load as a kick of the tip's momentum before every step.
     let kick =
         Vec3::new(Lanes(tip_load), Lanes::ZERO, Lanes::ZERO) * Lanes::splat(h / fibre.node_mass(elements));

@@ -2,14 +2,14 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Computing, KeepShapes, Results, Trajectory, fly};
+use spunlaid::ensemble::{Computing, Keep, Results, Trajectory, fly};
 use spunlaid::error::Error;
 use spunlaid::input::{StudyFile, parse_case, parse_study, starter_case, write_case};
 use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
 use spunlaid::study::{
-    Batch, Journal, Landing, MEASURES, Measure, PointResults, Progress, Record, Replicates, Study,
-    fly_batches, rankings, results_of_point, run,
+    Batch, Journal, Landing, MEASURES, PointResults, Progress, Record, Replicates, Study, fly_batches,
+    measured, rankings, results_of_point, run,
 };
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -59,7 +59,7 @@ fn flown(study: &Study, threads: usize) -> Journal {
 fn single(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let mut flights = Vec::new();
-    let done: Result<(), Error> = fly(case, KeepShapes::NONE, computing(2, &stop, &steps), |flight| {
+    let done: Result<(), Error> = fly(case, Keep::NUMBERS, computing(2, &stop, &steps), |flight| {
         flights.push(flight);
         Ok(())
     });
@@ -93,20 +93,18 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
             assert_eq!(records.len(), 5);
             for (flight, record) in flights.iter().zip(&records) {
                 assert_eq!(record.replicate, flight.replicate);
-                assert_eq!(record.landing, Landing::Measured(Measure::all(flight)), "point {index}");
+                // As text, where NaN is like NaN.
+                let expected = Landing::Measured(measured(flight));
+                assert_eq!(format!("{:?}", record.landing), format!("{expected:?}"), "point {index}");
             }
             // And so their means, to the bit.
-            let mut collector = Results::collector(&case, 0);
+            let mut collector = Results::collector(0);
             flights.iter().for_each(|flight| collector.take(flight));
-            let (all, of_point) =
-                (collector.finish().end_node, results_of_point(&mut journal, index).unwrap());
-            for (i, estimate) in
-                [all.amplitude_y, all.amplitude_z, all.frequency_y, all.frequency_z, all.mean_x]
-                    .iter()
-                    .enumerate()
-            {
-                assert_eq!(of_point.mean[i], estimate.mean);
-                assert_eq!(of_point.standard_error[i], estimate.standard_error);
+            let (all, of_point) = (collector.finish(), results_of_point(&mut journal, index).unwrap());
+            for number in &all.numbers {
+                let i = MEASURES.iter().position(|measure| measure.name == number.measure.name).unwrap();
+                assert_eq!(of_point.mean[i], number.estimate.mean);
+                assert_eq!(of_point.standard_error[i], number.estimate.standard_error);
             }
         }
     }
@@ -156,16 +154,11 @@ fn flights_of_points_come_in_the_order_of_replicates() {
     let batches: Vec<Batch> = (0..12).map(|point| Batch { point, replicates: 1..4 }).collect();
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let mut taken = vec![Vec::new(); 12];
-    let done: Result<(), Error> = fly_batches(
-        &study.points,
-        &batches,
-        KeepShapes::NONE,
-        computing(2, &stop, &steps),
-        |point, flight| {
+    let done: Result<(), Error> =
+        fly_batches(&study.points, &batches, Keep::NUMBERS, computing(2, &stop, &steps), |point, flight| {
             taken[point].push(flight.replicate);
             Ok(())
-        },
-    );
+        });
     done.unwrap();
     assert!(taken.iter().all(|replicates| *replicates == [1, 2, 3]));
 }
@@ -221,11 +214,11 @@ until = { amplitude_y = '10 %', frequency_y = 0.5 }
 
 #[test]
 fn a_lost_fibre_costs_its_neighbours_nothing() {
-    // Beyond the stability limit of the axial waves, which the check would refuse; its neighbours are not.
+    // Drag that changes the velocity by more than itself in a step, which no check foresees.
     let (mut good, _) = parse_case(SHORT, "case.toml", &[]).unwrap();
     good.run.steps = 5000;
     let mut bad = good.clone();
-    bad.fibre.youngs_modulus *= 16.0;
+    (bad.fibre.diameter, bad.air.velocity) = (1e-5, 600.0);
     let study = Study::of_cases([good.clone(), bad, good.clone()], Replicates::fixed(3));
     let mut journal = flown(&study, 1);
     let alone = flown(&Study::of_cases([good], Replicates::fixed(3)), 1).records(0, 9).unwrap();

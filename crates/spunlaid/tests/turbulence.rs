@@ -4,10 +4,11 @@
 mod common;
 
 use common::*;
-use spunlaid::air::{Air, StreamKey, Turbulence, Wind};
+use spunlaid::air::{Air, StreamKey, Wind};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::statistics::PowerSpectrum;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 const EDDIES: usize = 6;
 
@@ -15,13 +16,18 @@ fn streams(air: &Air, seed: u64) -> Vec<(Air, StreamKey)> {
     (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed, replicate })).collect()
 }
 
-/// Fluctuations `[lane][eddy][component][sample]`, sampled every `interval` over `duration`.
+/// Fluctuations `[lane][eddy][component][sample]` of the sum of cosines, sampled every `interval` over
+/// `duration`.
 fn records(air: &Air, seed: u64, interval: f64, duration: f64) -> Vec<Vec<f64>> {
-    let turbulence = Turbulence::synthesise(Isa::detect(), &streams(air, seed), EDDIES, duration);
-    let mut wind = Wind::new(&turbulence);
+    let wind = Wind::repeating(Isa::detect(), &streams(air, seed), EDDIES, duration);
+    records_of(wind.expect("fibres that agree"), air, interval, 0.0..duration)
+}
+
+/// Fluctuations `[lane][eddy][component][sample]`, sampled every `interval` over some times.
+fn records_of(mut wind: Wind, air: &Air, interval: f64, times: Range<f64>) -> Vec<Vec<f64>> {
     let mut records = vec![Vec::new(); WIDTH * EDDIES * 3];
-    for k in 0..(duration / interval) as usize {
-        let velocities = wind.at(k as f64 * interval);
+    for k in 0..((times.end - times.start) / interval) as usize {
+        let velocities = wind.at(times.start + k as f64 * interval);
         for (lane_record, record) in records.iter_mut().enumerate() {
             let (lane, eddy, component) =
                 (lane_record / (EDDIES * 3), lane_record / 3 % EDDIES, lane_record % 3);
@@ -65,8 +71,8 @@ fn analytic_signal_is_the_sum_of_cosines_to_1e_7() {
     let period = 2.0 * air.repeat_time();
     let samples = 3 * 17 * 16;
     let interval = period / samples as f64;
-    let turbulence = Turbulence::synthesise(Isa::detect(), &streams(&air, 7), EDDIES, period);
-    let mut wind = Wind::new(&turbulence);
+    let mut wind =
+        Wind::repeating(Isa::detect(), &streams(&air, 7), EDDIES, period).expect("fibres that agree");
     let record: Vec<f64> = (0..samples).map(|i| wind.at(i as f64 * interval)[2].lane(5).y).collect();
     let (amplitudes, residual) = fitted_harmonics(&air, &record, interval);
     // Interpolation from samples and by cubics, 1e-7 of the rms each, in the worst of the phases twice that.
@@ -117,8 +123,8 @@ fn stat_phases_are_uniform_between_replicates() {
     let air = table1_air();
     let mut values = Vec::new();
     for seed in 0..12 {
-        let turbulence = Turbulence::synthesise(Isa::detect(), &streams(&air, seed), EDDIES, 0.5);
-        let mut wind = Wind::new(&turbulence);
+        let mut wind =
+            Wind::uniform(Isa::detect(), &streams(&air, seed), EDDIES, 0.5).expect("fibres that agree");
         let at = wind.at(0.3);
         for (eddy, lane) in (0..EDDIES).flat_map(|e| (0..WIDTH).map(move |l| (e, l))) {
             let v = at[eddy].lane(lane);
@@ -193,8 +199,7 @@ fn identical_turbulence_alone_or_in_company_and_on_any_instruction_set() {
     let mut reference: Option<Vec<u64>> = None;
     for isa in Isa::available() {
         for (lanes, lane) in [(&alone[..], 0), (&company[..], 5)] {
-            let turbulence = Turbulence::synthesise(isa, lanes, EDDIES, 0.2);
-            let mut wind = Wind::new(&turbulence);
+            let mut wind = Wind::uniform(isa, lanes, EDDIES, 0.2).expect("fibres that agree");
             let bits: Vec<u64> = (0..500)
                 .flat_map(|i| {
                     let v = wind.at(i as f64 * 3.7e-4)[4].lane(lane);
@@ -211,11 +216,158 @@ fn identical_turbulence_alone_or_in_company_and_on_any_instruction_set() {
 
 #[test]
 fn identical_wind_in_any_order_of_times() {
-    let turbulence = Turbulence::synthesise(Isa::detect(), &streams(&table1_air(), 1), EDDIES, 0.2);
+    let turbulence =
+        Wind::uniform(Isa::detect(), &streams(&table1_air(), 1), EDDIES, 0.2).expect("fibres that agree");
     let times: Vec<f64> = (0..200).map(|i| 0.1 + 0.09 * scatter(i)).collect();
-    let mut hopping = Wind::new(&turbulence);
+    let mut hopping = turbulence.clone();
     for &t in &times {
-        let mut fresh = Wind::new(&turbulence);
+        let mut fresh = turbulence.clone();
         assert_eq!(hopping.at(t)[3], fresh.at(t)[3], "at {t} s");
     }
+}
+
+/// A wind of windows: 16 harmonics of 100 Hz repeat after 0.16 s, so that windows follow one another every 0.12 s and
+/// fade over 0.04 s.
+fn short_windows() -> Air {
+    Air { harmonics: 16, ..table1_air() }
+}
+
+#[test]
+fn identical_to_one_sum_of_cosines_until_the_first_window_fades() {
+    let air = short_windows();
+    let hop = 0.75 * air.repeat_time();
+    let lanes = streams(&air, 4);
+    let mut windows = Wind::uniform(Isa::detect(), &lanes, EDDIES, 1.0).expect("fibres that agree");
+    let mut sum = Wind::repeating(Isa::detect(), &lanes, EDDIES, 1.0).expect("fibres that agree");
+    // The interpolation looks four samples ahead, of which there are 64 in a repeat time.
+    let first = hop - 4.0 * air.repeat_time() / 64.0;
+    for i in 0..200 {
+        let t = first * f64::from(i) / 200.0;
+        assert_eq!(windows.at(t), sum.at(t), "at {t} s");
+    }
+    assert_ne!(windows.at(hop + 0.02), sum.at(hop + 0.02));
+}
+
+#[test]
+fn identical_wind_however_far_it_was_made_ahead_and_in_any_order() {
+    let air = short_windows();
+    let lanes = streams(&air, 4);
+    let wind = |horizon| Wind::uniform(Isa::detect(), &lanes, EDDIES, horizon).expect("fibres that agree");
+    let (mut in_order, mut hopping) = (wind(0.0), wind(3.0));
+    for i in 0..300 {
+        let t = f64::from(i) * 3.3e-3;
+        // To and fro over several windows.
+        hopping.at((t * 7.0) % 1.1);
+        assert_eq!(in_order.at(t), hopping.at(t), "at {t} s");
+        assert_eq!(in_order.at(t), wind(t).at(t), "at {t} s");
+    }
+}
+
+#[test]
+fn stat_variance_is_the_same_at_every_instant_of_the_windows() {
+    let air = short_windows();
+    let hop = 0.75 * air.repeat_time();
+    // From the middle of one window over the fade into the next and on: 12 instants, 30 seeds of 144 signals.
+    let mut sums = [[0.0; 4]; 12];
+    for seed in 0..30 {
+        let mut wind =
+            Wind::uniform(Isa::detect(), &streams(&air, seed), EDDIES, 0.0).expect("fibres that agree");
+        for (k, sums) in sums.iter_mut().enumerate() {
+            for v in wind.at(5.0 * hop + (k as f64 - 4.0) / 24.0 * air.repeat_time()) {
+                for lane in 0..WIDTH {
+                    let v = v.lane(lane);
+                    for u in [v.x - air.velocity, v.y, v.z] {
+                        let u = u / air.rms();
+                        (sums[0], sums[1], sums[2], sums[3]) =
+                            (sums[0] + 1.0, sums[1] + u, sums[2] + u * u, sums[3] + u.powi(4));
+                    }
+                }
+            }
+        }
+    }
+    for (k, [n, first, second, fourth]) in sums.into_iter().enumerate() {
+        // A sum of 16 cosines has a fourth moment of 3 − 1.5/16, of less where it is two half ones; four standard
+        // errors of each.
+        assert!((first / n).abs() < 4.0 / n.sqrt(), "instant {k}: mean {}", first / n);
+        assert!((second / n - 1.0).abs() < 4.0 * (2.0 / n).sqrt(), "instant {k}: variance {}", second / n);
+        assert!((fourth / n - 2.93).abs() < 0.07 + 4.0 * (96.0 / n).sqrt(), "instant {k}: {}", fourth / n);
+    }
+}
+
+#[test]
+fn stat_autocorrelation_holds_across_the_joints_of_windows() {
+    let air = short_windows();
+    let (repeat, hop) = (air.repeat_time(), 0.75 * air.repeat_time());
+    let cutoff = 2.0 * PI * air.cutoff_frequency;
+    let lags = [1.3e-3, 5e-3, 9e-3, 20e-3, 0.75 * repeat, repeat, 2.0 * hop, 2.0 * repeat];
+    // Pairs of instants with the joint between them, before it and after it.
+    let mut sums = [(0.0, 0.0); 8];
+    for seed in 0..60 {
+        let mut wind =
+            Wind::uniform(Isa::detect(), &streams(&air, seed), EDDIES, 0.0).expect("fibres that agree");
+        for place in [0.2, 0.5, 0.8] {
+            for ((n, sum), lag) in sums.iter_mut().zip(lags) {
+                let start = 3.0 * hop + 0.25 * repeat * place - 0.5 * lag.min(0.1 * repeat);
+                let [first, then] = [start, start + lag].map(|t| wind.at(t));
+                for (a, b) in first.iter().zip(&then) {
+                    for lane in 0..WIDTH {
+                        let (a, b) = (a.lane(lane), b.lane(lane));
+                        *sum += (a.y * b.y + a.z * b.z) / (2.0 * air.rms().powi(2));
+                        *n += 1.0;
+                    }
+                }
+            }
+        }
+    }
+    for ((n, sum), lag) in sums.into_iter().zip(lags) {
+        // In the fade the products lose the cosine of the angle that it turns by in the lag: theory.md (50).
+        let angle = 0.5 * PI * lag / (0.25 * repeat);
+        let faded = if angle < 0.5 * PI { angle.cos() } else { 0.0 };
+        let (sinc, lost) = ((cutoff * lag).sin() / (cutoff * lag), 1.0 - faded);
+        let found = sum / n;
+        // Products of two normal variables scatter by one, or √2 where they are the same; three places of one
+        // signal count as one.
+        let bound = 4.0 * (3.0_f64 / n).sqrt() * (1.0 + sinc * sinc).sqrt() / 2f64.sqrt() + lost * sinc.abs();
+        assert!((found - sinc).abs() < bound, "lag {lag} s: {found}, expected {sinc} within {bound}");
+    }
+}
+
+#[test]
+fn stat_spectrum_of_many_windows_is_flat_to_the_cutoff_and_nothing_above() {
+    // 128 harmonics repeat after 1.28 s; a segment of the analysis of 0.64 s is as often in a fade as not.
+    let air = Air { harmonics: 128, ..table1_air() };
+    let (interval, segment) = (1.0 / 800.0, 512);
+    let wind = Wind::uniform(Isa::detect(), &streams(&air, 11), EDDIES, 0.0).expect("fibres that agree");
+    let mut spectrum = PowerSpectrum::new(interval, segment);
+    let mut segments = 0;
+    for record in records_of(wind, &air, interval, 100.0..110.0) {
+        spectrum.add(&record);
+        segments += record.len() / (segment / 2) - 1;
+    }
+    let wanted = air.rms().powi(2) / air.cutoff_frequency;
+    for (f, density) in spectrum.density() {
+        if f > 4.0 && f < 96.0 {
+            let error = 4.0 / (0.5 * segments as f64).sqrt();
+            assert!((density / wanted - 1.0).abs() < error, "{f} Hz: {} of {wanted}", density);
+        } else if f > 110.0 {
+            // A fade over 0.32 s widens a line as the analysis does, whose window is twice as long: what it
+            // lets through falls as the third power of the distance.
+            let k = (f - air.cutoff_frequency) * segment as f64 * interval;
+            assert!(density < 0.5 * wanted / (k - 1.0).powi(3), "{f} Hz: {density:e}, {k} steps off");
+        }
+    }
+}
+
+#[test]
+fn frozen_memory_of_a_wind_that_blows_for_hours() {
+    let air = table1_air();
+    let mut wind = Wind::uniform(Isa::detect(), &streams(&air, 1), EDDIES, 0.0).expect("fibres that agree");
+    let mut seen = Vec::new();
+    for hour in 0..4 {
+        let now = wind.at(3600.0 * f64::from(hour) + 0.01)[2].lane(5);
+        assert!(seen.iter().all(|earlier| *earlier != now), "the wind repeats");
+        seen.push(now);
+    }
+    // Three quarters of a repeat time at most, whatever the time.
+    assert_eq!(Wind::memory(&air, EDDIES, 10.0), Wind::memory(&air, EDDIES, 1e6));
 }

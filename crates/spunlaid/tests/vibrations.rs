@@ -27,7 +27,8 @@ fn flown_frequencies(
 ) -> Vec<f64> {
     let strand = in_vacuum(fibre, gravity);
     let (eddies, turbulence) = steady_air(0.0, fibre.elements, duration);
-    let mut bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::Leapfrog, h, 0);
+    let mut bundle = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
+        .expect("fibres that agree");
     let scaled: Vec<Vec<f64>> = modes
         .iter()
         .map(|mode| {
@@ -43,7 +44,7 @@ fn flown_frequencies(
             p.set_lane(lane, moved);
         }
     }
-    bundle.restart_from(position, vec![Vec3::ZERO; start.len()]);
+    bundle.restart_from(position, vec![Vec3::ZERO; start.len()]).expect("as many as nodes");
     let stride = 4;
     let mut traces = vec![Vec::new(); scaled.len()];
     for _ in 0..(duration / h) as usize / stride {
@@ -229,10 +230,12 @@ fn analytic_taut_string() {
         let exact = w / (2.0 * PI);
         let duration = 12.0 / exact;
         let (eddies, turbulence) = steady_air(0.0, n, duration);
-        let mut bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::Leapfrog, h, 0);
+        let mut bundle =
+            Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
+                .expect("fibres that agree");
         let shape = |i: usize| (mode as f64 * PI * i as f64 / n as f64).sin();
         let start: Vec<V> = (0..=n).map(|i| stretched[i] + Y * (1e-5 * shape(i))).collect();
-        bundle.restart_from(in_all_lanes(&start), vec![Vec3::ZERO; n + 1]);
+        bundle.restart_from(in_all_lanes(&start), vec![Vec3::ZERO; n + 1]).expect("as many as nodes");
         let mut trace = Vec::new();
         for _ in 0..(duration / h) as usize {
             bundle.advance(1);

@@ -64,7 +64,7 @@ fn cost(case: &Case) {
     let memory = case.bundle_memory().total() * busy as f64 / f64::from(1 << 20);
     // A bundle takes as long whether its lanes are full or not.
     let rounds = bundles.div_ceil(busy) as f64;
-    let seconds = pace(case, Isa::detect()) * case.run.steps as f64 * rounds;
+    let seconds = pace(case, Isa::detect())? * case.run.steps as f64 * rounds;
     say::line(&format!(
         "# to expect: {} on {busy} of {threads} threads, {:.0} MiB of memory, {} of results",
         duration(seconds),

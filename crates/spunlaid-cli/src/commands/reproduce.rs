@@ -192,8 +192,8 @@ impl Flying {
             steps.push((case.run.time_step, collector.finish()));
         }
         let wants = |figure| self.wanted.contains(&figure);
-        let record = if wants("2") { velocity_record(&self.base, computing.isa, 0.5) } else { Vec::new() };
-        let spectrum = if wants("3") { turbulence_spectrum(&self.base, computing) } else { Vec::new() };
+        let record = if wants("2") { velocity_record(&self.base, computing.isa, 0.5)? } else { Vec::new() };
+        let spectrum = if wants("3") { turbulence_spectrum(&self.base, computing)? } else { Vec::new() };
         Ok(Flown { flying: self, points, steps, record, spectrum })
     }
 }

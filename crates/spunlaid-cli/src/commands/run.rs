@@ -141,7 +141,7 @@ impl Written<'_> {
     fn to(&self, staging: &Staging<'_>, computing: Computing<'_>) -> Result<(), Failure> {
         let copied = beside::copy([self.case], &staging.place(beside::CASE_FILES).0)?;
         let case_toml = write_case(&beside::relocated(self.case, &copied));
-        let turbulence = turbulence_spectrum(self.case, computing);
+        let turbulence = turbulence_spectrum(self.case, computing)?;
         let figures = run_figures(self.case, self.results, &turbulence);
         // A thousand small files keep the disk busy while pictures keep the processor.
         std::thread::scope(|scope| {

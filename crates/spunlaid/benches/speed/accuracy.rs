@@ -2,7 +2,6 @@
 
 use crate::flights::{bundle_of_flights, compare, table1};
 use crate::title;
-use spunlaid::air::Air;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::Trajectory;
@@ -32,7 +31,7 @@ pub fn of_steps() {
     let of = |scheme, h| {
         let mut case = table1(scheme, h, 0.1, WIDTH as u64);
         (case.fibre.diameter, case.fibre.elements) = (18e-6, 1_000);
-        case.air.harmonics = Air::default_harmonics(100.0, 0.1);
+        case.air.harmonics = case.air.default_harmonics(0.1);
         case
     };
     let limits = |scheme| {

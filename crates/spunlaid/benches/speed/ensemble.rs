@@ -6,7 +6,7 @@ use crate::title;
 use cpu_time::ProcessTime;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, KeepShapes, Results, fly, turbulence_spectrum};
+use spunlaid::ensemble::{Computing, Keep, Results, fly, turbulence_spectrum};
 use spunlaid::error::Error;
 use spunlaid::lanes::{Isa, WIDTH};
 use std::hint::black_box;
@@ -19,9 +19,9 @@ fn computing<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU6
 
 fn fly_all(case: &Case, threads: usize) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let mut collector = Results::collector(case, 0);
+    let mut collector = Results::collector(0);
     let done: Result<(), Error> =
-        fly(case, KeepShapes::NONE, computing(threads, &stop, &fibre_steps), |flight| {
+        fly(case, Keep::NUMBERS, computing(threads, &stop, &fibre_steps), |flight| {
             collector.take(&flight);
             Ok(())
         });
@@ -57,7 +57,7 @@ pub fn costs() {
         trials.push(Trial::new(WIDTH as f64, || processor_time(|| drop(black_box(bundle_of_flights(case))))));
         let flights = bundle_of_flights(case);
         trials.push(Trial::new(WIDTH as f64, move || {
-            let mut collector = Results::collector(case, 0);
+            let mut collector = Results::collector(0);
             let time = processor_time(|| flights.iter().for_each(|flight| collector.take(flight)));
             black_box(collector.finish());
             time

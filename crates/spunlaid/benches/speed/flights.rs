@@ -4,7 +4,7 @@
 use crate::common::*;
 use spunlaid::case::{Case, Run};
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, Job, KeepShapes, Sample, Trajectory, fly_together};
+use spunlaid::ensemble::{Computing, Job, Keep, Sample, Trajectory, fly_together};
 use spunlaid::lanes::{Isa, WIDTH};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -29,7 +29,7 @@ pub fn bundle_of_flights(case: &Case) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing = Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps };
     let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case, replicate }).collect();
-    fly_together(&jobs, KeepShapes::NONE, computing).expect("the case flies")
+    fly_together(&jobs, Keep::NUMBERS, computing).expect("the case flies")
 }
 
 /// How flights differ from others with the same phases.
@@ -46,13 +46,14 @@ pub fn compare(flights: &[Trajectory], exact: &[Trajectory]) -> Difference {
     let (mut off, mut spread) = (0.0, 0.0);
     let (mut found, mut wanted) = (0.0, 0.0);
     for (flight, exact) in flights.iter().zip(exact) {
-        let mean = exact.end_node.mean;
+        let n = shared(exact).count() as f64;
+        let mean = shared(exact).fold((0.0, 0.0), |sum, s| (sum.0 + s.end.y / n, sum.1 + s.end.z / n));
         for (a, b) in shared(flight).zip(shared(exact)) {
             off += square(a.end.y - b.end.y, a.end.z - b.end.z);
-            spread += square(b.end.y - mean.y, b.end.z - mean.z);
+            spread += square(b.end.y - mean.0, b.end.z - mean.1);
         }
-        found += flight.end_node.amplitude_y + flight.end_node.amplitude_z;
-        wanted += exact.end_node.amplitude_y + exact.end_node.amplitude_z;
+        found += flight.number("amplitude_y") + flight.number("amplitude_z");
+        wanted += exact.number("amplitude_y") + exact.number("amplitude_z");
     }
     Difference { path: (off / spread).sqrt(), amplitude: found / wanted - 1.0 }
 }

@@ -3,7 +3,7 @@
 use crate::common::*;
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::fibre::Fibre;
@@ -23,7 +23,7 @@ pub const STEPS: [(Scheme, f64); 5] = [
 pub struct Setup {
     strand: Strand,
     eddies: Eddies,
-    turbulence: Turbulence,
+    turbulence: Wind,
     h: f64,
     steps: u64,
 }
@@ -39,7 +39,8 @@ impl Setup {
         let streams: Vec<(Air, StreamKey)> =
             (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed: 1, replicate })).collect();
         let horizon = (steps + 3) as f64 * h;
-        let turbulence = Turbulence::synthesise(Isa::detect(), &streams, eddies.count(), horizon);
+        let turbulence =
+            Wind::uniform(Isa::detect(), &streams, eddies.count(), horizon).expect("fibres that agree");
         let drag = paper_drag().of_element(&fibre, air.density, air.kinematic_viscosity);
         Self { strand: Strand { fibre, drag, gravity: 9.81, damping }, eddies, turbulence, h, steps }
     }
@@ -52,7 +53,8 @@ impl Setup {
     /// Advances eight fibres from the start.
     pub fn trial(&self, isa: Isa, scheme: Scheme) -> Trial<'_> {
         let strands = [self.strand; WIDTH];
-        let mut start = Flight::new(isa, &strands, &self.eddies, &self.turbulence, scheme, self.h, 0);
+        let mut start = Flight::assembled(isa, &strands, (&self.eddies, &self.turbulence), scheme, self.h)
+            .expect("fibres that agree");
         start.advance(2);
         let amount = (self.steps * self.strand.fibre.elements as u64 * WIDTH as u64) as f64;
         Trial::new(amount, move || {

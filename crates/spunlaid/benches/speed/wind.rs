@@ -4,7 +4,7 @@ use crate::common::*;
 use crate::kernel::Setup;
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::air::{Air, StreamKey, Turbulence};
+use spunlaid::air::{Air, StreamKey, Wind};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::lanes::{Isa, WIDTH};
 use std::hint::black_box;
@@ -21,7 +21,9 @@ pub fn costs() {
         .iter()
         .map(|&isa| {
             Trial::new(WIDTH as f64, move || {
-                processor_time(|| drop(black_box(Turbulence::synthesise(isa, streams, 20, 1.0))))
+                processor_time(|| {
+                    black_box(Wind::uniform(isa, streams, 20, 1.0).expect("fibres that agree").at(0.0));
+                })
             })
         })
         .collect();

@@ -2,12 +2,12 @@
 
 use crate::common::*;
 use crate::title;
-use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::case::{Case, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::FrictionLaw;
-use spunlaid::ensemble::{Computing, KeepShapes, Results, fly};
+use spunlaid::ensemble::{Computing, Keep, Number, Results, fly};
 use spunlaid::error::Error;
 use spunlaid::flight::{Flight, Snapshot};
 use spunlaid::lanes::{Isa, WIDTH};
@@ -36,8 +36,8 @@ fn results(case: &Case) -> Results {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let computing = Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps };
-    let mut collector = Results::collector(case, 0);
-    let done: Result<(), Error> = fly(case, KeepShapes::NONE, computing, |flight| {
+    let mut collector = Results::collector(0);
+    let done: Result<(), Error> = fly(case, Keep::NUMBERS, computing, |flight| {
         collector.take(&flight);
         Ok(())
     });
@@ -51,10 +51,12 @@ fn flown(scheme: Scheme, h: f64, duration: f64) -> (Snapshot, Snapshot) {
     let eddies = Eddies::along(1.0, 20, 0.05);
     let streams: Vec<(Air, StreamKey)> =
         (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed: 4, replicate })).collect();
-    let turbulence = Turbulence::synthesise(Isa::detect(), &streams, eddies.count(), duration + 2.0 * h);
+    let turbulence = Wind::uniform(Isa::detect(), &streams, eddies.count(), duration + 2.0 * h)
+        .expect("fibres that agree");
     let drag = paper_drag().of_element(&fibre, air.density, air.kinematic_viscosity);
     let strands = [Strand { fibre, drag, gravity: 9.81, damping: 0.0 }; WIDTH];
-    let mut bundle = Flight::new(Isa::detect(), &strands, &eddies, &turbulence, scheme, h, 0);
+    let mut bundle = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), scheme, h)
+        .expect("fibres that agree");
     bundle.advance((duration / h).round() as u64);
     let now = bundle.snapshot();
     bundle.advance(1);
@@ -108,9 +110,9 @@ pub fn errors_by_step() {
                 "  {:<20} {:>4} µs: work {:.2e}, balance {:.2e}; amplitude y {:.4} mm",
                 scheme.name(),
                 (h * 1e6).round(),
-                r.work_error_percent.time_median,
-                r.balance_error_percent.time_median,
-                r.end_node.amplitude_y.mean * 1e3
+                r.number("work_error").map_or(f64::NAN, Number::value),
+                r.number("balance_error").map_or(f64::NAN, Number::value),
+                r.estimate("amplitude_y").mean * 1e3
             );
         }
     }
@@ -125,22 +127,22 @@ pub fn table1() {
     for replicates in [10, 40] {
         let started = Instant::now();
         let r = results(&case(1e-6, replicates));
-        let e = &r.end_node;
+        let e = |name: &str| r.estimate(name);
         println!(
             "  {replicates} replicates in {:.1} s: amplitude y {} mm, z {} mm; frequency y {} Hz, z {} Hz",
             started.elapsed().as_secs_f64(),
-            shown(&e.amplitude_y, 1e3),
-            shown(&e.amplitude_z, 1e3),
-            shown(&e.frequency_y, 1.0),
-            shown(&e.frequency_z, 1.0)
+            shown(&e("amplitude_y"), 1e3),
+            shown(&e("amplitude_z"), 1e3),
+            shown(&e("frequency_y"), 1.0),
+            shown(&e("frequency_z"), 1.0)
         );
         println!(
             "     work check {:.1e} % at the end, {:.1e} % median; balance {:.1e} %, {:.1e} %; strain {:.1e}",
-            r.work_error_percent.final_mean,
-            r.work_error_percent.time_median,
-            r.balance_error_percent.final_mean,
-            r.balance_error_percent.time_median,
-            r.max_strain
+            r.estimate("work_error_at_end").mean,
+            r.number("work_error").map_or(f64::NAN, Number::value),
+            r.estimate("balance_error_at_end").mean,
+            r.number("balance_error").map_or(f64::NAN, Number::value),
+            r.number("max_strain").map_or(f64::NAN, Number::value)
         );
     }
 }
@@ -170,16 +172,17 @@ pub fn trends() {
             case.run.time_step = h;
             case.run.steps = (1.0 / h).round() as u64;
             case.run.output_steps = (1e-3 / h).round() as u64;
-            case.air.harmonics = Air::default_harmonics(case.air.cutoff_frequency, 1.0);
+            case.air.harmonics = case.air.default_harmonics(1.0);
             case.check().expect("the changed case can be run");
-            let e = results(&case).end_node;
+            let r = results(&case);
+            let e = |name: &str| r.estimate(name);
             let both = |a: &Estimate, b: &Estimate| {
                 Estimate::of(a.values.iter().zip(&b.values).map(|(a, b)| 0.5 * (a + b)).collect())
             };
             println!(
                 "  {name} {value}: {} mm, {} Hz",
-                shown(&both(&e.amplitude_y, &e.amplitude_z), 1e3),
-                shown(&both(&e.frequency_y, &e.frequency_z), 1.0)
+                shown(&both(&e("amplitude_y"), &e("amplitude_z")), 1e3),
+                shown(&both(&e("frequency_y"), &e("frequency_z")), 1.0)
             );
         }
     }

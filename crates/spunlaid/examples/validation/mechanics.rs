@@ -62,7 +62,8 @@ pub fn terminal_velocity() {
         let h = 2e-5;
         let (eddies, turbulence) = steady_air(0.0, strand.fibre.elements, 100.0);
         let mut bundle =
-            Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
+            Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
+                .expect("fibres that agree");
         bundle.advance((40.0 * expected / 9.81 / h) as u64);
         let found = bundle.chain().velocity[5].lane(0).x;
         println!(
@@ -95,7 +96,8 @@ fn at_rest(elements: usize, load: [f64; WIDTH], gravity: [f64; WIDTH]) -> Vec<(f
     let duration = 25.0 / w1;
     let (eddies, turbulence) = steady_air(0.0, elements, duration);
     let mut bundle =
-        Flight::new(Isa::detect(), &strands, &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
+        Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
+            .expect("fibres that agree");
     let kick = Vec3::new(Lanes(load), Lanes::ZERO, Lanes::ZERO) * Lanes::splat(h / fibre.node_mass(elements));
     for _ in 0..(duration / h) as u64 {
         bundle.push(elements, kick);
@@ -163,7 +165,8 @@ fn flown(
 ) -> Vec<f64> {
     let strand = in_vacuum(fibre, gravity);
     let (eddies, turbulence) = steady_air(0.0, fibre.elements, duration);
-    let mut bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::Leapfrog, h, 0);
+    let mut bundle = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
+        .expect("fibres that agree");
     let mut position = in_all_lanes(start);
     for (lane, mode) in modes.iter().enumerate() {
         let largest = mode.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -172,7 +175,7 @@ fn flown(
             p.set_lane(lane, moved);
         }
     }
-    bundle.restart_from(position, vec![Vec3::ZERO; start.len()]);
+    bundle.restart_from(position, vec![Vec3::ZERO; start.len()]).expect("as many as nodes");
     let stride = 4;
     let mut traces = vec![Vec::new(); modes.len()];
     for _ in 0..(duration / h) as usize / stride {
@@ -306,10 +309,12 @@ pub fn taut_string() {
         let duration = 12.0 * 2.0 * PI / w;
         let (eddies, turbulence) = steady_air(0.0, n, duration);
         let strand = in_vacuum(fibre, 0.0);
-        let mut bundle = Flight::new(Isa::detect(), &[strand], &eddies, &turbulence, Scheme::Leapfrog, h, 0);
+        let mut bundle =
+            Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
+                .expect("fibres that agree");
         let shape = |i: usize| (mode as f64 * PI * i as f64 / n as f64).sin();
         let start: Vec<V> = (0..=n).map(|i| stretched[i] + Y * (1e-5 * shape(i))).collect();
-        bundle.restart_from(in_all_lanes(&start), vec![Vec3::ZERO; n + 1]);
+        bundle.restart_from(in_all_lanes(&start), vec![Vec3::ZERO; n + 1]).expect("as many as nodes");
         let mut trace = Vec::new();
         for _ in 0..(duration / h) as usize {
             bundle.advance(1);

@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use crate::title;
-use spunlaid::air::{Air, StreamKey, Turbulence, Wind};
+use spunlaid::air::{Air, StreamKey, Wind};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::statistics::PowerSpectrum;
 use std::f64::consts::PI;
@@ -13,8 +13,7 @@ const EDDIES: usize = 6;
 fn records(air: &Air, seed: u64, interval: f64, duration: f64) -> Vec<Vec<f64>> {
     let streams: Vec<(Air, StreamKey)> =
         (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed, replicate })).collect();
-    let turbulence = Turbulence::synthesise(Isa::detect(), &streams, EDDIES, duration);
-    let mut wind = Wind::new(&turbulence);
+    let mut wind = Wind::uniform(Isa::detect(), &streams, EDDIES, duration).expect("fibres that agree");
     let mut records = vec![Vec::new(); WIDTH * EDDIES * 3];
     for k in 0..(duration / interval).round() as usize {
         let velocities = wind.at(k as f64 * interval);

@@ -24,9 +24,7 @@ pub struct EddyTurbulence {
 impl EddyTurbulence {
     /// Whether the energy spectra of two eddies are the same.
     pub(super) fn same_spectrum(&self, other: &Self) -> bool {
-        let of = |eddy_turbulence: &Self| {
-            (eddy_turbulence.rms, eddy_turbulence.cutoff_frequency, eddy_turbulence.integral_time)
-        };
+        let of = |turbulence: &Self| (turbulence.rms, turbulence.cutoff_frequency, turbulence.integral_time);
         of(self) == of(other)
     }
 
@@ -40,7 +38,7 @@ impl EddyTurbulence {
 
 impl Air {
     /// The turbulence of every eddy of a uniform flow.
-    pub(super) fn eddy_turbulence(&self) -> EddyTurbulence {
+    pub(super) fn turbulence_of_an_eddy(&self) -> EddyTurbulence {
         EddyTurbulence {
             mean: self.velocity,
             rms: self.rms(),
@@ -72,7 +70,7 @@ impl Air {
     /// zero, for the strength and the mean are those of the place where an element happens to be.
     ///
     /// * `along` – from its root to its end [m]
-    pub fn turbulence_of_eddies(
+    pub fn turbulence_along(
         &self,
         along: Vec3<f64>,
         elements: usize,
@@ -84,26 +82,25 @@ impl Air {
         middles
             .enumerate()
             .map(|(eddy, middle)| {
-                let mut eddy_turbulence = self.eddy_turbulence();
+                let mut turbulence = self.turbulence_of_an_eddy();
                 let mut speed = self.velocity.abs();
                 if !self.is_uniform() {
                     let air = self.local(along * (middle / elements as f64), &mut hint);
                     speed = air.velocity.norm();
-                    eddy_turbulence.mean = 0.0;
-                    eddy_turbulence.rms = 1.0;
-                    eddy_turbulence.cutoff_frequency = air.cutoff_frequency.min(self.cutoff_frequency);
-                    eddy_turbulence.integral_time = air.length_scale / speed;
+                    turbulence.mean = 0.0;
+                    turbulence.rms = 1.0;
+                    turbulence.cutoff_frequency = air.cutoff_frequency.min(self.cutoff_frequency);
+                    turbulence.integral_time = air.length_scale / speed;
                 }
                 if let EddyModel::Convected { decay_time } = self.eddies {
                     let time = (middle - above) * spacing / speed;
                     // Nothing is carried through air at rest.
                     if eddy > 0 && time.is_finite() {
-                        (eddy_turbulence.carried, eddy_turbulence.forgotten) =
-                            (Some(time), time / decay_time);
+                        (turbulence.carried, turbulence.forgotten) = (Some(time), time / decay_time);
                     }
                 }
                 above = middle;
-                eddy_turbulence
+                turbulence
             })
             .collect()
     }

@@ -10,28 +10,25 @@ mod eddies;
 mod eddy_turbulence;
 mod flow;
 mod from_file;
-mod interpolation;
 mod measured;
 mod placed_field;
 mod profile;
 pub mod spectrum;
-mod stretches;
 mod surroundings;
-mod synthesis;
+mod wind;
 
 pub use eddies::{Eddies, EddyModel};
 pub use eddy_turbulence::EddyTurbulence;
 pub use flow::{Flow, FromFlow, LocalAir};
 pub use from_file::FromFile;
-pub(crate) use interpolation::EddyVelocities;
-pub use interpolation::Wind;
 pub use measured::{APART, Measured, Said};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
 pub(crate) use surroundings::AirAtElements;
 pub use surroundings::Surroundings;
-pub use synthesis::{Stream, StreamKey, Turbulence};
+pub(crate) use wind::EddyVelocities;
+pub use wind::{Stream, StreamKey, Wind};
 
 use std::path::{Path, PathBuf};
 
@@ -83,21 +80,23 @@ impl Air {
         length_scale: f64,
         cutoff_frequency: f64,
     ) -> Self {
-        Self {
+        let mut air = Self {
             velocity,
             turbulence_intensity,
             length_scale,
             cutoff_frequency,
             density: 1.204,
             kinematic_viscosity: 1.51e-5,
-            harmonics: Self::default_harmonics(cutoff_frequency, 1.0),
+            harmonics: 0,
             flow: Flow::Uniform,
             from_flow: FromFlow::default(),
             speed_factor: 1.0,
             spectrum: SpectrumShape::Flat,
             eddies: EddyModel::Independent,
             records: Vec::new(),
-        }
+        };
+        air.harmonics = air.default_harmonics(1.0);
+        air
     }
 
     /// The files that the air was read from.
@@ -141,19 +140,27 @@ impl Air {
 
     /// Energy spectrum of a velocity component, 0 along the mean flow.
     pub fn energy_spectrum(&self, component: usize) -> Spectrum<'_> {
-        let eddy_turbulence = self.eddy_turbulence();
-        eddy_turbulence.spectrum(self, component)
+        self.turbulence_of_an_eddy().spectrum(self, component)
     }
 
-    /// The time after which the synthesised turbulence repeats but for its sign, `N_h/f` [s].
+    /// The time after which one sum of cosines repeats but for its sign, `N_h/f` [s].
     pub fn repeat_time(&self) -> f64 {
         self.harmonics as f64 / self.cutoff_frequency
     }
 
-    /// The number of harmonics taken where the case leaves it open: the power of two from 128 up whose
-    /// signal repeats no sooner than after twice `duration` [s].
-    pub fn default_harmonics(cutoff_frequency: f64, duration: f64) -> usize {
-        let wanted = (2.0 * cutoff_frequency * duration).ceil().max(128.0);
+    /// The number of harmonics taken where the case leaves it open: a power of two from 128 up.
+    ///
+    /// Their repeat time is twice `duration` [s] at least, so that one window lasts for the flight. Long flights
+    /// pass through several windows instead: no more than 1024 harmonics then, or as many as make a window last
+    /// for 256 integral times. theory.md (50)
+    ///
+    /// * `duration` – of the flight [s]
+    pub fn default_harmonics(&self, duration: f64) -> usize {
+        const MOST: f64 = 1024.0;
+        const INTEGRAL_TIMES: f64 = 256.0;
+        let lasting = INTEGRAL_TIMES * self.cutoff_frequency * self.length_scale / self.velocity.abs();
+        let most = if lasting.is_finite() { lasting.max(MOST) } else { MOST };
+        let wanted = (2.0 * self.cutoff_frequency * duration).min(most).ceil().max(128.0);
         if wanted < (1u64 << 62) as f64 { (wanted as usize).next_power_of_two() } else { usize::MAX }
     }
 }

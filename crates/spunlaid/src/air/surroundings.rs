@@ -1,6 +1,7 @@
 //! The air that eight fibres have around them, where it is not the same everywhere.
 
 use super::{Air, EddyVelocities};
+use crate::error::FlightFault;
 use crate::field::Hint;
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use crate::vec3::Vec3;
@@ -40,8 +41,8 @@ struct Place {
 
 /// The air around the elements of eight fibres.
 #[derive(Clone, Debug)]
-pub struct Surroundings<'a> {
-    airs: Vec<&'a Air>,
+pub struct Surroundings {
+    airs: Vec<Air>,
     places: Vec<Place>,
     /// Where each fibre's element was found last.
     hints: Vec<[Hint; WIDTH]>,
@@ -53,13 +54,29 @@ pub struct Surroundings<'a> {
     looks: u64,
 }
 
-impl<'a> Surroundings<'a> {
+impl Surroundings {
     /// * `airs` – of up to eight fibres; lanes left over repeat the first
     /// * `every` – steps from one look at the flow to the next
-    pub fn new(airs: Vec<&'a Air>, elements: usize, every: u64) -> Self {
+    ///
+    /// # Errors
+    /// No air or more than eight.
+    pub fn new(airs: Vec<Air>, elements: usize, every: u64) -> Result<Self, FlightFault> {
+        match airs.len() {
+            0 => Err(FlightFault::Empty),
+            1..=WIDTH => Ok(Self::around_elements(airs, elements, every.max(1))),
+            fibres => Err(FlightFault::TooMany { fibres, most: WIDTH }),
+        }
+    }
+
+    fn around_elements(airs: Vec<Air>, elements: usize, every: u64) -> Self {
         let places = vec![Place::default(); elements];
         let hints = vec![[Hint::default(); WIDTH]; elements];
         Self { airs, places, hints, every, looked: false, outside: [0; WIDTH], looks: 0 }
+    }
+
+    /// Number of elements.
+    pub(crate) fn elements(&self) -> usize {
+        self.places.len()
     }
 
     /// Share of the time that the elements of a lane's fibre have spent outside of what the flow knows.
@@ -67,23 +84,28 @@ impl<'a> Surroundings<'a> {
         if self.looks == 0 { 0.0 } else { self.outside[lane] as f64 / self.looks as f64 }
     }
 
-    /// Forgets the looks so far.
-    pub(crate) fn forget(&mut self) {
-        *self = Self::new(std::mem::take(&mut self.airs), self.places.len(), self.every);
+    /// Other air from now on, of the same flows; what was looked up is kept until the next look.
+    pub(crate) fn change(&mut self, by: Self) {
+        (self.airs, self.every) = (by.airs, by.every);
     }
 
-    /// The wind before a step: `gust` where and as strong as the elements feel it.
+    /// Forgets the looks so far.
+    pub(crate) fn forget(&mut self) {
+        *self = Self::around_elements(std::mem::take(&mut self.airs), self.places.len(), self.every);
+    }
+
+    /// The wind before a step: `now` where and as strong as the elements feel it.
     pub(crate) fn around<'s, S: Register>(
         &'s mut self,
         step: u64,
         position: &[Vec3<Lanes>],
-        gust: EddyVelocities<'s, S>,
+        now: EddyVelocities<'s, S>,
     ) -> LocalVelocities<'s, S> {
         let since = step % self.every;
         if since == 0 {
             self.look(position);
         }
-        LocalVelocities { gust, places: &self.places, steps: Wide::splat(since as f64) }
+        LocalVelocities { now, places: &self.places, steps: Wide::splat(since as f64) }
     }
 
     #[inline(never)]
@@ -115,7 +137,7 @@ impl<'a> Surroundings<'a> {
 /// A [`EddyVelocities`] of rms one and mean zero in the flow around the elements.
 #[derive(Clone, Copy)]
 pub(crate) struct LocalVelocities<'a, S: Register> {
-    gust: EddyVelocities<'a, S>,
+    now: EddyVelocities<'a, S>,
     places: &'a [Place],
     /// Steps since the last look.
     steps: Wide<S>,
@@ -124,7 +146,7 @@ pub(crate) struct LocalVelocities<'a, S: Register> {
 impl<S: Register> AirAtElements<S> for LocalVelocities<'_, S> {
     #[inline(always)]
     fn signal(&self, eddy: u32) -> Vec3<Wide<S>> {
-        self.gust.velocity(eddy)
+        self.now.velocity(eddy)
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@ use super::keys::{self, Quantity};
 use super::memory::BUNDLE_MEMORY_LIMIT;
 use super::note::{Note, Remark};
 use super::{Case, StepLimit};
-use crate::air::{Air, FromFile, Measured};
+use crate::air::{FromFile, Measured};
 use crate::chain::schemes::Scheme;
 use crate::drag::NormalLaw;
 use crate::error::{Fault, Finding, Place, Problem};
@@ -40,7 +40,6 @@ impl Case {
         if check.problems.is_empty() {
             check.memory();
             check.times();
-            check.repetition();
             check.records();
         }
         if check.problems.is_empty() { Ok(self.notes()) } else { Err(check.problems) }
@@ -244,7 +243,7 @@ impl Check<'_> {
         let fault = |what, remedy| Fault::TooMuchMemory { bytes, most, what, remedy };
         let (air, largest) =
             (&case.air, memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.records));
-        let chosen = Air::default_harmonics(air.cutoff_frequency, case.run.duration());
+        let chosen = air.default_harmonics(case.run.duration());
         if largest == memory.chain {
             let fault = fault("the chain", "write a longer one");
             self.blame(&keys::ELEMENT_LENGTH, case.fibre.rest_length(), fault);
@@ -292,17 +291,6 @@ impl Check<'_> {
             self.blame(&keys::OUTPUT_INTERVAL, run.output_interval(), fault);
         }
     }
-
-    /// The turbulence must not repeat within the run.
-    fn repetition(&mut self) {
-        let (air, duration) = (&self.case.air, self.case.run.duration());
-        let cycles = air.cutoff_frequency * duration;
-        if air.records.is_empty() && air.rms() != 0.0 && air.harmonics as f64 <= cycles {
-            let (repeat_time, least) = (air.repeat_time(), (cycles + 1.0).floor());
-            let fault = Fault::Repeats { repeat_time, duration, least };
-            self.blame_key(keys::HARMONICS, air.harmonics.to_string(), fault);
-        }
-    }
 }
 
 /// The records that the turbulence is taken from.
@@ -313,10 +301,10 @@ impl Check<'_> {
             return;
         };
         let eddies = self.case.eddies();
-        let turbulence_of_eddies = self.case.turbulence_of_eddies(&eddies);
+        let turbulence = self.case.turbulence_along(&eddies);
         let (records, convected) =
-            (self.case.air.records.len(), turbulence_of_eddies.iter().any(|t| t.carried.is_some()));
-        if convected && turbulence_of_eddies.iter().any(|eddy_turbulence| eddy_turbulence.forgotten > 0.0) {
+            (self.case.air.records.len(), turbulence.iter().any(|t| t.carried.is_some()));
+        if convected && turbulence.iter().any(|eddy| eddy.forgotten > 0.0) {
             let (other, remedy) =
                 (keys::DECAY_TIME.key, "a record is carried along as it is; leave that out");
             self.blame_key(keys::RECORD, self.names(), Fault::Excludes { other, remedy });
@@ -327,8 +315,7 @@ impl Check<'_> {
             let fault = Fault::RecordsPerEddy { records, eddies: eddies.count() };
             self.blame_key(keys::RECORD, self.names(), fault);
         }
-        let delay: f64 =
-            turbulence_of_eddies.iter().filter_map(|eddy_turbulence| eddy_turbulence.carried).sum();
+        let delay: f64 = turbulence.iter().filter_map(|eddy| eddy.carried).sum();
         let duration = self.case.run.duration() + self.case.run.time_step + delay;
         let sharing = if records == 1 && !convected { eddies.count() } else { 1 };
         let stretches = (sharing * shared.stretches_each()) as f64;

@@ -1,7 +1,7 @@
 //! What a run takes of memory.
 
 use super::Case;
-use crate::air::{EddyModel, Turbulence};
+use crate::air::{EddyModel, Wind};
 
 /// Most memory a bundle of eight fibres may take [bytes].
 pub const BUNDLE_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
@@ -47,7 +47,7 @@ impl Case {
         let harmonics = air.harmonics as f64;
         let synthesis = if air.records.is_empty() { SYNTHESIS * 2.0 * harmonics } else { 0.0 };
         let turbulence = if synthesis <= BUNDLE_MEMORY_LIMIT {
-            Turbulence::memory(air, 1, self.run.duration()) * eddies
+            Wind::memory(air, 1, self.run.duration()) * eddies
         } else {
             0.0
         };

@@ -15,6 +15,7 @@ use crate::air::{Air, Eddies, EddyTurbulence, Surroundings};
 use crate::chain::Strand;
 use crate::chain::schemes::Scheme;
 use crate::drag::Drag;
+use crate::error::FlightFault;
 use crate::fibre::Fibre;
 use crate::vec3::Vec3;
 
@@ -117,11 +118,14 @@ impl Case {
     }
 
     /// What fibres of as many elements have around them in these airs; nothing where they are uniform.
-    pub(crate) fn surroundings<'a>(&self, airs: impl Iterator<Item = &'a Air>) -> Option<Surroundings<'a>> {
+    pub(crate) fn surroundings(
+        &self,
+        airs: impl Iterator<Item = Air>,
+    ) -> Result<Option<Surroundings>, FlightFault> {
         if self.air.is_uniform() {
-            return None;
+            return Ok(None);
         }
-        Some(Surroundings::new(airs.collect(), self.fibre.elements, self.steps_between_looks()))
+        Surroundings::new(airs.collect(), self.fibre.elements, self.steps_between_looks()).map(Some)
     }
 
     /// Steps from one look at the flow around the fibre to the next: those in which the mean flow passes 1/64
@@ -140,8 +144,8 @@ impl Case {
     }
 
     /// The turbulence of each of them.
-    pub fn turbulence_of_eddies(&self, eddies: &Eddies) -> Vec<EddyTurbulence> {
-        self.air.turbulence_of_eddies(self.along(), self.fibre.elements, eddies)
+    pub fn turbulence_along(&self, eddies: &Eddies) -> Vec<EddyTurbulence> {
+        self.air.turbulence_along(self.along(), self.fibre.elements, eddies)
     }
 
     /// The fibre and what acts on it, as the chain takes it.

@@ -73,6 +73,36 @@ pub(crate) struct Node {
 }
 
 impl Constants {
+    /// Of up to eight fibres; lanes left over repeat the first.
+    fn of(strands: &[Strand]) -> Self {
+        let pick = |i: usize| strands[if i < strands.len() { i } else { 0 }];
+        let lanes = |value: &dyn Fn(&Strand) -> f64| Lanes::from_fn(|i| value(&pick(i)));
+        let elements = strands[0].fibre.elements;
+        let direction = Vec3::new(
+            lanes(&|s| s.fibre.direction.x),
+            lanes(&|s| s.fibre.direction.y),
+            lanes(&|s| s.fibre.direction.z),
+        );
+        let node = |i: usize, held: &dyn Fn(&Strand) -> bool| Node {
+            mass: lanes(&|s| s.fibre.node_mass(i)),
+            inverse_mass: lanes(&|s| if held(s) { 0.0 } else { 1.0 / s.fibre.node_mass(i) }),
+            weight: lanes(&|s| s.fibre.node_mass(i) * s.gravity),
+        };
+        Self {
+            root: node(0, &|s| s.fibre.root != Root::Free),
+            // A chain of one element has no such node; then this is not used.
+            node: node(1, &|_| false),
+            end: node(elements, &|_| false),
+            rest_length: lanes(&|s| s.fibre.rest_length()),
+            axial_stiffness: lanes(&|s| s.fibre.axial_stiffness()),
+            bending_stiffness: lanes(&|s| s.fibre.rotational_stiffness()),
+            root_stiffness: lanes(&|s| s.fibre.root_stiffness()),
+            root_direction: direction,
+            damping: lanes(&|s| s.damping),
+            half_drag: DragLanes::pack(&std::array::from_fn::<_, WIDTH, _>(|i| pick(i).drag.half())),
+        }
+    }
+
     /// Node `i` of `nodes`.
     #[inline(always)]
     pub(crate) fn node(&self, i: usize, nodes: usize) -> &Node {
@@ -90,52 +120,57 @@ impl Chain {
     /// Packs up to eight fibres, straight and at rest, their roots at the origin.
     ///
     /// Lanes left over repeat the first fibre. All must have the same number of elements as the first.
-    pub fn straight(strands: &[Strand], scheme: Scheme) -> Self {
-        let pick = |i: usize| strands[if i < strands.len() { i } else { 0 }];
-        let lanes = |value: &dyn Fn(&Strand) -> f64| Lanes::from_fn(|i| value(&pick(i)));
+    pub(crate) fn straight(strands: &[Strand], scheme: Scheme) -> Self {
         let elements = strands[0].fibre.elements;
-        let direction = Vec3::new(
-            lanes(&|s| s.fibre.direction.x),
-            lanes(&|s| s.fibre.direction.y),
-            lanes(&|s| s.fibre.direction.z),
-        );
-        let rest_length = lanes(&|s| s.fibre.rest_length());
+        let constants = Constants::of(strands);
+        let (direction, rest_length) = (constants.root_direction, constants.rest_length);
         let position = (0..=elements).map(|i| direction * (rest_length * Lanes::splat(i as f64))).collect();
-        let node = |i: usize, held: &dyn Fn(&Strand) -> bool| Node {
-            mass: lanes(&|s| s.fibre.node_mass(i)),
-            inverse_mass: lanes(&|s| if held(s) { 0.0 } else { 1.0 / s.fibre.node_mass(i) }),
-            weight: lanes(&|s| s.fibre.node_mass(i) * s.gravity),
-        };
         Self {
             position,
             velocity: vec![Vec3::ZERO; elements + 1],
             earlier: vec![Vec3::ZERO; elements + 1],
             tensions: implicit::Tensions::new(if scheme == Scheme::ImplicitTension { elements } else { 0 }),
-            constants: Constants {
-                root: node(0, &|s| s.fibre.root != Root::Free),
-                // A chain of one element has no such node; then this is not used.
-                node: node(1, &|_| false),
-                end: node(elements, &|_| false),
-                rest_length,
-                axial_stiffness: lanes(&|s| s.fibre.axial_stiffness()),
-                bending_stiffness: lanes(&|s| s.fibre.rotational_stiffness()),
-                root_stiffness: lanes(&|s| s.fibre.root_stiffness()),
-                root_direction: direction,
-                damping: lanes(&|s| s.damping),
-                half_drag: DragLanes::pack(&std::array::from_fn::<_, WIDTH, _>(|i| pick(i).drag.half())),
-            },
+            constants,
+        }
+    }
+
+    /// Makes other fibres of as many elements of the chains, which stay where they are and go as fast as they go.
+    /// Tensions follow the stiffness.
+    pub(crate) fn become_of(&mut self, strands: &[Strand]) {
+        let before = self.constants.axial_stiffness;
+        self.constants = Constants::of(strands);
+        let after = self.constants.axial_stiffness;
+        for tension in &mut self.tensions.tension {
+            *tension = Lanes::from_fn(|i| tension.0[i] * (after.0[i] / before.0[i]));
         }
     }
 
     /// Gives each element the implicit scheme's tension that its stretch stands for.
     pub(crate) fn settle_tensions(&mut self) {
+        let stretched: Vec<Lanes> = self.tension_of_stretch().collect();
+        for (tension, stretched) in self.tensions.tension.iter_mut().zip(stretched) {
+            *tension = stretched;
+        }
+    }
+
+    /// Tension of each element [N], negative in compression: of its stretch, or with implicit tension that which
+    /// the scheme has solved for.
+    pub fn tension(&self) -> Vec<Lanes> {
+        // There is one more than there are elements, or none.
+        match self.tensions.tension.split_last() {
+            Some((_, solved)) if solved.len() == self.elements() => solved.to_vec(),
+            _ => self.tension_of_stretch().collect(),
+        }
+    }
+
+    fn tension_of_stretch(&self) -> impl Iterator<Item = Lanes> {
         let c = &self.constants;
-        for (tension, pair) in self.tensions.tension.iter_mut().zip(self.position.windows(2)) {
-            *tension = Lanes::from_fn(|i| {
+        self.position.windows(2).map(|pair| {
+            Lanes::from_fn(|i| {
                 let length = (pair[1].lane(i) - pair[0].lane(i)).norm();
                 c.axial_stiffness.0[i] * (length - c.rest_length.0[i])
-            });
-        }
+            })
+        })
     }
 
     /// Number of elements `N`.

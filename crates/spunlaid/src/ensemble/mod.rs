@@ -5,9 +5,11 @@ mod results;
 mod trajectory;
 mod turbulence;
 
+pub use crate::flight::Job;
+pub use crate::observe::Sample;
 pub use order::in_order;
-pub use results::{Collector, EndNodeResults, ErrorOverTime, LedgerError, NodeResults, Results};
-pub use trajectory::{Job, KeepShapes, Sample, Shape, Trajectory, fly_together, pace};
+pub use results::{Collector, Curve, Number, Place, Results};
+pub use trajectory::{Keep, KeepShapes, Shape, Trajectory, fly_together, pace};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 
 use crate::case::Case;
@@ -30,14 +32,14 @@ pub struct Computing<'a> {
 
 /// Flies the replicates of a case and hands each flight over, in the order of the replicates.
 ///
-/// * `keep_shapes` – which flights record the whole fibre over time
+/// * `keep` – whether curves are measured, and which fibres are kept whole over time
 /// * `take` – receives the flights; an error it returns ends the ensemble
 ///
 /// # Errors
 /// A fibre that stops being finite, a stop from elsewhere, and what `take` returns.
 pub fn fly<E: From<Error>>(
     case: &Case,
-    keep_shapes: KeepShapes,
+    keep: Keep,
     computing: Computing<'_>,
     mut take: impl FnMut(Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -49,7 +51,7 @@ pub fn fly<E: From<Error>>(
             let first = bundle as u64 * WIDTH as u64;
             let last = case.run.replicates.min(first + WIDTH as u64);
             let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
-            fly_together(&jobs, keep_shapes, computing)
+            fly_together(&jobs, keep, computing)
         },
         |flights| flights?.into_iter().try_for_each(&mut take),
     )

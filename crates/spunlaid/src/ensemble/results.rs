@@ -1,231 +1,184 @@
 //! What an ensemble amounts to.
 
 use super::Trajectory;
-use crate::case::Case;
-use crate::observe::NodeSpread;
-use crate::statistics::{Estimate, PowerSpectrum, median};
+use crate::observe::{Measure, Over, Value};
+use crate::statistics::{Estimate, median};
 
-/// Results of an ensemble, taken in flight by flight: memory does not grow with the flights' records.
+/// Results of an ensemble, taken in trajectory by trajectory: memory does not grow with their records.
 #[derive(Clone, Debug)]
 pub struct Results {
-    /// Motion of the end node.
-    pub end_node: EndNodeResults,
-    /// The paper's work check [%].                                            theory.md (35)
-    pub work_error_percent: LedgerError,
-    /// The full energy balance, relative to the work of the air [%].          theory.md (36)
-    pub balance_error_percent: LedgerError,
-    /// What the implicit tension has dissipated, relative to the work of the air [%]; zero with the
-    /// explicit schemes.
-    pub tension_dissipation_percent: LedgerError,
-    /// Largest strain of any element at any recorded instant [-].
-    pub max_strain: f64,
-    /// Share of the time that the fibres' elements have spent outside of what the flow knows, mean over the
-    /// replicates [-]; none where the air is the same everywhere.
-    pub outside: Option<f64>,
-    /// Motion of the `N+1` nodes.
-    pub nodes: Vec<NodeResults>,
-    /// Both energy errors at the recorded instants.
-    pub errors: Vec<ErrorOverTime>,
-    /// Power spectral densities of the end node's y and z [m²/Hz] at frequencies [Hz], after the spin-up.
-    pub motion_spectrum: Vec<(f64, f64, f64)>,
-    /// The first flights, whole; see [`Results::collector`].
-    pub flights: Vec<Trajectory>,
+    /// The measures that are numbers, in the order of their declarations.
+    pub numbers: Vec<Number>,
+    /// The measures that are curves, in the order of their declarations; empty where none were taken.
+    pub curves: Vec<Curve>,
+    /// The first trajectories, whole; see [`Results::collector`].
+    pub trajectories: Vec<Trajectory>,
 }
 
-/// Motion of the end node over the replicates.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct EndNodeResults {
-    /// Standard deviation over time of y [m].
-    pub amplitude_y: Estimate,
-    /// Standard deviation over time of z [m].
-    pub amplitude_z: Estimate,
-    /// Crossing frequency of y [Hz].
-    pub frequency_y: Estimate,
-    /// Crossing frequency of z [Hz].
-    pub frequency_z: Estimate,
-    /// Mean over time of x [m].
-    pub mean_x: Estimate,
-}
-
-/// An energy error of an ensemble [%].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LedgerError {
-    /// At the end, mean over the replicates.
-    pub final_mean: f64,
-    /// Median over time of each replicate, median of those.
-    pub time_median: f64,
-}
-
-/// Motion of a node, mean and standard error over the replicates.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct NodeResults {
-    /// Distance from the root along the fibre [m].
-    pub distance: f64,
-    /// Mean and standard error of the standard deviation of y [m]; no error from a single replicate.
-    pub amplitude_y: (f64, Option<f64>),
-    /// Mean and standard error of the standard deviation of z [m].
-    pub amplitude_z: (f64, Option<f64>),
-}
-
-/// Energy errors over the replicates at one instant [%]; NaN while undefined.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ErrorOverTime {
-    /// Time [s].
-    pub time: f64,
-    /// Mean and largest of the work check.
-    pub work: (f64, f64),
-    /// Mean and largest of the energy balance.
-    pub balance: (f64, f64),
-}
-
-/// An energy error over the replicates at one instant: how many defined, their sum, the largest.
-type ErrorSums = (f64, f64, f64);
-
-/// Takes in the flights of an ensemble in order; [`Collector::finish`] gives the [`Results`].
+/// A measure that is a number, over the replicates.
 #[derive(Clone, Debug)]
+pub struct Number {
+    /// Which measure.
+    pub measure: &'static Measure,
+    /// Mean and standard error over the replicates of which it is defined, and the values of all, in their order;
+    /// NaN where it is not defined. SI units.
+    pub estimate: Estimate,
+}
+
+impl Number {
+    /// What stands for all replicates, as the measure declares it: mean, median or largest.
+    pub fn value(&self) -> f64 {
+        let values = &self.estimate.values;
+        match self.measure.over_replicates {
+            Over::Mean => self.estimate.mean,
+            Over::Median => median(values),
+            Over::Largest => values.iter().copied().fold(f64::NAN, f64::max),
+        }
+    }
+}
+
+/// A measure that is a curve, over the replicates.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// Which measure.
+    pub measure: &'static Measure,
+    /// Its places along the fibre, times or frequencies, in their order.
+    pub places: Vec<Place>,
+}
+
+/// A point of a curve, in SI units; NaN where the measure is not defined for any replicate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    /// Distance from the root [m], time [s] or frequency [Hz].
+    pub at: f64,
+    /// Mean over the replicates.
+    pub mean: f64,
+    /// Standard error of the mean; none from a single replicate.
+    pub standard_error: Option<f64>,
+    /// The largest of any replicate.
+    pub largest: f64,
+}
+
+/// Takes in the trajectories of an ensemble in order; [`Collector::finish`] gives the [`Results`].
+#[derive(Clone, Debug, Default)]
 pub struct Collector {
     keep: usize,
-    spin_up: f64,
-    rest_length: f64,
-    /// Per replicate: amplitude y, z, frequency y, z, mean x.
-    end_node: [Vec<f64>; 5],
-    /// Per replicate, work check, balance and dissipation: final value and median over time.
-    finals: [Vec<f64>; 3],
-    medians: [Vec<f64>; 3],
-    max_strain: f64,
-    outside: Option<f64>,
-    /// Per node, y and z: running mean and sum of squares over the replicates.
-    nodes: Vec<[(f64, f64); 2]>,
-    /// Per instant: time, and of both errors count, sum and largest.
-    errors: Vec<(f64, [ErrorSums; 2])>,
-    spectra: [PowerSpectrum; 2],
-    flights: Vec<Trajectory>,
+    /// The values of the numbers, and the places and sums of the curves.
+    numbers: Vec<(&'static Measure, Vec<f64>)>,
+    curves: Vec<(&'static Measure, Vec<f64>, Vec<Sums>)>,
+    trajectories: Vec<Trajectory>,
+}
+
+/// Running mean and sum of squares over the replicates (Welford), and the largest.
+#[derive(Clone, Copy, Debug)]
+struct Sums {
+    count: f64,
+    mean: f64,
+    squares: f64,
+    largest: f64,
+}
+
+impl Sums {
+    const NONE: Self = Self { count: 0.0, mean: 0.0, squares: 0.0, largest: f64::NAN };
+
+    fn add(&mut self, value: f64) {
+        if !value.is_finite() {
+            return;
+        }
+        self.count += 1.0;
+        let off = value - self.mean;
+        self.mean += off / self.count;
+        self.squares += off * (value - self.mean);
+        self.largest = self.largest.max(value);
+    }
+
+    fn at(self, place: f64) -> Place {
+        let Self { count, mean, squares, largest } = self;
+        Place {
+            at: place,
+            mean: if count > 0.0 { mean } else { f64::NAN },
+            standard_error: (count > 1.0).then(|| (squares / (count - 1.0) / count).sqrt()),
+            largest,
+        }
+    }
 }
 
 impl Results {
-    /// Ready to take in the flights of a case.
+    /// Ready to take in trajectories of one case.
     ///
-    /// * `keep` – how many of the first flights to keep whole
-    pub fn collector(case: &Case, keep: usize) -> Collector {
-        let run = &case.run;
-        let samples = ((run.steps - run.spin_up_steps) / run.output_steps) as usize + 1;
-        let spectrum = PowerSpectrum::new(run.output_interval(), PowerSpectrum::segment_length(samples));
-        Collector {
-            keep,
-            spin_up: run.spin_up(),
-            rest_length: case.fibre.rest_length(),
-            end_node: Default::default(),
-            finals: Default::default(),
-            medians: Default::default(),
-            max_strain: 0.0,
-            outside: None,
-            nodes: vec![Default::default(); case.fibre.elements + 1],
-            errors: Vec::new(),
-            spectra: [spectrum.clone(), spectrum],
-            flights: Vec::new(),
-        }
+    /// * `keep` – how many of the first trajectories to keep whole
+    pub fn collector(keep: usize) -> Collector {
+        Collector { keep, ..Collector::default() }
+    }
+
+    /// Number of replicates taken in.
+    pub fn replicates(&self) -> usize {
+        self.numbers.first().map_or(0, |number| number.estimate.values.len())
+    }
+
+    /// A number by its measure's name; none where it does not apply to the case.
+    pub fn number(&self, name: &str) -> Option<&Number> {
+        self.numbers.iter().find(|number| number.measure.name == name)
+    }
+
+    /// Mean and standard error of a number by its measure's name; NaN where there is none.
+    pub fn estimate(&self, name: &str) -> Estimate {
+        let nothing = || Estimate { mean: f64::NAN, standard_error: None, values: Vec::new() };
+        self.number(name).map_or_else(nothing, |number| number.estimate.clone())
+    }
+
+    /// A curve by its measure's name; empty where there is none.
+    pub fn curve(&self, name: &str) -> &[Place] {
+        self.curves.iter().find(|curve| curve.measure.name == name).map_or(&[], |curve| &curve.places)
     }
 }
 
 impl Collector {
-    /// Takes in one more flight.
-    pub fn take(&mut self, flight: &Trajectory) {
-        let motion = &flight.end_node;
-        let values =
-            [motion.amplitude_y, motion.amplitude_z, motion.frequency_y, motion.frequency_z, motion.mean.x];
-        for (all, value) in self.end_node.iter_mut().zip(values) {
-            all.push(value);
-        }
-        self.max_strain = self.max_strain.max(flight.max_strain);
-        if let Some(outside) = flight.outside {
-            *self.outside.get_or_insert(0.0) += outside;
-        }
-        self.take_nodes(&flight.nodes);
-        self.take_errors(flight);
-        let flown = |axis: fn(&super::Sample) -> f64| -> Vec<f64> {
-            flight.samples.iter().filter(|s| s.time >= self.spin_up).map(axis).collect()
-        };
-        let (y, z) = (flown(|s| s.end.y), flown(|s| s.end.z));
-        self.spectra[0].add(&y);
-        self.spectra[1].add(&z);
-        if self.flights.len() < self.keep {
-            self.flights.push(flight.clone());
-        }
-    }
-
-    fn take_nodes(&mut self, nodes: &[NodeSpread]) {
-        let count = self.end_node[0].len() as f64;
-        for (sums, node) in self.nodes.iter_mut().zip(nodes) {
-            for ((mean, squares), value) in sums.iter_mut().zip([node.amplitude_y, node.amplitude_z]) {
-                let off = value - *mean;
-                *mean += off / count;
-                *squares += off * (value - *mean);
-            }
-        }
-    }
-
-    fn take_errors(&mut self, flight: &Trajectory) {
-        self.errors.resize(flight.samples.len(), Default::default());
-        let mut over_time = [Vec::new(), Vec::new(), Vec::new()];
-        for ((time, sums), sample) in self.errors.iter_mut().zip(&flight.samples) {
-            *time = sample.time;
-            let errors = [sample.work_error_percent(), sample.balance_error_percent()];
-            over_time[2].push(sample.tension_dissipation_percent());
-            for ((error, over_time), (count, sum, largest)) in
-                errors.into_iter().zip(&mut over_time).zip(sums)
-            {
-                over_time.push(error);
-                if error.is_finite() {
-                    *count += 1.0;
-                    *sum += error;
-                    *largest = largest.max(error);
+    /// Takes in one more trajectory.
+    pub fn take(&mut self, trajectory: &Trajectory) {
+        if self.numbers.is_empty() && self.curves.is_empty() {
+            for (measure, value) in &trajectory.values {
+                match value {
+                    Value::Number(_) => self.numbers.push((measure, Vec::new())),
+                    Value::Curve(places, _) => {
+                        self.curves.push((measure, places.clone(), vec![Sums::NONE; places.len()]));
+                    }
                 }
             }
         }
-        for ((errors, finals), medians) in over_time.iter().zip(&mut self.finals).zip(&mut self.medians) {
-            finals.push(errors.last().copied().unwrap_or(f64::NAN));
-            medians.push(median(errors));
+        let (mut numbers, mut curves) = (self.numbers.iter_mut(), self.curves.iter_mut());
+        for (_, value) in &trajectory.values {
+            match value {
+                Value::Number(value) => numbers.next().into_iter().for_each(|(_, all)| all.push(*value)),
+                Value::Curve(_, values) => curves.next().into_iter().for_each(|(.., sums)| {
+                    sums.iter_mut().zip(values).for_each(|(sums, value)| sums.add(*value));
+                }),
+            }
+        }
+        if self.trajectories.len() < self.keep {
+            self.trajectories.push(trajectory.clone());
         }
     }
 
-    /// The results over all flights taken in.
+    /// The results over all trajectories taken in.
     pub fn finish(self) -> Results {
-        let n = self.end_node[0].len() as f64;
-        let [amplitude_y, amplitude_z, frequency_y, frequency_z, mean_x] = self.end_node.map(Estimate::of);
-        let ledger = |i: usize| LedgerError {
-            final_mean: mean_of_finite(&self.finals[i]),
-            time_median: median(&self.medians[i]),
-        };
-        let estimate =
-            |(mean, squares): (f64, f64)| (mean, (n > 1.0).then(|| (squares / (n - 1.0) / n).sqrt()));
-        let nodes = self.nodes.iter().enumerate().map(|(i, &[y, z])| NodeResults {
-            distance: i as f64 * self.rest_length,
-            amplitude_y: estimate(y),
-            amplitude_z: estimate(z),
+        let numbers = self.numbers.into_iter();
+        let curves = self.curves.into_iter().map(|(measure, places, sums)| {
+            let places = places.into_iter().zip(sums).map(|(place, sums)| sums.at(place)).collect();
+            Curve { measure, places }
         });
-        let errors = self.errors.iter().map(|&(time, [work, balance])| {
-            let of = |(count, sum, largest): ErrorSums| {
-                if count > 0.0 { (sum / count, largest) } else { (f64::NAN, f64::NAN) }
-            };
-            ErrorOverTime { time, work: of(work), balance: of(balance) }
-        });
-        let [y, z] = self.spectra.map(PowerSpectrum::density);
         Results {
-            end_node: EndNodeResults { amplitude_y, amplitude_z, frequency_y, frequency_z, mean_x },
-            work_error_percent: ledger(0),
-            balance_error_percent: ledger(1),
-            tension_dissipation_percent: ledger(2),
-            max_strain: self.max_strain,
-            outside: self.outside.map(|sum| sum / n),
-            nodes: nodes.collect(),
-            errors: errors.collect(),
-            motion_spectrum: y.iter().zip(&z).map(|(&(f, py), &(_, pz))| (f, py, pz)).collect(),
-            flights: self.flights,
+            numbers: numbers
+                .map(|(measure, values)| Number { measure, estimate: of_the_defined(values) })
+                .collect(),
+            curves: curves.collect(),
+            trajectories: self.trajectories,
         }
     }
 }
 
-fn mean_of_finite(values: &[f64]) -> f64 {
-    let finite: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
-    finite.iter().sum::<f64>() / finite.len() as f64
+/// Mean and standard error of the values that are defined, with all of them.
+fn of_the_defined(values: Vec<f64>) -> Estimate {
+    let defined = values.iter().copied().filter(|value| value.is_finite()).collect();
+    Estimate { values, ..Estimate::of(defined) }
 }

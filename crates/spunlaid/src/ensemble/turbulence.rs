@@ -1,8 +1,9 @@
 //! The turbulence the fibres fly in, measured as a hot wire would.
 
 use super::{Computing, Job};
-use crate::air::{Spectrum, Stream, StreamKey, Turbulence, Wind};
+use crate::air::{Spectrum, Stream, StreamKey, Wind};
 use crate::case::Case;
+use crate::error::Error;
 use crate::lanes::{Isa, WIDTH};
 use crate::statistics::PowerSpectrum;
 
@@ -20,18 +21,20 @@ pub struct SpectrumPoint {
 /// One-sided spectrum of the velocity fluctuation along the first replicates, up to four times the cut-off.
 ///
 /// Averaged over components, eddies and up to eight replicates (Welch). Empty without turbulence.
-pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<SpectrumPoint> {
+///
+/// # Errors
+/// A case whose wind cannot be made, see [`Wind::along`].
+pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<SpectrumPoint>, Error> {
     if case.air.rms() == 0.0 {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     let duration = case.run.duration();
     let eddies = case.eddies();
-    let turbulence_of_eddies = case.turbulence_of_eddies(&eddies);
+    let turbulence = case.turbulence_along(&eddies);
     let lanes = case.run.replicates.min(WIDTH as u64) as usize;
-    let streams: Vec<Stream<'_>> =
-        (0..lanes as u64).map(|replicate| Job { case, replicate }.stream(&turbulence_of_eddies)).collect();
-    let turbulence = Turbulence::of(computing.isa, &streams, duration);
-    let mut wind = Wind::new(&turbulence);
+    let streams: Vec<Stream> =
+        (0..lanes as u64).map(|replicate| Job { case, replicate }.stream(&eddies)).collect();
+    let mut wind = Wind::along(computing.isa, streams, duration)?;
     let interval = 1.0 / (8.0 * case.air.cutoff_frequency);
     let samples = ((duration / interval) as usize).min(1 << 16);
     let mut spectrum = PowerSpectrum::new(interval, PowerSpectrum::segment_length(samples));
@@ -47,12 +50,10 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<Spectru
         spectrum.add(record);
     }
     // What the mean flow does not vary in is the same in all eddies.
-    let wanted: Vec<Spectrum<'_>> = turbulence_of_eddies
-        .iter()
-        .flat_map(|eddy_turbulence| (0..3).map(|c| eddy_turbulence.spectrum(&case.air, c)))
-        .collect();
+    let wanted: Vec<Spectrum<'_>> =
+        turbulence.iter().flat_map(|eddy| (0..3).map(|c| eddy.spectrum(&case.air, c))).collect();
     let density = spectrum.density();
-    density
+    let points = density
         .into_iter()
         .map(|(frequency, realised)| {
             let omega = 2.0 * std::f64::consts::PI * frequency;
@@ -61,18 +62,21 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<Spectru
             let wanted = sum / wanted.len() as f64 * 2.0 * std::f64::consts::PI;
             SpectrumPoint { frequency, realised, wanted }
         })
-        .collect()
+        .collect();
+    Ok(points)
 }
 
 /// Velocity of the air along x in the first eddy of the first replicate: times [s] and values [m/s], sixteen to
 /// the shortest period, over the run or `most` [s] of it.
-pub fn velocity_record(case: &Case, isa: Isa, most: f64) -> Vec<(f64, f64)> {
+///
+/// # Errors
+/// A case whose wind cannot be made, see [`Wind::along`].
+pub fn velocity_record(case: &Case, isa: Isa, most: f64) -> Result<Vec<(f64, f64)>, Error> {
     let duration = case.run.duration().min(most);
     let stream = [(case.air.clone(), StreamKey { seed: case.run.seed, replicate: 0 })];
-    let turbulence = Turbulence::synthesise(isa, &stream, 1, duration);
-    let mut wind = Wind::new(&turbulence);
+    let mut wind = Wind::uniform(isa, &stream, 1, duration)?;
     let interval = 1.0 / (16.0 * case.air.cutoff_frequency);
     let samples = ((duration / interval) as usize).min(1 << 16);
     let times = (0..samples).map(|i| i as f64 * interval);
-    times.map(|t| (t, wind.at(t).first().map_or(case.air.velocity, |v| v.lane(0).x))).collect()
+    Ok(times.map(|t| (t, wind.at(t).first().map_or(case.air.velocity, |v| v.lane(0).x))).collect())
 }

@@ -315,7 +315,7 @@ impl Written {
 
         air.harmonics = match self.harmonics {
             Some(harmonics) => usize::try_from(harmonics).unwrap_or(usize::MAX),
-            None => Air::default_harmonics(air.cutoff_frequency, run.duration()),
+            None => air.default_harmonics(run.duration()),
         };
         notes.append(&mut chosen);
         Ok(Case { fibre, air, drag, run })

@@ -8,7 +8,6 @@ mod fits;
 
 pub use claims::{Claim, Verdict, claims_of_step_errors, claims_of_trend};
 
-use crate::air::Air;
 use crate::case::{Case, ERROR_TOLERANCE};
 use crate::chain::schemes::Scheme;
 use crate::drag::FrictionLaw;
@@ -105,7 +104,7 @@ impl Parameter {
             }
             Self::Cutoff => {
                 case.air.cutoff_frequency = value;
-                case.air.harmonics = Air::default_harmonics(value, case.run.duration());
+                case.air.harmonics = case.air.default_harmonics(case.run.duration());
             }
         }
         case

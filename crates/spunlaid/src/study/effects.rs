@@ -13,10 +13,10 @@
 //! phases too. The other comes from what the line leaves of the points' means, be that noise or curvature.
 
 use super::journal::Journal;
-use super::measures::MEASURES;
 use super::run::results_of_point;
 use super::{Point, Study};
 use crate::error::Error;
+use crate::observe::MEASURES;
 use crate::statistics::student_t_95;
 
 /// Main effects on one result, the largest first.

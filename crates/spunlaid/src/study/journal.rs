@@ -2,20 +2,21 @@
 //!
 //! ```text
 //! header   one line of text: what it is, format, version of the program, the study's identity
-//! record   crc32 · kind · point · replicate · eight numbers, little-endian, of one length
+//! record   crc32 · kind · point · replicate · its numbers, little-endian, of one length
 //! ```
 //!
 //! Records are only ever added. What a crash has torn off or damaged fails its checksum; such a record does not
 //! count, and the fibre is flown again.
 
-use super::measures::{Landing, MEASURES, Record};
+use super::measures::{Landing, Record};
 use crate::error::JournalError;
+use crate::observe::MEASURES;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 const MAGIC: &str = "spunlaid-journal";
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 /// Longest header [bytes].
 const LONGEST_HEADER: usize = 200;
 /// Length of a record [bytes].

@@ -1,64 +1,11 @@
-//! What a study keeps of a flight.
+//! What a study keeps of a trajectory.
 
-use crate::ensemble::{Sample, Trajectory};
-use crate::statistics::median;
+use crate::ensemble::Trajectory;
+use crate::observe::{MEASURES, NUMBERS};
 
-/// Something measured of every fibre.
-#[derive(Clone, Copy, Debug)]
-pub struct Measure {
-    /// Name in a study file, `amplitude_y`.
-    pub name: &'static str,
-    /// Name in tables, with its unit: `amplitude_y_m`.
-    pub column: &'static str,
-    /// What it is.
-    pub meaning: &'static str,
-    of: fn(&Trajectory) -> f64,
-}
-
-const fn measure(
-    name: &'static str,
-    column: &'static str,
-    meaning: &'static str,
-    of: fn(&Trajectory) -> f64,
-) -> Measure {
-    Measure { name, column, meaning, of }
-}
-
-/// Number of measures.
-const COUNT: usize = 8;
-
-/// All of them, in the order of the tables.
-pub const MEASURES: [Measure; COUNT] = [
-    measure("amplitude_y", "amplitude_y_m", "standard deviation over time of the free end’s y", |f| {
-        f.end_node.amplitude_y
-    }),
-    measure("amplitude_z", "amplitude_z_m", "standard deviation over time of the free end’s z", |f| {
-        f.end_node.amplitude_z
-    }),
-    measure("frequency_y", "frequency_y_hz", "half the sign changes of the free end’s y per second", |f| {
-        f.end_node.frequency_y
-    }),
-    measure("frequency_z", "frequency_z_hz", "half the sign changes of the free end’s z per second", |f| {
-        f.end_node.frequency_z
-    }),
-    measure("mean_x", "mean_x_m", "mean over time of the free end’s x", |f| f.end_node.mean.x),
-    measure("work_error", "work_error_percent", "the paper’s work check, median over time", |f| {
-        over_time(f, Sample::work_error_percent)
-    }),
-    measure("balance_error", "balance_error_percent", "the full energy balance, median over time", |f| {
-        over_time(f, Sample::balance_error_percent)
-    }),
-    measure("max_strain", "max_strain", "largest strain of an element at the recorded instants", |f| {
-        f.max_strain
-    }),
-];
-
-fn over_time(flight: &Trajectory, of: fn(&Sample) -> f64) -> f64 {
-    median(&flight.samples.iter().map(of).collect::<Vec<_>>())
-}
-
-/// The [`MEASURES`] of one fibre, SI units and percent.
-pub type Measured = [f64; COUNT];
+/// The numbers measured of one fibre, in the order of [`MEASURES`]; NaN where one does not apply. SI units and
+/// percent.
+pub type Measured = [f64; NUMBERS];
 
 /// What became of one replicate of one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,7 +19,7 @@ pub struct Record {
 }
 
 /// How a flight ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Landing {
     /// With results.
     Measured(Measured),
@@ -85,6 +32,21 @@ pub enum Landing {
     },
 }
 
+/// To the bit: a measure that does not apply is NaN, and like itself.
+impl PartialEq for Landing {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Measured(a), Self::Measured(b)) => {
+                a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+            }
+            (Self::Lost { node: a, time: t }, Self::Lost { node: b, time: u }) => {
+                a == b && t.to_bits() == u.to_bits()
+            }
+            _ => false,
+        }
+    }
+}
+
 impl Landing {
     /// What was measured, if anything.
     pub fn measured(&self) -> Option<&Measured> {
@@ -95,9 +57,7 @@ impl Landing {
     }
 }
 
-impl Measure {
-    /// All measures of a flight.
-    pub fn all(flight: &Trajectory) -> Measured {
-        MEASURES.map(|measure| (measure.of)(flight))
-    }
+/// The numbers of a trajectory.
+pub fn measured(trajectory: &Trajectory) -> Measured {
+    MEASURES.map(|measure| trajectory.number(measure.name))
 }

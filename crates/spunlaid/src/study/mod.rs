@@ -17,10 +17,11 @@ mod pack;
 mod run;
 mod sobol;
 
+pub use crate::observe::MEASURES;
 pub use design::{Design, Factor, Levels, Spacing};
 pub use effects::{Effect, Ranking, rankings};
 pub use journal::{Found, Header, Journal};
-pub use measures::{Landing, MEASURES, Measure, Measured, Record};
+pub use measures::{Landing, Measured, Record, measured};
 pub use pack::{Batch, fly_batches};
 pub use run::{PointResults, Progress, results_of_point, run};
 
@@ -157,4 +158,4 @@ impl Study {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

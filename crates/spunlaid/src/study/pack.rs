@@ -1,11 +1,9 @@
 //! Bundles filled across points, so that ten replicates of six points leave no lane empty.
 
 use super::Point;
-use crate::air::FromFile;
-use crate::case::Case;
-use crate::drag::Curve;
-use crate::ensemble::{Computing, Job, KeepShapes, Trajectory, fly_together, in_order};
+use crate::ensemble::{Computing, Job, Keep, Trajectory, fly_together, in_order};
 use crate::error::Error;
+use crate::flight::Common;
 use crate::lanes::WIDTH;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -21,42 +19,6 @@ pub struct Batch {
 
 /// A fibre lost on its way: the point, the replicate and what was wrong.
 pub(super) type Lost = (usize, u64, Error);
-
-/// What fibres that fly side by side must have in common; all else may differ from lane to lane.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Common {
-    elements: usize,
-    eddy_of_element: Vec<u32>,
-    time_step: u64,
-    steps: [u64; 3],
-    cutoff_frequency: u64,
-    records: Vec<u32>,
-    steps_between_looks: u64,
-    harmonics: usize,
-    scheme: &'static str,
-    damped: bool,
-    drag_curves: [Option<Curve>; 2],
-}
-
-impl Common {
-    fn of(case: &Case) -> Self {
-        let Case { fibre, air, run, .. } = case;
-        Self {
-            elements: fibre.elements,
-            eddy_of_element: case.eddies().of_element().to_vec(),
-            time_step: run.time_step.to_bits(),
-            steps: [run.steps, run.spin_up_steps, run.output_steps],
-            cutoff_frequency: air.cutoff_frequency.to_bits(),
-            records: air.records.iter().map(FromFile::checksum).collect(),
-            // None is in a uniform flow.
-            steps_between_looks: if air.is_uniform() { 0 } else { case.steps_between_looks() },
-            harmonics: air.harmonics,
-            scheme: run.scheme.name(),
-            damped: run.damping != 0.0,
-            drag_curves: case.strand().drag.curves(),
-        }
-    }
-}
 
 /// Jobs shared out to bundles.
 #[derive(Debug, Default)]
@@ -119,7 +81,7 @@ fn length(batch: &Batch) -> u64 {
 
 /// Flies batches of points, packed across points.
 ///
-/// * `keep_shapes` – which flights record the whole fibre over time, by index of the replicate
+/// * `keep` – which flights record the whole fibre over time, by index of the replicate
 /// * `take` – receives point and flight; the replicates of a batch come in their order
 ///
 /// # Errors
@@ -127,7 +89,7 @@ fn length(batch: &Batch) -> u64 {
 pub fn fly_batches<E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
-    keep_shapes: KeepShapes,
+    keep: Keep,
     computing: Computing<'_>,
     mut take: impl FnMut(usize, Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -135,7 +97,7 @@ pub fn fly_batches<E: From<Error>>(
         Some((.., error)) => Err(error),
         None => Ok(flights),
     };
-    fly_and_land(points, batches, keep_shapes, computing, flown, |flights| {
+    fly_and_land(points, batches, keep, computing, flown, |flights| {
         flights.into_iter().try_for_each(|(point, flight)| take(point, flight))
     })
 }
@@ -146,7 +108,7 @@ pub fn fly_batches<E: From<Error>>(
 pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
-    keep_shapes: KeepShapes,
+    keep: Keep,
     computing: Computing<'_>,
     land: impl Fn(Vec<(usize, Trajectory)>, Vec<Lost>) -> Result<T, Error> + Sync,
     mut take: impl FnMut(T) -> Result<(), E>,
@@ -155,7 +117,7 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     let fly = |jobs: &[(usize, u64)]| {
         let jobs: Vec<Job<'_>> =
             jobs.iter().map(|&(point, replicate)| Job { case: &points[point].case, replicate }).collect();
-        fly_together(&jobs, keep_shapes, computing)
+        fly_together(&jobs, keep, computing)
     };
     let work = |bundle: usize| {
         let jobs = packing.jobs(bundle);

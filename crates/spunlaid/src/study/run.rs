@@ -1,11 +1,12 @@
 //! Flying what a study still lacks, and what its points amount to.
 
 use super::journal::Journal;
-use super::measures::{Landing, MEASURES, Measure, Record};
+use super::measures::{Landing, Record, measured};
 use super::pack::{Batch, Lost, fly_and_land};
 use super::{Replicates, Study};
-use crate::ensemble::{Computing, KeepShapes, Trajectory};
+use crate::ensemble::{Computing, Keep, Trajectory};
 use crate::error::{Error, JournalError};
+use crate::observe::MEASURES;
 use crate::statistics::Estimate;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -133,7 +134,7 @@ fn fly_missing(
         Ok(())
     };
     with_sync(journal, |failed| {
-        fly_and_land(&study.points, &batches, KeepShapes::NONE, computing, land, |()| match failed() {
+        fly_and_land(&study.points, &batches, Keep::NUMBERS, computing, land, |()| match failed() {
             Some(error) => Err(error),
             None => Ok(()),
         })
@@ -241,7 +242,7 @@ fn records(flights: Vec<(usize, Trajectory)>, lost: Vec<Lost>) -> Vec<Record> {
     let measured = flights.into_iter().map(|(point, flight)| Record {
         point: point as u64,
         replicate: flight.replicate,
-        landing: Landing::Measured(Measure::all(&flight)),
+        landing: Landing::Measured(measured(&flight)),
     });
     let lost = lost.into_iter().filter_map(|(point, replicate, error)| match error {
         Error::NotFinite { node, time, .. } => {

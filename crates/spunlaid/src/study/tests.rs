@@ -8,7 +8,7 @@ use crate::fibre::{Fibre, Root};
 use crate::vec3::Vec3;
 
 /// Table 1 of the paper, short and coarse in time.
-pub(super) fn table1() -> Case {
+pub(crate) fn table1() -> Case {
     Case {
         fibre: Fibre {
             length: 1.0,

@@ -4,7 +4,7 @@
 pub mod modes;
 pub mod reference;
 
-use spunlaid::air::{Air, Eddies, StreamKey, Turbulence};
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
@@ -50,11 +50,12 @@ pub fn in_vacuum(fibre: Fibre, gravity: f64) -> Strand {
 }
 
 /// Air of a steady velocity along x, without turbulence.
-pub fn steady_air(velocity: f64, elements: usize, duration: f64) -> (Eddies, Turbulence) {
+pub fn steady_air(velocity: f64, elements: usize, duration: f64) -> (Eddies, Wind) {
     let air = Air { velocity, turbulence_intensity: 0.0, harmonics: 8, ..table1_air() };
     let eddies = Eddies::along(1.0, elements, 2.0);
     let key = StreamKey { seed: 0, replicate: 0 };
-    let turbulence = Turbulence::synthesise(Isa::detect(), &[(air, key)], eddies.count(), duration);
+    let turbulence =
+        Wind::uniform(Isa::detect(), &[(air, key)], eddies.count(), duration).expect("fibres that agree");
     (eddies, turbulence)
 }
 
@@ -71,8 +72,9 @@ pub fn kernel_forces(strand: &Strand, air_velocity: f64, position: &[V], velocit
     let h = 1e-3;
     let (eddies, turbulence) = steady_air(air_velocity, strand.fibre.elements, 2.0 * h);
     let mut bundle =
-        Flight::new(Isa::detect(), &[*strand], &eddies, &turbulence, Scheme::SemiImplicitEuler, h, 0);
-    bundle.restart_from(in_all_lanes(position), in_all_lanes(velocity));
+        Flight::assembled(Isa::detect(), &[*strand], (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
+            .expect("fibres that agree");
+    bundle.restart_from(in_all_lanes(position), in_all_lanes(velocity)).expect("as many as nodes");
     bundle.advance(1);
     let after = &bundle.chain().velocity;
     (0..position.len()).map(|i| (after[i].lane(0) - velocity[i]) * (strand.fibre.node_mass(i) / h)).collect()

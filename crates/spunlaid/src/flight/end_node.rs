@@ -1,11 +1,11 @@
-//! What is measured while the fibres fly.
+//! Statistics of the free ends, taken at every step.
 
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
 /// Running statistics of the end nodes of eight fibres, taken every step.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct EndNodeObserver {
+pub struct EndNodeStatistics {
     count: f64,
     mean: Vec3<Lanes>,
     /// Sums of squared deviations from the mean, of y and z.
@@ -30,7 +30,7 @@ pub struct EndNodeMotion {
     pub mean: Vec3<f64>,
 }
 
-impl EndNodeObserver {
+impl EndNodeStatistics {
     /// Takes in one more position (Welford's running mean and variance).
     #[inline(always)]
     pub(crate) fn see<S: Register>(&mut self, position: &Vec3<Lanes>) {
@@ -65,56 +65,5 @@ impl EndNodeObserver {
             frequency_z: frequency(self.crossings[1]),
             mean: self.mean.lane(lane),
         }
-    }
-}
-
-/// Running mean and spread of every node of eight fibres, taken at the recorded instants.
-#[derive(Clone, Debug)]
-pub struct SpreadObserver {
-    count: f64,
-    nodes: Vec<(Vec3<Lanes>, [Lanes; 2])>,
-}
-
-/// Motion of a node over time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct NodeSpread {
-    /// Mean position [m].
-    pub mean: Vec3<f64>,
-    /// Standard deviation of y [m].
-    pub amplitude_y: f64,
-    /// Standard deviation of z [m].
-    pub amplitude_z: f64,
-}
-
-impl SpreadObserver {
-    /// For chains of so many nodes.
-    pub fn new(nodes: usize) -> Self {
-        Self { count: 0.0, nodes: vec![Default::default(); nodes] }
-    }
-
-    /// Takes in the positions of all nodes at one more instant.
-    pub fn see(&mut self, position: &[Vec3<Lanes>]) {
-        self.count += 1.0;
-        let share = Lanes::splat(1.0 / self.count);
-        for ((mean, squares), &p) in self.nodes.iter_mut().zip(position) {
-            let off = p - *mean;
-            *mean += off * share;
-            let rest = p - *mean;
-            squares[0] = squares[0] + off.y * rest.y;
-            squares[1] = squares[1] + off.z * rest.z;
-        }
-    }
-
-    /// The nodes' motion in one lane.
-    pub fn nodes(&self, lane: usize) -> Vec<NodeSpread> {
-        let deviation = |squares: Lanes| (squares.0[lane] / self.count).sqrt();
-        self.nodes
-            .iter()
-            .map(|&(mean, squares)| NodeSpread {
-                mean: mean.lane(lane),
-                amplitude_y: deviation(squares[0]),
-                amplitude_z: deviation(squares[1]),
-            })
-            .collect()
     }
 }

@@ -1,0 +1,310 @@
+//! The wind along eight fibres as time goes on.
+//!
+//! ```text
+//! windows (random phases, one window after the other), or stretches of a record → samples, evenly spaced in time
+//!   → values and slopes at the ends of a cell → a cubic within the cell → the velocity at any time
+//! ```
+//!
+//! A wind makes its samples as the time goes on. It keeps one block of them, so its memory does not grow with
+//! the duration of the flight.
+
+mod stretches;
+mod synthesis;
+mod taper;
+mod windows;
+
+pub use synthesis::{Stream, StreamKey};
+
+use self::stretches::Stretches;
+use self::taper::{SPREAD, Taper};
+use self::windows::Windows;
+use super::Air;
+use crate::error::FlightFault;
+use crate::lanes::{Isa, Lanes, Plain, Register, WIDTH, Wide};
+use crate::vec3::Vec3;
+
+/// Cells of a cubic per sample spacing of a synthesised signal. Of a record each spacing is one.
+const CELLS: u64 = 16;
+
+/// The wind along up to eight fibres, mean flow and fluctuation, as a function of time.
+///
+/// A component of an eddy is `u(t) = √2 Σ A_n cos(ω_n t + φ_n)`, `n = 0 … N_h−1`, `ω_n = (n+½)Δω`
+/// (theory.md (16)), or a stretch of a record. Before that sum repeats, the wind passes to another one with
+/// random phases of its own (theory.md (50)), so it never repeats.
+///
+/// Between samples each component is a cubic in time within a cell, through values and slopes at the cell's
+/// two ends. The cubic is 64 or more cells to the shortest period: error `(π/32)⁴/384 · u/3 < 1e-7 u`.
+/// theory.md (19)
+#[derive(Clone, Debug)]
+pub struct Wind {
+    signal: Signal,
+    eddies: usize,
+    /// Time between samples [s].
+    spacing: f64,
+    /// Mean velocity along x of each eddy [m/s].
+    mean: Vec<Lanes>,
+    /// Weights of the `SPREAD` samples for value and slope (per cell) at the `CELLS` cell ends.
+    weights: Vec<[(f64, f64); SPREAD]>,
+    cells_per_sample: u64,
+    cell: Option<u64>,
+    /// Value and slope at the two ends of the cell, `[eddy][component]`.
+    start: Vec<(Lanes, Lanes)>,
+    end: Vec<(Lanes, Lanes)>,
+    /// Coefficients of the cubic in the cell's own time from 0 to 1.
+    cubic: Vec<[[Lanes; 4]; 3]>,
+}
+
+/// Where the samples come from.
+#[derive(Clone, Debug)]
+enum Signal {
+    Synthesised(Windows),
+    Measured(Stretches),
+}
+
+impl Wind {
+    /// The wind of a uniform flow along the fibres of up to eight lanes, whose eddies are all alike and
+    /// independent.
+    ///
+    /// * `horizon` – the time for which samples are made at first [s]; they are made for later times when these
+    ///   are asked for
+    ///
+    /// # Errors
+    /// As of [`Wind::along`].
+    pub fn uniform(
+        isa: Isa,
+        lanes: &[(Air, StreamKey)],
+        eddies: usize,
+        horizon: f64,
+    ) -> Result<Self, FlightFault> {
+        Self::along(isa, Stream::uniform(lanes, eddies), horizon)
+    }
+
+    /// The sum of cosines alone in a uniform flow, as the paper has it: the fluctuation repeats after
+    /// [`Air::repeat_time`] but for its sign.
+    ///
+    /// # Errors
+    /// As of [`Wind::along`], and for air with records.
+    pub fn repeating(
+        isa: Isa,
+        lanes: &[(Air, StreamKey)],
+        eddies: usize,
+        horizon: f64,
+    ) -> Result<Self, FlightFault> {
+        let streams = Stream::uniform(lanes, eddies);
+        check(&streams)?;
+        if !streams[0].air.records.is_empty() {
+            return Err(FlightFault::Differ { what: "air.record", lane: 0 });
+        }
+        let windows = Windows::repeating(isa, streams, horizon);
+        Ok(Self::of(windows.spacing(), means(windows.streams()), Signal::Synthesised(windows)))
+    }
+
+    /// The wind of up to eight fibres. Lanes left over repeat the first.
+    ///
+    /// * `horizon` – as of [`Wind::uniform`]; stretches of records are chosen so that they last until then
+    ///
+    /// # Errors
+    /// No fibre or more than eight, and fibres that do not agree in number of eddies, cut-off frequency, number
+    /// of harmonics and records; an air without harmonics.
+    pub fn along(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, FlightFault> {
+        check(&streams)?;
+        let mean = means(&streams);
+        let (signal, spacing) = match streams[0].air.records.first() {
+            Some(record) => {
+                let spacing = record.interval;
+                (Signal::Measured(Stretches::new(streams, horizon)), spacing)
+            }
+            None => {
+                let windows = Windows::new(isa, streams, horizon);
+                let spacing = windows.spacing();
+                (Signal::Synthesised(windows), spacing)
+            }
+        };
+        Ok(Self::of(spacing, mean, signal))
+    }
+
+    fn of(spacing: f64, mean: Vec<Lanes>, signal: Signal) -> Self {
+        let taper = Taper::new();
+        let weights = (0..CELLS)
+            .map(|cell| {
+                std::array::from_fn(|tap| {
+                    let fraction = cell as f64 / CELLS as f64;
+                    let x = fraction - (tap as f64 - (SPREAD as f64 / 2.0 - 1.0));
+                    let (value, slope) = taper.value_and_slope(x);
+                    (value, slope / CELLS as f64)
+                })
+            })
+            .collect();
+        let eddies = mean.len();
+        let columns = 3 * eddies;
+        let cells_per_sample = match signal {
+            Signal::Synthesised(_) => CELLS,
+            Signal::Measured(_) => 1,
+        };
+        Self {
+            signal,
+            eddies,
+            spacing,
+            mean,
+            weights,
+            cells_per_sample,
+            cell: None,
+            start: vec![(Lanes::ZERO, Lanes::ZERO); columns],
+            end: vec![(Lanes::ZERO, Lanes::ZERO); columns],
+            cubic: vec![[[Lanes::ZERO; 4]; 3]; eddies],
+        }
+    }
+
+    /// Number of eddies.
+    pub const fn eddies(&self) -> usize {
+        self.eddies
+    }
+
+    /// Memory of the samples that a bundle of eight fibres keeps [bytes].
+    pub fn memory(air: &Air, eddies: usize, horizon: f64) -> f64 {
+        if air.records.is_empty() { Windows::memory(air, eddies, horizon) } else { Stretches::memory(eddies) }
+    }
+
+    /// Makes the samples around time 0.
+    pub(crate) fn prepare(&mut self) {
+        if let Signal::Synthesised(windows) = &mut self.signal {
+            windows.samples(0);
+        }
+    }
+
+    /// Velocity of the air in each eddy [m/s] at time `t` [s] of the run, mean flow included. Times before 0
+    /// count as 0.
+    ///
+    /// Fastest when times come in order.
+    pub fn at(&mut self, t: f64) -> Vec<Vec3<Lanes>> {
+        let eddies = self.eddies as u32;
+        let now = self.blow::<Plain>(t.max(0.0));
+        (0..eddies).map(|eddy| now.velocity(eddy).store()).collect()
+    }
+
+    /// [`Wind::at`] for the kernel, to be asked eddy by eddy.
+    #[inline(always)]
+    pub(crate) fn blow<S: Register>(&mut self, t: f64) -> EddyVelocities<'_, S> {
+        let cells = t / self.spacing * self.cells_per_sample as f64;
+        let cell = cells as u64;
+        if self.cell != Some(cell) {
+            self.enter::<S>(cell);
+        }
+        EddyVelocities { cubic: &self.cubic, s: Wide::splat(cells - cell as f64) }
+    }
+
+    #[inline(always)]
+    fn enter<S: Register>(&mut self, cell: u64) {
+        if cell == 0 || self.cell != Some(cell - 1) {
+            self.move_end::<S>(cell);
+        }
+        std::mem::swap(&mut self.start, &mut self.end);
+        self.move_end::<S>(cell + 1);
+        let (two, three) = (Wide::<S>::splat(2.0), Wide::<S>::splat(3.0));
+        for (column, (cubic, (a, b))) in
+            self.cubic.as_flattened_mut().iter_mut().zip(self.start.iter().zip(&self.end)).enumerate()
+        {
+            let a = (Wide::load(&a.0), Wide::load(&a.1));
+            let b = (Wide::load(&b.0), Wide::load(&b.1));
+            let rise = b.0 - a.0;
+            let mean = if column % 3 == 0 { Wide::load(&self.mean[column / 3]) } else { Wide::zero() };
+            *cubic = [
+                (a.0 + mean).store(),
+                a.1.store(),
+                three.mul_add(rise, -two.mul_add(a.1, b.1)).store(),
+                two.neg_mul_add(rise, a.1 + b.1).store(),
+            ];
+        }
+        self.cell = Some(cell);
+    }
+
+    /// Puts the value and slope at a cell's start into `end`.
+    #[inline(always)]
+    fn move_end<S: Register>(&mut self, cell: u64) {
+        let windows = match &mut self.signal {
+            Signal::Synthesised(windows) => windows,
+            Signal::Measured(stretches) => {
+                stretches.values_and_slopes::<S>(cell, &mut self.end);
+                return;
+            }
+        };
+        let columns = self.end.len();
+        let weights = &self.weights[(cell % CELLS) as usize];
+        let samples = windows.samples(cell / CELLS);
+        for (column, end) in self.end.iter_mut().enumerate() {
+            let (mut value, mut slope) = (Wide::<S>::zero(), Wide::<S>::zero());
+            for (tap, &(for_value, for_slope)) in weights.iter().enumerate() {
+                let sample = Wide::load(&samples[tap * columns + column]);
+                value = sample.mul_add(Wide::splat(for_value), value);
+                slope = sample.mul_add(Wide::splat(for_slope), slope);
+            }
+            *end = (value.store(), slope.store());
+        }
+    }
+}
+
+/// What the fibres of a wind must have in common.
+fn check(streams: &[Stream]) -> Result<(), FlightFault> {
+    let Some((first, others)) = streams.split_first() else {
+        return Err(FlightFault::Empty);
+    };
+    if streams.len() > WIDTH {
+        return Err(FlightFault::TooMany { fibres: streams.len(), most: WIDTH });
+    }
+    if first.eddies.is_empty() {
+        return Err(FlightFault::NoEddies);
+    }
+    let harmonics = first.air.harmonics;
+    if first.air.records.is_empty() && !((1..=1 << 30).contains(&harmonics) && first.air.repeat_time() > 0.0)
+    {
+        return Err(FlightFault::NoHarmonics);
+    }
+    let checksums =
+        |stream: &Stream| -> Vec<u32> { stream.air.records.iter().map(super::FromFile::checksum).collect() };
+    for (other, stream) in others.iter().enumerate() {
+        let lane = other + 1;
+        let same = [
+            ("the number of eddies along the fibre", stream.eddies.len() == first.eddies.len()),
+            ("air.cutoff_frequency", stream.air.cutoff_frequency == first.air.cutoff_frequency),
+            ("air.harmonics", stream.air.harmonics == first.air.harmonics),
+            ("air.record", checksums(stream) == checksums(first)),
+        ];
+        if let Some((what, _)) = same.into_iter().find(|(_, same)| !same) {
+            return Err(FlightFault::Differ { what, lane });
+        }
+    }
+    Ok(())
+}
+
+/// Mean velocity along x of each eddy [m/s].
+fn means(streams: &[Stream]) -> Vec<Lanes> {
+    let eddies = streams[0].eddies.len();
+    (0..eddies).map(|eddy| Lanes::from_fn(|i| of_lane(streams, i).eddies[eddy].mean)).collect()
+}
+
+/// The stream of a lane; lanes left over repeat the first.
+fn of_lane(streams: &[Stream], lane: usize) -> &Stream {
+    &streams[if lane < streams.len() { lane } else { 0 }]
+}
+
+/// The wind at one instant.
+#[derive(Clone, Copy)]
+pub(crate) struct EddyVelocities<'a, S: Register> {
+    cubic: &'a [[[Lanes; 4]; 3]],
+    s: Wide<S>,
+}
+
+impl<S: Register> EddyVelocities<'_, S> {
+    /// Velocity of the air in an eddy [m/s].
+    #[inline(always)]
+    pub(crate) fn velocity(&self, eddy: u32) -> Vec3<Wide<S>> {
+        let [x, y, z] = &self.cubic[eddy as usize];
+        Vec3::new(self.along(x), self.along(y), self.along(z))
+    }
+
+    #[inline(always)]
+    fn along(&self, [c0, c1, c2, c3]: &[Lanes; 4]) -> Wide<S> {
+        let s = self.s;
+        Wide::load(c3).mul_add(s, Wide::load(c2)).mul_add(s, Wide::load(c1)).mul_add(s, Wide::load(c0))
+    }
+}

@@ -1,0 +1,203 @@
+//! A window of turbulence by random-phase synthesis.
+
+use super::super::{Air, EddyTurbulence};
+use super::taper::Taper;
+use super::windows::{Grid, Share};
+use crate::fft::{Complex, InverseTransform, WideComplex, unit};
+use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, cos_sin_turn};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use std::f64::consts::{PI, SQRT_2};
+
+/// What the random phases of a fibre are drawn from. Equal keys give equal turbulence, bit for bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StreamKey {
+    /// Master seed of the run.
+    pub seed: u64,
+    /// Index of the replicate.
+    pub replicate: u64,
+}
+
+impl StreamKey {
+    /// Random numbers of one velocity component of one eddy in one window of time.
+    pub(super) fn stream(self, window: u64, eddy: u64, component: usize) -> ChaCha8Rng {
+        let mut key = [0; 32];
+        let last = component as u64 | window << 2;
+        for (bytes, word) in key.chunks_exact_mut(8).zip([self.seed, self.replicate, eddy, last]) {
+            bytes.copy_from_slice(&word.to_le_bytes());
+        }
+        ChaCha8Rng::from_seed(key)
+    }
+}
+
+/// A number of [0, 1).
+fn uniform(stream: &mut ChaCha8Rng) -> f64 {
+    (stream.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
+}
+
+/// Two independent numbers of the standard normal distribution (Box and Muller).
+fn normal(stream: &mut ChaCha8Rng) -> (f64, f64) {
+    let radius = (-2.0 * libm::log(1.0 - uniform(stream))).sqrt();
+    let angle = 2.0 * PI * uniform(stream);
+    (radius * libm::cos(angle), radius * libm::sin(angle))
+}
+
+/// The turbulence of one fibre: where it comes from.
+#[derive(Clone, Debug)]
+pub struct Stream {
+    /// The air.
+    pub air: Air,
+    /// The turbulence of each eddy, see [`Air::turbulence_along`].
+    pub eddies: Vec<EddyTurbulence>,
+    /// What its phases are drawn from.
+    pub key: StreamKey,
+}
+
+impl Stream {
+    /// The streams of a uniform flow, whose eddies are all alike and independent.
+    pub(super) fn uniform(lanes: &[(Air, StreamKey)], eddies: usize) -> Vec<Self> {
+        let stream = |(air, key): &(Air, StreamKey)| Self {
+            air: air.clone(),
+            eddies: vec![air.turbulence_of_an_eddy(); eddies],
+            key: *key,
+        };
+        lanes.iter().map(stream).collect()
+    }
+}
+
+/// The samples of one window of random phases.
+pub(super) struct Synthesis<'a> {
+    pub(super) streams: &'a [Stream],
+    pub(super) window: u64,
+    pub(super) grid: Grid,
+    /// For one sample after the other, which sample of the window it takes and how much of it.
+    pub(super) shares: Vec<(usize, Share)>,
+    /// Where they are added, `[sample][eddy][component]`.
+    pub(super) into: &'a mut [Lanes],
+}
+
+impl Task for Synthesis<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<S: Register>(self) {
+        let eddies = self.streams[0].eddies.len();
+        let period = self.grid.period;
+        let half = period / 2;
+        let transform = InverseTransform::new(half);
+        let turn_back: Vec<(f64, f64)> = (0..half).map(|m| unit(-0.25 * m as f64 / half as f64)).collect();
+        let mut harmonics = Harmonics::new(self.streams, self.window, period);
+
+        let columns = 3 * eddies;
+        let mut bins = vec![Complex::default(); half];
+        let mut scratch = bins.clone();
+        let mut wave = bins.clone();
+        for column in 0..columns {
+            harmonics.enter(column / 3, column % 3);
+            bins.fill(Complex::default());
+            for (n, (a, phase)) in harmonics.each(column % 3).enumerate() {
+                let (cos, sin) = cos_sin_turn(Wide::<S>::load(phase));
+                // Half the size for a real signal of half-odd frequencies: theory.md (18).
+                let (bin, sign) = if n % 2 == 0 { ((half - n / 2) % half, -1.0) } else { (n / 2 + 1, 1.0) };
+                let a = Wide::load(a);
+                let sum = WideComplex::load(&bins[bin]);
+                let sum = WideComplex {
+                    re: a.mul_add(cos, sum.re),
+                    im: (a * Wide::splat(sign)).mul_add(sin, sum.im),
+                };
+                bins[bin] = sum.store();
+            }
+            transform.pass::<S>(&mut bins, &mut scratch);
+            for ((wave, bin), &back) in wave.iter_mut().zip(&bins).zip(&turn_back) {
+                *wave = WideComplex::<S>::load(bin).times(back).store();
+            }
+            for (row, &(m, share)) in self.into.chunks_exact_mut(columns).zip(&self.shares) {
+                let value = Wide::<S>::load(if m < half { &wave[m].re } else { &wave[m - half].im });
+                row[column] = match share {
+                    Share::Whole => value,
+                    Share::Opposite => -value,
+                    Share::Part(part) => value.mul_add(Wide::splat(part), Wide::load(&row[column])),
+                }
+                .store();
+            }
+        }
+    }
+}
+
+/// Amplitudes and phases of the harmonics of one eddy after the other, from the root down.
+struct Harmonics<'a> {
+    streams: &'a [Stream],
+    window: u64,
+    /// √2 over the taper's own transform, so that interpolation with it restores the harmonic.
+    scale: Vec<f64>,
+    /// By component.
+    amplitude: [Vec<Lanes>; 3],
+    /// By component, in turns.
+    phase: [Vec<Lanes>; 3],
+}
+
+impl<'a> Harmonics<'a> {
+    fn new(streams: &'a [Stream], window: u64, period: usize) -> Self {
+        let (harmonics, taper) = (streams[0].air.harmonics, Taper::new());
+        let turns_per_sample = |n: usize| (n as f64 + 0.5) / period as f64;
+        let scale = (0..harmonics).map(|n| SQRT_2 / taper.transform(turns_per_sample(n))).collect();
+        let zero = || std::array::from_fn(|_| vec![Lanes::ZERO; harmonics]);
+        Self { streams, window, scale, amplitude: zero(), phase: zero() }
+    }
+
+    /// Goes on to a component of an eddy.
+    fn enter(&mut self, eddy: usize, component: usize) {
+        for lane in 0..WIDTH {
+            if lane < self.streams.len() {
+                self.enter_lane(lane, eddy, component);
+            } else {
+                for of in [&mut self.amplitude[component], &mut self.phase[component]] {
+                    of.iter_mut().for_each(|of| of.0[lane] = of.0[0]);
+                }
+            }
+        }
+    }
+
+    fn enter_lane(&mut self, lane: usize, eddy: usize, component: usize) {
+        let Stream { air, eddies, key } = &self.streams[lane];
+        let turbulence = &eddies[eddy];
+        // Most eddies sound alike.
+        let like_above = eddy > 0 && eddies[eddy - 1].same_spectrum(turbulence);
+        if !like_above {
+            let amplitudes = turbulence.spectrum(air, component).amplitudes();
+            let amplitudes = amplitudes.into_iter().chain(std::iter::repeat(0.0));
+            for ((of, a), scale) in self.amplitude[component].iter_mut().zip(amplitudes).zip(&self.scale) {
+                of.0[lane] = a * scale;
+            }
+        }
+        let mut stream = key.stream(self.window, eddy as u64, component);
+        let phase = self.phase[component].iter_mut().map(|of| &mut of.0[lane]);
+        match turbulence.carried {
+            None => phase.for_each(|phase| *phase = uniform(&mut stream)),
+            // What arrives later lags behind; what is forgotten walks away at random: theory.md (47).
+            Some(time) => {
+                let lag = time / air.repeat_time();
+                let step = (2.0 * turbulence.forgotten).sqrt() / (2.0 * PI);
+                let mut spare = None;
+                for (n, phase) in phase.enumerate() {
+                    let walk = match spare.take() {
+                        _ if step == 0.0 => 0.0,
+                        Some(walk) => walk,
+                        None => {
+                            let (walk, other) = normal(&mut stream);
+                            spare = Some(other);
+                            walk
+                        }
+                    };
+                    let turned = *phase - (n as f64 + 0.5) * lag + step * walk;
+                    *phase = turned - turned.floor();
+                }
+            }
+        }
+    }
+
+    /// Amplitude and phase [turns] of each harmonic of a component.
+    fn each(&self, component: usize) -> impl Iterator<Item = (&Lanes, &Lanes)> {
+        self.amplitude[component].iter().zip(&self.phase[component])
+    }
+}

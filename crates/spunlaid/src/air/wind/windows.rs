@@ -1,0 +1,221 @@
+//! Turbulence made window by window, so that it never repeats and its memory does not grow.
+//!
+//! A window is one sum of cosines with random phases of its own. It is used for one repeat time at most:
+//!
+//! ```text
+//! window 0   ──────────────╲
+//! window 1                ╱───────╲
+//! window 2                         ╱───────╲         a quarter of the repeat time each: one fades out as cos θ
+//!            0    ¼   ½   ¾   1                        while the next fades in as sin θ
+//! ```
+//!
+//! Both are independent, so `cos² θ + sin² θ = 1` keeps the variance at every instant.   theory.md (50)
+
+use super::super::Air;
+use super::synthesis::{Stream, Synthesis};
+use super::taper::SPREAD;
+use crate::lanes::{Isa, Lanes};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Samples before time zero that the interpolation there rests on.
+const BEFORE: i64 = SPREAD as i64 / 2 - 1;
+
+/// The fluctuation of eight fibres as samples, made in blocks.
+#[derive(Clone, Debug)]
+pub(super) struct Windows {
+    isa: Isa,
+    /// Shared by clones, as the samples are: a look ahead copies neither.
+    streams: Arc<Vec<Stream>>,
+    grid: Grid,
+    /// `[sample][eddy][component]`
+    block: Arc<Vec<Lanes>>,
+    /// Number of the block's first sample; sample `m` is at the time `m` spacings.
+    first: i64,
+    /// The last sample that is needed until the horizon.
+    last: i64,
+}
+
+/// How the samples lie in the windows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Grid {
+    /// Samples in a repeat time, four or more for each harmonic.
+    pub(super) period: usize,
+    /// Time between samples [s].
+    spacing: f64,
+    /// Whether there is but one window, which repeats.
+    repeats: bool,
+}
+
+impl Grid {
+    fn of(air: &Air, repeats: bool) -> Self {
+        let period = 4 * air.harmonics.next_power_of_two();
+        Self { period, spacing: air.repeat_time() / period as f64, repeats }
+    }
+
+    /// Samples from the start of one window to that of the next.
+    fn hop(&self) -> i64 {
+        if self.repeats { i64::MAX } else { 3 * (self.period / 4) as i64 }
+    }
+
+    /// The block of samples from `first` on: to the end of the stretch between two starts of windows in which its
+    /// eighth sample lies, or up to `last`.
+    fn block(&self, first: i64, last: i64) -> Range<i64> {
+        let hop = self.hop();
+        let eighth = first + SPREAD as i64;
+        let end = (eighth.max(0) / hop).saturating_add(1).saturating_mul(hop);
+        first..end.min(last.max(eighth))
+    }
+
+    /// The windows that the samples lie in.
+    fn windows(&self, samples: &Range<i64>) -> Range<i64> {
+        let hop = self.hop();
+        (samples.start.max(0) / hop - 1).max(0)..(samples.end - 1).max(0) / hop + 1
+    }
+
+    /// What of a window a sample is made of, and how much of it; none where the window is not heard.
+    ///
+    /// The sample of the window lies within its repeat time; a sample before time zero or, where the window
+    /// repeats, later is that of the opposite sign half a full period away.
+    fn share(&self, window: i64, sample: i64) -> Option<(usize, Share)> {
+        let (period, fade) = (self.period as i64, (self.period / 4) as i64);
+        let local = sample - window.saturating_mul(self.hop());
+        let laps = local.div_euclid(period);
+        let place = local.rem_euclid(period) as usize;
+        if self.repeats || window == 0 && local < 0 {
+            return Some((place, if laps % 2 == 0 { Share::Whole } else { Share::Opposite }));
+        }
+        let angle = |step: i64| std::f64::consts::FRAC_PI_2 * (step as f64 + 0.5) / fade as f64;
+        match local {
+            l if !(0..period).contains(&l) => None,
+            l if l < fade && window > 0 => Some((place, Share::Part(libm::sin(angle(l))))),
+            l if l >= self.hop() => Some((place, Share::Part(libm::cos(angle(l - self.hop()))))),
+            _ => Some((place, Share::Whole)),
+        }
+    }
+}
+
+/// How much of a window a sample takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Share {
+    Whole,
+    Opposite,
+    Part(f64),
+}
+
+impl Windows {
+    pub(super) fn new(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Self {
+        let grid = Grid::of(&streams[0].air, false);
+        Self::on(isa, streams, grid, horizon)
+    }
+
+    /// But one window, which repeats after its repeat time but for the sign.
+    pub(super) fn repeating(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Self {
+        let grid = Grid::of(&streams[0].air, true);
+        Self::on(isa, streams, grid, horizon)
+    }
+
+    fn on(isa: Isa, streams: Vec<Stream>, grid: Grid, horizon: f64) -> Self {
+        let last = sample_count(horizon, grid.spacing) - BEFORE;
+        Self { isa, streams: Arc::new(streams), grid, block: Arc::default(), first: -BEFORE, last }
+    }
+
+    pub(super) fn spacing(&self) -> f64 {
+        self.grid.spacing
+    }
+
+    pub(super) fn streams(&self) -> &[Stream] {
+        &self.streams
+    }
+
+    /// The `SPREAD` samples around the time `interval` spacings and the one after it, `[sample][eddy][component]`.
+    #[inline(always)]
+    pub(super) fn samples(&mut self, interval: u64) -> &[Lanes] {
+        let columns = 3 * self.streams[0].eddies.len();
+        let first = interval as i64 - BEFORE;
+        let within = |first: i64, start: i64, len: usize| {
+            first >= start && (first - start) as usize + SPREAD <= len / columns
+        };
+        if !within(first, self.first, self.block.len()) {
+            self.go_to(first);
+        }
+        &self.block[(first - self.first) as usize * columns..][..SPREAD * columns]
+    }
+
+    #[inline(never)]
+    fn go_to(&mut self, first: i64) {
+        // The old block is not needed any more; without this both would be in memory.
+        self.block = Arc::default();
+        let last = match self.last {
+            last if first < last => last,
+            _ if self.grid.repeats => first + self.grid.period as i64,
+            _ => i64::MAX,
+        };
+        self.make(self.grid.block(first, last));
+    }
+
+    fn make(&mut self, samples: Range<i64>) {
+        let grid = self.grid;
+        let columns = 3 * self.streams[0].eddies.len();
+        let rows = (samples.end - samples.start) as usize;
+        let mut block = vec![Lanes::ZERO; rows * columns];
+        for window in grid.windows(&samples) {
+            let heard = |row: usize| grid.share(window, samples.start + row as i64);
+            let Some(first) = (0..rows).find(|&row| heard(row).is_some()) else { continue };
+            let shares: Vec<(usize, Share)> = (first..rows).map_while(heard).collect();
+            let into = &mut block[first * columns..];
+            self.isa.run(Synthesis { streams: &self.streams, window: window as u64, grid, shares, into });
+        }
+        (self.block, self.first) = (Arc::new(block), samples.start);
+    }
+
+    /// Memory of the samples [bytes].
+    pub(super) fn memory(air: &Air, eddies: usize, horizon: f64) -> f64 {
+        let grid = Grid::of(air, false);
+        let most = grid.hop() as f64 + SPREAD as f64;
+        let samples = ((horizon / grid.spacing).ceil() + SPREAD as f64 + 1.0).min(most);
+        samples * eddies as f64 * 3.0 * size_of::<Lanes>() as f64
+    }
+}
+
+/// Samples needed to interpolate anywhere in `[0, horizon]`.
+fn sample_count(horizon: f64, spacing: f64) -> i64 {
+    let intervals = (horizon / spacing).ceil();
+    // What would not fit is asked for later, if ever.
+    let intervals = if intervals > 0.0 && intervals < 1e15 { intervals as i64 } else { 0 };
+    intervals + SPREAD as i64 + 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_of_the_windows_keep_the_variance_at_every_sample() {
+        let grid = Grid { period: 64, spacing: 1.0, repeats: false };
+        for sample in -3..400 {
+            let parts = grid.windows(&(sample..sample + 1));
+            let sum: f64 = parts
+                .filter_map(|window| grid.share(window, sample))
+                .map(|(_, share)| match share {
+                    Share::Whole | Share::Opposite => 1.0,
+                    Share::Part(part) => part * part,
+                })
+                .sum();
+            assert!((sum - 1.0).abs() < 1e-15, "sample {sample}: {sum}");
+        }
+    }
+
+    #[test]
+    fn blocks_follow_one_another_and_hold_what_is_asked_for() {
+        let grid = Grid { period: 64, spacing: 1.0, repeats: false };
+        let mut first = -BEFORE;
+        for _ in 0..10 {
+            let block = grid.block(first, i64::MAX);
+            assert!(
+                block.end - block.start >= SPREAD as i64 && block.end - block.start <= 48 + 2 * SPREAD as i64
+            );
+            first = block.end - SPREAD as i64 + 1;
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! How far each node of the fibre swings.
+
+use super::{Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Value, always};
+use crate::case::Case;
+use crate::flight::Flight;
+use crate::lanes::Lanes;
+use crate::vec3::Vec3;
+
+pub(super) const DECLARATION: Declaration = Declaration {
+    measures: &[
+        measure(
+            "amplitude_y_along_fibre",
+            "amplitude_y_along_fibre_m",
+            "Amplitude in y along the fibre",
+            "*y*",
+        ),
+        measure(
+            "amplitude_z_along_fibre",
+            "amplitude_z_along_fibre_m",
+            "Amplitude in z along the fibre",
+            "*z*",
+        ),
+    ],
+    applies: always,
+    observer: |case| Box::new(Spread::of(case)),
+};
+
+const fn measure(
+    name: &'static str,
+    column: &'static str,
+    label: &'static str,
+    series: &'static str,
+) -> Measure {
+    Measure {
+        name,
+        column,
+        label,
+        meaning: "standard deviation over time of each node’s position, at the recorded instants",
+        unit: MILLIMETRES,
+        kind: Kind::Profile,
+        group: FIBRE,
+        over_replicates: Over::Mean,
+        figure: &Figure {
+            name: "amplitude_along_fibre",
+            title: "Amplitude along the fibre",
+            words: "amplitude along the fibre",
+            logarithmic: false,
+            from_zero: true,
+            caption: "How far each node swings: the standard deviation of its y and z over time.",
+        },
+        series,
+    }
+}
+
+/// Running mean and spread of every node, taken at the recorded instants (Welford).
+#[derive(Debug)]
+struct Spread {
+    rest_length: f64,
+    count: f64,
+    /// Mean of y and z, and the sums of the squared deviations from it.
+    nodes: Vec<([Lanes; 2], [Lanes; 2])>,
+}
+
+impl Spread {
+    fn of(case: &Case) -> Self {
+        let nodes = vec![Default::default(); case.fibre.elements + 1];
+        Self { rest_length: case.fibre.rest_length(), count: 0.0, nodes }
+    }
+}
+
+impl Observer for Spread {
+    fn see(&mut self, seen: &Seen<'_>) {
+        if !seen.settled {
+            return;
+        }
+        self.count += 1.0;
+        let share = Lanes::splat(1.0 / self.count);
+        for ((mean, squares), &Vec3 { y, z, .. }) in self.nodes.iter_mut().zip(&seen.snapshot.position) {
+            for ((mean, squares), p) in mean.iter_mut().zip(squares).zip([y, z]) {
+                let off = p - *mean;
+                *mean = *mean + off * share;
+                *squares = *squares + off * (p - *mean);
+            }
+        }
+    }
+
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        let distance: Vec<f64> = (0..self.nodes.len()).map(|i| i as f64 * self.rest_length).collect();
+        let deviation = |squares: &Lanes| (squares.0[lane] / self.count).sqrt();
+        let of = |axis: usize| self.nodes.iter().map(|(_, squares)| deviation(&squares[axis])).collect();
+        vec![Value::Curve(distance.clone(), of(0)), Value::Curve(distance, of(1))]
+    }
+}

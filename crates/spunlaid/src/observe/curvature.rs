@@ -1,0 +1,113 @@
+//! How much the fibre is bent, along its length.
+
+use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PER_METRE, Seen, Value, always};
+use crate::case::Case;
+use crate::chain::forces::Element;
+use crate::flight::Flight;
+use crate::lanes::{Isa, Lanes, Register, Task, Wide};
+use crate::vec3::Vec3;
+
+pub(super) const DECLARATION: Declaration = Declaration {
+    measures: &[Measure {
+        name: "curvature",
+        column: "curvature_per_m",
+        label: "Curvature along the fibre",
+        meaning: "root of the mean square over time of the curvature at each node between two elements, 2 sin(θ/2)/l of the \
+                  angle θ between them",
+        unit: PER_METRE,
+        kind: Kind::Profile,
+        group: FIBRE,
+        over_replicates: Over::Mean,
+        figure: &Figure {
+            name: "curvature_along_fibre",
+            title: "Curvature along the fibre",
+            words: "curvature along the fibre",
+            logarithmic: false,
+            from_zero: true,
+            caption: "How much the fibre is bent at each node: the root of the mean square over time of one over the radius of its bend. \
+                      Bends shorter than an element are not resolved.",
+        },
+        series: "rms",
+    }],
+    applies: always,
+    observer: |case| Box::new(Curvature::of(case)),
+};
+
+/// Sums of squares at the nodes between two elements.
+#[derive(Debug)]
+struct Curvature {
+    isa: Isa,
+    rest_length: f64,
+    count: f64,
+    /// Of `|t₁ − t₀|²`, `t` the elements' directions [-].
+    squares: Vec<Lanes>,
+}
+
+impl Curvature {
+    fn of(case: &Case) -> Self {
+        let squares = vec![Lanes::ZERO; case.fibre.elements.saturating_sub(1)];
+        Self { isa: Isa::detect(), rest_length: case.fibre.rest_length(), count: 0.0, squares }
+    }
+}
+
+impl Observer for Curvature {
+    fn see(&mut self, seen: &Seen<'_>) {
+        if seen.settled {
+            self.count += 1.0;
+            self.isa.run(Turns { position: &seen.snapshot.position, squares: &mut self.squares });
+        }
+    }
+
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        let distance = (0..self.squares.len()).map(|i| (i + 1) as f64 * self.rest_length).collect();
+        let rms = |squares: &Lanes| (squares.0[lane] / self.count).sqrt() / self.rest_length;
+        vec![Value::Curve(distance, self.squares.iter().map(rms).collect())]
+    }
+}
+
+/// Adds the squared turns from each element to the next.
+struct Turns<'a> {
+    position: &'a [Vec3<Lanes>],
+    squares: &'a mut [Lanes],
+}
+
+impl Task for Turns<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<S: Register>(self) {
+        let mut above: Option<Vec3<Wide<S>>> = None;
+        let mut squares = self.squares.iter_mut();
+        for pair in self.position.windows(2) {
+            let below = Element::<S>::between(Vec3::load(&pair[0]), Vec3::load(&pair[1])).tangent;
+            if let Some(above) = above
+                && let Some(sum) = squares.next()
+            {
+                let turn = below - above;
+                *sum = (Wide::load(sum) + turn.dot(turn)).store();
+            }
+            above = Some(below);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_curvature_of_a_circle() {
+        // A regular polygon of 60 corners of radius 0.2 m: 2 sin(θ/2)/l = 1/R to the last digits.
+        let corner = |i: usize| {
+            let angle = std::f64::consts::TAU * i as f64 / 60.0;
+            Vec3::splat(Vec3::new(0.2 * angle.cos(), 0.2 * angle.sin(), 0.0))
+        };
+        let position: Vec<Vec3<Lanes>> = (0..20).map(corner).collect();
+        let length = (position[1].lane(0) - position[0].lane(0)).norm();
+        let mut squares = vec![Lanes::ZERO; 18];
+        Isa::detect().run(Turns { position: &position, squares: &mut squares });
+        for sum in squares {
+            assert!((sum.0[5].sqrt() / length - 1.0 / 0.2).abs() < 1e-10);
+        }
+    }
+}

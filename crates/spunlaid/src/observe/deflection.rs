@@ -1,0 +1,82 @@
+//! How far the free end gets from the axis of the flow.
+
+use super::{Declaration, END_NODE, Figure, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Value, always};
+use crate::flight::Flight;
+use crate::lanes::WIDTH;
+use crate::statistics::quantile;
+
+pub(super) const DECLARATION: Declaration = Declaration {
+    measures: &[
+        measure(
+            "deflection_99",
+            "deflection_99_m",
+            "Deflection, 99 % of the time",
+            "distance from the axis through the root that the free end keeps within for 99 % of the recorded instants",
+            "99 %",
+        ),
+        measure(
+            "largest_deflection",
+            "largest_deflection_m",
+            "Largest deflection",
+            "largest distance of the free end from the axis through the root at the recorded instants; it grows with the \
+             duration",
+            "largest",
+        ),
+    ],
+    applies: always,
+    observer: |_| Box::new(Deflection::default()),
+};
+
+const FIGURE: Figure = Figure {
+    name: "deflection",
+    title: "Deflection of the free end",
+    words: "deflection",
+    logarithmic: false,
+    from_zero: true,
+    caption: "",
+};
+
+const fn measure(
+    name: &'static str,
+    column: &'static str,
+    label: &'static str,
+    meaning: &'static str,
+    series: &'static str,
+) -> Measure {
+    let (unit, kind, group, figure) = (MILLIMETRES, Kind::Number, END_NODE, &FIGURE);
+    Measure { name, column, label, meaning, unit, kind, group, over_replicates: Over::Mean, figure, series }
+}
+
+/// Distances of the free ends from the axis at the recorded instants after the spin-up [m].
+#[derive(Debug, Default)]
+struct Deflection([Vec<f64>; WIDTH]);
+
+impl Observer for Deflection {
+    fn see(&mut self, seen: &Seen<'_>) {
+        if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
+            for (lane, distances) in self.0.iter_mut().enumerate() {
+                distances.push(end.y.0[lane].hypot(end.z.0[lane]));
+            }
+        }
+    }
+
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        let distances = &self.0[lane];
+        let largest = distances.iter().copied().fold(f64::NAN, f64::max);
+        vec![Value::Number(quantile(distances, 0.99)), Value::Number(largest)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_quantile_and_largest_of_known_distances() {
+        let mut deflection = Deflection::default();
+        deflection.0[3] = (0..=1000).map(|i| f64::from(i) * 1e-3).collect();
+        let distances = &deflection.0[3];
+        assert!((quantile(distances, 0.99) - 0.99).abs() < 1e-12);
+        assert_eq!(distances.iter().copied().fold(f64::NAN, f64::max), 1.0);
+    }
+}

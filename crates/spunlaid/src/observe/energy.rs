@@ -1,0 +1,153 @@
+//! The two energy ledgers, as errors.
+
+use super::{
+    Declaration, ENERGY, Figure, Kind, Measure, OF_PERCENT, Observer, Over, Sample, Seen, Value, always,
+};
+use crate::chain::schemes::Scheme;
+use crate::flight::Flight;
+use crate::lanes::WIDTH;
+use crate::statistics::median;
+
+pub(super) const DECLARATION: Declaration = Declaration {
+    measures: &[
+        number("work_error", "work_error_percent", "Work check, typical", WORK, Over::Median, "work check"),
+        number(
+            "work_error_at_end",
+            "work_error_at_end_percent",
+            "Work check, at the end",
+            "the work check at the end of the flight",
+            Over::Mean,
+            "work check at the end",
+        ),
+        number(
+            "balance_error",
+            "balance_error_percent",
+            "Full balance, typical",
+            BALANCE,
+            Over::Median,
+            "energy balance",
+        ),
+        number(
+            "balance_error_at_end",
+            "balance_error_at_end_percent",
+            "Full balance, at the end",
+            "the full balance at the end of the flight",
+            Over::Mean,
+            "energy balance at the end",
+        ),
+        series("work_error_over_time", "work_error_over_time_percent", "Work check over time", "work check"),
+        series(
+            "balance_error_over_time",
+            "balance_error_over_time_percent",
+            "Full balance over time",
+            "energy balance",
+        ),
+    ],
+    applies: always,
+    observer: |_| Box::new(Errors { of: ERRORS, times: Vec::new(), percent: Default::default() }),
+};
+
+/// What the scheme takes out of the motion.
+pub(super) const DISSIPATION: Declaration = Declaration {
+    measures: &[
+        number(
+            "tension_dissipation",
+            "tension_dissipation_percent",
+            "Taken out by the scheme, typical",
+            "what the scheme has taken out of the motion with the waves of tension that it damps, of the air’s work; median over \
+             time",
+            Over::Median,
+            "taken out by the scheme",
+        ),
+        number(
+            "tension_dissipation_at_end",
+            "tension_dissipation_at_end_percent",
+            "Taken out by the scheme, at the end",
+            "the same at the end of the flight",
+            Over::Mean,
+            "taken out by the scheme at the end",
+        ),
+    ],
+    applies: |case| case.run.scheme == Scheme::ImplicitTension,
+    observer: |_| Box::new(Errors { of: TAKEN, times: Vec::new(), percent: Default::default() }),
+};
+
+const WORK: &str = "the paper’s work check: work of all forces against the kinetic energy; median over time. It only says that the steps \
+     are short against the motion";
+const BALANCE: &str = "what the full energy balance leaves over, of the air’s work; median over time. It would notice a wrong force";
+
+const ERRORS: &[(fn(&Sample) -> f64, bool)] =
+    &[(Sample::work_error_percent, true), (Sample::balance_error_percent, true)];
+const TAKEN: &[(fn(&Sample) -> f64, bool)] = &[(Sample::tension_dissipation_percent, false)];
+
+const FIGURE: Figure = Figure {
+    name: "energy_error",
+    title: "Energy error",
+    words: "energy error",
+    logarithmic: true,
+    from_zero: false,
+    caption: "",
+};
+
+const OVER_TIME: Figure = Figure {
+    name: "energy_errors",
+    title: "Energy errors over time",
+    words: "energy errors",
+    logarithmic: true,
+    from_zero: false,
+    caption: "Both energy ledgers over time, mean over the replicates; the largest of any replicate is shaded.",
+};
+
+const fn number(
+    name: &'static str,
+    column: &'static str,
+    label: &'static str,
+    meaning: &'static str,
+    over_replicates: Over,
+    series: &'static str,
+) -> Measure {
+    let (unit, kind, group, figure) = (OF_PERCENT, Kind::Number, ENERGY, &FIGURE);
+    Measure { name, column, label, meaning, unit, kind, group, over_replicates, figure, series }
+}
+
+const fn series(
+    name: &'static str,
+    column: &'static str,
+    label: &'static str,
+    series: &'static str,
+) -> Measure {
+    let meaning = "the error at each recorded instant; not defined at rest";
+    let (unit, kind, group, figure) = (OF_PERCENT, Kind::Series, ENERGY, &OVER_TIME);
+    Measure { name, column, label, meaning, unit, kind, group, over_replicates: Over::Mean, figure, series }
+}
+
+/// Errors at the recorded instants.
+#[derive(Debug)]
+struct Errors {
+    /// Which errors, and whether each is drawn over time.
+    of: &'static [(fn(&Sample) -> f64, bool)],
+    times: Vec<f64>,
+    /// By lane and error [%].
+    percent: [[Vec<f64>; 2]; WIDTH],
+}
+
+impl Observer for Errors {
+    fn see(&mut self, seen: &Seen<'_>) {
+        self.times.push(seen.snapshot.time);
+        for (percent, sample) in self.percent.iter_mut().zip(seen.samples) {
+            for (percent, (of, _)) in percent.iter_mut().zip(self.of) {
+                percent.push(of(sample));
+            }
+        }
+    }
+
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        let errors = || self.percent[lane].iter().zip(self.of);
+        let numbers = errors().flat_map(|(percent, _)| {
+            [median(percent), percent.last().copied().unwrap_or(f64::NAN)].map(Value::Number)
+        });
+        let drawn = errors().filter(|(_, (_, drawn))| *drawn);
+        let curves = drawn.map(|(percent, _)| Value::Curve(self.times.clone(), percent.clone()));
+        numbers.chain(curves).collect()
+    }
+}

@@ -1,0 +1,41 @@
+//! Whether the fibres stay in the flow that is known.
+
+use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PERCENT, Seen, Value};
+use crate::flight::Flight;
+
+pub(super) const DECLARATION: Declaration = Declaration {
+    measures: &[Measure {
+        name: "share_outside_flow",
+        column: "share_outside_flow",
+        label: "Time outside the flow",
+        meaning: "share of the time that the elements spend outside of the profile or the field; the air of the nearest known \
+                  place is taken there",
+        unit: PERCENT,
+        kind: Kind::Number,
+        group: FIBRE,
+        over_replicates: Over::Mean,
+        figure: &Figure {
+            name: "share_outside_flow",
+            title: "Time outside the flow",
+            words: "time outside the flow",
+            logarithmic: false,
+            from_zero: true,
+            caption: "",
+        },
+        series: "share",
+    }],
+    applies: |case| !case.air.is_uniform(),
+    observer: |_| Box::new(Outside),
+};
+
+/// The flight itself counts the looks that it takes at the flow.
+#[derive(Debug)]
+struct Outside;
+
+impl Observer for Outside {
+    fn see(&mut self, _: &Seen<'_>) {}
+
+    fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
+        vec![Value::Number(flight.outside(lane).unwrap_or(f64::NAN))]
+    }
+}

@@ -1,0 +1,282 @@
+//! What is measured of the fibres: each measure is declared once, with its name, unit, meaning and figure.
+//!
+//! ```text
+//! Flight → recorded instants → observers (one file each) → values of each fibre → statistics over replicates
+//! ```
+//!
+//! A new measure is a file of this room with a [`Declaration`], and a line in [`DECLARED`]. The summary, the tables,
+//! the report with its figures and CSV files, the columns of studies and their ranking loop over the declarations.
+
+mod along_fibre;
+mod curvature;
+mod deflection;
+mod end_node;
+mod energy;
+mod flow;
+mod residence;
+mod root_tension;
+mod sample;
+mod spectrum;
+mod strain;
+
+pub use sample::Sample;
+
+use crate::case::Case;
+use crate::flight::{Flight, Snapshot};
+
+/// Everything that is measured, in the order of the tables.
+pub const DECLARED: &[&Declaration] = &[
+    &end_node::DECLARATION,
+    &deflection::DECLARATION,
+    &residence::DECLARATION,
+    &along_fibre::DECLARATION,
+    &curvature::DECLARATION,
+    &spectrum::DECLARATION,
+    &root_tension::DECLARATION,
+    &strain::DECLARATION,
+    &flow::DECLARATION,
+    &energy::DECLARATION,
+    &energy::DISSIPATION,
+];
+
+/// Some measures and the observer that takes them together.
+#[derive(Debug)]
+pub struct Declaration {
+    /// The measures, in the order of the observer's values.
+    pub measures: &'static [Measure],
+    /// Whether they have a meaning for a case.
+    pub applies: fn(&Case) -> bool,
+    /// The observer of up to eight fibres of such a case.
+    pub observer: fn(&Case) -> Box<dyn Observer>,
+}
+
+/// Something measured of every fibre.
+#[derive(Debug)]
+pub struct Measure {
+    /// Name in a study file, `amplitude_y`.
+    pub name: &'static str,
+    /// Name in tables and in `summary.json`, with its SI unit: `amplitude_y_m`.
+    pub column: &'static str,
+    /// What it is called in a table: `Amplitude in y`.
+    pub label: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// The unit it is shown in.
+    pub unit: Unit,
+    /// What kind of result it is.
+    pub kind: Kind,
+    /// What it belongs to.
+    pub group: Group,
+    /// What stands for the replicates where one number must do.
+    pub over_replicates: Over,
+    /// The figure that it is drawn in.
+    pub figure: &'static Figure,
+    /// What it is called in that figure: `*y*`.
+    pub series: &'static str,
+}
+
+/// What a measure belongs to: a heading of tables, a part of `summary.json`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// Name in `summary.json`.
+    pub name: &'static str,
+    /// Heading.
+    pub title: &'static str,
+}
+
+/// Motion of the free end.
+pub const END_NODE: Group = Group { name: "end_node", title: "free end of the fibre" };
+/// The fibre as a whole.
+pub const FIBRE: Group = Group { name: "fibre", title: "fibre" };
+/// The energy ledgers.
+pub const ENERGY: Group = Group { name: "energy", title: "energy errors" };
+
+/// A unit to show values in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// As it is written; empty for a plain number.
+    pub shown: &'static str,
+    /// How many of it make one SI unit.
+    pub per_si: f64,
+}
+
+/// Millimetres.
+pub const MILLIMETRES: Unit = Unit { shown: "mm", per_si: 1e3 };
+/// Hertz.
+pub const HERTZ: Unit = Unit { shown: "Hz", per_si: 1.0 };
+/// Millinewtons.
+pub const MILLINEWTONS: Unit = Unit { shown: "mN", per_si: 1e3 };
+/// Per metre.
+pub const PER_METRE: Unit = Unit { shown: "1/m", per_si: 1.0 };
+/// Square millimetres per hertz.
+pub const SQUARE_MILLIMETRES_PER_HERTZ: Unit = Unit { shown: "mm²/Hz", per_si: 1e6 };
+/// Hundredths of a ratio.
+pub const PERCENT: Unit = Unit { shown: "%", per_si: 1e2 };
+/// Of what is a percentage already.
+pub const OF_PERCENT: Unit = Unit { shown: "%", per_si: 1.0 };
+
+/// What kind of result a measure is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A number.
+    Number,
+    /// A curve along the fibre, over the distance from the root [m].
+    Profile,
+    /// A curve over time [s], one value for each recorded instant.
+    Series,
+    /// A curve over frequency [Hz].
+    Spectrum,
+}
+
+impl Kind {
+    /// What the curve is over: name with the SI unit in a table, what an axis is called, and its unit.
+    pub const fn over(self) -> Option<(&'static str, &'static str, Unit)> {
+        match self {
+            Self::Number => None,
+            Self::Profile => Some(("distance_m", "Distance from the root along the fibre", MILLIMETRES)),
+            Self::Series => Some(("time_s", "Time", Unit { shown: "s", per_si: 1.0 })),
+            Self::Spectrum => Some(("frequency_hz", "Frequency *f*", HERTZ)),
+        }
+    }
+}
+
+/// What stands for all replicates where one number must do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Over {
+    /// Their mean, which has a standard error.
+    Mean,
+    /// Their median.
+    Median,
+    /// The largest.
+    Largest,
+}
+
+/// A figure of one or more measures.
+#[derive(Debug, PartialEq)]
+pub struct Figure {
+    /// Name of its files.
+    pub name: &'static str,
+    /// Its title, which also names the axis of the measures.
+    pub title: &'static str,
+    /// What it shows, in a sentence: `the amplitude`.
+    pub words: &'static str,
+    /// Whether the axis of the measures is logarithmic.
+    pub logarithmic: bool,
+    /// Whether that axis begins at zero.
+    pub from_zero: bool,
+    /// What a reader should know, for a curve: sentences under it.
+    pub caption: &'static str,
+}
+
+/// Something seen at a recorded instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// The fibres.
+    pub snapshot: &'a Snapshot,
+    /// What is recorded of each of the eight.
+    pub samples: &'a [Sample],
+    /// Whether the spin-up is over.
+    pub settled: bool,
+}
+
+/// One value of a measure.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Of a [`Kind::Number`], in SI units; NaN where it is not defined.
+    Number(f64),
+    /// Of any other kind: places, times or frequencies, and the values there, as many of both, in SI units.
+    Curve(Vec<f64>, Vec<f64>),
+}
+
+/// Looks at up to eight fibres while they fly.
+pub trait Observer: std::fmt::Debug + Send {
+    /// Sees a recorded instant. Instants come in order, the start first.
+    fn see(&mut self, seen: &Seen<'_>);
+
+    /// The values of one fibre, one for each declared measure. The flight is over.
+    fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value>;
+}
+
+/// The observers of a case.
+#[derive(Debug)]
+pub struct Observers(Vec<(&'static Declaration, Box<dyn Observer>)>);
+
+impl Observers {
+    /// Of everything that applies to a case.
+    ///
+    /// * `curves` – whether curves are wanted too; without them, as in a study, an observer of curves alone is
+    ///   left out
+    pub fn of(case: &Case, curves: bool) -> Self {
+        let wanted = |d: &&Declaration| curves || d.measures.iter().any(|m| m.kind == Kind::Number);
+        let declared = DECLARED.iter().copied().filter(wanted).filter(|declared| (declared.applies)(case));
+        Self(declared.map(|declared| (declared, (declared.observer)(case))).collect())
+    }
+
+    /// Shows all of them a recorded instant.
+    pub fn see(&mut self, seen: &Seen<'_>) {
+        self.0.iter_mut().for_each(|(_, observer)| observer.see(seen));
+    }
+
+    /// The measures of one fibre, in the order of their declarations.
+    pub fn finish(&self, lane: usize, flight: &Flight) -> impl Iterator<Item = (&'static Measure, Value)> {
+        self.0
+            .iter()
+            .flat_map(move |(declared, observer)| declared.measures.iter().zip(observer.finish(lane, flight)))
+    }
+}
+
+/// How many measures are numbers.
+pub const NUMBERS: usize = {
+    let (mut count, mut i) = (0, 0);
+    while i < DECLARED.len() {
+        let (measures, mut j) = (DECLARED[i].measures, 0);
+        while j < measures.len() {
+            count += matches!(measures[j].kind, Kind::Number) as usize;
+            j += 1;
+        }
+        i += 1;
+    }
+    count
+};
+
+/// All measures that are numbers, whether they apply to a case or not: what a study keeps of a fibre.
+pub const MEASURES: [&Measure; NUMBERS] = {
+    let mut all = [&DECLARED[0].measures[0]; NUMBERS];
+    let (mut count, mut i) = (0, 0);
+    while i < DECLARED.len() {
+        let (measures, mut j) = (DECLARED[i].measures, 0);
+        while j < measures.len() {
+            if matches!(measures[j].kind, Kind::Number) {
+                all[count] = &measures[j];
+                count += 1;
+            }
+            j += 1;
+        }
+        i += 1;
+    }
+    all
+};
+
+/// Applies to every case.
+fn always(_: &Case) -> bool {
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn names_and_columns_are_unique_and_complete() {
+        let all: Vec<&Measure> = DECLARED.iter().flat_map(|declaration| declaration.measures).collect();
+        assert_eq!(all.iter().map(|m| m.name).collect::<BTreeSet<_>>().len(), all.len());
+        assert_eq!(all.iter().map(|m| m.column).collect::<BTreeSet<_>>().len(), all.len());
+        assert!(MEASURES.iter().all(|measure| measure.kind == Kind::Number));
+        assert_eq!(MEASURES.iter().map(|m| m.name).collect::<BTreeSet<_>>().len(), NUMBERS);
+        for measure in all {
+            assert!(measure.column.starts_with(measure.name), "{}", measure.name);
+            assert!(!measure.meaning.is_empty() && !measure.label.is_empty(), "{}", measure.name);
+        }
+    }
+}

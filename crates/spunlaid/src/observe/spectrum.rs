@@ -1,0 +1,85 @@
+//! At which frequencies the free end moves.
+
+use super::{
+    Declaration, END_NODE, Figure, Kind, Measure, Observer, Over, SQUARE_MILLIMETRES_PER_HERTZ, Seen, Value,
+    always,
+};
+use crate::case::Case;
+use crate::flight::Flight;
+use crate::lanes::WIDTH;
+use crate::statistics::PowerSpectrum;
+
+pub(super) const DECLARATION: Declaration = Declaration {
+    measures: &[
+        measure("spectrum_y", "spectrum_y_m2_hz", "Spectrum of y", "*y*"),
+        measure("spectrum_z", "spectrum_z_m2_hz", "Spectrum of z", "*z*"),
+    ],
+    applies: always,
+    observer: |case| Box::new(Motion::of(case)),
+};
+
+const fn measure(
+    name: &'static str,
+    column: &'static str,
+    label: &'static str,
+    series: &'static str,
+) -> Measure {
+    Measure {
+        name,
+        column,
+        label,
+        meaning: "one-sided power spectral density of the free end’s position at the recorded instants (Welch’s method)",
+        unit: SQUARE_MILLIMETRES_PER_HERTZ,
+        kind: Kind::Spectrum,
+        group: END_NODE,
+        over_replicates: Over::Mean,
+        figure: &Figure {
+            name: "motion_spectrum",
+            title: "Spectrum of the motion",
+            words: "spectrum of the motion",
+            logarithmic: true,
+            from_zero: false,
+            caption: "How the motion of the free end is spread over frequencies, averaged over all replicates \
+                      (Welch’s method). The area under a curve is the amplitude squared.",
+        },
+        series,
+    }
+}
+
+/// y and z of the free ends at the recorded instants after the spin-up [m].
+#[derive(Debug)]
+struct Motion {
+    interval: f64,
+    segment: usize,
+    end: [[Vec<f64>; 2]; WIDTH],
+}
+
+impl Motion {
+    fn of(case: &Case) -> Self {
+        let run = &case.run;
+        let samples = (run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1)) as usize + 1;
+        let segment = PowerSpectrum::segment_length(samples);
+        Self { interval: run.output_interval(), segment, end: Default::default() }
+    }
+}
+
+impl Observer for Motion {
+    fn see(&mut self, seen: &Seen<'_>) {
+        if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
+            for (lane, [y, z]) in self.end.iter_mut().enumerate() {
+                y.push(end.y.0[lane]);
+                z.push(end.z.0[lane]);
+            }
+        }
+    }
+
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        let density = |record: &Vec<f64>| {
+            let mut spectrum = PowerSpectrum::new(self.interval, self.segment);
+            spectrum.add(record);
+            let (frequency, density) = spectrum.density().into_iter().unzip();
+            Value::Curve(frequency, density)
+        };
+        self.end[lane].iter().map(density).collect()
+    }
+}
