@@ -1,7 +1,8 @@
 //! Every figure of every run can be drawn.
 
-use super::{Figure, png, run_figures, sample};
+use super::{run_figures, sample};
 use spunlaid::ensemble::SpectrumPoint;
+use spunlaid_charts::{Figure, png};
 
 fn check(figures: &[Figure]) {
     for figure in figures {

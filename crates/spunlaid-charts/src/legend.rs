@@ -1,9 +1,9 @@
 //! The legend: rows above the plot, where there are no data to cover.
 
-use super::chart::{Chart, Mark, Series};
-use super::draw::draw_marker;
-use super::palette::{INK, Marker};
-use super::svg::{Anchor, Stroke, Svg, Text, width};
+use crate::chart::{Chart, Mark, Series};
+use crate::draw::draw_marker;
+use crate::palette::{INK, Marker};
+use crate::svg::{Anchor, Stroke, Svg, Text, width};
 
 const SIZE: f64 = 13.0;
 const ROW: f64 = 20.0;

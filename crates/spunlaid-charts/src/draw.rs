@@ -1,12 +1,12 @@
 //! Drawing a chart: layout, axes, marks.
 
-use super::chart::{Chart, Mark, Series};
-use super::decimate::{along_x, path, runs};
-use super::legend;
-use super::map::{KEY, Map};
-use super::palette::{GREY, GRID, INK, Marker, PAPER};
-use super::scale::{Scale, Spacing, factor};
-use super::svg::{Anchor, Stroke, Svg, Text, width};
+use crate::chart::{Chart, Mark, Series};
+use crate::decimate::{along_x, path, runs};
+use crate::legend;
+use crate::map::{KEY, Map};
+use crate::palette::{GREY, GRID, INK, Marker, PAPER};
+use crate::scale::{Scale, Spacing, factor};
+use crate::svg::{Anchor, Stroke, Svg, Text, width};
 
 const LABEL: f64 = 14.0;
 const TICK: f64 = 13.0;
@@ -36,7 +36,7 @@ impl Plot {
 }
 
 /// The picture of charts one above the other.
-pub(crate) fn stacked(title: &str, charts: &[&Chart]) -> String {
+pub fn stacked(title: &str, charts: &[&Chart]) -> String {
     let width = charts.iter().map(|c| c.size.0).fold(0.0, f64::max);
     let height = charts.iter().map(|c| c.size.1).sum();
     let mut svg = Svg::new(width, height, title);
@@ -281,7 +281,7 @@ fn draw_error(svg: &mut Svg, plot: &Plot, (x, y): (f64, f64), error: f64, colour
 }
 
 /// A marker: circle and triangle hollow, the spot filled.
-pub(crate) fn draw_marker(svg: &mut Svg, at: (f64, f64), marker: Marker, colour: &str) {
+pub fn draw_marker(svg: &mut Svg, at: (f64, f64), marker: Marker, colour: &str) {
     let stroke = Stroke::solid(colour, 1.5);
     let (x, y) = at;
     match marker {
