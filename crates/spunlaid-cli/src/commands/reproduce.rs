@@ -6,7 +6,7 @@ use crate::args::{Reproduce, SchemeName};
 use crate::failure::Failure;
 use crate::figures::paper as draw;
 use crate::numbers::plus_minus;
-use crate::output::folder::Staging;
+use crate::output::folder::{ENTRIES, Staging};
 use crate::output::pictures;
 use crate::report::{PaperReport, paper_html};
 use crate::{progress, say};
@@ -41,7 +41,7 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     let Some(base) = table1(scheme, asked.replicates) else { return Ok(()) };
     let folder = asked.out.clone().unwrap_or_else(|| PathBuf::from("results").join("paper"));
     let stop = stop_on_ctrl_c();
-    let staging = Staging::new(&folder, asked.force, stop)?;
+    let staging = Staging::new(&folder, ENTRIES, asked.force, stop)?;
     let flying = Flying::new(&base, &wanted);
 
     let fibre_steps = AtomicU64::new(0);
