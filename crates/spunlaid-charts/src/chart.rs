@@ -242,9 +242,4 @@ impl Chart {
         }
         (xs, ys)
     }
-
-    /// The picture.
-    pub fn svg(&self) -> String {
-        crate::draw::chart(self)
-    }
 }

@@ -52,7 +52,6 @@ mod table;
 
 pub use chart::{Chart, Mark, Series};
 pub use decimate::even;
-pub use draw::draw_marker;
 pub use figure::Figure;
 pub use map::Map;
 pub use numbers::{shortest, signed, significant};

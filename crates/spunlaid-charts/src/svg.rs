@@ -1,5 +1,6 @@
 //! Writing SVG: numbers, escaping, text with italics and superscripts.
 
+use crate::palette::{Marker, PAPER};
 use std::fmt::Write;
 
 /// Where a text is anchored.
@@ -107,6 +108,22 @@ impl Svg {
             number(radius),
             stroke.attributes()
         );
+    }
+
+    /// A marker: circle and triangle hollow, the spot filled.
+    pub fn marker(&mut self, at: (f64, f64), marker: Marker, colour: &str) {
+        let stroke = Stroke::solid(colour, 1.5);
+        let (x, y) = at;
+        match marker {
+            Marker::Circle => self.circle(at, 3.9, PAPER, &stroke),
+            Marker::Triangle => {
+                // As large as the circle, its centre of mass on the point.
+                let r = 5.2;
+                let corners = [(x, y - r), (x + 0.866 * r, y + 0.5 * r), (x - 0.866 * r, y + 0.5 * r)];
+                self.polygon(&corners, PAPER, 1.0, Some(&stroke));
+            }
+            Marker::Spot => self.circle(at, 3.4, colour, &stroke),
+        }
     }
 
     /// A text in the mark-up of [`plain`], turned a quarter to the left where `upright` is false.

@@ -4,7 +4,7 @@ use super::quantity::{Along, Group, label_of_key};
 use crate::numbers::range;
 use spunlaid::study::{Effect, Ranking, Study};
 use spunlaid_charts::{
-    Axis, Figure, Marker, Scale, Table, draw_marker,
+    Axis, Figure, Marker, Scale, Table,
     palette::{BLUE, GREY, GRID, INK, VERMILION},
     svg::{Anchor, Stroke, Svg, Text, width},
 };
@@ -56,7 +56,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
 
     let mut key = left;
     for (_, marker, colour, label) in &shown {
-        draw_marker(&mut svg, (key + 8.0, 18.0), *marker, colour);
+        svg.marker((key + 8.0, 18.0), *marker, colour);
         let style = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
         svg.text((key + 20.0, 22.5), label, style);
         key += 60.0;
@@ -82,7 +82,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
             for end in [low, high] {
                 svg.line((end, y - 3.5), (end, y + 3.5), &stroke);
             }
-            draw_marker(&mut svg, (along(effect.change * group.factor), y), *marker, colour);
+            svg.marker((along(effect.change * group.factor), y), *marker, colour);
         }
     }
     let explained: Vec<String> = shown
