@@ -37,6 +37,9 @@
 //! Labels have a small mark-up: `*t*` is italic, `^{2}` is raised, `_{n}` is lowered.
 //! What a chart cannot show is drawn with [`svg`], in the colours of [`palette`].
 
+// Units stand in brackets, [px], which rustdoc takes for links that lead nowhere.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 mod chart;
 mod decimate;
 mod draw;
