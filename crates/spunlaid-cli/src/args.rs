@@ -63,7 +63,7 @@ The results folder holds
   case.toml            the case with every default written out: run it again for the same bits
   end_node.parquet     the free end over time      energy.parquet   both energy ledgers over time
   shape.pvd, shape/    the fibre over time, for ParaView (open shape.pvd)
-  figures/             the report's figures as SVG and PNG
+  figures/             the report's figures as SVG and PNG, and their numbers as CSV
 
 Examples:
   spunlaid run cases/table1.toml
@@ -90,7 +90,7 @@ bits. The results folder holds
   report.html          open it in a browser: what was asked, table, figures, ranking
   results.csv          a row per point: inputs, then mean, standard error (_se) and n of every result
   results.parquet      the same            replicates.parquet   a row per fibre
-  figures/             the report's figures as SVG and PNG
+  figures/             the report's figures as SVG and PNG, and their numbers as CSV
   study.toml, case.toml   the study as it was run; sweep them again for the same bits
   journal              every fibre as it landed; keep it and the study can be gone on with
 
@@ -101,7 +101,7 @@ Examples:
 const REPRODUCE_HELP: &str = "\
 The results folder holds
   report.html   the paper's claims one by one with evidence and verdict, what it leaves open, the figures
-  figures/      every figure as SVG and PNG, and its data as CSV
+  figures/      every figure as SVG and PNG, and its numbers as CSV
   summary.json  the claims, their evidence and verdicts      case.toml  the base case, Table 1
 
 Examples:
@@ -124,7 +124,7 @@ The results folder holds
   report.html          open it in a browser: record, histogram, spectrum, autocorrelation, table
   analysis.json        every result as {value, low, high}, a 95 % confidence interval
   air.toml             the [air] of a case, ready to be pasted; or to be given key by key with --set
-  spectrum.csv, autocorrelation.csv      the curves          figures/   the figures as SVG and PNG
+  spectrum.csv, autocorrelation.csv      the curves          figures/   the figures as SVG, PNG, CSV
 
 Integral time: the autocorrelation integrated up to
   first-zero           its first zero (the usual choice)

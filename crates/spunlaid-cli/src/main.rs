@@ -4,6 +4,7 @@ mod args;
 mod commands;
 mod failure;
 mod figures;
+mod numbers;
 mod output;
 mod progress;
 mod report;

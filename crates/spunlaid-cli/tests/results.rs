@@ -42,7 +42,11 @@ fn a_run_leaves_what_help_promises_and_nothing_else() {
     }
     for figure in desk.entries("results/brief/figures") {
         let content = desk.read(&format!("results/brief/figures/{figure}"));
-        let head: &[u8] = if figure.ends_with(".png") { b"\x89PNG\r\n" } else { b"<svg" };
+        let head: &[u8] = match figure.rsplit('.').next() {
+            Some("png") => b"\x89PNG\r\n",
+            Some("csv") => b"series,",
+            _ => b"<svg",
+        };
         assert!(content.starts_with(head), "{figure}");
     }
     assert!(desk.read("results/brief/report.html").len() < 6_000_000);

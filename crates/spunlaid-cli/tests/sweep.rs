@@ -39,7 +39,9 @@ fn writes_what_it_says() {
         "case.toml",
         "figures/amplitude_over_air_velocity.svg",
         "figures/amplitude_over_air_velocity.png",
+        "figures/amplitude_over_air_velocity.csv",
         "figures/amplitude_ranking.svg",
+        "figures/amplitude_ranking.csv",
     ] {
         assert!(names.contains(&name.replace('/', std::path::MAIN_SEPARATOR_STR)), "{name} of {names:?}");
     }
@@ -62,6 +64,28 @@ fn writes_what_it_says() {
     assert!(rows[1..].iter().flatten().all(|cell| cell.parse::<f64>().is_ok_and(f64::is_finite)), "{rows:?}");
     assert_eq!(place.swept("quiet", &["--quiet"]).stdout, b"");
     assert_eq!(place.swept("quiet", &["--quiet"]).stderr, b"");
+}
+
+#[test]
+fn the_numbers_of_a_figure_are_those_of_the_results() {
+    let place = Place::new(&case(0.02), &STUDY.replace("'fibre.diameter' = ['20 µm', '50 µm']\n", ""));
+    place.swept("out", &[]);
+    let points = csv(&place, "out");
+    let column = |name: &str| points[0].iter().position(|head| head == name).unwrap();
+    let text = fs::read_to_string(place.path("out/figures/amplitude_over_air_velocity.csv")).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("series,mean_velocity_m_s,amplitude_mm,error"));
+    for axis in ["y", "z"] {
+        let (mean, error) =
+            (column(&format!("amplitude_{axis}_m")), column(&format!("amplitude_{axis}_m_se")));
+        for point in &points[1..] {
+            let number = |cell: &str| cell.parse::<f64>().unwrap();
+            let row: Vec<&str> = lines.next().unwrap().split(',').collect();
+            let wanted = [number(&point[2]), number(&point[mean]) * 1e3, number(&point[error]) * 1e3];
+            assert_eq!((row[0], [1, 2, 3].map(|i| number(row[i]))), (axis, wanted), "{text}");
+        }
+    }
+    assert_eq!(lines.next(), None);
 }
 
 #[test]

@@ -3,7 +3,8 @@
 //! The counts are frozen. One that changes is no error of the physics, but a run has become dearer or
 //! cheaper: change the number here when that is meant, and `docs/performance.md` with it.
 
-#![allow(clippy::expect_used)]
+// An allocator that counts is unsafe to write.
+#![allow(clippy::expect_used, unsafe_code)]
 
 mod common;
 

@@ -4,7 +4,7 @@ use crate::args::Analyse;
 use crate::failure::Failure;
 use crate::figures::record_figures;
 use crate::output::analysis::{air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv};
-use crate::output::folder::Staging;
+use crate::output::folder::{ENTRIES, Staging};
 use crate::output::pictures;
 use crate::report::{AnalysisReport, analysis_html};
 use crate::say;
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
     let name = name(&analyse.record);
     let folder = analyse.out.clone().unwrap_or_else(|| PathBuf::from("results").join(&name));
-    let staging = Staging::new(&folder, analyse.force, super::interrupt::stop_on_ctrl_c())?;
+    let staging = Staging::new(&folder, ENTRIES, analyse.force, super::interrupt::stop_on_ctrl_c())?;
     let record = read_record(&analyse.record, &layout(analyse))?;
     let of = spunlaid::record::analyse(&record, &settings(analyse))?;
     let remarks = remarks(&record);

@@ -4,10 +4,11 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
 use crate::args::{Reproduce, SchemeName};
 use crate::failure::Failure;
-use crate::figures::{Figure, paper as draw};
-use crate::output::folder::Staging;
+use crate::figures::paper as draw;
+use crate::numbers::plus_minus;
+use crate::output::folder::{ENTRIES, Staging};
 use crate::output::pictures;
-use crate::report::{PaperReport, mean_and_error, paper_html};
+use crate::report::{PaperReport, paper_html};
 use crate::{progress, say};
 use serde::Serialize;
 use spunlaid::case::Case;
@@ -22,7 +23,7 @@ use spunlaid::paper::{
     with_time_step,
 };
 use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, results_of_point, run};
-use std::fmt::Write;
+use spunlaid_charts::Figure;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
@@ -40,7 +41,7 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     let Some(base) = table1(scheme, asked.replicates) else { return Ok(()) };
     let folder = asked.out.clone().unwrap_or_else(|| PathBuf::from("results").join("paper"));
     let stop = stop_on_ctrl_c();
-    let staging = Staging::new(&folder, asked.force, stop)?;
+    let staging = Staging::new(&folder, ENTRIES, asked.force, stop)?;
     let flying = Flying::new(&base, &wanted);
 
     let fibre_steps = AtomicU64::new(0);
@@ -53,11 +54,7 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     let figures = flown.figures(&base);
     let claims = flown.claims();
     let choices = flown.choices();
-    for (figure, table) in &figures {
-        staging.write(&format!("figures/{}.csv", figure.name), table)?;
-    }
-    let drawn: Vec<Figure> = figures.into_iter().map(|(figure, _)| figure).collect();
-    pictures::write(&drawn, |name, content| staging.write(&format!("figures/{name}"), content))?;
+    pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let case_toml = write_case(&base);
     let how = format!(
         "{} at each point, scheme {}, time step {} µs, the same random phases at all points of a figure. Figures 8 by \
@@ -68,7 +65,7 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     );
     let report = paper_html(&PaperReport {
         claims: &claims,
-        figures: &drawn,
+        figures: &figures,
         choices: &choices,
         how: &how,
         case_toml: &case_toml,
@@ -218,46 +215,24 @@ impl Flown {
         self.steps.iter().map(|(step, results)| (*step, results.errors.clone())).collect()
     }
 
-    /// The figures, each with its data as CSV.
-    fn figures(&self, base: &Case) -> Vec<(Figure, String)> {
+    fn figures(&self, base: &Case) -> Vec<Figure> {
         let mut figures = Vec::new();
         let wants = |figure| self.flying.wanted.contains(&figure);
         if wants("2") {
-            let rows = self.record.iter().map(|&(t, u)| vec![t, u]);
-            let figure = draw::velocity_history(&self.record, base.air.velocity);
-            figures.push((figure, csv("time_s,velocity_m_s", rows)));
+            figures.push(draw::velocity_history(&self.record, base.air.velocity));
         }
         if wants("3") {
-            let rows = self.spectrum.iter().map(|p| vec![p.frequency, p.realised, p.wanted]);
-            let head = "frequency_hz,synthesised_m2_s,model_m2_s";
-            figures.push((draw::spectrum(&self.spectrum), csv(head, rows)));
+            figures.push(draw::spectrum(&self.spectrum));
         }
         let last = self.steps.first().and_then(|(_, r)| r.flights.first()?.shapes.last());
         if let (true, Some(shape)) = (wants("8a"), last) {
-            let rows = shape.position.iter().map(|p| vec![p.x, p.y, p.z]);
-            figures.push((draw::final_shape(&shape.position), csv("x_m,y_m,z_m", rows)));
+            figures.push(draw::final_shape(&shape.position));
         }
         if wants("8b") {
-            let errors = self.errors();
-            let rows = errors
-                .iter()
-                .flat_map(|(step, errors)| errors.iter().map(|e| vec![*step, e.time, e.work.0, e.work.1]));
-            let table = csv("time_step_s,time_s,work_error_percent_mean,work_error_percent_largest", rows);
-            figures.push((draw::step_errors(&errors), table));
+            figures.push(draw::step_errors(&self.errors()));
         }
         for (parameter, points) in &self.flying.trends {
-            let trend = self.trend(*parameter, points);
-            let head = format!(
-                "{},amplitude_y_m,amplitude_y_m_se,amplitude_z_m,amplitude_z_m_se,frequency_y_hz,frequency_y_hz_se,frequency_z_hz,frequency_z_hz_se,n",
-                parameter.column()
-            );
-            let rows = trend.iter().map(|p| {
-                let pairs = p.amplitude.iter().chain(&p.frequency);
-                let results = pairs.flat_map(|&(mean, error)| [mean, error.unwrap_or(f64::NAN)]);
-                std::iter::once(p.value).chain(results).chain([p.n as f64]).collect()
-            });
-            let table = csv(&head, rows);
-            figures.extend(draw::trend(*parameter, &trend).into_iter().map(|f| (f, table.clone())));
+            figures.extend(draw::trend(*parameter, &self.trend(*parameter, points)));
         }
         figures
     }
@@ -280,21 +255,13 @@ impl Flown {
     fn choices(&self) -> Vec<(String, Vec<String>)> {
         let cells = |point: usize| {
             let results = &self.points[point];
-            let cell = |i: usize, factor| mean_and_error(results.mean[i], results.standard_error[i], factor);
+            let cell = |i: usize, factor: f64| {
+                plus_minus(results.mean[i] * factor, results.standard_error[i].map(|error| error * factor))
+            };
             vec![cell(0, 1e3), cell(1, 1e3), cell(2, 1.0), cell(3, 1.0)]
         };
         self.flying.choices.iter().map(|&(name, point)| (name.to_owned(), cells(point))).collect()
     }
-}
-
-fn csv(head: &str, rows: impl Iterator<Item = Vec<f64>>) -> String {
-    let mut text = format!("{head}\n");
-    for row in rows {
-        let cells: Vec<String> =
-            row.iter().map(|v| if v.is_finite() { format!("{v}") } else { String::new() }).collect();
-        let _ = writeln!(text, "{}", cells.join(","));
-    }
-    text
 }
 
 /// `summary.json`: the claims with their evidence and verdicts.

@@ -4,8 +4,9 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
 use crate::args::Run;
 use crate::failure::Failure;
-use crate::figures::{run_figures, significant};
-use crate::output::folder::Staging;
+use crate::figures::run_figures;
+use crate::numbers::significant;
+use crate::output::folder::{ENTRIES, Staging};
 use crate::output::summary::{Performance, Summary};
 use crate::output::tables::{END_NODE, ENERGY, Table};
 use crate::output::{beside, paraview, pictures, table};
@@ -30,7 +31,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     notes.iter().for_each(say::note);
     let folder = run.out.clone().unwrap_or_else(|| default_folder(run));
     let stop = stop_on_ctrl_c();
-    let staging = Staging::new(&folder, run.force, stop)?;
+    let staging = Staging::new(&folder, ENTRIES, run.force, stop)?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing =

@@ -1,9 +1,10 @@
 //! The pictures of the drag laws in `docs/theory.md`. `BLESS=1 cargo test` draws them anew.
 
-use super::chart::{Chart, Series};
-use super::palette::{BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION};
-use super::scale::Axis;
 use spunlaid::drag::{FrictionLaw, NormalLaw};
+use spunlaid_charts::{
+    Axis, Chart, Series,
+    palette::{BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION},
+};
 use std::fs;
 
 const CYLINDERS: &str = include_str!("../../../spunlaid/tests/published/cylinders.csv");

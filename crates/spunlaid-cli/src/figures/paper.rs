@@ -1,19 +1,15 @@
 //! The figures of the paper, drawn anew: circles for y, triangles for z, with the error bars it lacks.
 
-use super::Figure;
-use super::chart::{Chart, Series};
-use super::palette::{BLUE, GREEN, VERMILION};
-use super::scale::Axis;
 use spunlaid::ensemble::{ErrorOverTime, SpectrumPoint};
 use spunlaid::paper::{Both, Parameter, TrendPoint};
 use spunlaid::vec3::Vec3;
+use spunlaid_charts::{
+    Axis, Chart, Figure, Series,
+    palette::{BLUE, GREEN, VERMILION},
+};
 
 /// Millimetres per metre.
 const MM: f64 = 1e3;
-
-fn figure(chart: &Chart, caption: String) -> Figure {
-    Figure { name: chart.name.clone(), title: chart.title.clone(), caption, svg: chart.svg() }
-}
 
 /// Figure 2: the air velocity along x at one place over time.
 pub(crate) fn velocity_history(record: &[(f64, f64)], mean: f64) -> Figure {
@@ -28,7 +24,7 @@ pub(crate) fn velocity_history(record: &[(f64, f64)], mean: f64) -> Figure {
         Series::reference("mean").dashed("6 4"),
         &[(record.first().map_or(0.0, |r| r.0), mean), (record.last().map_or(1.0, |r| r.0), mean)],
     );
-    figure(
+    Figure::of(
         &chart,
         format!(
             "Figure 2. The synthesised velocity in the first eddy of the first replicate, mean {mean} m/s."
@@ -49,7 +45,7 @@ pub(crate) fn spectrum(points: &[SpectrumPoint]) -> Figure {
     )
     .line(Series::new("synthesised", BLUE).width(1.3), &realised)
     .line(Series::reference("flat model").dashed("6 4").width(1.6), &wanted);
-    figure(
+    Figure::of(
         &chart,
         "Figure 3. The spectrum of the synthesised velocity (Welch’s estimate over components, eddies and \
          replicates) and the flat model it is made from: constant up to the cut-off, nothing above but what \
@@ -69,11 +65,11 @@ pub(crate) fn final_shape(shape: &[Vec3<f64>]) -> Figure {
         Axis::linear("*x* (mm)"),
         Axis::linear("*y*, *z* (mm)"),
     )
-    .line(Series::y("y"), &along(|p| p.y))
-    .line(Series::z("z"), &along(|p| p.z))
-    .scatter(Series::y("y").unlabelled(), &with_no_error(&along(|p| p.y)))
-    .scatter(Series::z("z").unlabelled(), &with_no_error(&along(|p| p.z)));
-    figure(
+    .line(Series::circles("y"), &along(|p| p.y))
+    .line(Series::triangles("z"), &along(|p| p.z))
+    .scatter(Series::circles("y").adorning(), &with_no_error(&along(|p| p.y)))
+    .scatter(Series::triangles("z").adorning(), &with_no_error(&along(|p| p.z)));
+    Figure::of(
         &chart,
         "Figure 8a. The first replicate after one second, seen from two sides; the axes across are magnified. \
          Markers are the nodes."
@@ -103,9 +99,11 @@ pub(crate) fn step_errors(runs: &[(f64, Vec<ErrorOverTime>)]) -> Figure {
                 (some[some.len() / 2].time, known.iter().sum::<f64>() / known.len() as f64)
             })
             .collect();
-        chart = chart.line(Series::new(&format!("{:.0} µs", step * 1e6), colour).width(1.2), &means);
+        let all = errors.iter().map(|e| (e.time, e.work.0, None)).collect();
+        let series = Series::new(&format!("{:.0} µs", step * 1e6), colour).width(1.2);
+        chart = chart.line(series.thinned_from(all), &means);
     }
-    figure(
+    Figure::of(
         &chart,
         "Figure 8b. Work of all forces against the kinetic energy (Eq 36), mean over the replicates, for three \
          time steps."
@@ -149,7 +147,7 @@ fn chart(
         Axis::linear(&format!("{words_up} *{symbol}* ({unit})")),
         Axis::linear(label).zero_based(),
     );
-    for (i, series) in [Series::y("y"), Series::z("z")].into_iter().enumerate() {
+    for (i, series) in [Series::circles("y"), Series::triangles("z")].into_iter().enumerate() {
         let spots: Vec<(f64, f64, Option<f64>)> = points
             .iter()
             .map(|p| {
@@ -161,7 +159,7 @@ fn chart(
     }
     let n = points.iter().map(|p| p.n).min().unwrap_or(0);
     let paper = name.trim_start_matches("figure_");
-    figure(
+    Figure::of(
         &chart,
         format!(
             "Figure {paper}. {what} of the free end in y (circles) and z (triangles), mean over {n} replicates; \

@@ -1,7 +1,8 @@
 //! Every figure of every run can be drawn.
 
-use super::{Figure, png, run_figures, sample};
+use super::{run_figures, sample};
 use spunlaid::ensemble::SpectrumPoint;
+use spunlaid_charts::{Figure, png};
 
 fn check(figures: &[Figure]) {
     for figure in figures {
@@ -33,6 +34,52 @@ fn draws_all_six() {
         ]
     );
     check(&figures);
+}
+
+#[test]
+fn the_numbers_of_the_amplitude_are_those_of_the_results() {
+    // More nodes than are drawn with a marker.
+    let case = sample::case(200, 11, 3);
+    let results = sample::results(&case, 0.01);
+    let figures = run_figures(&case, &results, &[]);
+    let figure = figures.iter().find(|figure| figure.name == "amplitude_along_fibre").unwrap();
+    let text = figure.table.csv();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("series,distance_mm,amplitude_mm,error"));
+    let mut row = |wanted: &str| {
+        let (series, values) = lines.next().unwrap().split_once(',').unwrap();
+        assert_eq!(series, wanted);
+        values.split(',').map(|cell| cell.parse::<f64>().ok()).collect::<Vec<_>>()
+    };
+    type Amplitude = fn(&spunlaid::ensemble::NodeResults) -> (f64, Option<f64>);
+    let axes: [(&str, Amplitude); 2] = [("y", |node| node.amplitude_y), ("z", |node| node.amplitude_z)];
+    for (axis, amplitude) in axes {
+        for node in &results.nodes {
+            let (mean, error) = amplitude(node);
+            assert!(error.is_some());
+            let wanted = [Some(node.distance * 1e3), Some(mean * 1e3), error.map(|error| error * 1e3)];
+            assert_eq!(row(axis), wanted);
+        }
+    }
+    assert_eq!(lines.next(), None);
+}
+
+#[test]
+fn the_numbers_of_the_energies_are_not_thinned() {
+    let case = sample::case(4, 1001, 2);
+    let results = sample::results(&case, 0.01);
+    let figures = run_figures(&case, &results, &[]);
+    let errors = figures.iter().find(|figure| figure.name == "energy_errors").unwrap();
+    let text = errors.table.csv();
+    let of = |series: &str| -> Vec<f64> {
+        let rows = text.lines().filter_map(|line| line.strip_prefix(series)?.strip_prefix(','));
+        rows.map(|row| row.split(',').nth(1).unwrap().parse().unwrap_or(f64::NAN)).collect()
+    };
+    let wanted: Vec<f64> = results.errors.iter().map(|error| error.work.0).collect();
+    let read = of("work check, mean");
+    assert_eq!(read.len(), 1001);
+    assert!(read.iter().zip(&wanted).all(|(a, b)| a == b || b.is_nan() && a.is_nan()), "{read:?}");
+    assert_eq!(of("energy balance, largest").len(), 1001);
 }
 
 #[test]

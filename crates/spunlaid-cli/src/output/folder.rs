@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What a results folder holds; the last one says that it is complete.
-const ENTRIES: [&str; 13] = [
+/// What the results folder of a run, a record or the paper holds; the last one says that it is complete.
+pub(crate) const ENTRIES: &[&str] = &[
     "case.toml",
     CASE_FILES,
     "end_node.parquet",
@@ -34,6 +34,8 @@ const OLD: &str = "old";
 pub(crate) struct Staging<'a> {
     folder: PathBuf,
     staging: PathBuf,
+    /// What is moved to its place, in this order.
+    entries: &'static [&'static str],
     replace: bool,
     /// Tells other runs that this one lives.
     claim: Option<Claim>,
@@ -45,13 +47,19 @@ pub(crate) struct Staging<'a> {
 impl<'a> Staging<'a> {
     /// Gets ready to write results to `folder`; finds out now whether that will be possible.
     ///
+    /// * `entries` – what belongs to these results, in the order in which it is moved to its place
     /// * `stop` – set from elsewhere, nothing is written any more
-    pub(crate) fn new(folder: &Path, replace: bool, stop: &'a AtomicBool) -> Result<Self, Failure> {
+    pub(crate) fn new(
+        folder: &Path,
+        entries: &'static [&'static str],
+        replace: bool,
+        stop: &'a AtomicBool,
+    ) -> Result<Self, Failure> {
         let exists = folder.symlink_metadata().is_ok();
         if exists && !folder.is_dir() {
             return Err(Failure::NotAFolder { path: folder.to_owned() });
         }
-        refuse_results(folder, replace)?;
+        refuse_results(folder, entries, replace)?;
         let unwritable = |source| Failure::Unwritable { path: folder.to_owned(), source };
         let above = match folder.parent() {
             Some(above) if above.as_os_str().is_empty() => Path::new("."),
@@ -71,7 +79,7 @@ impl<'a> Staging<'a> {
             .inspect_err(|_| remove_empty(&made))
             .map_err(unwritable)?;
         let claim = Claim::on(&staging);
-        let staging = Self { folder: folder.to_owned(), staging, replace, claim, made, stop };
+        let staging = Self { folder: folder.to_owned(), staging, entries, replace, claim, made, stop };
         fs::create_dir(staging.staging.join(NEW)).map_err(unwritable)?;
         Ok(staging)
     }
@@ -96,7 +104,7 @@ impl<'a> Staging<'a> {
     pub(crate) fn publish(mut self) -> Result<(), Failure> {
         self.go_on()?;
         // Another run may have been faster.
-        refuse_results(&self.folder, self.replace)?;
+        refuse_results(&self.folder, self.entries, self.replace)?;
         let (new, folder) = (self.staging.join(NEW), self.folder.clone());
         let moved = if folder.exists() { self.swap(&new, &folder) } else { fs::rename(&new, &folder) };
         moved.map_err(Failure::unwritable(&folder))?;
@@ -118,8 +126,11 @@ impl<'a> Staging<'a> {
             moved.push((from, to));
             Ok(())
         };
-        let swapped = (ENTRIES.iter().rev().try_for_each(|name| step(folder.join(name), old.join(name))))
-            .and_then(|()| ENTRIES.iter().try_for_each(|name| step(new.join(name), folder.join(name))));
+        let swapped =
+            (self.entries.iter().rev().try_for_each(|name| step(folder.join(name), old.join(name))))
+                .and_then(|()| {
+                    self.entries.iter().try_for_each(|name| step(new.join(name), folder.join(name)))
+                });
         if swapped.is_err() {
             for (from, to) in moved.iter().rev() {
                 let _ = fs::rename(to, from);
@@ -146,9 +157,9 @@ impl Drop for Staging<'_> {
 }
 
 /// Says no to a folder that holds any part of results, unless they may be replaced.
-fn refuse_results(folder: &Path, replace: bool) -> Result<(), Failure> {
+fn refuse_results(folder: &Path, entries: &[&str], replace: bool) -> Result<(), Failure> {
     let holds = |entry: &&&str| folder.join(entry).symlink_metadata().is_ok();
-    match ENTRIES.iter().find(holds) {
+    match entries.iter().find(holds) {
         Some(found) if !replace => {
             Err(Failure::HoldsResults { folder: folder.to_owned(), found: (*found).to_owned() })
         }

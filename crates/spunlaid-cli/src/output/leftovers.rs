@@ -43,11 +43,20 @@ pub(super) fn hidden_folder(above: &Path) -> io::Result<PathBuf> {
 
 /// Removes what runs that were killed have left in a folder. It is no matter if that does not work.
 pub(super) fn remove(folder: &Path) {
+    remove_if(folder, is_abandoned);
+}
+
+/// The same in a folder that this process has to itself: there no other run is about to claim anything.
+pub(crate) fn remove_unclaimed(folder: &Path) {
+    remove_if(folder, |found| !found.join(LOCK).exists() || is_abandoned(found));
+}
+
+fn remove_if(folder: &Path, is_left: impl Fn(&Path) -> bool) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         let name = entry.file_name();
         let is_ours = name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
-        if is_ours && entry.file_type().is_ok_and(|kind| kind.is_dir()) && is_abandoned(&entry.path()) {
+        if is_ours && entry.file_type().is_ok_and(|kind| kind.is_dir()) && is_left(&entry.path()) {
             let _ = fs::remove_dir_all(entry.path());
         }
     }

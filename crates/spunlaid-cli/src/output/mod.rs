@@ -3,8 +3,9 @@
 pub(crate) mod analysis;
 pub(crate) mod beside;
 pub(crate) mod folder;
-mod leftovers;
+pub(crate) mod leftovers;
 pub(crate) mod paraview;
+mod parquet;
 pub(crate) mod pictures;
 pub(crate) mod study;
 pub(crate) mod summary;

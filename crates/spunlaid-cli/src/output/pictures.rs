@@ -1,7 +1,7 @@
-//! Figures as files: SVG as they are, PNG drawn on all threads.
+//! Figures as files: SVG and CSV as they are, PNG drawn on all threads.
 
 use crate::failure::Failure;
-use crate::figures::{Figure, png};
+use spunlaid_charts::{Figure, png};
 use std::borrow::Borrow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -12,6 +12,7 @@ pub(crate) fn write<F: Borrow<Figure> + Sync>(
 ) -> Result<(), Failure> {
     for (figure, picture) in figures.iter().map(F::borrow).zip(pictures(figures)) {
         write(format!("{}.svg", figure.name), figure.svg.as_bytes())?;
+        write(format!("{}.csv", figure.name), figure.table.csv().as_bytes())?;
         write(format!("{}.png", figure.name), &picture?)?;
     }
     Ok(())

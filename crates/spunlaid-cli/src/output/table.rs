@@ -1,5 +1,6 @@
 //! The table of results on the terminal.
 
+use crate::numbers::{number, rounded};
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::Results;
@@ -34,36 +35,16 @@ pub(crate) fn results(case: &Case, results: &Results) -> String {
         let _ = writeln!(
             text,
             "  {name:<16}{:>12} %  {:>12} %",
-            short(error.final_mean),
-            short(error.time_median)
+            number(error.final_mean),
+            number(error.time_median)
         );
     }
-    let _ = writeln!(text, "largest strain    {:>12} %", short(results.max_strain * 100.0));
+    let _ = writeln!(text, "largest strain    {:>12} %", number(results.max_strain * 100.0));
     text
 }
 
-/// `9.81 ± 0.23`, to two digits of the error.
+/// The mean and its error, the signs ± of all rows below each other.
 fn mean_and_error(estimate: &Estimate, scale: f64) -> String {
-    let mean = estimate.mean * scale;
-    match estimate.standard_error.map(|e| e * scale) {
-        Some(error) if error > 0.0 && error.is_finite() => {
-            let decimals = (1 - error.log10().floor() as i32).clamp(0, 12) as usize;
-            format!("{mean:>12.decimals$} ± {error:.decimals$}")
-        }
-        _ => format!("{:>12}", short(mean)),
-    }
-}
-
-/// Four digits, plain or with a power of ten; a dash for what is undefined.
-fn short(value: f64) -> String {
-    if !value.is_finite() {
-        "–".to_owned()
-    } else if value == 0.0 {
-        "0".to_owned()
-    } else if (1e-3..1e5).contains(&value.abs()) {
-        let decimals = (3 - value.abs().log10().floor() as i32).max(0) as usize;
-        format!("{value:.decimals$}")
-    } else {
-        format!("{value:.2e}")
-    }
+    let (mean, error) = rounded(estimate.mean * scale, estimate.standard_error.map(|e| e * scale));
+    error.map_or_else(|| format!("{mean:>12}"), |error| format!("{mean:>12} ± {error}"))
 }

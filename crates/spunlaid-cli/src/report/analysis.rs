@@ -1,14 +1,12 @@
 //! `report.html` of the analysis of a velocity record.
 
 use super::words::{count, time};
-use crate::figures::Figure;
-use crate::output::analysis::{ResultRow, decimals, results};
+use crate::numbers::{THIN, plus_minus, significant};
+use crate::output::analysis::{ResultRow, half_width, results};
 use askama::Template;
 use spunlaid::record::{Analysis, Interval, Record};
 use spunlaid::units::Dimension;
-
-const THIN: char = '\u{202f}';
-const HARD: char = '\u{a0}';
+use spunlaid_charts::Figure;
 
 /// Everything the report shows.
 #[derive(Clone, Copy, Debug)]
@@ -70,14 +68,7 @@ pub(crate) fn analysis_html(input: &AnalysisReport<'_>) -> String {
 
 /// `10.02 ± 0.04 m/s`, half the interval behind the sign.
 fn around(of: &Interval, factor: f64, unit: &str) -> String {
-    let decimals = decimals(of, factor);
-    let half = 0.5 * (of.high - of.low) * factor;
-    let value = crate::figures::signed(of.value * factor, decimals);
-    if half > 0.0 && half.is_finite() {
-        format!("{value}{HARD}±{HARD}{half:.decimals$}{THIN}{unit}")
-    } else {
-        format!("{value}{THIN}{unit}")
-    }
+    format!("{}{THIN}{unit}", plus_minus(of.value * factor, Some(half_width(of) * factor)))
 }
 
 fn headline(of: &Analysis) -> String {
@@ -99,7 +90,7 @@ fn summary(record: &Record, of: &Analysis) -> String {
         names.join(", "),
         Dimension::Frequency.pretty(1.0 / of.interval),
         time(of.duration),
-        crate::figures::significant((of.duration / of.integral_time.value).round(), 3),
+        significant((of.duration / of.integral_time.value).round(), 3),
     )
 }
 

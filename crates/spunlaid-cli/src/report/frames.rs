@@ -1,7 +1,6 @@
 //! The moving fibre as data of the page: instants, nodes and replicates chosen to fit, packed in 16 bits.
 
 use super::words::{count, time};
-use crate::figures::even;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
@@ -9,6 +8,7 @@ use spunlaid::case::Case;
 use spunlaid::ensemble::{Results, Shape, Trajectory};
 use spunlaid::fibre::Root;
 use spunlaid::vec3::Vec3;
+use spunlaid_charts::even;
 
 /// Most node positions in a page: 8 characters each, 3 MB in all.
 const POSITIONS: usize = 375_000;

@@ -18,10 +18,9 @@ pub(crate) use analysis::{AnalysisReport, analysis_html};
 pub(crate) use paper::{PaperReport, paper_html};
 pub(crate) use study::{StudyReport, study_html};
 
-use crate::figures::Figure;
 use spunlaid::case::Case;
 use spunlaid::ensemble::Results;
-use spunlaid::statistics::Estimate;
+use spunlaid_charts::Figure;
 
 /// Everything the report shows.
 #[derive(Clone, Copy, Debug)]
@@ -60,9 +59,4 @@ pub(crate) struct Performance<'a> {
 /// The report as one HTML file of less than 6 MB.
 pub(crate) fn html(input: &ReportInput<'_>) -> String {
     page::render(input)
-}
-
-/// A mean with its standard error as `9.8 ± 0.2`, times `factor`.
-pub(crate) fn mean_and_error(mean: f64, standard_error: Option<f64>, factor: f64) -> String {
-    words::plus_minus(&Estimate { mean, standard_error, values: Vec::new() }, factor)
 }

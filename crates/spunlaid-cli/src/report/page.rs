@@ -3,9 +3,10 @@
 use super::ReportInput;
 use super::frames;
 use super::table::{self, ReplicateRow, Row};
-use super::words::{self, count, number};
-use crate::figures::Figure;
+use super::words::{self, count};
+use crate::numbers::number;
 use askama::Template;
+use spunlaid_charts::Figure;
 
 /// Most replicates whose own values are listed.
 const LISTED: usize = 1000;

@@ -1,8 +1,8 @@
 //! The page of `spunlaid reproduce`: the paper's claims with evidence and verdict, its figures, its choices.
 
-use crate::figures::Figure;
 use askama::Template;
 use spunlaid::paper::{Claim, Verdict};
+use spunlaid_charts::Figure;
 
 /// Everything the page shows.
 #[derive(Clone, Copy, Debug)]

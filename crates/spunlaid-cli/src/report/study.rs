@@ -1,11 +1,12 @@
 //! `report.html` of a study: the question, the ranking, the figures, the points. Nothing in it depends on when or
 //! how fast it was computed.
 
-use super::words::{count, number, plus_minus};
-use crate::figures::{Figure, name_of_key};
+use super::words::count;
+use crate::figures::name_of_key;
+use crate::numbers::{number, plus_minus};
 use askama::Template;
-use spunlaid::statistics::Estimate;
 use spunlaid::study::{Design, Effect, PointResults, Ranking, Study};
+use spunlaid_charts::Figure;
 
 /// Most points that are listed.
 const LISTED: usize = 500;
@@ -173,8 +174,10 @@ fn rows(study: &Study, results: &[PointResults]) -> Vec<Row> {
         let values = study.points[index].values.iter().zip(study.inputs());
         let inputs = values.map(|(value, (_, dimension))| dimension.pretty(*value));
         let results = SHOWN.map(|(measure, _, factor)| {
-            let (mean, standard_error) = (point.mean[measure], point.standard_error[measure]);
-            plus_minus(&Estimate { mean, standard_error, values: Vec::new() }, factor)
+            plus_minus(
+                point.mean[measure] * factor,
+                point.standard_error[measure].map(|error| error * factor),
+            )
         });
         Row { number: index + 1, cells: inputs.chain(results).chain([point.n.to_string()]).collect() }
     };
@@ -208,10 +211,8 @@ fn cell(rankings: &[Ranking], measure: usize, factor: usize, unit: f64) -> Cell 
     effect.map_or_else(
         || Cell { text: "–".to_owned(), faint: true },
         |effect| {
-            let (mean, standard_error) = (effect.change, effect.half_width);
-            let estimate = Estimate { mean, standard_error, values: Vec::new() };
             let faint = effect.half_width.is_none_or(|half| half.is_nan() || half >= effect.change.abs());
-            Cell { text: plus_minus(&estimate, unit), faint }
+            Cell { text: plus_minus(effect.change * unit, effect.half_width.map(|half| half * unit)), faint }
         },
     )
 }

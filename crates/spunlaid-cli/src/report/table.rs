@@ -1,7 +1,7 @@
 //! The rows of the results table.
 
-use super::words::{number, plus_minus};
-use crate::figures::signed;
+use super::words::estimate_text;
+use crate::numbers::{number, signed};
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::Results;
@@ -49,7 +49,7 @@ fn per_replicate(results: &Results) -> [Result<'_>; 5] {
 pub(super) fn rows(case: &Case, results: &Results) -> Vec<Row> {
     let of = |(name, unit, factor, estimate, meaning): Result<'_>| Row {
         name,
-        value: plus_minus(estimate, factor),
+        value: estimate_text(estimate, factor),
         unit,
         n: estimate.values.len(),
         meaning,

@@ -1,6 +1,6 @@
-//! Numbers and sentences.
+//! Sentences, and numbers with their units.
 
-use crate::figures::{signed, significant};
+use crate::numbers::{THIN, number, plus_minus};
 use spunlaid::air::EddyModel;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
@@ -8,57 +8,9 @@ use spunlaid::ensemble::Results;
 use spunlaid::fibre::Root;
 use spunlaid::statistics::Estimate;
 
-/// A space that neither breaks nor stretches, between a number and its unit.
-const THIN: char = '\u{202f}';
-/// A space that does not break, around a sign.
-const HARD: char = '\u{a0}';
-
-/// `9.8 ± 0.2`: rounded to the error's first digit, or to two where that is a one; without an error to
-/// three digits. `factor` converts the unit.
-pub(super) fn plus_minus(estimate: &Estimate, factor: f64) -> String {
-    let mean = estimate.mean * factor;
-    let error = estimate.standard_error.map(|e| e * factor).filter(|e| e.is_finite() && *e > 0.0);
-    let Some(error) = error else {
-        return number(mean);
-    };
-    let magnitude = error.log10().floor() as i32;
-    let leading = error / 10f64.powi(magnitude);
-    let decimals = if leading < 1.95 { 1 - magnitude } else { -magnitude };
-    if !mean.is_finite() || decimals > 6 {
-        return format!("{}{HARD}±{HARD}{}", number(mean), number(error));
-    }
-    let decimals = decimals.max(0) as usize;
-    format!("{}{HARD}±{HARD}{}", signed(mean, decimals), signed(error, decimals))
-}
-
-/// A number to three digits, with a power of ten where it is far from one; a dash for none.
-pub(super) fn number(value: f64) -> String {
-    if !value.is_finite() {
-        return "–".to_owned();
-    }
-    let magnitude = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
-    if (-3..6).contains(&magnitude) {
-        return significant(value, 3);
-    }
-    let mantissa = significant(value / 10f64.powi(magnitude), 3);
-    format!("{mantissa}{THIN}×{THIN}10{}", superscript(magnitude))
-}
-
-fn superscript(exponent: i32) -> String {
-    let raised = |c: char| match c {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4' => '⁴',
-        '5' => '⁵',
-        '6' => '⁶',
-        '7' => '⁷',
-        '8' => '⁸',
-        '9' => '⁹',
-        _ => '⁰',
-    };
-    exponent.to_string().chars().map(raised).collect()
+/// A result with its standard error, `factor` converts the unit.
+pub(super) fn estimate_text(of: &Estimate, factor: f64) -> String {
+    plus_minus(of.mean * factor, of.standard_error.map(|error| error * factor))
 }
 
 /// A number with its unit.
@@ -114,10 +66,10 @@ pub(super) fn headline(case: &Case, results: &Results) -> String {
             .collect();
     let joined = |parts: Vec<String>| parts.join(" and ");
     let amplitudes = joined(
-        moving.iter().map(|(axis, a, _)| format!("{}{THIN}mm in {axis}", plus_minus(a, 1e3))).collect(),
+        moving.iter().map(|(axis, a, _)| format!("{}{THIN}mm in {axis}", estimate_text(a, 1e3))).collect(),
     );
     let frequencies =
-        joined(moving.iter().filter(|m| m.2.mean > 0.0).map(|(.., f)| plus_minus(f, 1.0)).collect());
+        joined(moving.iter().filter(|m| m.2.mean > 0.0).map(|(.., f)| estimate_text(f, 1.0)).collect());
     match (moving.is_empty(), frequencies.is_empty()) {
         (true, _) => "The free end does not move sideways.".to_owned(),
         (false, true) => {
@@ -177,25 +129,10 @@ pub(super) fn case(case: &Case) -> String {
 mod tests {
     use super::*;
 
-    fn estimate(mean: f64, standard_error: Option<f64>) -> Estimate {
-        Estimate { mean, standard_error, values: Vec::new() }
-    }
-
     #[test]
-    fn errors_set_the_digits() {
-        assert_eq!(plus_minus(&estimate(9.812e-3, Some(0.21e-3)), 1e3), "9.8\u{a0}±\u{a0}0.2");
-        assert_eq!(plus_minus(&estimate(17.612, Some(0.123)), 1.0), "17.61\u{a0}±\u{a0}0.12");
-        assert_eq!(plus_minus(&estimate(812.3, Some(31.0)), 1.0), "812\u{a0}±\u{a0}31");
-        assert_eq!(plus_minus(&estimate(9.8123, None), 1.0), "9.81");
-        assert_eq!(plus_minus(&estimate(f64::NAN, Some(f64::NAN)), 1.0), "–");
-    }
-
-    #[test]
-    fn numbers_far_from_one_have_a_power_of_ten() {
-        assert_eq!(number(1.5e-9), "1.5\u{202f}×\u{202f}10⁻⁹");
-        assert_eq!(number(0.0), "0");
-        assert_eq!(number(-0.25), "−0.25");
+    fn units_suit_the_size() {
         assert_eq!(time(2e-6), "2\u{202f}µs");
+        assert_eq!(length(-0.0123), "−12.3\u{202f}mm");
         assert_eq!(count(1_000_000, "step"), "1\u{202f}000\u{202f}000 steps");
     }
 }

@@ -1,7 +1,10 @@
 //! The results folder of a study: what it holds, whose it is, and how it is filled.
 
+use super::super::interrupt::stop_on_ctrl_c;
 use crate::failure::Failure;
 use crate::output::beside::{self, CASE_FILES};
+use crate::output::folder::Staging;
+use crate::output::leftovers;
 use spunlaid::error::{Error, JournalError};
 use spunlaid::input::{StudyFile, differences};
 use spunlaid::study::{Found, Header, Journal};
@@ -11,12 +14,12 @@ use std::path::{Path, PathBuf};
 const JOURNAL: &str = "journal";
 const STUDY: &str = "study.toml";
 const CASE: &str = "case.toml";
-/// Where files are made before they take their place.
-const STAGING: &str = ".partial";
+/// What says which study it is.
+const DESCRIPTION: &[&str] = &[CASE_FILES, CASE, STUDY];
 /// What is made of the journal.
-const MADE: [&str; 5] = ["results.csv", "results.parquet", "replicates.parquet", "figures", "report.html"];
+const MADE: &[&str] = &["results.csv", "results.parquet", "replicates.parquet", "figures", "report.html"];
 /// What only a run leaves behind.
-const OF_A_RUN: [&str; 3] = ["summary.json", "end_node.parquet", "energy.parquet"];
+const OF_A_RUN: &[&str] = &["summary.json", "end_node.parquet", "energy.parquet"];
 
 /// A results folder that this process has to itself.
 #[derive(Debug)]
@@ -54,6 +57,7 @@ impl StudyFolder {
             }
             opened => opened.map_err(Error::from)?,
         };
+        leftovers::remove_unclaimed(path);
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
         let state = match header.filter(|_| !force) {
             None => {
@@ -87,57 +91,24 @@ impl StudyFolder {
         &self.path
     }
 
-    /// An empty folder to make files in.
-    pub(super) fn staging(&self) -> Result<PathBuf, Failure> {
-        let staging = self.path.join(STAGING);
-        remove(&staging)?;
-        fs::create_dir(&staging).map_err(Failure::unwritable(&staging))?;
-        Ok(staging)
-    }
-
-    /// Moves what was made to where it belongs.
-    pub(super) fn publish(&self) -> Result<(), Failure> {
-        let staging = self.path.join(STAGING);
-        for name in MADE {
-            let (from, to) = (staging.join(name), self.path.join(name));
-            if from.exists() {
-                if to.is_dir() {
-                    remove(&to)?;
-                }
-                fs::rename(&from, &to).map_err(Failure::unwritable(&to))?;
-            }
-        }
-        remove(&staging)
+    /// Collects what is made of the journal.
+    pub(super) fn staging(&self) -> Result<Staging<'static>, Failure> {
+        Staging::new(&self.path, MADE, true, stop_on_ctrl_c())
     }
 
     /// Removes what an earlier study left and says what this one is.
     fn begin(&self, file: &StudyFile) -> Result<(), Failure> {
-        for name in MADE.iter().chain(&OF_A_RUN) {
+        for name in MADE.iter().chain(OF_A_RUN) {
             remove(&self.path.join(name))?;
         }
         self.describe(file)
     }
 
     fn describe(&self, file: &StudyFile) -> Result<(), Failure> {
-        let staging = self.staging()?;
-        let case_text = self.keep_files(file)?;
-        for (name, text) in [(CASE, &case_text), (STUDY, &file.text)] {
-            let (from, to) = (staging.join(name), self.path.join(name));
-            fs::write(&from, text).and_then(|()| fs::rename(&from, &to)).map_err(Failure::unwritable(&to))?;
-        }
-        remove(&staging)
-    }
-
-    /// Copies the files that the case names; gives the case's text with the paths of the copies.
-    fn keep_files(&self, file: &StudyFile) -> Result<String, Failure> {
-        let cases = file.study.points.iter().map(|point| &point.case);
-        let copied = beside::copy(cases, &self.path.join(CASE_FILES))?;
-        let folder = file.case_path.parent().unwrap_or(Path::new(""));
-        Ok(copied.iter().fold(file.case_text.clone(), |text, (from, to)| {
-            let written = from.strip_prefix(folder).unwrap_or(from);
-            let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());
-            text.replace(&quoted(written), &quoted(to))
-        }))
+        let staging = Staging::new(&self.path, DESCRIPTION, true, stop_on_ctrl_c())?;
+        staging.write(CASE, keep_files(file, &staging)?)?;
+        staging.write(STUDY, &file.text)?;
+        staging.publish()
     }
 
     /// What the study found here says otherwise.
@@ -151,10 +122,22 @@ impl StudyFolder {
     }
 }
 
+/// Copies the files that the case names; gives the case's text with the paths of the copies.
+fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure> {
+    let cases = file.study.points.iter().map(|point| &point.case);
+    let copied = beside::copy(cases, &staging.place(CASE_FILES).0)?;
+    let folder = file.case_path.parent().unwrap_or(Path::new(""));
+    Ok(copied.iter().fold(file.case_text.clone(), |text, (from, to)| {
+        let written = from.strip_prefix(folder).unwrap_or(from);
+        let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());
+        text.replace(&quoted(written), &quoted(to))
+    }))
+}
+
 /// Refuses a folder with results that no journal accounts for. A study killed before it had one left its own two
 /// files at most.
 fn holds_nothing_else(path: &Path) -> Result<(), Failure> {
-    match MADE.iter().chain(&OF_A_RUN).find(|name| path.join(name).exists()) {
+    match MADE.iter().chain(OF_A_RUN).find(|name| path.join(name).exists()) {
         Some(found) => Err(Failure::HoldsResults { folder: path.to_owned(), found: (*found).to_owned() }),
         None => Ok(()),
     }

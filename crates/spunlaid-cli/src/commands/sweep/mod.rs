@@ -8,7 +8,7 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
 use crate::args::Sweep;
 use crate::failure::Failure;
-use crate::figures::{Figure, study_figures};
+use crate::figures::study_figures;
 use crate::output;
 use crate::report::{StudyReport, study_html};
 use crate::say;
@@ -18,8 +18,7 @@ use spunlaid::error::Error;
 use spunlaid::input::{StudyFile, read_study, write_case};
 use spunlaid::lanes::Isa;
 use spunlaid::study::{Journal, Landing, Progress, Study, rankings, run};
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 
@@ -40,12 +39,13 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     let before = fibres(&journal, &file.study);
     let flown = fly(sweep, &file.study, &journal);
     let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
-    if let Err(Error::Interrupted) = flown {
-        let done = (0..file.study.points.len()).map(|point| journal.held(point)).sum();
-        return Err(Failure::Paused { done, of: file.study.most_fibres() });
-    }
-    flown?;
-    write(sweep, &file, &folder, &mut journal, before)
+    let done = (0..file.study.points.len()).map(|point| journal.held(point)).sum();
+    let written =
+        flown.map_err(Failure::from).and_then(|()| write(sweep, &file, &folder, &mut journal, before));
+    written.map_err(|failure| match failure {
+        Failure::Library(Error::Interrupted) => Failure::Paused { done, of: file.study.most_fibres() },
+        other => other,
+    })
 }
 
 /// What the study is called: the name of its file.
@@ -135,7 +135,7 @@ fn write(
     let results = output::study::write(&staging, study, journal)?;
     let rankings = rankings(study, journal)?;
     let figures = study_figures(study, &results, &rankings);
-    write_figures(&staging.join("figures"), &figures)?;
+    output::pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let report = study_html(&StudyReport {
         name: &name(sweep),
         study,
@@ -147,8 +147,8 @@ fn write(
         case_toml: &file.case_text,
         version: env!("CARGO_PKG_VERSION"),
     });
-    write_file(&staging.join("report.html"), report.as_bytes())?;
-    folder.publish()?;
+    staging.write("report.html", report)?;
+    staging.publish()?;
     let flown: u64 = results.iter().map(|point| point.n + point.lost).sum();
     if !sweep.quiet {
         say::text(&table::results(study, &results));
@@ -159,15 +159,6 @@ fn write(
         say::line(&format!("open {}", folder.path().join("report.html").display()));
     }
     lost(study, journal, flown)
-}
-
-fn write_figures(folder: &Path, figures: &[Figure]) -> Result<(), Failure> {
-    fs::create_dir(folder).map_err(Failure::unwritable(folder))?;
-    output::pictures::write(figures, |name, content| write_file(&folder.join(name), content))
-}
-
-fn write_file(path: &Path, content: &[u8]) -> Result<(), Failure> {
-    fs::write(path, content).map_err(Failure::unwritable(path))
 }
 
 /// Tells which fibres were lost, if any.

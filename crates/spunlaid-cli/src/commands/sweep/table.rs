@@ -1,5 +1,6 @@
 //! The table of a study on the terminal.
 
+use crate::numbers::plus_minus;
 use spunlaid::study::{PointResults, Study};
 use std::fmt::Write;
 
@@ -47,16 +48,4 @@ fn aligned(rows: &[Vec<String>]) -> String {
         let _ = writeln!(text, "  {}", cells.join("  "));
     }
     text
-}
-
-/// To two digits of the error.
-fn plus_minus(mean: f64, error: Option<f64>) -> String {
-    match error.filter(|error| error.is_finite() && *error > 0.0) {
-        _ if !mean.is_finite() => "–".to_owned(),
-        Some(error) => {
-            let decimals = (1 - error.log10().floor() as i32).clamp(0, 9) as usize;
-            format!("{mean:.decimals$} ± {error:.decimals$}")
-        }
-        None => format!("{mean:.4}"),
-    }
 }

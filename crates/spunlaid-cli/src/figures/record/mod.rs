@@ -5,10 +5,11 @@ mod spectrum;
 mod tests;
 mod time;
 
-use super::Figure;
-use super::chart::{Chart, Series};
-use super::palette::{BLUE, GREEN, VERMILION};
 use spunlaid::record::{Analysis, Record};
+use spunlaid_charts::{
+    Figure, Series,
+    palette::{BLUE, GREEN, VERMILION},
+};
 
 /// The figures of a record, in the order a reader wants them.
 pub(crate) fn record_figures(record: &Record, of: &Analysis) -> Vec<Figure> {
@@ -18,10 +19,6 @@ pub(crate) fn record_figures(record: &Record, of: &Analysis) -> Vec<Figure> {
         spectrum::density(of),
         time::autocorrelation(of),
     ]
-}
-
-fn figure(chart: &Chart, caption: String) -> Figure {
-    Figure { name: chart.name.clone(), title: chart.title.clone(), caption, svg: chart.svg() }
 }
 
 /// The line of a component: green along the flow, blue and vermilion across.

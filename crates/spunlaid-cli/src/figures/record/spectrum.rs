@@ -1,12 +1,12 @@
 //! The spectrum of a record, with its flat part and the cut-off.
 
-use super::super::Figure;
-use super::super::chart::{Chart, Series};
-use super::super::palette::{INK, ORANGE};
-use super::super::run::significant;
-use super::super::scale::Axis;
-use super::{figure, series};
+use super::series;
+use crate::numbers::significant;
 use spunlaid::record::{Analysis, Spectrum};
+use spunlaid_charts::{
+    Axis, Chart, Figure, Series,
+    palette::{INK, ORANGE},
+};
 
 /// Neighbouring frequencies within this ratio are drawn as one point.
 const RATIO: f64 = 1.02;
@@ -34,10 +34,13 @@ pub(super) fn density(of: &Analysis) -> Figure {
                     (f, p / factor, p * factor)
                 })
                 .collect();
-            chart = chart.band(series("", i).unlabelled(), &band);
+            chart = chart
+                .band(series("", i).unlabelled().named(&format!("{}, 95 % interval", component.name)), &band);
         }
         let line: Vec<_> = points.iter().map(|&(f, p, _)| (f, p)).collect();
-        chart = chart.line(series(&component.name, i).width(1.5), &line);
+        let density = component.spectrum.density.iter().enumerate();
+        let all = density.map(|(k, p)| (component.spectrum.frequency(k), *p, None)).collect();
+        chart = chart.line(series(&component.name, i).width(1.5).thinned_from(all), &line);
     }
     let (level, cutoff) = (flat.density.value, flat.cutoff.value);
     let bottom = spectrum.density.iter().copied().filter(|p| *p > 0.0).fold(level, f64::min);
@@ -54,7 +57,7 @@ pub(super) fn density(of: &Analysis) -> Figure {
         significant(100.0 * spectrum.overlap, 2),
         significant(cutoff, 3),
     );
-    figure(&chart, caption)
+    Figure::of(&chart, caption)
 }
 
 /// Frequency, density, and how many frequencies they are the mean of.

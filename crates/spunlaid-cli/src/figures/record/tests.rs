@@ -1,7 +1,8 @@
 //! Every figure of every record can be drawn.
 
-use super::super::{Figure, png, record_sample};
+use super::super::record_sample;
 use super::record_figures;
+use spunlaid_charts::{Figure, png};
 
 fn check(figures: &[Figure]) {
     assert_eq!(figures.len(), 4);

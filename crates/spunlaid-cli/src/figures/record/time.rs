@@ -1,13 +1,9 @@
 //! A record over time, its values, its memory.
 
-use super::super::Figure;
-use super::super::chart::{Chart, Series};
-use super::super::draw::stacked;
-use super::super::palette::GREY;
-use super::super::run::significant;
-use super::super::scale::Axis;
-use super::{figure, series};
+use super::series;
+use crate::numbers::significant;
 use spunlaid::record::{Analysis, Record};
+use spunlaid_charts::{Axis, Chart, Figure, Series, palette::GREY};
 
 /// Points along a panel, two for each.
 const ACROSS: usize = 1000;
@@ -22,11 +18,22 @@ pub(super) fn history(record: &Record, of: &Analysis) -> Figure {
     let close = ((CLOSE_UP * of.integral_time.value / of.interval) as usize).clamp(16, samples);
     let first = (samples - close) / 2;
     let panel = |name: &str, range: std::ops::Range<usize>, label: &str| {
-        let chart =
-            Chart::new(name, "The record", Axis::linear(label).tight(), Axis::linear("Velocity (m/s)"));
+        let chart = Chart::new(
+            name,
+            "The record",
+            Axis::linear(label).in_column("time_s").tight(),
+            Axis::linear("Velocity (m/s)"),
+        );
         record.components.iter().enumerate().fold(chart, |chart, (i, component)| {
-            let line = extremes(&component.values[range.clone()], range.start, of.interval);
-            chart.line(series(&component.name, i).width(1.0), &line)
+            let values = &component.values[range.clone()];
+            let line = extremes(values, range.start, of.interval);
+            let series = series(&component.name, i).width(1.0);
+            if range.len() == samples {
+                return chart.line(series, &line);
+            }
+            let all = values.iter().enumerate();
+            let all = all.map(|(k, value)| ((range.start + k) as f64 * of.interval, *value, None)).collect();
+            chart.line(series.named(&format!("{}, close-up", component.name)).thinned_from(all), &line)
         })
     };
     let whole = panel("record", 0..samples, "");
@@ -43,7 +50,7 @@ pub(super) fn history(record: &Record, of: &Analysis) -> Figure {
         significant(close as f64 * of.interval / of.integral_time.value, 2),
     );
     let (whole, part) = (whole.sized(640.0, 230.0), part.sized(640.0, 250.0));
-    Figure { svg: stacked(&whole.title, &[&whole, &part]), ..figure(&whole, caption) }
+    Figure::stacked(&whole.name, &whole.title, &[&whole, &part], caption)
 }
 
 /// The lowest and the highest sample of each of so many stretches, in their order.
@@ -96,7 +103,10 @@ pub(super) fn histogram(record: &Record, of: &Analysis) -> Figure {
         let steps: Vec<_> = (classes.iter().enumerate())
             .flat_map(|(k, n)| [(edge(k), height(*n)), (edge(k + 1), height(*n))])
             .collect();
-        chart = chart.path(series(&component.name, i).width(1.4), &steps);
+        let middles =
+            classes.iter().enumerate().map(|(k, n)| (0.5 * (edge(k) + edge(k + 1)), height(*n), None));
+        let line = series(&component.name, i).width(1.4).thinned_from(middles.collect());
+        chart = chart.path(line, &steps);
         if i == 0 {
             let bell = |z: f64| (-0.5 * z * z).exp() / ((2.0 * std::f64::consts::PI).sqrt() * unit);
             gaussian = (-100..=100)
@@ -110,7 +120,7 @@ pub(super) fn histogram(record: &Record, of: &Analysis) -> Figure {
                    mean and rms (dashed), which is what the simulated turbulence has. A peak at either end is \
                    clipping."
         .to_owned();
-    figure(&chart, caption)
+    Figure::of(&chart, caption)
 }
 
 /// The memory of the record, with the part that is integrated.
@@ -139,7 +149,7 @@ pub(super) fn autocorrelation(of: &Analysis) -> Figure {
     let flat: Vec<_> = (0..=300).map(|k| f64::from(k) * end / 300.0).map(|lag| (lag, sinc(lag))).collect();
     let zero = [(0.0, 0.0), (end, 0.0)];
     let chart = chart
-        .line(Series::new("", GREY).unlabelled().width(0.8), &zero)
+        .line(Series::new("", GREY).adorning().width(0.8), &zero)
         .line(Series::reference("of the flat spectrum"), &flat)
         .vertical(Series::new("limit of the integral", GREY).dashed("2 3").width(1.2), limit);
     let caption = format!(
@@ -151,5 +161,5 @@ pub(super) fn autocorrelation(of: &Analysis) -> Figure {
         significant(of.integral_time.value * 1e3, 3),
     )
     .replace('*', "");
-    figure(&chart, caption)
+    Figure::of(&chart, caption)
 }

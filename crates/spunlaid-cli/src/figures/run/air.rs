@@ -1,17 +1,16 @@
 //! The air that the fibre flies in, where it is not the same everywhere.
 
-use super::super::Figure;
-use super::super::chart::{Chart, Series};
-use super::super::draw::stacked;
-use super::super::map::Map;
-use super::super::palette::{GREEN, VERMILION};
-use super::super::scale::Axis;
-use super::{MM, figure, significant};
+use super::MM;
+use crate::numbers::range;
 use spunlaid::air::{Flow, LocalAir};
 use spunlaid::case::Case;
 use spunlaid::ensemble::Results;
 use spunlaid::field::Hint;
 use spunlaid::vec3::Vec3;
+use spunlaid_charts::{
+    Axis, Chart, Figure, Map, Series,
+    palette::{GREEN, VERMILION},
+};
 
 /// Places that are asked along the fibre.
 const PLACES: usize = 201;
@@ -37,11 +36,8 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
     let between = |of: fn(&LocalAir) -> f64, scale: f64, unit: &str| {
         let values = || places.iter().map(|(_, air)| of(air) * scale);
         let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));
-        if most - least <= 1e-9 * most {
-            format!("{} {unit}", significant(most, 3))
-        } else {
-            format!("{} to {} {unit}", significant(least, 3), significant(most, 3))
-        }
+        let least = if most - least <= 1e-9 * most { most } else { least };
+        format!("{} {unit}", range(least, most))
     };
     let caption = format!(
         "The air where the straight fibre would lie: mean velocity along x, and the rms of each component of the turbulence \
@@ -49,7 +45,7 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
         between(|air| air.length_scale, MM, "mm"),
         between(|air| air.cutoff_frequency, 1.0, "Hz"),
     );
-    figure(&chart, caption)
+    Figure::of(&chart, caption)
 }
 
 /// Columns and rows of a slice.
@@ -114,7 +110,8 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
         results.flights.iter().enumerate().fold(chart, |chart, (i, flight)| {
             let end = flight.shapes.last().map_or(&[][..], |shape| &shape.position);
             let path: Vec<_> = end.iter().map(|p| (p.x * MM, of(p) * MM)).collect();
-            let series = Series::new("fibres at the end", VERMILION).width(1.3);
+            let name = format!("fibre {}", flight.replicate + 1);
+            let series = Series::new("fibres at the end", VERMILION).named(&name).width(1.3);
             chart.path(if i == 0 { series } else { series.unlabelled() }, &path)
         })
     });
@@ -125,7 +122,6 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
         placed.field.describe(),
         results.flights.len(),
     );
-    let figure = figure(&charts[0], caption);
-    let name = "air_slices".to_owned();
-    Some(Figure { name, svg: stacked("The field and the fibres", &[&charts[0], &charts[1]]), ..figure })
+    let charts: Vec<&Chart> = charts.iter().collect();
+    Some(Figure::stacked("air_slices", "The field and the fibres", &charts, caption))
 }

@@ -5,11 +5,9 @@ mod energy;
 mod motion;
 mod spectra;
 
-use super::Figure;
-use super::chart::Chart;
-use super::scale::signed;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Results, SpectrumPoint};
+use spunlaid_charts::Figure;
 
 /// Millimetres per metre.
 const MM: f64 = 1e3;
@@ -33,24 +31,9 @@ pub(crate) fn run_figures(case: &Case, results: &Results, turbulence: &[Spectrum
     figures
 }
 
-fn figure(chart: &Chart, caption: String) -> Figure {
-    Figure { name: chart.name.clone(), title: chart.title.clone(), caption, svg: chart.svg() }
-}
-
 /// Time of so many swings of the free end [s], where it swings at all.
 fn swings(results: &Results, count: f64) -> Option<f64> {
     let end = &results.end_node;
     let fastest = end.frequency_y.mean.max(end.frequency_z.mean);
     (fastest.is_finite() && fastest > 0.0).then(|| count / fastest)
-}
-
-/// A number to so many significant digits, plainly.
-pub(crate) fn significant(value: f64, digits: i32) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return signed(value, 0);
-    }
-    let magnitude = value.abs().log10().floor() as i32;
-    let decimals = (digits - 1 - magnitude).max(0) as usize;
-    let text = signed(value, decimals);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

@@ -1,14 +1,13 @@
 //! Where the fibre is: the free end over time and across the flow, the amplitude along the fibre.
 
-use super::super::Figure;
-use super::super::chart::{Chart, Series};
-use super::super::decimate::even;
-use super::super::draw::stacked;
-use super::super::palette::{GREEN, GREY, INK, ORANGE};
-use super::super::scale::Axis;
-use super::{MM, figure, significant, swings};
+use super::{MM, swings};
+use crate::numbers::significant;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{NodeResults, Results, Sample};
+use spunlaid_charts::{
+    Axis, Chart, Figure, Series, even,
+    palette::{GREEN, GREY, INK, ORANGE},
+};
 
 /// Most swings that can be told apart in a history.
 const SWINGS: f64 = 60.0;
@@ -32,8 +31,14 @@ pub(super) fn end_node_history(case: &Case, results: &Results) -> Figure {
         let (y, z): (Vec<_>, Vec<_>) =
             shown.map(|s| ((s.time, s.end.y * MM), (s.time, s.end.z * MM))).unzip();
         let x = Axis::linear("Time *t* (s)").tight();
-        let chart = Chart::new(name, "Free end over time", x, Axis::linear("Position of the free end (mm)"));
-        let chart = chart.line(Series::y("*y*"), &y).line(Series::z("*z*"), &z);
+        let chart = Chart::new(
+            name,
+            "Free end over time",
+            x,
+            Axis::linear("Position of the free end (mm)").in_column("position_mm"),
+        );
+        let series = if from > 0.0 { Series::drawn_only } else { |series| series };
+        let chart = chart.line(series(Series::circles("*y*")), &y).line(series(Series::triangles("*z*")), &z);
         if spin_up > from {
             chart.stretch(Series::new("spin-up, not in the statistics", GREY), from, spin_up)
         } else {
@@ -48,7 +53,7 @@ pub(super) fn end_node_history(case: &Case, results: &Results) -> Figure {
         .to_owned();
     let last = swings(results, SWINGS / 2.0).filter(|part| *part < end / 2.0);
     let Some(last) = last else {
-        return figure(&chart, caption);
+        return Figure::of(&chart, caption);
     };
     caption.push_str(&format!(" Above the whole run, below its last {} s.", significant(last, 2)));
     chart.x.label.clear();
@@ -57,7 +62,7 @@ pub(super) fn end_node_history(case: &Case, results: &Results) -> Figure {
         chart.y.label = "Position (mm)".to_owned();
     }
     let (chart, part) = (chart.sized(640.0, 230.0), part.sized(640.0, 260.0));
-    Figure { svg: stacked(&chart.title, &[&chart, &part]), ..figure(&chart, caption) }
+    Figure::stacked(&chart.name, &chart.title, &[&chart, &part], caption)
 }
 
 /// The path of the free end, seen along the flow.
@@ -87,7 +92,7 @@ pub(super) fn end_node_path(case: &Case, results: &Results) -> Figure {
     if let (true, Some(start)) = (first > 0, drawn.first()) {
         caption.push_str(&format!(" Only the last {} s are drawn.", significant(end - start.time, 2)));
     }
-    figure(&chart, caption)
+    Figure::of(&chart, caption)
 }
 
 /// How far each node swings.
@@ -95,28 +100,27 @@ pub(super) fn amplitude_along_fibre(case: &Case, nodes: &[NodeResults]) -> Figur
     type Axis3 = fn(&NodeResults) -> (f64, Option<f64>);
     let marked = even(nodes.len(), MARKED_NODES);
     let lined = even(nodes.len(), 1001);
-    let scatter = |axis: Axis3| -> Vec<_> {
-        let point = |&i: &usize| {
-            let (mean, error) = axis(&nodes[i]);
-            (nodes[i].distance * MM, mean * MM, error.map(|e| e * MM))
-        };
-        marked.iter().map(point).collect()
+    let point = |node: &NodeResults, axis: Axis3| {
+        let (mean, error) = axis(node);
+        (node.distance * MM, mean * MM, error.map(|e| e * MM))
     };
+    let scatter = |axis: Axis3| -> Vec<_> { marked.iter().map(|&i| point(&nodes[i], axis)).collect() };
+    let all = |axis: Axis3| nodes.iter().map(|node| point(node, axis)).collect();
     let line = |axis: Axis3| -> Vec<_> {
         lined.iter().map(|&i| (nodes[i].distance * MM, axis(&nodes[i]).0 * MM)).collect()
     };
     let (y, z): (Axis3, Axis3) = (|n| n.amplitude_y, |n| n.amplitude_z);
-    let thin = |series: Series| series.unlabelled().unmarked().width(0.8);
+    let thin = |series: Series| series.adorning().unmarked().width(0.8);
     let chart = Chart::new(
         "amplitude_along_fibre",
         "Amplitude along the fibre",
-        Axis::linear("Distance from the root along the fibre (mm)").including(0.0),
+        Axis::linear("Distance from the root along the fibre (mm)").in_column("distance_mm").including(0.0),
         Axis::linear("Amplitude (mm)").zero_based(),
     )
-    .line(thin(Series::y("")), &line(y))
-    .line(thin(Series::z("")), &line(z))
-    .scatter(Series::y("*y*"), &scatter(y))
-    .scatter(Series::z("*z*"), &scatter(z));
+    .line(thin(Series::circles("")), &line(y))
+    .line(thin(Series::triangles("")), &line(z))
+    .scatter(Series::circles("*y*").thinned_from(all(y)), &scatter(y))
+    .scatter(Series::triangles("*z*").thinned_from(all(z)), &scatter(z));
     let replicates = match case.run.replicates {
         0 | 1 => "a single replicate, so without error bars".to_owned(),
         n => format!("mean over {n} replicates, bars: ± one standard error of the mean"),
@@ -130,5 +134,5 @@ pub(super) fn amplitude_along_fibre(case: &Case, nodes: &[NodeResults]) -> Figur
         "How far each node swings: the standard deviation of its y (circles) and z (triangles) over time, \
          {replicates}.{nodes_shown}"
     );
-    figure(&chart, caption)
+    Figure::of(&chart, caption)
 }

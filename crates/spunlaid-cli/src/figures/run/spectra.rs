@@ -1,13 +1,11 @@
 //! What happens at which frequency: the motion of the free end, the turbulence.
 
-use super::super::Figure;
-use super::super::chart::{Chart, Series};
-use super::super::palette::GREEN;
-use super::super::scale::Axis;
-use super::{MM, figure, significant};
+use super::MM;
+use crate::numbers::significant;
 use spunlaid::air::SpectrumShape;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Results, SpectrumPoint};
+use spunlaid_charts::{Axis, Chart, Figure, Series, palette::GREEN};
 
 /// The spectrum of the free end's y and z, with their crossing frequencies.
 pub(super) fn motion(results: &Results) -> Figure {
@@ -21,17 +19,18 @@ pub(super) fn motion(results: &Results) -> Figure {
         Axis::logarithmic("Power spectral density (mm²/Hz)").decades(9),
     )
     .when_empty("too few recorded instants, or no motion")
-    .line(Series::y("*y*").unmarked(), &density(|p| p.1))
-    .line(Series::z("*z*").unmarked(), &density(|p| p.2));
+    .line(Series::circles("*y*").unmarked(), &density(|p| p.1))
+    .line(Series::triangles("*z*").unmarked(), &density(|p| p.2));
     let end = &results.end_node;
     // The dashes of one fill the gaps of the other, where both are at the same place.
     for (series, name, frequency, dash) in [
-        (Series::y(""), "y", end.frequency_y.mean, "5 5"),
-        (Series::z(""), "z", end.frequency_z.mean, "0 5 5 0"),
+        (Series::circles(""), "y", end.frequency_y.mean, "5 5"),
+        (Series::triangles(""), "z", end.frequency_z.mean, "0 5 5 0"),
     ] {
         if frequency.is_finite() && frequency > 0.0 {
             let label = format!("*{name}* crosses at {} Hz", significant(frequency, 3));
-            let series = Series { label: Some(label), ..series };
+            let series =
+                Series { label: Some(label), ..series }.named(&format!("{name}, crossing frequency"));
             chart = chart.vertical(series.dashed(dash).width(1.2), frequency);
         }
     }
@@ -39,7 +38,7 @@ pub(super) fn motion(results: &Results) -> Figure {
                    (Welch’s method). The area under a curve is the amplitude squared. Dashed: the crossing \
                    frequency, half the number of sign changes per second."
         .to_owned();
-    figure(&chart, caption)
+    Figure::of(&chart, caption)
 }
 
 /// The spectrum of the turbulence, as made and as asked for.
@@ -69,7 +68,7 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
     };
     if !air.records.is_empty() {
         let caption = format!("{what}: stretches of the record as it was measured, {rms}.");
-        return figure(&chart, caption);
+        return Figure::of(&chart, caption);
     }
     let wanted: Vec<_> = match air.spectrum {
         SpectrumShape::Flat if air.is_uniform() => {
@@ -88,5 +87,5 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
          at the cut-off are blurred by the analysis.",
         significant(cutoff, 3),
     );
-    figure(&chart.line(Series::reference("wanted"), &wanted), caption)
+    Figure::of(&chart.line(Series::reference("wanted"), &wanted), caption)
 }

@@ -1,11 +1,12 @@
 //! Results over one factor: alone, with a second as a family of curves, or with all others at the base.
 
-use super::super::Figure;
-use super::super::chart::{Chart, Series};
-use super::super::palette::{BLUE, GREEN, INK, Marker, ORANGE, PURPLE, VERMILION};
 use super::quantity::{Along, Group, name_of_key};
-use super::{FAMILY, figure, file_name};
+use super::{FAMILY, file_name};
 use spunlaid::study::{PointResults, Study};
+use spunlaid_charts::{
+    Chart, Figure, Marker, Series,
+    palette::{BLUE, GREEN, INK, ORANGE, PURPLE, VERMILION},
+};
 
 const COLOURS: [&str; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 
@@ -18,9 +19,9 @@ type Spot = (f64, f64, Option<f64>);
 fn series(group: &Group, position: usize) -> Series {
     let label = group.of[position].1;
     match (position, group.of.len()) {
-        (_, 1) => Series::spots("", GREEN).unlabelled(),
-        (0, _) => Series::y(label),
-        _ => Series::z(label),
+        (_, 1) => Series::spots(label, GREEN).unlabelled(),
+        (0, _) => Series::circles(label),
+        _ => Series::triangles(label),
     }
 }
 
@@ -63,7 +64,7 @@ fn over(
         chart = drawn(chart, series(group, position), &spots);
     }
     let caption = format!("{} {words}, means over the replicates. {BARS}", group.label);
-    figure(&chart, caption)
+    Figure::of(&chart, caption)
 }
 
 /// Results over one factor, a curve for each value of another.
@@ -81,10 +82,11 @@ pub(super) fn family(
     for (level, colour) in of.values().into_iter().zip(COLOURS) {
         let points: Vec<usize> =
             (0..results.len()).filter(|point| study.points[*point].values[family] == level).collect();
-        for (position, (measure, _)) in group.of.iter().enumerate() {
+        for (position, (measure, called)) in group.of.iter().enumerate() {
             let marker = if position == 0 { Marker::Circle } else { Marker::Triangle };
             let label = of.dimension.pretty(level);
-            let series = Series { marker: Some(marker), ..Series::new(&label, colour) };
+            let series = Series { marker: Some(marker), ..Series::new(&label, colour) }
+                .named(&format!("{called}, {label}"));
             let series = if position == 0 { series } else { series.unlabelled() };
             let spots = spots(study, results, group, *measure, (along, &place), &points);
             chart = drawn(chart, series, &spots);
@@ -102,7 +104,7 @@ pub(super) fn family(
         name_of_key(key),
         name_of_key(of.key),
     );
-    figure(&chart, caption)
+    Figure::of(&chart, caption)
 }
 
 fn spots(
@@ -125,5 +127,5 @@ fn spots(
 /// Markers with bars, joined by a fine line.
 pub(super) fn drawn(chart: Chart, series: Series, spots: &[Spot]) -> Chart {
     let line: Vec<(f64, f64)> = spots.iter().map(|(x, y, _)| (*x, *y)).collect();
-    chart.line(series.clone().unlabelled().unmarked().width(1.0), &line).scatter(series, spots)
+    chart.line(series.clone().adorning().unmarked().width(1.0), &line).scatter(series, spots)
 }

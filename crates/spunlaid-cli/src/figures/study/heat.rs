@@ -1,11 +1,13 @@
 //! Results over two factors of many values: a map in colours.
 
-use super::super::Figure;
-use super::super::palette::{INK, PAPER};
-use super::super::significant;
-use super::super::svg::{Anchor, Stroke, Svg, Text};
 use super::quantity::{Along, Group, label_of_key, name_of_key};
+use crate::numbers::significant;
 use spunlaid::study::{PointResults, Study};
+use spunlaid_charts::{
+    Figure, Table,
+    palette::{INK, PAPER},
+    svg::{Anchor, Stroke, Svg, Text},
+};
 
 const SIZE: (f64, f64) = (640.0, 440.0);
 const PLOT: (f64, f64, f64, f64) = (84.0, 22.0, 500.0, 370.0);
@@ -72,11 +74,21 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     let caption = format!(
         "{which}, mean over the replicates, over {} (along) and {} (up). The values, with standard errors, are in \
          results.csv.",
-        super::super::svg::plain(label_of_key(study.factors[1].key)),
-        super::super::svg::plain(label_of_key(study.factors[0].key)),
+        spunlaid_charts::svg::plain(label_of_key(study.factors[1].key)),
+        spunlaid_charts::svg::plain(label_of_key(study.factors[0].key)),
     );
     let axis = if group.of.len() == 2 { format!("_{}", called.replace(' ', "_")) } else { String::new() };
-    Figure { name: format!("{}{axis}_map", group.name), title, caption, svg: svg.finish() }
+    let columns = [of_along.axis.column(), of_up.axis.column(), group.axis().column(), "error".to_owned()];
+    let mut table = Table::new(columns);
+    table.add(
+        &called,
+        results.iter().enumerate().map(|(k, point)| {
+            let (value, error) = group.value(point, measure);
+            let (i, j) = (k / along.len(), k % along.len());
+            [of_along.place(along[j]), of_up.place(up[i]), value, error.unwrap_or(f64::NAN)]
+        }),
+    );
+    Figure { name: format!("{}{axis}_map", group.name), title, caption, svg: svg.finish(), table }
 }
 
 /// The colours and what they stand for.

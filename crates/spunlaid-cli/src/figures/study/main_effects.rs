@@ -1,11 +1,10 @@
 //! Results over one of many factors, averaged over what the others do.
 
-use super::super::Figure;
-use super::super::chart::{Chart, Series};
 use super::curves::drawn;
+use super::file_name;
 use super::quantity::{Along, Group, name_of_key};
-use super::{figure, file_name};
 use spunlaid::study::{Factor, PointResults, Ranking, Study};
+use spunlaid_charts::{Chart, Figure, Series};
 
 /// Slices of a factor's range whose points are averaged, where they are many and all different.
 const SLICES: usize = 8;
@@ -25,14 +24,15 @@ pub(super) fn of(
     let title = format!("{} over {}", group.label, name_of_key(varied.key));
     let mut chart = Chart::new(&file_name(group, varied.key), &title, along.axis.clone(), group.axis());
     for (position, (measure, label)) in group.of.iter().enumerate() {
-        let series = if position == 0 { Series::y(label) } else { Series::z(label) };
+        let series = if position == 0 { Series::circles(label) } else { Series::triangles(label) };
         let values = results.iter().zip(&study.points);
         let values = values.map(|(of, point)| (point.values[factor], of.mean[*measure] * group.factor));
         let spots = averaged(varied, values.collect());
         let spots: Vec<_> = spots.into_iter().map(|(x, y, error)| (along.place(x), y, error)).collect();
         if let Some(line) = line(varied, rankings, *measure, factor) {
             let line: Vec<_> = line.into_iter().map(|(x, y)| (along.place(x), y * group.factor)).collect();
-            chart = chart.line(series.clone().unlabelled().unmarked().dashed("2 4").width(1.2), &line);
+            let fit = series.clone().unlabelled().named(&format!("{label}, line of best fit"));
+            chart = chart.line(fit.unmarked().dashed("2 4").width(1.2), &line);
         }
         chart = drawn(chart, series, &spots);
     }
@@ -43,7 +43,7 @@ pub(super) fn of(
         group.label,
         name_of_key(varied.key),
     );
-    figure(&chart, caption)
+    Figure::of(&chart, caption)
 }
 
 /// Mean and standard error at each level, or in each slice: value of the factor, mean, error.

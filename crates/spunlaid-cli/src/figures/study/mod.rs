@@ -8,10 +8,9 @@ mod ranking;
 #[cfg(test)]
 mod tests;
 
-use super::Figure;
-use super::chart::Chart;
 use quantity::Group;
 use spunlaid::study::{Design, PointResults, Ranking, Study};
+use spunlaid_charts::Figure;
 
 pub(crate) use quantity::name_of_key;
 
@@ -58,10 +57,6 @@ pub(crate) fn study_figures(study: &Study, results: &[PointResults], rankings: &
         figures.splice(0..0, ranks);
     }
     figures
-}
-
-fn figure(chart: &Chart, caption: String) -> Figure {
-    Figure { name: chart.name.clone(), title: chart.title.clone(), caption, svg: chart.svg() }
 }
 
 /// Part of a file name: `air.velocity` to `air_velocity`.

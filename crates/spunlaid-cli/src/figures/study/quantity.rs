@@ -1,9 +1,9 @@
 //! What the axes of a study's figures say: quantities, units handy to read.
 
-use super::super::scale::{Axis, Spacing};
 use spunlaid::study;
 use spunlaid::study::{Factor, MEASURES, PointResults};
 use spunlaid::units::Dimension;
+use spunlaid_charts::{Axis, Spacing};
 
 /// Results shown in one figure: one, or that of y and that of z.
 #[derive(Clone, Debug)]
@@ -127,7 +127,7 @@ pub(super) fn label_of_key(key: &str) -> &str {
 
 /// What a key is called in a sentence: `the mean velocity`.
 pub(crate) fn name_of_key(key: &str) -> String {
-    let label = super::super::svg::plain(label_of_key(key));
+    let label = spunlaid_charts::svg::plain(label_of_key(key));
     // Without the letter at its end.
     let words = match label.rsplit_once(' ') {
         Some((words, letter)) if letter.chars().count() <= 2 => words,

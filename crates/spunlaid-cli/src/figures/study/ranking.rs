@@ -1,12 +1,13 @@
 //! Which factor matters: main effects with their confidence intervals, the largest on top.
 
-use super::super::Figure;
-use super::super::draw::draw_marker;
-use super::super::palette::{BLUE, GREY, GRID, INK, Marker, VERMILION};
-use super::super::scale::{Axis, Scale};
-use super::super::svg::{Anchor, Stroke, Svg, Text, width};
 use super::quantity::{Along, Group, label_of_key};
+use crate::numbers::range;
 use spunlaid::study::{Effect, Ranking, Study};
+use spunlaid_charts::{
+    Axis, Figure, Marker, Scale, Table,
+    palette::{BLUE, GREY, GRID, INK, VERMILION},
+    svg::{Anchor, Stroke, Svg, Text, width},
+};
 
 const WIDTH: f64 = 640.0;
 const ROW: f64 = 46.0;
@@ -55,7 +56,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
 
     let mut key = left;
     for (_, marker, colour, label) in &shown {
-        draw_marker(&mut svg, (key + 8.0, 18.0), *marker, colour);
+        svg.marker((key + 8.0, 18.0), *marker, colour);
         let style = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
         svg.text((key + 20.0, 22.5), label, style);
         key += 60.0;
@@ -67,8 +68,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
         svg.text((left - 12.0, y - 2.0), label_of_key(of.key), name);
         let (least, greatest) = of.ends();
         let place = Along::new(of);
-        let number = |value: f64| super::super::significant(place.place(value), 3);
-        let range = format!("{} to {} {}", number(least), number(greatest), place.unit);
+        let range = format!("{} {}", range(place.place(least), place.place(greatest)), place.unit);
         let style = Text { size: SMALL, colour: GREY, anchor: Anchor::End, upright: true };
         svg.text((left - 12.0, y + 14.0), range.trim_end(), style);
         for (index, (ranking, marker, colour, _)) in shown.iter().enumerate() {
@@ -82,7 +82,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
             for end in [low, high] {
                 svg.line((end, y - 3.5), (end, y + 3.5), &stroke);
             }
-            draw_marker(&mut svg, (along(effect.change * group.factor), y), *marker, colour);
+            svg.marker((along(effect.change * group.factor), y), *marker, colour);
         }
     }
     let explained: Vec<String> = shown
@@ -99,5 +99,14 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
         group.words,
         explained.join(" and "),
     );
-    Figure { name: format!("{}_ranking", group.name), title, caption, svg: svg.finish() }
+    let change = Axis::linear(&format!("Change ({})", group.unit));
+    let mut table = Table::new([change.column(), "error".to_owned()]);
+    for (ranking, .., label) in &shown {
+        for effect in &ranking.effects {
+            let half = effect.half_width.unwrap_or(f64::NAN) * group.factor;
+            let series = format!("{}, {}", label.replace('*', ""), study.factors[effect.factor].key);
+            table.add(&series, [[effect.change * group.factor, half]]);
+        }
+    }
+    Figure { name: format!("{}_ranking", group.name), title, caption, svg: svg.finish(), table }
 }

@@ -1,9 +1,10 @@
 //! Every figure of every kind of study can be drawn.
 
-use super::super::{png, sample};
+use super::super::sample;
 use super::*;
 use spunlaid::study::{Effect, Factor, Levels, MEASURES, Point, Replicates, Spacing};
 use spunlaid::units::Dimension;
+use spunlaid_charts::png;
 
 /// A study of made-up factors and results.
 fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {

@@ -1,6 +1,7 @@
 //! `air.toml`: the [air] of a case as a record has it.
 
-use super::decimals;
+use super::half_width;
+use crate::numbers::decimals;
 use spunlaid::record::{Analysis, Interval};
 use spunlaid::units::Dimension;
 
@@ -56,11 +57,8 @@ pub(crate) fn air_block(file: &str, of: &Analysis) -> String {
     for ((key, interval, dimension, origin), value) in lines.iter().zip(&values) {
         let (low, high) =
             (pretty(*dimension, interval, interval.low), pretty(*dimension, interval, interval.high));
-        text.push_str(&format!(
-            "{:<34} # {low} to {high}; {}\n",
-            format!("{key} = {value}"),
-            one_line(origin)
-        ));
+        let ends = if low == high { String::new() } else { format!("{low} to {high}; ") };
+        text.push_str(&format!("{:<34} # {ends}{}\n", format!("{key} = {value}"), one_line(origin)));
     }
     text
 }
@@ -74,7 +72,7 @@ fn value(_key: &str, interval: &Interval, dimension: Dimension) -> String {
 /// To one digit more than the interval tells.
 fn pretty(dimension: Dimension, interval: &Interval, value: f64) -> String {
     let leading = interval.value.abs().log10().floor();
-    let digits = decimals(interval, 1.0) as f64 + leading + 2.0;
+    let digits = decimals(half_width(interval)).map_or(6.0, |decimals| f64::from(decimals) + leading + 2.0);
     let digits = if digits.is_finite() { digits.clamp(3.0, 9.0) as usize } else { 4 };
     dimension.pretty_to(value, digits)
 }

@@ -1,7 +1,7 @@
 //! The results of an analysis in rows, for the terminal and the report.
 
-use super::decimals;
-use crate::figures::signed;
+use super::half_width;
+use crate::numbers::{decimals, rounded, to_decimals};
 use spunlaid::record::{Analysis, Interval, Record};
 use spunlaid::units::Dimension;
 use std::fmt::Write;
@@ -17,13 +17,16 @@ pub(crate) struct ResultRow {
 }
 
 fn row(name: &str, of: &Interval, factor: f64, unit: &'static str, meaning: String) -> ResultRow {
-    let decimals = decimals(of, factor);
-    let text = |x: f64| if x.is_finite() { signed(x * factor, decimals) } else { "–".to_owned() };
+    let half = half_width(of) * factor;
+    // A value that was given has no interval.
+    let end = |end: f64| {
+        decimals(half).map_or_else(|| "–".to_owned(), |decimals| to_decimals(end * factor, decimals))
+    };
     ResultRow {
         name: name.to_owned(),
-        value: text(of.value),
-        low: text(of.low),
-        high: text(of.high),
+        value: rounded(of.value * factor, Some(half)).0,
+        low: end(of.low),
+        high: end(of.high),
         unit,
         meaning,
     }
@@ -125,7 +128,7 @@ pub(crate) fn result_table(record: &Record, of: &Analysis) -> String {
     let (air, components) = results(of);
     let write = |text: &mut String, rows: &[ResultRow]| {
         for r in rows {
-            let range = format!("{} to {}", r.low, r.high);
+            let range = if r.low == r.high { r.low.clone() } else { format!("{} to {}", r.low, r.high) };
             let line = format!("  {:<24}{:>10}   {range:<22}{:<5} {}", r.name, r.value, r.unit, r.meaning);
             let _ = writeln!(text, "{}", line.trim_end());
         }

@@ -1,29 +1,15 @@
 //! What the columns are called and hold.
 
-use super::column;
+use super::super::parquet::{Column, Holds};
 use spunlaid::study::{MEASURES, Study};
 use spunlaid::units::Dimension;
-
-/// A column.
-#[derive(Clone, Debug)]
-pub(crate) struct Column {
-    pub(crate) name: String,
-    /// Of whole numbers, never missing; else of numbers, which may be.
-    pub(crate) whole: bool,
-}
 
 /// A value in a row.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Value {
     Whole(i64),
-    Number(Option<f64>),
-}
-
-impl Value {
-    /// What is no number is missing.
-    pub(crate) fn number(value: f64) -> Self {
-        Self::Number(value.is_finite().then_some(value))
-    }
+    /// NaN counts as missing.
+    Number(f64),
 }
 
 /// `air.velocity_m_s`: the key and its SI unit.
@@ -49,18 +35,26 @@ fn inputs(study: &Study) -> impl Iterator<Item = String> {
 }
 
 pub(super) fn of_points(study: &Study) -> Vec<Column> {
-    let mut columns = vec![column("point", true), column("seed", true)];
-    columns.extend(inputs(study).map(|name| column(name, false)));
-    columns.extend([column("n", true), column("lost", true)]);
+    let mut columns = vec![whole("point"), whole("seed")];
+    columns.extend(inputs(study).map(number));
+    columns.extend([whole("n"), whole("lost")]);
     for measure in &MEASURES {
-        columns.extend([column(measure.column, false), column(format!("{}_se", measure.column), false)]);
+        columns.extend([number(measure.column), number(format!("{}_se", measure.column))]);
     }
     columns
 }
 
 pub(super) fn of_fibres(study: &Study) -> Vec<Column> {
-    let mut columns = vec![column("point", true), column("replicate", true), column("seed", true)];
-    columns.extend(inputs(study).map(|name| column(name, false)));
-    columns.extend(MEASURES.iter().map(|measure| column(measure.column, false)));
+    let mut columns = vec![whole("point"), whole("replicate"), whole("seed")];
+    columns.extend(inputs(study).map(number));
+    columns.extend(MEASURES.iter().map(|measure| number(measure.column)));
     columns
+}
+
+fn whole(name: &str) -> Column {
+    Column { name: name.to_owned(), holds: Holds::Whole }
+}
+
+fn number(name: impl Into<String>) -> Column {
+    Column { name: name.into(), holds: Holds::Optional }
 }

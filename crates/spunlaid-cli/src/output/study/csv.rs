@@ -1,32 +1,32 @@
 //! Comma-separated values: a line of names, then a line per row; what is missing is empty.
 
-use super::columns::{Column, Value};
+use super::super::parquet::Column;
+use super::columns::Value;
 use crate::failure::Failure;
+use csv::Writer;
+use spunlaid_charts::shortest;
 use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 pub(super) struct Csv {
     path: PathBuf,
-    writer: BufWriter<File>,
+    writer: Writer<File>,
 }
 
 impl Csv {
-    pub(super) fn create(path: &Path, columns: &[Column]) -> Result<Self, Failure> {
-        let file = File::create(path).map_err(Failure::unwritable(path))?;
-        let mut csv = Self { path: path.to_owned(), writer: BufWriter::new(file) };
-        let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-        csv.line(&names.join(","))?;
+    /// * `now`, `later` – where the table is written, and where it will be
+    pub(super) fn create((now, later): (PathBuf, PathBuf), columns: &[Column]) -> Result<Self, Failure> {
+        let file = File::create(now).map_err(Failure::unwritable(&later))?;
+        let mut csv = Self { path: later, writer: Writer::from_writer(file) };
+        csv.line(columns.iter().map(|column| column.name.clone()))?;
         Ok(csv)
     }
 
     pub(super) fn add(&mut self, row: &[Value]) -> Result<(), Failure> {
-        let shown = |value: &Value| match value {
+        self.line(row.iter().map(|value| match value {
             Value::Whole(value) => value.to_string(),
-            Value::Number(value) => value.map_or_else(String::new, shortest),
-        };
-        let row: Vec<String> = row.iter().map(shown).collect();
-        self.line(&row.join(","))
+            Value::Number(value) => shortest(*value),
+        }))
     }
 
     pub(super) fn finish(mut self) -> Result<(), Failure> {
@@ -34,13 +34,7 @@ impl Csv {
         done.map_err(Failure::unwritable(&self.path))
     }
 
-    fn line(&mut self, line: &str) -> Result<(), Failure> {
-        writeln!(self.writer, "{line}").map_err(Failure::unwritable(&self.path))
+    fn line(&mut self, cells: impl Iterator<Item = String>) -> Result<(), Failure> {
+        self.writer.write_record(cells).map_err(|error| Failure::unwritable(&self.path)(error.into()))
     }
-}
-
-/// The shortest text that reads back to the same bits.
-fn shortest(value: f64) -> String {
-    let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
-    if scientific.len() < plain.len() { scientific } else { plain }
 }

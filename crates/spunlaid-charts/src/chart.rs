@@ -1,78 +1,102 @@
 //! A chart: axes, lines, points with error bars, bands, a legend above.
 //!
-//! Built from data, in the units of the axes:
-//!
-//! ```text
-//! Chart::new("amplitude", Axis::linear("Velocity *U* (m/s)"), Axis::linear("Amplitude (mm)").zero_based())
-//!     .scatter(Series::y("*y*"), &[(5.0, 4.8, Some(0.1)), (10.0, 9.8, Some(0.2))])
-//!     .svg()
-//! ```
+//! Built from data, in the units of the axes.
 
-use super::map::Map;
-use super::palette::{BLUE, GREY, INK, Marker, VERMILION};
-use super::scale::Axis;
+use crate::map::Map;
+use crate::palette::{BLUE, GREY, INK, Marker, VERMILION};
+use crate::scale::Axis;
+use crate::svg::plain;
 
 /// How one quantity is drawn throughout a chart.
 #[derive(Clone, Debug)]
-pub(crate) struct Series {
+pub struct Series {
     /// What the legend calls it; nothing: not in the legend.
-    pub(crate) label: Option<String>,
-    pub(crate) colour: &'static str,
-    pub(crate) marker: Option<Marker>,
-    pub(crate) width: f64,
-    pub(crate) dash: Option<&'static str>,
+    pub label: Option<String>,
+    /// What the figure's table calls it; nothing: not in the table.
+    pub name: Option<String>,
+    /// All points, x, y, ± error, where only some of them are drawn.
+    pub full: Option<Vec<(f64, f64, Option<f64>)>>,
+    /// Colour, as SVG has it.
+    pub colour: &'static str,
+    /// Sign of its points.
+    pub marker: Option<Marker>,
+    /// Width of its line [px].
+    pub width: f64,
+    /// Dashes and gaps of its line, as SVG has them.
+    pub dash: Option<&'static str>,
 }
 
 impl Series {
     /// A solid line or dots of one colour.
-    pub(crate) fn new(label: &str, colour: &'static str) -> Self {
-        Self { label: Some(label.to_owned()), colour, marker: None, width: 1.5, dash: None }
+    pub fn new(label: &str, colour: &'static str) -> Self {
+        let name = Some(plain(label));
+        Self { label: Some(label.to_owned()), name, full: None, colour, marker: None, width: 1.5, dash: None }
     }
 
-    /// The blue circles of y.
-    pub(crate) fn y(label: &str) -> Self {
+    /// Blue circles, for the first of two quantities.
+    pub fn circles(label: &str) -> Self {
         Self { marker: Some(Marker::Circle), ..Self::new(label, BLUE) }
     }
 
-    /// The vermilion triangles of z.
-    pub(crate) fn z(label: &str) -> Self {
+    /// Vermilion triangles, for the second of two quantities.
+    pub fn triangles(label: &str) -> Self {
         Self { marker: Some(Marker::Triangle), ..Self::new(label, VERMILION) }
     }
 
     /// Spots of one colour.
-    pub(crate) fn spots(label: &str, colour: &'static str) -> Self {
+    pub fn spots(label: &str, colour: &'static str) -> Self {
         Self { marker: Some(Marker::Spot), ..Self::new(label, colour) }
     }
 
     /// A grey reference.
-    pub(crate) fn reference(label: &str) -> Self {
+    pub fn reference(label: &str) -> Self {
         Self { dash: Some("6 4"), ..Self::new(label, GREY) }
     }
 
     /// Without an entry in the legend.
-    pub(crate) fn unlabelled(self) -> Self {
+    pub fn unlabelled(self) -> Self {
         Self { label: None, ..self }
     }
 
+    /// With this name in the figure's table.
+    pub fn named(self, name: &str) -> Self {
+        Self { name: Some(plain(name)), ..self }
+    }
+
+    /// Drawn, but without points in the figure's table, because another series has them.
+    pub fn drawn_only(self) -> Self {
+        Self { name: None, ..self }
+    }
+
+    /// Neither in the legend nor in the figure's table.
+    pub fn adorning(self) -> Self {
+        self.unlabelled().drawn_only()
+    }
+
+    /// With all points for the figure's table, where only some of them are drawn: x, y, ± error.
+    pub fn thinned_from(self, full: Vec<(f64, f64, Option<f64>)>) -> Self {
+        Self { full: Some(full), ..self }
+    }
+
     /// With dashes as SVG has them.
-    pub(crate) fn dashed(self, dash: &'static str) -> Self {
+    pub fn dashed(self, dash: &'static str) -> Self {
         Self { dash: Some(dash), ..self }
     }
 
     /// With a line of this width [px].
-    pub(crate) fn width(self, width: f64) -> Self {
+    pub fn width(self, width: f64) -> Self {
         Self { width, ..self }
     }
 
     /// Without markers.
-    pub(crate) fn unmarked(self) -> Self {
+    pub fn unmarked(self) -> Self {
         Self { marker: None, ..self }
     }
 }
 
 /// What is drawn for a series.
 #[derive(Clone, Debug)]
-pub(crate) enum Mark {
+pub enum Mark {
     /// A line along x, broken where a value is missing, with markers now and then.
     Line(Vec<(f64, f64)>),
     /// A path that goes anywhere.
@@ -91,23 +115,28 @@ pub(crate) enum Mark {
 
 /// A chart in the making.
 #[derive(Clone, Debug)]
-pub(crate) struct Chart {
+pub struct Chart {
     /// Unique in a document; letters, digits and underscores.
-    pub(crate) name: String,
-    pub(crate) title: String,
-    pub(crate) size: (f64, f64),
-    pub(crate) x: Axis,
-    pub(crate) y: Axis,
+    pub name: String,
+    /// A few words.
+    pub title: String,
+    /// Width and height [px].
+    pub size: (f64, f64),
+    /// Along the chart.
+    pub x: Axis,
+    /// Up the chart.
+    pub y: Axis,
     /// One unit of x is as long as one of y.
-    pub(crate) equal: bool,
-    pub(crate) marks: Vec<(Series, Mark)>,
+    pub equal: bool,
+    /// What is drawn, the lowest first.
+    pub marks: Vec<(Series, Mark)>,
     /// Said in the middle of a chart that has nothing to show.
-    pub(crate) nothing: String,
+    pub nothing: String,
 }
 
 impl Chart {
     /// An empty chart.
-    pub(crate) fn new(name: &str, title: &str, x: Axis, y: Axis) -> Self {
+    pub fn new(name: &str, title: &str, x: Axis, y: Axis) -> Self {
         Self {
             name: name.to_owned(),
             title: title.to_owned(),
@@ -121,53 +150,53 @@ impl Chart {
     }
 
     /// Of this size [px].
-    pub(crate) fn sized(self, width: f64, height: f64) -> Self {
+    pub fn sized(self, width: f64, height: f64) -> Self {
         Self { size: (width, height), ..self }
     }
 
     /// With the same scale along both axes.
-    pub(crate) fn equal(self) -> Self {
+    pub fn equal(self) -> Self {
         Self { equal: true, ..self }
     }
 
     /// With these words in place of values.
-    pub(crate) fn when_empty(self, words: &str) -> Self {
+    pub fn when_empty(self, words: &str) -> Self {
         Self { nothing: words.to_owned(), ..self }
     }
 
     /// Adds a line along x.
-    pub(crate) fn line(self, series: Series, points: &[(f64, f64)]) -> Self {
+    pub fn line(self, series: Series, points: &[(f64, f64)]) -> Self {
         self.with(series, Mark::Line(points.to_vec()))
     }
 
     /// Adds a path.
-    pub(crate) fn path(self, series: Series, points: &[(f64, f64)]) -> Self {
+    pub fn path(self, series: Series, points: &[(f64, f64)]) -> Self {
         self.with(series, Mark::Path(points.to_vec()))
     }
 
     /// Adds points with error bars: x, y, ± error.
-    pub(crate) fn scatter(self, series: Series, points: &[(f64, f64, Option<f64>)]) -> Self {
+    pub fn scatter(self, series: Series, points: &[(f64, f64, Option<f64>)]) -> Self {
         self.with(series, Mark::Scatter(points.to_vec()))
     }
 
     /// Adds a band: x, lower, upper.
-    pub(crate) fn band(self, series: Series, points: &[(f64, f64, f64)]) -> Self {
+    pub fn band(self, series: Series, points: &[(f64, f64, f64)]) -> Self {
         self.with(series, Mark::Band(points.to_vec()))
     }
 
     /// Adds a line across at `x`.
-    pub(crate) fn vertical(self, series: Series, x: f64) -> Self {
+    pub fn vertical(self, series: Series, x: f64) -> Self {
         self.with(series, Mark::Vertical(x))
     }
 
     /// Shades from `from` to `to`.
-    pub(crate) fn stretch(self, series: Series, from: f64, to: f64) -> Self {
+    pub fn stretch(self, series: Series, from: f64, to: f64) -> Self {
         self.with(series, Mark::Stretch(from, to))
     }
 
     /// Lays colours under everything else.
-    pub(crate) fn map(self, map: Map) -> Self {
-        self.with(Series::new("", INK).unlabelled(), Mark::Map(map))
+    pub fn map(self, map: Map) -> Self {
+        self.with(Series::new(&map.label, INK).unlabelled(), Mark::Map(map))
     }
 
     fn with(mut self, series: Series, mark: Mark) -> Self {
@@ -212,10 +241,5 @@ impl Chart {
             }
         }
         (xs, ys)
-    }
-
-    /// The picture.
-    pub(crate) fn svg(&self) -> String {
-        super::draw::chart(self)
     }
 }

@@ -1,35 +1,41 @@
 //! Axes: the range, the ticks and their labels, and where a value lies.
 
-use spunlaid::statistics::median;
+use crate::numbers::signed;
+use crate::table;
 
 /// How values are spread along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Spacing {
+pub enum Spacing {
+    /// Evenly.
     Linear,
+    /// By powers of ten.
     Logarithmic,
 }
 
 /// An axis as asked for.
 #[derive(Clone, Debug)]
-pub(crate) struct Axis {
+pub struct Axis {
     /// Quantity and unit, in the mark-up of the labels: `Time *t* (s)`.
-    pub(crate) label: String,
-    pub(crate) spacing: Spacing,
+    pub label: String,
+    /// How values are spread.
+    pub spacing: Spacing,
     /// Ends where the data end, without a margin.
-    pub(crate) tight: bool,
+    pub tight: bool,
     /// Starts at zero (linear only).
-    pub(crate) zero_based: bool,
+    pub zero_based: bool,
     /// Values that must lie on the axis, data or not.
-    pub(crate) include: Vec<f64>,
+    pub include: Vec<f64>,
     /// Most decades shown below the largest value (logarithmic only).
-    pub(crate) decades: i32,
+    pub decades: i32,
     /// A few values far from all others do not stretch the axis (logarithmic only).
-    pub(crate) steady: bool,
+    pub steady: bool,
+    /// Name of the column in the figure's table, unit included; `None`: it follows from the label.
+    pub column: Option<String>,
 }
 
 impl Axis {
     /// A linear axis with a small margin beyond the data.
-    pub(crate) fn linear(label: &str) -> Self {
+    pub fn linear(label: &str) -> Self {
         let label = label.to_owned();
         Self {
             label,
@@ -39,70 +45,81 @@ impl Axis {
             include: Vec::new(),
             decades: 12,
             steady: false,
+            column: None,
         }
     }
 
     /// A logarithmic axis; values of zero and below do not show.
-    pub(crate) fn logarithmic(label: &str) -> Self {
+    pub fn logarithmic(label: &str) -> Self {
         Self { spacing: Spacing::Logarithmic, ..Self::linear(label) }
     }
 
     /// Without a margin beyond the data.
-    pub(crate) fn tight(self) -> Self {
+    pub fn tight(self) -> Self {
         Self { tight: true, ..self }
     }
 
     /// From zero up.
-    pub(crate) fn zero_based(self) -> Self {
+    pub fn zero_based(self) -> Self {
         Self { zero_based: true, ..self }
     }
 
     /// Reaching at least as far as `value`.
-    pub(crate) fn including(mut self, value: f64) -> Self {
+    pub fn including(mut self, value: f64) -> Self {
         self.include.push(value);
         self
     }
 
     /// Showing at most so many decades below the largest value.
-    pub(crate) fn decades(self, decades: i32) -> Self {
+    pub fn decades(self, decades: i32) -> Self {
         Self { decades, ..self }
     }
 
     /// Not reaching to the few values far above or below all others.
-    pub(crate) fn steady(self) -> Self {
+    pub fn steady(self) -> Self {
         Self { steady: true, ..self }
     }
 
+    /// With this name for its column in the figure's table.
+    pub fn in_column(self, name: &str) -> Self {
+        Self { column: Some(name.to_owned()), ..self }
+    }
+
+    /// Name of its column: `time_s` for `Time *t* (s)`.
+    pub fn column(&self) -> String {
+        self.column.clone().unwrap_or_else(|| table::column(&self.label))
+    }
+
     /// Whether a value has a place on such an axis.
-    pub(crate) fn shows(&self, value: f64) -> bool {
+    pub fn shows(&self, value: f64) -> bool {
         value.is_finite() && (self.spacing == Spacing::Linear || value > 0.0)
     }
 }
 
 /// A tick; without a label it is a small one.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Tick {
+pub struct Tick {
     /// Where.
-    pub(crate) value: f64,
+    pub value: f64,
     /// What it says.
-    pub(crate) label: Option<String>,
+    pub label: Option<String>,
 }
 
 /// An axis with its range.
 #[derive(Clone, Debug)]
-pub(crate) struct Scale {
+pub struct Scale {
     spacing: Spacing,
     /// Ends of the axis.
-    pub(crate) ends: (f64, f64),
+    pub ends: (f64, f64),
     /// Ticks in rising order.
-    pub(crate) ticks: Vec<Tick>,
+    pub ticks: Vec<Tick>,
     /// Power of ten the labels leave out.
-    pub(crate) exponent: i32,
+    pub exponent: i32,
 }
 
 impl Scale {
     /// The scale that shows `values`, with about `count` ticks.
-    pub(crate) fn fit(axis: &Axis, values: impl Iterator<Item = f64>, count: usize) -> Self {
+    pub fn fit(axis: &Axis, values: impl Iterator<Item = f64>, count: usize) -> Self {
         let values: Vec<f64> =
             values.chain(axis.include.iter().copied()).filter(|&v| axis.shows(v)).collect();
         let (mut lo, mut hi) =
@@ -119,7 +136,7 @@ impl Scale {
     }
 
     /// The scale with these ends.
-    pub(crate) fn between(spacing: Spacing, ends: (f64, f64), count: usize) -> Self {
+    pub fn between(spacing: Spacing, ends: (f64, f64), count: usize) -> Self {
         let (ticks, exponent) = match spacing {
             Spacing::Linear => linear_ticks(ends, count),
             Spacing::Logarithmic => (logarithmic_ticks(ends, count), 0),
@@ -128,7 +145,7 @@ impl Scale {
     }
 
     /// Where a value lies: 0 at the start of the axis, 1 at its end.
-    pub(crate) fn place(&self, value: f64) -> f64 {
+    pub fn place(&self, value: f64) -> f64 {
         let (lo, hi) = self.ends;
         match self.spacing {
             Spacing::Linear => (value - lo) / (hi - lo),
@@ -137,9 +154,17 @@ impl Scale {
     }
 
     /// Whether a value lies on the axis.
-    pub(crate) fn holds(&self, value: f64) -> bool {
+    pub fn holds(&self, value: f64) -> bool {
         value >= self.ends.0 && value <= self.ends.1
     }
+}
+
+/// The middle of finite values, of an even number the mean of the two in the middle.
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let (below, above) = ((sorted.len() - 1) / 2, sorted.len() / 2);
+    sorted[below] + 0.5 * (sorted[above] - sorted[below])
 }
 
 fn linear_ends(axis: &Axis, lo: f64, hi: f64) -> (f64, f64) {
@@ -267,19 +292,8 @@ fn power_of_ten(exponent: i32) -> String {
     format!("10^{{{}}}", signed(f64::from(exponent), 0))
 }
 
-/// A number with a minus sign as it is set, not a hyphen.
-pub(crate) fn signed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let digits = text.trim_start_matches('-');
-    if text.starts_with('-') && digits.chars().any(|c| ('1'..='9').contains(&c)) {
-        format!("−{digits}")
-    } else {
-        digits.to_owned()
-    }
-}
-
 /// What an axis of this power of ten says beside its labels: `×10^{−9}`.
-pub(crate) fn factor(exponent: i32) -> String {
+pub fn factor(exponent: i32) -> String {
     format!("×{}", power_of_ten(exponent))
 }
 

@@ -6,12 +6,12 @@ use std::sync::Arc;
 /// Pixels of the PNG per pixel of the SVG.
 const SCALE: f32 = 2.0;
 
-const REGULAR: &[u8] = include_bytes!("../../assets/fonts/Arimo-Regular.ttf");
-const ITALIC: &[u8] = include_bytes!("../../assets/fonts/Arimo-Italic.ttf");
+const REGULAR: &[u8] = include_bytes!("../assets/fonts/Arimo-Regular.ttf");
+const ITALIC: &[u8] = include_bytes!("../assets/fonts/Arimo-Italic.ttf");
 
 /// A figure that could not be drawn.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum PngError {
+pub enum PngError {
     /// Not an SVG picture.
     #[error("the figure is not a valid SVG picture: {0}")]
     Svg(#[from] usvg::Error),
@@ -27,7 +27,7 @@ pub(crate) enum PngError {
 ///
 /// # Errors
 /// A string that is not an SVG picture or has no size.
-pub(crate) fn png(svg: &str) -> Result<Vec<u8>, PngError> {
+pub fn png(svg: &str) -> Result<Vec<u8>, PngError> {
     let mut fonts = usvg::fontdb::Database::new();
     fonts.load_font_data(REGULAR.to_vec());
     fonts.load_font_data(ITALIC.to_vec());

@@ -1,12 +1,16 @@
 //! Writing SVG: numbers, escaping, text with italics and superscripts.
 
+use crate::palette::{Marker, PAPER};
 use std::fmt::Write;
 
 /// Where a text is anchored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Anchor {
+pub enum Anchor {
+    /// At its start.
     Start,
+    /// In its middle.
     Middle,
+    /// At its end.
     End,
 }
 
@@ -14,7 +18,7 @@ pub(crate) enum Anchor {
 ///
 /// Coordinates that are not finite are the caller's mistake; an element that has one is left out.
 #[derive(Debug)]
-pub(crate) struct Svg {
+pub struct Svg {
     body: String,
 }
 
@@ -25,7 +29,7 @@ impl Svg {
     /// An empty picture on white.
     ///
     /// * `title` – for those who do not see it
-    pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
+    pub fn new(width: f64, height: f64, title: &str) -> Self {
         let (w, h) = (number(width), number(height));
         let body = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
@@ -37,13 +41,13 @@ impl Svg {
     }
 
     /// Closes the picture.
-    pub(crate) fn finish(mut self) -> String {
+    pub fn finish(mut self) -> String {
         self.body.push_str("</svg>\n");
         self.body
     }
 
     /// Opens a group that is drawn inside a rectangle only; `id` must be the document's only one.
-    pub(crate) fn open_clip(&mut self, id: &str, x: f64, y: f64, width: f64, height: f64) {
+    pub fn open_clip(&mut self, id: &str, x: f64, y: f64, width: f64, height: f64) {
         let _ = writeln!(
             self.body,
             "<clipPath id=\"{id}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n\
@@ -56,22 +60,22 @@ impl Svg {
     }
 
     /// Opens a group whose origin is so far down.
-    pub(crate) fn open_shifted(&mut self, down: f64) {
+    pub fn open_shifted(&mut self, down: f64) {
         let _ = writeln!(self.body, "<g transform=\"translate(0 {})\">", number(down));
     }
 
     /// Closes a group.
-    pub(crate) fn close(&mut self) {
+    pub fn close(&mut self) {
         self.body.push_str("</g>\n");
     }
 
     /// A straight line.
-    pub(crate) fn line(&mut self, from: (f64, f64), to: (f64, f64), stroke: &Stroke<'_>) {
+    pub fn line(&mut self, from: (f64, f64), to: (f64, f64), stroke: &Stroke<'_>) {
         self.path(&[from, to], stroke);
     }
 
     /// Joined straight lines.
-    pub(crate) fn path(&mut self, points: &[(f64, f64)], stroke: &Stroke<'_>) {
+    pub fn path(&mut self, points: &[(f64, f64)], stroke: &Stroke<'_>) {
         if points.is_empty() || !all_finite(points) {
             return;
         }
@@ -80,13 +84,7 @@ impl Svg {
     }
 
     /// A filled polygon, with an outline where `stroke` is given.
-    pub(crate) fn polygon(
-        &mut self,
-        points: &[(f64, f64)],
-        fill: &str,
-        opacity: f64,
-        stroke: Option<&Stroke<'_>>,
-    ) {
+    pub fn polygon(&mut self, points: &[(f64, f64)], fill: &str, opacity: f64, stroke: Option<&Stroke<'_>>) {
         if points.is_empty() || !all_finite(points) {
             return;
         }
@@ -98,7 +96,7 @@ impl Svg {
     }
 
     /// A circle.
-    pub(crate) fn circle(&mut self, (x, y): (f64, f64), radius: f64, fill: &str, stroke: &Stroke<'_>) {
+    pub fn circle(&mut self, (x, y): (f64, f64), radius: f64, fill: &str, stroke: &Stroke<'_>) {
         if !all_finite(&[(x, y)]) {
             return;
         }
@@ -112,8 +110,24 @@ impl Svg {
         );
     }
 
+    /// A marker: circle and triangle hollow, the spot filled.
+    pub fn marker(&mut self, at: (f64, f64), marker: Marker, colour: &str) {
+        let stroke = Stroke::solid(colour, 1.5);
+        let (x, y) = at;
+        match marker {
+            Marker::Circle => self.circle(at, 3.9, PAPER, &stroke),
+            Marker::Triangle => {
+                // As large as the circle, its centre of mass on the point.
+                let r = 5.2;
+                let corners = [(x, y - r), (x + 0.866 * r, y + 0.5 * r), (x - 0.866 * r, y + 0.5 * r)];
+                self.polygon(&corners, PAPER, 1.0, Some(&stroke));
+            }
+            Marker::Spot => self.circle(at, 3.4, colour, &stroke),
+        }
+    }
+
     /// A text in the mark-up of [`plain`], turned a quarter to the left where `upright` is false.
-    pub(crate) fn text(&mut self, (x, y): (f64, f64), text: &str, style: Text<'_>) {
+    pub fn text(&mut self, (x, y): (f64, f64), text: &str, style: Text<'_>) {
         let (x, y) = (number(x), number(y));
         let anchor = match style.anchor {
             Anchor::Start => "start",
@@ -133,18 +147,18 @@ impl Svg {
 
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stroke<'a> {
+pub struct Stroke<'a> {
     /// Colour.
-    pub(crate) colour: &'a str,
+    pub colour: &'a str,
     /// Width [px].
-    pub(crate) width: f64,
+    pub width: f64,
     /// Dashes and gaps, as SVG has them.
-    pub(crate) dash: Option<&'a str>,
+    pub dash: Option<&'a str>,
 }
 
 impl<'a> Stroke<'a> {
     /// A solid line.
-    pub(crate) const fn solid(colour: &'a str, width: f64) -> Self {
+    pub const fn solid(colour: &'a str, width: f64) -> Self {
         Self { colour, width, dash: None }
     }
 
@@ -160,15 +174,15 @@ impl<'a> Stroke<'a> {
 
 /// How a text is set.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Text<'a> {
+pub struct Text<'a> {
     /// Size [px].
-    pub(crate) size: f64,
+    pub size: f64,
     /// Colour.
-    pub(crate) colour: &'a str,
+    pub colour: &'a str,
     /// Where its position is.
-    pub(crate) anchor: Anchor,
+    pub anchor: Anchor,
     /// Not turned to run upwards.
-    pub(crate) upright: bool,
+    pub upright: bool,
 }
 
 fn all_finite(points: &[(f64, f64)]) -> bool {
@@ -184,14 +198,14 @@ fn outline(points: &[(f64, f64)]) -> String {
 }
 
 /// A coordinate to a hundredth of a pixel, short.
-pub(crate) fn number(x: f64) -> String {
+fn number(x: f64) -> String {
     let rounded = (x.clamp(-1e5, 1e5) * 100.0).round() / 100.0;
     // Plus zero: no `-0`.
     format!("{}", rounded + 0.0)
 }
 
 /// The five characters that mean something to XML.
-pub(crate) fn escape(text: &str) -> String {
+fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -244,8 +258,14 @@ fn pieces(text: &str) -> Vec<(Setting, String)> {
 }
 
 /// A label without its mark-up.
-pub(crate) fn plain(text: &str) -> String {
+pub fn plain(text: &str) -> String {
     pieces(text).into_iter().map(|(_, piece)| piece).collect()
+}
+
+/// The part of a label that is set upright: without symbols and what stands lowered beside them.
+pub(crate) fn upright(text: &str) -> String {
+    let upright = |(setting, _): &(Setting, String)| matches!(setting, Setting::Upright | Setting::Raised);
+    pieces(text).into_iter().filter(upright).map(|(_, piece)| piece).collect()
 }
 
 fn spans(text: &str, size: f64) -> String {
@@ -281,7 +301,7 @@ fn spans(text: &str, size: f64) -> String {
 }
 
 /// Width of a label [px], near enough to place it.
-pub(crate) fn width(text: &str, size: f64) -> f64 {
+pub fn width(text: &str, size: f64) -> f64 {
     let em = |c: char| match c {
         'i' | 'j' | 'l' | '\'' | '|' => 0.22,
         '.' | ',' | ' ' | '/' | 't' | 'f' | 'I' | ':' | ';' | '!' | '\u{a0}' => 0.28,

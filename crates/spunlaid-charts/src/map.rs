@@ -1,29 +1,43 @@
 //! A quantity over a plane, in colours, with their key beside it.
 
-use super::palette::INK;
-use super::scale::signed;
-use super::svg::{Anchor, Stroke, Svg, Text};
+use crate::numbers::signed;
+use crate::palette::INK;
+use crate::svg::{Anchor, Stroke, Svg, Text};
 
 /// Values over a rectangle of the plane.
 #[derive(Clone, Debug)]
-pub(crate) struct Map {
-    pub(crate) x: (f64, f64),
-    pub(crate) y: (f64, f64),
-    pub(crate) columns: usize,
+pub struct Map {
+    /// From where to where along.
+    pub x: (f64, f64),
+    /// From where to where up.
+    pub y: (f64, f64),
+    /// Number of values in a row.
+    pub columns: usize,
     /// Row by row from the lowest y, along x; NaN where there is nothing.
-    pub(crate) values: Vec<f64>,
+    pub values: Vec<f64>,
     /// The lowest and the highest value that colours tell.
-    pub(crate) range: (f64, f64),
+    pub range: (f64, f64),
     /// What they are.
-    pub(crate) label: String,
+    pub label: String,
 }
 
 /// Room for the key [px].
-pub(super) const KEY: f64 = 84.0;
+pub(crate) const KEY: f64 = 84.0;
 /// Colours that are told apart.
 const LEVELS: usize = 20;
 
 impl Map {
+    /// The middle of each cell with its value: x, y, value.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = [f64; 3]> {
+        let (columns, rows) = (self.columns.max(1), self.values.len() / self.columns.max(1));
+        let middle =
+            |ends: (f64, f64), i: usize, n: usize| ends.0 + (ends.1 - ends.0) * (i as f64 + 0.5) / n as f64;
+        let cells = self.values.iter().enumerate();
+        cells.map(move |(k, value)| {
+            [middle(self.x, k % columns, columns), middle(self.y, k / columns, rows), *value]
+        })
+    }
+
     /// Which colour, if there is a value.
     fn level(value: f64, (low, high): (f64, f64)) -> Option<usize> {
         let share = (value - low) / (high - low);
@@ -31,7 +45,7 @@ impl Map {
     }
 
     /// Draws the rectangles, those of one colour in a row together; `at` places a point.
-    pub(super) fn draw(&self, svg: &mut Svg, at: impl Fn((f64, f64)) -> (f64, f64)) {
+    pub(crate) fn draw(&self, svg: &mut Svg, at: impl Fn((f64, f64)) -> (f64, f64)) {
         let range = self.range;
         let rows = self.values.len() / self.columns.max(1);
         let x = |i: usize| self.x.0 + (self.x.1 - self.x.0) * i as f64 / self.columns as f64;
@@ -53,7 +67,7 @@ impl Map {
     }
 
     /// Draws the key: from the bottom to the top of the chart, `left` of it the picture.
-    pub(super) fn draw_key(&self, svg: &mut Svg, left: f64, (top, bottom): (f64, f64)) {
+    pub(crate) fn draw_key(&self, svg: &mut Svg, left: f64, (top, bottom): (f64, f64)) {
         let (low, high) = self.range;
         let at = |share: f64| bottom - share * (bottom - top);
         let (l, r) = (left + 14.0, left + 28.0);

@@ -46,7 +46,7 @@ pub(crate) fn path(points: &[Point]) -> Vec<Point> {
 }
 
 /// At most `count` indices of `0..length`, evenly spread, the first and the last among them.
-pub(crate) fn even(length: usize, count: usize) -> Vec<usize> {
+pub fn even(length: usize, count: usize) -> Vec<usize> {
     if length <= count || count < 2 {
         return (0..length).collect();
     }

@@ -3,27 +3,27 @@
 //! Okabe and Ito's palette, which the colour-blind tell apart.
 
 /// Text and axes.
-pub(crate) const INK: &str = "#1a1a1a";
+pub const INK: &str = "#1a1a1a";
 /// What the figures are drawn on.
-pub(crate) const PAPER: &str = "#ffffff";
+pub const PAPER: &str = "#ffffff";
 /// Grid lines.
-pub(crate) const GRID: &str = "#e6e6e6";
+pub const GRID: &str = "#e6e6e6";
 /// What is beside the point: reference lines, notes.
-pub(crate) const GREY: &str = "#6e6e6e";
+pub const GREY: &str = "#6e6e6e";
 /// y.
-pub(crate) const BLUE: &str = "#0072b2";
+pub const BLUE: &str = "#0072b2";
 /// z.
-pub(crate) const VERMILION: &str = "#d55e00";
+pub const VERMILION: &str = "#d55e00";
 /// A third quantity.
-pub(crate) const GREEN: &str = "#009e73";
+pub const GREEN: &str = "#009e73";
 /// A fourth.
-pub(crate) const ORANGE: &str = "#e69f00";
+pub const ORANGE: &str = "#e69f00";
 /// A fifth.
-pub(crate) const PURPLE: &str = "#9c4f80";
+pub const PURPLE: &str = "#9c4f80";
 
 /// The sign a point is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Marker {
+pub enum Marker {
     /// y.
     Circle,
     /// z.

@@ -1,9 +1,8 @@
 //! The legend: rows above the plot, where there are no data to cover.
 
-use super::chart::{Chart, Mark, Series};
-use super::draw::draw_marker;
-use super::palette::{INK, Marker};
-use super::svg::{Anchor, Stroke, Svg, Text, width};
+use crate::chart::{Chart, Mark, Series};
+use crate::palette::{INK, Marker};
+use crate::svg::{Anchor, Stroke, Svg, Text, width};
 
 const SIZE: f64 = 13.0;
 const ROW: f64 = 20.0;
@@ -79,12 +78,12 @@ fn draw_key(svg: &mut Svg, &Entry { series, mark, .. }: &Entry<'_>, x: f64, y: f
                 let bar = Stroke::solid(series.colour, 1.2);
                 svg.line((middle.0, y - 8.0), (middle.0, y + 8.0), &bar);
             }
-            draw_marker(svg, middle, series.marker.unwrap_or(Marker::Spot), series.colour);
+            svg.marker(middle, series.marker.unwrap_or(Marker::Spot), series.colour);
         }
         Mark::Line(_) | Mark::Path(_) | Mark::Vertical(_) => {
             svg.line((x, y), (x + KEY, y), &stroke);
             if let Some(marker) = series.marker {
-                draw_marker(svg, middle, marker, series.colour);
+                svg.marker(middle, marker, series.colour);
             }
         }
     }

@@ -1,12 +1,12 @@
 //! Drawing a chart: layout, axes, marks.
 
-use super::chart::{Chart, Mark, Series};
-use super::decimate::{along_x, path, runs};
-use super::legend;
-use super::map::{KEY, Map};
-use super::palette::{GREY, GRID, INK, Marker, PAPER};
-use super::scale::{Scale, Spacing, factor};
-use super::svg::{Anchor, Stroke, Svg, Text, width};
+use crate::chart::{Chart, Mark, Series};
+use crate::decimate::{along_x, path, runs};
+use crate::legend;
+use crate::map::{KEY, Map};
+use crate::palette::{GREY, GRID, INK, Marker};
+use crate::scale::{Scale, Spacing, factor};
+use crate::svg::{Anchor, Stroke, Svg, Text, width};
 
 const LABEL: f64 = 14.0;
 const TICK: f64 = 13.0;
@@ -50,11 +50,13 @@ pub(crate) fn stacked(title: &str, charts: &[&Chart]) -> String {
     svg.finish()
 }
 
-/// The picture of a chart.
-pub(crate) fn chart(chart: &Chart) -> String {
-    let mut svg = Svg::new(chart.size.0, chart.size.1, &chart.title);
-    draw(&mut svg, chart);
-    svg.finish()
+impl Chart {
+    /// The picture.
+    pub fn svg(&self) -> String {
+        let mut svg = Svg::new(self.size.0, self.size.1, &self.title);
+        draw(&mut svg, self);
+        svg.finish()
+    }
 }
 
 fn draw(svg: &mut Svg, chart: &Chart) {
@@ -227,13 +229,13 @@ fn draw_points(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark, index: 
         (Mark::Line(points), Some(marker)) => {
             let inside: Vec<_> = points.iter().filter(|p| inside(p.0, p.1)).collect();
             for &p in spread(plot, &inside, index) {
-                draw_marker(svg, plot.at(p), marker, series.colour);
+                svg.marker(plot.at(p), marker, series.colour);
             }
         }
         // A single value between missing ones is no line.
         (Mark::Line(points), None) => {
             for run in runs(points).iter().filter(|run| run.len() == 1 && inside(run[0].0, run[0].1)) {
-                draw_marker(svg, plot.at(run[0]), Marker::Spot, series.colour);
+                svg.marker(plot.at(run[0]), Marker::Spot, series.colour);
             }
         }
         (Mark::Scatter(points), marker) => {
@@ -242,12 +244,12 @@ fn draw_points(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark, index: 
                 if let Some(error) = error.filter(|e| e.is_finite()) {
                     draw_error(svg, plot, (x, y), error, series.colour);
                 }
-                draw_marker(svg, plot.at((x, y)), marker, series.colour);
+                svg.marker(plot.at((x, y)), marker, series.colour);
             }
         }
         (Mark::Vertical(x), Some(marker)) if plot.x.holds(*x) => {
             let below = if index.is_multiple_of(2) { 12.0 } else { 28.0 };
-            draw_marker(svg, (plot.along(*x), plot.top + below), marker, series.colour);
+            svg.marker((plot.along(*x), plot.top + below), marker, series.colour);
         }
         _ => {}
     }
@@ -277,21 +279,5 @@ fn draw_error(svg: &mut Svg, plot: &Plot, (x, y): (f64, f64), error: f64, colour
     svg.line((x, top), (x, bottom), &stroke);
     for end in [top, bottom] {
         svg.line((x - 3.5, end), (x + 3.5, end), &stroke);
-    }
-}
-
-/// A marker: circle and triangle hollow, the spot filled.
-pub(crate) fn draw_marker(svg: &mut Svg, at: (f64, f64), marker: Marker, colour: &str) {
-    let stroke = Stroke::solid(colour, 1.5);
-    let (x, y) = at;
-    match marker {
-        Marker::Circle => svg.circle(at, 3.9, PAPER, &stroke),
-        Marker::Triangle => {
-            // As large as the circle, its centre of mass on the point.
-            let r = 5.2;
-            let corners = [(x, y - r), (x + 0.866 * r, y + 0.5 * r), (x - 0.866 * r, y + 0.5 * r)];
-            svg.polygon(&corners, PAPER, 1.0, Some(&stroke));
-        }
-        Marker::Spot => svg.circle(at, 3.4, colour, &stroke),
     }
 }

@@ -1,0 +1,142 @@
+//! A figure: a picture, what it shows, and the numbers in it.
+
+use crate::chart::{Chart, Mark, Series};
+use crate::draw;
+use crate::table::{Table, column};
+
+/// A figure of a report.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// File name without ending.
+    pub name: String,
+    /// A few words.
+    pub title: String,
+    /// What is shown and what the numbers mean.
+    pub caption: String,
+    /// The picture.
+    pub svg: String,
+    /// The numbers, in the units of the axes.
+    pub table: Table,
+}
+
+impl Figure {
+    /// The figure of a chart.
+    pub fn of(chart: &Chart, caption: impl Into<String>) -> Self {
+        Self {
+            name: chart.name.clone(),
+            title: chart.title.clone(),
+            caption: caption.into(),
+            svg: chart.svg(),
+            table: table(&[chart]),
+        }
+    }
+
+    /// The figure of charts one above the other.
+    pub fn stacked(name: &str, title: &str, charts: &[&Chart], caption: impl Into<String>) -> Self {
+        Self {
+            name: name.to_owned(),
+            title: title.to_owned(),
+            caption: caption.into(),
+            svg: draw::stacked(title, charts),
+            table: table(charts),
+        }
+    }
+}
+
+/// A row of a series: as many values as the series has columns, the rest unused.
+type Row = [f64; 3];
+
+/// The points of all named series; charts share the columns that have the same name.
+fn table(charts: &[&Chart]) -> Table {
+    let named = || {
+        charts.iter().flat_map(|chart| {
+            let marks = chart.marks.iter();
+            marks.filter_map(|(series, mark)| {
+                let (columns, rows) = content(chart, series, mark)?;
+                Some((series.name.as_deref()?, columns, rows))
+            })
+        })
+    };
+    let mut heads: Vec<String> = Vec::new();
+    for (_, columns, _) in named() {
+        for column in columns {
+            if !heads.contains(&column) {
+                heads.push(column);
+            }
+        }
+    }
+    // What a series is in comes before how sure it is.
+    heads.sort_by_key(|head| [ERROR, LOWER, UPPER].contains(&head.as_str()));
+    let mut table = Table::new(heads.iter().cloned());
+    for (name, columns, rows) in named() {
+        let places: Vec<_> =
+            columns.iter().map(|column| heads.iter().position(|head| head == column)).collect();
+        let value = |row: &Row, head: usize| {
+            let place = places.iter().position(|place| *place == Some(head));
+            place.map_or(f64::NAN, |place| row[place])
+        };
+        table.add(name, rows.map(|row| (0..heads.len()).map(|head| value(&row, head)).collect::<Vec<_>>()));
+    }
+    table
+}
+
+const ERROR: &str = "error";
+const LOWER: &str = "lower";
+const UPPER: &str = "upper";
+
+/// Columns and rows of a series; none for what has no points.
+fn content<'a>(
+    chart: &Chart,
+    series: &'a Series,
+    mark: &'a Mark,
+) -> Option<(Vec<String>, Box<dyn Iterator<Item = Row> + 'a>)> {
+    let (x, y) = (chart.x.column(), chart.y.column());
+    let [error, lower, upper] = [ERROR, LOWER, UPPER].map(str::to_owned);
+    Some(match (series.full.as_ref(), mark) {
+        (Some(points), _) | (None, Mark::Scatter(points)) => {
+            let mut columns = vec![x, y];
+            columns.extend(points.iter().any(|point| point.2.is_some()).then_some(error));
+            (columns, Box::new(points.iter().map(|&(x, y, error)| [x, y, error.unwrap_or(f64::NAN)])))
+        }
+        (None, Mark::Line(points) | Mark::Path(points)) => {
+            (vec![x, y], Box::new(points.iter().map(|&(x, y)| [x, y, f64::NAN])))
+        }
+        (None, Mark::Band(points)) => {
+            (vec![x, lower, upper], Box::new(points.iter().map(|&(x, lower, upper)| [x, lower, upper])))
+        }
+        (None, Mark::Vertical(at)) => (vec![x], Box::new(std::iter::once([*at, f64::NAN, f64::NAN]))),
+        (None, Mark::Map(map)) => (vec![x, y, column(&map.label)], Box::new(map.cells())),
+        (None, Mark::Stretch(..)) => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scale::Axis;
+
+    fn chart(y: &str) -> Chart {
+        Chart::new("c", "", Axis::linear("Time *t* (s)"), Axis::linear(y))
+    }
+
+    #[test]
+    fn charts_share_columns_of_the_same_name() {
+        let above = chart("*y* (mm)")
+            .line(Series::new("mean", "red"), &[(0.0, 1.0)])
+            .band(Series::new("range", "red"), &[(0.0, 0.5, 1.5)]);
+        let below = chart("*z* (mm)").scatter(Series::new("spot", "red"), &[(2.0, 3.0, Some(0.25))]);
+        assert_eq!(
+            Figure::stacked("s", "", &[&above, &below], "").table.csv(),
+            "series,time_s,y_mm,z_mm,lower,upper,error\nmean,0,1,,,,\nrange,0,,,0.5,1.5,\nspot,2,,3,,,0.25\n"
+        );
+    }
+
+    #[test]
+    fn the_table_has_what_was_thinned_and_leaves_out_what_only_adorns() {
+        let full = vec![(0.0, 1.0, None), (1.0, 2.0, None), (2.0, 3.0, None)];
+        let chart = chart("*y* (mm)")
+            .line(Series::new("zero", "grey").adorning(), &[(0.0, 0.0), (2.0, 0.0)])
+            .line(Series::new("*y*", "red").unlabelled().thinned_from(full), &[(0.0, 1.0), (2.0, 3.0)]);
+        assert_eq!(Figure::of(&chart, "").table.csv(), "series,time_s,y_mm\ny,0,1\ny,1,2\ny,2,3\n");
+    }
+}

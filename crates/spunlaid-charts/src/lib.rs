@@ -1,0 +1,64 @@
+//! Charts for reports: the picture as SVG and PNG, and the numbers it shows as CSV.
+//!
+//! The same data give the same bytes on every machine: the fonts are part of the crate, and nothing depends on the
+//! time, the locale or the number of threads.
+//!
+//! ```text
+//! data → Chart (axes, series, marks) → Figure ─ svg    layout, ticks, thinning, legend
+//!                                             ├ png    from the SVG, with the crate's own fonts
+//!                                             └ table  every point that the figure shows, as CSV
+//! ```
+//!
+//! # Example
+//!
+//! ```
+//! use spunlaid_charts::{Axis, Chart, Figure, Series, png};
+//!
+//! let velocity = Axis::linear("Velocity *U* (m/s)");
+//! let amplitude = Axis::linear("Amplitude (mm)").zero_based();
+//! let chart = Chart::new("amplitude_over_velocity", "Amplitude over the velocity", velocity, amplitude)
+//!     .scatter(Series::circles("*y*"), &[(5.0, 4.8, Some(0.1)), (10.0, 9.8, Some(0.2))])
+//!     .scatter(Series::triangles("*z*"), &[(5.0, 4.7, Some(0.1)), (10.0, 9.5, None)]);
+//! let figure = Figure::of(&chart, "Mean over ten replicates; bars are one standard error.");
+//!
+//! assert!(figure.svg.starts_with("<svg"));
+//! assert!(png(&figure.svg)?.starts_with(b"\x89PNG"));
+//! assert_eq!(
+//!     figure.table.csv(),
+//!     "series,velocity_m_s,amplitude_mm,error\n\
+//!      y,5,4.8,0.1\n\
+//!      y,10,9.8,0.2\n\
+//!      z,5,4.7,0.1\n\
+//!      z,10,9.5,\n"
+//! );
+//! # Ok::<(), spunlaid_charts::PngError>(())
+//! ```
+//!
+//! Labels have a small mark-up: `*t*` is italic, `^{2}` is raised, `_{n}` is lowered.
+//! What a chart cannot show is drawn with [`svg`], in the colours of [`palette`].
+
+// Units stand in brackets, [px], which rustdoc takes for links that lead nowhere.
+#![allow(rustdoc::broken_intra_doc_links)]
+
+mod chart;
+mod decimate;
+mod draw;
+mod figure;
+mod legend;
+mod map;
+mod numbers;
+pub mod palette;
+mod png;
+mod scale;
+pub mod svg;
+mod table;
+
+pub use chart::{Chart, Mark, Series};
+pub use decimate::even;
+pub use figure::Figure;
+pub use map::Map;
+pub use numbers::{shortest, signed, significant};
+pub use palette::Marker;
+pub use png::{PngError, png};
+pub use scale::{Axis, Scale, Spacing, Tick};
+pub use table::Table;

@@ -1,0 +1,163 @@
+//! Parquet tables, written in groups of rows.
+
+use crate::failure::Failure;
+use parquet::basic::{Compression, Encoding, Repetition, Type as PhysicalType};
+use parquet::data_type::{DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::Type;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A column of a table.
+#[derive(Clone, Debug)]
+pub(super) struct Column {
+    /// Its name, unit included.
+    pub(super) name: String,
+    pub(super) holds: Holds,
+}
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Holds {
+    /// A whole number in each row.
+    Whole,
+    /// A number in each row, NaN included.
+    Number,
+    /// A finite number, or nothing.
+    Optional,
+}
+
+/// A table that is being written; all columns must have grown by the same number of rows whenever
+/// [`Parquet::flush_when_full`] and [`Parquet::finish`] are called.
+pub(super) struct Parquet {
+    /// Where it will be.
+    path: PathBuf,
+    writer: SerializedFileWriter<BufWriter<File>>,
+    columns: Vec<Gathered>,
+    group: usize,
+    /// Rows since the last group.
+    rows: usize,
+}
+
+/// The values of a column since the last group of rows.
+enum Gathered {
+    Whole(Vec<i64>),
+    Number(Vec<f64>),
+    /// The values that are known, and for each row 1 where it is.
+    Optional(Vec<f64>, Vec<i16>),
+}
+
+impl Parquet {
+    /// * `now`, `later` – where the table is written, and where it will be
+    /// * `group` – rows that are gathered before they are written
+    pub(super) fn create(
+        (now, later): (PathBuf, PathBuf),
+        columns: &[Column],
+        group: usize,
+    ) -> Result<Self, Failure> {
+        let path = later;
+        let file = File::create(now).map_err(Failure::unwritable(&path))?;
+        let field = |column: &Column| {
+            let (physical, repetition) = match column.holds {
+                Holds::Whole => (PhysicalType::INT64, Repetition::REQUIRED),
+                Holds::Number => (PhysicalType::DOUBLE, Repetition::REQUIRED),
+                Holds::Optional => (PhysicalType::DOUBLE, Repetition::OPTIONAL),
+            };
+            let field = Type::primitive_type_builder(&column.name, physical);
+            field.with_repetition(repetition).build().map(Arc::new)
+        };
+        let fields = columns.iter().map(field).collect::<Result<Vec<_>, _>>();
+        let writer = fields
+            .and_then(|fields| Type::group_type_builder("spunlaid").with_fields(fields).build())
+            .and_then(|schema| {
+                let properties = WriterProperties::builder()
+                    .set_compression(Compression::SNAPPY)
+                    .set_dictionary_enabled(false)
+                    .set_encoding(Encoding::PLAIN)
+                    .set_created_by(concat!("spunlaid ", env!("CARGO_PKG_VERSION")).to_owned())
+                    .build();
+                SerializedFileWriter::new(BufWriter::new(file), Arc::new(schema), Arc::new(properties))
+            })
+            .map_err(|error| Failure::table(&path, error))?;
+        let empty = |column: &Column| match column.holds {
+            Holds::Whole => Gathered::Whole(Vec::new()),
+            Holds::Number => Gathered::Number(Vec::new()),
+            Holds::Optional => Gathered::Optional(Vec::new(), Vec::new()),
+        };
+        Ok(Self { path, writer, columns: columns.iter().map(empty).collect(), group, rows: 0 })
+    }
+
+    /// Adds values to a column of whole numbers.
+    pub(super) fn extend_whole(&mut self, column: usize, values: impl IntoIterator<Item = i64>) {
+        if let Some(Gathered::Whole(gathered)) = self.columns.get_mut(column) {
+            gathered.extend(values);
+            self.rows = gathered.len();
+        }
+    }
+
+    /// Adds values to a column of numbers.
+    pub(super) fn extend(&mut self, column: usize, values: impl IntoIterator<Item = f64>) {
+        match self.columns.get_mut(column) {
+            Some(Gathered::Number(gathered)) => gathered.extend(values),
+            Some(Gathered::Optional(gathered, known)) => {
+                for value in values {
+                    gathered.extend(value.is_finite().then_some(value));
+                    known.push(i16::from(value.is_finite()));
+                }
+            }
+            Some(Gathered::Whole(_)) | None => {}
+        }
+    }
+
+    /// Writes the rows gathered so far if they make a group.
+    pub(super) fn flush_when_full(&mut self) -> Result<(), Failure> {
+        if self.rows >= self.group { self.flush() } else { Ok(()) }
+    }
+
+    /// Writes what is left; gives the file.
+    pub(super) fn finish(mut self) -> Result<File, Failure> {
+        self.flush()?;
+        let Self { path, writer, .. } = self;
+        let file = writer.into_inner().map_err(|error| Failure::table(&path, error))?;
+        file.into_inner().map_err(|error| Failure::unwritable(&path)(error.into_error()))
+    }
+
+    fn flush(&mut self) -> Result<(), Failure> {
+        if self.rows == 0 {
+            return Ok(());
+        }
+        self.write_group().map_err(|error| Failure::table(&self.path, error))?;
+        for gathered in &mut self.columns {
+            match gathered {
+                Gathered::Whole(values) => values.clear(),
+                Gathered::Number(values) => values.clear(),
+                Gathered::Optional(values, known) => {
+                    values.clear();
+                    known.clear();
+                }
+            }
+        }
+        self.rows = 0;
+        Ok(())
+    }
+
+    fn write_group(&mut self) -> Result<(), ParquetError> {
+        let mut group = self.writer.next_row_group()?;
+        for gathered in &self.columns {
+            let Some(mut column) = group.next_column()? else { break };
+            match gathered {
+                Gathered::Whole(values) => column.typed::<Int64Type>().write_batch(values, None, None)?,
+                Gathered::Number(values) => column.typed::<DoubleType>().write_batch(values, None, None)?,
+                Gathered::Optional(values, known) => {
+                    column.typed::<DoubleType>().write_batch(values, Some(known), None)?
+                }
+            };
+            column.close()?;
+        }
+        group.close().map(drop)
+    }
+}
