@@ -7,6 +7,7 @@ use crate::failure::Failure;
 use crate::figures::{Figure, paper as draw};
 use crate::output::folder::Staging;
 use crate::output::pictures;
+use crate::output::study::column_name;
 use crate::report::{PaperReport, mean_and_error, paper_html};
 use crate::{progress, say};
 use serde::Serialize;
@@ -18,8 +19,8 @@ use spunlaid::ensemble::{
 use spunlaid::input::write_case;
 use spunlaid::lanes::Isa;
 use spunlaid::paper::{
-    Claim, ERROR_STEPS, Parameter, TrendPoint, choices, claims_of_step_errors, claims_of_trend, table1,
-    with_time_step,
+    Claim, Parameter, TrendPoint, choices as choices_of_the_paper, claims_of_step_errors, claims_of_trend,
+    in_scheme, table1, time_steps,
 };
 use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, results_of_point, run};
 use std::fmt::Write;
@@ -37,11 +38,12 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
         SchemeName::Leapfrog => Scheme::Leapfrog,
         SchemeName::ImplicitTension => Scheme::ImplicitTension,
     };
-    let Some(base) = table1(scheme, asked.replicates) else { return Ok(()) };
+    let mut base = table1(scheme)?;
+    base.run.replicates = asked.replicates;
     let folder = asked.out.clone().unwrap_or_else(|| PathBuf::from("results").join("paper"));
     let stop = stop_on_ctrl_c();
     let staging = Staging::new(&folder, asked.force, stop)?;
-    let flying = Flying::new(&base, &wanted);
+    let flying = Flying::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing =
@@ -111,56 +113,61 @@ fn chosen(asked: &[String]) -> Result<Vec<&'static str>, Failure> {
     Ok(FIGURES.into_iter().filter(|figure| wanted.contains(figure)).collect())
 }
 
+/// A parameter that is varied, and what its study says of it.
+struct Trend {
+    parameter: Parameter,
+    /// What the values are called in a table.
+    column: String,
+    /// The values [SI], each with the place of its point in the study of everything.
+    points: Vec<(f64, usize)>,
+}
+
 /// Everything that is to be flown.
 struct Flying {
     wanted: Vec<&'static str>,
     /// Table 1 with several time steps, for Figures 8.
     steps: Vec<Case>,
-    /// Parameters and where their points lie in the study.
-    trends: Vec<(Parameter, Vec<usize>)>,
+    trends: Vec<Trend>,
+    /// Each with the place of its point.
     choices: Vec<(&'static str, usize)>,
+    /// All that the trends and choices need.
     study: Study,
     base: Case,
 }
 
 impl Flying {
-    fn new(base: &Case, wanted: &[&'static str]) -> Self {
-        // Points that figures share, Table 1 above all, are flown once.
+    fn new(base: &Case, wanted: &[&'static str]) -> Result<Self, Failure> {
+        let wants = |figure| wanted.contains(&figure);
+        // Points that studies share, Table 1 above all, are flown once.
         let mut cases: Vec<Case> = Vec::new();
         let mut place = |case: Case| {
+            let mut case = in_scheme(case, base.run.scheme, base.run.time_step);
+            case.run.replicates = base.run.replicates;
             cases.iter().position(|known| *known == case).unwrap_or_else(|| {
                 cases.push(case);
                 cases.len() - 1
             })
         };
-        let trends: Vec<_> = Parameter::ALL
-            .into_iter()
-            .filter(|parameter| wanted.contains(&parameter.figure()))
-            .map(|parameter| {
-                let points = parameter.values().iter().map(|&value| place(parameter.set(base, value)));
-                (parameter, points.collect())
-            })
-            .collect();
-        let all = wanted.len() == FIGURES.len();
-        let choices = if all {
-            choices(base).into_iter().map(|(name, case)| (name, place(case))).collect()
-        } else {
-            Vec::new()
-        };
-        let euler = |step: f64| {
-            let mut case = with_time_step(base, step);
-            case.run.scheme = Scheme::SemiImplicitEuler;
-            case
-        };
-        let steps = if wanted.contains(&"8b") {
-            ERROR_STEPS.into_iter().map(euler).collect()
-        } else if wanted.contains(&"8a") {
-            vec![base.clone()]
-        } else {
-            Vec::new()
-        };
+        let mut trends = Vec::new();
+        for parameter in Parameter::ALL.into_iter().filter(|parameter| wants(parameter.figure())) {
+            let study = parameter.study()?;
+            let column = study.inputs().map(|(key, dimension)| column_name(key, dimension)).collect();
+            let points = study.points.into_iter().map(|point| (point.values[0], place(point.case)));
+            trends.push(Trend { parameter, column, points: points.collect() });
+        }
+        let mut choices = Vec::new();
+        if wanted.len() == FIGURES.len() {
+            for (name, case) in choices_of_the_paper()? {
+                choices.push((name, place(case)));
+            }
+        }
+        let mut steps: Vec<Case> = time_steps()?.points.into_iter().map(|point| point.case).collect();
+        steps.truncate(if wants("8b") { usize::MAX } else { usize::from(wants("8a")) });
+        for case in &mut steps {
+            case.run.replicates = base.run.replicates;
+        }
         let study = Study::of_cases(cases, Replicates::fixed(base.run.replicates));
-        Self { wanted: wanted.to_vec(), steps, trends, choices, study, base: base.clone() }
+        Ok(Self { wanted: wanted.to_vec(), steps, trends, choices, study, base: base.clone() })
     }
 
     fn fibres(&self) -> u64 {
@@ -209,9 +216,8 @@ struct Flown {
 }
 
 impl Flown {
-    fn trend(&self, parameter: Parameter, points: &[usize]) -> Vec<TrendPoint> {
-        let values = parameter.values().iter().zip(points);
-        values.map(|(&value, &point)| TrendPoint::of(value, &self.points[point])).collect()
+    fn trend(&self, trend: &Trend) -> Vec<TrendPoint> {
+        trend.points.iter().map(|&(value, point)| TrendPoint::of(value, &self.points[point])).collect()
     }
 
     fn errors(&self) -> Vec<(f64, Vec<ErrorOverTime>)> {
@@ -245,11 +251,11 @@ impl Flown {
             let table = csv("time_step_s,time_s,work_error_percent_mean,work_error_percent_largest", rows);
             figures.push((draw::step_errors(&errors), table));
         }
-        for (parameter, points) in &self.flying.trends {
-            let trend = self.trend(*parameter, points);
+        for flown in &self.flying.trends {
+            let (parameter, trend) = (flown.parameter, self.trend(flown));
             let head = format!(
                 "{},amplitude_y_m,amplitude_y_m_se,amplitude_z_m,amplitude_z_m_se,frequency_y_hz,frequency_y_hz_se,frequency_z_hz,frequency_z_hz_se,n",
-                parameter.column()
+                flown.column
             );
             let rows = trend.iter().map(|p| {
                 let pairs = p.amplitude.iter().chain(&p.frequency);
@@ -257,7 +263,7 @@ impl Flown {
                 std::iter::once(p.value).chain(results).chain([p.n as f64]).collect()
             });
             let table = csv(&head, rows);
-            figures.extend(draw::trend(*parameter, &trend).into_iter().map(|f| (f, table.clone())));
+            figures.extend(draw::trend(parameter, &trend).into_iter().map(|f| (f, table.clone())));
         }
         figures
     }
@@ -270,8 +276,8 @@ impl Flown {
             .collect();
         let mut claims =
             if self.flying.wanted.contains(&"8b") { claims_of_step_errors(&errors) } else { Vec::new() };
-        for (parameter, points) in &self.flying.trends {
-            claims.extend(claims_of_trend(*parameter, &self.trend(*parameter, points)));
+        for trend in &self.flying.trends {
+            claims.extend(claims_of_trend(trend.parameter, &self.trend(trend)));
         }
         claims
     }

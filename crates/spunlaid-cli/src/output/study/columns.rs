@@ -27,7 +27,7 @@ impl Value {
 }
 
 /// `air.velocity_m_s`: the key and its SI unit.
-fn column_name(key: &str, dimension: Dimension) -> String {
+pub(crate) fn column_name(key: &str, dimension: Dimension) -> String {
     let unit = match dimension {
         Dimension::Length => "_m",
         Dimension::Velocity => "_m_s",

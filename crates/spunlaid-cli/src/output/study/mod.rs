@@ -4,6 +4,7 @@ mod columns;
 mod csv;
 mod parquet;
 
+pub(crate) use self::columns::column_name;
 use self::columns::{Column, Value};
 use crate::failure::Failure;
 use spunlaid::study::{Journal, Landing, MEASURES, PointResults, Record, Study, results_of_point};
