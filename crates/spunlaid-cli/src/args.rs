@@ -105,6 +105,8 @@ The results folder holds
   figures/      every figure as SVG and PNG, and its data as CSV
   summary.json  the claims, their evidence and verdicts      case.toml  the base case, Table 1
 
+The studies that it flies are the files cases/paper/*.toml of the repository, which are built in.
+
 Examples:
   spunlaid reproduce                                       as the paper did it
   spunlaid reproduce --scheme implicit-tension --replicates 40   in seconds, with smaller errors
