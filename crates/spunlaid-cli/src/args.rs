@@ -26,7 +26,8 @@ Examples:
 A case is a small text file: the fibre, the air, the run. Lengths, speeds and the like carry
 their unit (\"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\").
 
-Exit codes: 0 done, 1 the input is wrong (nothing was written), 2 the run failed, 130 interrupted.";
+Exit codes: 0 done; 1 the input is wrong: arguments, case, study, record, or the folder named;
+2 the input is not to blame: a file cannot be written, fibres were lost; 130 interrupted.";
 
 /// What to do.
 #[derive(Debug, Subcommand)]
@@ -103,6 +104,8 @@ The results folder holds
   report.html   the paper's claims one by one with evidence and verdict, what it leaves open, the figures
   figures/      every figure as SVG and PNG, and its numbers as CSV
   summary.json  the claims, their evidence and verdicts      case.toml  the base case, Table 1
+
+The studies that it flies are the files cases/paper/*.toml of the repository, which are built in.
 
 Examples:
   spunlaid reproduce                                       as the paper did it

@@ -3,6 +3,7 @@
 use parquet::errors::ParquetError;
 use std::fmt;
 use std::io;
+use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 
 /// Why the program ends early.
@@ -38,6 +39,8 @@ pub(crate) enum Failure {
     FibresLost { lost: u64, of: u64, first: Vec<String> },
     /// A table cannot be encoded.
     Table { path: PathBuf, source: ParquetError },
+    /// The program has a fault; it has told where.
+    Panicked,
 }
 
 impl Failure {
@@ -57,14 +60,32 @@ impl Failure {
         }
     }
 
-    /// 1 the input is wrong, 2 the run failed, 130 interrupted.
+    /// 1 the input is wrong, 2 the input is not to blame, 130 interrupted.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Library(spunlaid::error::Error::Interrupted) | Self::Paused { .. } => 130,
             Self::Library(error) => error.exit_code(),
-            Self::Figure { .. } | Self::FibresLost { .. } | Self::Unheard { .. } => 2,
-            _ => 1,
+            Self::HoldsResults { .. }
+            | Self::NotAFolder { .. }
+            | Self::Exists { .. }
+            | Self::OtherStudy { .. }
+            | Self::OtherVersion { .. }
+            | Self::NoSuchFigure { .. }
+            | Self::NoSuchPoint { .. } => 1,
+            Self::Unwritable { .. }
+            | Self::NotWritten { .. }
+            | Self::Table { .. }
+            | Self::Figure { .. }
+            | Self::Unheard { .. }
+            | Self::FibresLost { .. }
+            | Self::Panicked => 2,
         }
+    }
+
+    /// Does `work`; a panic in it, which is a fault of the program, becomes a failure like others.
+    pub(crate) fn catch_panic(work: impl FnOnce() -> Result<(), Self>) -> Result<(), Self> {
+        // Nothing of what the work has touched is used afterwards.
+        panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or(Err(Self::Panicked))
     }
 }
 
@@ -134,6 +155,10 @@ impl fmt::Display for Failure {
                 first.iter().try_for_each(|line| write!(f, "\n{line}"))
             }
             Self::Table { path, source } => write!(f, "{}: cannot be written: {source}", path.display()),
+            Self::Panicked => write!(
+                f,
+                "the program has a fault, told above; please report it with the case or study that shows it"
+            ),
         }
     }
 }
@@ -159,5 +184,62 @@ fn other_study(f: &mut fmt::Formatter<'_>, folder: &Path, differences: &[String]
     match differences.len().checked_sub(MOST_TOLD) {
         Some(more @ 1..) => write!(f, "\nand {more} more"),
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spunlaid::error::{Error, JournalError};
+    use std::sync::LazyLock;
+
+    static FULL: LazyLock<io::Error> = LazyLock::new(|| io::ErrorKind::StorageFull.into());
+
+    /// Every failure of the program, and of the library those that are not about the text of an input.
+    #[test]
+    fn each_failure_has_the_exit_code_of_whose_fault_it_is() {
+        let path = || PathBuf::from("there");
+        let full = || io::Error::from(io::ErrorKind::StorageFull);
+        for wrong_input in [
+            Failure::HoldsResults { folder: path(), found: "figures".to_owned() },
+            Failure::NotAFolder { path: path() },
+            Failure::Exists { path: path() },
+            Failure::OtherStudy { folder: path(), differences: Vec::new() },
+            Failure::OtherVersion { folder: path(), version: "0".to_owned() },
+            Failure::NoSuchFigure { name: "12".to_owned(), known: "2".to_owned() },
+            Failure::NoSuchPoint { point: 3, points: 2 },
+            Error::NotThere { path: path() }.into(),
+            Error::Rejected(Vec::new()).into(),
+            Error::from(JournalError::InUse { path: path() }).into(),
+            Error::from(JournalError::Foreign { path: path() }).into(),
+        ] {
+            assert_eq!(wrong_input.exit_code(), 1, "{wrong_input:?}");
+        }
+        for not_the_inputs_fault in [
+            Failure::unwritable(&path())(full()),
+            Failure::NotWritten { path: path(), source: full() },
+            Failure::table(&path(), ParquetError::External(Box::new(full()))),
+            Failure::table(&path(), ParquetError::General("no".to_owned())),
+            Failure::Figure { name: "9".to_owned(), reason: "no".to_owned() },
+            Failure::Unheard { why: &FULL },
+            Failure::FibresLost { lost: 1, of: 2, first: Vec::new() },
+            Failure::Panicked,
+            Error::NotFinite { replicate: 1, node: 2, time: 0.1, cause: "stiff".to_owned() }.into(),
+            Error::from(JournalError::Unusable { path: path(), source: full() }).into(),
+            Error::from(JournalError::Unwritable { path: path(), source: full() }).into(),
+            Error::from(JournalError::Unsynced(full())).into(),
+        ] {
+            assert_eq!(not_the_inputs_fault.exit_code(), 2, "{not_the_inputs_fault:?}");
+        }
+        for interrupted in [Failure::Paused { done: 1, of: 2 }, Error::Interrupted.into()] {
+            assert_eq!(interrupted.exit_code(), 130, "{interrupted:?}");
+        }
+    }
+
+    #[test]
+    fn a_panic_is_a_failure_of_the_program() {
+        let failure = Failure::catch_panic(|| panic!("as a test of it"));
+        assert_eq!(failure.map_err(|failure| failure.exit_code()), Err(2));
+        assert!(Failure::catch_panic(|| Ok(())).is_ok());
     }
 }

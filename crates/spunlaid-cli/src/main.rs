@@ -25,7 +25,7 @@ fn main() -> ExitCode {
             return ExitCode::from(code);
         }
     };
-    let done = match arguments.command {
+    let done = Failure::catch_panic(|| match arguments.command {
         Command::Run(run) => commands::run(&run),
         Command::Sweep(sweep) => commands::sweep(&sweep),
         Command::Reproduce(asked) => commands::reproduce(&asked),
@@ -33,7 +33,7 @@ fn main() -> ExitCode {
         Command::Check(check) => commands::check(&check),
         Command::New(new) => commands::new(&new),
         Command::Completions(completions) => commands::completions(&completions),
-    };
+    });
     let done = done.and_then(|()| say::lost().map_or(Ok(()), |why| Err(Failure::Unheard { why })));
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -4,14 +4,90 @@
 mod desk;
 
 use desk::{Desk, ENTRIES, names, success};
+use std::collections::BTreeMap;
+use std::fs;
 use std::path::Path;
+
+/// A file with some of its text written otherwise.
+fn shortened(path: &Path, long: &str, short: &str) -> String {
+    let text = fs::read_to_string(path).unwrap();
+    assert!(text.contains(long), "{}", path.display());
+    text.replace(long, short)
+}
+
+#[test]
+fn flies_every_study_of_the_paper() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    let desk = Desk::new();
+    fs::create_dir(desk.path("paper")).unwrap();
+    let table1 = shortened(&cases.join("table1.toml"), "duration = \"1 s\"", "duration = \"20 ms\"");
+    fs::write(desk.path("table1.toml"), table1).unwrap();
+    let mut points = BTreeMap::new();
+    for entry in fs::read_dir(cases.join("paper")).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        let study = shortened(&path, "replicates = 10", "replicates = 2");
+        fs::write(desk.path(&format!("paper/{name}.toml")), study).unwrap();
+        success(&mut desk.spunlaid(&format!("sweep paper/{name}.toml --out {name}")));
+        let table = fs::read_to_string(desk.path(&format!("{name}/results.csv"))).unwrap();
+        points.insert(name, table.lines().count() - 1);
+    }
+    let wanted = [
+        ("choices", 5),
+        ("cutoff", 6),
+        ("diameter", 7),
+        ("intensity", 7),
+        ("length_scale", 7),
+        ("time_step", 3),
+        ("velocity", 6),
+    ];
+    assert_eq!(points, wanted.map(|(name, points)| (name.to_owned(), points)).into());
+}
+
+/// Columns of a CSV file that two tables have in common, by name.
+fn columns(text: &str, names: &[&str]) -> Vec<Vec<f64>> {
+    let mut lines = text.lines();
+    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let places: Vec<usize> =
+        names.iter().map(|name| head.iter().position(|column| column == name).unwrap()).collect();
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        places.iter().map(|&place| cells[place].parse().unwrap()).collect()
+    };
+    lines.map(row).collect()
+}
+
+#[test]
+fn identical_figure_9_reproduced_and_swept() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    let desk = Desk::new();
+    let said = success(&mut desk.spunlaid("reproduce --figures 9 --replicates 2 --out paper"));
+    let claims = desk.summary("paper")["claims"].as_array().unwrap().clone();
+    assert_eq!(claims.len(), 2);
+    for claim in claims {
+        assert_eq!(claim["figure"], "9");
+        assert!(said.contains(claim["claim"].as_str().unwrap()), "{said}");
+        assert!(said.contains(claim["evidence"].as_str().unwrap()), "{said}");
+    }
+    // The study's file alone, from another folder, gives the same bits.
+    fs::create_dir(desk.path("there")).unwrap();
+    fs::copy(cases.join("table1.toml"), desk.path("table1.toml")).unwrap();
+    let study = shortened(&cases.join("paper/velocity.toml"), "replicates = 10", "replicates = 2");
+    fs::write(desk.path("there/velocity.toml"), study).unwrap();
+    success(&mut desk.spunlaid("sweep there/velocity.toml --out swept"));
+    let names = ["air.velocity_m_s", "amplitude_y_m", "amplitude_z_m_se", "frequency_y_hz", "frequency_z_hz"];
+    let table = |name: &str| columns(&String::from_utf8(desk.read(name)).unwrap(), &names);
+    let reproduced = table("paper/figures/figure_9a.csv");
+    assert_eq!(reproduced.len(), 6);
+    assert_eq!(reproduced, table("swept/results.csv"));
+}
 
 #[test]
 fn runs_every_case_of_the_repository() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
     let desk = Desk::new();
     let mut flown = 0;
-    for entry in std::fs::read_dir(cases).unwrap() {
+    for entry in fs::read_dir(cases).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_none_or(|extension| extension != "toml") {
             continue;

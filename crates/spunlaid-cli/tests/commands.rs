@@ -60,7 +60,7 @@ fn new_writes_a_case_that_can_be_run_and_overwrites_nothing() {
         "error: my.toml: exists already and is left alone; name another file\n"
     );
     assert!(desk.read("my.toml") == written);
-    let said = refusal(&mut desk.spunlaid("new no/such/folder/my.toml"), 1);
+    let said = refusal(&mut desk.spunlaid("new no/such/folder/my.toml"), 2);
     assert!(said.starts_with("error: no/such/folder/my.toml: cannot be written: "), "{said}");
     assert!(said.ends_with("; name another file\n"), "{said}");
 }
@@ -85,7 +85,7 @@ fn help_teaches_with_examples() {
         assert!(help.contains("Example") && help.contains(&format!("spunlaid {command}")), "{help}");
         assert!(!help.contains('\u{1b}'), "colour without a terminal");
     }
-    assert!(success(&mut desk.spunlaid("--help")).contains("Exit codes: 0 done, 1 the input is wrong"));
+    assert!(success(&mut desk.spunlaid("--help")).contains("Exit codes: 0 done; 1 the input is wrong"));
     let version = success(&mut desk.spunlaid("--version"));
     assert_eq!(version, format!("spunlaid {}\n", env!("CARGO_PKG_VERSION")));
 }

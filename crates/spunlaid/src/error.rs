@@ -102,11 +102,13 @@ pub enum Error {
 }
 
 impl Error {
-    /// What a program should exit with: 1 the input is wrong, 2 the run failed.
+    /// What a program should exit with: 1 the input is wrong, 2 the input is not to blame.
     pub const fn exit_code(&self) -> u8 {
         match self {
             Self::NotFinite { .. } | Self::Interrupted => 2,
-            Self::Journal(JournalError::Unwritable { .. } | JournalError::Unsynced(_)) => 2,
+            Self::Journal(
+                JournalError::Unusable { .. } | JournalError::Unwritable { .. } | JournalError::Unsynced(_),
+            ) => 2,
             _ => 1,
         }
     }

@@ -185,28 +185,6 @@ fn a_drag_law_says_once_where_it_ends() {
     assert_eq!(vacuum, [""; 0]);
 }
 
-/// A file, or after `--set` overrides of the starter: as the fuzzer `case_reader` takes its input.
-#[test]
-fn identical_at_the_fuzzers_findings() {
-    let mut read = 0;
-    for entry in fs::read_dir("tests/fuzz_findings").unwrap() {
-        let text = String::from_utf8_lossy(&fs::read(entry.unwrap().path()).unwrap()).into_owned();
-        let (text, set) = match text.strip_prefix("--set\n") {
-            Some(set) => (starter_case(), set),
-            None => (&*text, ""),
-        };
-        let set: Vec<_> = (set.lines().filter_map(|line| line.split_once('=')))
-            .map(|(key, value)| (key.to_owned(), value.to_owned()))
-            .collect();
-        if let Ok((case, _)) = parse_case(text, "finding.toml", &set) {
-            case.check().unwrap();
-            assert_eq!(bits(&read_again(&case)), bits(&case));
-            read += 1;
-        }
-    }
-    assert!(read > 10);
-}
-
 /// A number between powers of ten, with all its digits.
 fn between(low: i32, high: i32) -> impl Strategy<Value = f64> {
     (f64::from(low)..f64::from(high)).prop_map(|power| 10f64.powf(power))

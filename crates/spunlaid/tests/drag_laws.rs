@@ -46,27 +46,56 @@ fn element_force(drag: Drag, fibre: &Fibre, j: usize, v: V, tangent: V) -> V {
 }
 
 #[test]
-fn published_cylinders_in_cross_flow() {
+fn published_drag_of_cylinders_but_for_the_known_bias_of_the_law() {
     let measured: Vec<(f64, f64)> = include_str!("published/cylinders.csv")
         .lines()
         .filter_map(|line| line.split_once(','))
         .filter_map(|(re, c)| Some((re.parse().ok()?, c.parse().ok()?)))
         .collect();
     assert_eq!(measured.len(), 15);
+    // The data's own uncertainty: read off a figure over six decades, to a few percent each in Re and in C.
+    const READ: f64 = 0.06;
     for (re, expected) in measured {
+        // Slow flow is theory, and has no bias. From 0.1 to 100 a polynomial only joins its two neighbours, and is
+        // high. Above, 1 + 4/√Re knows nothing of the measured dip to 0.89 at 2000 and of the rise to 1.2 beyond.
+        let bias = match re {
+            ..1.0 => 0.0,
+            ..60.0 => 0.06,
+            ..400.0 => 0.03,
+            ..6000.0 => 0.17,
+            _ => -0.05,
+        };
         let found = NormalLaw::MarheinekeWegener.coefficient(re, 50e-6);
-        // Up to the dip of the measured drag at Re = 2000, which the law passes over.
-        let off = if re < 400.0 { 0.09 } else { 0.23 };
-        assert!((found / expected - 1.0).abs() < off, "Re = {re}: {found}, measured {expected}");
+        assert!((found / expected - 1.0 - bias).abs() < READ, "Re = {re}: {found}, measured {expected}");
     }
 }
 
 #[test]
-fn published_factor_of_majumdar_and_shambaugh() {
-    for re in [0.01, 1.0, 300.0] {
-        let matsui = FrictionLaw::Matsui { factor: 0.78 };
-        assert_eq!(FrictionLaw::MajumdarShambaugh.coefficient(re, 1.0), matsui.coefficient(re, 1.0));
+fn published_friction_coefficients_worked_out_by_hand() {
+    // β Re^-0.61 with the three factors of the literature: 10^-0.61 = 0.245471, 300^-0.61 = 0.0308287.
+    for (law, factor) in [
+        (FrictionLaw::MajumdarShambaugh, 0.78),
+        (FrictionLaw::Matsui { factor: 0.37 }, 0.37),
+        (FrictionLaw::ALL[0], 0.9),
+    ] {
+        for (re, power) in [(1.0, 1.0), (10.0, 0.245471), (300.0, 0.0308287)] {
+            let found = law.coefficient(re, 1.0);
+            assert!((found / (factor * power) - 1.0).abs() < 5e-6, "{law:?} at {re}: {found}");
+        }
     }
+}
+
+#[test]
+fn identical_forces_of_majumdar_and_shambaugh_and_of_matsui_with_their_factor() {
+    let r: Vec<V> = (0..=8).map(|i| V::new(0.8, 0.0, 0.6) * (0.0078125 * f64::from(i))).collect();
+    let forces = |along| {
+        let drag = Drag { along, across: NormalLaw::JuShambaugh };
+        [1e-2, 1.0, 30.0]
+            .map(|speed| kernel_forces(&strand(drag, Root::Free, 50e-6, X), speed, &r, &[V::default(); 9]))
+    };
+    let theirs = forces(FrictionLaw::MajumdarShambaugh);
+    assert_eq!(theirs, forces(FrictionLaw::Matsui { factor: 0.78 }));
+    assert_ne!(theirs, forces(FrictionLaw::Matsui { factor: 0.37 }));
 }
 
 /// Stress at the surface over `ρνV/a` at distances `X = νx/(V a²)` from 1e-6 on by tens, from the equations

@@ -18,7 +18,7 @@ pub(crate) fn check(check: &Check) -> Result<(), Failure> {
     say::line("");
     mesh(&case);
     limits(&case);
-    cost(&case);
+    cost(&case)?;
     say::line(&format!("ready: spunlaid run {}", check.source.case.display()));
     Ok(())
 }
@@ -57,7 +57,7 @@ fn limits(case: &Case) {
     }
 }
 
-fn cost(case: &Case) {
+fn cost(case: &Case) -> Result<(), Failure> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let bundles = case.run.replicates.div_ceil(WIDTH as u64);
     let busy = (threads as u64).min(bundles);
@@ -71,6 +71,7 @@ fn cost(case: &Case) {
         memory + 30.0,
         size(on_disk(case))
     ));
+    Ok(())
 }
 
 /// What the results take: tables, shapes as text, figures and report [bytes].

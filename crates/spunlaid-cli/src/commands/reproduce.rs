@@ -14,13 +14,14 @@ use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{
-    Computing, ErrorOverTime, KeepShapes, Results, SpectrumPoint, fly, turbulence_spectrum, velocity_record,
+    Computing, Keep, KeepShapes, Number, Place, Results, SpectrumPoint, fly, turbulence_spectrum,
+    velocity_record,
 };
 use spunlaid::input::write_case;
 use spunlaid::lanes::Isa;
 use spunlaid::paper::{
-    Claim, ERROR_STEPS, Parameter, TrendPoint, choices, claims_of_step_errors, claims_of_trend, table1,
-    with_time_step,
+    Claim, Parameter, TrendPoint, choices as choices_of_the_paper, claims_of_step_errors, claims_of_trend,
+    in_scheme, table1, time_steps,
 };
 use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, results_of_point, run};
 use spunlaid_charts::Figure;
@@ -38,11 +39,12 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
         SchemeName::Leapfrog => Scheme::Leapfrog,
         SchemeName::ImplicitTension => Scheme::ImplicitTension,
     };
-    let Some(base) = table1(scheme, asked.replicates) else { return Ok(()) };
+    let mut base = table1(scheme)?;
+    base.run.replicates = asked.replicates;
     let folder = asked.out.clone().unwrap_or_else(|| PathBuf::from("results").join("paper"));
     let stop = stop_on_ctrl_c();
     let staging = Staging::new(&folder, ENTRIES, asked.force, stop)?;
-    let flying = Flying::new(&base, &wanted);
+    let flying = Flying::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing =
@@ -108,56 +110,58 @@ fn chosen(asked: &[String]) -> Result<Vec<&'static str>, Failure> {
     Ok(FIGURES.into_iter().filter(|figure| wanted.contains(figure)).collect())
 }
 
+/// A parameter that is varied, and what its study says of it.
+struct Trend {
+    parameter: Parameter,
+    /// The values [SI], each with the place of its point in the study of everything.
+    points: Vec<(f64, usize)>,
+}
+
 /// Everything that is to be flown.
 struct Flying {
     wanted: Vec<&'static str>,
     /// Table 1 with several time steps, for Figures 8.
     steps: Vec<Case>,
-    /// Parameters and where their points lie in the study.
-    trends: Vec<(Parameter, Vec<usize>)>,
+    trends: Vec<Trend>,
+    /// Each with the place of its point.
     choices: Vec<(&'static str, usize)>,
+    /// All that the trends and choices need.
     study: Study,
     base: Case,
 }
 
 impl Flying {
-    fn new(base: &Case, wanted: &[&'static str]) -> Self {
-        // Points that figures share, Table 1 above all, are flown once.
+    fn new(base: &Case, wanted: &[&'static str]) -> Result<Self, Failure> {
+        let wants = |figure| wanted.contains(&figure);
+        // Points that studies share, Table 1 above all, are flown once.
         let mut cases: Vec<Case> = Vec::new();
         let mut place = |case: Case| {
+            let mut case = in_scheme(case, base.run.scheme, base.run.time_step);
+            case.run.replicates = base.run.replicates;
             cases.iter().position(|known| *known == case).unwrap_or_else(|| {
                 cases.push(case);
                 cases.len() - 1
             })
         };
-        let trends: Vec<_> = Parameter::ALL
-            .into_iter()
-            .filter(|parameter| wanted.contains(&parameter.figure()))
-            .map(|parameter| {
-                let points = parameter.values().iter().map(|&value| place(parameter.set(base, value)));
-                (parameter, points.collect())
-            })
-            .collect();
-        let all = wanted.len() == FIGURES.len();
-        let choices = if all {
-            choices(base).into_iter().map(|(name, case)| (name, place(case))).collect()
-        } else {
-            Vec::new()
-        };
-        let euler = |step: f64| {
-            let mut case = with_time_step(base, step);
-            case.run.scheme = Scheme::SemiImplicitEuler;
-            case
-        };
-        let steps = if wanted.contains(&"8b") {
-            ERROR_STEPS.into_iter().map(euler).collect()
-        } else if wanted.contains(&"8a") {
-            vec![base.clone()]
-        } else {
-            Vec::new()
-        };
+        let mut trends = Vec::new();
+        for parameter in Parameter::ALL.into_iter().filter(|parameter| wants(parameter.figure())) {
+            let study = parameter.study()?;
+            let points = study.points.into_iter().map(|point| (point.values[0], place(point.case)));
+            trends.push(Trend { parameter, points: points.collect() });
+        }
+        let mut choices = Vec::new();
+        if wanted.len() == FIGURES.len() {
+            for (name, case) in choices_of_the_paper()? {
+                choices.push((name, place(case)));
+            }
+        }
+        let mut steps: Vec<Case> = time_steps()?.points.into_iter().map(|point| point.case).collect();
+        steps.truncate(if wants("8b") { usize::MAX } else { usize::from(wants("8a")) });
+        for case in &mut steps {
+            case.run.replicates = base.run.replicates;
+        }
         let study = Study::of_cases(cases, Replicates::fixed(base.run.replicates));
-        Self { wanted: wanted.to_vec(), steps, trends, choices, study, base: base.clone() }
+        Ok(Self { wanted: wanted.to_vec(), steps, trends, choices, study, base: base.clone() })
     }
 
     fn fibres(&self) -> u64 {
@@ -180,8 +184,9 @@ impl Flying {
             .collect::<Result<Vec<_>, _>>()?;
         let mut steps = Vec::new();
         for case in &self.steps {
-            let keep = KeepShapes { replicates: 1, every: case.run.steps / case.run.output_steps };
-            let mut collector = Results::collector(case, 1);
+            let shapes = KeepShapes { replicates: 1, every: case.run.steps / case.run.output_steps };
+            let keep = Keep { curves: true, shapes };
+            let mut collector = Results::collector(1);
             fly(case, keep, computing, |flight| {
                 collector.take(&flight);
                 Ok::<(), Failure>(())
@@ -206,13 +211,15 @@ struct Flown {
 }
 
 impl Flown {
-    fn trend(&self, parameter: Parameter, points: &[usize]) -> Vec<TrendPoint> {
-        let values = parameter.values().iter().zip(points);
-        values.map(|(&value, &point)| TrendPoint::of(value, &self.points[point])).collect()
+    fn trend(&self, trend: &Trend) -> Vec<TrendPoint> {
+        trend.points.iter().map(|&(value, point)| TrendPoint::of(value, &self.points[point])).collect()
     }
 
-    fn errors(&self) -> Vec<(f64, Vec<ErrorOverTime>)> {
-        self.steps.iter().map(|(step, results)| (*step, results.errors.clone())).collect()
+    fn errors(&self) -> Vec<(f64, Vec<Place>)> {
+        self.steps
+            .iter()
+            .map(|(step, results)| (*step, results.curve("work_error_over_time").to_vec()))
+            .collect()
     }
 
     fn figures(&self, base: &Case) -> Vec<Figure> {
@@ -224,15 +231,15 @@ impl Flown {
         if wants("3") {
             figures.push(draw::spectrum(&self.spectrum));
         }
-        let last = self.steps.first().and_then(|(_, r)| r.flights.first()?.shapes.last());
+        let last = self.steps.first().and_then(|(_, r)| r.trajectories.first()?.shapes.last());
         if let (true, Some(shape)) = (wants("8a"), last) {
             figures.push(draw::final_shape(&shape.position));
         }
         if wants("8b") {
             figures.push(draw::step_errors(&self.errors()));
         }
-        for (parameter, points) in &self.flying.trends {
-            figures.extend(draw::trend(*parameter, &self.trend(*parameter, points)));
+        for trend in &self.flying.trends {
+            figures.extend(draw::trend(trend.parameter, &self.trend(trend)));
         }
         figures
     }
@@ -241,12 +248,18 @@ impl Flown {
         let errors: Vec<_> = self
             .steps
             .iter()
-            .map(|(step, r)| (*step, r.work_error_percent.final_mean, r.work_error_percent.time_median))
+            .map(|(step, r)| {
+                (
+                    *step,
+                    r.estimate("work_error_at_end").mean,
+                    r.number("work_error").map_or(f64::NAN, Number::value),
+                )
+            })
             .collect();
         let mut claims =
             if self.flying.wanted.contains(&"8b") { claims_of_step_errors(&errors) } else { Vec::new() };
-        for (parameter, points) in &self.flying.trends {
-            claims.extend(claims_of_trend(*parameter, &self.trend(*parameter, points)));
+        for trend in &self.flying.trends {
+            claims.extend(claims_of_trend(trend.parameter, &self.trend(trend)));
         }
         claims
     }

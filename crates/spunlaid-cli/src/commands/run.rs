@@ -13,7 +13,7 @@ use crate::output::{beside, paraview, pictures, table};
 use crate::report::{self, ReportInput};
 use crate::{progress, say};
 use spunlaid::case::{Case, Note};
-use spunlaid::ensemble::{Computing, KeepShapes, Results, fly, turbulence_spectrum};
+use spunlaid::ensemble::{Computing, Keep, KeepShapes, Results, fly, turbulence_spectrum};
 use spunlaid::input::{read_case, write_case};
 use spunlaid::lanes::{Isa, WIDTH};
 use std::ffi::OsStr;
@@ -94,8 +94,9 @@ fn case_name(run: &Run) -> &OsStr {
 fn flights(case: &Case, computing: Computing<'_>, staging: &Staging<'_>) -> Result<Results, Failure> {
     let mut end_node = Table::create(staging.place("end_node.parquet"), END_NODE)?;
     let mut energy = Table::create(staging.place("energy.parquet"), ENERGY)?;
-    let mut collector = Results::collector(case, KEPT);
-    fly(case, KeepShapes::within(case, POSITIONS), computing, |flight| {
+    let mut collector = Results::collector(KEPT);
+    let keep = Keep { curves: true, shapes: KeepShapes::within(case, POSITIONS) };
+    fly(case, keep, computing, |flight| {
         end_node.add(&flight)?;
         energy.add(&flight)?;
         collector.take(&flight);
@@ -108,7 +109,11 @@ fn flights(case: &Case, computing: Computing<'_>, staging: &Staging<'_>) -> Resu
 
 /// What to say of fibres that leave the flow.
 fn outside(results: &Results) -> Option<String> {
-    let share = 100.0 * results.outside.filter(|share| *share > 0.0)?;
+    let share = 100.0
+        * results
+            .number("share_outside_flow")
+            .map(|number| number.estimate.mean)
+            .filter(|share| *share > 0.0)?;
     Some(format!(
         "the fibres’ elements spend {} % of the time outside of what the flow knows, beyond its walls or its ends; there \
          they fly in the air of the nearest known place. Is the root where it should be, and the fibre not too long?",
@@ -146,7 +151,7 @@ impl Written<'_> {
         let figures = run_figures(self.case, self.results, &turbulence);
         // A thousand small files keep the disk busy while pictures keep the processor.
         std::thread::scope(|scope| {
-            let (flights, rest_length) = (&self.results.flights, self.case.fibre.rest_length());
+            let (flights, rest_length) = (&self.results.trajectories, self.case.fibre.rest_length());
             let shapes = scope.spawn(move || paraview::write(staging, flights, rest_length));
             pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
             shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))

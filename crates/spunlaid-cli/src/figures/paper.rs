@@ -1,6 +1,6 @@
 //! The figures of the paper, drawn anew: circles for y, triangles for z, with the error bars it lacks.
 
-use spunlaid::ensemble::{ErrorOverTime, SpectrumPoint};
+use spunlaid::ensemble::{Place, SpectrumPoint};
 use spunlaid::paper::{Both, Parameter, TrendPoint};
 use spunlaid::vec3::Vec3;
 use spunlaid_charts::{
@@ -82,7 +82,7 @@ fn with_no_error(points: &[(f64, f64)]) -> Vec<(f64, f64, Option<f64>)> {
 }
 
 /// Figure 8b: the work check over time for several time steps [s].
-pub(crate) fn step_errors(runs: &[(f64, Vec<ErrorOverTime>)]) -> Figure {
+pub(crate) fn step_errors(runs: &[(f64, Vec<Place>)]) -> Figure {
     let mut chart = Chart::new(
         "figure_8b",
         "Error of the work for three time steps",
@@ -95,11 +95,11 @@ pub(crate) fn step_errors(runs: &[(f64, Vec<ErrorOverTime>)]) -> Figure {
         let means: Vec<(f64, f64)> = errors
             .chunks(each)
             .map(|some| {
-                let known: Vec<f64> = some.iter().map(|e| e.work.0).filter(|e| e.is_finite()).collect();
-                (some[some.len() / 2].time, known.iter().sum::<f64>() / known.len() as f64)
+                let known: Vec<f64> = some.iter().map(|e| e.mean).filter(|e| e.is_finite()).collect();
+                (some[some.len() / 2].at, known.iter().sum::<f64>() / known.len() as f64)
             })
             .collect();
-        let all = errors.iter().map(|e| (e.time, e.work.0, None)).collect();
+        let all = errors.iter().map(|e| (e.at, e.mean, None)).collect();
         let series = Series::new(&format!("{:.0} µs", step * 1e6), colour).width(1.2);
         chart = chart.line(series.thinned_from(all), &means);
     }

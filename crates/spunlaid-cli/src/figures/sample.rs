@@ -6,7 +6,7 @@ use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::ensemble::{Results, Sample, Shape, SpectrumPoint, Trajectory};
 use spunlaid::fibre::{Fibre, Root};
-use spunlaid::observe::{EndNodeMotion, NodeSpread};
+use spunlaid::observe::{DECLARED, Kind, Measure, Value};
 use spunlaid::vec3::Vec3;
 
 /// The case of the paper's Table 1 with another mesh and so many recorded instants, 1 ms apart.
@@ -40,7 +40,7 @@ pub(crate) fn case(elements: usize, instants: usize, replicates: u64) -> Case {
 /// Results of swings of `amplitude` [m] at 17 Hz.
 pub(crate) fn results(case: &Case, amplitude: f64) -> Results {
     let nodes = case.fibre.elements + 1;
-    let mut collector = Results::collector(case, 8);
+    let mut collector = Results::collector(8);
     for replicate in 0..case.run.replicates {
         collector.take(&flight(case, nodes, replicate, amplitude));
     }
@@ -65,26 +65,41 @@ fn flight(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Trajecto
         ..Sample::default()
     };
     let shape = |&time: &f64| Shape { time, position: (0..nodes).map(|node| position(time, node)).collect() };
-    let spread = |node: usize| {
-        let amplitude = amplitude * node as f64 / nodes as f64;
-        NodeSpread { amplitude_y: amplitude, amplitude_z: 0.9 * amplitude, ..NodeSpread::default() }
-    };
+    let samples: Vec<Sample> = times.iter().map(sample).collect();
     let frequency = if amplitude == 0.0 { 0.0 } else { 17.0 + 0.1 * replicate as f64 };
-    Trajectory {
-        replicate,
-        end_node: EndNodeMotion {
-            amplitude_y: amplitude,
-            amplitude_z: amplitude * (1.0 + 0.01 * replicate as f64),
-            frequency_y: frequency,
-            frequency_z: frequency,
-            mean: position(0.0, nodes - 1),
+    let along = |share: f64| {
+        let of =
+            |node: usize| share * amplitude * node as f64 / nodes as f64 * (1.0 + 0.01 * replicate as f64);
+        Value::Curve(
+            (0..nodes).map(|node| node as f64 / (nodes - 1) as f64).collect(),
+            (0..nodes).map(of).collect(),
+        )
+    };
+    let spectrum = || {
+        let frequencies: Vec<f64> = (1..100).map(f64::from).collect();
+        let density = frequencies.iter().map(|f| amplitude * amplitude / (1.0 + f * f)).collect();
+        Value::Curve(frequencies, density)
+    };
+    let over_time = |of: fn(&Sample) -> f64| Value::Curve(times.clone(), samples.iter().map(of).collect());
+    let value = |measure: &Measure| match measure.name {
+        "amplitude_y" => Value::Number(amplitude),
+        "amplitude_z" => Value::Number(amplitude * (1.0 + 0.01 * replicate as f64)),
+        "frequency_y" | "frequency_z" => Value::Number(frequency),
+        "mean_x" => Value::Number(position(0.0, nodes - 1).x),
+        "amplitude_y_along_fibre" => along(1.0),
+        "amplitude_z_along_fibre" => along(0.9),
+        "work_error_over_time" => over_time(Sample::work_error_percent),
+        "balance_error_over_time" => over_time(Sample::balance_error_percent),
+        _ => match measure.kind {
+            Kind::Number => Value::Number(1e-4),
+            Kind::Profile => along(0.5),
+            Kind::Series => over_time(|sample| sample.time),
+            Kind::Spectrum => spectrum(),
         },
-        max_strain: 1e-4,
-        outside: None,
-        samples: times.iter().map(sample).collect(),
-        nodes: (0..nodes).map(spread).collect(),
-        shapes: times.iter().map(shape).collect(),
-    }
+    };
+    let applied = DECLARED.iter().filter(|declared| (declared.applies)(case));
+    let values = applied.flat_map(|declared| declared.measures).map(|measure| (measure, value(measure)));
+    Trajectory { replicate, values: values.collect(), shapes: times.iter().map(shape).collect(), samples }
 }
 
 /// A spectrum of turbulence.

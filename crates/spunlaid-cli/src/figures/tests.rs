@@ -2,6 +2,7 @@
 
 use super::{run_figures, sample};
 use spunlaid::ensemble::SpectrumPoint;
+use spunlaid::observe::Kind;
 use spunlaid_charts::{Figure, png};
 
 fn check(figures: &[Figure]) {
@@ -19,7 +20,7 @@ fn names(figures: &[Figure]) -> Vec<&str> {
 }
 
 #[test]
-fn draws_all_six() {
+fn draws_every_figure_of_a_run() {
     let case = sample::case(20, 1001, 10);
     let figures = run_figures(&case, &sample::results(&case, 0.01), &sample::turbulence());
     assert_eq!(
@@ -28,9 +29,10 @@ fn draws_all_six() {
             "end_node_history",
             "end_node_path",
             "amplitude_along_fibre",
+            "curvature_along_fibre",
             "motion_spectrum",
-            "turbulence_spectrum",
-            "energy_errors"
+            "energy_errors",
+            "turbulence_spectrum"
         ]
     );
     check(&figures);
@@ -51,13 +53,11 @@ fn the_numbers_of_the_amplitude_are_those_of_the_results() {
         assert_eq!(series, wanted);
         values.split(',').map(|cell| cell.parse::<f64>().ok()).collect::<Vec<_>>()
     };
-    type Amplitude = fn(&spunlaid::ensemble::NodeResults) -> (f64, Option<f64>);
-    let axes: [(&str, Amplitude); 2] = [("y", |node| node.amplitude_y), ("z", |node| node.amplitude_z)];
-    for (axis, amplitude) in axes {
-        for node in &results.nodes {
-            let (mean, error) = amplitude(node);
+    for (axis, name) in [("y", "amplitude_y_along_fibre"), ("z", "amplitude_z_along_fibre")] {
+        for place in results.curve(name) {
+            let error = place.standard_error;
             assert!(error.is_some());
-            let wanted = [Some(node.distance * 1e3), Some(mean * 1e3), error.map(|error| error * 1e3)];
+            let wanted = [Some(place.at * 1e3), Some(place.mean * 1e3), error.map(|error| error * 1e3)];
             assert_eq!(row(axis), wanted);
         }
     }
@@ -75,7 +75,7 @@ fn the_numbers_of_the_energies_are_not_thinned() {
         let rows = text.lines().filter_map(|line| line.strip_prefix(series)?.strip_prefix(','));
         rows.map(|row| row.split(',').nth(1).unwrap().parse().unwrap_or(f64::NAN)).collect()
     };
-    let wanted: Vec<f64> = results.errors.iter().map(|error| error.work.0).collect();
+    let wanted: Vec<f64> = results.curve("work_error_over_time").iter().map(|place| place.mean).collect();
     let read = of("work check, mean");
     assert_eq!(read.len(), 1001);
     assert!(read.iter().zip(&wanted).all(|(a, b)| a == b || b.is_nan() && a.is_nan()), "{read:?}");
@@ -103,11 +103,16 @@ fn draws_any_motion() {
 fn draws_what_is_left_when_values_are_missing() {
     let case = sample::case(4, 200, 3);
     let mut results = sample::results(&case, 0.01);
-    results.flights.clear();
-    results.motion_spectrum.clear();
-    results.errors.clear();
-    results.nodes[2].amplitude_y = (f64::NAN, None);
-    results.nodes[3].amplitude_z = (0.01, Some(f64::NAN));
+    results.trajectories.clear();
+    for curve in &mut results.curves {
+        match curve.measure.kind {
+            Kind::Profile => {
+                (curve.places[2].mean, curve.places[2].standard_error) = (f64::NAN, None);
+                curve.places[3].standard_error = Some(f64::NAN);
+            }
+            _ => curve.places.clear(),
+        }
+    }
     let odd = SpectrumPoint { frequency: f64::NAN, realised: f64::INFINITY, wanted: 0.0 };
     check(&run_figures(&case, &results, &[odd]));
 }

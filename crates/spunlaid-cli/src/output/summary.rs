@@ -2,11 +2,13 @@
 
 use serde::Serialize;
 use spunlaid::case::Case;
-use spunlaid::ensemble::{LedgerError, Results};
+use spunlaid::ensemble::{Number, Results};
+use spunlaid::observe::Over;
 use spunlaid::statistics::Estimate;
+use std::collections::BTreeMap;
 
 /// Version of the layout; raised when a field is renamed, removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 1;
+const SCHEMA_VERSION: u32 = 2;
 
 #[derive(Debug, Serialize)]
 pub(crate) struct Summary<'a> {
@@ -16,48 +18,28 @@ pub(crate) struct Summary<'a> {
     elements: usize,
     steps: u64,
     replicates: u64,
-    end_node: EndNode<'a>,
-    energy: Energy,
-    fibre: FibreSummary,
+    /// `end_node`, `fibre`, `energy`: the measures by group.
+    #[serde(flatten)]
+    measures: BTreeMap<&'static str, GroupSummary<'a>>,
     performance: Performance,
     notes: Vec<String>,
 }
 
+/// A number over the replicates: what stands for all of them where that is not the mean, then mean, standard
+/// error and the replicates' own values.
 #[derive(Debug, Serialize)]
-struct EndNode<'a> {
-    amplitude_y_m: EstimateSummary<'a>,
-    amplitude_z_m: EstimateSummary<'a>,
-    frequency_y_hz: EstimateSummary<'a>,
-    frequency_z_hz: EstimateSummary<'a>,
-    mean_x_m: EstimateSummary<'a>,
-}
-
-#[derive(Debug, Serialize)]
-struct EstimateSummary<'a> {
+struct NumberSummary<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    median: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    largest: Option<f64>,
     mean: f64,
     standard_error: Option<f64>,
     values: &'a [f64],
 }
 
-#[derive(Debug, Serialize)]
-struct Energy {
-    work_error_percent: ErrorSummary,
-    balance_error_percent: ErrorSummary,
-    tension_dissipation_percent: ErrorSummary,
-}
-
-#[derive(Debug, Serialize)]
-struct ErrorSummary {
-    final_mean: f64,
-    time_median: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct FibreSummary {
-    max_strain: f64,
-    /// Share of the time outside of what the flow knows; null in a uniform flow.
-    share_outside_flow: Option<f64>,
-}
+/// The measures of a group by their columns.
+type GroupSummary<'a> = BTreeMap<&'static str, NumberSummary<'a>>;
 
 /// How fast it went; the only part that differs from run to run.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -133,7 +115,11 @@ impl<'a> Summary<'a> {
         performance: Performance,
         notes: Vec<String>,
     ) -> Self {
-        let end = &results.end_node;
+        let mut measures: BTreeMap<&'static str, GroupSummary<'_>> = BTreeMap::new();
+        for number in &results.numbers {
+            let group = measures.entry(number.measure.group.name).or_default();
+            group.insert(number.measure.column, summary_of(number));
+        }
         Self {
             schema_version: SCHEMA_VERSION,
             spunlaid_version: env!("CARGO_PKG_VERSION"),
@@ -141,19 +127,7 @@ impl<'a> Summary<'a> {
             elements: case.fibre.elements,
             steps: case.run.steps,
             replicates: case.run.replicates,
-            end_node: EndNode {
-                amplitude_y_m: estimate(&end.amplitude_y),
-                amplitude_z_m: estimate(&end.amplitude_z),
-                frequency_y_hz: estimate(&end.frequency_y),
-                frequency_z_hz: estimate(&end.frequency_z),
-                mean_x_m: estimate(&end.mean_x),
-            },
-            energy: Energy {
-                work_error_percent: ledger(results.work_error_percent),
-                balance_error_percent: ledger(results.balance_error_percent),
-                tension_dissipation_percent: ledger(results.tension_dissipation_percent),
-            },
-            fibre: FibreSummary { max_strain: results.max_strain, share_outside_flow: results.outside },
+            measures,
             performance,
             notes,
         }
@@ -167,12 +141,16 @@ impl<'a> Summary<'a> {
     }
 }
 
-fn estimate(of: &Estimate) -> EstimateSummary<'_> {
-    EstimateSummary { mean: of.mean, standard_error: of.standard_error, values: &of.values }
-}
-
-fn ledger(of: LedgerError) -> ErrorSummary {
-    ErrorSummary { final_mean: of.final_mean, time_median: of.time_median }
+fn summary_of(number: &Number) -> NumberSummary<'_> {
+    let Estimate { mean, standard_error, values } = &number.estimate;
+    let over = |over| (number.measure.over_replicates == over).then(|| number.value());
+    NumberSummary {
+        median: over(Over::Median),
+        largest: over(Over::Largest),
+        mean: *mean,
+        standard_error: *standard_error,
+        values,
+    }
 }
 
 fn resolved(case: &Case) -> CaseSummary {

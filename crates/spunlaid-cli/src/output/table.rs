@@ -2,49 +2,44 @@
 
 use crate::numbers::{number, rounded};
 use spunlaid::case::Case;
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::Results;
-use spunlaid::statistics::Estimate;
+use spunlaid::ensemble::{Number, Results};
+use spunlaid::observe::{Group, Over};
 use std::fmt::Write;
 
-/// The results of a run as a table of mean ± standard error.
+/// The results of a run: a heading for each group of measures, a row for each number.
 pub(crate) fn results(case: &Case, results: &Results) -> String {
-    let end = &results.end_node;
-    let mut text = format!(
-        "free end of the fibre, mean ± standard error over {} replicate{}\n",
-        case.run.replicates,
-        if case.run.replicates == 1 { "" } else { "s" }
-    );
-    for (name, estimate, scale, unit) in [
-        ("amplitude y", &end.amplitude_y, 1e3, "mm"),
-        ("amplitude z", &end.amplitude_z, 1e3, "mm"),
-        ("frequency y", &end.frequency_y, 1.0, "Hz"),
-        ("frequency z", &end.frequency_z, 1.0, "Hz"),
-        ("mean x", &end.mean_x, 1e3, "mm"),
-    ] {
-        let _ = writeln!(text, "  {name:<16}{} {unit}", mean_and_error(estimate, scale));
+    let n = case.run.replicates;
+    let mut text = format!("mean ± standard error over {n} replicate{}\n", if n == 1 { "" } else { "s" });
+    let widest = results.numbers.iter().map(|number| number.measure.label.chars().count()).max().unwrap_or(0);
+    let mut heading: Option<Group> = None;
+    for one in &results.numbers {
+        let measure = one.measure;
+        if heading != Some(measure.group) {
+            let _ = writeln!(text, "{}", measure.group.title);
+            heading = Some(measure.group);
+        }
+        let row = format!("  {:<widest$}  {}", measure.label, value(one));
+        let _ = writeln!(text, "{} {}{}", row, measure.unit.shown, remark(measure.over_replicates, n));
     }
-    text.push_str("energy errors, at the end and median over time\n");
-    let dissipates = case.run.scheme == Scheme::ImplicitTension;
-    let of_tension = dissipates.then_some(("taken by scheme", results.tension_dissipation_percent));
-    for (name, error) in
-        [("work check", results.work_error_percent), ("full balance", results.balance_error_percent)]
-            .into_iter()
-            .chain(of_tension)
-    {
-        let _ = writeln!(
-            text,
-            "  {name:<16}{:>12} %  {:>12} %",
-            number(error.final_mean),
-            number(error.time_median)
-        );
-    }
-    let _ = writeln!(text, "largest strain    {:>12} %", number(results.max_strain * 100.0));
     text
 }
 
-/// The mean and its error, the signs ± of all rows below each other.
-fn mean_and_error(estimate: &Estimate, scale: f64) -> String {
-    let (mean, error) = rounded(estimate.mean * scale, estimate.standard_error.map(|e| e * scale));
-    error.map_or_else(|| format!("{mean:>12}"), |error| format!("{mean:>12} ± {error}"))
+/// The mean and its error, the signs ± of all rows below each other; a number alone where no mean stands for the
+/// replicates.
+fn value(of: &Number) -> String {
+    let factor = of.measure.unit.per_si;
+    if of.measure.over_replicates != Over::Mean {
+        return format!("{:>10}", number(of.value() * factor));
+    }
+    let (mean, error) =
+        rounded(of.estimate.mean * factor, of.estimate.standard_error.map(|error| error * factor));
+    error.map_or_else(|| format!("{mean:>10}"), |error| format!("{mean:>10} ± {error}"))
+}
+
+fn remark(over: Over, replicates: u64) -> &'static str {
+    match over {
+        Over::Median if replicates > 1 => "  (median)",
+        Over::Largest if replicates > 1 => "  (largest)",
+        Over::Mean | Over::Median | Over::Largest => "",
+    }
 }

@@ -59,7 +59,8 @@ struct Choice {
 
 /// Chooses and packs the shapes of a run.
 pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
-    let seen: Vec<&Trajectory> = results.flights.iter().filter(|f| !f.shapes.is_empty()).take(8).collect();
+    let seen: Vec<&Trajectory> =
+        results.trajectories.iter().filter(|f| !f.shapes.is_empty()).take(8).collect();
     let shapes: &[Shape] = &seen.first()?.shapes;
     let same = |f: &&&Trajectory| f.shapes.len() == shapes.len();
     let flights: Vec<&Trajectory> = seen.iter().filter(same).copied().collect();
@@ -99,8 +100,8 @@ pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
 
 /// The faster of the two crossing frequencies, where there is one [Hz].
 fn swing_frequency(results: &Results) -> Option<f64> {
-    let end = &results.end_node;
-    let fastest = end.frequency_y.mean.max(end.frequency_z.mean);
+    let [y, z] = ["frequency_y", "frequency_z"].map(|name| results.estimate(name).mean);
+    let fastest = y.max(z);
     (fastest.is_finite() && fastest > 0.0).then_some(fastest)
 }
 

@@ -6,6 +6,7 @@ use super::table::{self, ReplicateRow, Row};
 use super::words::{self, count};
 use crate::numbers::number;
 use askama::Template;
+use spunlaid::ensemble::Number;
 use spunlaid_charts::Figure;
 
 /// Most replicates whose own values are listed.
@@ -50,21 +51,21 @@ struct Page<'a> {
 pub(super) fn render(input: &ReportInput<'_>) -> String {
     let results = input.results;
     let p = &input.performance;
-    let replicates = results.end_node.amplitude_y.values.len();
+    let replicates = results.replicates();
     let page = Page {
         name: input.name,
         headline: words::headline(input.case, results),
         summary: words::case(input.case),
         notes: input.notes,
         frames: frames::pack(input.case, results),
-        rows: table::rows(input.case, results),
+        rows: table::rows(results),
         replicates: replicates as u64,
         replicate_heads: table::replicate_heads(results),
         replicate_rows: table::replicate_rows(results, LISTED),
         unlisted: replicates.saturating_sub(LISTED),
         figures: input.figures,
-        work_error: number(results.work_error_percent.time_median),
-        balance_error: number(results.balance_error_percent.time_median),
+        work_error: number(results.number("work_error").map_or(f64::NAN, Number::value)),
+        balance_error: number(results.number("balance_error").map_or(f64::NAN, Number::value)),
         case_toml: input.case_toml,
         cost: format!(
             "computed in {} on {} with {} instructions, {} per element and step",

@@ -77,7 +77,7 @@ fn shows_any_motion() {
     }
     let case = sample::case(4, 50, 2);
     let mut results = sample::results(&case, 0.01);
-    results.flights.clear();
+    results.trajectories.clear();
     let page = page(&case, &results, "case", &[], "");
     check_well_formed(&page);
     assert!(page.contains("No shapes of the fibre were kept"));
@@ -129,7 +129,7 @@ fn holds_the_shapes() {
         start.split(']').next().unwrap_or_default().split(',').map(|v| v.parse().expect("a number")).collect()
     };
     let (origin, step) = (list("origin_mm"), list("step_mm"));
-    let end = results.flights[1].shapes[49].position[4];
+    let end = results.trajectories[1].shapes[49].position[4];
     for (k, wanted) in [end.x, end.y, end.z].into_iter().enumerate() {
         let at = bytes.len() - 6 + 2 * k;
         let level = f64::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]));

@@ -53,17 +53,17 @@ pub(super) fn count(n: u64, thing: &str) -> String {
 
 /// The result in a sentence.
 pub(super) fn headline(case: &Case, results: &Results) -> String {
-    let end = &results.end_node;
-    if !end.amplitude_y.mean.is_finite() || !end.amplitude_z.mean.is_finite() {
+    let of = |axis| {
+        let of = |measure: &str| results.estimate(&format!("{measure}_{axis}"));
+        (axis, of("amplitude"), of("frequency"))
+    };
+    let both = ["y", "z"].map(of);
+    if both.iter().any(|(_, amplitude, _)| !amplitude.mean.is_finite()) {
         return "The motion of the free end could not be measured.".to_owned();
     }
     // Below this it is rounding.
     let least = 1e-12 * case.fibre.length;
-    let moving: Vec<_> =
-        [("y", &end.amplitude_y, &end.frequency_y), ("z", &end.amplitude_z, &end.frequency_z)]
-            .into_iter()
-            .filter(|(_, amplitude, _)| amplitude.mean > least)
-            .collect();
+    let moving: Vec<_> = both.iter().filter(|(_, amplitude, _)| amplitude.mean > least).collect();
     let joined = |parts: Vec<String>| parts.join(" and ");
     let amplitudes = joined(
         moving.iter().map(|(axis, a, _)| format!("{}{THIN}mm in {axis}", estimate_text(a, 1e3))).collect(),

@@ -231,13 +231,15 @@ fn sigmoid(spots: &[Spot]) -> (String, Verdict) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::Point;
 
     fn points(parameter: Parameter, of: impl Fn(f64) -> f64) -> Vec<TrendPoint> {
-        let point = |&value: &f64| {
+        let point = |point: &Point| {
+            let value = point.values[0];
             let amplitude = [(of(value), Some(0.01 * of(value).abs())); 2];
             TrendPoint { value, amplitude, frequency: amplitude, n: 10 }
         };
-        parameter.values().iter().map(point).collect()
+        parameter.study().unwrap().points.iter().map(point).collect()
     }
 
     fn verdicts(parameter: Parameter, of: impl Fn(f64) -> f64) -> Vec<Verdict> {

@@ -1,7 +1,8 @@
 //! The studies of the paper the model is from, and what it says of their outcome.
 //!
 //! Battocchio, Sutcliffe & Teschner 2015: Table 1, varied one parameter at a time (Figures 9 to 11), and the
-//! error of the work for three time steps (Figure 8b).
+//! error of the work for three time steps (Figure 8b). Each study is a file in `cases/paper`, compiled in here,
+//! so that a program can fly it from anywhere. The claims and how they are judged are code.
 
 mod claims;
 mod fits;
@@ -10,10 +11,19 @@ pub use claims::{Claim, Verdict, claims_of_step_errors, claims_of_trend};
 
 use crate::case::{Case, ERROR_TOLERANCE};
 use crate::chain::schemes::Scheme;
-use crate::drag::FrictionLaw;
-use crate::fibre::Root;
-use crate::input::{parse_case, starter_case};
-use crate::study::PointResults;
+use crate::error::Error;
+use crate::input::{parse_case, parse_study};
+use crate::study::{PointResults, Study};
+
+/// Name and text of a file of the repository.
+macro_rules! file {
+    ($name:literal) => {
+        ($name, include_str!(concat!("../../../../", $name)))
+    };
+}
+
+/// The case that all studies vary.
+const TABLE_1: (&str, &str) = file!("cases/table1.toml");
 
 /// A parameter of Table 1 that the paper varies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,95 +78,79 @@ impl Parameter {
         }
     }
 
-    /// Name of the parameter in tables, with its unit.
-    pub const fn column(self) -> &'static str {
-        match self {
-            Self::Velocity => "air.velocity_m_s",
-            Self::Intensity => "air.turbulence_intensity",
-            Self::Diameter => "fibre.diameter_m",
-            Self::LengthScale => "air.length_scale_m",
-            Self::Cutoff => "air.cutoff_frequency_hz",
-        }
-    }
-
-    /// The values flown [SI]. The paper's own are lost with its figures; these span its text and Part I.
-    pub const fn values(self) -> &'static [f64] {
-        match self {
-            Self::Velocity => &[5.0, 7.5, 10.0, 12.5, 15.0, 20.0],
-            Self::Intensity => &[0.05, 0.075, 0.1, 0.125, 0.15, 0.2, 0.25],
-            Self::Diameter => &[18e-6, 30e-6, 50e-6, 80e-6, 120e-6, 200e-6, 300e-6],
-            Self::LengthScale => &[20e-3, 25e-3, 40e-3, 50e-3, 100e-3, 125e-3, 200e-3],
-            Self::Cutoff => &[25.0, 50.0, 100.0, 150.0, 200.0, 400.0],
-        }
-    }
-
-    /// The case with another value of the parameter, as the paper varies it: an eddy to each element, and the
-    /// rms kept where the frequency changes.
-    pub fn set(self, base: &Case, value: f64) -> Case {
-        let mut case = base.clone();
-        match self {
-            Self::Velocity => case.air.velocity = value,
-            Self::Intensity => case.air.turbulence_intensity = value,
-            Self::Diameter => case.fibre.diameter = value,
-            Self::LengthScale => {
-                case.air.length_scale = value;
-                case.fibre.elements = (case.fibre.length / value).round().max(1.0) as usize;
-            }
-            Self::Cutoff => {
-                case.air.cutoff_frequency = value;
-                case.air.harmonics = case.air.default_harmonics(case.run.duration());
-            }
-        }
-        case
+    /// The study that varies it.
+    ///
+    /// # Errors
+    /// As [`parse_study`]; none of the files of this version.
+    pub fn study(self) -> Result<Study, Error> {
+        study(match self {
+            Self::Velocity => file!("cases/paper/velocity.toml"),
+            Self::Intensity => file!("cases/paper/intensity.toml"),
+            Self::Diameter => file!("cases/paper/diameter.toml"),
+            Self::LengthScale => file!("cases/paper/length_scale.toml"),
+            Self::Cutoff => file!("cases/paper/cutoff.toml"),
+        })
     }
 }
 
-/// Table 1 in a scheme: the paper's with its step of 1 µs, others with the step that suits them.
-pub fn table1(scheme: Scheme, replicates: u64) -> Option<Case> {
-    let (mut case, _) = parse_case(starter_case(), "Table 1", &[]).ok()?;
-    let duration = case.run.duration();
-    case.run.replicates = replicates;
+/// Reads a study that varies Table 1.
+fn study((name, text): (&str, &str)) -> Result<Study, Error> {
+    let (case_name, case) = TABLE_1;
+    Ok(parse_study(text, name, None, |_| Ok((case.to_owned(), case_name.to_owned())))?.study)
+}
+
+fn case((name, text): (&str, &str)) -> Result<Case, Error> {
+    Ok(parse_case(text, name, &[])?.0)
+}
+
+/// Table 1 by a scheme: the paper's with its time step of 1 µs, others with the step that suits them.
+///
+/// # Errors
+/// As [`parse_case`]; none of the file of this version.
+pub fn table1(scheme: Scheme) -> Result<Case, Error> {
+    let mut case = case(TABLE_1)?;
     case.run.scheme = scheme;
-    if scheme != Scheme::SemiImplicitEuler {
-        let interval = case.run.output_interval();
-        let (time_step, _) = case.suggested_time_step(ERROR_TOLERANCE, duration);
-        case = with_time_step(&case, time_step);
-        case.run.output_steps = (interval / time_step).round().max(1.0) as u64;
-    }
-    Some(case)
+    let time_step = match scheme {
+        Scheme::SemiImplicitEuler => case.run.time_step,
+        _ => case.suggested_time_step(ERROR_TOLERANCE, case.run.duration()).0,
+    };
+    Ok(in_scheme(case, scheme, time_step))
 }
 
-/// The case with another time step, recorded at the same instants as far as whole steps allow.
-pub fn with_time_step(case: &Case, time_step: f64) -> Case {
+/// The case by another scheme and time step [s], recorded at the same times as far as whole steps allow.
+pub fn in_scheme(mut case: Case, scheme: Scheme, time_step: f64) -> Case {
     let (duration, interval) = (case.run.duration(), case.run.output_interval());
-    let mut case = case.clone();
+    case.run.scheme = scheme;
     case.run.time_step = time_step;
     case.run.steps = (duration / time_step).round().max(1.0) as u64;
     case.run.output_steps = (interval / time_step).round().max(1.0) as u64;
     case
 }
 
-/// The time steps of Figure 8b [s].
-pub const ERROR_STEPS: [f64; 3] = [1e-6, 4e-6, 1.6e-5];
+/// The study of the three time steps of Figure 8b; its first point is shown in Figure 8a.
+///
+/// # Errors
+/// As [`parse_study`]; none of the file of this version.
+pub fn time_steps() -> Result<Study, Error> {
+    study(file!("cases/paper/time_step.toml"))
+}
 
 /// What the paper's text leaves open, with what Table 1 becomes of it: name, case.
-pub fn choices(base: &Case) -> Vec<(&'static str, Case)> {
-    let changed = |change: &dyn Fn(&mut Case)| {
-        let mut case = base.clone();
-        change(&mut case);
-        case
-    };
-    vec![
-        ("as taken here: pinned root, β = 0.9, variance u²", base.clone()),
-        ("clamped root", changed(&|c| c.fibre.root = Root::Clamped)),
-        ("β = 0.78 (Majumdar & Shambaugh)", changed(&|c| c.drag.along = FrictionLaw::MajumdarShambaugh)),
-        ("β = 0.37 (Matsui)", changed(&|c| c.drag.along = FrictionLaw::Matsui { factor: 0.37 })),
-        (
-            "variance 2u², as Eqs 6–7 read literally",
-            changed(&|c| c.air.turbulence_intensity *= std::f64::consts::SQRT_2),
-        ),
-        ("eddies of 25 mm, as Taylor's hypothesis has it", Parameter::LengthScale.set(base, 25e-3)),
-    ]
+///
+/// # Errors
+/// As [`parse_study`]; none of the files of this version.
+pub fn choices() -> Result<Vec<(&'static str, Case)>, Error> {
+    let varied = study(file!("cases/paper/choices.toml"))?.points.into_iter().map(|point| point.case);
+    let names = [
+        "as taken here: pinned root, β = 0.9, variance u²",
+        "β = 0.78 (Majumdar & Shambaugh)",
+        "β = 0.37 (Matsui)",
+        "variance 2u², as Eqs 6–7 read literally",
+        "eddies of 25 mm, as Taylor's hypothesis has it",
+    ];
+    let mut choices: Vec<_> = names.into_iter().zip(varied).collect();
+    choices.push(("clamped root", case(file!("cases/clamped_root.toml"))?));
+    Ok(choices)
 }
 
 /// Of y and of z: mean and standard error of the mean.
@@ -180,5 +174,52 @@ impl TrendPoint {
     pub fn of(value: f64, results: &PointResults) -> Self {
         let of = |i: usize| (results.mean[i], results.standard_error[i]);
         Self { value, amplitude: [of(0), of(1)], frequency: [of(2), of(3)], n: results.n }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fibre::Root;
+
+    #[test]
+    fn every_study_holds_table_1_and_varies_one_thing() {
+        let table1 = table1(Scheme::SemiImplicitEuler).unwrap();
+        for parameter in Parameter::ALL {
+            let study = parameter.study().unwrap();
+            assert_eq!(study.inputs().count(), 1, "{parameter:?}");
+            assert!(study.points.iter().any(|point| point.case == table1), "{parameter:?}");
+        }
+        assert_eq!(time_steps().unwrap().points[0].case, table1);
+    }
+
+    #[test]
+    fn every_choice_is_what_it_is_called() {
+        let choices = choices().unwrap();
+        let [here, majumdar, matsui, variance, taylor, clamped] = &choices[..] else {
+            panic!("{} choices", choices.len());
+        };
+        assert_eq!(here.1, table1(Scheme::SemiImplicitEuler).unwrap());
+        for (choice, value) in [(majumdar, 0.78), (matsui, 0.37)] {
+            assert!(choice.0.contains(&value.to_string()));
+            assert_eq!(choice.1.drag.along.factor(), Some(value));
+        }
+        let twice = (variance.1.air.turbulence_intensity / here.1.air.turbulence_intensity).powi(2);
+        assert!((twice - 2.0).abs() < 1e-14);
+        assert_eq!((taylor.1.air.length_scale, taylor.1.fibre.elements), (0.025, 40));
+        let mut pinned = clamped.1.clone();
+        assert_eq!(pinned.fibre.root, Root::Clamped);
+        pinned.fibre.root = Root::Pinned;
+        assert_eq!(pinned, here.1);
+    }
+
+    #[test]
+    fn another_scheme_keeps_the_times() {
+        for scheme in [Scheme::Leapfrog, Scheme::ImplicitTension] {
+            let by = table1(scheme).unwrap();
+            assert!((by.run.duration() - 1.0).abs() < 1e-12);
+            assert!((by.run.output_interval() - 1e-3).abs() < 1e-12);
+            assert!(by.check().is_ok());
+        }
     }
 }

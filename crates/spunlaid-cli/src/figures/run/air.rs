@@ -107,7 +107,7 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
         )
         .sized(640.0, 300.0)
         .map(map);
-        results.flights.iter().enumerate().fold(chart, |chart, (i, flight)| {
+        results.trajectories.iter().enumerate().fold(chart, |chart, (i, flight)| {
             let end = flight.shapes.last().map_or(&[][..], |shape| &shape.position);
             let path: Vec<_> = end.iter().map(|p| (p.x * MM, of(p) * MM)).collect();
             let name = format!("fibre {}", flight.replicate + 1);
@@ -120,7 +120,7 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
         "Speed of the mean flow in two planes through the root, of {}, and up to {} fibres as they were at the end. White: \
          outside of the field.",
         placed.field.describe(),
-        results.flights.len(),
+        results.trajectories.len(),
     );
     let charts: Vec<&Chart> = charts.iter().collect();
     Some(Figure::stacked("air_slices", "The field and the fibres", &charts, caption))

@@ -1,7 +1,7 @@
 //! The figures of a run.
 
 mod air;
-mod energy;
+mod measured;
 mod motion;
 mod spectra;
 
@@ -14,12 +14,8 @@ const MM: f64 = 1e3;
 
 /// The figures of a run, in the order a reader wants them; the turbulence is left out where there is none.
 pub(crate) fn run_figures(case: &Case, results: &Results, turbulence: &[SpectrumPoint]) -> Vec<Figure> {
-    let mut figures = vec![
-        motion::end_node_history(case, results),
-        motion::end_node_path(case, results),
-        motion::amplitude_along_fibre(case, &results.nodes),
-        spectra::motion(results),
-    ];
+    let mut figures = vec![motion::end_node_history(case, results), motion::end_node_path(case, results)];
+    figures.extend(measured::figures(results));
     if !case.air.is_uniform() {
         figures.push(air::along_fibre(case));
         figures.extend(air::slices(case, results));
@@ -27,13 +23,12 @@ pub(crate) fn run_figures(case: &Case, results: &Results, turbulence: &[Spectrum
     if !turbulence.is_empty() {
         figures.push(spectra::turbulence(case, turbulence));
     }
-    figures.push(energy::errors(case, &results.errors));
     figures
 }
 
 /// Time of so many swings of the free end [s], where it swings at all.
 fn swings(results: &Results, count: f64) -> Option<f64> {
-    let end = &results.end_node;
-    let fastest = end.frequency_y.mean.max(end.frequency_z.mean);
+    let [y, z] = ["frequency_y", "frequency_z"].map(|name| results.estimate(name).mean);
+    let fastest = y.max(z);
     (fastest.is_finite() && fastest > 0.0).then(|| count / fastest)
 }

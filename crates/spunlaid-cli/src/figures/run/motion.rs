@@ -1,11 +1,11 @@
-//! Where the fibre is: the free end over time and across the flow, the amplitude along the fibre.
+//! Where the free end is: over time, and across the flow.
 
 use super::{MM, swings};
 use crate::numbers::significant;
 use spunlaid::case::Case;
-use spunlaid::ensemble::{NodeResults, Results, Sample};
+use spunlaid::ensemble::{Results, Sample};
 use spunlaid_charts::{
-    Axis, Chart, Figure, Series, even,
+    Axis, Chart, Figure, Series,
     palette::{GREEN, GREY, INK, ORANGE},
 };
 
@@ -13,12 +13,10 @@ use spunlaid_charts::{
 const SWINGS: f64 = 60.0;
 /// Most swings of a path, and most of its points.
 const PATH: (f64, usize) = (40.0, 20_000);
-/// Most nodes of a fibre that get markers of their own.
-const MARKED_NODES: usize = 41;
 
 /// What is recorded of the first replicate.
 fn recorded(results: &Results) -> &[Sample] {
-    results.flights.first().map_or(&[][..], |flight| &flight.samples)
+    results.trajectories.first().map_or(&[][..], |flight| &flight.samples)
 }
 
 /// The free end's y and z over time; of a long run the whole, and its last swings below.
@@ -92,47 +90,5 @@ pub(super) fn end_node_path(case: &Case, results: &Results) -> Figure {
     if let (true, Some(start)) = (first > 0, drawn.first()) {
         caption.push_str(&format!(" Only the last {} s are drawn.", significant(end - start.time, 2)));
     }
-    Figure::of(&chart, caption)
-}
-
-/// How far each node swings.
-pub(super) fn amplitude_along_fibre(case: &Case, nodes: &[NodeResults]) -> Figure {
-    type Axis3 = fn(&NodeResults) -> (f64, Option<f64>);
-    let marked = even(nodes.len(), MARKED_NODES);
-    let lined = even(nodes.len(), 1001);
-    let point = |node: &NodeResults, axis: Axis3| {
-        let (mean, error) = axis(node);
-        (node.distance * MM, mean * MM, error.map(|e| e * MM))
-    };
-    let scatter = |axis: Axis3| -> Vec<_> { marked.iter().map(|&i| point(&nodes[i], axis)).collect() };
-    let all = |axis: Axis3| nodes.iter().map(|node| point(node, axis)).collect();
-    let line = |axis: Axis3| -> Vec<_> {
-        lined.iter().map(|&i| (nodes[i].distance * MM, axis(&nodes[i]).0 * MM)).collect()
-    };
-    let (y, z): (Axis3, Axis3) = (|n| n.amplitude_y, |n| n.amplitude_z);
-    let thin = |series: Series| series.adorning().unmarked().width(0.8);
-    let chart = Chart::new(
-        "amplitude_along_fibre",
-        "Amplitude along the fibre",
-        Axis::linear("Distance from the root along the fibre (mm)").in_column("distance_mm").including(0.0),
-        Axis::linear("Amplitude (mm)").zero_based(),
-    )
-    .line(thin(Series::circles("")), &line(y))
-    .line(thin(Series::triangles("")), &line(z))
-    .scatter(Series::circles("*y*").thinned_from(all(y)), &scatter(y))
-    .scatter(Series::triangles("*z*").thinned_from(all(z)), &scatter(z));
-    let replicates = match case.run.replicates {
-        0 | 1 => "a single replicate, so without error bars".to_owned(),
-        n => format!("mean over {n} replicates, bars: ± one standard error of the mean"),
-    };
-    let nodes_shown = if marked.len() < nodes.len() {
-        format!(" {} of the {} nodes carry a marker.", marked.len(), nodes.len())
-    } else {
-        String::new()
-    };
-    let caption = format!(
-        "How far each node swings: the standard deviation of its y (circles) and z (triangles) over time, \
-         {replicates}.{nodes_shown}"
-    );
     Figure::of(&chart, caption)
 }

@@ -1,45 +1,10 @@
 //! What happens at which frequency: the motion of the free end, the turbulence.
 
-use super::MM;
 use crate::numbers::significant;
 use spunlaid::air::SpectrumShape;
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Results, SpectrumPoint};
+use spunlaid::ensemble::SpectrumPoint;
 use spunlaid_charts::{Axis, Chart, Figure, Series, palette::GREEN};
-
-/// The spectrum of the free end's y and z, with their crossing frequencies.
-pub(super) fn motion(results: &Results) -> Figure {
-    let density = |axis: fn(&(f64, f64, f64)) -> f64| -> Vec<_> {
-        results.motion_spectrum.iter().map(|p| (p.0, axis(p) * MM * MM)).collect()
-    };
-    let mut chart = Chart::new(
-        "motion_spectrum",
-        "Spectrum of the motion",
-        Axis::logarithmic("Frequency *f* (Hz)").tight(),
-        Axis::logarithmic("Power spectral density (mm²/Hz)").decades(9),
-    )
-    .when_empty("too few recorded instants, or no motion")
-    .line(Series::circles("*y*").unmarked(), &density(|p| p.1))
-    .line(Series::triangles("*z*").unmarked(), &density(|p| p.2));
-    let end = &results.end_node;
-    // The dashes of one fill the gaps of the other, where both are at the same place.
-    for (series, name, frequency, dash) in [
-        (Series::circles(""), "y", end.frequency_y.mean, "5 5"),
-        (Series::triangles(""), "z", end.frequency_z.mean, "0 5 5 0"),
-    ] {
-        if frequency.is_finite() && frequency > 0.0 {
-            let label = format!("*{name}* crosses at {} Hz", significant(frequency, 3));
-            let series =
-                Series { label: Some(label), ..series }.named(&format!("{name}, crossing frequency"));
-            chart = chart.vertical(series.dashed(dash).width(1.2), frequency);
-        }
-    }
-    let caption = "How the motion of the free end is spread over frequencies, averaged over all replicates \
-                   (Welch’s method). The area under a curve is the amplitude squared. Dashed: the crossing \
-                   frequency, half the number of sign changes per second."
-        .to_owned();
-    Figure::of(&chart, caption)
-}
 
 /// The spectrum of the turbulence, as made and as asked for.
 pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {

@@ -56,14 +56,14 @@ fn over(
     words: &str,
 ) -> Figure {
     let along = Along::new(&study.factors[factor]);
-    let title = format!("{} {}", group.label, words.split(',').next().unwrap_or(words));
+    let title = format!("{} {}", group.figure.title, words.split(',').next().unwrap_or(words));
     let name = file_name(group, study.factors[factor].key);
     let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
     for (position, (measure, _)) in group.of.iter().enumerate() {
         let spots = spots(study, results, group, *measure, (factor, &along), points);
         chart = drawn(chart, series(group, position), &spots);
     }
-    let caption = format!("{} {words}, means over the replicates. {BARS}", group.label);
+    let caption = format!("{} {words}, means over the replicates. {BARS}", group.figure.title);
     Figure::of(&chart, caption)
 }
 
@@ -77,7 +77,7 @@ pub(super) fn family(
 ) -> Figure {
     let (of, key) = (&study.factors[family], study.factors[along].key);
     let place = Along::new(&study.factors[along]);
-    let title = format!("{} over {} and {}", group.label, name_of_key(key), name_of_key(of.key));
+    let title = format!("{} over {} and {}", group.figure.title, name_of_key(key), name_of_key(of.key));
     let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
     for (level, colour) in of.values().into_iter().zip(COLOURS) {
         let points: Vec<usize> =
@@ -100,7 +100,7 @@ pub(super) fn family(
     };
     let caption = format!(
         "{} over {}, a colour for each value of the {}, means over the replicates.{signs} {BARS}",
-        group.label,
+        group.figure.title,
         name_of_key(key),
         name_of_key(of.key),
     );

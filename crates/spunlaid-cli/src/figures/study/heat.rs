@@ -31,7 +31,7 @@ pub(super) fn maps(study: &Study, results: &[PointResults], group: &Group) -> Ve
 fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, label: &str) -> Figure {
     let [up, along] = [0, 1].map(|i| study.factors[i].values());
     let value = |i: usize, j: usize| {
-        results.get(i * along.len() + j).map_or(f64::NAN, |point| point.mean[measure] * group.factor)
+        results.get(i * along.len() + j).map_or(f64::NAN, |point| point.mean[measure] * group.unit.per_si)
     };
     let all: Vec<f64> = (0..up.len() * along.len())
         .map(|k| value(k / along.len(), k % along.len()))
@@ -42,8 +42,11 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     let share = |value: f64| if most > least { (value - least) / (most - least) } else { 0.5 };
 
     let called = label.replace('*', "");
-    let which =
-        if group.of.len() == 2 { format!("{} in {called}", group.label) } else { group.label.to_owned() };
+    let which = if group.of.len() == 2 {
+        format!("{} in {called}", group.figure.title)
+    } else {
+        group.figure.title.to_owned()
+    };
     let names = [0, 1].map(|i| name_of_key(study.factors[i].key));
     let title = format!("{which} over {} and {}", names[1], names[0]);
     let mut svg = Svg::new(SIZE.0, SIZE.1, &title);
@@ -88,7 +91,7 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
             [of_along.place(along[j]), of_up.place(up[i]), value, error.unwrap_or(f64::NAN)]
         }),
     );
-    Figure { name: format!("{}{axis}_map", group.name), title, caption, svg: svg.finish(), table }
+    Figure { name: format!("{}{axis}_map", group.figure.name), title, caption, svg: svg.finish(), table }
 }
 
 /// The colours and what they stand for.
@@ -109,7 +112,7 @@ fn scale(svg: &mut Svg, group: &Group, (least, most): (f64, f64)) {
             svg.text((left + width + 8.0, y + 4.5), &significant(least + share * (most - least), 3), style);
         }
     }
-    svg.text((left, bottom + 18.0), group.unit, style);
+    svg.text((left, bottom + 18.0), group.unit.shown, style);
 }
 
 fn rectangle(svg: &mut Svg, (x, y): (f64, f64), (w, h): (f64, f64), fill: &str) {

@@ -21,16 +21,17 @@ pub(super) fn of(
 ) -> Figure {
     let varied = &study.factors[factor];
     let along = Along::new(varied);
-    let title = format!("{} over {}", group.label, name_of_key(varied.key));
+    let title = format!("{} over {}", group.figure.title, name_of_key(varied.key));
     let mut chart = Chart::new(&file_name(group, varied.key), &title, along.axis.clone(), group.axis());
     for (position, (measure, label)) in group.of.iter().enumerate() {
         let series = if position == 0 { Series::circles(label) } else { Series::triangles(label) };
         let values = results.iter().zip(&study.points);
-        let values = values.map(|(of, point)| (point.values[factor], of.mean[*measure] * group.factor));
+        let values = values.map(|(of, point)| (point.values[factor], of.mean[*measure] * group.unit.per_si));
         let spots = averaged(varied, values.collect());
         let spots: Vec<_> = spots.into_iter().map(|(x, y, error)| (along.place(x), y, error)).collect();
         if let Some(line) = line(varied, rankings, *measure, factor) {
-            let line: Vec<_> = line.into_iter().map(|(x, y)| (along.place(x), y * group.factor)).collect();
+            let line: Vec<_> =
+                line.into_iter().map(|(x, y)| (along.place(x), y * group.unit.per_si)).collect();
             let fit = series.clone().unlabelled().named(&format!("{label}, line of best fit"));
             chart = chart.line(fit.unmarked().dashed("2 4").width(1.2), &line);
         }
@@ -40,7 +41,7 @@ pub(super) fn of(
         "{} over {}: means over all points that share a value of it, or a slice of its range, whatever the other \
          factors do there. Bars: one standard error of that mean, up and down, from the spread between the points. \
          Dotted: the straight line that the main effect is taken from.",
-        group.label,
+        group.figure.title,
         name_of_key(varied.key),
     );
     Figure::of(&chart, caption)

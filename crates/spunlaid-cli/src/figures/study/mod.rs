@@ -19,7 +19,8 @@ const FAMILY: usize = 6;
 
 /// The figures of a study, in the order a reader wants them.
 pub(crate) fn study_figures(study: &Study, results: &[PointResults], rankings: &[Ranking]) -> Vec<Figure> {
-    let groups = quantity::groups();
+    let mut groups = quantity::groups();
+    groups.retain(|group| group.applies(results));
     let mut figures = Vec::new();
     match (study.design, study.factors.len()) {
         (_, 0) => {}
@@ -39,20 +40,20 @@ pub(crate) fn study_figures(study: &Study, results: &[PointResults], rankings: &
             }
         }
         (Design::OneAtATime, _) => {
-            for group in groups.iter().filter(|group| group.is_motion) {
+            for group in groups.iter().filter(|group| group.is_motion()) {
                 let alone = |factor| curves::alone(study, results, group, factor);
                 figures.extend((0..study.factors.len()).map(alone));
             }
         }
         _ => {
-            for group in groups.iter().filter(|group| group.is_motion) {
+            for group in groups.iter().filter(|group| group.is_motion()) {
                 let of = |factor| main_effects::of(study, results, rankings, group, factor);
                 figures.extend((0..study.factors.len()).map(of));
             }
         }
     }
     if study.factors.len() > 1 && !rankings.is_empty() {
-        let motion = groups.iter().filter(|group| group.is_motion);
+        let motion = groups.iter().filter(|group| group.is_motion());
         let ranks: Vec<Figure> = motion.map(|group| ranking::of(study, rankings, group)).collect();
         figures.splice(0..0, ranks);
     }
@@ -61,5 +62,5 @@ pub(crate) fn study_figures(study: &Study, results: &[PointResults], rankings: &
 
 /// Part of a file name: `air.velocity` to `air_velocity`.
 fn file_name(group: &Group, key: &str) -> String {
-    format!("{}_over_{}", group.name, key.replace('.', "_"))
+    format!("{}_over_{}", group.figure.name, key.replace('.', "_"))
 }

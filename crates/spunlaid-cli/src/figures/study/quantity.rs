@@ -1,100 +1,60 @@
 //! What the axes of a study's figures say: quantities, units handy to read.
 
+use spunlaid::observe::{self, Unit};
 use spunlaid::study;
 use spunlaid::study::{Factor, MEASURES, PointResults};
 use spunlaid::units::Dimension;
-use spunlaid_charts::{Axis, Spacing};
+use spunlaid_charts::Axis;
 
-/// Results shown in one figure: one, or that of y and that of z.
+/// Results shown in one figure, as they are declared: one, or that of y and that of z.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
-    pub(super) name: &'static str,
-    /// `amplitude`, in a sentence.
-    pub(super) words: &'static str,
-    pub(super) label: &'static str,
-    pub(super) unit: &'static str,
-    /// From SI units to those of the axis.
-    pub(super) factor: f64,
+    pub(super) figure: &'static observe::Figure,
+    pub(super) unit: Unit,
     /// Indices into the measures, and what each is called.
     pub(super) of: Vec<(usize, &'static str)>,
-    pub(super) spacing: Spacing,
-    /// Whether it starts at zero.
-    pub(super) zero_based: bool,
-    /// Whether it is what the fibre does across, rather than a check or a detail.
-    pub(super) is_motion: bool,
 }
 
-/// All groups, the most wanted first.
+/// All groups, in the order of the declarations.
 pub(super) fn groups() -> Vec<Group> {
-    let group = |name, words, label, unit, factor, of: &[(&str, &'static str)]| Group {
-        name,
-        words,
-        label,
-        unit,
-        factor,
-        of: of.iter().filter_map(|(measure, called)| Some((index(measure)?, *called))).collect(),
-        spacing: Spacing::Linear,
-        zero_based: true,
-        is_motion: of.len() == 2 && factor != 0.01,
-    };
-    let errors = [("work_error", "work check"), ("balance_error", "energy balance")];
-    vec![
-        group(
-            "amplitude",
-            "amplitude",
-            "Amplitude",
-            "mm",
-            1e3,
-            &[("amplitude_y", "*y*"), ("amplitude_z", "*z*")],
-        ),
-        group(
-            "frequency",
-            "frequency",
-            "Frequency",
-            "Hz",
-            1.0,
-            &[("frequency_y", "*y*"), ("frequency_z", "*z*")],
-        ),
-        Group {
-            zero_based: false,
-            ..group(
-                "mean_x",
-                "mean position",
-                "Mean position along the flow",
-                "mm",
-                1e3,
-                &[("mean_x", "*x*")],
-            )
-        },
-        group("max_strain", "largest strain", "Largest strain", "%", 1e2, &[("max_strain", "strain")]),
-        Group {
-            spacing: Spacing::Logarithmic,
-            zero_based: false,
-            is_motion: false,
-            ..group("energy_error", "energy error", "Energy error", "%", 1.0, &errors)
-        },
-    ]
-}
-
-fn index(name: &str) -> Option<usize> {
-    MEASURES.iter().position(|measure| measure.name == name)
+    let mut groups: Vec<Group> = Vec::new();
+    for (i, measure) in MEASURES.iter().enumerate() {
+        match groups.iter_mut().find(|group| group.figure.name == measure.figure.name) {
+            Some(group) => group.of.push((i, measure.series)),
+            None => {
+                let (figure, unit, of) = (measure.figure, measure.unit, vec![(i, measure.series)]);
+                groups.push(Group { figure, unit, of });
+            }
+        }
+    }
+    groups
 }
 
 impl Group {
     /// Its axis.
     pub(super) fn axis(&self) -> Axis {
-        let label = format!("{} ({})", self.label, self.unit);
-        match self.spacing {
-            Spacing::Logarithmic => Axis::logarithmic(&label).decades(9),
-            Spacing::Linear if self.zero_based => Axis::linear(&label).zero_based(),
-            Spacing::Linear => Axis::linear(&label),
+        let label = format!("{} ({})", self.figure.title, self.unit.shown);
+        match (self.figure.logarithmic, self.figure.from_zero) {
+            (true, _) => Axis::logarithmic(&label).decades(9),
+            (false, true) => Axis::linear(&label).zero_based(),
+            (false, false) => Axis::linear(&label),
         }
+    }
+
+    /// Whether it is what the fibre does across the flow, rather than a check or a detail.
+    pub(super) fn is_motion(&self) -> bool {
+        matches!(self.of[..], [(_, "*y*"), (_, "*z*")])
+    }
+
+    /// Whether it has been measured of any fibre.
+    pub(super) fn applies(&self, results: &[PointResults]) -> bool {
+        results.iter().any(|point| self.of.iter().any(|(measure, _)| point.mean[*measure].is_finite()))
     }
 
     /// Mean and standard error of one of its measures at a point, in the units of the axis.
     pub(super) fn value(&self, results: &PointResults, measure: usize) -> (f64, Option<f64>) {
-        let error = results.standard_error[measure].map(|error| error * self.factor);
-        (results.mean[measure] * self.factor, error)
+        let error = results.standard_error[measure].map(|error| error * self.unit.per_si);
+        (results.mean[measure] * self.unit.per_si, error)
     }
 }
 

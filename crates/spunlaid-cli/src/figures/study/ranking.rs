@@ -29,14 +29,17 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
         .map_or_else(Vec::new, |first| first.0.effects.iter().map(|effect| effect.factor).collect());
     let ends = |effect: &Effect| {
         let half = effect.half_width.unwrap_or(0.0);
-        [effect.change - half, effect.change + half].map(|end| end * group.factor)
+        [effect.change - half, effect.change + half].map(|end| end * group.unit.per_si)
     };
-    let label = format!("Change of {} from the least to the greatest value ({})", group.words, group.unit);
+    let label = format!(
+        "Change of {} from the least to the greatest value ({})",
+        group.figure.words, group.unit.shown
+    );
     let all = shown.iter().flat_map(|shown| shown.0.effects.iter().flat_map(ends)).chain([0.0]);
     let scale = Scale::fit(&Axis::linear(&label), all, 7);
 
     let height = TOP + ROW * order.len() as f64 + 58.0;
-    let title = format!("What moves the {}", group.words);
+    let title = format!("What moves the {}", group.figure.words);
     let mut svg = Svg::new(WIDTH, height, &title);
     let names = order.iter().map(|factor| width(label_of_key(study.factors[*factor].key), SIZE));
     let left = names.fold(120.0, f64::max).min(250.0) + 24.0;
@@ -82,7 +85,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
             for end in [low, high] {
                 svg.line((end, y - 3.5), (end, y + 3.5), &stroke);
             }
-            svg.marker((along(effect.change * group.factor), y), *marker, colour);
+            svg.marker((along(effect.change * group.unit.per_si), y), *marker, colour);
         }
     }
     let explained: Vec<String> = shown
@@ -96,17 +99,17 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
          all points best, the other factors held. Bars: 95 % confidence intervals; one that reaches across zero may be \
          no effect at all. The line explains {} of the variation between points; where that is little, look at the \
          curves instead.",
-        group.words,
+        group.figure.words,
         explained.join(" and "),
     );
-    let change = Axis::linear(&format!("Change ({})", group.unit));
+    let change = Axis::linear(&format!("Change ({})", group.unit.shown));
     let mut table = Table::new([change.column(), "error".to_owned()]);
     for (ranking, .., label) in &shown {
         for effect in &ranking.effects {
-            let half = effect.half_width.unwrap_or(f64::NAN) * group.factor;
+            let half = effect.half_width.unwrap_or(f64::NAN) * group.unit.per_si;
             let series = format!("{}, {}", label.replace('*', ""), study.factors[effect.factor].key);
-            table.add(&series, [[effect.change * group.factor, half]]);
+            table.add(&series, [[effect.change * group.unit.per_si, half]]);
         }
     }
-    Figure { name: format!("{}_ranking", group.name), title, caption, svg: svg.finish(), table }
+    Figure { name: format!("{}_ranking", group.figure.name), title, caption, svg: svg.finish(), table }
 }

@@ -1,0 +1,109 @@
+//! What must hold whatever the readers are given: of the fuzzers' inputs, and of their findings in the tests.
+
+use spunlaid::field::{Field, Hint};
+use spunlaid::input::{parse_case, starter_case, write_case};
+use spunlaid::record::{Layout, Settings, analyse, parse_csv, parse_parquet};
+use std::fmt::Display;
+
+/// A message never breaks the terminal or the log that it is written to.
+///
+/// * `lines` – most lines it may have
+fn assert_sayable(message: &dyn Display, lines: usize) {
+    let said = message.to_string();
+    assert!(said.lines().count() <= lines, "{said}");
+    assert!(said.chars().all(|c| c == '\n' || !c.is_control()), "{said:?}");
+}
+
+/// A case file is read or refused; what is read passes its check, and writes and reads back to the same bits.
+/// Gives whether it was read.
+///
+/// After a first line `--set`, the lines `key=value` are overrides of the starter.
+pub fn case(data: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(data);
+    let (text, set) = match text.strip_prefix("--set\n") {
+        Some(set) => (starter_case(), set),
+        None => (&*text, ""),
+    };
+    let set: Vec<_> = (set.lines().filter_map(|line| line.split_once('=')))
+        .map(|(key, value)| (key.to_owned(), value.to_owned()))
+        .collect();
+    match parse_case(text, "fuzz.toml", &set) {
+        Ok((case, notes)) => {
+            notes.iter().for_each(|note| assert_sayable(note, 1));
+            if let Err(problems) = case.check() {
+                panic!("{problems:?}");
+            }
+            let written = write_case(&case);
+            match parse_case(&written, "written.toml", &[]) {
+                Ok((again, _)) => {
+                    assert_eq!(format!("{again:?}"), format!("{case:?}"), "{written}");
+                    assert_eq!(write_case(&again), written);
+                }
+                Err(error) => panic!("{error}\n{written}"),
+            }
+            true
+        }
+        Err(error) => {
+            // Twenty problems, and how many more there are.
+            assert_sayable(&error, 21);
+            false
+        }
+    }
+}
+
+/// A velocity record, CSV or Parquet, is read or refused; what is read can be analysed or is refused for a
+/// reason. Gives whether it was read.
+pub fn record(data: &[u8]) -> bool {
+    let rate = Layout { rate: Some(1e4), velocity_unit: Some("m/s".to_owned()), ..Layout::default() };
+    let mut any = false;
+    for layout in [Layout::default(), rate] {
+        let read = if data.starts_with(b"PAR1") {
+            parse_parquet(data.to_vec(), "fuzz.parquet", &layout)
+        } else {
+            parse_csv(data, "fuzz.csv", &layout)
+        };
+        match read {
+            Ok(record) => {
+                for component in &record.components {
+                    assert_eq!(component.values.len(), record.samples());
+                    assert!(component.values.iter().all(|x| x.is_finite()));
+                }
+                assert!(record.interval > 0.0);
+                match analyse(&record, &Settings::default()) {
+                    Ok(analysis) => analysis.warnings.iter().for_each(|warning| assert_sayable(warning, 1)),
+                    Err(error) => assert_sayable(&error, 1),
+                }
+                any = true;
+            }
+            Err(error) => assert_sayable(&error, 1),
+        }
+    }
+    any
+}
+
+/// A file of air, VTK or a table, is read or refused; what is read can be asked anywhere. Gives whether it was
+/// read.
+pub fn field(data: &[u8]) -> bool {
+    match Field::parse(data, "fuzz.vtu") {
+        Ok((field, warnings)) => {
+            warnings.iter().for_each(|warning| assert_sayable(warning, 1));
+            let (low, high) = field.bounds();
+            let mut hint = Hint::default();
+            for share in [0.0, 0.1, 0.33, 0.5, 0.9, 1.0, 1.7] {
+                for at in [low + (high - low) * share, low - high * share] {
+                    let local = field.sample(at, &mut hint);
+                    let velocity = [local.velocity.x, local.velocity.y, local.velocity.z];
+                    assert!(
+                        velocity.into_iter().chain([local.k, local.epsilon]).all(f64::is_finite),
+                        "{local:?}"
+                    );
+                }
+            }
+            true
+        }
+        Err(error) => {
+            assert_sayable(&error, 1);
+            false
+        }
+    }
+}
