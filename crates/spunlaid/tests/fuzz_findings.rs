@@ -1,6 +1,6 @@
 //! What the fuzzers found, and what they start from, put to the same checks as their inputs. A finding is kept
 //! as a file in `fuzz_findings/case`, `record` or `field`.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 #[path = "../../../fuzz/checks.rs"]
 mod checks;
