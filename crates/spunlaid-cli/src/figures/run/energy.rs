@@ -23,9 +23,12 @@ pub(super) fn errors(case: &Case, errors: &[ErrorOverTime]) -> Figure {
         let chart = Chart::new(name, "", x, Axis::logarithmic("Error (%)").steady())
             .when_empty("no energy to compare with");
         let several = case.run.replicates > 1 || each > 1;
-        let largest = format!("{label}, largest");
+        let largest = format!("{label} largest");
         let label = if several { format!("{label}, mean") } else { label.to_owned() };
-        let line = Series::new(&label, colour).width(1.2).thinned_from(all(|(mean, _)| mean));
+        let line = Series::new(&label, colour)
+            .named(&label.replace(',', ""))
+            .width(1.2)
+            .thinned_from(all(|(mean, _)| mean));
         let chart = chart.line(line, &mean);
         let band_series = Series::new("up to the largest", colour).named(&largest);
         let band_series = band_series.thinned_from(all(|(_, largest)| largest));

@@ -29,8 +29,7 @@ pub(super) fn motion(results: &Results) -> Figure {
     ] {
         if frequency.is_finite() && frequency > 0.0 {
             let label = format!("*{name}* crosses at {} Hz", significant(frequency, 3));
-            let series =
-                Series { label: Some(label), ..series }.named(&format!("{name}, crossing frequency"));
+            let series = Series { label: Some(label), ..series }.named(&format!("{name} crossing frequency"));
             chart = chart.vertical(series.dashed(dash).width(1.2), frequency);
         }
     }
