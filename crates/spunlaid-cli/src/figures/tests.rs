@@ -76,10 +76,10 @@ fn the_numbers_of_the_energies_are_not_thinned() {
         rows.map(|row| row.split(',').nth(1).unwrap().parse().unwrap_or(f64::NAN)).collect()
     };
     let wanted: Vec<f64> = results.curve("work_error_over_time").iter().map(|place| place.mean).collect();
-    let read = of("work check, mean");
+    let read = of("work check mean");
     assert_eq!(read.len(), 1001);
     assert!(read.iter().zip(&wanted).all(|(a, b)| a == b || b.is_nan() && a.is_nan()), "{read:?}");
-    assert_eq!(of("energy balance, largest").len(), 1001);
+    assert_eq!(of("energy balance largest").len(), 1001);
 }
 
 #[test]

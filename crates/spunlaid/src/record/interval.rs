@@ -5,6 +5,7 @@ pub(super) const NORMAL: f64 = 1.959_963_984_540_054;
 
 /// A value with its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Interval {
     /// The estimate.
     pub value: f64,

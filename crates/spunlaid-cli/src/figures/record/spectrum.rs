@@ -35,7 +35,7 @@ pub(super) fn density(of: &Analysis) -> Figure {
                 })
                 .collect();
             chart = chart
-                .band(series("", i).unlabelled().named(&format!("{}, 95 % interval", component.name)), &band);
+                .band(series("", i).unlabelled().named(&format!("{} 95 % interval", component.name)), &band);
         }
         let line: Vec<_> = points.iter().map(|&(f, p, _)| (f, p)).collect();
         let density = component.spectrum.density.iter().enumerate();

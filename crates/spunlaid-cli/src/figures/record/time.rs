@@ -33,7 +33,7 @@ pub(super) fn history(record: &Record, of: &Analysis) -> Figure {
             }
             let all = values.iter().enumerate();
             let all = all.map(|(k, value)| ((range.start + k) as f64 * of.interval, *value, None)).collect();
-            chart.line(series.named(&format!("{}, close-up", component.name)).thinned_from(all), &line)
+            chart.line(series.named(&format!("{} close-up", component.name)).thinned_from(all), &line)
         })
     };
     let whole = panel("record", 0..samples, "");

@@ -126,12 +126,13 @@ fn series(chart: Chart, i: usize, curve: &Curve, places: &[Place], replicates: u
     let several = replicates > 1 || each > 1;
     let label = if several { format!("{name}, mean") } else { name.to_owned() };
     // After the colours of y and z, which these are not.
-    let line = styled(i + 2, &label).width(1.2).thinned_from(all(|place| place.mean));
+    let column = if several { format!("{name} mean") } else { name.to_owned() };
+    let line = styled(i + 2, &label).named(&column).width(1.2).thinned_from(all(|place| place.mean));
     let chart = chart.line(line, &mean);
     if !several {
         return chart;
     }
-    let largest = styled(i + 2, "up to the largest").named(&format!("{name}, largest"));
+    let largest = styled(i + 2, "up to the largest").named(&format!("{name} largest"));
     chart.band(largest.thinned_from(all(|place| place.largest)), &band)
 }
 
@@ -145,7 +146,7 @@ fn with_crossings(chart: Chart, i: usize, series: &str, results: &Results) -> Ch
     let label = format!("{series} crosses at {} Hz", significant(frequency, 3));
     // The dashes of one fill the gaps of the other, where both are at the same place.
     let dash = if i == 0 { "5 5" } else { "0 5 5 0" };
-    let line = Series { label: Some(label), ..styled(i, "") };
+    let line = Series { label: Some(label), ..styled(i, "") }.named(&format!("{axis} crossing frequency"));
     chart.vertical(line.dashed(dash).width(1.2), frequency)
 }
 

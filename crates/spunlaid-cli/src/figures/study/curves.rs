@@ -86,7 +86,7 @@ pub(super) fn family(
             let marker = if position == 0 { Marker::Circle } else { Marker::Triangle };
             let label = of.dimension.pretty(level);
             let series = Series { marker: Some(marker), ..Series::new(&label, colour) }
-                .named(&format!("{called}, {label}"));
+                .named(&format!("{called} at {label}"));
             let series = if position == 0 { series } else { series.unlabelled() };
             let spots = spots(study, results, group, *measure, (along, &place), &points);
             chart = drawn(chart, series, &spots);

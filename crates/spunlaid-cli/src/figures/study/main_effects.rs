@@ -32,7 +32,7 @@ pub(super) fn of(
         if let Some(line) = line(varied, rankings, *measure, factor) {
             let line: Vec<_> =
                 line.into_iter().map(|(x, y)| (along.place(x), y * group.unit.per_si)).collect();
-            let fit = series.clone().unlabelled().named(&format!("{label}, line of best fit"));
+            let fit = series.clone().unlabelled().named(&format!("{label} line of best fit"));
             chart = chart.line(fit.unmarked().dashed("2 4").width(1.2), &line);
         }
         chart = drawn(chart, series, &spots);

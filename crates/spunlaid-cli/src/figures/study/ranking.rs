@@ -107,7 +107,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     for (ranking, .., label) in &shown {
         for effect in &ranking.effects {
             let half = effect.half_width.unwrap_or(f64::NAN) * group.unit.per_si;
-            let series = format!("{}, {}", label.replace('*', ""), study.factors[effect.factor].key);
+            let series = format!("{} over {}", label.replace('*', ""), study.factors[effect.factor].key);
             table.add(&series, [[effect.change * group.unit.per_si, half]]);
         }
     }

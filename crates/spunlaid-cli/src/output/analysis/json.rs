@@ -12,22 +12,15 @@ struct Json<'a> {
     spunlaid_version: &'static str,
     record: RecordJson<'a>,
     method: Method,
-    mean_velocity_m_s: Range,
-    turbulence_intensity: Range,
-    integral_time_s: Range,
-    length_scale_m: Range,
-    cutoff_frequency_hz: Range,
+    mean_velocity_m_s: Interval,
+    turbulence_intensity: Interval,
+    integral_time_s: Interval,
+    length_scale_m: Interval,
+    cutoff_frequency_hz: Interval,
     components: Vec<ComponentJson<'a>>,
     /// How long to measure for intervals of ± 5 %.
     duration_for_5_percent_s: Durations,
     warnings: Vec<String>,
-}
-
-#[derive(Serialize)]
-struct Range {
-    value: f64,
-    low: f64,
-    high: f64,
 }
 
 #[derive(Serialize)]
@@ -60,20 +53,20 @@ struct Method {
 #[derive(Serialize)]
 struct ComponentJson<'a> {
     name: &'a str,
-    mean_m_s: Range,
-    rms_m_s: Range,
-    skewness: Range,
-    flatness: Range,
+    mean_m_s: Interval,
+    rms_m_s: Interval,
+    skewness: Interval,
+    flatness: Interval,
     minimum_m_s: f64,
     maximum_m_s: f64,
-    integral_time_s: Range,
+    integral_time_s: Interval,
     integral_limit_s: f64,
     integral_time_of_plateau_s: f64,
-    plateau_m2_s2_per_hz: Range,
+    plateau_m2_s2_per_hz: Interval,
     plateau_until_hz: f64,
-    cutoff_frequency_hz: Range,
-    drift_of_mean_m_s: Range,
-    drift_of_rms_m_s: Range,
+    cutoff_frequency_hz: Interval,
+    drift_of_mean_m_s: Interval,
+    drift_of_rms_m_s: Interval,
 }
 
 #[derive(Serialize)]
@@ -112,11 +105,11 @@ pub(crate) fn analysis_json(record: &Record, of: &Analysis) -> String {
             segment_samples: spectrum.map_or(0, |s| s.segment),
             segments: spectrum.map_or(0, |s| s.segments),
         },
-        mean_velocity_m_s: range(&of.mean_velocity),
-        turbulence_intensity: range(&of.turbulence_intensity),
-        integral_time_s: range(&of.integral_time),
-        length_scale_m: range(&of.length_scale),
-        cutoff_frequency_hz: range(&of.cutoff_frequency),
+        mean_velocity_m_s: of.mean_velocity,
+        turbulence_intensity: of.turbulence_intensity,
+        integral_time_s: of.integral_time,
+        length_scale_m: of.length_scale,
+        cutoff_frequency_hz: of.cutoff_frequency,
         components: of.components.iter().map(component).collect(),
         duration_for_5_percent_s: Durations {
             turbulence_intensity: of.duration_for(&of.turbulence_intensity, 0.05),
@@ -131,26 +124,22 @@ pub(crate) fn analysis_json(record: &Record, of: &Analysis) -> String {
     text
 }
 
-fn range(of: &Interval) -> Range {
-    Range { value: of.value, low: of.low, high: of.high }
-}
-
 fn component(of: &Component) -> ComponentJson<'_> {
     ComponentJson {
         name: &of.name,
-        mean_m_s: range(&of.mean),
-        rms_m_s: range(&of.rms),
-        skewness: range(&of.skewness),
-        flatness: range(&of.flatness),
+        mean_m_s: of.mean,
+        rms_m_s: of.rms,
+        skewness: of.skewness,
+        flatness: of.flatness,
         minimum_m_s: of.range.0,
         maximum_m_s: of.range.1,
-        integral_time_s: range(&of.integral_time),
+        integral_time_s: of.integral_time,
         integral_limit_s: of.autocorrelation.limit,
         integral_time_of_plateau_s: of.flat.integral_time(),
-        plateau_m2_s2_per_hz: range(&of.flat.density),
+        plateau_m2_s2_per_hz: of.flat.density,
         plateau_until_hz: of.flat.until,
-        cutoff_frequency_hz: range(&of.flat.cutoff),
-        drift_of_mean_m_s: range(&of.mean_trend.change),
-        drift_of_rms_m_s: range(&of.rms_trend.change),
+        cutoff_frequency_hz: of.flat.cutoff,
+        drift_of_mean_m_s: of.mean_trend.change,
+        drift_of_rms_m_s: of.rms_trend.change,
     }
 }
