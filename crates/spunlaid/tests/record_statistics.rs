@@ -7,8 +7,9 @@ use spunlaid::air::{Air, StreamKey, Turbulence, Wind};
 use spunlaid::error::Error;
 use spunlaid::lanes::Isa;
 use spunlaid::record::{
-    Analysis, IntegralRule, Interval, Record, Samples, Settings, SpectrumSettings, Warning, Window, analyse,
+    Analysis, IntegralRule, Interval, Record, Samples, Settings, SpectrumSettings, Warning, analyse,
 };
+use spunlaid::statistics::Window;
 use std::f64::consts::PI;
 
 /// Standard normal numbers by Box and Muller, keyed.

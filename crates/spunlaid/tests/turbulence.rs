@@ -6,7 +6,7 @@ mod common;
 use common::*;
 use spunlaid::air::{Air, StreamKey, Turbulence, Wind};
 use spunlaid::lanes::{Isa, WIDTH};
-use spunlaid::statistics::PowerSpectrum;
+use spunlaid::statistics::{Welch, Window};
 use std::f64::consts::PI;
 
 const EDDIES: usize = 6;
@@ -140,14 +140,14 @@ fn stat_phases_are_uniform_between_replicates() {
 fn stat_spectrum_is_flat_to_the_cutoff_and_nothing_above() {
     let air = Air { harmonics: 1024, ..table1_air() };
     let interval = 1.0 / 800.0;
-    let mut spectrum = PowerSpectrum::new(interval, 512);
+    let mut spectrum = Welch::new(interval, 512, Window::Hann, 0.5);
     let mut segments = 0;
     for record in records(&air, 11, interval, 10.0) {
-        spectrum.add(&record);
+        spectrum.add(&record, None);
         segments += record.len() / 256 - 1;
     }
     let wanted = air.rms().powi(2) / air.cutoff_frequency;
-    for (f, density) in spectrum.density() {
+    for (f, density) in spectrum.finish().points() {
         // The Hann window reaches two of its steps of 1.56 Hz to either side.
         if f > 4.0 && f < 96.0 {
             // Each segment's density scatters by as much as its mean; overlapping ones count for about half.

@@ -3,7 +3,7 @@
 use super::Trajectory;
 use crate::case::Case;
 use crate::observe::NodeSpread;
-use crate::statistics::{Estimate, PowerSpectrum, median};
+use crate::statistics::{Estimate, Welch, Window, median};
 
 /// Results of an ensemble, taken in flight by flight: memory does not grow with the flights' records.
 #[derive(Clone, Debug)]
@@ -98,7 +98,7 @@ pub struct Collector {
     nodes: Vec<[(f64, f64); 2]>,
     /// Per instant: time, and of both errors count, sum and largest.
     errors: Vec<(f64, [ErrorSums; 2])>,
-    spectra: [PowerSpectrum; 2],
+    spectra: [Welch; 2],
     flights: Vec<Trajectory>,
 }
 
@@ -109,7 +109,8 @@ impl Results {
     pub fn collector(case: &Case, keep: usize) -> Collector {
         let run = &case.run;
         let samples = ((run.steps - run.spin_up_steps) / run.output_steps) as usize + 1;
-        let spectrum = PowerSpectrum::new(run.output_interval(), PowerSpectrum::segment_length(samples));
+        let segment = Welch::segment_length(samples);
+        let spectrum = Welch::new(run.output_interval(), segment, Window::Hann, 0.5);
         Collector {
             keep,
             spin_up: run.spin_up(),
@@ -146,8 +147,8 @@ impl Collector {
             flight.samples.iter().filter(|s| s.time >= self.spin_up).map(axis).collect()
         };
         let (y, z) = (flown(|s| s.end.y), flown(|s| s.end.z));
-        self.spectra[0].add(&y);
-        self.spectra[1].add(&z);
+        self.spectra[0].add(&y, None);
+        self.spectra[1].add(&z, None);
         if self.flights.len() < self.keep {
             self.flights.push(flight.clone());
         }
@@ -209,7 +210,7 @@ impl Collector {
             };
             ErrorOverTime { time, work: of(work), balance: of(balance) }
         });
-        let [y, z] = self.spectra.map(PowerSpectrum::density);
+        let [y, z] = self.spectra.map(Welch::finish);
         Results {
             end_node: EndNodeResults { amplitude_y, amplitude_z, frequency_y, frequency_z, mean_x },
             work_error_percent: ledger(0),
@@ -219,7 +220,7 @@ impl Collector {
             outside: self.outside.map(|sum| sum / n),
             nodes: nodes.collect(),
             errors: errors.collect(),
-            motion_spectrum: y.iter().zip(&z).map(|(&(f, py), &(_, pz))| (f, py, pz)).collect(),
+            motion_spectrum: y.points().zip(z.density).map(|((f, py), pz)| (f, py, pz)).collect(),
             flights: self.flights,
         }
     }

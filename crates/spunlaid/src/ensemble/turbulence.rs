@@ -4,7 +4,7 @@ use super::{Computing, Job};
 use crate::air::{Spectrum, Stream, StreamKey, Turbulence, Wind};
 use crate::case::Case;
 use crate::lanes::{Isa, WIDTH};
-use crate::statistics::PowerSpectrum;
+use crate::statistics::{Welch, Window};
 
 /// A point of the spectrum of the turbulence.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<Spectru
     let mut wind = Wind::new(&turbulence);
     let interval = 1.0 / (8.0 * case.air.cutoff_frequency);
     let samples = ((duration / interval) as usize).min(1 << 16);
-    let mut spectrum = PowerSpectrum::new(interval, PowerSpectrum::segment_length(samples));
+    let mut welch = Welch::new(interval, Welch::segment_length(samples), Window::Hann, 0.5);
     let mut records = vec![Vec::with_capacity(samples); eddies.count() * 3 * lanes];
     for i in 0..samples {
         let velocities = wind.at(i as f64 * interval);
@@ -44,16 +44,16 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Vec<Spectru
         }
     }
     for record in &records {
-        spectrum.add(record);
+        welch.add(record, None);
     }
     // What the mean flow does not vary in is the same in all eddies.
     let wanted: Vec<Spectrum<'_>> = turbulence_of_eddies
         .iter()
         .flat_map(|eddy_turbulence| (0..3).map(|c| eddy_turbulence.spectrum(&case.air, c)))
         .collect();
-    let density = spectrum.density();
-    density
-        .into_iter()
+    let spectrum = welch.finish();
+    spectrum
+        .points()
         .map(|(frequency, realised)| {
             let omega = 2.0 * std::f64::consts::PI * frequency;
             // Per hertz instead of per radian a second.

@@ -5,11 +5,9 @@ use super::flat::FlatPart;
 use super::interval::{Interval, error};
 use super::moments::Powers;
 use super::warning::{BLOCK_TIMES, BLOCKS, warnings};
-use super::{
-    Autocorrelation, IntegralRule, Moments, Record, Samples, Spectrum, SpectrumSettings, Trend, Warning,
-    problem,
-};
+use super::{Autocorrelation, IntegralRule, Moments, Record, Samples, Trend, Warning, problem};
 use crate::error::{Error, RecordFault, RecordPlace};
+use crate::statistics::{Spectrum, Welch, Window};
 use std::ops::Range;
 
 /// Fewest samples of a component.
@@ -37,6 +35,23 @@ pub struct Settings {
     pub flat_until: Option<f64>,
     /// Mean velocity along the flow, in place of the record's own [m/s].
     pub mean_velocity: Option<f64>,
+}
+
+/// How a spectrum is to be taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpectrumSettings {
+    /// Window.
+    pub window: Window,
+    /// Share of a segment that the next one has in common with it, 0 to 0.9.
+    pub overlap: f64,
+    /// Samples in a segment, a power of two; chosen by the integral time where it is left open.
+    pub segment: Option<usize>,
+}
+
+impl Default for SpectrumSettings {
+    fn default() -> Self {
+        Self { window: Window::Hann, overlap: 0.5, segment: None }
+    }
 }
 
 /// What a record says about the air; intervals are of 95 %.
@@ -352,7 +367,10 @@ fn component(
     settings: &Settings,
 ) -> Component {
     let Moments { mean, rms, .. } = estimates.moments;
-    let spectrum = Spectrum::of(&samples.values, mean, record.interval, segment, &settings.spectrum);
+    let SpectrumSettings { window, overlap, .. } = settings.spectrum;
+    let mut welch = Welch::new(record.interval, segment, window, overlap);
+    welch.add(&samples.values, Some(mean));
+    let spectrum = welch.finish();
     let integral_time = estimates.integral_time();
     let variances: Vec<f64> = estimates.left_out.iter().map(|(m, _)| 2.0 * libm::log(m.rms)).collect();
     let flat = FlatPart::of(

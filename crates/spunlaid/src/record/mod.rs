@@ -27,16 +27,14 @@ mod interval;
 mod moments;
 mod parquet;
 mod rows;
-mod spectrum;
 mod warning;
 
-pub use analysis::{Analysis, Component, Settings, analyse};
+pub use analysis::{Analysis, Component, Settings, SpectrumSettings, analyse};
 pub use correlation::{Autocorrelation, IntegralRule};
 pub use csv::parse_csv;
 pub use flat::FlatPart;
 pub use interval::Interval;
 pub use moments::Moments;
-pub use spectrum::{Spectrum, SpectrumSettings, Window};
 pub use warning::{Trend, Warning};
 
 use crate::error::{Error, RecordFault, RecordPlace, RecordProblem};

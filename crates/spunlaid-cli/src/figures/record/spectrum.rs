@@ -6,7 +6,8 @@ use super::super::palette::{INK, ORANGE};
 use super::super::run::significant;
 use super::super::scale::Axis;
 use super::{figure, series};
-use spunlaid::record::{Analysis, Spectrum};
+use spunlaid::record::Analysis;
+use spunlaid::statistics::Spectrum;
 
 /// Neighbouring frequencies within this ratio are drawn as one point.
 const RATIO: f64 = 1.02;
