@@ -1,6 +1,7 @@
 //! Why the program ends without doing what it was asked.
 
 use parquet::errors::ParquetError;
+use spunlaid::error::{Error, Fault, FileError, FileFault, JournalError, RecordFault, StudyFault};
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -9,7 +10,9 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// The library says no.
-    Library(spunlaid::error::Error),
+    Library(Error),
+    /// The record to analyse cannot be used.
+    Record(Box<FileError>),
     /// A file or folder cannot be written.
     Unwritable { path: PathBuf, source: io::Error },
     /// The file of `new` cannot be written.
@@ -60,7 +63,7 @@ impl Failure {
     /// 1 the input is wrong, 2 the run failed, 130 interrupted.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
-            Self::Library(spunlaid::error::Error::Interrupted) | Self::Paused { .. } => 130,
+            Self::Library(Error::Interrupted) | Self::Paused { .. } => 130,
             Self::Library(error) => error.exit_code(),
             Self::Figure { .. } | Self::FibresLost { .. } | Self::Unheard { .. } => 2,
             _ => 1,
@@ -68,8 +71,14 @@ impl Failure {
     }
 }
 
-impl From<spunlaid::error::Error> for Failure {
-    fn from(error: spunlaid::error::Error) -> Self {
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        Self::Record(Box::new(error))
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
         Self::Library(error)
     }
 }
@@ -77,10 +86,11 @@ impl From<spunlaid::error::Error> for Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Library(spunlaid::error::Error::Interrupted) => {
+            Self::Library(Error::Interrupted) => {
                 write!(f, "interrupted; nothing was written. The same command starts again")
             }
-            Self::Library(error) => error.fmt(f),
+            Self::Library(error) => write!(f, "{error}{}", options(error)),
+            Self::Record(error) => write!(f, "{error}{}", record_options(&error.fault)),
             Self::Unwritable { path, source } => {
                 write!(f, "{}: cannot be written: {source}; ", path.display())?;
                 match source.kind() {
@@ -135,6 +145,45 @@ impl fmt::Display for Failure {
             }
             Self::Table { path, source } => write!(f, "{}: cannot be written: {source}", path.display()),
         }
+    }
+}
+
+/// The options that the way out of a library's error takes.
+fn options(error: &Error) -> &'static str {
+    match error {
+        Error::Journal(JournalError::InUse { .. }) => " (--out)",
+        Error::Journal(JournalError::Foreign { .. } | JournalError::Format { .. }) => " (--out, --force)",
+        Error::Rejected(problems) => {
+            let by_number = problems.iter().any(|problem| {
+                matches!(
+                    problem.what,
+                    Fault::Study(StudyFault::TooManyPoints { .. } | StudyFault::OtherPoints { .. })
+                )
+            });
+            if by_number { " (--points)" } else { "" }
+        }
+        _ => "",
+    }
+}
+
+/// The options of `analyse` that help with a record.
+fn record_options(fault: &FileFault) -> &'static str {
+    match fault {
+        FileFault::NoUnit { .. } => " (or --time-unit, --velocity-unit)",
+        FileFault::Record(fault) => match **fault {
+            RecordFault::NoVelocity { .. } => " (--columns, --velocity-unit)",
+            RecordFault::TooManyComponents { .. } => " (--columns)",
+            RecordFault::NoTime { .. }
+            | RecordFault::TimeNotIncreasing { .. }
+            | RecordFault::Uneven { .. } => " (--rate)",
+            RecordFault::MixedUnits { .. } => " (--time-unit, --velocity-unit)",
+            RecordFault::GapTooLong { .. } => " (--max-gap)",
+            RecordFault::NoMean { .. } => " (--mean-velocity)",
+            RecordFault::IntegralTooLong { .. } => " (--integral)",
+            RecordFault::Segment { .. } => " (--segment)",
+            _ => "",
+        },
+        _ => "",
     }
 }
 

@@ -55,6 +55,9 @@ pub mod units;
 
 pub mod error;
 
+mod file;
+pub mod table;
+
 pub mod fibre;
 
 pub mod field;

@@ -90,7 +90,7 @@ pub enum StudyFault {
         advice: String,
     },
     /// Another number of points than asked for.
-    #[error("makes {points} points, not the {asked} that --points asks for")]
+    #[error("makes {points} points, not the {asked} that were asked for")]
     OtherPoints {
         /// How many.
         points: u64,
@@ -139,19 +139,19 @@ pub enum StudyFault {
 #[non_exhaustive]
 pub enum JournalError {
     /// Another process writes it.
-    #[error("{}: another spunlaid is at work in this folder; wait for it, or name another folder with --out", path.display())]
+    #[error("{}: another spunlaid is at work in this folder; wait for it, or use another folder", path.display())]
     InUse {
         /// The journal.
         path: PathBuf,
     },
     /// Not a journal.
-    #[error("{}: is not the journal of a study, or its first line is damaged; nothing of it can be used. Name another folder with --out, or start anew with --force", path.display())]
+    #[error("{}: is not the journal of a study, or its first line is damaged; nothing of it can be used. Use another folder, or start anew", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
     },
     /// A journal of another format.
-    #[error("{}: is a journal of format {format}, and this spunlaid knows {known}. Go on with the spunlaid that wrote it, name another folder with --out, or start anew with --force", path.display())]
+    #[error("{}: is a journal of format {format}, and this spunlaid knows {known}. Go on with the spunlaid that wrote it, use another folder, or start anew", path.display())]
     Format {
         /// The file.
         path: PathBuf,

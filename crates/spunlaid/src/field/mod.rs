@@ -8,7 +8,7 @@
 //! use spunlaid::field::{Field, Hint, Values};
 //! use spunlaid::vec3::Vec3;
 //!
-//! # fn main() -> Result<(), spunlaid::error::FieldError> {
+//! # fn main() -> Result<(), spunlaid::error::FileError> {
 //! // Plane shear between y = 0 and y = 1 m: points along x first, then y, then z.
 //! let axes = [vec![0.0, 2.0], vec![0.0, 1.0], vec![0.0, 1.0]];
 //! let velocity = [0.0, 0.0, 10.0, 10.0, 0.0, 0.0, 10.0, 10.0].map(|u| Vec3::new(u, 0.0, 0.0));
@@ -35,7 +35,7 @@ pub use mesh::cells::{Cells, Shape};
 pub use values::Values;
 pub use warning::FieldWarning;
 
-use crate::error::FieldError;
+use crate::error::FileError;
 use crate::vec3::Vec3;
 use lattice::Lattice;
 use mesh::Mesh;
@@ -93,7 +93,7 @@ impl Field {
     ///
     /// # Errors
     /// When coordinates do not increase, or values are too few, too many or not finite.
-    pub fn lattice(axes: [Vec<f64>; 3], values: &Values) -> Result<Self, FieldError> {
+    pub fn lattice(axes: [Vec<f64>; 3], values: &Values) -> Result<Self, FileError> {
         let count = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
         let quantities = values.check(count.unwrap_or(usize::MAX))?;
         let lattice = Lattice::new(axes, quantities)?;
@@ -117,7 +117,7 @@ impl Field {
         points: &[Vec3<f64>],
         cells: &Cells,
         values: &Values,
-    ) -> Result<(Self, Vec<FieldWarning>), FieldError> {
+    ) -> Result<(Self, Vec<FieldWarning>), FileError> {
         let quantities = values.check(points.len())?;
         let (mesh, warnings) = Mesh::new(points, cells, quantities)?;
         Ok((Self { support: Support::Mesh(mesh), turbulence: values.has_turbulence() }, warnings))
@@ -137,7 +137,7 @@ impl Field {
     ///
     /// # Errors
     /// When points are too few, or values are too few, too many or not finite.
-    pub fn points(points: &[Vec3<f64>], values: &Values) -> Result<(Self, Vec<FieldWarning>), FieldError> {
+    pub fn points(points: &[Vec3<f64>], values: &Values) -> Result<(Self, Vec<FieldWarning>), FileError> {
         let mut nodes = node::nodes(points, values.check(points.len())?)?;
         let (place_of, merged) = node::merge(&mut nodes);
         let firsts = nodes.into_iter().zip(0..).filter(|(_, i)| place_of[*i as usize] == *i);

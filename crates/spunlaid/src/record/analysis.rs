@@ -5,8 +5,8 @@ use super::flat::FlatPart;
 use super::interval::{Interval, error};
 use super::moments::Powers;
 use super::warning::{BLOCK_TIMES, BLOCKS, warnings};
-use super::{Autocorrelation, IntegralRule, Moments, Record, Samples, Trend, Warning, problem};
-use crate::error::{Error, RecordFault, RecordPlace};
+use super::{Autocorrelation, IntegralRule, Moments, Record, Samples, Trend, Warning};
+use crate::error::{FileError, RecordFault};
 use crate::statistics::{Spectrum, Welch, Window};
 use std::ops::Range;
 
@@ -130,7 +130,7 @@ impl Analysis {
 ///
 /// # Errors
 /// When nothing can be said: too few samples, no fluctuation, no mean flow, settings the record does not bear.
-pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, Error> {
+pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, FileError> {
     let (samples, interval) = (record.samples(), record.interval);
     check(record, settings)?;
     let lengths: Vec<usize> =
@@ -187,11 +187,15 @@ pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, Error> 
     Ok(analysis)
 }
 
-fn refuse(record: &Record, column: Option<&str>, fault: RecordFault) -> Error {
-    problem(&record.file, RecordPlace::Whole, column, fault)
+fn refuse(record: &Record, column: Option<&str>, fault: RecordFault) -> FileError {
+    let error = FileError::from(fault).file(&record.file);
+    match column {
+        Some(column) => error.column(column),
+        None => error,
+    }
 }
 
-fn check(record: &Record, settings: &Settings) -> Result<(), Error> {
+fn check(record: &Record, settings: &Settings) -> Result<(), FileError> {
     let samples = record.samples();
     if samples < LEAST_SAMPLES {
         return Err(refuse(
@@ -253,7 +257,7 @@ fn block_time(integral_time: f64, autocorrelation: &Autocorrelation) -> f64 {
 }
 
 /// Samples in a segment of the spectrum.
-fn segment(record: &Record, integral_time: f64, settings: &Settings) -> Result<usize, Error> {
+fn segment(record: &Record, integral_time: f64, settings: &Settings) -> Result<usize, FileError> {
     // A power of two that the record holds: the highest one there is.
     let most = (1 << record.samples().ilog2()).min(LONGEST_SEGMENT);
     if let Some(asked) = settings.spectrum.segment {

@@ -41,7 +41,6 @@ impl Interval {
     /// the interval is Student's with `B−1` degrees of freedom, of the logarithm where all are positive and
     /// `positive` is said.
     pub(super) fn jackknife(value: f64, left_out: &[f64], positive: bool) -> Self {
-        let blocks = left_out.len() as f64;
         let quantile = student_t_95((left_out.len() as u64).saturating_sub(1));
         let in_logarithm = positive && value > 0.0 && left_out.iter().all(|x| *x > 0.0);
         if in_logarithm {

@@ -5,7 +5,7 @@
 //! ```
 //! use spunlaid::record::{Layout, Settings, analyse, parse_csv};
 //!
-//! # fn main() -> Result<(), spunlaid::error::Error> {
+//! # fn main() -> Result<(), spunlaid::error::FileError> {
 //! let mut text = String::from("time_ms;u_m_s\n");
 //! for i in 0..2000 {
 //!     let u = 10.0 + f64::from(i * i % 1009) / 1009.0;
@@ -21,25 +21,25 @@
 mod analysis;
 mod columns;
 mod correlation;
-mod csv;
 mod flat;
 mod interval;
 mod moments;
 mod parquet;
 mod rows;
+mod text;
 mod warning;
 
 pub use analysis::{Analysis, Component, Settings, SpectrumSettings, analyse};
 pub use correlation::{Autocorrelation, IntegralRule};
-pub use csv::parse_csv;
 pub use flat::FlatPart;
 pub use interval::Interval;
 pub use moments::Moments;
+pub use text::parse_csv;
 pub use warning::{Trend, Warning};
 
-use crate::error::{Error, RecordFault, RecordPlace, RecordProblem};
-use std::fs::File;
-use std::io::{ErrorKind, Read, Seek};
+use crate::error::{FileError, FileKind};
+use crate::file;
+use std::io::Read;
 use std::path::Path;
 
 /// Most numbers of a record that are kept, over all components.
@@ -84,6 +84,8 @@ pub struct Reading {
     pub unused: Vec<String>,
     /// Whether there was a column of time.
     pub timed: bool,
+    /// CRC-32 of the file.
+    pub checksum: u32,
 }
 
 impl Record {
@@ -131,45 +133,27 @@ impl Default for Layout {
     }
 }
 
-/// Reads a velocity record, Parquet if it begins like one, CSV otherwise.
+/// Reads a velocity record: Parquet if it begins like one, CSV otherwise.
 ///
 /// # Errors
 /// When the file cannot be read or is no evenly sampled velocity record; the message says where and why.
-pub fn read_record(path: &Path, layout: &Layout) -> Result<Record, Error> {
+pub fn read_record(path: &Path, layout: &Layout) -> Result<Record, FileError> {
     let name = path.display().to_string();
-    let failed = |source: std::io::Error| {
-        let fault = match source.kind() {
-            ErrorKind::NotFound => RecordFault::NotThere,
-            ErrorKind::IsADirectory => RecordFault::IsFolder,
-            _ => RecordFault::Unreadable { message: source.to_string() },
-        };
-        problem(&name, RecordPlace::Whole, None, fault)
-    };
-    let mut file = File::open(path).map_err(failed)?;
-    if file.metadata().map_err(failed)?.is_dir() {
-        return Err(problem(&name, RecordPlace::Whole, None, RecordFault::IsFolder));
-    }
+    let mut file = file::open(path, FileKind::Record)?;
+    let failed = |source| file::unreadable(&source, path, FileKind::Record);
     let mut start = Vec::new();
     file.by_ref().take(4).read_to_end(&mut start).map_err(failed)?;
-    if start == parquet::MAGIC {
-        return parquet::read(file, &name, layout);
+    if start != parquet::MAGIC {
+        return parse_csv(start.chain(file), &name, layout);
     }
-    // What cannot be wound back, a pipe, is read on.
-    match file.rewind() {
-        Ok(()) => parse_csv(file, &name, layout),
-        Err(_) => parse_csv(start.chain(file), &name, layout),
-    }
+    file.read_to_end(&mut start).map_err(failed)?;
+    parse_parquet(start, &name, layout)
 }
 
 /// Reads a Parquet file held in memory; `name` is what messages call it.
 ///
 /// # Errors
 /// As [`read_record`].
-pub fn parse_parquet(bytes: Vec<u8>, name: &str, layout: &Layout) -> Result<Record, Error> {
-    parquet::read(::bytes::Bytes::from(bytes), name, layout)
-}
-
-fn problem(file: &str, place: RecordPlace, column: Option<&str>, fault: RecordFault) -> Error {
-    let column = column.map(|column| crate::units::excerpt(column, 40));
-    Error::Record(Box::new(RecordProblem { file: file.to_owned(), place, column, fault }))
+pub fn parse_parquet(bytes: Vec<u8>, name: &str, layout: &Layout) -> Result<Record, FileError> {
+    parquet::parse(bytes.into(), name, layout)
 }
