@@ -170,7 +170,7 @@ fn options(error: &Error) -> &'static str {
 fn record_options(fault: &FileFault) -> &'static str {
     match fault {
         FileFault::NoUnit { .. } => " (or --time-unit, --velocity-unit)",
-        FileFault::Record(fault) => match **fault {
+        FileFault::Record(fault) => match fault {
             RecordFault::NoVelocity { .. } => " (--columns, --velocity-unit)",
             RecordFault::TooManyComponents { .. } => " (--columns)",
             RecordFault::NoTime { .. }

@@ -7,7 +7,7 @@ mod record;
 mod study;
 
 pub use field::FieldFault;
-pub use file::{FileError, FileFault, FileKind, FilePart, FilePlace};
+pub use file::{FileError, FileFault, FileKind, FilePlace};
 pub use profile::ProfileFault;
 pub use record::RecordFault;
 pub use study::{JournalError, StudyFault};

@@ -269,7 +269,7 @@ fn rejects_what_is_no_file() {
     let at = |path: &Path| read_record(path, &Layout::default()).unwrap_err().to_string();
     assert_eq!(
         at(Path::new("no/a.csv")),
-        "no/a.csv: there is no such file; name a velocity record, CSV or Parquet"
+        "no/a.csv: there is no such file; name a velocity record, CSV in UTF-8 or Latin-1, or Parquet"
     );
     assert!(at(Path::new("src")).ends_with("is a folder; name the velocity record in it"));
 }

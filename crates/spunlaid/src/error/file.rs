@@ -68,24 +68,15 @@ pub enum FilePlace {
     Cell(u64),
 }
 
-/// A part of a file, by the name that the file gives it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum FilePart {
-    /// A column of a table.
-    Column(String),
-    /// An array or an element.
-    Array(String),
-}
-
 /// A reason why a file cannot be used: reads as `wire.csv:12: column u_m_s: "x" is not a number…`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FileError {
     /// Name of the file, as given; empty where there is none.
-    pub file: String,
+    pub file: Box<str>,
     /// Where in it.
     pub place: FilePlace,
-    /// The column or array, where one is to blame.
-    pub part: Option<FilePart>,
+    /// The column or array, where one is to blame: `column u_m_s`.
+    pub part: Option<Box<str>>,
     /// What is wrong.
     pub fault: FileFault,
 }
@@ -103,21 +94,21 @@ impl FileError {
     /// The same, found in this array unless a part is known already.
     #[must_use]
     pub(crate) fn array(mut self, name: &str) -> Self {
-        self.part.get_or_insert_with(|| FilePart::Array(excerpt(name, 40)));
+        self.part.get_or_insert_with(|| excerpt(name, 40).into());
         self
     }
 
     /// The same, found in this column unless a part is known already.
     #[must_use]
     pub(crate) fn column(mut self, name: &str) -> Self {
-        self.part.get_or_insert_with(|| FilePart::Column(excerpt(name, 40)));
+        self.part.get_or_insert_with(|| format!("column {}", excerpt(name, 40)).into());
         self
     }
 
     /// The same, found in this file.
     #[must_use]
     pub(crate) fn file(self, file: &str) -> Self {
-        Self { file: excerpt(file, 1000), ..self }
+        Self { file: excerpt(file, 1000).into(), ..self }
     }
 
     /// The same, found in the file at this path.
@@ -129,7 +120,7 @@ impl FileError {
 
 impl<F: Into<FileFault>> From<F> for FileError {
     fn from(fault: F) -> Self {
-        Self { file: String::new(), place: FilePlace::Whole, part: None, fault: fault.into() }
+        Self { file: Box::default(), place: FilePlace::Whole, part: None, fault: fault.into() }
     }
 }
 
@@ -152,10 +143,8 @@ impl fmt::Display for FileError {
             FilePlace::Point(point) => write!(f, "point {point}: ")?,
             FilePlace::Cell(cell) => write!(f, "cell {cell}: ")?,
         }
-        match &self.part {
-            None => {}
-            Some(FilePart::Column(name)) => write!(f, "column {name}: ")?,
-            Some(FilePart::Array(name)) => write!(f, "{name}: ")?,
+        if let Some(part) = &self.part {
+            write!(f, "{part}: ")?;
         }
         write!(f, "{}", self.fault)
     }
@@ -275,36 +264,18 @@ pub enum FileFault {
     },
     /// Something that only a velocity record has.
     #[error(transparent)]
-    Record(Box<RecordFault>),
+    Record(#[from] RecordFault),
     /// Something that only a field has.
     #[error(transparent)]
-    Field(Box<FieldFault>),
+    Field(#[from] FieldFault),
     /// Something that only a profile or a spectrum has.
     #[error(transparent)]
-    Profile(Box<ProfileFault>),
+    Profile(#[from] ProfileFault),
 }
 
 impl FileFault {
     /// A cell that is no number.
     pub(crate) fn not_a_number(text: &str) -> Self {
         Self::NotANumber { text: excerpt(text, 40) }
-    }
-}
-
-impl From<RecordFault> for FileFault {
-    fn from(fault: RecordFault) -> Self {
-        Self::Record(Box::new(fault))
-    }
-}
-
-impl From<FieldFault> for FileFault {
-    fn from(fault: FieldFault) -> Self {
-        Self::Field(Box::new(fault))
-    }
-}
-
-impl From<ProfileFault> for FileFault {
-    fn from(fault: ProfileFault) -> Self {
-        Self::Profile(Box::new(fault))
     }
 }

@@ -2,6 +2,24 @@
 //!
 //! file (CSV, Parquet) → [`Record`] (evenly sampled, SI) → [`analyse`] → [`Analysis`]
 //!
+//! **In** goes the velocity at a point over time: a row for each sample, a column of time, and one to three columns of
+//! velocity. Units stand in the header: `time_ms`, `u [m/s]`. A [`Layout`] tells what a file does not: the sampling
+//! rate, units, which columns to take.
+//!
+//! | format | what is read |
+//! |---|---|
+//! | text | as [`crate::table`] describes; an empty line is a missing sample where there is no time |
+//! | Parquet | plain columns of doubles, floats or integers, with nulls; uncompressed or Snappy |
+//!
+//! **Out** come, with 95 % confidence intervals: mean velocity [m/s], turbulence intensity [-], integral time [s],
+//! length scale [m] and cut-off frequency [Hz]; for each component also rms, skewness, flatness, spectrum
+//! [(m/s)²/Hz] and autocorrelation; and [`Warning`]s about what the numbers rest on. `docs/analyse.md` of the
+//! repository has the formulas.
+//!
+//! **Limits.** Samples are evenly spaced to within 1 %; up to [`LONGEST_GAP`] missing samples in a row are put on a
+//! straight line between their neighbours. A record has 64 samples at least and [`MOST_NUMBERS`] numbers at most,
+//! which take 8 bytes each. Text is read line by line, Parquet as a whole.
+//!
 //! ```
 //! use spunlaid::record::{Layout, Settings, analyse, parse_csv};
 //!

@@ -57,6 +57,7 @@ pub struct Table<R> {
     ahead: VecDeque<Line>,
     heads: Vec<Head>,
     named: bool,
+    header: u64,
     parting: Parting,
     /// Decimal sign of the numbers so far.
     decimals: Option<u8>,
@@ -84,6 +85,7 @@ impl<R: Read> Table<R> {
             ahead.push_back(line);
         }
         let start = start::find(ahead.make_contiguous()).ok_or(FileFault::NoRows)?;
+        let header = ahead.get(start.header).map_or(0, |line| line.number);
         ahead.drain(..start.row);
         if let Some(first) = ahead.front_mut() {
             first.blank = 0;
@@ -96,6 +98,7 @@ impl<R: Read> Table<R> {
             ahead,
             heads,
             named,
+            header,
             parting: start.parting,
             decimals: None,
             row: Line::default(),
@@ -111,6 +114,11 @@ impl<R: Read> Table<R> {
     /// Whether the columns have names of the file's own.
     pub const fn named(&self) -> bool {
         self.named
+    }
+
+    /// Where the names are.
+    pub(crate) const fn header(&self) -> FilePlace {
+        FilePlace::Line(self.header)
     }
 
     /// Goes on to the next row; `false` at the end.

@@ -12,6 +12,8 @@ pub(super) struct Start {
     /// Cells of the first row.
     pub(super) cells: usize,
     pub(super) names: Option<Vec<String>>,
+    /// Index of the line of names.
+    pub(super) header: usize,
 }
 
 /// Finds the first row and the names above it.
@@ -23,20 +25,31 @@ pub(super) fn find(lines: &[Line]) -> Option<Start> {
     let cells = parting.cells(text(first));
     let fits =
         |names: &[String]| cells.get(names.len()..).is_some_and(|rest| rest.iter().all(|c| c.is_empty()));
+    // Without empty names at the end, unless there is something below them.
+    let names = |line: &str, parting| {
+        let mut names = names(line, parting);
+        let empty = |i: usize| cells.get(i).is_none_or(|cell| cell.is_empty());
+        while names.last().is_some_and(String::is_empty) && empty(names.len() - 1) {
+            names.pop();
+        }
+        names
+    };
     let names_in = |line: &str| {
         let by_rows = names(line, parting);
         let by_itself = names(line, Parting::of(line));
         [by_rows, by_itself].into_iter().find(|names| !names.is_empty() && fits(names))
     };
-    let start = |row: usize, parting, names| Some(Start { row, parting, cells: cells.len(), names });
+    let start =
+        |row: usize, parting, names, header| Some(Start { row, parting, cells: cells.len(), names, header });
     // The nearest line of as many words; what is between it and the first row is taken for rows.
     let header = (0..first).rev().find_map(|i| Some((i, names_in(text(i)).filter(|n| words(n, parting))?)));
     if let Some((i, mut names)) = header {
         let mut above = (0..i).rev().map_while(|i| names_in(text(i)).filter(|n| words(n, parting)));
-        let mut units = None;
+        let (mut units, mut at) = (None, i);
         while notes(&names) || names.iter().any(|name| is_unit(name)) {
             let Some(line) = above.next() else { break };
             let below = std::mem::replace(&mut names, line);
+            at -= 1;
             if !notes(&below) {
                 units = Some(below);
             }
@@ -45,13 +58,13 @@ pub(super) fn find(lines: &[Line]) -> Option<Start> {
         {
             *name = format!("{name} [{}]", unit.trim_matches(['[', ']', '(', ')']));
         }
-        return start(content[i + 1], parting, Some(names));
+        return start(content[i + 1], parting, Some(names), content[at]);
     }
     let row = content[first];
     let above = row.checked_sub(1).map(|i| lines[i].text.as_str());
     if let Some(comment) = above.filter(|text| is_comment(text)) {
         let names = names_in(comment.trim_start_matches(['#', '%', '/', ' '])).filter(|n| words(n, parting));
-        return start(row, parting, names);
+        return start(row, parting, names, row - 1);
     }
     // A line of words all the same; below a single name a comma is a decimal one.
     let names = above.map(|text| names(text, Parting::of(text)));
@@ -61,7 +74,7 @@ pub(super) fn find(lines: &[Line]) -> Option<Start> {
         }
         _ => parting,
     };
-    start(row, parting, names)
+    start(row, parting, names, row.saturating_sub(1))
 }
 
 /// The first row of nothing but numbers.
@@ -116,7 +129,7 @@ fn mixed<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, Pa
     longest.map(|(_, from, parting)| (from, parting))
 }
 
-/// The names in a line, without empty ones at its end; with blanks between them, a unit goes with its name.
+/// The names in a line; with blanks between them, a unit goes with its name.
 fn names(line: &str, parting: Parting) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for cell in parting.cells(line) {
@@ -131,7 +144,6 @@ fn names(line: &str, parting: Parting) -> Vec<String> {
             _ => names.push(cell.to_owned()),
         }
     }
-    while names.pop_if(|name| name.is_empty()).is_some() {}
     names
 }
 

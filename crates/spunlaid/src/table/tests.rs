@@ -38,7 +38,7 @@ fn rows_begin_below_the_names_whatever_is_above_them() {
         "t_s,u_m_s\n0,1.5\n1,2.5\n",
         "Made;today\nRate;10\nChannels;2\n\nt_s;u_m_s\n0;1,5\n1;2,5\n",
         "20000\nt_s,u_m_s\n0,1.5\n1,2.5\n",
-        "a file\n# t_s u_m_s\n0 1.5\n# a word\n1 2.5",
+        "a file of mine\n# t_s u_m_s\n0 1.5\n# a word\n1 2.5",
         "t [s] u [m/s]\n0,0 1,5\n1,0 2,5\n",
         "t s u m/s\n0 1.5\n1 2.5\n".replace("t s", "t_s").as_str(),
         "t\tu\ns\tm/s\n0\t1.5\n1\t2.5\n",

@@ -72,9 +72,7 @@ impl DataFiles {
 /// The fluctuation of a record, and what the record says of the air.
 fn measured(record: Record) -> Result<Measured, FileError> {
     let (analysis, with_mean) = match analyse(&record, &Settings::default()) {
-        Err(FileError { fault: FileFault::Record(fault), .. })
-            if matches!(*fault, RecordFault::NoMean { .. }) =>
-        {
+        Err(FileError { fault: FileFault::Record(RecordFault::NoMean { .. }), .. }) => {
             // Any mean will do for what does not rest on it.
             (analyse(&record, &Settings { mean_velocity: Some(1.0), ..Settings::default() })?, false)
         }

@@ -116,7 +116,7 @@ fn read<const N: usize>(
     }
     let mut columns = [None; N];
     for (column, wanted) in columns.iter_mut().zip(wanted) {
-        *column = find(table.heads(), wanted)?;
+        *column = find(table.heads(), wanted).map_err(|error| error.at(table.header()))?;
     }
     let mut values: [Vec<f64>; N] = std::array::from_fn(|_| Vec::new());
     while table.next_row()? {
