@@ -1,5 +1,6 @@
 //! Bad studies and what is said of them: each file `bad_studies/NAME.toml` is refused with the message in
 //! `bad_studies/NAME.txt`. With `BLESS=1` in the environment the messages are written, to be read over.
+#![allow(clippy::panic)]
 #![allow(clippy::unwrap_used)]
 
 use spunlaid::error::{Error, FileFault, FileKind};

@@ -1,5 +1,6 @@
 //! Bad input and what is said of it: each file `bad_cases/NAME.toml` is refused with the message in
 //! `bad_cases/NAME.txt`. With `BLESS=1` in the environment the messages are written, to be read over.
+#![allow(clippy::panic)]
 #![allow(clippy::unwrap_used)]
 
 use spunlaid::error::{Error, FileFault, FileKind};
