@@ -2,7 +2,8 @@
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
-use spunlaid::record::{IntegralRule, Window};
+use spunlaid::record::IntegralRule;
+use spunlaid::statistics::Window;
 use spunlaid::units::Dimension;
 use std::path::PathBuf;
 

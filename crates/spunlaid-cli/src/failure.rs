@@ -1,6 +1,7 @@
 //! Why the program ends without doing what it was asked.
 
 use parquet::errors::ParquetError;
+use spunlaid::error::{Error, Fault, FileError, FileFault, JournalError, RecordFault, StudyFault};
 use std::fmt;
 use std::io;
 use std::panic::{self, AssertUnwindSafe};
@@ -10,7 +11,9 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// The library says no.
-    Library(spunlaid::error::Error),
+    Library(Error),
+    /// The record to analyse cannot be used.
+    Record(Box<FileError>),
     /// A file or folder cannot be written.
     Unwritable { path: PathBuf, source: io::Error },
     /// The file of `new` cannot be written.
@@ -63,9 +66,10 @@ impl Failure {
     /// 1 the input is wrong, 2 the input is not to blame, 130 interrupted.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
-            Self::Library(spunlaid::error::Error::Interrupted) | Self::Paused { .. } => 130,
+            Self::Library(Error::Interrupted) | Self::Paused { .. } => 130,
             Self::Library(error) => error.exit_code(),
-            Self::HoldsResults { .. }
+            Self::Record(_)
+            | Self::HoldsResults { .. }
             | Self::NotAFolder { .. }
             | Self::Exists { .. }
             | Self::OtherStudy { .. }
@@ -89,8 +93,14 @@ impl Failure {
     }
 }
 
-impl From<spunlaid::error::Error> for Failure {
-    fn from(error: spunlaid::error::Error) -> Self {
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        Self::Record(Box::new(error))
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
         Self::Library(error)
     }
 }
@@ -98,10 +108,11 @@ impl From<spunlaid::error::Error> for Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Library(spunlaid::error::Error::Interrupted) => {
+            Self::Library(Error::Interrupted) => {
                 write!(f, "interrupted; nothing was written. The same command starts again")
             }
-            Self::Library(error) => error.fmt(f),
+            Self::Library(error) => write!(f, "{error}{}", options(error)),
+            Self::Record(error) => write!(f, "{error}{}", record_options(&error.fault)),
             Self::Unwritable { path, source } => {
                 write!(f, "{}: cannot be written: {source}; ", path.display())?;
                 match source.kind() {
@@ -163,6 +174,45 @@ impl fmt::Display for Failure {
     }
 }
 
+/// The options that the way out of a library's error takes.
+fn options(error: &Error) -> &'static str {
+    match error {
+        Error::Journal(JournalError::InUse { .. }) => " (--out)",
+        Error::Journal(JournalError::Foreign { .. } | JournalError::Format { .. }) => " (--out, --force)",
+        Error::Rejected(problems) => {
+            let by_number = problems.iter().any(|problem| {
+                matches!(
+                    problem.what,
+                    Fault::Study(StudyFault::TooManyPoints { .. } | StudyFault::OtherPoints { .. })
+                )
+            });
+            if by_number { " (--points)" } else { "" }
+        }
+        _ => "",
+    }
+}
+
+/// The options of `analyse` that help with a record.
+fn record_options(fault: &FileFault) -> &'static str {
+    match fault {
+        FileFault::NoUnit { .. } => " (or --time-unit, --velocity-unit)",
+        FileFault::Record(fault) => match fault {
+            RecordFault::NoVelocity { .. } => " (--columns, --velocity-unit)",
+            RecordFault::TooManyComponents { .. } => " (--columns)",
+            RecordFault::NoTime { .. }
+            | RecordFault::TimeNotIncreasing { .. }
+            | RecordFault::Uneven { .. } => " (--rate)",
+            RecordFault::MixedUnits { .. } => " (--time-unit, --velocity-unit)",
+            RecordFault::GapTooLong { .. } => " (--max-gap)",
+            RecordFault::NoMean { .. } => " (--mean-velocity)",
+            RecordFault::IntegralTooLong { .. } => " (--integral)",
+            RecordFault::Segment { .. } => " (--segment)",
+            _ => "",
+        },
+        _ => "",
+    }
+}
+
 /// Most differences that are told.
 const MOST_TOLD: usize = 20;
 
@@ -190,7 +240,7 @@ fn other_study(f: &mut fmt::Formatter<'_>, folder: &Path, differences: &[String]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::error::{Error, JournalError};
+    use spunlaid::error::{Error, FlightFault, JournalError};
     use std::sync::LazyLock;
 
     static FULL: LazyLock<io::Error> = LazyLock::new(|| io::ErrorKind::StorageFull.into());
@@ -208,7 +258,7 @@ mod tests {
             Failure::OtherVersion { folder: path(), version: "0".to_owned() },
             Failure::NoSuchFigure { name: "12".to_owned(), known: "2".to_owned() },
             Failure::NoSuchPoint { point: 3, points: 2 },
-            Error::NotThere { path: path() }.into(),
+            Error::Flight(FlightFault::Empty).into(),
             Error::Rejected(Vec::new()).into(),
             Error::from(JournalError::InUse { path: path() }).into(),
             Error::from(JournalError::Foreign { path: path() }).into(),

@@ -65,7 +65,7 @@ fn rejects_files_that_are_no_case() {
     sparse.set_len(2 << 30).unwrap();
     fs::create_dir(desk.path("folder.toml")).unwrap();
     for (name, wanted) in [
-        ("nowhere.toml", "nowhere.toml: there is no such file; `spunlaid new nowhere.toml` writes a case"),
+        ("nowhere.toml", "nowhere.toml: there is no such file; `spunlaid new` writes a case"),
         ("folder.toml", "folder.toml: is a folder"),
         ("large.toml", "large.toml: is larger than"),
         ("binary.toml", "binary.toml:2: byte 0xff (number 3 of the file) is not UTF-8 text"),
@@ -180,4 +180,18 @@ fn a_run_that_blows_up_names_node_time_and_cause() {
     assert!(last.starts_with("error: replicate ") && last.contains("node "), "{said}");
     assert!(last.contains("is no longer finite at ") && last.contains(" s; "), "{said}");
     assert_eq!(desk.entries(""), names(&["brief.toml"]));
+}
+
+#[test]
+fn a_record_that_cannot_be_used_is_told_with_the_option_that_helps() {
+    let desk = Desk::new();
+    for (text, wanted) in [
+        ("u_m_s\n1\n2\n", "or give the sampling rate (--rate)\n"),
+        ("time_s,u\n0,1\n1,2\n", "like u_m_s (or --time-unit, --velocity-unit)\n"),
+        ("time_s,p\n0,1\n1,2\n", "in which unit (--columns, --velocity-unit)\n"),
+    ] {
+        fs::write(desk.path("a.csv"), text).unwrap();
+        let said = refusal(&mut desk.spunlaid("analyse a.csv"), 1);
+        assert!(said.starts_with("error: a.csv: ") && said.ends_with(wanted), "{said}");
+    }
 }

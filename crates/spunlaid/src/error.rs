@@ -1,83 +1,32 @@
 //! What can go wrong, and how it is told: where, which key, what value, what is allowed, the way out.
 
-mod data;
 mod field;
+mod file;
 mod flight;
+mod profile;
 mod record;
 mod study;
 
-pub use data::{DataError, TableFault};
-pub use field::{FieldError, FieldFault, FieldPlace};
+pub use field::FieldFault;
+pub use file::{FileError, FileFault, FileKind, FilePlace};
 pub use flight::FlightFault;
-pub use record::{RecordFault, RecordPlace, RecordProblem};
+pub use profile::ProfileFault;
+pub use record::RecordFault;
 pub use study::{JournalError, StudyFault};
 
-use crate::units::{Dimension, QuantityFault, shortest};
-use std::fmt;
-use std::path::PathBuf;
+use crate::units::{Dimension, Printable, QuantityFault, shortest};
+use std::fmt::{self, Write};
 
 /// What can go wrong.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The case file is not there.
-    #[error("{}: there is no such file; `spunlaid new {}` writes a case to start from", path.display(), path.display())]
-    NotThere {
-        /// Where it was looked for.
-        path: PathBuf,
-    },
-    /// The study file is not there.
-    #[error("{}: there is no such file; `spunlaid sweep --help` shows what a study looks like", path.display())]
-    NoStudy {
-        /// Where it was looked for.
-        path: PathBuf,
-    },
-    /// The case file is a folder.
-    #[error("{}: is a folder; name the case file in it", path.display())]
-    IsFolder {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// The case file is too large to be one.
-    #[error("{}: is larger than {most} bytes, which no case file is; name the case file", path.display())]
-    TooLarge {
-        /// The file.
-        path: PathBuf,
-        /// The largest size read [bytes].
-        most: u64,
-    },
-    /// The case file is not UTF-8.
-    #[error(
-        "{}:{line}: byte {byte:#04x} (number {position} of the file) is not UTF-8 text; save the file as UTF-8, or write um for µm",
-        path.display()
-    )]
-    NotText {
-        /// The file.
-        path: PathBuf,
-        /// Line, from 1.
-        line: usize,
-        /// The first byte that is not UTF-8.
-        byte: u8,
-        /// Which byte of the file it is, from 1.
-        position: usize,
-    },
-    /// The case file cannot be read.
-    #[error("{}: cannot be read: {source}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
+    /// A file cannot be used.
+    #[error(transparent)]
+    File(#[from] Box<FileError>),
     /// The case cannot be run as it is: everything found, in the order of the file.
     #[error("{}", one_per_line(.0))]
     Rejected(Vec<Problem>),
-    /// A velocity record cannot be used.
-    #[error("{0}")]
-    Record(Box<RecordProblem>),
-    /// A field of air cannot be used.
-    #[error(transparent)]
-    Field(#[from] Box<FieldError>),
     /// A fibre's positions are no longer numbers.
     #[error("replicate {replicate}: node {node} is no longer finite at {time:e} s; {cause}")]
     NotFinite {
@@ -111,6 +60,12 @@ impl Error {
             ) => 2,
             _ => 1,
         }
+    }
+}
+
+impl From<FileError> for Error {
+    fn from(error: FileError) -> Self {
+        Self::File(Box::new(error))
     }
 }
 
@@ -194,6 +149,7 @@ pub type Problem = Finding<Fault>;
 
 impl<W: fmt::Display> fmt::Display for Finding<W> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut f = Printable(f);
         write!(f, "{}{}", self.place, self.key)?;
         if let Some(value) = &self.value {
             write!(f, " = {value}")?;
@@ -201,7 +157,7 @@ impl<W: fmt::Display> fmt::Display for Finding<W> {
         if !self.key.is_empty() {
             f.write_str(" ")?;
         }
-        self.what.fmt(f)
+        write!(f, "{}", self.what)
     }
 }
 
@@ -306,7 +262,7 @@ pub enum Fault {
     },
     /// A file that the case names.
     #[error("cannot be used: {0}")]
-    Data(DataError),
+    File(Box<FileError>),
     /// A number that the flow tells already.
     #[error("has no effect where {flow} tells the velocity; leave it out, and scale with air.speed_factor")]
     FlowTells {

@@ -58,6 +58,9 @@ pub mod units;
 
 pub mod error;
 
+mod file;
+pub mod table;
+
 pub mod fibre;
 
 pub mod field;

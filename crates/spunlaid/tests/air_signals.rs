@@ -8,7 +8,7 @@ use common::*;
 use spunlaid::air::{APART, Air, Eddies, EddyModel, FromFile, Measured, Said, SpectrumShape, SpectrumTable};
 use spunlaid::air::{Stream, StreamKey, Wind};
 use spunlaid::lanes::{Isa, WIDTH};
-use spunlaid::statistics::PowerSpectrum;
+use spunlaid::statistics::{Welch, Window};
 use spunlaid::vec3::Vec3;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -42,17 +42,17 @@ fn along(air: &Air, elements: usize, times: &[f64]) -> Vec<Vec<[Vec3<f64>; WIDTH
 fn spectra(air: &Air, interval: f64, samples: usize) -> [Vec<(f64, f64)>; 2] {
     let times: Vec<f64> = (0..samples).map(|i| i as f64 * interval).collect();
     let all = along(air, 4, &times);
-    let segment = PowerSpectrum::segment_length(samples);
+    let segment = Welch::segment_length(samples);
     [0, 1].map(|component| {
-        let mut spectrum = PowerSpectrum::new(interval, segment);
+        let mut spectrum = Welch::new(interval, segment, Window::Hann, 0.5);
         for lane in 0..WIDTH {
             for element in 0..4 {
                 let pick = |v: Vec3<f64>| if component == 0 { v.x } else { v.y };
                 let record: Vec<f64> = all.iter().map(|now| pick(now[element][lane])).collect();
-                spectrum.add(&record);
+                spectrum.add(&record, None);
             }
         }
-        spectrum.density()
+        spectrum.finish().points().collect()
     })
 }
 
@@ -132,7 +132,7 @@ fn stat_realised_spectra_follow_the_shape() {
         let air = Air { spectrum: shape, harmonics: 1024, ..table1_air() };
         let samples = 4096;
         let realised = spectra(&air, 1.0 / 800.0, samples);
-        let segments = samples / PowerSpectrum::segment_length(samples);
+        let segments = samples / Welch::segment_length(samples);
         let error = 1.0 / ((32 * segments.max(1)) as f64).sqrt();
         for (component, realised) in realised.iter().enumerate() {
             let wanted = air.energy_spectrum(component);

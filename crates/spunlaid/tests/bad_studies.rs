@@ -1,8 +1,9 @@
 //! Bad studies and what is said of them: each file `bad_studies/NAME.toml` is refused with the message in
 //! `bad_studies/NAME.txt`. With `BLESS=1` in the environment the messages are written, to be read over.
+#![allow(clippy::panic)]
 #![allow(clippy::unwrap_used)]
 
-use spunlaid::error::Error;
+use spunlaid::error::{Error, FileFault, FileKind};
 use spunlaid::input::read_study;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -37,9 +38,12 @@ fn rejects_every_bad_study_with_its_message() {
 
 #[test]
 fn rejects_what_is_no_readable_file() {
-    let refusal = |path: &str| read_study(Path::new(path), None).unwrap_err();
-    assert!(matches!(refusal("no/such/study.toml"), Error::NoStudy { .. }));
-    assert!(matches!(refusal("tests"), Error::IsFolder { .. }));
+    let refusal = |path: &str| match read_study(Path::new(path), None) {
+        Err(Error::File(error)) => error.fault,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(refusal("no/such/study.toml"), FileFault::NotThere(FileKind::Study));
+    assert_eq!(refusal("tests"), FileFault::IsFolder(FileKind::Study));
 }
 
 #[test]
@@ -47,7 +51,7 @@ fn enormous_studies_are_read_when_asked_for_by_number() {
     let path = Path::new("tests/bad_studies/enormous.toml");
     assert_eq!(read_study(path, Some(40_000)).unwrap().study.points.len(), 40_000);
     let other = read_study(path, Some(40)).unwrap_err().to_string();
-    assert!(other.ends_with("makes 40000 points, not the 40 that --points asks for"), "{other}");
+    assert!(other.ends_with("makes 40000 points, not the 40 that were asked for"), "{other}");
 }
 
 #[test]

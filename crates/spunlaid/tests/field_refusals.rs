@@ -65,7 +65,11 @@ fn rejects_meshes_with_place_and_way_out() {
             "0 1 4",
             "a.vtu: cell 8: has 63 entries in its list where 64 are needed; is the file whole?",
         ),
-        ("0 1 4 3", "0 1 4 x", "a.vtu:27: connectivity: \"x\" is not a number; write one"),
+        (
+            "0 1 4 3",
+            "0 1 4 x",
+            "a.vtu:27: connectivity: \"x\" stands in the place of a number; is the file whole, and the right one?",
+        ),
         ("<Points>", "<Spots>", "a.vtu:25: is not valid XML: expected 'Spots' tag, not 'Points' at 25:1"),
         (
             "Float64\" Name=\"Points",
@@ -238,11 +242,11 @@ fn rejects_legacy_files_with_place_and_way_out() {
 fn rejects_tables_with_place_and_way_out() {
     let head = "x,y,z,u,v,w\n";
     for (text, said) in [
-        ("", "a.vtu: holds no points; a field needs some"),
-        (head, "a.vtu: holds no points; a field needs some"),
+        ("", "a.vtu: holds no rows of numbers; is it the right file?"),
+        (head, "a.vtu: holds no rows of numbers; is it the right file?"),
         (
             "1,2,3,4,5,6\n",
-            "a.vtu:1: has no line of names above its numbers; write one, like x_m,y_m,z_m,u_m_s,v_m_s,w_m_s",
+            "a.vtu: has no line of names above its numbers; write one, like x_m,y_m,z_m,u_m_s,v_m_s,w_m_s",
         ),
         (
             "x,z,u,v,w\n1,2,3,4,5\n",
@@ -264,10 +268,13 @@ fn rejects_tables_with_place_and_way_out() {
             &format!("{head}1,2,3,4,5,6\n1,2,3,4,5,6,7\n"),
             "a.vtu:3: this row has 7 cells where 6 are needed; do decimal commas meet a comma between cells?",
         ),
-        (&format!("{head}1,2,3,4,5,6\n1,2,x7,4,5,6\n"), "a.vtu:3: z: \"x7\" is not a number; write one"),
+        (
+            &format!("{head}1,2,3,4,5,6\n1,2,x7,4,5,6\n"),
+            "a.vtu:3: column z: \"x7\" is not a number; write one, or leave the cell empty where a value is missing",
+        ),
         (
             &format!("{head}1,2,3,4,5,6\n1,2,3,4,inf,6\n"),
-            "a.vtu: point 2: inf is no number between −1e30 and 1e30; mend the value, or leave out what has none",
+            "a.vtu:3: column v: \"inf\" is not finite; leave the cell empty where a value is missing",
         ),
         (
             &format!("{head}1,2,3,4,5,6\n"),
@@ -279,7 +286,7 @@ fn rejects_tables_with_place_and_way_out() {
         ),
         (
             "\u{89}HDF\r\n\0\0",
-            "a.vtu: is neither VTK nor text; write it as VTK (.vtu, .vti, .vts, .vtr, .vtk) or as a table (.csv) in UTF-8",
+            "a.vtu:2: is not text; a field of air is VTK (.vtu, .vti, .vts, .vtr, .vtk) or a table (.csv)",
         ),
     ] {
         assert_eq!(refused(text.as_bytes()), said);

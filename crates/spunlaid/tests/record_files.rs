@@ -20,9 +20,11 @@ fn read(text: &str) -> Record {
 
 fn refused(text: impl AsRef<[u8]>, layout: &Layout) -> String {
     match parse_csv(text.as_ref(), "a.csv", layout) {
-        Err(error @ Error::Record(_)) => {
-            assert_eq!(error.exit_code(), 1);
-            error.to_string()
+        Err(error) => {
+            let said = error.to_string();
+            assert_eq!(Error::from(error).exit_code(), 1);
+            assert!(!said.contains("--"), "{said}");
+            said
         }
         other => panic!("{other:?}"),
     }
@@ -88,6 +90,25 @@ fn layouts_say_what_files_do_not() {
 }
 
 #[test]
+fn loggers_of_many_kinds_are_read() {
+    let toa5 = "\"TOA5\",\"mast\",\"CR1000\",\"12345\",\"CR1000.Std.27\",\"CPU:a.CR1\",\"9\",\"ten\"\n\
+        \"TIMESTAMP\",\"RECORD\",\"u\",\"state\"\n\"TS\",\"RN\",\"m/s\",\"\"\n\"\",\"\",\"Smp\",\"Smp\"\n\
+        \"2024-05-01 10:00:00\",1,10.5,\"on\"\n\"2024-05-01 10:00:00.1\",2,11,\"on\"\n";
+    let rate = Layout { rate: Some(10.0), ..Layout::default() };
+    let record = parse_csv(toa5.as_bytes(), "a.dat", &rate).unwrap();
+    assert_eq!(numbers(&record), [("u", &[10.5, 11.0][..])]);
+    assert_eq!(record.reading.unused, ["TIMESTAMP [TS]", "RECORD [RN]", "state"]);
+    let stamped = "Probe;55P11\nRate;1000\n\ntime_s;stamp;u_m_s\n0,000;10:00:00;10,5\n0,001;10:00:00;11\n";
+    assert_eq!(numbers(&read(stamped)), [("u", &[10.5, 11.0][..])]);
+}
+
+#[test]
+fn the_checksum_is_that_of_the_whole_file() {
+    let text = "time_s,u_m_s\n0,1\n1,2\n\n";
+    assert_eq!(read(text).reading.checksum, crc32fast::hash(text.as_bytes()));
+}
+
+#[test]
 fn gaps_are_filled_and_counted() {
     let record = read("time_s,u_m_s\n,\n0,nan\n1,10\n2,\n3,NaN\n4,13\n5,14\n8,17\n9,\n");
     // The first two rows and the last are cut off; two cells and two rows are put on straight lines.
@@ -120,27 +141,27 @@ fn rejects_with_line_column_and_way_out() {
     let head = "time_s,u_m_s\n0,1\n1,2\n2,3\n";
     let plain = Layout::default();
     for (text, said) in [
-        ("", "a.csv: holds no rows of numbers; a row for each sample is needed"),
-        ("time_s,u_m_s\n", "a.csv: holds no rows of numbers; a row for each sample is needed"),
+        ("", "a.csv: holds no rows of numbers; is it the right file?"),
+        ("time_s,u_m_s\n", "a.csv: holds no rows of numbers; is it the right file?"),
         (
             "time_s,u_m_s\n0,1\n",
             "a.csv: holds 1 samples; at least 64 are needed to say anything about turbulence",
         ),
         (
             "time_s,p_Pa\n0,1\n",
-            "a.csv: no column is a velocity, among time_s and p_Pa; name them like u_m_s, or pick them with --columns and --velocity-unit",
+            "a.csv: no column is a velocity, among time_s and p_Pa; name them like u_m_s, or say which columns are velocities, and in which unit",
         ),
         (
             "u_m_s\n1\n2\n",
-            "a.csv: has no column of time, among u_m_s; name it like time_s, or give the sampling rate, --rate \"20 kHz\"",
+            "a.csv: has no column of time, among u_m_s; name it like time_s, or give the sampling rate",
         ),
         (
             "time,u_m_s\n0,1\n",
-            "a.csv: column time: has no unit; write it in the header, time_s, or say --time-unit s",
+            "a.csv: column time: holds a time and has no unit; write the unit into its name, like time_s",
         ),
         (
             "time_s,u\n0,1\n",
-            "a.csv: column u: has no unit; write it in the header, u_m_s, or say --velocity-unit m/s",
+            "a.csv: column u: holds a velocity and has no unit; write the unit into its name, like u_m_s",
         ),
         (
             "time_s,u [Hz]\n0,1\n",
@@ -148,15 +169,15 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             "time_s,u_m_s,v_m_s,w_m_s,u2_m_s\n0,1,1,1,1\n",
-            "a.csv: has 4 velocity columns, u_m_s, v_m_s, w_m_s and u2_m_s; pick one to three with --columns",
+            "a.csv: has 4 velocity columns, u_m_s, v_m_s, w_m_s and u2_m_s; say which of them to take, one to three",
         ),
         (
             &format!("{head}3,x7\n"),
-            "a.csv:5: column u_m_s: \"x7\" is not a number; write one, or leave the cell empty where a sample is missing",
+            "a.csv:5: column u_m_s: \"x7\" is not a number; write one, or leave the cell empty where a value is missing",
         ),
         (
             &format!("{head}3,inf\n"),
-            "a.csv:5: column u_m_s: \"inf\" is not finite; leave the cell empty where a sample is missing",
+            "a.csv:5: column u_m_s: \"inf\" is not finite; leave the cell empty where a value is missing",
         ),
         (
             &format!("{head}3\n"),
@@ -168,40 +189,40 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             &format!("{head}2,4\n"),
-            "a.csv:5: column time_s: time goes from 2 s to 2 s; rows must be in order of time. If the times are only written with too few digits, give the sampling rate with --rate",
+            "a.csv:5: column time_s: time goes from 2 s to 2 s; rows must be in order of time. If the times are only written with too few digits, give the sampling rate",
         ),
         (
             &format!("{head}1,4\n"),
-            "a.csv:5: column time_s: time goes from 2 s to 1 s; rows must be in order of time. If the times are only written with too few digits, give the sampling rate with --rate",
+            "a.csv:5: column time_s: time goes from 2 s to 1 s; rows must be in order of time. If the times are only written with too few digits, give the sampling rate",
         ),
         (
             &format!("{head}3.5,4\n"),
-            "a.csv:5: column time_s: a step of 1.5 s after steps of 1 s; samples must be evenly spaced to within 1 %. Resample the record, or give --rate if the clock was even all the same",
+            "a.csv:5: column time_s: a step of 1.5 s after steps of 1 s; samples must be evenly spaced to within 1 %. Resample the record, or give the sampling rate if the clock was even all the same",
         ),
         (
             &format!("{head}1e12,4\n"),
-            "a.csv:5: column time_s: 999999999997 samples in a row are missing up to here, more than the 10 that are filled in; cut the record here, or allow more with --max-gap",
+            "a.csv:5: column time_s: 999999999997 samples in a row are missing up to here, more than the 10 that are filled in; cut the record here, or allow longer gaps",
         ),
         (
             &format!("{head}{}20,5\n", (3..20).map(|i| format!("{i},\n")).collect::<String>()),
-            "a.csv:22: column u_m_s: 17 samples in a row are missing up to here, more than the 10 that are filled in; cut the record here, or allow more with --max-gap",
+            "a.csv:22: column u_m_s: 17 samples in a row are missing up to here, more than the 10 that are filled in; cut the record here, or allow longer gaps",
         ),
         (
             "time_s;u_m_s\n0,1;1,5\n0,2;1.5\n",
             "a.csv:3: column u_m_s: \"1.5\" has the other decimal sign than the rows before; write all numbers with a point, or all with a comma",
         ),
         (
-            "time_s,u_m_s\nfoo,bar\nbaz,1\n",
-            "a.csv:3: \"baz\" is not a number; write one, or leave the cell empty where a sample is missing",
+            "time_s,u_m_s\nbaz,1\n",
+            "a.csv:2: column time_s: \"baz\" is not a number; write one, or leave the cell empty where a value is missing",
         ),
         (
             "PK\u{3}\u{4}\0\0\n",
-            "a.csv:1: is not plain text; a record is CSV in UTF-8 or Latin-1, or a Parquet file",
+            "a.csv:1: is not text; a velocity record is CSV in UTF-8 or Latin-1, or Parquet",
         ),
     ] {
         assert_eq!(refused(text, &plain), said);
     }
-    assert!(refused(b"\xff\xfet\0i\0m\0e\0", &plain).contains("is not plain text"));
+    assert!(refused(b"\xff\xfet\0i\0m\0e\0", &plain).contains("is not text"));
     let layout = |change: fn(&mut Layout)| {
         let mut layout = Layout::default();
         change(&mut layout);
@@ -210,11 +231,11 @@ fn rejects_with_line_column_and_way_out() {
     for (layout, said) in [
         (
             layout(|l| l.velocity_unit = Some("cm/s".into())),
-            "a.csv: column u_m_s: is in m_s by its header and in cm/s by --velocity-unit; leave the option out, or mend the header",
+            "a.csv: column u_m_s: is in m_s by its header, and cm/s was asked for; give no unit, or mend the header",
         ),
         (
             layout(|l| l.velocity_unit = Some("furlong".into())),
-            "a.csv: --velocity-unit \"furlong\" has the unknown unit \"furlong\"; write a velocity with its unit: m/s, cm/s, mm/s, km/h or m/min",
+            "a.csv: column u_m_s: has the unit \"furlong\"; a velocity with its unit: m/s, cm/s, mm/s, km/h or m/min is needed",
         ),
         (layout(|l| l.columns = vec!["q".into()]), "a.csv: has no column q; there are time_s and u_m_s"),
         (layout(|l| l.columns = vec!["3".into()]), "a.csv: has no column 3; there are time_s and u_m_s"),
@@ -237,7 +258,7 @@ fn rejects_what_has_no_end() {
             Ok(buffer.len())
         }
     }
-    for (byte, said) in [(b'7', "this line is longer than"), (0, "is not plain text")] {
+    for (byte, said) in [(b'7', "this line is longer than"), (0, "is not text")] {
         let error = parse_csv(Endless(byte), "a.csv", &Layout::default()).unwrap_err().to_string();
         assert!(error.contains(said), "{error}");
     }
@@ -248,9 +269,9 @@ fn rejects_what_is_no_file() {
     let at = |path: &Path| read_record(path, &Layout::default()).unwrap_err().to_string();
     assert_eq!(
         at(Path::new("no/a.csv")),
-        "no/a.csv: there is no such file; name a velocity record, CSV or Parquet"
+        "no/a.csv: there is no such file; name a velocity record, CSV in UTF-8 or Latin-1, or Parquet"
     );
-    assert!(at(Path::new("src")).ends_with("is a folder; name the record in it"));
+    assert!(at(Path::new("src")).ends_with("is a folder; name the velocity record in it"));
 }
 
 type Column<'a> = (&'a str, Physical, Repetition);
@@ -341,7 +362,7 @@ fn parquet_may_have_nulls_and_whole_numbers() {
 #[test]
 fn rejects_parquet_that_holds_no_record() {
     let said = |bytes: Vec<u8>| match parse_parquet(bytes, "a.parquet", &Layout::default()) {
-        Err(error @ Error::Record(_)) => error.to_string(),
+        Err(error) => error.to_string(),
         other => panic!("{other:?}"),
     };
     let columns: [Column<'_>; 2] =
@@ -379,7 +400,7 @@ fn rejects_parquet_that_holds_no_record() {
     };
     assert_eq!(
         said(write(&[1.0, f64::INFINITY])),
-        "a.parquet: row 2: column u_m_s: \"inf\" is not finite; leave the cell empty where a sample is missing"
+        "a.parquet: row 2: column u_m_s: \"inf\" is not finite; leave the cell empty where a value is missing"
     );
     assert!(said(write(&[])).contains("holds no rows"));
     // Cut short, and with any byte turned over: refused or read, never more.

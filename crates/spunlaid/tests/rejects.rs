@@ -1,8 +1,9 @@
 //! Bad input and what is said of it: each file `bad_cases/NAME.toml` is refused with the message in
 //! `bad_cases/NAME.txt`. With `BLESS=1` in the environment the messages are written, to be read over.
+#![allow(clippy::panic)]
 #![allow(clippy::unwrap_used)]
 
-use spunlaid::error::Error;
+use spunlaid::error::{Error, FileFault, FileKind};
 use spunlaid::input::{LARGEST_FILE, parse_case, read_case, starter_case};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,6 +11,24 @@ use std::path::{Path, PathBuf};
 fn refusal(path: &Path, overrides: &[(&str, &str)]) -> Error {
     let overrides: Vec<_> = (overrides.iter()).map(|(k, v)| (k.to_string(), v.to_string())).collect();
     read_case(path, &overrides).unwrap_err()
+}
+
+fn fault(path: &Path) -> FileFault {
+    match refusal(path, &[]) {
+        Error::File(error) => error.fault,
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn no_control_character_of_a_name_reaches_the_terminal() {
+    let case = starter_case();
+    for (name, shown) in [("t\\bles/x.csv", "t\\u{8}les/x.csv"), ("\\u001b[2J.csv", "\\u{1b}[2J.csv")] {
+        let text = case.replace("[air]", &format!("[air]\nprofile = \"{name}\""));
+        let said = parse_case(&text, "\u{7}.toml", &[]).unwrap_err().to_string();
+        assert!(said.contains(shown) && said.contains("\\u{7}.toml:"), "{said}");
+        assert!(said.chars().all(|c| c == '\n' || !c.is_control()), "{said:?}");
+    }
 }
 
 #[test]
@@ -44,15 +63,15 @@ fn rejects_every_bad_case_with_its_message() {
 fn rejects_what_is_no_readable_file() {
     let folder = tempfile::tempdir().unwrap();
     let nowhere = Path::new("no/such/case.toml");
-    assert!(matches!(refusal(nowhere, &[]), Error::NotThere { .. }));
+    assert!(matches!(fault(nowhere), FileFault::NotThere(FileKind::Case)));
     assert_eq!(
         refusal(nowhere, &[]).to_string(),
-        "no/such/case.toml: there is no such file; `spunlaid new no/such/case.toml` writes a case to start from"
+        "no/such/case.toml: there is no such file; `spunlaid new` writes a case to start from"
     );
-    assert!(matches!(refusal(folder.path(), &[]), Error::IsFolder { .. }));
+    assert!(matches!(fault(folder.path()), FileFault::IsFolder(FileKind::Case)));
     let below_a_file = folder.path().join("file/case.toml");
     fs::write(folder.path().join("file"), "").unwrap();
-    assert!(matches!(refusal(&below_a_file, &[]), Error::Unreadable { .. } | Error::NotThere { .. }));
+    assert!(matches!(fault(&below_a_file), FileFault::Unreadable { .. } | FileFault::NotThere(_)));
 }
 
 #[test]
@@ -61,7 +80,7 @@ fn rejects_a_file_of_two_gigabytes() {
     let path = folder.path().join("large.toml");
     fs::File::create(&path).unwrap().set_len(2 << 30).unwrap();
     let started = std::time::Instant::now();
-    assert!(matches!(refusal(&path, &[]), Error::TooLarge { .. }));
+    assert!(matches!(fault(&path), FileFault::TooLarge { .. }));
     assert!(started.elapsed().as_secs_f64() < 1.0);
 }
 
@@ -75,13 +94,13 @@ fn rejects_one_byte_more_than_the_largest_file() {
     read_case(&path, &[]).unwrap();
     text.push('#');
     fs::write(&path, &text).unwrap();
-    assert!(matches!(refusal(&path, &[]), Error::TooLarge { .. }));
+    assert!(matches!(fault(&path), FileFault::TooLarge { .. }));
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn rejects_a_device_without_end() {
-    assert!(matches!(refusal(Path::new("/dev/zero"), &[]), Error::TooLarge { .. }));
+    assert!(matches!(fault(Path::new("/dev/zero")), FileFault::TooLarge { .. }));
     assert!(matches!(refusal(Path::new("/dev/null"), &[]), Error::Rejected(_)));
 }
 

@@ -14,6 +14,7 @@ const ROOMS: &[&[&str]] = &[
     &["lanes"],
     &["vec3", "fft", "units"],
     &["error"],
+    &["file", "table"],
     &["fibre"],
     &["field"],
     &["air", "drag"],

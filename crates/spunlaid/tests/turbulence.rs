@@ -6,7 +6,7 @@ mod common;
 use common::*;
 use spunlaid::air::{Air, StreamKey, Wind};
 use spunlaid::lanes::{Isa, WIDTH};
-use spunlaid::statistics::PowerSpectrum;
+use spunlaid::statistics::{Welch, Window};
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -146,14 +146,14 @@ fn stat_phases_are_uniform_between_replicates() {
 fn stat_spectrum_is_flat_to_the_cutoff_and_nothing_above() {
     let air = Air { harmonics: 1024, ..table1_air() };
     let interval = 1.0 / 800.0;
-    let mut spectrum = PowerSpectrum::new(interval, 512);
+    let mut spectrum = Welch::new(interval, 512, Window::Hann, 0.5);
     let mut segments = 0;
     for record in records(&air, 11, interval, 10.0) {
-        spectrum.add(&record);
+        spectrum.add(&record, None);
         segments += record.len() / 256 - 1;
     }
     let wanted = air.rms().powi(2) / air.cutoff_frequency;
-    for (f, density) in spectrum.density() {
+    for (f, density) in spectrum.finish().points() {
         // The Hann window reaches two of its steps of 1.56 Hz to either side.
         if f > 4.0 && f < 96.0 {
             // Each segment's density scatters by as much as its mean; overlapping ones count for about half.
@@ -338,14 +338,14 @@ fn stat_spectrum_of_many_windows_is_flat_to_the_cutoff_and_nothing_above() {
     let air = Air { harmonics: 128, ..table1_air() };
     let (interval, segment) = (1.0 / 800.0, 512);
     let wind = Wind::uniform(Isa::detect(), &streams(&air, 11), EDDIES, 0.0).expect("fibres that agree");
-    let mut spectrum = PowerSpectrum::new(interval, segment);
+    let mut spectrum = Welch::new(interval, segment, Window::Hann, 0.5);
     let mut segments = 0;
     for record in records_of(wind, &air, interval, 100.0..110.0) {
-        spectrum.add(&record);
+        spectrum.add(&record, None);
         segments += record.len() / (segment / 2) - 1;
     }
     let wanted = air.rms().powi(2) / air.cutoff_frequency;
-    for (f, density) in spectrum.density() {
+    for (f, density) in spectrum.finish().points() {
         if f > 4.0 && f < 96.0 {
             let error = 4.0 / (0.5 * segments as f64).sqrt();
             assert!((density / wanted - 1.0).abs() < error, "{f} Hz: {} of {wanted}", density);

@@ -4,7 +4,7 @@ use crate::common::*;
 use crate::title;
 use spunlaid::air::{Air, StreamKey, Wind};
 use spunlaid::lanes::{Isa, WIDTH};
-use spunlaid::statistics::PowerSpectrum;
+use spunlaid::statistics::{Welch, Window};
 use std::f64::consts::PI;
 
 const EDDIES: usize = 6;
@@ -94,14 +94,14 @@ pub fn spectrum() {
     title("Welch spectrum by the wanted level, 4320 segments");
     let air = Air { harmonics: 1024, ..table1_air() };
     let interval = 1.0 / 800.0;
-    let mut spectrum = PowerSpectrum::new(interval, 512);
+    let mut spectrum = Welch::new(interval, 512, Window::Hann, 0.5);
     for record in records(&air, 11, interval, 10.0) {
-        spectrum.add(&record);
+        spectrum.add(&record, None);
     }
     let wanted = air.rms().powi(2) / air.cutoff_frequency;
     let (mut low, mut high, mut sum, mut count, mut above): (f64, f64, f64, u32, f64) =
         (9.0, 0.0, 0.0, 0, 0.0);
-    for (f, density) in spectrum.density() {
+    for (f, density) in spectrum.finish().points() {
         let ratio = density / wanted;
         if f > 4.0 && f < 96.0 {
             (low, high) = (low.min(ratio), high.max(ratio));

@@ -5,7 +5,7 @@ use crate::air::{Spectrum, Stream, StreamKey, Wind};
 use crate::case::Case;
 use crate::error::Error;
 use crate::lanes::{Isa, WIDTH};
-use crate::statistics::PowerSpectrum;
+use crate::statistics::{Welch, Window};
 
 /// A point of the spectrum of the turbulence.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
     let mut wind = Wind::along(computing.isa, streams, duration)?;
     let interval = 1.0 / (8.0 * case.air.cutoff_frequency);
     let samples = ((duration / interval) as usize).min(1 << 16);
-    let mut spectrum = PowerSpectrum::new(interval, PowerSpectrum::segment_length(samples));
+    let mut welch = Welch::new(interval, Welch::segment_length(samples), Window::Hann, 0.5);
     let mut records = vec![Vec::with_capacity(samples); eddies.count() * 3 * lanes];
     for i in 0..samples {
         let velocities = wind.at(i as f64 * interval);
@@ -47,14 +47,14 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
         }
     }
     for record in &records {
-        spectrum.add(record);
+        welch.add(record, None);
     }
     // What the mean flow does not vary in is the same in all eddies.
     let wanted: Vec<Spectrum<'_>> =
         turbulence.iter().flat_map(|eddy| (0..3).map(|c| eddy.spectrum(&case.air, c))).collect();
-    let density = spectrum.density();
-    let points = density
-        .into_iter()
+    let spectrum = welch.finish();
+    let points = spectrum
+        .points()
         .map(|(frequency, realised)| {
             let omega = 2.0 * std::f64::consts::PI * frequency;
             // Per hertz instead of per radian a second.

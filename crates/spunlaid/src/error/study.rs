@@ -1,7 +1,7 @@
 //! What can be wrong with a study: with its file, with its journal.
 
-use crate::units::ExpressionFault;
-use std::path::PathBuf;
+use crate::units::{ExpressionFault, excerpt};
+use std::path::{Path, PathBuf};
 
 /// What is wrong with a value of a study file; reads on after `key = value `.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -90,7 +90,7 @@ pub enum StudyFault {
         advice: String,
     },
     /// Another number of points than asked for.
-    #[error("makes {points} points, not the {asked} that --points asks for")]
+    #[error("makes {points} points, not the {asked} that were asked for")]
     OtherPoints {
         /// How many.
         points: u64,
@@ -139,19 +139,28 @@ pub enum StudyFault {
 #[non_exhaustive]
 pub enum JournalError {
     /// Another process writes it.
-    #[error("{}: another spunlaid is at work in this folder; wait for it, or name another folder with --out", path.display())]
+    #[error(
+        "{}: another spunlaid is at work in this folder; wait for it, or use another folder",
+        shown(path)
+    )]
     InUse {
         /// The journal.
         path: PathBuf,
     },
     /// Not a journal.
-    #[error("{}: is not the journal of a study, or its first line is damaged; nothing of it can be used. Name another folder with --out, or start anew with --force", path.display())]
+    #[error(
+        "{}: is not the journal of a study, or its first line is damaged; nothing of it can be used. Use another folder, or start anew",
+        shown(path)
+    )]
     Foreign {
         /// The file.
         path: PathBuf,
     },
     /// A journal of another format.
-    #[error("{}: is a journal of format {format}, and this spunlaid knows {known}. Go on with the spunlaid that wrote it, name another folder with --out, or start anew with --force", path.display())]
+    #[error(
+        "{}: is a journal of format {format}, and this spunlaid knows {known}. Go on with the spunlaid that wrote it, use another folder, or start anew",
+        shown(path)
+    )]
     Format {
         /// The file.
         path: PathBuf,
@@ -161,7 +170,7 @@ pub enum JournalError {
         known: u32,
     },
     /// It cannot be opened or read.
-    #[error("{}: cannot be used: {source}", path.display())]
+    #[error("{}: cannot be used: {source}", shown(path))]
     Unusable {
         /// The file.
         path: PathBuf,
@@ -169,7 +178,10 @@ pub enum JournalError {
         source: std::io::Error,
     },
     /// It cannot be added to.
-    #[error("{}: cannot be written: {source}; what has landed so far is kept. Mend that, then the same command goes on", path.display())]
+    #[error(
+        "{}: cannot be written: {source}; what has landed so far is kept. Mend that, then the same command goes on",
+        shown(path)
+    )]
     Unwritable {
         /// The file.
         path: PathBuf,
@@ -179,4 +191,9 @@ pub enum JournalError {
     /// Its records do not reach the disk.
     #[error("the journal does not reach the disk: {0}; mend that, then the same command goes on")]
     Unsynced(std::io::Error),
+}
+
+/// A path as messages name it, without control characters.
+fn shown(path: &Path) -> String {
+    excerpt(&path.display().to_string(), 1000)
 }

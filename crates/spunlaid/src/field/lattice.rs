@@ -2,7 +2,7 @@
 
 use super::node::Node;
 use super::values::{Quantities, in_range};
-use crate::error::{FieldError, FieldFault};
+use crate::error::{FieldFault, FileError, FileFault};
 
 /// How much coordinates of one level may differ, as a share of the extent.
 const ROUNDING: f64 = 1e-9;
@@ -24,18 +24,18 @@ struct Axis {
 }
 
 impl Lattice {
-    pub(super) fn new(axes: [Vec<f64>; 3], values: Vec<Quantities>) -> Result<Self, FieldError> {
+    pub(super) fn new(axes: [Vec<f64>; 3], values: Vec<Quantities>) -> Result<Self, FileError> {
         for (axis, name) in axes.iter().zip(["x", "y", "z"]) {
             if let Some(value) = axis.iter().find(|x| !in_range(**x)) {
                 let fault = FieldFault::OutOfRange { value: *value, most: super::values::LARGEST };
-                return Err(FieldError::from(fault).array(name));
+                return Err(FileError::from(fault).array(name));
             }
             if axis.is_empty() {
-                return Err(FieldError::from(FieldFault::Empty).array(name));
+                return Err(FileError::from(FieldFault::Empty).array(name));
             }
             if let Some(pair) = axis.windows(2).find(|pair| pair[0] >= pair[1]) {
-                let fault = FieldFault::NotIncreasing { before: pair[0], after: pair[1] };
-                return Err(FieldError::from(fault).array(name));
+                let fault = FileFault::NotIncreasing { before: pair[0], after: pair[1] };
+                return Err(FileError::from(fault).array(name));
             }
         }
         Ok(Self { axes: axes.map(Axis::new), values })

@@ -1,21 +1,40 @@
 //! The air as computational fluid dynamics gives it: velocity and turbulence in space, sampled at points.
 //!
-//! file (VTK, CSV) → [`Field`] → [`Field::sample`] → [`Local`]
+//! file (VTK, table of points) → [`Field`] → [`Field::sample`] → [`Local`]
 //!
-//! A field is a lattice, a mesh or a set of points; whichever it is, what is linear in space comes out exactly.
+//! **In** goes a steady solution: the mean velocity [m/s] at points or in cells and, where known, the turbulent kinetic
+//! energy `k` [m²/s²] with its dissipation rate `ε` [m²/s³] or the specific dissipation rate `ω` [1/s].
+//! It comes from a file ([`Field::read`]), from bytes ([`Field::parse`]) or from numbers in memory.
+//!
+//! | format | what is read |
+//! |---|---|
+//! | `.vtu`, `.vts`, `.vti`, `.vtr` | XML VTK, ASCII or binary, plain or compressed with zlib or LZ4 |
+//! | `.vtk` | legacy VTK, versions 1 to 5 |
+//! | text | a row for each point, as [`crate::table`] describes |
+//!
+//! The format is recognised from the file's content. Arrays and columns are recognised by their names, as OpenFOAM,
+//! Fluent, CFX and ParaView write them; `docs/air.md` of the repository lists them. Numbers are in SI units unless a
+//! name ends with another unit, as `x_mm` does.
+//!
+//! **Out** comes the air at any point, [`Local`]: velocity, `k`, `ε` and whether the point lies in the field. On a
+//! [lattice](Field::lattice) it is linear in each coordinate, in a [mesh](Field::mesh) linear in tetrahedra, among
+//! [points](Field::points) a mean of what the nearest eight make of it; a flow that is linear in space comes out
+//! exactly. Outside of the field it is the air at the edge. [`FieldWarning`]s tell what was left out or mended.
+//!
+//! **Limits.** Coordinates and values lie within ±1e30. A file is held in memory while it is read; what is taken
+//! beyond that follows from the bytes there are, never from what a header promises.
 //!
 //! ```
-//! use spunlaid::field::{Field, Hint, Values};
+//! use spunlaid::field::{Field, Hint};
 //! use spunlaid::vec3::Vec3;
 //!
-//! # fn main() -> Result<(), spunlaid::error::FieldError> {
-//! // Plane shear between y = 0 and y = 1 m: points along x first, then y, then z.
-//! let axes = [vec![0.0, 2.0], vec![0.0, 1.0], vec![0.0, 1.0]];
-//! let velocity = [0.0, 0.0, 10.0, 10.0, 0.0, 0.0, 10.0, 10.0].map(|u| Vec3::new(u, 0.0, 0.0));
-//! let values = Values { velocity: velocity.to_vec(), ..Values::default() };
-//! let field = Field::lattice(axes, &values)?;
+//! # fn main() -> Result<(), spunlaid::error::FileError> {
+//! // Plane shear between y = 0 and y = 1 m.
+//! let table = "x_m,y_m,u_m_s,v_m_s\n0,0,0,0\n2,0,0,0\n0,1,10,0\n2,1,10,0\n";
+//! let (field, warnings) = Field::parse(table.as_bytes(), "shear.csv")?;
+//! assert!(warnings.is_empty());
 //!
-//! let local = field.sample(Vec3::new(0.3, 0.25, 0.5), &mut Hint::default());
+//! let local = field.sample(Vec3::new(0.3, 0.25, 0.0), &mut Hint::default());
 //! assert_eq!(local.velocity, Vec3::new(2.5, 0.0, 0.0));
 //! assert!(local.inside && !field.has_turbulence());
 //! # Ok(())
@@ -35,7 +54,7 @@ pub use mesh::cells::{Cells, Shape};
 pub use values::Values;
 pub use warning::FieldWarning;
 
-use crate::error::FieldError;
+use crate::error::FileError;
 use crate::vec3::Vec3;
 use lattice::Lattice;
 use mesh::Mesh;
@@ -93,7 +112,7 @@ impl Field {
     ///
     /// # Errors
     /// When coordinates do not increase, or values are too few, too many or not finite.
-    pub fn lattice(axes: [Vec<f64>; 3], values: &Values) -> Result<Self, FieldError> {
+    pub fn lattice(axes: [Vec<f64>; 3], values: &Values) -> Result<Self, FileError> {
         let count = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
         let quantities = values.check(count.unwrap_or(usize::MAX))?;
         let lattice = Lattice::new(axes, quantities)?;
@@ -117,7 +136,7 @@ impl Field {
         points: &[Vec3<f64>],
         cells: &Cells,
         values: &Values,
-    ) -> Result<(Self, Vec<FieldWarning>), FieldError> {
+    ) -> Result<(Self, Vec<FieldWarning>), FileError> {
         let quantities = values.check(points.len())?;
         let (mesh, warnings) = Mesh::new(points, cells, quantities)?;
         Ok((Self { support: Support::Mesh(mesh), turbulence: values.has_turbulence() }, warnings))
@@ -137,7 +156,7 @@ impl Field {
     ///
     /// # Errors
     /// When points are too few, or values are too few, too many or not finite.
-    pub fn points(points: &[Vec3<f64>], values: &Values) -> Result<(Self, Vec<FieldWarning>), FieldError> {
+    pub fn points(points: &[Vec3<f64>], values: &Values) -> Result<(Self, Vec<FieldWarning>), FileError> {
         let mut nodes = node::nodes(points, values.check(points.len())?)?;
         let (place_of, merged) = node::merge(&mut nodes);
         let firsts = nodes.into_iter().zip(0..).filter(|(_, i)| place_of[*i as usize] == *i);

@@ -2,7 +2,7 @@
 
 use super::mean;
 use super::values::{LARGEST, Quantities, in_range};
-use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::error::{FieldFault, FileError, FilePlace};
 use crate::vec3::Vec3;
 use std::cmp::Ordering;
 
@@ -16,14 +16,14 @@ pub(super) struct Node {
 }
 
 /// Points that can be computed with, each with its values.
-pub(super) fn nodes(points: &[Vec3<f64>], values: Vec<Quantities>) -> Result<Vec<Node>, FieldError> {
+pub(super) fn nodes(points: &[Vec3<f64>], values: Vec<Quantities>) -> Result<Vec<Node>, FileError> {
     let node = |(i, (point, values)): (usize, (&Vec3<f64>, Quantities))| {
         // With zero added, −0 and 0 are one place.
         let at = [point.x + 0.0, point.y + 0.0, point.z + 0.0];
         match at.into_iter().find(|x| !in_range(*x)) {
             None => Ok(Node { at, values }),
-            Some(value) => Err(FieldError::from(FieldFault::OutOfRange { value, most: LARGEST })
-                .at(FieldPlace::Point(i as u64 + 1))),
+            Some(value) => Err(FileError::from(FieldFault::OutOfRange { value, most: LARGEST })
+                .at(FilePlace::Point(i as u64 + 1))),
         }
     };
     points.iter().zip(values).enumerate().map(node).collect()

@@ -1,6 +1,6 @@
 //! Values at points, as they come in and as they are kept.
 
-use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::error::{FieldFault, FileError, FilePlace};
 use crate::vec3::Vec3;
 
 /// Largest coordinate [m] and largest value [SI] that are taken; beyond, volumes and squares overflow.
@@ -37,7 +37,7 @@ impl Values {
     }
 
     /// The values point by point, if each of `points` has its own.
-    pub(super) fn check(&self, points: usize) -> Result<Vec<Quantities>, FieldError> {
+    pub(super) fn check(&self, points: usize) -> Result<Vec<Quantities>, FileError> {
         let lengths = [
             ("velocity", self.velocity.len(), false),
             ("k", self.k.len(), true),
@@ -46,7 +46,7 @@ impl Values {
         for (array, found, optional) in lengths {
             if found != points && !(optional && found == 0) {
                 let fault = FieldFault::Count { found, wanted: points, of: "values" };
-                return Err(FieldError::from(fault).array(array));
+                return Err(FileError::from(fault).array(array));
             }
         }
         let turbulent = self.has_turbulence();
@@ -55,8 +55,8 @@ impl Values {
             let [k, epsilon] = if turbulent { [self.k[i], self.epsilon[i]] } else { [0.0; 2] };
             let values = [velocity.x, velocity.y, velocity.z, k, epsilon];
             if let Some(value) = values.into_iter().find(|value| !in_range(*value)) {
-                return Err(FieldError::from(FieldFault::OutOfRange { value, most: LARGEST })
-                    .at(FieldPlace::Point(i as u64 + 1)));
+                return Err(FileError::from(FieldFault::OutOfRange { value, most: LARGEST })
+                    .at(FilePlace::Point(i as u64 + 1)));
             }
             quantities.push(values);
         }

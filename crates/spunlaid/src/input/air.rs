@@ -9,7 +9,7 @@ use crate::air::{
 };
 use crate::case::keys::{self, Quantity};
 use crate::case::{Note, Remark};
-use crate::error::{DataError, Fault, Place};
+use crate::error::{Fault, FileError, Place};
 use std::path::PathBuf;
 use toml::de::DeValue;
 
@@ -269,12 +269,12 @@ impl Document<'_> {
         &mut self,
         key: &str,
         named: Named,
-        load: impl FnOnce(&std::path::Path) -> Result<T, DataError>,
+        load: impl FnOnce(&std::path::Path) -> Result<T, FileError>,
     ) -> Option<T> {
         match load(&named.path) {
             Ok(content) => Some(content),
             Err(error) => {
-                self.reject(named.place, key, named.shown, Fault::Data(error));
+                self.reject(named.place, key, named.shown, Fault::File(Box::new(error)));
                 None
             }
         }

@@ -18,7 +18,7 @@ pub use study::{MOST_POINTS_UNASKED, StudyFile, StudyNote, differences, parse_st
 pub use write::write_case;
 
 use crate::case::{Case, Note};
-use crate::error::Error;
+use crate::error::{Error, FileKind};
 use std::path::Path;
 
 /// The version of the case file format that this library writes, and the newest it reads.
@@ -36,7 +36,7 @@ pub const LARGEST_FILE: u64 = 1 << 20;
 /// # Errors
 /// When the file cannot be read, and when the case cannot be run: then everything found wrong with it.
 pub fn read_case(path: &Path, overrides: &[(String, String)]) -> Result<(Case, Vec<Note>), Error> {
-    let text = file::read(path)?;
+    let text = file::read(path, FileKind::Case)?;
     parse_case(&text, &path.display().to_string(), overrides)
 }
 

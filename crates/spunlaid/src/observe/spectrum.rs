@@ -7,7 +7,7 @@ use super::{
 use crate::case::Case;
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
-use crate::statistics::PowerSpectrum;
+use crate::statistics::{Welch, Window};
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
@@ -58,7 +58,7 @@ impl Motion {
     fn of(case: &Case) -> Self {
         let run = &case.run;
         let samples = (run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1)) as usize + 1;
-        let segment = PowerSpectrum::segment_length(samples);
+        let segment = Welch::segment_length(samples);
         Self { interval: run.output_interval(), segment, end: Default::default() }
     }
 }
@@ -75,9 +75,9 @@ impl Observer for Motion {
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
         let density = |record: &Vec<f64>| {
-            let mut spectrum = PowerSpectrum::new(self.interval, self.segment);
-            spectrum.add(record);
-            let (frequency, density) = spectrum.density().into_iter().unzip();
+            let mut welch = Welch::new(self.interval, self.segment, Window::Hann, 0.5);
+            welch.add(record, None);
+            let (frequency, density) = welch.finish().points().unzip();
             Value::Curve(frequency, density)
         };
         self.end[lane].iter().map(density).collect()

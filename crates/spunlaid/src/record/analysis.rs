@@ -5,11 +5,9 @@ use super::flat::FlatPart;
 use super::interval::{Interval, error};
 use super::moments::Powers;
 use super::warning::{BLOCK_TIMES, BLOCKS, warnings};
-use super::{
-    Autocorrelation, IntegralRule, Moments, Record, Samples, Spectrum, SpectrumSettings, Trend, Warning,
-    problem,
-};
-use crate::error::{Error, RecordFault, RecordPlace};
+use super::{Autocorrelation, IntegralRule, Moments, Record, Samples, Trend, Warning};
+use crate::error::{FileError, RecordFault};
+use crate::statistics::{Spectrum, Welch, Window};
 use std::ops::Range;
 
 /// Fewest samples of a component.
@@ -37,6 +35,23 @@ pub struct Settings {
     pub flat_until: Option<f64>,
     /// Mean velocity along the flow, in place of the record's own [m/s].
     pub mean_velocity: Option<f64>,
+}
+
+/// How a spectrum is to be taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpectrumSettings {
+    /// Window.
+    pub window: Window,
+    /// Share of a segment that the next one has in common with it, 0 to 0.9.
+    pub overlap: f64,
+    /// Samples in a segment, a power of two; chosen by the integral time where it is left open.
+    pub segment: Option<usize>,
+}
+
+impl Default for SpectrumSettings {
+    fn default() -> Self {
+        Self { window: Window::Hann, overlap: 0.5, segment: None }
+    }
 }
 
 /// What a record says about the air; intervals are of 95 %.
@@ -115,7 +130,7 @@ impl Analysis {
 ///
 /// # Errors
 /// When nothing can be said: too few samples, no fluctuation, no mean flow, settings the record does not bear.
-pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, Error> {
+pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, FileError> {
     let (samples, interval) = (record.samples(), record.interval);
     check(record, settings)?;
     let lengths: Vec<usize> =
@@ -172,11 +187,15 @@ pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, Error> 
     Ok(analysis)
 }
 
-fn refuse(record: &Record, column: Option<&str>, fault: RecordFault) -> Error {
-    problem(&record.file, RecordPlace::Whole, column, fault)
+fn refuse(record: &Record, column: Option<&str>, fault: RecordFault) -> FileError {
+    let error = FileError::from(fault).file(&record.file);
+    match column {
+        Some(column) => error.column(column),
+        None => error,
+    }
 }
 
-fn check(record: &Record, settings: &Settings) -> Result<(), Error> {
+fn check(record: &Record, settings: &Settings) -> Result<(), FileError> {
     let samples = record.samples();
     if samples < LEAST_SAMPLES {
         return Err(refuse(
@@ -238,7 +257,7 @@ fn block_time(integral_time: f64, autocorrelation: &Autocorrelation) -> f64 {
 }
 
 /// Samples in a segment of the spectrum.
-fn segment(record: &Record, integral_time: f64, settings: &Settings) -> Result<usize, Error> {
+fn segment(record: &Record, integral_time: f64, settings: &Settings) -> Result<usize, FileError> {
     // A power of two that the record holds: the highest one there is.
     let most = (1 << record.samples().ilog2()).min(LONGEST_SEGMENT);
     if let Some(asked) = settings.spectrum.segment {
@@ -352,7 +371,10 @@ fn component(
     settings: &Settings,
 ) -> Component {
     let Moments { mean, rms, .. } = estimates.moments;
-    let spectrum = Spectrum::of(&samples.values, mean, record.interval, segment, &settings.spectrum);
+    let SpectrumSettings { window, overlap, .. } = settings.spectrum;
+    let mut welch = Welch::new(record.interval, segment, window, overlap);
+    welch.add(&samples.values, Some(mean));
+    let spectrum = welch.finish();
     let integral_time = estimates.integral_time();
     let variances: Vec<f64> = estimates.left_out.iter().map(|(m, _)| 2.0 * libm::log(m.rms)).collect();
     let flat = FlatPart::of(

@@ -1,7 +1,7 @@
 //! The flat low-frequency part of a spectrum, and the cut-off that keeps the energy.
 
-use super::Spectrum;
-use super::interval::{Interval, NORMAL};
+use super::Interval;
+use crate::statistics::{NORMAL_95, Spectrum};
 
 /// The flat part reaches up to the cut-off over this, unless told otherwise: there a spectrum of an
 /// exponential correlation has fallen by 3.7 %, one of von Kármán's by 5.3 %, and the mean up to there is
@@ -65,9 +65,9 @@ impl FlatPart {
         let shared = 1.0 / (cutoff * duration);
         let error = (scatter + variance_error * variance_error - 2.0 * shared).max(0.25 * scatter).sqrt();
         Self {
-            density: Interval::logarithmic(density, scatter.sqrt(), NORMAL),
+            density: Interval::logarithmic(density, scatter.sqrt(), NORMAL_95),
             until,
-            cutoff: Interval::logarithmic(cutoff, error, NORMAL),
+            cutoff: Interval::logarithmic(cutoff, error, NORMAL_95),
             independent,
             coarse: until > 0.5 * cutoff,
         }

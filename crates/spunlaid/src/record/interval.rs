@@ -1,7 +1,6 @@
 //! 95 % confidence intervals: by leaving out blocks, and from a known number of independent values.
 
-/// Standard deviations of a normal variable that hold 95 %.
-pub(super) const NORMAL: f64 = 1.959_963_984_540_054;
+use crate::statistics::student_t_95;
 
 /// A value with its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,8 +42,7 @@ impl Interval {
     /// the interval is Student's with `B−1` degrees of freedom, of the logarithm where all are positive and
     /// `positive` is said.
     pub(super) fn jackknife(value: f64, left_out: &[f64], positive: bool) -> Self {
-        let blocks = left_out.len() as f64;
-        let quantile = student(blocks - 1.0);
+        let quantile = student_t_95((left_out.len() as u64).saturating_sub(1));
         let in_logarithm = positive && value > 0.0 && left_out.iter().all(|x| *x > 0.0);
         if in_logarithm {
             let logarithms: Vec<f64> = left_out.iter().map(|x| libm::log(*x)).collect();
@@ -63,30 +61,9 @@ pub(super) fn error(left_out: &[f64]) -> f64 {
     ((blocks - 1.0) / blocks * squares).sqrt()
 }
 
-/// Half the width that holds 95 % of Student's distribution, in its standard errors; to 0.1 % from six
-/// degrees of freedom up. Abramowitz & Stegun 26.7.5.
-pub(super) fn student(freedom: f64) -> f64 {
-    let z = NORMAL;
-    let power = |n: i32| (0..n).fold(1.0, |p, _| p * z);
-    let terms = [
-        (power(3) + z) / 4.0,
-        (5.0 * power(5) + 16.0 * power(3) + 3.0 * z) / 96.0,
-        (3.0 * power(7) + 19.0 * power(5) + 17.0 * power(3) - 15.0 * z) / 384.0,
-        (79.0 * power(9) + 776.0 * power(7) + 1482.0 * power(5) - 1920.0 * power(3) - 945.0 * z) / 92160.0,
-    ];
-    terms.iter().rev().fold(0.0, |sum, term| (sum + term) / freedom) + z
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn published_quantiles_of_student() {
-        for (freedom, quantile) in [(6.0, 2.4469), (7.0, 2.3646), (15.0, 2.1314), (63.0, 1.9983)] {
-            assert!((student(freedom) / quantile - 1.0).abs() < 1e-3, "{freedom}: {}", student(freedom));
-        }
-    }
 
     #[test]
     fn analytic_jackknife_of_a_mean_is_its_standard_error() {

@@ -2,10 +2,28 @@
 //!
 //! file (CSV, Parquet) → [`Record`] (evenly sampled, SI) → [`analyse`] → [`Analysis`]
 //!
+//! **In** goes the velocity at a point over time: a row for each sample, a column of time, and one to three columns of
+//! velocity. Units stand in the header: `time_ms`, `u [m/s]`. A [`Layout`] tells what a file does not: the sampling
+//! rate, units, which columns to take.
+//!
+//! | format | what is read |
+//! |---|---|
+//! | text | as [`crate::table`] describes; an empty line is a missing sample where there is no time |
+//! | Parquet | plain columns of doubles, floats or integers, with nulls; uncompressed or Snappy |
+//!
+//! **Out** come, with 95 % confidence intervals: mean velocity [m/s], turbulence intensity [-], integral time [s],
+//! length scale [m] and cut-off frequency [Hz]; for each component also rms, skewness, flatness, spectrum
+//! [(m/s)²/Hz] and autocorrelation; and [`Warning`]s about what the numbers rest on. `docs/analyse.md` of the
+//! repository has the formulas.
+//!
+//! **Limits.** Samples are evenly spaced to within 1 %; up to [`LONGEST_GAP`] missing samples in a row are put on a
+//! straight line between their neighbours. A record has 64 samples at least and [`MOST_NUMBERS`] numbers at most,
+//! which take 8 bytes each. Text is read line by line, Parquet as a whole.
+//!
 //! ```
 //! use spunlaid::record::{Layout, Settings, analyse, parse_csv};
 //!
-//! # fn main() -> Result<(), spunlaid::error::Error> {
+//! # fn main() -> Result<(), spunlaid::error::FileError> {
 //! let mut text = String::from("time_ms;u_m_s\n");
 //! for i in 0..2000 {
 //!     let u = 10.0 + f64::from(i * i % 1009) / 1009.0;
@@ -21,27 +39,25 @@
 mod analysis;
 mod columns;
 mod correlation;
-mod csv;
 mod flat;
 mod interval;
 mod moments;
 mod parquet;
 mod rows;
-mod spectrum;
+mod text;
 mod warning;
 
-pub use analysis::{Analysis, Component, Settings, analyse};
+pub use analysis::{Analysis, Component, Settings, SpectrumSettings, analyse};
 pub use correlation::{Autocorrelation, IntegralRule};
-pub use csv::parse_csv;
 pub use flat::FlatPart;
 pub use interval::Interval;
 pub use moments::Moments;
-pub use spectrum::{Spectrum, SpectrumSettings, Window};
+pub use text::parse_csv;
 pub use warning::{Trend, Warning};
 
-use crate::error::{Error, RecordFault, RecordPlace, RecordProblem};
-use std::fs::File;
-use std::io::{ErrorKind, Read, Seek};
+use crate::error::{FileError, FileKind};
+use crate::file;
+use std::io::Read;
 use std::path::Path;
 
 /// Most numbers of a record that are kept, over all components.
@@ -86,6 +102,8 @@ pub struct Reading {
     pub unused: Vec<String>,
     /// Whether there was a column of time.
     pub timed: bool,
+    /// CRC-32 of the file.
+    pub checksum: u32,
 }
 
 impl Record {
@@ -133,45 +151,27 @@ impl Default for Layout {
     }
 }
 
-/// Reads a velocity record, Parquet if it begins like one, CSV otherwise.
+/// Reads a velocity record: Parquet if it begins like one, CSV otherwise.
 ///
 /// # Errors
 /// When the file cannot be read or is no evenly sampled velocity record; the message says where and why.
-pub fn read_record(path: &Path, layout: &Layout) -> Result<Record, Error> {
+pub fn read_record(path: &Path, layout: &Layout) -> Result<Record, FileError> {
     let name = path.display().to_string();
-    let failed = |source: std::io::Error| {
-        let fault = match source.kind() {
-            ErrorKind::NotFound => RecordFault::NotThere,
-            ErrorKind::IsADirectory => RecordFault::IsFolder,
-            _ => RecordFault::Unreadable { message: source.to_string() },
-        };
-        problem(&name, RecordPlace::Whole, None, fault)
-    };
-    let mut file = File::open(path).map_err(failed)?;
-    if file.metadata().map_err(failed)?.is_dir() {
-        return Err(problem(&name, RecordPlace::Whole, None, RecordFault::IsFolder));
-    }
+    let mut file = file::open(path, FileKind::Record)?;
+    let failed = |source| file::unreadable(&source, path, FileKind::Record);
     let mut start = Vec::new();
     file.by_ref().take(4).read_to_end(&mut start).map_err(failed)?;
-    if start == parquet::MAGIC {
-        return parquet::read(file, &name, layout);
+    if start != parquet::MAGIC {
+        return parse_csv(start.chain(file), &name, layout);
     }
-    // What cannot be wound back, a pipe, is read on.
-    match file.rewind() {
-        Ok(()) => parse_csv(file, &name, layout),
-        Err(_) => parse_csv(start.chain(file), &name, layout),
-    }
+    file.read_to_end(&mut start).map_err(failed)?;
+    parse_parquet(start, &name, layout)
 }
 
 /// Reads a Parquet file held in memory; `name` is what messages call it.
 ///
 /// # Errors
 /// As [`read_record`].
-pub fn parse_parquet(bytes: Vec<u8>, name: &str, layout: &Layout) -> Result<Record, Error> {
-    parquet::read(::bytes::Bytes::from(bytes), name, layout)
-}
-
-fn problem(file: &str, place: RecordPlace, column: Option<&str>, fault: RecordFault) -> Error {
-    let column = column.map(|column| crate::units::excerpt(column, 40));
-    Error::Record(Box::new(RecordProblem { file: file.to_owned(), place, column, fault }))
+pub fn parse_parquet(bytes: Vec<u8>, name: &str, layout: &Layout) -> Result<Record, FileError> {
+    parquet::parse(bytes.into(), name, layout)
 }

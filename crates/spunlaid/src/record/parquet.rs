@@ -2,8 +2,9 @@
 
 use super::columns::{Column, roles};
 use super::rows::Rows;
-use super::{Layout, MOST_NUMBERS, Record, problem};
-use crate::error::{Error, RecordFault, RecordPlace};
+use super::{Layout, MOST_NUMBERS, Record};
+use crate::error::{FileError, FileFault, FilePlace, RecordFault};
+use crate::table::Head;
 use crate::units::excerpt;
 use bytes::Bytes;
 use parquet::basic::Encoding;
@@ -25,58 +26,56 @@ const ROWS: usize = 1 << 13;
 const EXPANSION: u64 = 22;
 
 /// Reads a record; `name` is what messages call it.
-pub(super) fn read(source: impl ChunkReader + 'static, name: &str, layout: &Layout) -> Result<Record, Error> {
-    let whole = |fault| problem(name, RecordPlace::Whole, None, fault);
-    let undecodable =
-        |error: ParquetError| whole(RecordFault::Parquet { message: excerpt(&error.to_string(), 200) });
+pub(super) fn parse(bytes: Bytes, name: &str, layout: &Layout) -> Result<Record, FileError> {
+    let checksum = crc32fast::hash(&bytes);
+    let mut record = read(bytes, layout).map_err(|error| error.file(name))?;
+    name.clone_into(&mut record.file);
+    record.reading.checksum = checksum;
+    Ok(record)
+}
+
+fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
+    let undecodable = |error: ParquetError| {
+        FileError::from(RecordFault::Parquet { message: excerpt(&error.to_string(), 200) })
+    };
     let metadata = ParquetMetaDataReader::new().parse_and_finish(&source).map_err(undecodable)?;
     let schema = metadata.file_metadata().schema_descr();
-    let headers: Vec<String> = schema.columns().iter().map(|column| column.path().string()).collect();
-    let roles = roles(&headers, true, layout)
-        .map_err(|(column, fault)| problem(name, RecordPlace::Whole, column.as_deref(), fault))?;
+    let heads: Vec<Head> = schema.columns().iter().map(|column| Head::new(&column.path().string())).collect();
+    let roles = roles(&heads, true, layout)?;
     let used: Vec<Column> = roles.time.iter().chain(&roles.components).cloned().collect();
     let timed = roles.time.is_some();
-    let mut rows = Rows::new(name, roles, layout);
+    let mut rows = Rows::new(roles, layout);
     let source = Arc::new(Guarded(source));
     let mut row = 0;
     for group in 0..metadata.num_row_groups() {
         let mut columns = Vec::new();
         for column in &used {
-            let blamed = |fault| problem(name, RecordPlace::Whole, Some(&column.header), fault);
             let values = Values::open(&source, &metadata, group, column.index)
-                .map_err(|error| blamed(RecordFault::Parquet { message: excerpt(&error.to_string(), 200) }))?
-                .map_err(|found| blamed(RecordFault::ColumnType { found }))?;
-            columns.push(values);
+                .map_err(undecodable)
+                .and_then(|values| values.map_err(|found| RecordFault::ColumnType { found }.into()));
+            columns.push(values.map_err(|error| error.column(&column.header))?);
         }
         loop {
+            let place = FilePlace::Row(row + 1);
             for (values, column) in columns.iter_mut().zip(&used) {
-                let place = RecordPlace::Row(row + 1);
-                values.next(ROWS).map_err(|error| {
-                    let fault = RecordFault::Parquet { message: excerpt(&error.to_string(), 200) };
-                    problem(name, place, Some(&column.header), fault)
-                })?;
+                values.next(ROWS).map_err(|error| undecodable(error).at(place).column(&column.header))?;
             }
             let count = columns.first().map_or(0, |values| values.numbers.len());
             if let Some(short) = columns.iter().position(|values| values.numbers.len() != count) {
                 let message = "its columns differ in length".to_owned();
-                let header = used.get(short).map(|column| column.header.as_str());
-                return Err(problem(
-                    name,
-                    RecordPlace::Row(row + 1),
-                    header,
-                    RecordFault::Parquet { message },
-                ));
+                let error = FileError::from(RecordFault::Parquet { message }).at(place);
+                return Err(error.column(&used[short].header));
             }
             if count == 0 {
                 break;
             }
             for i in 0..count {
                 row += 1;
-                let place = RecordPlace::Row(row);
+                let place = FilePlace::Row(row);
                 let number = |column: usize| columns[column].numbers[i];
                 if let Some(infinite) = (0..used.len()).find(|&column| number(column).is_infinite()) {
-                    let fault = RecordFault::NotFinite { text: number(infinite).to_string() };
-                    return Err(problem(name, place, Some(&used[infinite].header), fault));
+                    let fault = FileFault::NotFinite { text: number(infinite).to_string() };
+                    return Err(FileError::from(fault).at(place).column(&used[infinite].header));
                 }
                 let time =
                     if timed { (number(0), columns[0].last_place(number(0))) } else { (f64::NAN, 0.0) };
@@ -89,7 +88,7 @@ pub(super) fn read(source: impl ChunkReader + 'static, name: &str, layout: &Layo
         }
     }
     if row == 0 {
-        return Err(whole(RecordFault::Empty));
+        return Err(FileFault::NoRows.into());
     }
     rows.finish()
 }

@@ -1,8 +1,8 @@
 //! From rows, in their order, to an evenly sampled record: the clock is watched, gaps are filled in.
 
 use super::columns::Roles;
-use super::{Layout, MOST_NUMBERS, Reading, Record, Samples, problem};
-use crate::error::{Error, RecordFault, RecordPlace};
+use super::{Layout, MOST_NUMBERS, Reading, Record, Samples};
+use crate::error::{FileError, FileFault, FilePlace, RecordFault};
 
 /// Most that a step of time may be off the usual one, as a share of it.
 const JITTER: f64 = 0.01;
@@ -10,8 +10,7 @@ const JITTER: f64 = 0.01;
 const ROUNDING: f64 = 0.25;
 
 /// Takes in rows.
-pub(super) struct Rows<'a> {
-    file: &'a str,
+pub(super) struct Rows {
     roles: Roles,
     longest_gap: usize,
     clock: Clock,
@@ -35,8 +34,8 @@ enum Clock {
     },
 }
 
-impl<'a> Rows<'a> {
-    pub(super) fn new(file: &'a str, roles: Roles, layout: &Layout) -> Self {
+impl Rows {
+    pub(super) fn new(roles: Roles, layout: &Layout) -> Self {
         let clock = match layout.rate {
             Some(rate) => Clock::Even(1.0 / rate),
             None => Clock::Watched { known: None, rounding: f64::INFINITY },
@@ -45,7 +44,6 @@ impl<'a> Rows<'a> {
         let reading =
             Reading { unused: roles.unused.clone(), timed: roles.time.is_some(), ..Reading::default() };
         Self {
-            file,
             roles,
             longest_gap: layout.longest_gap,
             clock,
@@ -55,19 +53,21 @@ impl<'a> Rows<'a> {
         }
     }
 
-    pub(super) fn roles(&self) -> &Roles {
-        &self.roles
-    }
-
     /// Adds a row.
     ///
     /// * `time` – in the file's unit and the unit in its last place; NaN where it is missing
     /// * `values` – in the file's units; NaN where one is missing
-    pub(super) fn push(&mut self, place: RecordPlace, time: (f64, f64), values: &[f64]) -> Result<(), Error> {
+    pub(super) fn push(
+        &mut self,
+        place: FilePlace,
+        time: (f64, f64),
+        values: &[f64],
+    ) -> Result<(), FileError> {
         let lost = self.watch(place, time)?;
         let length = self.values.first().map_or(0, Vec::len) + lost + 1;
         if length.saturating_mul(self.values.len()) > MOST_NUMBERS {
-            return Err(self.fault(place, None, RecordFault::TooManySamples { most: MOST_NUMBERS }));
+            let fault = RecordFault::TooManySamples { most: MOST_NUMBERS };
+            return Err(FileError::from(fault).at(place));
         }
         for component in 0..self.values.len() {
             for _ in 0..lost {
@@ -80,19 +80,15 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
-    fn fault(&self, place: RecordPlace, column: Option<&str>, fault: RecordFault) -> Error {
-        problem(self.file, place, column, fault)
-    }
-
-    fn put(&mut self, place: RecordPlace, component: usize, value: f64) -> Result<(), Error> {
+    fn put(&mut self, place: FilePlace, component: usize, value: f64) -> Result<(), FileError> {
         let (missing, begun) = self.missing[component];
         if value.is_nan() {
             self.missing[component].0 = missing + 1;
         } else {
             if begun && missing > self.longest_gap {
-                let header = self.roles.components[component].header.clone();
+                let header = &self.roles.components[component].header;
                 let fault = RecordFault::GapTooLong { missing: missing as f64, most: self.longest_gap };
-                return Err(self.fault(place, Some(&header), fault));
+                return Err(FileError::from(fault).at(place).column(header));
             }
             self.missing[component] = (0, true);
         }
@@ -101,10 +97,10 @@ impl<'a> Rows<'a> {
     }
 
     /// Holds the time against the clock; returns how many rows were skipped before this one.
-    fn watch(&mut self, place: RecordPlace, (time, unit): (f64, f64)) -> Result<usize, Error> {
+    fn watch(&mut self, place: FilePlace, (time, unit): (f64, f64)) -> Result<usize, FileError> {
         let Clock::Watched { known, rounding } = self.clock else { return Ok(0) };
         let Some(column) = &self.roles.time else { return Ok(0) };
-        let blame = |fault| Err(problem(self.file, place, Some(&column.header), fault));
+        let blame = |fault: RecordFault| Err(FileError::from(fault).at(place).column(&column.header));
         if time.is_nan() {
             return Ok(0);
         }
@@ -146,23 +142,20 @@ impl<'a> Rows<'a> {
     }
 
     /// The record.
-    pub(super) fn finish(mut self) -> Result<Record, Error> {
+    pub(super) fn finish(mut self) -> Result<Record, FileError> {
         let rows = self.values.first().map_or(0, Vec::len);
         let whole = |i: &usize| self.values.iter().all(|v| v.get(*i).is_some_and(|x| !x.is_nan()));
         let first = (0..rows).find(whole).unwrap_or(rows);
         let end = (first..rows).rev().find(whole).map_or(first, |last| last + 1);
         if first == end {
-            return Err(self.fault(RecordPlace::Whole, None, RecordFault::Empty));
+            return Err(FileFault::NoRows.into());
         }
         let interval = match self.clock {
             Clock::Even(interval) => interval,
             Clock::Watched { known: Some((a, b)), .. } if b.1 > a.1 => (b.0 - a.0) / (b.1 - a.1) as f64,
             Clock::Watched { .. } => {
-                return Err(self.fault(
-                    RecordPlace::Whole,
-                    None,
-                    RecordFault::TooFewSamples { found: end - first, least: super::analysis::LEAST_SAMPLES },
-                ));
+                let least = super::analysis::LEAST_SAMPLES;
+                return Err(RecordFault::TooFewSamples { found: end - first, least }.into());
             }
         };
         self.reading.cut_off = rows - (end - first);
@@ -174,7 +167,7 @@ impl<'a> Rows<'a> {
             self.reading.filled += fill(&mut values);
             components.push(Samples { name: column.name.clone(), values });
         }
-        Ok(Record { file: self.file.to_owned(), interval, components, reading: self.reading })
+        Ok(Record { file: String::new(), interval, components, reading: self.reading })
     }
 }
 

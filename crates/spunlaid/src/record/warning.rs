@@ -1,7 +1,7 @@
 //! What to know before trusting the numbers of a record.
 
-use super::interval::{Interval, student};
-use super::{Analysis, Component, Record};
+use super::{Analysis, Component, Interval, Record};
+use crate::statistics::student_t_95;
 use crate::units::{Dimension, shortest};
 use std::fmt;
 
@@ -30,7 +30,7 @@ impl Trend {
         let residual = |(i, y): (usize, &f64)| y - mean - change * place(i);
         let squares: f64 = values.iter().enumerate().map(|pair| residual(pair).powi(2)).sum();
         let error = (squares / (count - 2.0) / spread).sqrt();
-        let half = student(count - 2.0) * error;
+        let half = student_t_95((values.len() as u64).saturating_sub(2)) * error;
         Self {
             change: Interval { value: change, low: change - half, high: change + half },
             significant: change.abs() > 3.5 * error,

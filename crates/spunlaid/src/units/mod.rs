@@ -247,6 +247,17 @@ pub(crate) fn excerpt(text: &str, longest: usize) -> String {
     excerpt
 }
 
+/// A formatter through which nothing in a message can act on a terminal: control characters come out as `\u{1b}`.
+pub(crate) struct Printable<'a, 'f>(pub(crate) &'a mut fmt::Formatter<'f>);
+
+impl fmt::Write for Printable<'_, '_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        text.chars().try_for_each(|c| {
+            if c.is_control() { write!(self.0, "{}", c.escape_debug()) } else { self.0.write_char(c) }
+        })
+    }
+}
+
 fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
 }

@@ -2,7 +2,8 @@
 
 use super::series;
 use crate::numbers::significant;
-use spunlaid::record::{Analysis, Spectrum};
+use spunlaid::record::Analysis;
+use spunlaid::statistics::Spectrum;
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{INK, ORANGE},

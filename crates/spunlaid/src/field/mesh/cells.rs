@@ -1,6 +1,6 @@
 //! The cells of a mesh and their faces.
 
-use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::error::{FieldFault, FileError, FilePlace};
 
 /// What kind of cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -121,11 +121,11 @@ impl Cells {
     ///
     /// # Errors
     /// When the number of points is another.
-    pub fn push(&mut self, shape: Shape, points: &[u32]) -> Result<(), FieldError> {
+    pub fn push(&mut self, shape: Shape, points: &[u32]) -> Result<(), FileError> {
         if points.len() != shape.corners() || shape == Shape::Polyhedron {
             let (name, found, wanted) = (shape.name(), points.len(), shape.corners());
-            let place = FieldPlace::Cell(self.len() as u64 + 1);
-            return Err(FieldError::from(FieldFault::CellPoints { name, found, wanted }).at(place));
+            let place = FilePlace::Cell(self.len() as u64 + 1);
+            return Err(FileError::from(FieldFault::CellPoints { name, found, wanted }).at(place));
         }
         self.list.push(self.next(shape));
         self.points.extend_from_slice(points);

@@ -8,7 +8,7 @@ use super::node::{self, Node, bounding_box, merge};
 use super::tree::Tree;
 use super::values::Quantities;
 use super::{FieldWarning, Hint, mean, vector};
-use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::error::{FieldFault, FileError, FilePlace};
 use crate::vec3::Vec3;
 use cells::Cells;
 use cut::Cut;
@@ -54,10 +54,10 @@ impl Mesh {
         points: &[Vec3<f64>],
         cells: &Cells,
         values: Vec<Quantities>,
-    ) -> Result<(Self, Vec<FieldWarning>), FieldError> {
+    ) -> Result<(Self, Vec<FieldWarning>), FileError> {
         if let Some((cell, point)) = cells.beyond(points.len()) {
             let fault = FieldFault::NoPoint { point: point.into(), points: points.len() };
-            return Err(FieldError::from(fault).at(FieldPlace::Cell(cell as u64 + 1)));
+            return Err(FileError::from(fault).at(FilePlace::Cell(cell as u64 + 1)));
         }
         let mut nodes = node::nodes(points, values)?;
         let mut warnings = Vec::new();

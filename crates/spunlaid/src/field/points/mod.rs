@@ -11,7 +11,7 @@ use super::mean;
 use super::node::{Node, bounding_box};
 use super::tree::Tree;
 use super::values::Quantities;
-use crate::error::{FieldError, FieldFault};
+use crate::error::{FieldFault, FileError};
 use fit::Fit;
 
 /// Points that a value is the mean of; the next one sets how far they reach.
@@ -40,7 +40,7 @@ struct Site {
 
 impl Points {
     /// * `nodes` – each at a place of its own
-    pub(super) fn new(nodes: Vec<Node>) -> Result<Self, FieldError> {
+    pub(super) fn new(nodes: Vec<Node>) -> Result<Self, FileError> {
         if nodes.len() <= NEAREST {
             return Err(FieldFault::TooFewPoints { found: nodes.len(), least: NEAREST + 1 }.into());
         }

@@ -1,7 +1,7 @@
 //! Arrays of numbers, as they stand in a file until they are asked for.
 
 use super::encoding::{self, Budget, Packing};
-use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::error::{FieldFault, FileError, FileFault, FilePlace};
 use crate::units::excerpt;
 use std::str::FromStr;
 
@@ -89,7 +89,7 @@ pub(super) struct Array<'a> {
     pub(super) components: usize,
     pub(super) source: Source<'a>,
     /// Where it is in the file.
-    pub(super) place: FieldPlace,
+    pub(super) place: FilePlace,
 }
 
 /// What a number is read as: any number as `f64`, a whole one as `i64`.
@@ -129,7 +129,7 @@ impl Read for i64 {
 
 impl Array<'_> {
     /// All numbers there are.
-    pub(super) fn all<T: Read>(&self, budget: &mut Budget) -> Result<Vec<T>, FieldError> {
+    pub(super) fn all<T: Read>(&self, budget: &mut Budget) -> Result<Vec<T>, FileError> {
         let numbers = match &self.source {
             Source::Text(text) => words(text),
             Source::Numbers(numbers) => Ok(numbers.iter().map(|x| T::of_float(*x)).collect()),
@@ -144,7 +144,7 @@ impl Array<'_> {
     }
 
     /// The numbers of so many points or cells.
-    pub(super) fn of<T: Read>(&self, count: usize, budget: &mut Budget) -> Result<Vec<T>, FieldError> {
+    pub(super) fn of<T: Read>(&self, count: usize, budget: &mut Budget) -> Result<Vec<T>, FileError> {
         let (numbers, wanted) = (self.all(budget)?, count.saturating_mul(self.components));
         if numbers.len() == wanted {
             return Ok(numbers);
@@ -153,15 +153,17 @@ impl Array<'_> {
     }
 
     /// What is wrong, with the array’s name and place.
-    pub(super) fn fault(&self, fault: FieldFault) -> FieldError {
-        FieldError::from(fault).array(&self.name).at(self.place)
+    pub(super) fn fault(&self, fault: impl Into<FileFault>) -> FileError {
+        FileError::from(fault.into()).array(&self.name).at(self.place)
     }
 
-    fn converted<T: Read>(&self, bytes: &[u8], big_endian: bool) -> Result<Vec<T>, FieldFault> {
+    fn converted<T: Read>(&self, bytes: &[u8], big_endian: bool) -> Result<Vec<T>, FileFault> {
         let size = self.number.size();
         let over = bytes.len() % size;
         if over != 0 {
-            return Err(FieldFault::Count { found: over, wanted: size, of: "bytes of its last number" });
+            return Err(
+                FieldFault::Count { found: over, wanted: size, of: "bytes of its last number" }.into()
+            );
         }
         let number = |written: &[u8]| {
             let mut bits = [0; 8];
@@ -185,11 +187,14 @@ impl Array<'_> {
 }
 
 /// The numbers in a text.
-fn words<T: FromStr>(text: &[u8]) -> Result<Vec<T>, FieldFault> {
+fn words<T: FromStr>(text: &[u8]) -> Result<Vec<T>, FileFault> {
     let words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
     let parsed = words.map(|word| {
         let number = str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-        number.ok_or_else(|| FieldFault::NotANumber { text: excerpt(&String::from_utf8_lossy(word), 40) })
+        number.ok_or_else(|| {
+            let found = excerpt(&String::from_utf8_lossy(word), 40);
+            FieldFault::Syntax { found, wanted: "a number" }.into()
+        })
     });
     parsed.collect()
 }

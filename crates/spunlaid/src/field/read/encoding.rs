@@ -1,6 +1,6 @@
 //! Blocks of bytes as VTK’s XML files hold them: with a header, perhaps compressed, perhaps in base 64.
 
-use crate::error::FieldFault;
+use crate::error::{FieldFault, FileFault};
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
@@ -39,15 +39,15 @@ impl Budget {
     }
 
     /// Takes so many numbers.
-    pub(super) fn spend(&mut self, numbers: usize) -> Result<(), FieldFault> {
+    pub(super) fn spend(&mut self, numbers: usize) -> Result<(), FileFault> {
         let left = self.0.checked_sub((numbers as u64).saturating_mul(8));
         self.0 = left.ok_or(FieldFault::TooLarge { most: MOST })?;
         Ok(())
     }
 
     /// Whether so many bytes, soon to be numbers, may be decoded.
-    fn allow(&self, bytes: usize) -> Result<(), FieldFault> {
-        if bytes as u64 > self.0 { Err(FieldFault::TooLarge { most: MOST }) } else { Ok(()) }
+    fn allow(&self, bytes: usize) -> Result<(), FileFault> {
+        if bytes as u64 > self.0 { Err(FieldFault::TooLarge { most: MOST }.into()) } else { Ok(()) }
     }
 }
 
@@ -57,14 +57,14 @@ pub(super) fn unpack<'a>(
     packing: Packing,
     big_endian: bool,
     budget: &Budget,
-) -> Result<Cow<'a, [u8]>, FieldFault> {
+) -> Result<Cow<'a, [u8]>, FileFault> {
     let packed = if packing.base64 { Cow::Owned(of_base64(packed)?) } else { Cow::Borrowed(packed) };
     let mut header = Header { bytes: &packed, at: 0, wide: packing.wide_header, big_endian };
     if packing.compressor == Compressor::None {
         let length = header.number("the number of bytes")?;
         let (start, end) = (header.at, header.at.saturating_add(length));
         if end > packed.len() {
-            return Err(FieldFault::CutOff { wanted: "the rest of the numbers" });
+            return Err(FileFault::CutOff { wanted: "the rest of the numbers" });
         }
         return Ok(match packed {
             Cow::Borrowed(bytes) => Cow::Borrowed(&bytes[start..end]),
@@ -78,14 +78,14 @@ pub(super) fn unpack<'a>(
     let [size, last] = [header.number("the size of blocks")?, header.number("the size of the last block")?];
     let width = if packing.wide_header { 8 } else { 4 };
     if blocks > (packed.len() - header.at) / width {
-        return Err(FieldFault::CutOff { wanted: "the sizes of the blocks" });
+        return Err(FileFault::CutOff { wanted: "the sizes of the blocks" });
     }
     let mut rest = &packed[header.at + blocks * width..];
     let mut bytes = Vec::new();
     for block in 0..blocks {
         let length = header.number("the size of a block")?;
         let Some((compressed, after)) = rest.split_at_checked(length) else {
-            return Err(FieldFault::CutOff { wanted: "the rest of a compressed block" });
+            return Err(FileFault::CutOff { wanted: "the rest of a compressed block" });
         };
         rest = after;
         let wanted = if block + 1 == blocks && last > 0 { last } else { size };
@@ -101,7 +101,7 @@ fn expand(
     compressor: Compressor,
     bytes: &mut Vec<u8>,
     budget: &Budget,
-) -> Result<(), FieldFault> {
+) -> Result<(), FileFault> {
     let before = bytes.len();
     budget.allow(before.saturating_add(wanted))?;
     let expanded = match compressor {
@@ -121,7 +121,8 @@ fn expand(
     if found == wanted {
         return Ok(());
     }
-    Err(FieldFault::Encoding { message: format!("a block holds {found} bytes where {wanted} are announced") })
+    Err(FieldFault::Encoding { message: format!("a block holds {found} bytes where {wanted} are announced") }
+        .into())
 }
 
 /// Reads the numbers of a header one after the other.
@@ -133,9 +134,9 @@ struct Header<'a> {
 }
 
 impl Header<'_> {
-    fn number(&mut self, wanted: &'static str) -> Result<usize, FieldFault> {
+    fn number(&mut self, wanted: &'static str) -> Result<usize, FileFault> {
         let size = if self.wide { 8 } else { 4 };
-        let written = self.bytes.get(self.at..self.at + size).ok_or(FieldFault::CutOff { wanted })?;
+        let written = self.bytes.get(self.at..self.at + size).ok_or(FileFault::CutOff { wanted })?;
         self.at += size;
         let number = written.iter().enumerate().fold(0, |sum, (i, byte)| {
             let place = if self.big_endian { size - 1 - i } else { i };
@@ -146,7 +147,7 @@ impl Header<'_> {
 }
 
 /// Bytes in base 64; a header may be encoded apart from what follows it, and ends with padding then.
-fn of_base64(text: &[u8]) -> Result<Vec<u8>, FieldFault> {
+fn of_base64(text: &[u8]) -> Result<Vec<u8>, FileFault> {
     let config = GeneralPurposeConfig::new()
         .with_decode_padding_mode(DecodePaddingMode::Indifferent)
         .with_decode_allow_trailing_bits(true);

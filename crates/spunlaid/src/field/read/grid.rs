@@ -1,7 +1,7 @@
 //! Where the points of a piece of a file are, and which cells they make.
 
 use super::unstructured::{Listed, Solid};
-use crate::error::{FieldError, FieldFault};
+use crate::error::{FieldFault, FileError};
 use crate::vec3::Vec3;
 
 /// Where the points of a piece are.
@@ -19,7 +19,7 @@ pub(super) enum Grid {
 }
 
 impl Grid {
-    pub(super) fn unstructured(points: Vec<Vec3<f64>>, listed: &Listed) -> Result<Self, FieldError> {
+    pub(super) fn unstructured(points: Vec<Vec3<f64>>, listed: &Listed) -> Result<Self, FileError> {
         let solid = listed.solid(points.len())?;
         Ok(Self::Unstructured { points, solid, cells: listed.types.len() })
     }
@@ -34,7 +34,7 @@ impl Grid {
     }
 
     /// Numbers of points and of cells.
-    pub(super) fn counts(&self) -> Result<(usize, usize), FieldError> {
+    pub(super) fn counts(&self) -> Result<(usize, usize), FileError> {
         match self {
             Self::Unstructured { points, cells, .. } => Ok((points.len(), *cells)),
             Self::Scattered(points) => Ok((points.len(), 0)),
@@ -105,7 +105,7 @@ impl Grid {
 }
 
 /// The product, if points of that number can be told apart.
-pub(super) fn counted(size: [usize; 3]) -> Result<usize, FieldError> {
+pub(super) fn counted(size: [usize; 3]) -> Result<usize, FileError> {
     let product = size.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
     let product = product.filter(|product| u32::try_from(*product).is_ok());
     product.ok_or_else(|| FieldFault::TooMany { most: u32::MAX.into(), of: "points" }.into())

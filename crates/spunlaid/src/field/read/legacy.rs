@@ -6,7 +6,7 @@ use super::grid::{Grid, counted, vectors};
 use super::line;
 use super::piece::{Piece, assemble};
 use super::unstructured::{Listed, Polyhedra};
-use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::error::{FieldFault, FileError, FileFault, FilePlace};
 use crate::field::{Field, FieldWarning};
 use crate::units::excerpt;
 use crate::vec3::Vec3;
@@ -15,14 +15,14 @@ use crate::vec3::Vec3;
 pub(super) const START: &[u8] = b"# vtk DataFile Version";
 
 /// Reads a file.
-pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FieldError> {
+pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
     let mut scanner = Scanner { bytes, at: 0, binary: false };
     let mut budget = Budget::new();
     let piece = scanner.piece(&mut budget).map_err(|error| error.at(scanner.place()));
     let field = piece.and_then(|piece| assemble(vec![piece], &mut budget));
     field.map_err(|error| match scanner.binary {
         true => error,
-        false => FieldError { place: line(bytes, error.place), ..error },
+        false => FileError { place: line(bytes, error.place), ..error },
     })
 }
 
@@ -34,7 +34,7 @@ struct Scanner<'a> {
 }
 
 impl<'a> Scanner<'a> {
-    fn piece(&mut self, budget: &mut Budget) -> Result<Piece<'a>, FieldError> {
+    fn piece(&mut self, budget: &mut Budget) -> Result<Piece<'a>, FileError> {
         let first = self.rest_of_line();
         // Since version 5 cells are listed with their ends, before that with their numbers of points.
         let version = first.strip_prefix(START).and_then(|version| str::from_utf8(version).ok());
@@ -73,7 +73,7 @@ impl<'a> Scanner<'a> {
         Ok(piece)
     }
 
-    fn image(&mut self) -> Result<Grid, FieldError> {
+    fn image(&mut self) -> Result<Grid, FileError> {
         let (mut size, mut origin, mut spacing) = (None, [0.0; 3], [1.0; 3]);
         loop {
             match self.peek() {
@@ -89,11 +89,11 @@ impl<'a> Scanner<'a> {
                 _ => break,
             }
         }
-        let size = size.ok_or(FieldFault::CutOff { wanted: "DIMENSIONS" })?;
+        let size = size.ok_or(FileFault::CutOff { wanted: "DIMENSIONS" })?;
         Ok(Grid::Image { origin, spacing, size })
     }
 
-    fn rectilinear(&mut self, budget: &mut Budget) -> Result<Grid, FieldError> {
+    fn rectilinear(&mut self, budget: &mut Budget) -> Result<Grid, FileError> {
         self.next_keyword("DIMENSIONS")?;
         let size = self.size()?;
         let mut axis = |keyword, size: usize| {
@@ -110,14 +110,14 @@ impl<'a> Scanner<'a> {
         ]))
     }
 
-    fn points(&mut self, wanted: Option<usize>, budget: &mut Budget) -> Result<Vec<Vec3<f64>>, FieldError> {
+    fn points(&mut self, wanted: Option<usize>, budget: &mut Budget) -> Result<Vec<Vec3<f64>>, FileError> {
         let count: usize = self.parse("a number of points")?;
         let number = self.number()?;
         let array = self.array("POINTS".to_owned(), number, 3, count)?;
         Ok(vectors(&array.of(wanted.unwrap_or(count), budget)?))
     }
 
-    fn cells(&mut self, with_ends: bool, budget: &mut Budget) -> Result<Listed, FieldError> {
+    fn cells(&mut self, with_ends: bool, budget: &mut Budget) -> Result<Listed, FileError> {
         self.next_keyword("CELLS")?;
         let count: usize = self.parse("a number of cells")?;
         let size: usize = self.parse("a number of entries")?;
@@ -138,7 +138,7 @@ impl<'a> Scanner<'a> {
             let mut rest = entries.as_slice();
             while let Some((&length, after)) = rest.split_first() {
                 let own = usize::try_from(length).ok().and_then(|length| after.split_at_checked(length));
-                let (own, after) = own.ok_or_else(|| array.fault(FieldFault::CutOff { wanted: "a cell" }))?;
+                let (own, after) = own.ok_or_else(|| array.fault(FileFault::CutOff { wanted: "a cell" }))?;
                 listed.connectivity.extend_from_slice(own);
                 listed.ends.push(listed.connectivity.len() as i64);
                 rest = after;
@@ -151,7 +151,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// The arrays at the end of the file.
-    fn data(&mut self, piece: &mut Piece<'a>) -> Result<(), FieldError> {
+    fn data(&mut self, piece: &mut Piece<'a>) -> Result<(), FileError> {
         // Of points or of cells, and how many there are.
         let mut of = None;
         while let Some(keyword) = self.peek() {
@@ -174,7 +174,7 @@ impl<'a> Scanner<'a> {
         Ok(())
     }
 
-    fn arrays(&mut self, keyword: &str, count: usize) -> Result<Vec<Array<'a>>, FieldError> {
+    fn arrays(&mut self, keyword: &str, count: usize) -> Result<Vec<Array<'a>>, FileError> {
         if keyword == "FIELD" {
             return self.fields();
         }
@@ -217,7 +217,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    fn fields(&mut self) -> Result<Vec<Array<'a>>, FieldError> {
+    fn fields(&mut self) -> Result<Vec<Array<'a>>, FileError> {
         self.word()?;
         let count: usize = self.parse("a number of arrays")?;
         let mut arrays = Vec::new();
@@ -258,11 +258,10 @@ impl<'a> Scanner<'a> {
         number: Number,
         components: usize,
         count: usize,
-    ) -> Result<Array<'a>, FieldError> {
+    ) -> Result<Array<'a>, FileError> {
         let place = self.place();
         let numbers = components.saturating_mul(count);
-        let missing =
-            || FieldError::from(FieldFault::CutOff { wanted: "more numbers" }).array(&name).at(place);
+        let missing = || FileError::from(FileFault::CutOff { wanted: "more numbers" }).array(&name).at(place);
         let source = if self.binary {
             self.rest_of_line();
             let rest = &self.bytes[self.at..];
@@ -284,7 +283,7 @@ impl<'a> Scanner<'a> {
         Ok(Array { name, number, components, source, place })
     }
 
-    fn size(&mut self) -> Result<[usize; 3], FieldError> {
+    fn size(&mut self) -> Result<[usize; 3], FileError> {
         let mut one = || match self.parse("a number of points along an axis")? {
             0 => Err(wrong("0", "a number of points of one or more")),
             size => Ok(size),
@@ -292,17 +291,17 @@ impl<'a> Scanner<'a> {
         Ok([one()?, one()?, one()?])
     }
 
-    fn number(&mut self) -> Result<Number, FieldError> {
+    fn number(&mut self) -> Result<Number, FileError> {
         let word = self.word()?;
         Number::of_legacy(word).ok_or_else(|| wrong(word, "a type of number"))
     }
 
-    fn parse<T: std::str::FromStr>(&mut self, wanted: &'static str) -> Result<T, FieldError> {
+    fn parse<T: std::str::FromStr>(&mut self, wanted: &'static str) -> Result<T, FileError> {
         let word = self.word()?;
         word.parse().map_err(|_| wrong(word, wanted))
     }
 
-    fn keyword(&mut self, wanted: &'static str) -> Result<(), FieldError> {
+    fn keyword(&mut self, wanted: &'static str) -> Result<(), FileError> {
         match self.word()? {
             word if word == wanted => Ok(()),
             word => Err(wrong(word, wanted)),
@@ -310,7 +309,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// As [`Scanner::keyword`], past fields of the data set as a whole and remarks.
-    fn next_keyword(&mut self, wanted: &'static str) -> Result<(), FieldError> {
+    fn next_keyword(&mut self, wanted: &'static str) -> Result<(), FileError> {
         loop {
             match self.peek() {
                 Some("FIELD") => {
@@ -335,8 +334,8 @@ impl<'a> Scanner<'a> {
         str::from_utf8(&rest[..end]).ok().filter(|word| !word.is_empty())
     }
 
-    fn word(&mut self) -> Result<&'a str, FieldError> {
-        let word = self.peek().ok_or(FieldFault::CutOff { wanted: "a word" })?;
+    fn word(&mut self) -> Result<&'a str, FileError> {
+        let word = self.peek().ok_or(FileFault::CutOff { wanted: "a word" })?;
         self.at += word.len();
         Ok(word)
     }
@@ -350,11 +349,11 @@ impl<'a> Scanner<'a> {
     }
 
     /// The byte reached.
-    fn place(&self) -> FieldPlace {
-        FieldPlace::Byte(self.at as u64 + 1)
+    fn place(&self) -> FilePlace {
+        FilePlace::Byte(self.at as u64 + 1)
     }
 }
 
-fn wrong(found: &str, wanted: &'static str) -> FieldError {
+fn wrong(found: &str, wanted: &'static str) -> FileError {
     FieldFault::Syntax { found: excerpt(found, 40), wanted }.into()
 }

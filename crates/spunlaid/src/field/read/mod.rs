@@ -14,39 +14,26 @@ mod unstructured;
 mod xml;
 
 use super::{Field, FieldWarning};
-use crate::error::{FieldError, FieldFault, FieldPlace};
-use std::fs;
-use std::io::ErrorKind;
+use crate::error::{FieldFault, FileError, FileKind, FilePlace};
+use crate::file;
 use std::path::Path;
 
 impl Field {
-    /// Reads a field from a file, VTK or a table; which, its content says.
+    /// Reads a field from a file, VTK or a table; the format is recognised from the file's content.
     ///
     /// `docs/air.md` of the repository names the formats, and what arrays and columns may be called.
     ///
     /// # Errors
     /// When the file cannot be read or holds no field of air; the message says where and why.
-    pub fn read(path: &Path) -> Result<(Self, Vec<FieldWarning>), FieldError> {
-        let name = path.display().to_string();
-        let failed = |source: std::io::Error| {
-            let fault = match source.kind() {
-                ErrorKind::NotFound => FieldFault::NotThere,
-                ErrorKind::IsADirectory => FieldFault::IsFolder,
-                _ => FieldFault::Unreadable { message: source.to_string() },
-            };
-            FieldError::from(fault).file(&name)
-        };
-        if fs::metadata(path).map_err(failed)?.is_dir() {
-            return Err(FieldError::from(FieldFault::IsFolder).file(&name));
-        }
-        Self::parse(&fs::read(path).map_err(failed)?, &name)
+    pub fn read(path: &Path) -> Result<(Self, Vec<FieldWarning>), FileError> {
+        Self::parse(&file::read(path, FileKind::Field, u64::MAX)?, &path.display().to_string())
     }
 
     /// Reads a field from the bytes of a file; `name` is what messages call it.
     ///
     /// # Errors
     /// As [`Field::read`].
-    pub fn parse(bytes: &[u8], name: &str) -> Result<(Self, Vec<FieldWarning>), FieldError> {
+    pub fn parse(bytes: &[u8], name: &str) -> Result<(Self, Vec<FieldWarning>), FileError> {
         let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let read = if start.trim_ascii_start().starts_with(b"<") {
             xml::read(start)
@@ -67,10 +54,10 @@ impl Field {
 }
 
 /// The line of a text that a place among its bytes is in.
-fn line(text: &[u8], place: FieldPlace) -> FieldPlace {
-    let FieldPlace::Byte(byte) = place else {
+fn line(text: &[u8], place: FilePlace) -> FilePlace {
+    let FilePlace::Byte(byte) = place else {
         return place;
     };
     let before = text.iter().take(byte.saturating_sub(1) as usize);
-    FieldPlace::Line(before.filter(|byte| **byte == b'\n').count() as u64 + 1)
+    FilePlace::Line(before.filter(|byte| **byte == b'\n').count() as u64 + 1)
 }

@@ -1,6 +1,6 @@
 //! What programs call the quantities, and in which units.
 
-use crate::error::{FieldError, FieldFault};
+use crate::error::{FieldFault, FileError};
 use crate::units::excerpt;
 
 /// Names of the velocity vector, the preferred first: turbulence is added to the mean, so that goes before
@@ -105,7 +105,7 @@ impl Name {
     }
 
     /// What its unit is in SI units if this is the name, perhaps followed by a unit.
-    fn is(&self, name: &str, measure: Measure) -> Option<Result<f64, FieldError>> {
+    fn is(&self, name: &str, measure: Measure) -> Option<Result<f64, FileError>> {
         let unit = self.plain.strip_prefix(name)?;
         if unit.is_empty() {
             return Some(Ok(1.0));
@@ -121,7 +121,7 @@ impl Name {
             return None;
         }
         let fault = FieldFault::WrongUnit { unit: excerpt(bracket, 20), wanted: measure.wanted() };
-        Some(Err(FieldError::from(fault).array(&self.written)))
+        Some(Err(FileError::from(fault).array(&self.written)))
     }
 }
 
@@ -143,7 +143,7 @@ fn first(
     wanted: &[&str],
     measure: Measure,
     fits: impl Fn(usize) -> bool,
-) -> Result<Option<Found>, FieldError> {
+) -> Result<Option<Found>, FileError> {
     for name in wanted {
         for (i, there) in names.iter().enumerate() {
             if fits(i)
@@ -159,7 +159,7 @@ fn first(
 /// Finds the velocity.
 ///
 /// * `components` – of each array
-pub(super) fn velocity(names: &[Name], components: &[usize]) -> Result<Option<Velocity>, FieldError> {
+pub(super) fn velocity(names: &[Name], components: &[usize]) -> Result<Option<Velocity>, FileError> {
     let one = |i: usize| components[i] == 1;
     for vector in VECTORS {
         let found = first(names, &[vector], Measure::Velocity, |i| components[i] == 3)?;
@@ -190,7 +190,7 @@ pub(super) fn velocity(names: &[Name], components: &[usize]) -> Result<Option<Ve
 }
 
 /// Finds the coordinates; the third is not there in a plane flow.
-pub(super) fn coordinates(names: &[Name]) -> Result<[Option<Found>; 3], FieldError> {
+pub(super) fn coordinates(names: &[Name]) -> Result<[Option<Found>; 3], FileError> {
     let mut best = [None; 3];
     for spelt in COORDINATES {
         let mut parts = [None; 3];
@@ -210,7 +210,7 @@ pub(super) fn scalar(
     names: &[Name],
     components: &[usize],
     measure: Measure,
-) -> Result<Option<Found>, FieldError> {
+) -> Result<Option<Found>, FileError> {
     let wanted: &[&str] = match measure {
         Measure::K => &K,
         Measure::Epsilon => &EPSILON,
@@ -221,7 +221,7 @@ pub(super) fn scalar(
 }
 
 /// The columns of a table that are used, by their places.
-pub(super) fn used(names: &[Name]) -> Result<Vec<usize>, FieldError> {
+pub(super) fn used(names: &[Name]) -> Result<Vec<usize>, FileError> {
     let ones = vec![1; names.len()];
     let velocity = match velocity(names, &ones)? {
         Some(Velocity::Components(columns)) => columns,

@@ -4,7 +4,7 @@ use super::array::Array;
 use super::encoding::Budget;
 use super::grid::{Grid, vectors};
 use super::names::{self, Measure, Name, Velocity};
-use crate::error::{FieldError, FieldFault};
+use crate::error::{FieldFault, FileError};
 use crate::field::values::C_MU;
 use crate::field::{Cells, Field, FieldWarning, Shape, Values};
 use crate::vec3::Vec3;
@@ -20,7 +20,7 @@ pub(super) struct Piece<'a> {
 pub(super) fn assemble(
     mut pieces: Vec<Piece<'_>>,
     budget: &mut Budget,
-) -> Result<(Field, Vec<FieldWarning>), FieldError> {
+) -> Result<(Field, Vec<FieldWarning>), FileError> {
     let mut warnings = Vec::new();
     let mut values = Vec::new();
     for piece in &pieces {
@@ -94,7 +94,7 @@ struct Reader<'a, 'b> {
 }
 
 impl Reader<'_, '_> {
-    fn values(&mut self) -> Result<Values, FieldError> {
+    fn values(&mut self) -> Result<Values, FileError> {
         let velocity = self.velocity()?;
         let k = self.scalar(Measure::K)?;
         let epsilon = match self.scalar(Measure::Epsilon)? {
@@ -110,7 +110,7 @@ impl Reader<'_, '_> {
         Ok(Values { velocity, k, epsilon })
     }
 
-    fn velocity(&mut self) -> Result<Vec<Vec3<f64>>, FieldError> {
+    fn velocity(&mut self) -> Result<Vec<Vec3<f64>>, FileError> {
         for of_cells in [false, true] {
             let (names, components) = self.list(of_cells);
             match names::velocity(&names, &components)? {
@@ -138,7 +138,7 @@ impl Reader<'_, '_> {
     }
 
     /// A quantity of one component, zero where the file has it negative.
-    fn scalar(&mut self, measure: Measure) -> Result<Option<Vec<f64>>, FieldError> {
+    fn scalar(&mut self, measure: Measure) -> Result<Option<Vec<f64>>, FileError> {
         for of_cells in [false, true] {
             let (names, components) = self.list(of_cells);
             let Some((array, factor)) = names::scalar(&names, &components, measure)? else {
@@ -181,7 +181,7 @@ impl Reader<'_, '_> {
     }
 
     /// The numbers of an array, at the points and in SI units.
-    fn numbers(&mut self, of_cells: bool, array: usize, factor: f64) -> Result<Vec<f64>, FieldError> {
+    fn numbers(&mut self, of_cells: bool, array: usize, factor: f64) -> Result<Vec<f64>, FileError> {
         let (points, cells) = self.piece.grid.counts()?;
         let array = if of_cells { &self.piece.cell_data[array] } else { &self.piece.point_data[array] };
         let mut numbers = array.of(if of_cells { cells } else { points }, self.budget)?;

@@ -1,6 +1,6 @@
 //! The cells of an unstructured grid, from VTK’s lists to [`Cells`].
 
-use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::error::{FieldFault, FileError, FileFault, FilePlace};
 use crate::field::{Cells, Shape};
 
 /// The lists.
@@ -73,7 +73,7 @@ impl Listed {
     /// The cells with an inside.
     ///
     /// * `points` – how many there are
-    pub(super) fn solid(&self, points: usize) -> Result<Solid, FieldError> {
+    pub(super) fn solid(&self, points: usize) -> Result<Solid, FileError> {
         if self.ends.len() != self.types.len() {
             let fault =
                 FieldFault::Count { found: self.ends.len(), wanted: self.types.len(), of: "ends of cells" };
@@ -82,12 +82,12 @@ impl Listed {
         let mut solid = Solid::default();
         for place in 0..self.types.len() {
             let added = self.add(place, points, &mut solid);
-            added.map_err(|error| error.at(FieldPlace::Cell(place as u64 + 1)))?;
+            added.map_err(|error| error.at(FilePlace::Cell(place as u64 + 1)))?;
         }
         Ok(solid)
     }
 
-    fn add(&self, place: usize, points: usize, solid: &mut Solid) -> Result<(), FieldError> {
+    fn add(&self, place: usize, points: usize, solid: &mut Solid) -> Result<(), FileError> {
         let number = self.types[place];
         let own = part(&self.connectivity, &self.ends, place)?;
         let corners =
@@ -125,7 +125,7 @@ impl Listed {
     /// The faces of a polyhedron.
     ///
     /// * `own` – its entries in the connectivity
-    fn faces<'a>(&'a self, place: usize, own: &'a [i64]) -> Result<Vec<&'a [i64]>, FieldFault> {
+    fn faces<'a>(&'a self, place: usize, own: &'a [i64]) -> Result<Vec<&'a [i64]>, FileFault> {
         match &self.polyhedra {
             Polyhedra::Inline => stream(own),
             Polyhedra::Stream { faces, ends } => {
@@ -144,8 +144,8 @@ impl Listed {
 }
 
 /// From the number of faces, and of each face the number of points and they, to the faces.
-fn stream(entries: &[i64]) -> Result<Vec<&[i64]>, FieldFault> {
-    const WANTED: FieldFault = FieldFault::CutOff { wanted: "the faces of a polyhedron" };
+fn stream(entries: &[i64]) -> Result<Vec<&[i64]>, FileFault> {
+    const WANTED: FileFault = FileFault::CutOff { wanted: "the faces of a polyhedron" };
     let (count, mut rest) = entries.split_first().ok_or(WANTED)?;
     let mut faces = Vec::new();
     for _ in 0..*count {
@@ -159,27 +159,27 @@ fn stream(entries: &[i64]) -> Result<Vec<&[i64]>, FieldFault> {
 }
 
 /// The part of a list that belongs to one of several things, by where their parts end.
-fn part<'a>(list: &'a [i64], ends: &[i64], place: usize) -> Result<&'a [i64], FieldFault> {
-    let end =
-        ends.get(place).copied().ok_or(FieldFault::CutOff { wanted: "where each cell or face ends" })?;
+fn part<'a>(list: &'a [i64], ends: &[i64], place: usize) -> Result<&'a [i64], FileFault> {
+    let end = ends.get(place).copied().ok_or(FileFault::CutOff { wanted: "where each cell or face ends" })?;
     let start = if place == 0 { 0 } else { ends[place - 1] };
     between(list, start, end)
 }
 
-fn between(list: &[i64], start: i64, end: i64) -> Result<&[i64], FieldFault> {
+fn between(list: &[i64], start: i64, end: i64) -> Result<&[i64], FileFault> {
     let range = usize::try_from(start).ok().zip(usize::try_from(end).ok());
     match range.and_then(|(start, end)| list.get(start..end)) {
         Some(part) => Ok(part),
-        None if end < start => Err(FieldFault::NotIncreasing { before: start as f64, after: end as f64 }),
+        None if end < start => Err(FileFault::NotIncreasing { before: start as f64, after: end as f64 }),
         None => Err(FieldFault::Count {
             found: list.len(),
             wanted: usize::try_from(end).unwrap_or(usize::MAX),
             of: "entries in its list",
-        }),
+        }
+        .into()),
     }
 }
 
-fn checked(point: i64, points: usize) -> Result<u32, FieldFault> {
+fn checked(point: i64, points: usize) -> Result<u32, FileFault> {
     let known = u32::try_from(point).ok().filter(|number| (*number as usize) < points);
-    known.ok_or(FieldFault::NoPoint { point, points })
+    known.ok_or_else(|| FieldFault::NoPoint { point, points }.into())
 }

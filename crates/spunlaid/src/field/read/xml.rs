@@ -9,22 +9,22 @@ use super::grid::{Grid, counted, vectors};
 use super::line;
 use super::piece::{Piece, assemble};
 use super::unstructured::{Listed, Polyhedra};
-use crate::error::{FieldError, FieldFault, FieldPlace};
+use crate::error::{FieldFault, FileError, FileFault, FilePlace};
 use crate::field::{Field, FieldWarning};
 use crate::units::excerpt;
 use roxmltree::{Document, Node};
 use std::borrow::Cow;
 
 /// Reads a file.
-pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FieldError> {
-    whole(bytes).map_err(|error| FieldError { place: line(bytes, error.place), ..error })
+pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
+    whole(bytes).map_err(|error| FileError { place: line(bytes, error.place), ..error })
 }
 
-fn whole(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FieldError> {
+fn whole(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
     let (text, appended) = parted(bytes)?;
     let document = Document::parse(&text).map_err(|error| {
         let fault = FieldFault::Xml { message: excerpt(&error.to_string(), 100) };
-        FieldError::from(fault).at(FieldPlace::Line(error.pos().row.into()))
+        FileError::from(fault).at(FilePlace::Line(error.pos().row.into()))
     })?;
     let root = document.root_element();
     if root.tag_name().name() != "VTKFile" {
@@ -38,7 +38,7 @@ fn whole(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FieldError> {
         return Err(FieldFault::Format { found, advice }.into());
     }
     let Some(grid) = root.children().find(|node| node.has_tag_name(kind)) else {
-        return Err(FieldFault::CutOff { wanted: "the grid" }.into());
+        return Err(FileFault::CutOff { wanted: "the grid" }.into());
     };
     let mut budget = Budget::new();
     let file = File { format: Format::of(root)?, appended, offsets: offsets(grid) };
@@ -58,19 +58,19 @@ struct Appended<'a> {
 }
 
 /// The text of a file, closed where bytes follow, and these.
-fn parted(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<Appended<'_>>), FieldError> {
+fn parted(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<Appended<'_>>), FileError> {
     const TAG: &[u8] = b"<AppendedData";
     let tag = bytes.windows(TAG.len()).position(|window| window == TAG);
     let text = str::from_utf8(&bytes[..tag.unwrap_or(bytes.len())]).map_err(|error| {
         let fault = FieldFault::Xml { message: "it is not UTF-8 text".to_owned() };
-        FieldError::from(fault).at(FieldPlace::Byte(error.valid_up_to() as u64 + 1))
+        FileError::from(fault).at(FilePlace::Byte(error.valid_up_to() as u64 + 1))
     })?;
     let Some(tag) = tag else {
         return Ok((Cow::Borrowed(text), None));
     };
     let mut after = bytes[tag..].splitn(2, |byte| *byte == b'_');
     let (attributes, Some(bytes)) = (after.next().unwrap_or_default(), after.next()) else {
-        return Err(FieldFault::CutOff { wanted: "the appended data" }.into());
+        return Err(FileFault::CutOff { wanted: "the appended data" }.into());
     };
     let base64 = attributes.windows(6).any(|window| window == b"base64");
     Ok((Cow::Owned(format!("{text}</VTKFile>")), Some(Appended { bytes, base64 })))
@@ -85,7 +85,7 @@ struct Format {
 }
 
 impl Format {
-    fn of(root: Node<'_, '_>) -> Result<Self, FieldError> {
+    fn of(root: Node<'_, '_>) -> Result<Self, FileError> {
         let compressor = match root.attribute("compressor") {
             None | Some("") => Compressor::None,
             Some("vtkZLibDataCompressor") => Compressor::Zlib,
@@ -120,8 +120,8 @@ struct File<'a> {
     offsets: Vec<usize>,
 }
 
-fn place(node: Node<'_, '_>) -> FieldPlace {
-    FieldPlace::Byte(node.range().start as u64 + 1)
+fn place(node: Node<'_, '_>) -> FilePlace {
+    FilePlace::Byte(node.range().start as u64 + 1)
 }
 
 impl<'a> File<'a> {
@@ -131,7 +131,7 @@ impl<'a> File<'a> {
         grid: Node<'a, '_>,
         piece: Node<'a, '_>,
         budget: &mut Budget,
-    ) -> Result<Piece<'a>, FieldError> {
+    ) -> Result<Piece<'a>, FileError> {
         let extent = || extent(piece).or_else(|_| extent(grid));
         let [point_data, cell_data] = [self.arrays(piece, "PointData")?, self.arrays(piece, "CellData")?];
         let grid = match kind {
@@ -141,7 +141,7 @@ impl<'a> File<'a> {
                 let mut axes = self.arrays(piece, "Coordinates")?.into_iter();
                 let mut axis = |i: usize| match axes.next() {
                     Some(axis) => axis.of(size[i], budget),
-                    None => Err(FieldFault::CutOff { wanted: "the coordinates" }.into()),
+                    None => Err(FileFault::CutOff { wanted: "the coordinates" }.into()),
                 };
                 Grid::Lattice([axis(0)?, axis(1)?, axis(2)?])
             }
@@ -159,7 +159,7 @@ impl<'a> File<'a> {
         Ok(Piece { grid, point_data, cell_data })
     }
 
-    fn image(&self, grid: Node<'_, '_>, (first, size): ([f64; 3], [usize; 3])) -> Result<Grid, FieldError> {
+    fn image(&self, grid: Node<'_, '_>, (first, size): ([f64; 3], [usize; 3])) -> Result<Grid, FileError> {
         let origin = numbers(grid, "Origin")?.unwrap_or([0.0; 3]);
         let spacing = numbers(grid, "Spacing")?.unwrap_or([1.0; 3]);
         let upright = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
@@ -175,9 +175,9 @@ impl<'a> File<'a> {
         piece: Node<'a, '_>,
         count: usize,
         budget: &mut Budget,
-    ) -> Result<Vec<crate::vec3::Vec3<f64>>, FieldError> {
+    ) -> Result<Vec<crate::vec3::Vec3<f64>>, FileError> {
         let arrays = self.arrays(piece, "Points")?;
-        let array = arrays.first().ok_or(FieldFault::CutOff { wanted: "the points" })?;
+        let array = arrays.first().ok_or(FileFault::CutOff { wanted: "the points" })?;
         if array.components != 3 {
             return Err(array.fault(FieldFault::Count {
                 found: array.components,
@@ -188,10 +188,10 @@ impl<'a> File<'a> {
         Ok(vectors(&array.of(count, budget)?))
     }
 
-    fn listed(&self, piece: Node<'a, '_>, count: usize, budget: &mut Budget) -> Result<Listed, FieldError> {
+    fn listed(&self, piece: Node<'a, '_>, count: usize, budget: &mut Budget) -> Result<Listed, FileError> {
         let arrays = self.arrays(piece, "Cells")?;
         let find = |name: &str| arrays.iter().find(|array| array.name == name);
-        let need = |name: &'static str| find(name).ok_or(FieldFault::CutOff { wanted: name });
+        let need = |name: &'static str| find(name).ok_or(FileFault::CutOff { wanted: name });
         let types = need("types")?.of(count, budget)?;
         let ends = need("offsets")?.of(count, budget)?;
         let connectivity = need("connectivity")?.all(budget)?;
@@ -211,18 +211,18 @@ impl<'a> File<'a> {
     }
 
     /// The arrays of a part of a piece.
-    fn arrays(&self, piece: Node<'a, '_>, part: &str) -> Result<Vec<Array<'a>>, FieldError> {
+    fn arrays(&self, piece: Node<'a, '_>, part: &str) -> Result<Vec<Array<'a>>, FileError> {
         let parts = piece.children().filter(|node| node.has_tag_name(part));
         let arrays = parts.flat_map(|part| part.children()).filter(|node| node.has_tag_name("DataArray"));
         arrays.map(|node| self.array(node).map_err(|error| error.at(place(node)))).collect()
     }
 
-    fn array(&self, node: Node<'a, '_>) -> Result<Array<'a>, FieldError> {
+    fn array(&self, node: Node<'a, '_>) -> Result<Array<'a>, FileError> {
         let name = node.attribute("Name").unwrap_or_default().to_owned();
         let written = node.attribute("type").unwrap_or_default();
         let Some(number_type) = Number::of_xml(written) else {
             let fault = FieldFault::Syntax { found: excerpt(written, 40), wanted: "a type of number" };
-            return Err(FieldError::from(fault).array(&name));
+            return Err(FileError::from(fault).array(&name));
         };
         let components = match node.attribute("NumberOfComponents") {
             None => 1,
@@ -234,14 +234,14 @@ impl<'a> File<'a> {
             Some("appended") => {
                 let Some(appended) = self.appended else {
                     return Err(
-                        FieldError::from(FieldFault::CutOff { wanted: "the appended data" }).array(&name)
+                        FileError::from(FileFault::CutOff { wanted: "the appended data" }).array(&name)
                     );
                 };
                 let start = number(node, "offset")?;
                 let next = self.offsets.partition_point(|offset| *offset <= start);
                 let end = self.offsets.get(next).copied().unwrap_or(usize::MAX).min(appended.bytes.len());
                 let Some(bytes) = appended.bytes.get(start..end) else {
-                    return Err(FieldError::from(FieldFault::CutOff { wanted: "an array" }).array(&name));
+                    return Err(FileError::from(FileFault::CutOff { wanted: "an array" }).array(&name));
                 };
                 let packing = Packing { base64: appended.base64, compressor, wide_header };
                 // In base 64 the file goes on after the last array.
@@ -259,22 +259,22 @@ impl<'a> File<'a> {
 }
 
 /// The first index along each axis and the number of points.
-fn extent(node: Node<'_, '_>) -> Result<([f64; 3], [usize; 3]), FieldError> {
+fn extent(node: Node<'_, '_>) -> Result<([f64; 3], [usize; 3]), FileError> {
     let name = if node.has_tag_name("Piece") { "Extent" } else { "WholeExtent" };
-    let ends: [f64; 6] = numbers(node, name)?.ok_or(FieldFault::CutOff { wanted: name })?;
+    let ends: [f64; 6] = numbers(node, name)?.ok_or(FileFault::CutOff { wanted: name })?;
     let size = [0, 1, 2].map(|i| ends[2 * i + 1] - ends[2 * i] + 1.0);
     match size.into_iter().find(|size| !(*size >= 1.0 && *size <= 1e15)) {
         None => Ok(([ends[0], ends[2], ends[4]], size.map(|size| size as usize))),
         Some(size) => {
             let fault =
                 FieldFault::Syntax { found: format!("{size}"), wanted: "a number of points of one or more" };
-            Err(FieldError::from(fault).array(name))
+            Err(FileError::from(fault).array(name))
         }
     }
 }
 
 /// Numbers parted by blanks.
-fn numbers<const N: usize>(node: Node<'_, '_>, name: &'static str) -> Result<Option<[f64; N]>, FieldError> {
+fn numbers<const N: usize>(node: Node<'_, '_>, name: &'static str) -> Result<Option<[f64; N]>, FileError> {
     let Some(text) = node.attribute(name) else {
         return Ok(None);
     };
@@ -282,12 +282,12 @@ fn numbers<const N: usize>(node: Node<'_, '_>, name: &'static str) -> Result<Opt
         text.split_ascii_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
     let fault = || FieldFault::Syntax { found: excerpt(text, 40), wanted: "numbers parted by blanks" };
     let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
-    numbers.map(Some).ok_or_else(|| FieldError::from(fault()).array(name))
+    numbers.map(Some).ok_or_else(|| FileError::from(fault()).array(name))
 }
 
 /// A number of things.
-fn number(node: Node<'_, '_>, name: &'static str) -> Result<usize, FieldError> {
+fn number(node: Node<'_, '_>, name: &'static str) -> Result<usize, FileError> {
     let text = node.attribute(name).unwrap_or_default();
     let fault = || FieldFault::Syntax { found: excerpt(text, 40), wanted: "a whole number" };
-    text.trim().parse().map_err(|_| FieldError::from(fault()).array(name))
+    text.trim().parse().map_err(|_| FileError::from(fault()).array(name))
 }

@@ -14,7 +14,7 @@ use super::data::DataFiles;
 use super::document::Document;
 use super::{file, layout, resolve};
 use crate::case::keys::{self, Quantity};
-use crate::error::Error;
+use crate::error::{Error, FileKind};
 use crate::study::Study;
 use crate::units::Dimension;
 use std::path::{Path, PathBuf};
@@ -49,14 +49,11 @@ pub struct StudyFile {
 /// When a file cannot be read, and when anything is wrong with the study or any of its points: then everything
 /// found.
 pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Error> {
-    let text = file::read(path).map_err(|error| match error {
-        Error::NotThere { path } => Error::NoStudy { path },
-        other => other,
-    })?;
+    let text = file::read(path, FileKind::Study)?;
     let beside = |case: &str| path.parent().map_or_else(|| PathBuf::from(case), |folder| folder.join(case));
     parse_study(&text, &path.display().to_string(), points, |case| {
         let case = beside(case);
-        Ok((file::read(&case)?, case.display().to_string()))
+        Ok((file::read(&case, FileKind::Case)?, case.display().to_string()))
     })
 }
 

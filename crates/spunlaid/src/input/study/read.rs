@@ -498,7 +498,7 @@ impl<'a> Reader<'a> {
         } else if let Some(asked) = asked.filter(|asked| *asked != exact) {
             self.reject(entry, "design", StudyFault::OtherPoints { points: exact, asked });
         } else if exact > MOST_POINTS_UNASKED && asked.is_none() {
-            let advice = format!("ask for them with --points {exact}");
+            let advice = format!("ask for {exact} points by their number");
             let (points, most) = (exact.to_string(), MOST_POINTS_UNASKED);
             self.reject(entry, "design", StudyFault::TooManyPoints { points, most, advice });
         }

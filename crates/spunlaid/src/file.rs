@@ -1,0 +1,49 @@
+//! Files as bytes, each read once.
+
+use crate::error::{FileError, FileFault, FileKind};
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
+
+/// Opens a file.
+///
+/// # Errors
+/// When it is not there, is a folder or may not be read.
+pub(crate) fn open(path: &Path, kind: FileKind) -> Result<File, FileError> {
+    let failed = |source| unreadable(&source, path, kind);
+    let file = File::open(path).map_err(failed)?;
+    if file.metadata().map_err(failed)?.is_dir() {
+        return Err(FileError::from(FileFault::IsFolder(kind)).path(path));
+    }
+    Ok(file)
+}
+
+/// Reads a file; never more than `most` bytes into memory.
+///
+/// # Errors
+/// As [`open`], and when it is larger.
+pub(crate) fn read(path: &Path, kind: FileKind, most: u64) -> Result<Vec<u8>, FileError> {
+    let file = open(path, kind)?;
+    let failed = |source| unreadable(&source, path, kind);
+    // A device or pipe tells no size, or zero.
+    let told = file.metadata().map_err(failed)?.len();
+    let mut bytes = Vec::new();
+    if told <= most {
+        bytes.reserve_exact(usize::try_from(told).unwrap_or_default());
+        file.take(most.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
+    }
+    if told.max(bytes.len() as u64) > most {
+        return Err(FileError::from(FileFault::TooLarge { kind, most }).path(path));
+    }
+    Ok(bytes)
+}
+
+/// Why the system does not let a file be read.
+pub(crate) fn unreadable(source: &io::Error, path: &Path, kind: FileKind) -> FileError {
+    let fault = match source.kind() {
+        ErrorKind::NotFound => FileFault::NotThere(kind),
+        ErrorKind::IsADirectory => FileFault::IsFolder(kind),
+        _ => FileFault::Unreadable { message: source.to_string() },
+    };
+    FileError::from(fault).path(path)
+}

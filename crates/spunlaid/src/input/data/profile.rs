@@ -1,0 +1,180 @@
+//! Profiles of the air and spectra: small tables with units in their headers.
+
+use crate::air::{Profile, SpectrumTable};
+use crate::error::{FileError, FileFault, FileKind, ProfileFault};
+use crate::table::{Head, Table};
+use crate::units::{Dimension, excerpt};
+
+/// Fewest rows of a table.
+const LEAST_ROWS: usize = 2;
+
+/// A column that a table may have.
+struct Wanted {
+    what: &'static str,
+    names: &'static [&'static str],
+    dimension: Dimension,
+    example: &'static str,
+    required: bool,
+    sign: Sign,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Sign {
+    Any,
+    NotNegative,
+    Positive,
+}
+
+/// A profile of the air: `x_m, velocity_m_s, turbulence_intensity, length_scale_m, cutoff_frequency_hz`, the
+/// last three as far as known.
+pub(super) fn profile(text: &[u8]) -> Result<Profile, FileError> {
+    let column = |what, names, dimension, example, required, sign| Wanted {
+        what,
+        names,
+        dimension,
+        example,
+        required,
+        sign,
+    };
+    let wanted = [
+        column("of distances", &["x", "distance", "position"], Dimension::Length, "x_mm", true, Sign::Any),
+        column(
+            "of mean velocities",
+            &["velocity", "u", "mean_velocity", "speed"],
+            Dimension::Velocity,
+            "velocity_m_s",
+            true,
+            Sign::Any,
+        ),
+        column(
+            "of turbulence intensities",
+            &["turbulence_intensity", "tu", "intensity"],
+            Dimension::Ratio,
+            "turbulence_intensity",
+            false,
+            Sign::NotNegative,
+        ),
+        column(
+            "of length scales",
+            &["length_scale", "l_t", "lt", "l"],
+            Dimension::Length,
+            "length_scale_mm",
+            false,
+            Sign::Positive,
+        ),
+        column(
+            "of cut-off frequencies",
+            &["cutoff_frequency", "cutoff", "f", "frequency"],
+            Dimension::Frequency,
+            "cutoff_frequency_hz",
+            false,
+            Sign::Positive,
+        ),
+    ];
+    let [x, velocity, turbulence_intensity, length_scale, cutoff_frequency] =
+        read(text, &wanted, "x_mm,velocity_m_s")?;
+    Ok(Profile { x, velocity, turbulence_intensity, length_scale, cutoff_frequency })
+}
+
+/// A spectrum: `frequency_hz, energy`.
+pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
+    let wanted = [
+        Wanted {
+            what: "of frequencies",
+            names: &["frequency", "f"],
+            dimension: Dimension::Frequency,
+            example: "frequency_hz",
+            required: true,
+            sign: Sign::NotNegative,
+        },
+        Wanted {
+            what: "of energies",
+            names: &["energy", "density", "psd", "e", "s"],
+            // In whatever unit: only the shape counts.
+            dimension: Dimension::Ratio,
+            example: "energy",
+            required: true,
+            sign: Sign::NotNegative,
+        },
+    ];
+    let [frequency, energy] = read(text, &wanted, "frequency_hz,energy")?;
+    if energy.iter().all(|e| *e == 0.0) {
+        return Err(ProfileFault::NoEnergy.into());
+    }
+    Ok(SpectrumTable { frequency, energy })
+}
+
+/// The wanted columns in SI units, the first in rising order; empty where one is not there.
+fn read<const N: usize>(
+    text: &[u8],
+    wanted: &[Wanted; N],
+    example: &'static str,
+) -> Result<[Vec<f64>; N], FileError> {
+    let mut table = Table::open(text, FileKind::Table, 0)?;
+    if !table.named() {
+        return Err(FileFault::NoHeader { example }.into());
+    }
+    let mut columns = [None; N];
+    for (column, wanted) in columns.iter_mut().zip(wanted) {
+        *column = find(table.heads(), wanted).map_err(|error| error.at(table.header()))?;
+    }
+    let mut values: [Vec<f64>; N] = std::array::from_fn(|_| Vec::new());
+    while table.next_row()? {
+        for (i, (column, wanted)) in columns.iter().zip(wanted).enumerate() {
+            let Some((index, factor)) = *column else { continue };
+            let value = match table.number(index) {
+                Ok(number) => number * factor,
+                Err(FileError {
+                    fault: FileFault::NotANumber { .. } | FileFault::NotFinite { .. }, ..
+                }) => f64::NAN,
+                Err(error) => return Err(error),
+            };
+            if !value.is_finite() {
+                let text = excerpt(table.text(index), 40);
+                return Err(table.blame(index, ProfileFault::NotANumber { text }));
+            }
+            let zero = wanted.sign == Sign::NotNegative;
+            if wanted.sign != Sign::Any && (value < 0.0 || value == 0.0 && !zero) {
+                return Err(table.blame(index, ProfileFault::Sign { value, zero }));
+            }
+            if i == 0
+                && let Some(before) = values[0].last().copied().filter(|before| *before >= value)
+            {
+                return Err(table.blame(index, FileFault::NotIncreasing { before, after: value }));
+            }
+            values[i].push(value);
+        }
+    }
+    let found = values[0].len();
+    if found < LEAST_ROWS {
+        return Err(ProfileFault::TooFewRows { found, least: LEAST_ROWS }.into());
+    }
+    Ok(values)
+}
+
+/// Index of the column and SI units in one of its own.
+fn find(heads: &[Head], wanted: &Wanted) -> Result<Option<(usize, f64)>, FileError> {
+    let named = heads.iter().enumerate();
+    let matching: Vec<(usize, Option<&str>)> =
+        named.filter_map(|(i, head)| Some((i, head.named(wanted.names)?))).collect();
+    let text = |i: usize| excerpt(&heads[i].text, 60);
+    let (index, unit) = match matching[..] {
+        [] if wanted.required => {
+            let (wanted, example) = (wanted.what, wanted.example);
+            let found = (0..heads.len()).map(text).collect();
+            return Err(ProfileFault::NoColumn { wanted, example, found }.into());
+        }
+        [] => return Ok(None),
+        [one] => one,
+        [(first, _), (second, _), ..] => {
+            let (first, second) = (text(first), text(second));
+            return Err(ProfileFault::Twice { what: wanted.what, first, second }.into());
+        }
+    };
+    // Of an energy the unit does not matter.
+    if wanted.names.contains(&"energy") || unit.is_none() && wanted.dimension == Dimension::Ratio {
+        return Ok(Some((index, 1.0)));
+    }
+    let head = Head { unit: unit.map(str::to_owned), ..heads[index].clone() };
+    Ok(Some((index, head.factor(wanted.dimension, wanted.example)?)))
+}

@@ -1,0 +1,59 @@
+//! Records as text tables.
+
+use super::columns::{Column, roles};
+use super::rows::Rows;
+use super::{Layout, Record};
+use crate::error::{FileError, FileKind};
+use crate::table::Table;
+use std::io::Read;
+
+/// Reads a record from text; `name` is what messages call it.
+///
+/// # Errors
+/// When it is no evenly sampled velocity record; the message says where and why.
+pub fn parse_csv(source: impl Read, name: &str, layout: &Layout) -> Result<Record, FileError> {
+    let mut source = Summed { source, sum: crc32fast::Hasher::new() };
+    let mut record = read(&mut source, layout).map_err(|error| error.file(name))?;
+    name.clone_into(&mut record.file);
+    record.reading.checksum = source.sum.finalize();
+    Ok(record)
+}
+
+fn read(source: impl Read, layout: &Layout) -> Result<Record, FileError> {
+    let mut table = Table::open(source, FileKind::Record, layout.skip_lines)?;
+    let roles = roles(table.heads(), table.named(), layout)?;
+    let time = roles.time.as_ref().map(|column| column.index);
+    let components: Vec<usize> = roles.components.iter().map(|column: &Column| column.index).collect();
+    let mut rows = Rows::new(roles, layout);
+    let mut values = vec![f64::NAN; components.len()];
+    while table.next_row()? {
+        // Where no clock tells, an empty line is a sample that is missing.
+        let missing = if time.is_none() { table.blank_lines() } else { 0 };
+        for _ in 0..missing {
+            rows.push(table.place(), (f64::NAN, f64::NAN), &[])?;
+        }
+        let time = match time {
+            Some(column) => (table.number(column)?, table.last_place(column)),
+            None => (f64::NAN, f64::INFINITY),
+        };
+        for (value, column) in values.iter_mut().zip(&components) {
+            *value = table.number(*column)?;
+        }
+        rows.push(table.place(), time, &values)?;
+    }
+    rows.finish()
+}
+
+/// Takes the checksum of what is read.
+struct Summed<R> {
+    source: R,
+    sum: crc32fast::Hasher,
+}
+
+impl<R: Read> Read for Summed<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let read = self.source.read(buffer)?;
+        self.sum.update(buffer.get(..read).unwrap_or_default());
+        Ok(read)
+    }
+}

@@ -1,0 +1,222 @@
+//! One-sided power spectra by Welch's method.
+
+use crate::fft::{Complex, InverseTransform};
+use crate::lanes::{Lanes, WIDTH};
+use std::f64::consts::PI;
+
+/// What each segment is multiplied with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Window {
+    /// `sin²`: little leakage from far off.
+    #[default]
+    Hann,
+    /// A raised `sin²`: a narrower line, more leakage from far off.
+    Hamming,
+    /// Nothing: the narrowest line, the most leakage.
+    Rectangular,
+}
+
+impl Window {
+    /// Every window.
+    pub const ALL: [Self; 3] = [Self::Hann, Self::Hamming, Self::Rectangular];
+
+    /// As it is written: `hann`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Hann => "hann",
+            Self::Hamming => "hamming",
+            Self::Rectangular => "rectangular",
+        }
+    }
+
+    fn at(self, place: f64) -> f64 {
+        let hann = libm::sin(PI * place) * libm::sin(PI * place);
+        match self {
+            Self::Hann => hann,
+            Self::Hamming => 0.08 + 0.92 * hann,
+            Self::Rectangular => 1.0,
+        }
+    }
+}
+
+/// One-sided power spectral density of a fluctuation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    /// Between the frequencies [Hz].
+    pub step: f64,
+    /// Density at one step, two steps … up to half the sampling rate [(unit)²/Hz]; empty without a whole segment.
+    /// `Σ P Δf` is the variance of what the segments resolve.
+    pub density: Vec<f64>,
+    /// Number of segments.
+    pub segments: usize,
+    /// Samples in a segment.
+    pub segment: usize,
+    /// Window.
+    pub window: Window,
+    /// Share of a segment that the next one has in common with it.
+    pub overlap: f64,
+    /// Time of record that the average is worth, without what windows leave unused [s].
+    pub effective_duration: f64,
+}
+
+impl Spectrum {
+    /// Frequency of an entry of the density [Hz].
+    pub fn frequency(&self, entry: usize) -> f64 {
+        (entry + 1) as f64 * self.step
+    }
+
+    /// Half the sampling rate [Hz].
+    pub fn highest(&self) -> f64 {
+        self.density.len() as f64 * self.step
+    }
+
+    /// Frequencies [Hz] and the density there [(unit)²/Hz].
+    pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.density.iter().enumerate().map(|(entry, density)| (self.frequency(entry), *density))
+    }
+}
+
+/// Welch's method: the mean of the spectra of overlapping segments, over one record or many.   theory.md (40)
+#[derive(Clone, Debug)]
+pub struct Welch {
+    interval: f64,
+    window: Window,
+    overlap: f64,
+    weights: Vec<f64>,
+    transform: InverseTransform,
+    sums: Vec<f64>,
+    segments: usize,
+    /// Sum and sum of squares over the samples of `w̄`, the sum of the squared windows at a sample.
+    carried: (f64, f64),
+}
+
+impl Welch {
+    /// For records of samples `interval` [s] apart.
+    ///
+    /// * `segment` – samples in a segment, a power of two
+    /// * `overlap` – share of a segment that the next one has in common with it, 0 to 0.9
+    pub fn new(interval: f64, segment: usize, window: Window, overlap: f64) -> Self {
+        Self {
+            interval,
+            window,
+            overlap,
+            weights: (0..segment).map(|i| window.at((i as f64 + 0.5) / segment as f64)).collect(),
+            transform: InverseTransform::new(segment),
+            sums: vec![0.0; segment / 2],
+            segments: 0,
+            carried: (0.0, 0.0),
+        }
+    }
+
+    /// The power of two that gives a record of `samples` about eight half-overlapping segments.
+    pub fn segment_length(samples: usize) -> usize {
+        (samples / 4).max(2).next_power_of_two()
+    }
+
+    /// Takes in a record; an incomplete segment at its end is not used.
+    ///
+    /// * `mean` – what is taken off the values; each segment's own mean where it is `None`
+    pub fn add(&mut self, values: &[f64], mean: Option<f64>) {
+        let segment = self.weights.len();
+        let hop = ((segment as f64 * (1.0 - self.overlap)).round() as usize).clamp(1, segment);
+        let segments: Vec<&[f64]> = values.windows(segment).step_by(hop).collect();
+        // Two segments in a lane, one as the real and one as the imaginary part.
+        for sixteen in segments.chunks(2 * WIDTH) {
+            let of = |values: &&[f64]| values.iter().sum::<f64>() / segment as f64;
+            let means: Vec<f64> = sixteen.iter().map(|values| mean.unwrap_or_else(|| of(values))).collect();
+            let at = |i: usize, t: usize| {
+                sixteen.get(i).map_or(0.0, |values| (values[t] - means[i]) * self.weights[t])
+            };
+            let mut data: Vec<Complex> = (0..segment)
+                .map(|t| Complex {
+                    re: Lanes::from_fn(|i| at(2 * i, t)),
+                    im: Lanes::from_fn(|i| at(2 * i + 1, t)),
+                })
+                .collect();
+            self.transform.run(&mut data);
+            for (k, sum) in (1..).zip(&mut self.sums) {
+                // The powers of both parts add up to half of what is at k and at −k.
+                let (a, b) = (&data[k], &data[segment - k]);
+                let both = a.re * a.re + a.im * a.im + b.re * b.re + b.im * b.im;
+                *sum += 0.5 * both.0.iter().sum::<f64>();
+            }
+        }
+        self.segments += segments.len();
+        let mut weight =
+            vec![0.0; if segments.is_empty() { 0 } else { (segments.len() - 1) * hop + segment }];
+        for start in (0..segments.len()).map(|i| i * hop) {
+            for (weight, w) in weight[start..].iter_mut().zip(&self.weights) {
+                *weight += w * w;
+            }
+        }
+        self.carried = weight.iter().fold(self.carried, |(sum, squares), w| (sum + w, squares + w * w));
+    }
+
+    /// The spectrum of all records taken in.
+    pub fn finish(self) -> Spectrum {
+        let energy: f64 = self.weights.iter().map(|w| w * w).sum();
+        let scale = 2.0 * self.interval / (energy * self.segments as f64);
+        let mut density: Vec<f64> = self.sums.iter().map(|sum| sum * scale).collect();
+        // At half the sampling rate both sides are one.
+        if let Some(last) = density.last_mut() {
+            *last *= 0.5;
+        }
+        if self.segments == 0 {
+            density.clear();
+        }
+        let segment = self.weights.len();
+        let (sum, squares) = self.carried;
+        Spectrum {
+            step: 1.0 / (segment as f64 * self.interval),
+            density,
+            segments: self.segments,
+            segment,
+            window: self.window,
+            overlap: self.overlap,
+            effective_duration: if squares > 0.0 { sum * sum / squares * self.interval } else { 0.0 },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spectrum(values: &[f64], segment: usize, window: Window, overlap: f64) -> Spectrum {
+        let mut welch = Welch::new(0.25, segment, window, overlap);
+        welch.add(values, Some(0.0));
+        welch.finish()
+    }
+
+    #[test]
+    fn analytic_spectrum_of_four_samples() {
+        // 1, 2, 4, 5 about 3 at 4 Hz: X₁ = −3 + 3i, X₂ = −2; P₁ = 2 · 18 · ¼/4, P₂ = 4 · ¼/4.
+        let of = spectrum(&[-2.0, -1.0, 1.0, 2.0], 4, Window::Rectangular, 0.0);
+        assert_eq!((of.step, of.segments), (1.0, 1));
+        for (found, wanted) in of.density.iter().zip([2.25, 0.25]) {
+            assert!((found - wanted).abs() < 1e-14, "{:?}", of.density);
+        }
+        // Parseval: the variance.
+        assert!((of.density.iter().sum::<f64>() * of.step - 2.5).abs() < 1e-14);
+    }
+
+    #[test]
+    fn analytic_line_of_a_sine_holds_its_variance() {
+        for window in Window::ALL {
+            let values: Vec<f64> = (0..4096).map(|i| (2.0 * PI * f64::from(i) / 16.0).sin()).collect();
+            let of = spectrum(&values, 256, window, 0.5);
+            assert_eq!(of.segments, 31);
+            let variance = of.density.iter().sum::<f64>() * of.step;
+            assert!((variance - 0.5).abs() < 1e-12, "{window:?}: {variance}");
+            let peak = (0..of.density.len()).max_by(|a, b| of.density[*a].total_cmp(&of.density[*b]));
+            assert_eq!(peak.map(|p| of.frequency(p)), Some(0.25));
+        }
+    }
+
+    #[test]
+    fn analytic_half_overlapping_hann_windows_carry_nearly_all() {
+        // Away from the ends w̄ = sin⁴ + cos⁴: mean ¾, mean square 19/32; ¾²/(19/32) = 18/19.
+        let of = spectrum(&vec![0.0; 1 << 16], 64, Window::Hann, 0.5);
+        assert!((of.effective_duration / (0.25 * 65536.0) - 18.0 / 19.0).abs() < 2e-3);
+    }
+}

@@ -1,0 +1,161 @@
+//! Where the rows of a table begin, and which line names its columns.
+
+use super::Line;
+use super::cells::{Looks, Parting, is_comment};
+use super::head::is_unit;
+
+/// What is known before the first row is read.
+pub(super) struct Start {
+    /// Index of the first row.
+    pub(super) row: usize,
+    pub(super) parting: Parting,
+    /// Cells of the first row.
+    pub(super) cells: usize,
+    pub(super) names: Option<Vec<String>>,
+    /// Index of the line of names.
+    pub(super) header: usize,
+}
+
+/// Finds the first row and the names above it.
+pub(super) fn find(lines: &[Line]) -> Option<Start> {
+    // Lines with something in them that is no comment.
+    let content: Vec<usize> = (0..lines.len()).filter(|i| !is_comment(&lines[*i].text)).collect();
+    let text = |i: usize| lines[content[i]].text.as_str();
+    let (first, parting) = numbers(content.len(), text).or_else(|| mixed(content.len(), text))?;
+    let cells = parting.cells(text(first));
+    let fits =
+        |names: &[String]| cells.get(names.len()..).is_some_and(|rest| rest.iter().all(|c| c.is_empty()));
+    // Without empty names at the end, unless there is something below them.
+    let names = |line: &str, parting| {
+        let mut names = names(line, parting);
+        let empty = |i: usize| cells.get(i).is_none_or(|cell| cell.is_empty());
+        while names.last().is_some_and(String::is_empty) && empty(names.len() - 1) {
+            names.pop();
+        }
+        names
+    };
+    let names_in = |line: &str| {
+        let by_rows = names(line, parting);
+        let by_itself = names(line, Parting::of(line));
+        [by_rows, by_itself].into_iter().find(|names| !names.is_empty() && fits(names))
+    };
+    let start =
+        |row: usize, parting, names, header| Some(Start { row, parting, cells: cells.len(), names, header });
+    // The nearest line of as many words; what is between it and the first row is taken for rows.
+    let header = (0..first).rev().find_map(|i| Some((i, names_in(text(i)).filter(|n| words(n, parting))?)));
+    if let Some((i, mut names)) = header {
+        let mut above = (0..i).rev().map_while(|i| names_in(text(i)).filter(|n| words(n, parting)));
+        let (mut units, mut at) = (None, i);
+        while notes(&names) || names.iter().any(|name| is_unit(name)) {
+            let Some(line) = above.next() else { break };
+            let below = std::mem::replace(&mut names, line);
+            at -= 1;
+            if !notes(&below) {
+                units = Some(below);
+            }
+        }
+        for (name, unit) in names.iter_mut().zip(units.iter().flatten()).filter(|(_, unit)| !unit.is_empty())
+        {
+            *name = format!("{name} [{}]", unit.trim_matches(['[', ']', '(', ')']));
+        }
+        return start(content[i + 1], parting, Some(names), content[at]);
+    }
+    let row = content[first];
+    let above = row.checked_sub(1).map(|i| lines[i].text.as_str());
+    if let Some(comment) = above.filter(|text| is_comment(text)) {
+        let names = names_in(comment.trim_start_matches(['#', '%', '/', ' '])).filter(|n| words(n, parting));
+        return start(row, parting, names, row - 1);
+    }
+    // A line of words all the same; below a single name a comma is a decimal one.
+    let names = above.map(|text| names(text, Parting::of(text)));
+    let parting = match &names {
+        Some(names) if names.len() == 1 && cells.len() == 2 && parting == Parting::Sign(b',') => {
+            Parting::Sign(b';')
+        }
+        _ => parting,
+    };
+    start(row, parting, names, row.saturating_sub(1))
+}
+
+/// The first row of nothing but numbers.
+fn numbers<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, Parting)> {
+    let rows: Vec<Option<(Parting, usize)>> = (0..lines)
+        .map(|i| Parting::of_numbers(text(i)).map(|parting| (parting, parting.cells(text(i)).len())))
+        .collect();
+    let mut first = None;
+    for (i, row) in rows.iter().enumerate() {
+        match (row, first) {
+            (Some((parting, cells)), None) => first = Some((i, *parting, *cells)),
+            (None, Some((_, _, cells))) => {
+                // Numbers above the header, as a rate on a line of its own, are not as many as those below it.
+                let parting = Parting::of(text(i));
+                let header =
+                    parting.cells(text(i)).iter().all(|cell| Looks::of(cell, parting) != Looks::Number);
+                let next = rows.get(i + 1).copied().flatten();
+                if header && next.is_some_and(|(_, below)| below != cells) {
+                    first = None;
+                }
+            }
+            _ => {}
+        }
+    }
+    first.map(|(i, parting, _)| (i, parting))
+}
+
+/// The first row of numbers and words: where most lines in a row look alike.
+fn mixed<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, Parting)> {
+    let looks = |i: usize| -> Option<(Parting, Vec<Looks>)> {
+        let parting = Parting::of(text(i));
+        let looks: Vec<Looks> = parting.cells(text(i)).iter().map(|cell| Looks::of(cell, parting)).collect();
+        looks.contains(&Looks::Number).then_some((parting, looks))
+    };
+    let alike = |a: &[Looks], b: &[Looks]| {
+        let same = |(a, b): (&Looks, &Looks)| a == b || *a == Looks::Missing || *b == Looks::Missing;
+        a.len() == b.len() && a.iter().zip(b).all(same)
+    };
+    let mut longest: Option<(usize, usize, Parting)> = None;
+    let mut i = 0;
+    while i < lines {
+        let from = i;
+        i += 1;
+        let Some((parting, first)) = looks(from) else { continue };
+        while i < lines && looks(i).is_some_and(|(other, next)| other == parting && alike(&first, &next)) {
+            i += 1;
+        }
+        if longest.is_none_or(|(length, ..)| i - from > length) {
+            longest = Some((i - from, from, parting));
+        }
+    }
+    longest.map(|(_, from, parting)| (from, parting))
+}
+
+/// The names in a line; with blanks between them, a unit goes with its name.
+fn names(line: &str, parting: Parting) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for cell in parting.cells(line) {
+        match names.last_mut() {
+            Some(name)
+                if parting == Parting::Blanks
+                    && (cell.starts_with(['[', '(']) || cell.contains('/') && is_unit(cell)) =>
+            {
+                name.push(' ');
+                name.push_str(cell);
+            }
+            _ => names.push(cell.to_owned()),
+        }
+    }
+    names
+}
+
+/// Whether there are names, and none of them is a number.
+fn words(names: &[String], parting: Parting) -> bool {
+    !names.is_empty()
+        && names.iter().all(|name| Looks::of(name, parting) != Looks::Number)
+        && names.iter().any(|name| Looks::of(name, parting) == Looks::Text)
+}
+
+/// Whether a line says how values were taken, as the fourth of TOA5 does.
+fn notes(names: &[String]) -> bool {
+    const NOTES: [&str; 9] = ["", "avg", "smp", "max", "min", "std", "tot", "wvc", "med"];
+    names.iter().all(|name| NOTES.contains(&name.to_lowercase().as_str()))
+}

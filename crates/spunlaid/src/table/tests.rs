@@ -1,0 +1,104 @@
+use super::*;
+
+/// The names of the columns and the numbers in these of them.
+fn read(text: &str, columns: &[usize]) -> (Vec<String>, Vec<Vec<f64>>) {
+    let mut table = Table::open(text.as_bytes(), FileKind::Table, 0).unwrap();
+    let names = table.heads().iter().map(|head| head.name.clone()).collect();
+    let mut rows = Vec::new();
+    while table.next_row().unwrap() {
+        rows.push(columns.iter().map(|column| table.number(*column).unwrap()).collect());
+    }
+    (names, rows)
+}
+
+#[test]
+fn headers_are_taken_apart_however_they_are_spelt() {
+    for (text, name, unit) in [
+        ("u_m_s", "u", Some("m_s")),
+        ("time_ms", "time", Some("ms")),
+        ("U [m/s]", "U", Some("m/s")),
+        ("Zeit (µs)", "Zeit", Some("µs")),
+        ("t/s", "t", Some("s")),
+        ("v m/s", "v", Some("m/s")),
+        ("mean_u_cm_s", "mean_u", Some("cm_s")),
+        ("velocity_x", "velocity_x", None),
+        ("cutoff_frequency_hz", "cutoff_frequency", Some("hz")),
+        ("", "", None),
+        ("_", "", None),
+    ] {
+        let head = Head::new(text);
+        assert_eq!((head.name.as_str(), head.unit.as_deref()), (name, unit), "{text}");
+    }
+}
+
+#[test]
+fn rows_begin_below_the_names_whatever_is_above_them() {
+    let rows = vec![vec![0.0, 1.5], vec![1.0, 2.5]];
+    for text in [
+        "t_s,u_m_s\n0,1.5\n1,2.5\n",
+        "Made;today\nRate;10\nChannels;2\n\nt_s;u_m_s\n0;1,5\n1;2,5\n",
+        "20000\nt_s,u_m_s\n0,1.5\n1,2.5\n",
+        "a file of mine\n# t_s u_m_s\n0 1.5\n# a word\n1 2.5",
+        "t [s] u [m/s]\n0,0 1,5\n1,0 2,5\n",
+        "t s u m/s\n0 1.5\n1 2.5\n".replace("t s", "t_s").as_str(),
+        "t\tu\ns\tm/s\n0\t1.5\n1\t2.5\n",
+        "\"t_s\",\"u_m_s\"\n\"0\",\"1.5\"\n\"1\",\"2.5\",,\n",
+    ] {
+        let (names, read) = read(text, &[0, 1]);
+        assert_eq!((names, &read), (vec!["t".to_owned(), "u".to_owned()], &rows), "{text}");
+    }
+}
+
+#[test]
+fn columns_of_text_do_no_harm() {
+    let toa5 = "\"TOA5\",\"mast\",\"CR1000\",\"12345\",\"CR1000.Std.27\",\"CPU:a.CR1\",\"9\",\"ten\"\n\
+        \"TIMESTAMP\",\"RECORD\",\"u\",\"state\"\n\"TS\",\"RN\",\"m/s\",\"\"\n\"\",\"\",\"Smp\",\"Smp\"\n\
+        \"2024-05-01 10:00:00\",1,10.5,\"on, still\"\n\"2024-05-01 10:00:00.1\",2,\"NAN\",\"on\"\n";
+    let (names, rows) = read(toa5, &[1, 2]);
+    assert_eq!(names, ["TIMESTAMP", "RECORD", "u", "state"]);
+    assert_eq!(rows[0], [1.0, 10.5]);
+    assert!(rows[1][1].is_nan());
+    assert_eq!(Head::new("u [m/s]").unit.as_deref(), Some("m/s"));
+    // Two lines above the header look alike too, but fewer than the rows.
+    let log = "Rate;20\nGain;7\nstamp;u_m_s;state\n10:00;1,5;on\n10:01;2,5;off\n10:02;;off\n";
+    let (names, rows) = read(log, &[1]);
+    assert_eq!(names, ["stamp", "u", "state"]);
+    assert_eq!(rows[..2], [[1.5], [2.5]]);
+}
+
+#[test]
+fn faults_name_line_and_column() {
+    let said = |text: &str| {
+        let mut table = Table::open(text.as_bytes(), FileKind::Table, 0).unwrap();
+        loop {
+            let read = table.next_row().and_then(|more| {
+                Ok(more && {
+                    table.number(1)?;
+                    true
+                })
+            });
+            match read {
+                Ok(true) => {}
+                Ok(false) => return String::new(),
+                Err(error) => return error.file("a.csv").to_string(),
+            }
+        }
+    };
+    assert_eq!(
+        said("t,u\n0,1\n\n1,x7\n"),
+        "a.csv:4: column u: \"x7\" is not a number; write one, or leave the cell empty where a value is missing"
+    );
+    // In the first row too, which is not taken for words.
+    assert_eq!(
+        said("t,u\n0,x7\n1,2\n"),
+        "a.csv:2: column u: \"x7\" is not a number; write one, or leave the cell empty where a value is missing"
+    );
+    assert!(said("t,u\n0,1\n1\n").starts_with("a.csv:3: this row has 1 cells where 2 are needed"));
+    assert_eq!(said("t,u\n0,1\n1,\n"), "");
+}
+
+#[test]
+fn messages_show_control_characters() {
+    let error = FileError::from(FileFault::NoRows).file("t\u{8}les/\u{1b}[2J.csv").column("u\u{7}");
+    assert!(error.to_string().chars().all(|c| !c.is_control()), "{error}");
+}
