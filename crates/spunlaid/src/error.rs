@@ -314,6 +314,9 @@ pub enum Fault {
         /// The way out.
         remedy: &'static str,
     },
+    /// A value that only reading the case anew can set.
+    #[error("is read from a file together with the case; write it in the case file and read that again")]
+    ReadWithCase,
     /// Two keys that exclude each other.
     #[error("cannot go with {other}; {remedy}")]
     Excludes {
