@@ -32,6 +32,8 @@ pub(crate) enum Failure {
     OtherVersion { folder: PathBuf, version: String },
     /// The paper has no such figure.
     NoSuchFigure { name: String, known: String },
+    /// No key is like this.
+    NoSuchKey { pattern: String, nearest: Vec<&'static str> },
     /// A study has fewer points than that.
     NoSuchPoint { point: u64, points: u64 },
     /// Fibres stopped being finite.
@@ -62,7 +64,9 @@ impl Failure {
         match self {
             Self::Library(spunlaid::error::Error::Interrupted) | Self::Paused { .. } => 130,
             Self::Library(error) => error.exit_code(),
-            Self::Figure { .. } | Self::FibresLost { .. } | Self::Unheard { .. } => 2,
+            Self::Figure { .. } | Self::FibresLost { .. } | Self::Unheard { .. } | Self::NoSuchKey { .. } => {
+                2
+            }
             _ => 1,
         }
     }
@@ -100,6 +104,13 @@ impl fmt::Display for Failure {
             ),
             Self::NoSuchFigure { name, known } => {
                 write!(f, "--figures {name}: there is no such result figure; write some of {known}")
+            }
+            Self::NoSuchKey { pattern, nearest } => {
+                write!(f, "no key has \"{}\" in its name or meaning; ", pattern.escape_debug())?;
+                match &nearest[..] {
+                    [] => f.write_str("`spunlaid keys` lists them all"),
+                    keys => write!(f, "did you mean {}?", keys.join(" or ")),
+                }
             }
             Self::NotAFolder { path } => {
                 write!(f, "{}: is a file; name a folder with --out", path.display())

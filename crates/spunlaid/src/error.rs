@@ -226,7 +226,7 @@ pub enum Fault {
         /// The table it belongs in.
         table: &'static str,
         /// A line that would do.
-        line: &'static str,
+        line: String,
     },
     /// No table has this name.
     #[error("is not a table of a case file; {}", did_you_mean(nearest, || "the tables are [fibre], [air], [drag] and [run]".into()))]

@@ -8,12 +8,10 @@
 //! A new key is a row of the table; whatever uses its value comes besides.
 
 mod nearest;
-mod old;
 mod table;
 mod value;
 
-pub(crate) use nearest::{nearest_in, nearest_word};
-pub(crate) use old::*;
+pub(crate) use nearest::{like_in, nearest_word};
 pub use value::{Content, FileKind, Kind, Sign, Value};
 
 use super::Case;
@@ -94,9 +92,17 @@ pub fn nearest(name: &str) -> Option<&'static Key> {
     like(name).first().copied()
 }
 
-/// Up to three keys that a misspelt name may mean, the most like first.
+/// The keys that a misspelt name may mean, the most like first.
 pub fn like(name: &str) -> Vec<&'static Key> {
-    nearest::like(name)
+    let (table, key) = name.split_once('.').unwrap_or(("", name));
+    like_in(table, key)
+}
+
+/// What is found of the value of a key, in SI units; where it was written, is not known here.
+pub(crate) fn finding<W>(key: &str, value: f64, what: W) -> Finding<W> {
+    let value =
+        find(key).map_or_else(|| crate::units::shortest(value), |key| key.kind.pretty(&Value::Number(value)));
+    Finding { place: Place::Code, key: key.to_owned(), value: Some(value), what }
 }
 
 /// The keys of a table.
@@ -122,6 +128,11 @@ impl Key {
             Kind::Point => Some(Dimension::Length),
             _ => None,
         }
+    }
+
+    /// Whether only whole numbers will do.
+    pub const fn is_whole(&self) -> bool {
+        matches!(self.kind, Kind::Whole(..))
     }
 
     /// The value that a case has, in SI units; none where the key means nothing to it.
@@ -157,6 +168,17 @@ impl Key {
     /// Whether something else tells the value, so that a case file leaves it out.
     pub(crate) fn is_told(&self, case: &Case) -> bool {
         (self.told)(case)
+    }
+
+    /// A line of a case file that states it, with a value that would do.
+    pub(crate) fn example(&self) -> String {
+        let (LeftOut::Required(value) | LeftOut::Value(value) | LeftOut::Follows(value)) = self.left_out;
+        match self.kind {
+            Kind::Quantity(dimension, _) if dimension != Dimension::Ratio => {
+                format!("{} = \"{value}\"", self.short())
+            }
+            _ => format!("{} = {value}", self.short()),
+        }
     }
 
     /// What may be written, in words: `a length above zero`.

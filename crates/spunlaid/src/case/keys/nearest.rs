@@ -2,22 +2,11 @@
 
 use super::{Key, all};
 
-/// The key most like one written in `table`, there or elsewhere.
-pub(crate) fn nearest_in(table: &str, key: &str) -> Option<&'static Key> {
+/// The keys most like one written in `table`, there or elsewhere, the most like first.
+pub(crate) fn like_in(table: &str, key: &str) -> Vec<&'static Key> {
     // At equal likeness, the table it was written in.
-    let likeness = |home: &str| if home == table { 0.05 } else { 0.0 };
-    let known = all().iter().map(|known| (known, known.short(), likeness(known.table())));
-    by_likeness(key, known).first().copied()
-}
-
-/// Up to three keys most like a name, the most like first; none where nothing is like it.
-pub(super) fn like(name: &str) -> Vec<&'static Key> {
-    let (table, key) = name.split_once('.').unwrap_or(("", name));
-    let known =
-        all().iter().map(|known| (known, known.short(), if known.table() == table { 0.05 } else { 0.0 }));
-    let mut keys = by_likeness(key, known);
-    keys.truncate(3);
-    keys
+    let bonus = |home: &str| if home == table { 0.05 } else { 0.0 };
+    by_likeness(key, all().iter().map(|known| (known, known.short(), bonus(known.table()))))
 }
 
 /// The word most like the one written, if any is like it.

@@ -75,7 +75,7 @@ macro_rules! of_field {
 macro_rules! steps {
     ($field:ident, $time:ident, $least:expr) => {
         Access {
-            get: |case| case.run.time_step.is_normal().then(|| Value::Number(case.run.$time())),
+            get: |case| (case.run.time_step > 0.0).then(|| Value::Number(case.run.$time())),
             set: |case, value| {
                 case.run.$field = whole_parts(number(value)?, case.run.time_step).0.max($least);
                 Ok(())
@@ -111,7 +111,7 @@ pub(super) static KEYS: [Key; 40] = [
     quantity("fibre.element_length", Dimension::Length, Positive, Access {
         get: |case| {
             let length = case.fibre.rest_length();
-            length.is_normal().then_some(Value::Number(length))
+            (length > 0.0 && length.is_finite()).then_some(Value::Number(length))
         },
         set: |case, value| {
             let elements = whole_parts(case.fibre.length, number(value)?).0.max(1);
@@ -492,7 +492,7 @@ pub(super) static KEYS: [Key; 40] = [
         .slider(0.0, 1.0)
         .counted(),
     quantity("run.output_interval", Dimension::Time, Positive, steps!(output_steps, output_interval, 1))
-        .follows("1 ms")
+        .value("1 ms")
         .meaning("Time from one recorded instant to the next.")
         .label("Output interval")
         .slider(1e-4, 1e-2)
