@@ -46,11 +46,11 @@ fn reference(key: &Key) -> String {
         if words.is_empty() {
             continue;
         }
-        let mut line = if title.is_empty() { "   ".to_owned() } else { format!("    {title} ") };
+        let mut line = if title.is_empty() { "   ".to_owned() } else { format!("    {title}") };
         for word in words.split(' ') {
             if line.chars().count() + 1 + word.chars().count() > WIDTH {
                 let _ = writeln!(text, "{line}");
-                line = if title.is_empty() { "   ".to_owned() } else { " ".repeat(15) };
+                line = if title.is_empty() { "   ".to_owned() } else { " ".repeat(14) };
             }
             line.push(' ');
             line.push_str(word);
