@@ -30,7 +30,8 @@ pub(super) struct Open {
 pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Error> {
     let (mut case, mut notes) = (blank(), Vec::new());
     let twice = ["air.profile", "air.field"].map(|key| written.get(key).is_some()) == [true; 2];
-    // A file may tell what other keys would, and a law or model may do without some.
+    // Files come first, since they may tell what other keys would; then names, since a law or a model decides
+    // whether its numbers have a meaning.
     let rank = |key: &&Key| match key.kind {
         Kind::File(_) => 0,
         Kind::Choice(_) => 1,
@@ -41,7 +42,7 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
     for key in in_order {
         let Some(Said { place, shown, value }) = written.get(key.name).cloned() else {
             match key.left_out {
-                // What means nothing to this case needs no default.
+                // A key that means nothing to this case refuses its default, which is then not needed.
                 LeftOut::Value(text) if !key.counted => drop(key.set(&mut case, text)),
                 LeftOut::Required(_)
                     if !is_told(&mut case.air, key.name) && !written.is_excused(key.name) =>

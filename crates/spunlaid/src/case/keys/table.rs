@@ -226,7 +226,7 @@ pub(super) static KEYS: [Key; 40] = [
         .slider(0.1, 1.0),
     quantity("air.time_constant", Dimension::Ratio, Positive, of_field!(time_constant))
         .value("0.3")
-        .meaning("Constant of the eddies' lifetime in a field, C_T k/ε; with the mean velocity it gives the cut-off frequency.")
+        .meaning("Constant of the eddies' lifetime in a field, T = C_T k/ε; the cut-off frequency is there ¼ (velocity/length + 1/T).")
         .label("Constant of the eddies’ lifetime *C*_{T}")
         .slider(0.1, 1.0),
     quantity("air.speed_factor", Dimension::Ratio, Positive, Access {
@@ -435,7 +435,7 @@ pub(super) static KEYS: [Key; 40] = [
         },
     })
     .follows("the longest of 1, 2 or 5 times a power of ten that keeps the error tolerance and half the stability limit")
-    .meaning("Time step. It must stay below the stability limit, which `spunlaid check` tells.")
+    .meaning("Length of a time step. It must stay below the stability limit, which a message tells where it does not.")
     .label("Time step *h*")
     .slider(1e-7, 1e-3)
     .counted(),
