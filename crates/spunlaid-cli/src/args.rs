@@ -18,6 +18,7 @@ pub(crate) struct Arguments {
 const EXAMPLES: &str = "\
 Examples:
   spunlaid new my.toml                              write a commented case to start from
+  spunlaid keys field                               what the keys about a field mean
   spunlaid check my.toml                            see what it means: mesh, limits, time to expect
   spunlaid run my.toml                              fly it; then open results/my/report.html
   spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
@@ -48,6 +49,9 @@ pub(crate) enum Command {
     /// Read a case and print what it means, without flying it
     #[command(after_help = CHECK_HELP)]
     Check(Check),
+    /// Explain the keys of a case: what each means, what it takes, what is taken without it
+    #[command(after_help = KEYS_HELP)]
+    Keys(Keys),
     /// Write a commented case file to start from
     #[command(after_help = "Example:\n  spunlaid new my.toml && spunlaid run my.toml")]
     New(New),
@@ -57,6 +61,13 @@ pub(crate) enum Command {
     )]
     Completions(Completions),
 }
+
+const KEYS_HELP: &str = "\
+Examples:
+  spunlaid keys                        every key
+  spunlaid keys field                  those with this word in their name or meaning
+  spunlaid keys run.spin_up            one of them
+  spunlaid keys --markdown > keys.md   the same as a document";
 
 const RUN_HELP: &str = "\
 The results folder holds
@@ -337,6 +348,15 @@ fn overlap(text: &str) -> Result<f64, String> {
 pub(crate) struct Check {
     #[command(flatten)]
     pub(crate) source: CaseSource,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Keys {
+    /// Only keys with this in their name or meaning
+    pub(crate) pattern: Option<String>,
+    /// As Markdown, the way docs/keys.md is made
+    #[arg(long)]
+    pub(crate) markdown: bool,
 }
 
 #[derive(Debug, Args)]

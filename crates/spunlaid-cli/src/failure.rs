@@ -36,6 +36,8 @@ pub(crate) enum Failure {
     OtherVersion { folder: PathBuf, version: String },
     /// The paper has no such figure.
     NoSuchFigure { name: String, known: String },
+    /// No key is like this.
+    NoSuchKey { pattern: String, nearest: Vec<&'static str> },
     /// A study has fewer points than that.
     NoSuchPoint { point: u64, points: u64 },
     /// Fibres stopped being finite.
@@ -75,6 +77,7 @@ impl Failure {
             | Self::OtherStudy { .. }
             | Self::OtherVersion { .. }
             | Self::NoSuchFigure { .. }
+            | Self::NoSuchKey { .. }
             | Self::NoSuchPoint { .. } => 1,
             Self::Unwritable { .. }
             | Self::NotWritten { .. }
@@ -132,6 +135,13 @@ impl fmt::Display for Failure {
             ),
             Self::NoSuchFigure { name, known } => {
                 write!(f, "--figures {name}: there is no such result figure; write some of {known}")
+            }
+            Self::NoSuchKey { pattern, nearest } => {
+                write!(f, "no key has \"{}\" in its name or meaning; ", pattern.escape_debug())?;
+                match &nearest[..] {
+                    [] => f.write_str("`spunlaid keys` lists them all"),
+                    keys => write!(f, "did you mean {}?", keys.join(" or ")),
+                }
             }
             Self::NotAFolder { path } => {
                 write!(f, "{}: is a file; name a folder with --out", path.display())

@@ -31,6 +31,7 @@ fn main() -> ExitCode {
         Command::Reproduce(asked) => commands::reproduce(&asked),
         Command::Analyse(analyse) => commands::analyse(&analyse),
         Command::Check(check) => commands::check(&check),
+        Command::Keys(keys) => commands::keys(&keys),
         Command::New(new) => commands::new(&new),
         Command::Completions(completions) => commands::completions(&completions),
     });

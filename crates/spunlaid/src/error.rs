@@ -189,7 +189,7 @@ pub enum Fault {
         /// The table it belongs in.
         table: &'static str,
         /// A line that would do.
-        line: &'static str,
+        line: String,
     },
     /// No table has this name.
     #[error("is not a table of a case file; {}", did_you_mean(nearest, || "the tables are [fibre], [air], [drag] and [run]".into()))]
@@ -277,6 +277,9 @@ pub enum Fault {
         /// The way out.
         remedy: &'static str,
     },
+    /// A value that only reading the case anew can set.
+    #[error("is read from a file together with the case; write it in the case file and read that again")]
+    ReadWithCase,
     /// Two keys that exclude each other.
     #[error("cannot go with {other}; {remedy}")]
     Excludes {

@@ -16,6 +16,9 @@ pub enum Root {
 }
 
 impl Root {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Pinned, Self::Clamped, Self::Free];
+
     /// Name in the case file.
     pub const fn name(self) -> &'static str {
         match self {

@@ -174,13 +174,13 @@ fn rejects_a_case_that_code_built() {
         said,
         [
             "fibre.length = -1 m is not positive; a length greater than zero is needed here",
-            "air.velocity = NaN m/s is not a finite number; write one that is",
             "fibre.direction = [1.1, 0, 0] is not a unit vector; divide it by its length",
-            "fibre.elements = 0 is out of range; write a whole number from 1 to 18446744073709551615",
+            "air.velocity = NaN m/s is not a finite number; write one that is",
             "air.harmonics = 0 is out of range; write a whole number from 1 to 18446744073709551615",
-            "run.replicates = 0 is out of range; write a whole number from 1 to 10000000",
             "run.duration = 0 s is not positive; a time greater than zero is needed here",
+            "run.replicates = 0 is out of range; write a whole number from 1 to 10000000",
             "run.output_interval = 0 s is not positive; a time greater than zero is needed here",
+            "fibre.elements = 0 is out of range; write a whole number from 1 to 18446744073709551615",
         ]
     );
 }

@@ -3,6 +3,7 @@
 mod analyse;
 mod check;
 mod interrupt;
+mod keys;
 mod reproduce;
 mod run;
 mod small;
@@ -10,6 +11,7 @@ mod sweep;
 
 pub(crate) use analyse::analyse;
 pub(crate) use check::check;
+pub(crate) use keys::keys;
 pub(crate) use reproduce::reproduce;
 pub(crate) use run::run;
 pub(crate) use small::{completions, new};

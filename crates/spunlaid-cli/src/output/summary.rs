@@ -1,11 +1,15 @@
 //! `summary.json`: every result of a run.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+use serde_json::Value as Json;
 use spunlaid::case::Case;
+use spunlaid::case::keys::{self, Content, Key, Value};
 use spunlaid::ensemble::{Number, Results};
 use spunlaid::observe::Over;
 use spunlaid::statistics::Estimate;
+use spunlaid::units::Dimension;
 use std::collections::BTreeMap;
+use std::path::Path;
 
 /// Version of the layout; raised when a field is renamed, removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 2;
@@ -14,7 +18,7 @@ const SCHEMA_VERSION: u32 = 2;
 pub(crate) struct Summary<'a> {
     schema_version: u32,
     spunlaid_version: &'static str,
-    case: CaseSummary,
+    case: InOrder<InOrder<Json>>,
     elements: usize,
     steps: u64,
     replicates: u64,
@@ -52,60 +56,14 @@ pub(crate) struct Performance {
     pub(crate) instruction_set: &'static str,
 }
 
-/// The resolved case, SI units in the names.
-#[derive(Debug, Serialize)]
-struct CaseSummary {
-    fibre: CaseFibre,
-    air: CaseAir,
-    drag: CaseDrag,
-    run: CaseRun,
-}
+/// An object whose entries keep their order.
+#[derive(Debug)]
+struct InOrder<T>(Vec<(String, T)>);
 
-#[derive(Debug, Serialize)]
-struct CaseFibre {
-    length_m: f64,
-    diameter_m: f64,
-    density_kg_m3: f64,
-    youngs_modulus_pa: f64,
-    element_length_m: f64,
-    root: &'static str,
-    direction: [f64; 3],
-}
-
-#[derive(Debug, Serialize)]
-struct CaseAir {
-    velocity_m_s: f64,
-    turbulence_intensity: f64,
-    length_scale_m: f64,
-    cutoff_frequency_hz: f64,
-    density_kg_m3: f64,
-    kinematic_viscosity_m2_s: f64,
-    harmonics: usize,
-    /// Of a flow that is not uniform, the numbers above are those along the fibre.
-    flow: &'static str,
-    spectrum: &'static str,
-    eddies: &'static str,
-    records: usize,
-}
-
-#[derive(Debug, Serialize)]
-struct CaseDrag {
-    along: &'static str,
-    across: &'static str,
-    friction_coefficient: Option<f64>,
-}
-
-#[derive(Debug, Serialize)]
-struct CaseRun {
-    duration_s: f64,
-    time_step_s: f64,
-    replicates: u64,
-    seed: u64,
-    scheme: &'static str,
-    gravity_m_s2: f64,
-    spin_up_s: f64,
-    output_interval_s: f64,
-    damping_1_s: f64,
+impl<T: Serialize> Serialize for InOrder<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
 }
 
 impl<'a> Summary<'a> {
@@ -153,46 +111,34 @@ fn summary_of(number: &Number) -> NumberSummary<'_> {
     }
 }
 
-fn resolved(case: &Case) -> CaseSummary {
-    let (fibre, air, drag, run) = (&case.fibre, &case.air, &case.drag, &case.run);
-    CaseSummary {
-        fibre: CaseFibre {
-            length_m: fibre.length,
-            diameter_m: fibre.diameter,
-            density_kg_m3: fibre.density,
-            youngs_modulus_pa: fibre.youngs_modulus,
-            element_length_m: fibre.rest_length(),
-            root: fibre.root.name(),
-            direction: [fibre.direction.x, fibre.direction.y, fibre.direction.z],
-        },
-        air: CaseAir {
-            velocity_m_s: air.velocity,
-            turbulence_intensity: air.turbulence_intensity,
-            length_scale_m: air.length_scale,
-            cutoff_frequency_hz: air.cutoff_frequency,
-            density_kg_m3: air.density,
-            kinematic_viscosity_m2_s: air.kinematic_viscosity,
-            harmonics: air.harmonics,
-            flow: air.flow.name(),
-            spectrum: air.spectrum.name(),
-            eddies: air.eddies.name(),
-            records: air.records.len(),
-        },
-        drag: CaseDrag {
-            along: drag.along.name(),
-            across: drag.across.name(),
-            friction_coefficient: drag.along.factor(),
-        },
-        run: CaseRun {
-            duration_s: run.duration(),
-            time_step_s: run.time_step,
-            replicates: run.replicates,
-            seed: run.seed,
-            scheme: run.scheme.name(),
-            gravity_m_s2: run.gravity,
-            spin_up_s: run.spin_up(),
-            output_interval_s: run.output_interval(),
-            damping_1_s: run.damping,
-        },
+/// The resolved case: every key, its SI unit in the name; null where the key means nothing to the case. Of a flow
+/// that is not uniform, the numbers are those along the fibre.
+fn resolved(case: &Case) -> InOrder<InOrder<Json>> {
+    let table = |name: &'static str| {
+        let entry = |key: &Key| {
+            let unit = key.dimension().map(Dimension::suffix).unwrap_or_default();
+            (format!("{}{unit}", key.short()), key.get(case).map_or(Json::Null, json))
+        };
+        let mut entries: Vec<(String, Json)> = keys::of_table(name).map(entry).collect();
+        if name == "air" {
+            entries.push(("flow".to_owned(), case.air.flow.name().into()));
+            entries.push(("records".to_owned(), case.air.records.len().into()));
+        }
+        (name.to_owned(), InOrder(entries))
+    };
+    InOrder(keys::TABLES.map(table).into())
+}
+
+/// Files are called by their names, wherever they lie.
+fn json(value: Value) -> Json {
+    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    match value {
+        Value::Number(value) => value.into(),
+        Value::Whole(value) => value.into(),
+        Value::Text(text) => text.into(),
+        Value::Vector(v) => vec![v.x, v.y, v.z].into(),
+        Value::Content(Content::Spectrum(_)) => "measured".into(),
+        Value::Content(content) => content.paths().into_iter().map(name).collect(),
+        _ => Json::Null,
     }
 }

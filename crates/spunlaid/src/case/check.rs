@@ -1,6 +1,6 @@
 //! What a case must meet to be run, whoever made it.
 
-use super::keys::{self, Quantity};
+use super::keys::{self, finding};
 use super::memory::BUNDLE_MEMORY_LIMIT;
 use super::note::{Note, Remark};
 use super::{Case, StepLimit};
@@ -9,7 +9,6 @@ use crate::chain::schemes::Scheme;
 use crate::drag::NormalLaw;
 use crate::error::{Fault, Finding, Place, Problem};
 use crate::field::Hint;
-use crate::units::Dimension;
 use crate::vec3::Vec3;
 
 /// Most steps of a run.
@@ -65,7 +64,7 @@ impl Case {
     fn notes(&self) -> Vec<Note> {
         let (fibre, l) = (&self.fibre, self.fibre.rest_length());
         let mut notes = Vec::new();
-        let mut note = |quantity: &Quantity, value, remark| notes.push(finding(quantity, value, remark));
+        let mut note = |key, value, remark| notes.push(finding(key, value, remark));
         let across = self.drag.across;
         let there_is_air = self.air.density > 0.0;
         if let Some(fitted) = across.fitted_diameters()
@@ -74,7 +73,7 @@ impl Case {
         {
             let (law, from, to) = (across.name(), *fitted.start(), *fitted.end());
             let instead = NormalLaw::MarheinekeWegener.name();
-            note(&keys::DIAMETER, fibre.diameter, Remark::OutsideFit { law, from, to, instead });
+            note("fibre.diameter", fibre.diameter, Remark::OutsideFit { law, from, to, instead });
         }
         if let Some(fitted) = across.fitted_reynolds()
             && there_is_air
@@ -82,28 +81,23 @@ impl Case {
         {
             let (law, to) = (across.name(), *fitted.end());
             let remark = Remark::ReynoldsOutsideFit { law, reynolds: self.reynolds_across(), to };
-            note(&keys::DIAMETER, fibre.diameter, remark);
+            note("fibre.diameter", fibre.diameter, remark);
         }
         if fibre.diameter > l {
-            note(&keys::DIAMETER, fibre.diameter, Remark::ElementsStubby { element_length: l });
+            note("fibre.diameter", fibre.diameter, Remark::ElementsStubby { element_length: l });
         }
         // At the centres of the first and the last element.
         let centres = [0.5 * l, fibre.length - 0.5 * l].map(|s| fibre.direction * s);
         let knows = |at: Vec3<f64>| self.air.local(at, &mut Hint::default()).inside;
         if !centres.into_iter().all(knows) {
-            note(&keys::LENGTH, fibre.length, Remark::LeavesFlow);
+            note("fibre.length", fibre.length, Remark::LeavesFlow);
         }
         let felt = there_is_air && self.air.rms() > 0.0;
         if felt && self.air.length_scale < l * (1.0 - 1e-9) {
-            note(&keys::LENGTH_SCALE, self.air.length_scale, Remark::EddiesSkipped { element_length: l });
+            note("air.length_scale", self.air.length_scale, Remark::EddiesSkipped { element_length: l });
         }
         notes
     }
-}
-
-fn finding<W>(quantity: &Quantity, value: f64, what: W) -> Finding<W> {
-    let value = Some(quantity.dimension.pretty(value));
-    Finding { place: Place::Code, key: quantity.key.to_owned(), value, what }
 }
 
 struct Check<'a> {
@@ -112,8 +106,8 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    fn blame(&mut self, quantity: &Quantity, value: f64, fault: Fault) {
-        self.problems.push(finding(quantity, value, fault));
+    fn blame(&mut self, key: &str, value: f64, fault: Fault) {
+        self.problems.push(finding(key, value, fault));
     }
 
     fn blame_key(&mut self, key: &str, value: String, fault: Fault) {
@@ -123,61 +117,28 @@ impl Check<'_> {
 
     /// Each value on its own.
     fn values(&mut self) {
-        let Case { fibre, air, drag, run } = self.case;
-        for (quantity, value) in [
-            (&keys::LENGTH, fibre.length),
-            (&keys::DIAMETER, fibre.diameter),
-            (&keys::FIBRE_DENSITY, fibre.density),
-            (&keys::YOUNGS_MODULUS, fibre.youngs_modulus),
-            (&keys::VELOCITY, air.velocity),
-            (&keys::TURBULENCE_INTENSITY, air.turbulence_intensity),
-            (&keys::LENGTH_SCALE, air.length_scale),
-            (&keys::CUTOFF_FREQUENCY, air.cutoff_frequency),
-            (&keys::AIR_DENSITY, air.density),
-            (&keys::VISCOSITY, air.kinematic_viscosity),
-            (&keys::SPEED_FACTOR, air.speed_factor),
-            (&keys::FRICTION_COEFFICIENT, drag.along.factor().unwrap_or(0.0)),
-            (&keys::TIME_STEP, run.time_step),
-            (&keys::GRAVITY, run.gravity),
-            (&keys::DAMPING, run.damping),
-        ] {
-            if let Some(fault) = quantity.fault(value) {
-                self.blame(quantity, value, fault);
+        let (run, elements) = (self.case.run, self.case.fibre.elements as u64);
+        for key in keys::all() {
+            if let Some(value) = key.get(self.case)
+                && let Some(fault) = key.kind.fault(&value)
+            {
+                self.blame_key(key.name, key.kind.pretty(&value), fault);
             }
         }
-        let d = fibre.direction;
-        let shown = format!("[{}, {}, {}]", d.x, d.y, d.z);
-        if ![d.x, d.y, d.z].iter().all(|c| c.is_finite()) {
-            self.blame_key(keys::DIRECTION, shown, Fault::NotFinite);
-        } else if (d.norm() - 1.0).abs() > 1e-12 {
-            self.blame_key(keys::DIRECTION, shown, Fault::NotUnit);
+        if elements == 0 {
+            let fault = Fault::OutOfRange { least: 1, most: u64::MAX };
+            self.blame_key("fibre.elements", elements.to_string(), fault);
         }
-        for (key, value, most) in [
-            ("fibre.elements", fibre.elements as u64, u64::MAX),
-            (keys::HARMONICS, air.harmonics as u64, u64::MAX),
-            (keys::REPLICATES, run.replicates, MOST_REPLICATES),
-        ] {
-            if !(1..=most).contains(&value) {
-                self.blame_key(key, value.to_string(), Fault::OutOfRange { least: 1, most });
-            }
-        }
-        if run.steps == 0 {
-            let quantity = Dimension::Time.name();
-            self.blame(&keys::DURATION, 0.0, Fault::NotPositive { quantity });
-        } else if run.steps > MOST_STEPS {
+        if run.steps > MOST_STEPS {
             let (steps, most, time_step) = (run.steps as f64, MOST_STEPS as f64, run.time_step);
-            self.blame(&keys::DURATION, run.duration(), Fault::TooManySteps { steps, most, time_step });
-        }
-        if run.output_steps == 0 {
-            let quantity = Dimension::Time.name();
-            self.blame(&keys::OUTPUT_INTERVAL, 0.0, Fault::NotPositive { quantity });
+            self.blame("run.duration", run.duration(), Fault::TooManySteps { steps, most, time_step });
         }
     }
 
     fn geometry(&mut self) {
         let fibre = self.case.fibre;
         if fibre.diameter >= fibre.length {
-            self.blame(&keys::DIAMETER, fibre.diameter, Fault::TooThick { length: fibre.length });
+            self.blame("fibre.diameter", fibre.diameter, Fault::TooThick { length: fibre.length });
         }
     }
 
@@ -191,37 +152,37 @@ impl Check<'_> {
         ] {
             // Its inverse must be finite too.
             if !(value.is_normal() && (1.0 / value).is_normal()) {
-                self.blame(&keys::DIAMETER, fibre.diameter, Fault::Degenerate { what, value });
+                self.blame("fibre.diameter", fibre.diameter, Fault::Degenerate { what, value });
                 return;
             }
         }
         for (quantity, of, what, value) in [
             (
-                &keys::VISCOSITY,
+                "air.kinematic_viscosity",
                 self.case.air.kinematic_viscosity,
                 "the drag along an element",
                 strand.drag.along.factor,
             ),
             (
-                &keys::VISCOSITY,
+                "air.kinematic_viscosity",
                 self.case.air.kinematic_viscosity,
                 "the drag across an element",
                 strand.drag.across.factor,
             ),
             (
-                &keys::TURBULENCE_INTENSITY,
+                "air.turbulence_intensity",
                 self.case.air.turbulence_intensity,
                 "the rms of the air's velocity [m/s]",
                 self.case.air.rms(),
             ),
             (
-                &keys::DURATION,
+                "run.duration",
                 self.case.run.duration(),
                 "the number of cycles at the cut-off frequency",
                 self.case.run.duration() * self.case.air.cutoff_frequency,
             ),
             (
-                &keys::CUTOFF_FREQUENCY,
+                "air.cutoff_frequency",
                 self.case.air.cutoff_frequency,
                 "the time after which the turbulence repeats [s]",
                 self.case.air.repeat_time(),
@@ -246,19 +207,19 @@ impl Check<'_> {
         let chosen = air.default_harmonics(case.run.duration());
         if largest == memory.chain {
             let fault = fault("the chain", "write a longer one");
-            self.blame(&keys::ELEMENT_LENGTH, case.fibre.rest_length(), fault);
+            self.blame("fibre.element_length", case.fibre.rest_length(), fault);
         } else if largest == memory.turbulence {
             let fault = fault("the turbulence", "write a longer one, or shorten run.duration");
-            self.blame(&keys::LENGTH_SCALE, air.length_scale, fault);
+            self.blame("air.length_scale", air.length_scale, fault);
         } else if largest == memory.records {
             let fault = fault("the recorded instants", "write a longer one");
-            self.blame(&keys::OUTPUT_INTERVAL, case.run.output_interval(), fault);
+            self.blame("run.output_interval", case.run.output_interval(), fault);
         } else if air.harmonics == chosen {
             let fault = fault("making the turbulence", "write a lower one, or shorten run.duration");
-            self.blame(&keys::CUTOFF_FREQUENCY, air.cutoff_frequency, fault);
+            self.blame("air.cutoff_frequency", air.cutoff_frequency, fault);
         } else {
             let fault = fault("making the turbulence", "write fewer, or leave the key out");
-            self.blame_key(keys::HARMONICS, air.harmonics.to_string(), fault);
+            self.blame_key("air.harmonics", air.harmonics.to_string(), fault);
         }
     }
 
@@ -269,26 +230,26 @@ impl Check<'_> {
         let tightest = limits.into_iter().min_by(|a, b| a.limit.total_cmp(&b.limit));
         // What memory cannot hold has been told already.
         let told: Vec<String> = self.problems.iter().map(|problem| problem.key.clone()).collect();
-        let told = |quantity: &Quantity| told.iter().any(|key| key == quantity.key);
+        let told = |key: &str| told.iter().any(|told| told == key);
         if let Some(StepLimit { limit, cause }) = tightest
-            && !told(&keys::ELEMENT_LENGTH)
+            && !told("fibre.element_length")
             && run.time_step >= limit
         {
             let element_length = fibre.rest_length();
             let advice = two_digits_down(0.9 * limit);
             let fault = Fault::StepTooLong { limit, cause, element_length, advice };
-            self.blame(&keys::TIME_STEP, run.time_step, fault);
+            self.blame("run.time_step", run.time_step, fault);
         }
         if run.spin_up_steps >= run.steps {
-            self.blame(&keys::SPIN_UP, run.spin_up(), Fault::SpinUpTooLong { duration });
+            self.blame("run.spin_up", run.spin_up(), Fault::SpinUpTooLong { duration });
         }
         if run.output_steps > run.steps {
-            self.blame(&keys::OUTPUT_INTERVAL, run.output_interval(), Fault::IntervalTooLong { duration });
+            self.blame("run.output_interval", run.output_interval(), Fault::IntervalTooLong { duration });
         }
         let records = (run.steps / run.output_steps + 1) as f64 * run.replicates as f64;
-        if !told(&keys::OUTPUT_INTERVAL) && records > MOST_RECORDS {
+        if !told("run.output_interval") && records > MOST_RECORDS {
             let fault = Fault::TooManyRecords { records, most: MOST_RECORDS };
-            self.blame(&keys::OUTPUT_INTERVAL, run.output_interval(), fault);
+            self.blame("run.output_interval", run.output_interval(), fault);
         }
     }
 }
@@ -305,15 +266,14 @@ impl Check<'_> {
         let (records, convected) =
             (self.case.air.records.len(), turbulence.iter().any(|t| t.carried.is_some()));
         if convected && turbulence.iter().any(|eddy| eddy.forgotten > 0.0) {
-            let (other, remedy) =
-                (keys::DECAY_TIME.key, "a record is carried along as it is; leave that out");
-            self.blame_key(keys::RECORD, self.names(), Fault::Excludes { other, remedy });
+            let (other, remedy) = ("air.decay_time", "a record is carried along as it is; leave that out");
+            self.blame_key("air.record", self.names(), Fault::Excludes { other, remedy });
         } else if convected && records > 1 {
             let (other, remedy) = ("air.eddies = \"convected\"", "one record is carried along; name one");
-            self.blame_key(keys::RECORD, self.names(), Fault::Excludes { other, remedy });
+            self.blame_key("air.record", self.names(), Fault::Excludes { other, remedy });
         } else if records > 1 && records != eddies.count() {
             let fault = Fault::RecordsPerEddy { records, eddies: eddies.count() };
-            self.blame_key(keys::RECORD, self.names(), fault);
+            self.blame_key("air.record", self.names(), fault);
         }
         let delay: f64 = turbulence.iter().filter_map(|eddy| eddy.carried).sum();
         let duration = self.case.run.duration() + self.case.run.time_step + delay;
@@ -323,7 +283,7 @@ impl Check<'_> {
         for record in records.iter().filter(|record| record.stretches(duration) < stretches) {
             let wanted = record.duration_for(stretches, duration);
             let fault = Fault::RecordTooShort { stretches: stretches as u64, duration, wanted };
-            self.blame_key(keys::RECORD, format!("{}", record.path().display()), fault);
+            self.blame_key("air.record", format!("{}", record.path().display()), fault);
         }
     }
 

@@ -1,7 +1,7 @@
 //! A case: everything a run needs, validated, in SI units.
 
 mod check;
-pub(crate) mod keys;
+pub mod keys;
 mod memory;
 mod note;
 mod step;
@@ -171,4 +171,11 @@ impl Case {
             ),
         }
     }
+}
+
+/// How often `part` goes into `whole`, to the nearest whole number, and whether it does so exactly but for rounding.
+pub(crate) fn whole_parts(whole: f64, part: f64) -> (u64, bool) {
+    let ratio = whole / part;
+    let nearest = ratio.round();
+    (nearest as u64, (ratio - nearest).abs() <= 8.0 * f64::EPSILON * ratio)
 }

@@ -63,14 +63,6 @@ pub enum FlightFault {
     /// A flight that was put together from parts.
     #[error("this flight was put together without a case, so its keys cannot be set")]
     NoCase,
-    /// A key that there is not.
-    #[error("there is no key {key}{}", nearest.map_or(String::new(), |nearest| format!("; did you mean {nearest}?")))]
-    NoSuchKey {
-        /// The key.
-        key: String,
-        /// The key most like it.
-        nearest: Option<&'static str>,
-    },
     /// A key that cannot change in flight.
     #[error("{key} cannot change in flight: {reason}; start another flight with it")]
     NotInFlight {

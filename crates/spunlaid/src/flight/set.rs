@@ -2,35 +2,43 @@
 
 use super::{Flight, surrounded};
 use crate::case::Case;
+use crate::case::keys::{self, Value};
 use crate::chain::Strand;
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
 
 impl Flight {
-    /// Changes the cases of all fibres while they fly. Whatever it was that the fibres had in common they must still
-    /// have; the energy that the change gives to the fibres or takes from them is not counted as an error of the
-    /// balance.
-    pub(super) fn change(
-        &mut self,
-        key: &'static str,
-        change: impl Fn(&mut Case) -> Result<(), Error>,
-    ) -> Result<(), Error> {
+    /// Changes a key of the cases of all fibres while they fly: `flight.set("air.velocity", "20 m/s")`, or 20.0 as a
+    /// number in SI units. [`Key::in_flight`](keys::Key) says which keys may change.
+    ///
+    /// The fibres go on from where they are, as fast as they are. The energy that the change gives them or takes from
+    /// them does not count as an error of the balance. Statistics go on too; see [`Flight::forget_statistics`].
+    ///
+    /// # Errors
+    /// A key that there is not, a value that the key does not take or with which the case cannot be run, and a key that
+    /// cannot change in flight; the flight is then as it was.
+    pub fn set(&mut self, key: &str, value: impl Into<Value>) -> Result<(), Error> {
+        let key = keys::named(key).map_err(|problem| vec![problem])?;
+        let refused = |reason| Err(FlightFault::NotInFlight { key: key.name, reason }.into());
+        if !key.in_flight {
+            return refused("a flight keeps its mesh, its times, its eddies and its files");
+        }
         let mut cases = self.cases.clone();
         if cases.is_empty() {
             return Err(FlightFault::NoCase.into());
         }
+        let value = value.into();
         for (case, _) in &mut cases {
-            let (before, step) = (case.air.clone(), case.run.time_step);
-            change(case)?;
-            case.check().map_err(Error::Rejected)?;
-            if case.run.time_step != step || case.air.files() != before.files() {
-                return Err(FlightFault::NotInFlight {
-                    key,
-                    reason: "a flight keeps its mesh, its step and its files",
-                }
-                .into());
+            if key.get(case).is_none() {
+                return refused("it has no meaning for the case of this flight");
             }
+            key.set(case, value.clone()).map_err(|problem| vec![problem])?;
+            case.check().map_err(Error::Rejected)?;
         }
+        self.fly_on_as(cases, key.name)
+    }
+
+    fn fly_on_as(&mut self, cases: Vec<(Case, u64)>, key: &'static str) -> Result<(), Error> {
         let air = surrounded(&cases, self.isa)?;
         let strands: Vec<Strand> = cases.iter().map(|(case, _)| case.strand()).collect();
         super::check_strands(&strands)?;
@@ -80,12 +88,12 @@ mod tests {
             let jobs = [0, 1].map(|replicate| Job { case: &case, replicate });
             let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
             flight.step_to(0.02).unwrap();
-            flight.change("run.gravity", |case| Ok(case.run.gravity = 5.0)).unwrap();
+            flight.set("run.gravity", "5 m/s²").unwrap();
             flight.step_to(0.03).unwrap();
-            flight.change("fibre.youngs_modulus", |case| Ok(case.fibre.youngs_modulus *= 0.5)).unwrap();
-            flight.change("air.velocity", |case| Ok(case.air.velocity = 20.0)).unwrap();
+            flight.set("fibre.youngs_modulus", 1e9).unwrap();
+            flight.set("air.velocity", "20 m/s").unwrap();
             flight.step_to(0.04).unwrap();
-            flight.change("fibre.diameter", |case| Ok(case.fibre.diameter *= 1.1)).unwrap();
+            flight.set("fibre.diameter", "55 µm").unwrap();
             flight.step_to(0.06).unwrap();
             let energy = flight.snapshot().energy;
             for lane in 0..2 {
@@ -103,11 +111,45 @@ mod tests {
         let at_end = |case, change: bool| {
             let mut flight = Flight::new(&[Job { case, replicate: 3 }], Isa::detect()).unwrap();
             if change {
-                flight.change("air.velocity", |case| Ok(case.air.velocity = 20.0)).unwrap();
+                flight.set("air.velocity", "20 m/s").unwrap();
             }
             flight.step_to(0.01).unwrap();
             flight.snapshot().position
         };
         assert_eq!(at_end(&slow, true), at_end(&fast, false));
+    }
+
+    #[test]
+    fn rejects_what_cannot_change_and_flies_on() {
+        let case = table1();
+        let mut flight = Flight::new(&[Job { case: &case, replicate: 0 }], Isa::detect()).unwrap();
+        flight.step_to(0.01).unwrap();
+        let before = flight.snapshot().position;
+        for (key, value, told) in [
+            ("air.velocty", "20 m/s", "air.velocity"),
+            ("air.velocity", "20 mm", "velocity"),
+            ("air.velocity", "fast", "velocity"),
+            ("fibre.diameter", "-1 µm", "positive"),
+            ("fibre.length", "2 m", "cannot change in flight"),
+            ("run.time_step", "1 µs", "cannot change in flight"),
+            ("air.speed_factor", "2", "no meaning"),
+            // Stiffer than the step can bear.
+            ("fibre.youngs_modulus", "200 GPa", "stability limit"),
+        ] {
+            let message = flight.set(key, value).unwrap_err().to_string();
+            assert!(message.contains(told), "{key} = {value}: {message}");
+            assert_eq!(flight.snapshot().position, before, "{key}");
+        }
+        flight.set("air.velocity", f64::NAN).unwrap_err();
+        flight.step_to(0.005).unwrap_err();
+        flight.step_to(f64::NAN).unwrap_err();
+        flight.step_to(0.02).unwrap();
+    }
+
+    #[test]
+    fn a_flight_belongs_to_its_owner_and_may_go_to_another_thread() {
+        fn is_free<T: Send + 'static>(_: &T) {}
+        let flight = Flight::new(&[Job { case: &table1(), replicate: 0 }], Isa::detect()).unwrap();
+        is_free(&flight);
     }
 }

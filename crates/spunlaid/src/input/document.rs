@@ -1,49 +1,49 @@
 //! A case file taken apart into its entries, each with the place it was written.
 
-use super::layout::{self, VERSION};
 use super::source::{Source, fit};
-use crate::case::Note;
-use crate::case::keys::Quantity;
-use crate::error::{Error, Fault, Finding, Place, Problem};
+use super::written::{Said, Written};
+use super::{FORMAT_VERSION, values};
+use crate::case::keys::{self, Key};
+use crate::error::{Error, Fault, Finding, Place};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// The one key above the tables.
+const VERSION: &str = "version";
+
 /// A value as written.
-pub(super) struct Entry<'a> {
-    pub(super) place: Place,
+struct Entry<'a> {
+    place: Place,
     /// Source text, made fit for a message; none for tables, whose text is all over the file.
-    pub(super) shown: Option<String>,
-    pub(super) value: DeValue<'a>,
+    shown: Option<String>,
+    value: DeValue<'a>,
 }
 
-/// The entries of a case file and of the overrides, by full key, and what is wrong with them so far.
+/// The entries of a case file and of the overrides, and what is wrong with them so far.
 pub(super) struct Document<'a> {
     name: String,
     source: Source<'a>,
-    entries: BTreeMap<String, Entry<'a>>,
-    pub(super) problems: Vec<Problem>,
-    /// What there is to remark so far.
-    pub(super) notes: Vec<Note>,
-    /// Keys that are missed only because they are misspelt or misplaced; tables end in a dot.
-    excused: Vec<String>,
+    version: Option<Entry<'a>>,
+    entries: BTreeMap<&'static str, Entry<'a>>,
+    written: Written,
 }
 
 impl<'a> Document<'a> {
-    /// Takes apart the text of the file called `name`.
+    /// Reads the values of the file called `name` and of the overrides.
     ///
     /// # Errors
-    /// When the text is not TOML.
-    pub(super) fn new(text: &'a str, name: &str, overrides: &'a [(String, String)]) -> Result<Self, Error> {
-        let mut document = Self {
-            name: name.to_owned(),
-            source: Source::new(text, name),
-            entries: BTreeMap::new(),
-            problems: Vec::new(),
-            notes: Vec::new(),
-            excused: Vec::new(),
-        };
+    /// When the text is not TOML, or of a later version of the format.
+    pub(super) fn read(
+        text: &'a str,
+        name: &str,
+        overrides: &'a [(String, String)],
+    ) -> Result<Written, Error> {
+        let source = Source::new(text, name);
+        let written = Written::new(source.whole());
+        let mut document =
+            Self { name: name.to_owned(), source, version: None, entries: BTreeMap::new(), written };
         let (root, faults) = DeTable::parse_recoverable(text);
         if !faults.is_empty() {
             return Err(Error::Rejected(faults.iter().map(|fault| document.source.syntax(fault)).collect()));
@@ -52,44 +52,27 @@ impl<'a> Document<'a> {
         for (key, value) in overrides {
             document.take_override(key.trim(), value);
         }
-        Ok(document)
+        // Before anything else in the file is judged.
+        document.version.take().map_or(Ok(()), check_version)?;
+        for key in keys::all() {
+            if let Some(entry) = document.entries.remove(key.name) {
+                document.read_entry(key, entry);
+            }
+        }
+        Ok(document.written)
     }
 
-    /// Takes out the entry of a full key, `fibre.length`.
-    pub(super) fn take(&mut self, key: &str) -> Option<Entry<'a>> {
-        self.entries.remove(key)
-    }
-
-    /// Has nothing told of keys that are missed; a table ends in a dot.
-    pub(super) fn excuse(&mut self, keys: &str) {
-        self.excused.push(keys.to_owned());
-    }
-
-    /// Whether there is an entry of a key.
-    pub(super) fn has(&self, quantity: &Quantity) -> bool {
-        self.entries.contains_key(quantity.key)
-    }
-
-    /// Place and text of every entry, by full key.
-    pub(super) fn sources(&self) -> BTreeMap<String, (Place, Option<String>)> {
-        let source = |entry: &Entry<'_>| (entry.place.clone(), entry.shown.clone());
-        self.entries.iter().map(|(key, entry)| (key.clone(), source(entry))).collect()
-    }
-
-    /// The file as a place, for what it does not say.
-    pub(super) fn whole(&self) -> Place {
-        self.source.whole()
-    }
-
-    /// Whether a missing key has been told of as misspelt or misplaced.
-    pub(super) fn is_excused(&self, key: &str) -> bool {
-        self.excused.iter().any(|excuse| excuse == key || excuse.ends_with('.') && key.starts_with(excuse))
-    }
-
-    /// The problems in the order of the file, then of the overrides.
-    pub(super) fn sorted<W>(mut findings: Vec<Finding<W>>) -> Vec<Finding<W>> {
-        findings.sort_by(|a, b| a.place.cmp(&b.place));
-        findings
+    fn read_entry(&mut self, key: &'static Key, entry: Entry<'_>) {
+        let Entry { place, shown, value } = entry;
+        let read = values::read(&key.kind, &value, |named| self.beside(&place, named));
+        let (value, fault) = match read {
+            Ok(value) => (Some(value), None),
+            Err(fault) => (None, Some(fault)),
+        };
+        self.written.set(key, Said { place, shown, value });
+        if let Some(fault) = fault {
+            self.written.reject(key.name, fault);
+        }
     }
 
     fn place(&self, byte: usize) -> Place {
@@ -100,7 +83,7 @@ impl<'a> Document<'a> {
         for (key, value) in root {
             let (place, name) = (self.place(key.span().start), key.into_inner());
             let entry = self.entry(place, value);
-            match (layout::table(&name), entry.value) {
+            match (table_named(&name), entry.value) {
                 (Some(table), DeValue::Table(keys)) => {
                     for (key, value) in keys {
                         let (place, key) = (self.place(key.span().start), key.into_inner());
@@ -109,7 +92,7 @@ impl<'a> Document<'a> {
                     }
                 }
                 (Some(table), other) => {
-                    self.excused.push(format!("{table}."));
+                    self.written.excuse(format!("{table}."));
                     let wanted = format!("a table, [{table}]");
                     let what = Fault::WrongType { found: kind(&other), wanted };
                     self.reject(entry.place, table, entry.shown, what);
@@ -140,11 +123,11 @@ impl<'a> Document<'a> {
         };
         let entry = Entry { place: Place::Override, shown: Some(shown), value };
         match key.split_once('.') {
-            Some((table, key)) => match layout::table(table) {
+            Some((table, key)) => match table_named(table) {
                 Some(table) => self.take_entry(table, key, entry),
                 None => self.reject_table(entry.place, table, &DeTable::new()),
             },
-            None => match layout::table(key) {
+            None => match table_named(key) {
                 Some(table) => {
                     let wanted = format!("one of its keys, --set {table}.key=value");
                     let what = Fault::WrongType { found: "a table", wanted };
@@ -157,27 +140,25 @@ impl<'a> Document<'a> {
 
     /// Takes in an entry of a table, or of the top of the file, if it is known there.
     fn take_entry(&mut self, table: &'static str, key: &str, entry: Entry<'a>) {
-        let full = full_key(table, key);
-        if layout::keys_of(table).contains(&key) {
-            self.entries.insert(full, entry);
+        let full = if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") };
+        if full == VERSION {
+            self.version = Some(entry);
             return;
         }
-        let what = if let Some((table, key)) = layout::home_of(key) {
-            self.excused.push(full_key(table, key));
-            Fault::Misplaced { table, key }
+        if let Some(key) = keys::find(&full).filter(|key| key.table() == table) {
+            self.entries.insert(key.name, entry);
+            return;
+        }
+        let what = if let Some(home) = home_of(key) {
+            self.written.excuse(home.name);
+            Fault::Misplaced { table: home.table(), key: home.short() }
         } else {
-            let nearest = match layout::nearest_key(table, key) {
-                Some((home, known)) => {
-                    let nearest = full_key(home, known);
-                    self.excused.push(nearest.clone());
-                    Some(nearest)
-                }
-                None => None,
-            };
+            let nearest = keys::like_in(table, key).first().map(|key| key.name.to_owned());
+            nearest.iter().for_each(|key| self.written.excuse(key));
             let (where_, known) = if table.is_empty() {
                 ("the top of the file".to_owned(), vec![VERSION, "[fibre]", "[air]", "[drag]", "[run]"])
             } else {
-                (format!("[{table}]"), layout::keys_of(table).to_vec())
+                (format!("[{table}]"), keys::of_table(table).map(Key::short).collect())
             };
             Fault::UnknownKey { nearest, where_, known }
         };
@@ -185,34 +166,57 @@ impl<'a> Document<'a> {
     }
 
     fn reject_table(&mut self, place: Place, name: &str, keys: &DeTable<'_>) {
-        let mut nearest = layout::nearest_table(name);
+        let mut nearest = keys::nearest_word(name, keys::TABLES.into_iter());
         // By its keys, where its name tells nothing.
         for (key, _) in keys {
-            nearest = nearest.or_else(|| layout::home_of(key.get_ref()).map(|(table, _)| table));
+            nearest = nearest.or_else(|| home_of(key.get_ref()).map(Key::table));
         }
         if let Some(table) = nearest {
-            self.excused.push(format!("{table}."));
+            self.written.excuse(format!("{table}."));
         }
         let nearest = nearest.map(|table| format!("[{table}]"));
         self.reject(place, &format!("[{}]", fit(name)), None, Fault::UnknownTable { nearest });
     }
 
     /// The path that an entry names: from the folder of the file, or from here where it is an override.
-    pub(super) fn beside(&self, place: &Place, named: &str) -> PathBuf {
+    fn beside(&self, place: &Place, named: &str) -> PathBuf {
         match (place, Path::new(&self.name).parent()) {
             (Place::Override, _) | (_, None) => PathBuf::from(named),
             (_, Some(folder)) => folder.join(named),
         }
     }
 
-    /// Notes down a problem.
-    pub(super) fn reject(&mut self, place: Place, key: &str, value: Option<String>, what: Fault) {
-        self.problems.push(Finding { place, key: fit(key), value, what });
+    /// Notes down a problem with something that is no key.
+    fn reject(&mut self, place: Place, key: &str, value: Option<String>, what: Fault) {
+        self.written.problems.push(Finding { place, key: fit(key), value, what });
     }
 }
 
-fn full_key(table: &str, key: &str) -> String {
-    if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") }
+/// Refuses a file of a later format.
+fn check_version(entry: Entry<'_>) -> Result<(), Error> {
+    let Entry { place, shown, value } = entry;
+    let known = FORMAT_VERSION;
+    let what = match &value {
+        DeValue::Integer(number) => match number.as_str().parse() {
+            Ok(version) if (1..=i128::from(known)).contains(&version) => return Ok(()),
+            Ok(version) if version < 1 => Fault::OutOfRange { least: 1, most: u64::from(known) },
+            _ => Fault::NewerVersion { known },
+        },
+        other => Fault::WrongType { found: kind(other), wanted: format!("a whole number, {known}") },
+    };
+    Err(vec![Finding { place, key: VERSION.to_owned(), value: shown, what }].into())
+}
+
+/// The table's name, if it is one.
+pub(super) fn table_named(name: &str) -> Option<&'static str> {
+    keys::TABLES.into_iter().find(|table| *table == name)
+}
+
+/// The only key of this name, whatever its table.
+fn home_of(name: &str) -> Option<&'static Key> {
+    let mut homes = keys::all().iter().filter(|key| key.short() == name);
+    let home = homes.next();
+    if homes.next().is_some() { None } else { home }
 }
 
 /// What kind of value this is, with its article.

@@ -3,16 +3,16 @@
 //! A quantity is written with its unit, `diameter = "50 µm"`. Everything wrong with a file is told at
 //! once, each with its line, key, value, what is allowed and the way out.
 
-mod air;
 mod data;
 mod document;
 mod file;
-mod layout;
+
 mod resolve;
 mod source;
 mod study;
 mod values;
 mod write;
+mod written;
 
 pub use study::{MOST_POINTS_UNASKED, StudyFile, StudyNote, differences, parse_study, read_study};
 pub use write::write_case;
@@ -59,7 +59,7 @@ fn parse_with(
     name: &str,
     overrides: &[(String, String)],
 ) -> Result<(Case, Vec<Note>), Error> {
-    resolve::resolve(document::Document::new(text, name, overrides)?, files)
+    resolve::open(document::Document::read(text, name, overrides)?, files)?.resolve()
 }
 
 /// A commented case file to start from: Table 1 of the paper, every optional key with its default.

@@ -1,331 +1,319 @@
 //! From what is written to what is meant: defaults, whole elements, whole steps.
 
 use super::data::DataFiles;
-use super::document::{Document, Entry, kind};
-use super::layout::VERSION;
-use super::{FORMAT_VERSION, air};
-use crate::air::{Air, EddyModel};
-use crate::case::keys::{self, Quantity};
-use crate::case::{Case, ERROR_TOLERANCE, MOST_REPLICATES, MOST_STEPS, Note, Remark, Run};
+use super::written::{Said, Written, sorted};
+use crate::air::{Air, Flow, PlacedField, SpectrumShape};
+use crate::case::keys::{self, Content, FileKind, Key, Kind, LeftOut, Value};
+use crate::case::{Case, MOST_STEPS, Note, Remark, Run, whole_parts};
 use crate::chain::schemes::Scheme;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
-use crate::error::{Error, Fault, Finding, Place};
+use crate::error::{Error, Fault, FileError, Finding};
 use crate::fibre::{Fibre, Root};
+use crate::field::FieldWarning;
 use crate::vec3::Vec3;
-use std::collections::BTreeMap;
-use toml::de::DeValue;
+use std::path::PathBuf;
 
-/// Default acceleration of gravity [m/s²].
-const GRAVITY: f64 = 9.81;
-/// Default time between recorded instants [s].
-const OUTPUT_INTERVAL: f64 = 1e-3;
-/// Default number of replicates.
-const REPLICATES: u64 = 10;
-/// Default master seed.
-const SEED: u64 = 1;
-
-/// Makes a case of a document and checks it.
-pub(super) fn resolve(mut document: Document<'_>, files: &DataFiles) -> Result<(Case, Vec<Note>), Error> {
-    version(&mut document)?;
-    let sources = Sources::of(&document);
-    let written = Written::read(&mut document, files);
-    if !document.problems.is_empty() {
-        return Err(Document::sorted(document.problems).into());
-    }
-    let mut notes = std::mem::take(&mut document.notes);
-    let case = written.case(&sources, &mut notes)?;
-    match case.check() {
-        Ok(more) => {
-            notes.extend(more.into_iter().map(|note| sources.placed(note)));
-            Ok((case, Document::sorted(notes)))
-        }
-        Err(problems) => {
-            let placed = problems.into_iter().map(|problem| sources.placed(problem)).collect();
-            Err(Document::sorted(placed).into())
-        }
-    }
+/// A case with every key set that stands on its own; what is counted in whole elements, steps and harmonics is
+/// open.
+pub(super) struct Open {
+    /// What the case was made of.
+    pub(super) written: Written,
+    /// Numbers that the flow tells are NaN.
+    pub(super) case: Case,
+    notes: Vec<Note>,
 }
 
-/// What a case file says, as written or by default, before anything is made of it.
-pub(super) struct Base {
-    /// Values of the keys that have a number, in SI units; none for those that follow from others where they are
-    /// not written.
-    pub(super) values: BTreeMap<&'static str, Option<f64>>,
-    /// Number of replicates.
-    pub(super) replicates: u64,
-    /// Master seed.
-    pub(super) seed: u64,
-}
-
-/// Reads what a document says.
-pub(super) fn base(mut document: Document<'_>, files: &DataFiles) -> Result<Base, Error> {
-    version(&mut document)?;
-    let written = Written::read(&mut document, files);
-    if !document.problems.is_empty() {
-        return Err(Document::sorted(document.problems).into());
-    }
-    let Written {
-        fibre,
-        element_length,
-        air,
-        harmonics,
-        drag,
-        duration,
-        time_step,
-        error_tolerance,
-        spin_up,
-        ..
-    } = written;
-    let mut values = BTreeMap::from(
-        [
-            (&keys::LENGTH, fibre.length),
-            (&keys::DIAMETER, fibre.diameter),
-            (&keys::FIBRE_DENSITY, fibre.density),
-            (&keys::YOUNGS_MODULUS, fibre.youngs_modulus),
-            (&keys::VELOCITY, air.velocity),
-            (&keys::TURBULENCE_INTENSITY, air.turbulence_intensity),
-            (&keys::LENGTH_SCALE, air.length_scale),
-            (&keys::CUTOFF_FREQUENCY, air.cutoff_frequency),
-            (&keys::AIR_DENSITY, air.density),
-            (&keys::VISCOSITY, air.kinematic_viscosity),
-            (&keys::SPEED_FACTOR, air.speed_factor),
-            (&keys::DURATION, duration),
-            (&keys::GRAVITY, written.run.gravity),
-            (&keys::SPIN_UP, spin_up),
-            (&keys::DAMPING, written.run.damping),
-        ]
-        // What the flow tells is no number yet.
-        .map(|(quantity, value)| (quantity.key, Some(value).filter(|value| !value.is_nan()))),
-    );
-    values.insert(
-        keys::DECAY_TIME.key,
-        match air.eddies {
-            EddyModel::Convected { decay_time } => Some(decay_time).filter(|time| time.is_finite()),
-            EddyModel::Independent => None,
-        },
-    );
-    values.insert(keys::FRICTION_COEFFICIENT.key, drag.along.factor());
-    values.insert(keys::ELEMENT_LENGTH.key, element_length);
-    values.insert(keys::TIME_STEP.key, time_step);
-    values.insert(keys::ERROR_TOLERANCE.key, error_tolerance);
-    values.insert(keys::OUTPUT_INTERVAL.key, written.output_interval);
-    values.insert(keys::HARMONICS, harmonics.map(|harmonics| harmonics as f64));
-    Ok(Base { values, replicates: written.run.replicates, seed: written.run.seed })
-}
-
-/// Refuses a file of a later format before anything else in it is judged.
-fn version(document: &mut Document<'_>) -> Result<(), Error> {
-    let Some(Entry { place, shown, value }) = document.take(VERSION) else {
-        return Ok(());
+/// Sets what is written, and what else has a default.
+///
+/// # Errors
+/// Everything that is wrong with any key.
+pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Error> {
+    let (mut case, mut notes) = (blank(), Vec::new());
+    let twice = ["air.profile", "air.field"].map(|key| written.get(key).is_some()) == [true; 2];
+    // Files come first, since they may tell what other keys would; then names, since a law or a model decides
+    // whether its numbers have a meaning.
+    let rank = |key: &&Key| match key.kind {
+        Kind::File(_) => 0,
+        Kind::Choice(_) => 1,
+        _ => 2,
     };
-    let known = FORMAT_VERSION;
-    let what = match &value {
-        DeValue::Integer(number) => match number.as_str().parse() {
-            Ok(version) if (1..=i128::from(known)).contains(&version) => return Ok(()),
-            Ok(version) if version < 1 => Fault::OutOfRange { least: 1, most: u64::from(known) },
-            _ => Fault::NewerVersion { known },
-        },
-        other => Fault::WrongType { found: kind(other), wanted: format!("a whole number, {known}") },
-    };
-    Err(vec![Finding { place, key: VERSION.to_owned(), value: shown, what }].into())
-}
-
-/// Where the values of a case come from.
-struct Sources {
-    file: Place,
-    written: BTreeMap<String, (Place, Option<String>)>,
-}
-
-impl Sources {
-    fn of(document: &Document<'_>) -> Self {
-        Self { file: document.whole(), written: document.sources() }
-    }
-
-    /// The finding with the place and the text of the value it is about.
-    fn placed<W>(&self, mut finding: Finding<W>) -> Finding<W> {
-        match self.written.get(&finding.key) {
-            Some((place, shown)) => {
-                (finding.place, finding.value) = (place.clone(), shown.clone());
+    let mut in_order: Vec<&Key> = keys::all().iter().collect();
+    in_order.sort_by_key(rank);
+    for key in in_order {
+        let Some(Said { place, shown, value }) = written.get(key.name).cloned() else {
+            match key.left_out {
+                // A key that means nothing to this case refuses its default, which is then not needed.
+                LeftOut::Value(text) if !key.counted => drop(key.set(&mut case, text)),
+                LeftOut::Required(_)
+                    if !is_told(&mut case.air, key.name) && !written.is_excused(key.name) =>
+                {
+                    let (table, line) = (key.table(), key.example());
+                    written.reject(key.name, Fault::Missing { table, line });
+                }
+                _ => {}
             }
-            None => {
-                finding.place = self.file.clone();
-                finding.value = finding.value.map(|value| format!("{value} (the default)"));
-            }
-        }
-        finding
-    }
-}
-
-/// What a case file says, in SI units, before anything is made of it.
-struct Written {
-    fibre: Fibre,
-    element_length: Option<f64>,
-    air: Air,
-    harmonics: Option<u64>,
-    drag: Drag,
-    duration: f64,
-    time_step: Option<f64>,
-    error_tolerance: Option<f64>,
-    spin_up: f64,
-    output_interval: Option<f64>,
-    /// Its times are still to be filled in.
-    run: Run,
-}
-
-impl Written {
-    fn read(d: &mut Document<'_>, files: &DataFiles) -> Self {
-        let fibre = Fibre {
-            length: d.required(&keys::LENGTH, "length = \"1 m\""),
-            diameter: d.required(&keys::DIAMETER, "diameter = \"50 µm\""),
-            density: d.required(&keys::FIBRE_DENSITY, "density = \"950 kg/m³\""),
-            youngs_modulus: d.required(&keys::YOUNGS_MODULUS, "youngs_modulus = \"2 GPa\""),
-            elements: 0,
-            root: d.choice("fibre.root", &keys::ROOTS.map(|one| (one.name(), one))).unwrap_or(Root::Pinned),
-            direction: d.direction(keys::DIRECTION).unwrap_or(Vec3::new(1.0, 0.0, 0.0)),
+            continue;
         };
-        let element_length = d.optional(&keys::ELEMENT_LENGTH);
-        let air = air::read(d, files);
-        let harmonics = d.whole_number(keys::HARMONICS, 1, usize::MAX as u64);
-        let mut along = d
-            .choice("drag.along", &keys::FRICTION_LAWS.map(|one| (one.name(), one)))
-            .unwrap_or(keys::FRICTION_LAWS[0]);
-        if let Some(entry) = d.take(keys::FRICTION_COEFFICIENT.key) {
-            match &mut along {
-                FrictionLaw::Matsui { factor } => *factor = d.quantity(&keys::FRICTION_COEFFICIENT, entry),
-                _ => {
-                    let (needed, remedy) = ("drag.along = \"matsui\"", "strike it out, the law has its own");
-                    let fault = Fault::Needs { needed, remedy };
-                    d.reject(entry.place, keys::FRICTION_COEFFICIENT.key, entry.shown, fault);
+        let set = match (value, key.kind) {
+            (None, Kind::File(kind)) => {
+                written.excuse(missed_with(kind));
+                continue;
+            }
+            (None, _) => continue,
+            _ if twice && key.name == "air.profile" => {
+                let (other, remedy) = ("air.field", "the air is one or the other; leave one out");
+                Err(Fault::Excludes { other, remedy })
+            }
+            (Some(Value::Paths(paths)), Kind::File(kind)) => {
+                match load(files, kind, &paths, written.number("air.record_rate")) {
+                    Ok((content, warnings)) => {
+                        notes.extend(warnings.into_iter().map(|warning| Note {
+                            place: place.clone(),
+                            key: key.name.to_owned(),
+                            value: shown.clone(),
+                            what: Remark::Field(warning),
+                        }));
+                        key.apply(&mut case, &Value::Content(content))
+                    }
+                    Err(error) => {
+                        written.excuse(missed_with(kind));
+                        written.reject(key.name, Fault::File(Box::new(error)));
+                        continue;
+                    }
                 }
             }
-        }
-        let drag = Drag {
-            along,
-            across: d
-                .choice("drag.across", &keys::NORMAL_LAWS.map(|one| (one.name(), one)))
-                .unwrap_or(NormalLaw::JuShambaugh),
+            (Some(_), _) if key.counted => Ok(()),
+            (Some(value), _) => key.apply(&mut case, &value),
         };
-        let duration = d.required(&keys::DURATION, "duration = \"1 s\"");
-        let time_step = d.optional(&keys::TIME_STEP);
-        let error_tolerance = d.optional(&keys::ERROR_TOLERANCE);
-        let spin_up = d.optional(&keys::SPIN_UP).unwrap_or(0.0);
-        let output_interval = d.optional(&keys::OUTPUT_INTERVAL);
-        let run = Run {
-            time_step: time_step.unwrap_or(duration),
+        if let Err(fault) = set
+            && !written.is_excused(key.name)
+        {
+            written.reject(key.name, fault);
+        }
+    }
+    if let Flow::Field(placed) = &mut case.air.flow
+        && written.get("air.field_root").is_none()
+    {
+        placed.root = PlacedField::middle_of_inlet(&placed.field, placed.axis, placed.unit);
+    }
+    if written.problems.is_empty() {
+        Ok(Open { written, case, notes })
+    } else {
+        Err(sorted(written.problems).into())
+    }
+}
+
+/// A case to set keys of.
+fn blank() -> Case {
+    let nan = f64::NAN;
+    Case {
+        fibre: Fibre {
+            length: nan,
+            diameter: nan,
+            density: nan,
+            youngs_modulus: nan,
+            elements: 0,
+            root: Root::Pinned,
+            direction: Vec3::new(1.0, 0.0, 0.0),
+        },
+        air: Air::uniform(nan, nan, nan, nan),
+        drag: Drag { along: FrictionLaw::ALL[0], across: NormalLaw::ALL[0] },
+        run: Run {
+            time_step: nan,
             steps: 0,
             spin_up_steps: 0,
             output_steps: 0,
-            replicates: d.whole_number(keys::REPLICATES, 1, MOST_REPLICATES).unwrap_or(REPLICATES),
-            seed: d.whole_number("run.seed", 0, u64::MAX).unwrap_or(SEED),
-            scheme: d
-                .choice("run.scheme", &keys::SCHEMES.map(|one| (one.name(), one)))
-                .unwrap_or(Scheme::SemiImplicitEuler),
-            gravity: d.optional(&keys::GRAVITY).unwrap_or(GRAVITY),
-            damping: d.optional(&keys::DAMPING).unwrap_or(0.0),
+            replicates: 1,
+            seed: 0,
+            scheme: Scheme::SemiImplicitEuler,
+            gravity: nan,
+            damping: nan,
+        },
+    }
+}
+
+/// Keys that may be missed only because a file cannot be used.
+const fn missed_with(kind: FileKind) -> &'static str {
+    match kind {
+        FileKind::Spectrum => "air.cutoff_frequency",
+        FileKind::Profile | FileKind::Field | FileKind::Records => "air.",
+    }
+}
+
+fn load(
+    files: &DataFiles,
+    kind: FileKind,
+    paths: &[PathBuf],
+    rate: Option<f64>,
+) -> Result<(Content, Vec<FieldWarning>), FileError> {
+    let path = paths.first().cloned().unwrap_or_default();
+    let content = match kind {
+        FileKind::Profile => Content::Profile(files.profile(&path)?),
+        FileKind::Spectrum => Content::Spectrum(files.spectrum(&path)?),
+        FileKind::Records => {
+            let records: Result<_, _> = paths.iter().map(|path| files.record(path, rate)).collect();
+            Content::Records(records?)
+        }
+        FileKind::Field => {
+            let (field, warnings) = files.field(&path)?;
+            return Ok((Content::Field(field), warnings));
+        }
+    };
+    Ok((content, Vec::new()))
+}
+
+/// Whether the flow or a file tells a number of the air that the case leaves out; the number is taken from a file,
+/// and left to the flow until the air is settled.
+fn is_told(air: &mut Air, key: &str) -> bool {
+    let (tells, uniform) = (air.flow.tells(), air.is_uniform());
+    let record = air.records.first().map(|record| record.says);
+    let highest = match &air.spectrum {
+        SpectrumShape::Measured(table) => Some(table.highest()),
+        _ => None,
+    };
+    let (from, mut of_velocity) = (&mut air.from_flow, false);
+    let (number, from_flow, tells, file) = match key {
+        "air.velocity" => {
+            (&mut air.velocity, &mut of_velocity, !uniform, record.and_then(|says| says.velocity))
+        }
+        "air.turbulence_intensity" => (
+            &mut air.turbulence_intensity,
+            &mut from.turbulence_intensity,
+            tells.turbulence_intensity,
+            record.and_then(|says| says.turbulence_intensity),
+        ),
+        "air.length_scale" => (
+            &mut air.length_scale,
+            &mut from.length_scale,
+            tells.length_scale,
+            record.and_then(|says| says.length_scale),
+        ),
+        "air.cutoff_frequency" => (
+            &mut air.cutoff_frequency,
+            &mut from.cutoff_frequency,
+            tells.cutoff_frequency,
+            highest.or(record.map(|says| says.cutoff_frequency)),
+        ),
+        _ => return false,
+    };
+    *from_flow = tells;
+    if !tells && let Some(file) = file {
+        *number = file;
+    }
+    tells || file.is_some()
+}
+
+impl Open {
+    /// The number of a key, as written or by default; none where it follows from others.
+    pub(super) fn number(&self, key: &Key) -> Option<f64> {
+        let number = match (self.written.get(key.name), key.left_out) {
+            (Some(said), _) => said.value.as_ref()?.number(),
+            (None, LeftOut::Value(text)) if key.counted => key.kind.accept(text.into()).ok()?.number(),
+            (None, _) if key.counted => None,
+            (None, _) => key.get(&self.case)?.number(),
         };
-        Self {
-            fibre,
-            element_length,
-            air,
-            harmonics,
-            drag,
-            duration,
-            time_step,
-            error_tolerance,
-            spin_up,
-            output_interval,
-            run,
+        number.filter(|number| !number.is_nan())
+    }
+
+    fn number_of(&self, key: &str) -> Option<f64> {
+        self.number(keys::find(key)?)
+    }
+
+    /// The case that is meant, checked, and what there is to remark on it.
+    ///
+    /// # Errors
+    /// Everything that keeps the case from being run.
+    pub(super) fn resolve(mut self) -> Result<(Case, Vec<Note>), Error> {
+        self.count()?;
+        match self.case.check() {
+            Ok(more) => {
+                self.notes.extend(more.into_iter().map(|note| self.written.placed(note)));
+                Ok((self.case, sorted(self.notes)))
+            }
+            Err(problems) => {
+                let placed = problems.into_iter().map(|problem| self.written.placed(problem)).collect();
+                Err(sorted(placed).into())
+            }
         }
     }
 
-    /// The case that is meant, before it is checked.
-    fn case(&self, sources: &Sources, notes: &mut Vec<Note>) -> Result<Case, Error> {
-        let Self { mut fibre, mut run, drag, .. } = *self;
-        let mut air = self.air.clone();
-        air.settle(fibre.direction * fibre.length);
-        let mut chosen = Vec::new();
-        let mut note = |quantity: &Quantity, value: f64, remark: Remark| {
-            let value = Some(quantity.dimension.pretty(value));
-            let key = quantity.key.to_owned();
-            notes.push(sources.placed(Note { place: Place::Code, key, value, what: remark }));
-        };
+    /// Takes whole elements, steps and harmonics.
+    fn count(&mut self) -> Result<(), Error> {
+        let of = |key| self.number_of(key).unwrap_or(f64::NAN);
+        let (duration, tolerance, spin_up) =
+            (of("run.duration"), of("run.error_tolerance"), of("run.spin_up"));
+        let interval = of("run.output_interval");
+        let Self { written, case, notes } = self;
+        let mut note =
+            |key, value, remark: Remark| notes.push(written.placed(keys::finding(key, value, remark)));
+        case.air.settle(case.fibre.direction * case.fibre.length);
 
-        let element_length = self.element_length.unwrap_or(air.length_scale.min(fibre.length));
-        let (mut elements, whole) = nearest_whole(fibre.length, element_length);
-        if self.element_length.is_none() && !whole && (elements as f64) < fibre.length / element_length {
+        let (fibre, written_length) = (&mut case.fibre, written.number("fibre.element_length"));
+        let element_length = written_length.unwrap_or(case.air.length_scale.min(fibre.length));
+        let (mut elements, whole) = whole_parts(fibre.length, element_length);
+        if written_length.is_none() && !whole && (elements as f64) < fibre.length / element_length {
             // No longer than an eddy: none is to be skipped.
             elements += 1;
         }
         fibre.elements = usize::try_from(elements.max(1)).unwrap_or(usize::MAX);
         if !whole {
-            let remark =
-                Remark::ElementsRounded { elements: fibre.elements, element_length: fibre.rest_length() };
-            note(&keys::ELEMENT_LENGTH, element_length, remark);
+            let (elements, rest_length) = (fibre.elements, fibre.rest_length());
+            let remark = Remark::ElementsRounded { elements, element_length: rest_length };
+            note("fibre.element_length", element_length, remark);
         }
 
-        let time_step = self.time_step.unwrap_or_else(|| {
-            let open = Case { fibre, air: air.clone(), drag, run };
-            let tolerance = self.error_tolerance.unwrap_or(ERROR_TOLERANCE);
-            let (time_step, choice) = open.suggested_time_step(tolerance, self.duration);
-            let limits = open.stable_step_limits();
+        let (written_step, mut chosen) = (written.number("run.time_step"), None);
+        case.run.time_step = written_step.unwrap_or(duration);
+        let time_step = written_step.unwrap_or_else(|| {
+            let (time_step, choice) = case.suggested_time_step(tolerance, duration);
+            let limits = case.stable_step_limits();
             let limit = limits.iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
-            let value = Some(keys::TIME_STEP.dimension.pretty(time_step));
-            let (place, key) = (sources.file.clone(), keys::TIME_STEP.key.to_owned());
-            chosen.push(Note { place, key, value, what: Remark::StepChosen { choice, limit } });
+            chosen = Some((time_step, Remark::StepChosen { choice, limit }));
             time_step
         });
-        if let (Some(_), Some(tolerance)) = (self.time_step, self.error_tolerance) {
-            note(&keys::ERROR_TOLERANCE, tolerance, Remark::ToleranceUnused);
+        if written_step.is_some() && written.get("run.error_tolerance").is_some() {
+            note("run.error_tolerance", tolerance, Remark::ToleranceUnused);
         }
 
-        let steps = (self.duration / time_step).ceil().max(1.0);
+        let steps = (duration / time_step).ceil().max(1.0);
         if steps > MOST_STEPS as f64 {
             let fault = Fault::TooManySteps { steps, most: MOST_STEPS as f64, time_step };
-            let value = Some(keys::DURATION.dimension.pretty(self.duration));
-            let problem =
-                Finding { place: Place::Code, key: keys::DURATION.key.to_owned(), value, what: fault };
-            return Err(vec![sources.placed(problem)].into());
+            return Err(vec![written.placed(keys::finding("run.duration", duration, fault))].into());
         }
-        let (nearest, whole) = nearest_whole(self.duration, time_step);
+        let run = &mut case.run;
+        let (nearest, whole) = whole_parts(duration, time_step);
         (run.steps, run.time_step) = (nearest, time_step);
         if !whole || nearest == 0 {
             // More steps, and these shorter: never beyond a limit that the step as written keeps.
             run.steps = steps as u64;
-            run.time_step = self.duration / steps;
-            let remark = Remark::StepShortened { steps: run.steps, time_step: run.time_step };
-            if self.time_step.is_some() {
-                note(&keys::TIME_STEP, time_step, remark);
+            run.time_step = duration / steps;
+            if written_step.is_some() {
+                let remark = Remark::StepShortened { steps: run.steps, time_step: run.time_step };
+                note("run.time_step", time_step, remark);
             }
         }
 
-        let (spin_up_steps, whole) = nearest_whole(self.spin_up, run.time_step);
+        let (spin_up_steps, whole) = whole_parts(spin_up, run.time_step);
         run.spin_up_steps = spin_up_steps;
         if !whole {
-            note(&keys::SPIN_UP, self.spin_up, Remark::TimeRounded { time: run.spin_up() });
+            note("run.spin_up", spin_up, Remark::TimeRounded { time: run.spin_up() });
         }
-        if let Some(interval) = self.output_interval {
-            let (output_steps, whole) = nearest_whole(interval, run.time_step);
-            run.output_steps = output_steps.max(1);
-            if !whole {
-                note(&keys::OUTPUT_INTERVAL, interval, Remark::TimeRounded { time: run.output_interval() });
-            }
-        } else {
-            run.output_steps = nearest_whole(OUTPUT_INTERVAL, run.time_step).0.clamp(1, run.steps);
+        let (output_steps, whole) = whole_parts(interval, run.time_step);
+        run.output_steps = output_steps.max(1);
+        if written.get("run.output_interval").is_none() {
+            run.output_steps = run.output_steps.min(run.steps);
+        } else if !whole {
+            note("run.output_interval", interval, Remark::TimeRounded { time: run.output_interval() });
         }
 
-        air.harmonics = match self.harmonics {
-            Some(harmonics) => usize::try_from(harmonics).unwrap_or(usize::MAX),
-            None => air.default_harmonics(run.duration()),
+        case.air.harmonics = match written.get("air.harmonics").map(|said| &said.value) {
+            Some(Some(Value::Whole(harmonics))) => usize::try_from(*harmonics).unwrap_or(usize::MAX),
+            _ => case.air.default_harmonics(case.run.duration()),
         };
-        notes.append(&mut chosen);
-        Ok(Case { fibre, air, drag, run })
+        if let Some((time_step, remark)) = chosen {
+            let place = written.whole();
+            notes.push(Finding { place, ..keys::finding("run.time_step", time_step, remark) });
+        }
+        Ok(())
     }
-}
-
-/// How often `part` goes into `whole`, to the nearest whole number, and whether it does so exactly but for
-/// rounding.
-pub(super) fn nearest_whole(whole: f64, part: f64) -> (u64, bool) {
-    let ratio = whole / part;
-    let nearest = ratio.round();
-    (nearest as u64, (ratio - nearest).abs() <= 8.0 * f64::EPSILON * ratio)
 }

@@ -1,122 +1,47 @@
-//! Values of the kinds a case file has: quantities, whole numbers, names, directions.
+//! Values as TOML has them, to the [`Value`] of a key.
 
-use super::document::{Document, Entry, kind};
-use super::layout;
-use crate::case::keys::Quantity;
+use super::document::kind;
+use crate::case::keys::{FileKind, Kind, Value};
 use crate::error::Fault;
 use crate::units::{Dimension, QuantityFault, Wanted};
 use crate::vec3::Vec3;
+use std::path::PathBuf;
 use toml::de::{DeInteger, DeValue};
 
-/// Reads values out of a document. What cannot be read is told and stands as a NaN, or the default, of
-/// which nothing is made.
-impl Document<'_> {
-    /// A quantity that the case must state; `line` is one that would do.
-    pub(super) fn required(&mut self, quantity: &Quantity, line: &'static str) -> f64 {
-        if let Some(value) = self.optional(quantity) {
-            return value;
+/// Reads the value of a key that takes this kind.
+///
+/// * `beside` – the path that a name of a file stands for
+pub(super) fn read(of: &Kind, value: &DeValue<'_>, beside: impl Fn(&str) -> PathBuf) -> Result<Value, Fault> {
+    let wrong = |found| Fault::WrongType { found, wanted: of.wanted() };
+    let read = match (of, value) {
+        (Kind::Quantity(dimension, _), value) => Value::Number(number(*dimension, value)?),
+        (&Kind::Whole(least, most), DeValue::Integer(number)) => {
+            Value::Whole(integer(number).ok_or(Fault::OutOfRange { least, most })?)
         }
-        self.missing(quantity.key, line);
-        f64::NAN
-    }
-
-    /// A quantity that the case may leave open.
-    pub(super) fn optional(&mut self, quantity: &Quantity) -> Option<f64> {
-        let entry = self.take(quantity.key)?;
-        Some(self.quantity(quantity, entry))
-    }
-
-    /// The quantity that an entry holds.
-    pub(super) fn quantity(&mut self, quantity: &Quantity, entry: Entry<'_>) -> f64 {
-        let Entry { place, shown, value } = entry;
-        let read = number(quantity.dimension, &value);
-        match read.and_then(|value| quantity.fault(value).map_or(Ok(value), Err)) {
-            Ok(value) => value,
-            Err(fault) => {
-                self.reject(place, quantity.key, shown, fault);
-                f64::NAN
+        (Kind::Choice(_), DeValue::String(text)) => Value::Text(text.to_string()),
+        (Kind::Direction, value) => Value::Vector(vector(value)?),
+        (Kind::Point, DeValue::Array(list)) => {
+            let lengths: Result<Vec<f64>, Fault> =
+                list.iter().map(|one| number(Dimension::Length, one.get_ref())).collect();
+            match lengths?[..] {
+                [x, y, z] => Value::Vector(Vec3::new(x, y, z)),
+                _ => return Err(wrong("a list of another length")),
             }
         }
-    }
-
-    /// A whole number, and where it was written.
-    pub(super) fn whole_number(&mut self, key: &str, least: u64, most: u64) -> Option<u64> {
-        let Entry { place, shown, value } = self.take(key)?;
-        let fault = match &value {
-            DeValue::Integer(number) => match integer(number) {
-                Some(number) if (least..=most).contains(&number) => return Some(number),
-                _ => Fault::OutOfRange { least, most },
-            },
-            other => Fault::WrongType {
-                found: kind(other),
-                wanted: "a whole number without quotes, like 10".to_owned(),
-            },
-        };
-        self.reject(place, key, shown, fault);
-        Some(least)
-    }
-
-    /// One of several names.
-    pub(super) fn choice<T: Copy>(&mut self, key: &str, names: &[(&'static str, T)]) -> Option<T> {
-        let Entry { place, shown, value } = self.take(key)?;
-        let allowed: Vec<&'static str> = names.iter().map(|(name, _)| *name).collect();
-        let fault = match &value {
-            DeValue::String(text) => {
-                if let Some((_, choice)) = names.iter().find(|(name, _)| name == text) {
-                    return Some(*choice);
-                }
-                let nearest = layout::nearest(text, names.iter().map(|(name, _)| (*name, 0.0)));
-                Fault::NotOneOf { nearest: nearest.map(|name| format!("\"{name}\"")), allowed }
-            }
-            other => {
-                let quoted: Vec<String> = allowed.iter().map(|name| format!("\"{name}\"")).collect();
-                Fault::WrongType { found: kind(other), wanted: quoted.join(" or ") }
-            }
-        };
-        self.reject(place, key, shown, fault);
-        None
-    }
-
-    /// A point in space [m].
-    pub(super) fn point(&mut self, key: &str) -> Option<Vec3<f64>> {
-        let Entry { place, shown, value } = self.take(key)?;
-        let length = |value: &DeValue<'_>| number(Dimension::Length, value);
-        let coordinates: Option<Result<Vec<f64>, Fault>> =
-            value.as_array().map(|list| list.iter().map(|one| length(one.get_ref())).collect());
-        let fault = match coordinates {
-            Some(Ok(list)) if list.len() == 3 => return Some(Vec3::new(list[0], list[1], list[2])),
-            Some(Err(fault)) => fault,
-            other => {
-                let found = if other.is_some() { "a list of another length" } else { kind(&value) };
-                let wanted = "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned();
-                Fault::WrongType { found, wanted }
-            }
-        };
-        self.reject(place, key, shown, fault);
-        None
-    }
-
-    /// A direction, made a unit vector.
-    pub(super) fn direction(&mut self, key: &str) -> Option<Vec3<f64>> {
-        let Entry { place, shown, value } = self.take(key)?;
-        match vector(&value).and_then(unit) {
-            Ok(direction) => Some(direction),
-            Err(fault) => {
-                self.reject(place, key, shown, fault);
-                None
-            }
+        (Kind::File(FileKind::Spectrum), DeValue::String(text))
+            if !text.is_empty() && !text.contains('.') =>
+        {
+            Value::Text(text.to_string())
         }
-    }
-
-    /// Tells of a key that must be there, unless it is there under another name.
-    pub(super) fn missing(&mut self, key: &str, line: &'static str) {
-        let Some(table) = key.split_once('.').and_then(|(table, _)| layout::table(table)) else {
-            return;
-        };
-        if !self.is_excused(key) {
-            self.reject(self.whole(), key, None, Fault::Missing { table, line });
+        (Kind::File(FileKind::Records), DeValue::Array(list)) if !list.is_empty() => {
+            let paths = list.iter().map(|one| one.get_ref().as_str().map(&beside));
+            Value::Paths(paths.collect::<Option<_>>().ok_or_else(|| wrong(kind(value)))?)
         }
-    }
+        (Kind::File(_), DeValue::String(text)) if text.is_empty() => return Err(wrong("an empty text")),
+        (Kind::File(_), DeValue::String(text)) => Value::Paths(vec![beside(text)]),
+        (_, other) => return Err(wrong(kind(other))),
+    };
+    of.accept(read)
 }
 
 pub(super) fn integer(number: &DeInteger<'_>) -> Option<u64> {
@@ -159,19 +84,4 @@ fn vector(value: &DeValue<'_>) -> Result<Vec3<f64>, Fault> {
         (Some(x), Some(y), Some(z), None) => Ok(Vec3::new(x?, y?, z?)),
         _ => Err(wrong("a list of another length")),
     }
-}
-
-/// The unit vector along `v`; `v` itself if it is one but for rounding.
-fn unit(v: Vec3<f64>) -> Result<Vec3<f64>, Fault> {
-    if (v.norm() - 1.0).abs() <= 4.0 * f64::EPSILON {
-        return Ok(v);
-    }
-    let largest = v.x.abs().max(v.y.abs()).max(v.z.abs());
-    if largest == 0.0 {
-        return Err(Fault::ZeroDirection);
-    }
-    // Division by the largest first, lest the squares overflow or vanish.
-    let v = Vec3::new(v.x / largest, v.y / largest, v.z / largest);
-    let norm = v.norm();
-    Ok(Vec3::new(v.x / norm, v.y / norm, v.z / norm))
 }

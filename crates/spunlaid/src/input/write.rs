@@ -1,10 +1,8 @@
 //! A case as a file that reads back to the same bits.
 
 use super::FORMAT_VERSION;
-use super::resolve::nearest_whole;
-use crate::air::{Air, EddyModel, Flow, PlacedField, SpectrumShape};
-use crate::case::Case;
-use crate::case::keys::{self, Quantity};
+use crate::case::keys::{self, Key, Kind, Value};
+use crate::case::{Case, whole_parts};
 use crate::units::{Dimension, shortest};
 use std::fmt::Write;
 use std::path::Path;
@@ -14,129 +12,44 @@ use std::path::Path;
 /// Reading the text gives the same case to the last bit, and writing that the same text, for every case
 /// that passes [`Case::check`].
 pub fn write_case(case: &Case) -> String {
-    let Case { fibre, air, drag, run } = case;
-    let mut w = Writer { text: format!("version = {FORMAT_VERSION}\n") };
-
-    w.table("fibre");
-    w.quantity(&keys::LENGTH, fibre.length);
-    w.quantity(&keys::DIAMETER, fibre.diameter);
-    w.quantity(&keys::FIBRE_DENSITY, fibre.density);
-    w.quantity(&keys::YOUNGS_MODULUS, fibre.youngs_modulus);
-    w.quantity(
-        &keys::ELEMENT_LENGTH,
-        tidy(fibre.rest_length(), |l| nearest_whole(fibre.length, l) == (fibre.elements as u64, true)),
-    );
-    w.name("root", fibre.root.name());
-    let [x, y, z] = [fibre.direction.x, fibre.direction.y, fibre.direction.z].map(float);
-    w.line("direction", &format!("[{x}, {y}, {z}]"));
-
-    w.table("air");
-    w.air(air);
-
-    w.table("drag");
-    w.name("along", drag.along.name());
-    w.name("across", drag.across.name());
-    if let Some(factor) = drag.along.factor() {
-        w.line("friction_coefficient", &float(factor));
-    }
-
-    w.table("run");
-    let time = |time: f64, steps: u64| tidy(time, |t| nearest_whole(t, run.time_step) == (steps, true));
-    w.quantity(&keys::DURATION, time(run.duration(), run.steps));
-    w.quantity(&keys::TIME_STEP, run.time_step);
-    w.line("replicates", &run.replicates.to_string());
-    w.line("seed", &run.seed.to_string());
-    w.name("scheme", run.scheme.name());
-    w.quantity(&keys::GRAVITY, run.gravity);
-    w.quantity(&keys::SPIN_UP, time(run.spin_up(), run.spin_up_steps));
-    w.quantity(&keys::OUTPUT_INTERVAL, time(run.output_interval(), run.output_steps));
-    w.quantity(&keys::DAMPING, run.damping);
-    w.text
-}
-
-struct Writer {
-    text: String,
-}
-
-impl Writer {
-    fn table(&mut self, name: &str) {
+    let mut text = format!("version = {FORMAT_VERSION}\n");
+    for table in keys::TABLES {
         // Writing to a text cannot fail.
-        let _ = writeln!(self.text, "\n[{name}]");
-    }
-
-    /// What the flow tells is left to it.
-    fn air(&mut self, air: &Air) {
-        match &air.flow {
-            Flow::Uniform => self.quantity(&keys::VELOCITY, air.velocity),
-            Flow::Profile(profile) => self.file(keys::PROFILE, profile.path()),
-            Flow::Field(placed) => {
-                let PlacedField { field, root, axis, unit, length_constant, time_constant } = placed;
-                self.file(keys::FIELD, field.path());
-                let root = [root.x, root.y, root.z].map(|x| format!("\"{}\"", Dimension::Length.exact(x)));
-                self.line("field_root", &format!("[{}]", root.join(", ")));
-                self.name("field_axis", axis.name());
-                self.quantity(&keys::FIELD_UNIT, *unit);
-                self.line("length_constant", &float(*length_constant));
-                self.line("time_constant", &float(*time_constant));
+        let _ = writeln!(text, "\n[{table}]");
+        // What the flow tells is left to it.
+        for key in keys::of_table(table).filter(|key| !key.is_told(case)) {
+            if let Some(value) = key.get(case) {
+                let _ = writeln!(text, "{} = {}", key.short(), written(case, key, value));
             }
         }
-        if !air.is_uniform() {
-            self.line("speed_factor", &float(air.speed_factor));
-        }
-        let from = air.from_flow;
-        if !from.turbulence_intensity {
-            self.line("turbulence_intensity", &float(air.turbulence_intensity));
-        }
-        if !from.length_scale {
-            self.quantity(&keys::LENGTH_SCALE, air.length_scale);
-        }
-        if !from.cutoff_frequency {
-            self.quantity(&keys::CUTOFF_FREQUENCY, air.cutoff_frequency);
-        }
-        self.quantity(&keys::AIR_DENSITY, air.density);
-        self.quantity(&keys::VISCOSITY, air.kinematic_viscosity);
-        match &air.spectrum {
-            SpectrumShape::Flat => self.name("spectrum", "flat"),
-            SpectrumShape::VonKarman => self.name("spectrum", "von-karman"),
-            SpectrumShape::Measured(table) => self.file(keys::SPECTRUM, table.path()),
-        }
-        match &air.records[..] {
-            [] => {}
-            [record] => self.file(keys::RECORD, record.path()),
-            records => {
-                let names: Vec<String> = records.iter().map(|record| text(record.path())).collect();
-                self.line("record", &format!("[{}]", names.join(", ")));
-            }
-        }
-        if let Some(rate) = air.records.first().and_then(|record| record.rate) {
-            self.quantity(&keys::RECORD_RATE, rate);
-        }
-        self.name("eddies", air.eddies.name());
-        if let EddyModel::Convected { decay_time } = air.eddies
-            && decay_time.is_finite()
-        {
-            self.quantity(&keys::DECAY_TIME, decay_time);
-        }
-        self.line("harmonics", &air.harmonics.to_string());
     }
+    text
+}
 
-    fn file(&mut self, key: &str, path: &Path) {
-        let key = key.split_once('.').map_or(key, |(_, key)| key);
-        self.line(key, &text(path));
+/// A value as TOML.
+fn written(case: &Case, key: &Key, value: Value) -> String {
+    match (key.kind, value) {
+        (Kind::Quantity(Dimension::Ratio, _), Value::Number(value)) => float(value),
+        (Kind::Quantity(dimension, _), Value::Number(value)) => {
+            format!("\"{}\"", dimension.exact(tidy(case, key, value)))
+        }
+        (_, Value::Number(value)) => float(value),
+        (_, Value::Whole(value)) => value.to_string(),
+        (_, Value::Text(name)) => format!("\"{name}\""),
+        (Kind::Point, Value::Vector(v)) => {
+            let lengths = [v.x, v.y, v.z].map(|x| format!("\"{}\"", Dimension::Length.exact(x)));
+            format!("[{}]", lengths.join(", "))
+        }
+        (_, Value::Vector(v)) => format!("[{}]", [v.x, v.y, v.z].map(float).join(", ")),
+        (_, Value::Paths(paths)) => listed(&paths.iter().map(|path| path.as_path()).collect::<Vec<_>>()),
+        (_, Value::Content(content)) => listed(&content.paths()),
     }
+}
 
-    fn line(&mut self, key: &str, value: &str) {
-        let _ = writeln!(self.text, "{key} = {value}");
-    }
-
-    fn name(&mut self, key: &str, name: &str) {
-        self.line(key, &format!("\"{name}\""));
-    }
-
-    fn quantity(&mut self, quantity: &Quantity, value: f64) {
-        let key = quantity.key.split_once('.').map_or(quantity.key, |(_, key)| key);
-        self.line(key, &format!("\"{}\"", quantity.dimension.exact(value)));
-    }
+/// A file, or a list of files.
+fn listed(paths: &[&Path]) -> String {
+    let texts: Vec<String> = paths.iter().map(|path| text(path)).collect();
+    if let [one] = &texts[..] { one.clone() } else { format!("[{}]", texts.join(", ")) }
 }
 
 /// A path as a TOML text.
@@ -158,10 +71,18 @@ fn float(value: f64) -> String {
     if text.contains(['.', 'e']) { text } else { format!("{text}.0") }
 }
 
-/// The value without the noise of its last digit, where the reader makes the same of it.
-fn tidy(value: f64, same: impl Fn(f64) -> bool) -> f64 {
-    match format!("{value:.14e}").parse() {
-        Ok(tidied) if same(tidied) => tidied,
-        _ => value,
-    }
+/// A length or time that is counted in elements or steps without the noise of its last digit, where the reader
+/// makes the same of it.
+fn tidy(case: &Case, key: &Key, value: f64) -> f64 {
+    let (step, run) = (case.run.time_step, case.run);
+    let same = |tidied: f64| match key.name {
+        "fibre.element_length" => {
+            whole_parts(case.fibre.length, tidied) == (case.fibre.elements as u64, true)
+        }
+        "run.duration" => whole_parts(tidied, step) == (run.steps, true),
+        "run.spin_up" => whole_parts(tidied, step) == (run.spin_up_steps, true),
+        "run.output_interval" => whole_parts(tidied, step) == (run.output_steps, true),
+        _ => false,
+    };
+    format!("{value:.14e}").parse().ok().filter(|tidied| same(*tidied)).unwrap_or(value)
 }

@@ -150,6 +150,14 @@ impl Dimension {
         self.units().first().map_or("", |unit| unit.shown)
     }
 
+    /// What the SI unit adds to the name of a column: `_m_s2`, nothing for a ratio.
+    pub fn suffix(self) -> String {
+        match self.si_unit() {
+            "" => String::new(),
+            unit => format!("_{}", plain_spelling(unit).replace('/', "_").to_lowercase()),
+        }
+    }
+
     /// Reads a quantity such as `50 µm` into SI units.
     ///
     /// Units that are a power of ten of the SI unit move the decimal exponent of the number before it is

@@ -1,5 +1,6 @@
 //! What the axes of a study's figures say: quantities, units handy to read.
 
+use spunlaid::case::keys;
 use spunlaid::observe::{self, Unit};
 use spunlaid::study;
 use spunlaid::study::{Factor, MEASURES, PointResults};
@@ -60,29 +61,7 @@ impl Group {
 
 /// What a key is called, with its letter: `Mean velocity *U*`.
 pub(super) fn label_of_key(key: &str) -> &str {
-    match key {
-        "fibre.length" => "Fibre length *L*",
-        "fibre.diameter" => "Fibre diameter *d*",
-        "fibre.density" => "Fibre density",
-        "fibre.youngs_modulus" => "Young’s modulus *E*",
-        "fibre.element_length" => "Element length *l*",
-        "air.velocity" => "Mean velocity *U*",
-        "air.turbulence_intensity" => "Turbulence intensity *Tu*",
-        "air.length_scale" => "Length of the eddies *L*_{T}",
-        "air.cutoff_frequency" => "Cut-off frequency *f*",
-        "air.density" => "Air density",
-        "air.kinematic_viscosity" => "Kinematic viscosity *ν*",
-        "air.harmonics" => "Number of harmonics",
-        "drag.friction_coefficient" => "Friction coefficient *β*",
-        "run.duration" => "Simulated time",
-        "run.time_step" => "Time step *h*",
-        "run.error_tolerance" => "Error tolerance",
-        "run.gravity" => "Gravity *g*",
-        "run.spin_up" => "Spin-up",
-        "run.output_interval" => "Output interval",
-        "run.damping" => "Damping",
-        other => other,
-    }
+    keys::find(key).map_or(key, |key| key.label)
 }
 
 /// What a key is called in a sentence: `the mean velocity`.

@@ -2,7 +2,6 @@
 
 use super::super::parquet::{Column, Holds};
 use spunlaid::study::{MEASURES, Study};
-use spunlaid::units::Dimension;
 
 /// A value in a row.
 #[derive(Clone, Copy, Debug)]
@@ -12,26 +11,9 @@ pub(crate) enum Value {
     Number(f64),
 }
 
-/// `air.velocity_m_s`: the key and its SI unit.
-fn column_name(key: &str, dimension: Dimension) -> String {
-    let unit = match dimension {
-        Dimension::Length => "_m",
-        Dimension::Velocity => "_m_s",
-        Dimension::Time => "_s",
-        Dimension::Frequency => "_hz",
-        Dimension::Rate => "_1_s",
-        Dimension::Density => "_kg_m3",
-        Dimension::Pressure => "_pa",
-        Dimension::KinematicViscosity => "_m2_s",
-        Dimension::Acceleration => "_m_s2",
-        Dimension::Ratio => "",
-    };
-    format!("{key}{unit}")
-}
-
-/// Names of the inputs' columns.
+/// Names of the inputs' columns, the key and its SI unit: `air.velocity_m_s`.
 fn inputs(study: &Study) -> impl Iterator<Item = String> {
-    study.inputs().map(|(key, dimension)| column_name(key, dimension))
+    study.inputs().map(|(key, dimension)| format!("{key}{}", dimension.suffix()))
 }
 
 pub(super) fn of_points(study: &Study) -> Vec<Column> {

@@ -1,10 +1,10 @@
 //! The values that a factor takes: a list, or a range.
 
 use super::super::document::kind;
-use super::super::layout::nearest;
 use super::super::values::{integer, number};
-use super::Numeric;
+use super::dimension;
 use super::read::{Entry, Reader, in_order};
+use crate::case::keys::{Key, Value, nearest_word};
 use crate::error::{Fault, StudyFault};
 use crate::study::{Design, Levels, Spacing};
 use toml::de::DeValue;
@@ -14,14 +14,14 @@ const MOST_VALUES: u64 = 10_000_000;
 
 impl<'a> Reader<'a> {
     /// The values of a factor; nothing, with the problems noted, where they cannot be read.
-    pub(super) fn levels(&mut self, numeric: &Numeric, entry: Entry<'a>, design: Design) -> Option<Levels> {
+    pub(super) fn levels(&mut self, varied: &Key, entry: Entry<'a>, design: Design) -> Option<Levels> {
         match entry.value {
             DeValue::Array(list) => {
                 let mut values = Vec::with_capacity(list.len());
                 let mut sound = !list.is_empty();
                 for value in list {
                     let entry = self.entry(value.span().start, value);
-                    let value = self.value(numeric, numeric.key, &entry);
+                    let value = self.value(varied, varied.name, &entry);
                     sound &= value.is_some();
                     values.extend(value);
                 }
@@ -29,32 +29,32 @@ impl<'a> Reader<'a> {
                     if entry.shown.as_ref().is_some_and(|text| text.trim_matches(['[', ']', ' ']).is_empty())
                     {
                         let entry = Entry { value: DeValue::Boolean(true), ..entry };
-                        self.reject(&entry, numeric.key, StudyFault::NoValues);
+                        self.reject(&entry, varied.name, StudyFault::NoValues);
                     }
                     return None;
                 }
                 sound.then_some(Levels::List(values))
             }
-            DeValue::Table(_) => self.range(numeric, entry, design),
+            DeValue::Table(_) => self.range(varied, entry, design),
             _ => {
                 let wanted =
                     "a list of values, or { from, to, steps }; a formula belongs in [link]".to_owned();
                 let fault = Fault::WrongType { found: kind(&entry.value), wanted };
-                self.reject(&entry, numeric.key, fault);
+                self.reject(&entry, varied.name, fault);
                 None
             }
         }
     }
 
-    fn value(&mut self, numeric: &Numeric, key: &str, entry: &Entry<'_>) -> Option<f64> {
-        let read = match (numeric.quantity, &entry.value) {
-            (Some(quantity), value) => number(quantity.dimension, value)
-                .and_then(|value| quantity.fault(value).map_or(Ok(value), Err)),
-            (None, DeValue::Integer(number)) => match integer(number) {
+    fn value(&mut self, varied: &Key, key: &str, entry: &Entry<'_>) -> Option<f64> {
+        let read = match &entry.value {
+            value if !varied.is_whole() => number(dimension(varied), value)
+                .and_then(|value| varied.kind.fault(&Value::Number(value)).map_or(Ok(value), Err)),
+            DeValue::Integer(number) => match integer(number) {
                 Some(number) if (1..=1 << 50).contains(&number) => Ok(number as f64),
                 _ => Err(Fault::OutOfRange { least: 1, most: 1 << 50 }),
             },
-            (None, value) => {
+            value => {
                 let wanted = "whole numbers without quotes, like 256".to_owned();
                 Err(Fault::WrongType { found: kind(value), wanted })
             }
@@ -62,7 +62,7 @@ impl<'a> Reader<'a> {
         read.map_err(|fault| self.reject(entry, key, fault)).ok()
     }
 
-    fn range(&mut self, numeric: &Numeric, entry: Entry<'a>, design: Design) -> Option<Levels> {
+    fn range(&mut self, varied: &Key, entry: Entry<'a>, design: Design) -> Option<Levels> {
         const KEYS: [&str; 4] = ["from", "to", "steps", "spacing"];
         let Entry { at, place, shown, value } = entry;
         let DeValue::Table(table) = value else {
@@ -71,10 +71,10 @@ impl<'a> Reader<'a> {
         let mut whole = Entry { at, place, shown, value: DeValue::Boolean(true) };
         let (mut ends, mut steps, mut spacing, mut sound) = ([None; 2], None, Spacing::Linear, true);
         for ((at, name), value) in in_order(table) {
-            let (key, entry) = (format!("{}.{name}", numeric.key), self.entry(at, value));
+            let (key, entry) = (format!("{}.{name}", varied.name), self.entry(at, value));
             match name.as_str() {
                 "from" | "to" => {
-                    let value = self.value(numeric, &key, &entry);
+                    let value = self.value(varied, &key, &entry);
                     sound &= value.is_some();
                     ends[usize::from(name == "to")] = value;
                 }
@@ -99,7 +99,7 @@ impl<'a> Reader<'a> {
                     }
                 },
                 other => {
-                    let advice = nearest(other, KEYS.iter().map(|key| (*key, 0.0))).map_or_else(
+                    let advice = nearest_word(other, KEYS.into_iter()).map_or_else(
                         || "a range takes from, to, steps and spacing".to_owned(),
                         |key| format!("did you mean {key}?"),
                     );
@@ -116,7 +116,7 @@ impl<'a> Reader<'a> {
             for (end, line) in ends.into_iter().zip(["from = and the first value", "to = and the last value"])
             {
                 if end.is_none() {
-                    let key = format!("{}.{}", numeric.key, &line[..line.find(' ').unwrap_or(0)]);
+                    let key = format!("{}.{}", varied.name, &line[..line.find(' ').unwrap_or(0)]);
                     self.reject(&whole, &key, StudyFault::Missing { line });
                 }
             }
@@ -134,7 +134,7 @@ impl<'a> Reader<'a> {
         };
         match fault {
             Some(fault) => {
-                self.reject(&whole, numeric.key, fault);
+                self.reject(&whole, varied.name, fault);
                 None
             }
             None => Some(Levels::Range { from, to, steps, spacing }),

@@ -1,7 +1,8 @@
 //! Keys that follow from others.
 
-use super::super::resolve::Base;
-use super::{Numeric, advice};
+use super::super::resolve::Open;
+use super::{advice, dimension, varied};
+use crate::case::keys::Key;
 use crate::error::StudyFault;
 use crate::study::Link;
 use crate::units::{Expression, ExpressionFault, Powers};
@@ -13,24 +14,24 @@ const READY_MADE: [(&str, &str, &str); 1] =
     [("taylor", "air.cutoff_frequency", "air.velocity / (4 * air.length_scale)")];
 
 /// Reads the formula of a key.
-pub(super) fn read(numeric: &Numeric, text: &str) -> Result<Link, StudyFault> {
+pub(super) fn read(key: &Key, text: &str) -> Result<Link, StudyFault> {
     let text = text.trim();
     let text = text.strip_prefix('=').unwrap_or(text).trim();
-    let named = READY_MADE.iter().find(|(name, key, _)| *name == text && *key == numeric.key);
+    let named = READY_MADE.iter().find(|(name, of, _)| *name == text && *of == key.name);
     let expression = Expression::parse(named.map_or(text, |(.., formula)| formula))?;
     for name in expression.names() {
-        if Numeric::of(name).is_none() {
+        if varied(name).is_none() {
             return Err(ExpressionFault::UnknownName { name: name.to_owned(), advice: advice(name) }.into());
         }
     }
     // Units do not depend on values.
-    let (_, found) = expression.value(&|name| Some((1.0, Powers::of(Numeric::of(name)?.dimension))))?;
-    let wanted = Powers::of(numeric.dimension);
+    let (_, found) = expression.value(&|name| Some((1.0, Powers::of(dimension(varied(name)?)))))?;
+    let wanted = Powers::of(dimension(key));
     if !found.agree(wanted) {
-        let name = numeric.dimension.name();
+        let name = dimension(key).name();
         return Err(ExpressionFault::WrongDimension { found, name, wanted }.into());
     }
-    Ok(Link { key: numeric.key, dimension: numeric.dimension, expression })
+    Ok(Link { key: key.name, dimension: dimension(key), expression })
 }
 
 /// An order in which every link comes after those it follows from.
@@ -72,8 +73,9 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, StudyFault)> {
 }
 
 /// The first key a link uses that has no value of its own, neither varied nor linked nor written.
-pub(super) fn unwritten<'a>(link: &'a Link, varied: &[&str], base: &Base) -> Option<&'a str> {
-    let has_value = |name: &str| varied.contains(&name) || base.values.get(name).is_some_and(Option::is_some);
+pub(super) fn unwritten<'a>(link: &'a Link, set: &[&str], base: &Open) -> Option<&'a str> {
+    let has_value =
+        |name: &str| set.contains(&name) || varied(name).is_some_and(|key| base.number(key).is_some());
     link.expression.names().into_iter().find(|name| !has_value(name))
 }
 
@@ -87,10 +89,10 @@ pub(super) fn values(links: &[Link], order: &[usize], known: &dyn Fn(&str) -> Op
         let of = |name: &str| {
             let linked = links.iter().position(|link| link.key == name);
             let value = linked.map_or_else(|| known(name), |other| values[other])?;
-            Some((value, Powers::of(Numeric::of(name)?.dimension)))
+            Some((value, Powers::of(dimension(varied(name)?))))
         };
         let value = links[i].expression.value(&of).map_or(f64::NAN, |(value, _)| value);
-        let whole = Numeric::of(links[i].key).is_some_and(|numeric| numeric.is_whole());
+        let whole = varied(links[i].key).is_some_and(Key::is_whole);
         values[i] = Some(if whole { value.round() } else { value });
     }
     values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()

@@ -12,8 +12,8 @@ pub use points::StudyNote;
 
 use super::data::DataFiles;
 use super::document::Document;
-use super::{file, layout, resolve};
-use crate::case::keys::{self, Quantity};
+use super::{file, resolve};
+use crate::case::keys::{self, Key};
 use crate::error::{Error, FileKind};
 use crate::study::Study;
 use crate::units::Dimension;
@@ -73,50 +73,31 @@ pub fn parse_study(
         None => return Err(reader.rejected()),
     };
     let files = DataFiles::default();
-    let base = resolve::base(Document::new(&case_text, &case_name, &[])?, &files)?;
+    let base = resolve::open(Document::read(&case_text, &case_name, &[])?, &files)?;
     let plan = reader.plan(&base, points);
     let Some(plan) = plan else {
         return Err(reader.rejected());
     };
-    let case = (case_text.as_str(), case_name.as_str());
-    let resolver = points::Resolver { study: name, case, files: &files, base: &base, plan: &plan };
+    let resolver = points::Resolver { study: name, files: &files, base: &base, plan: &plan };
     let (resolved, notes) = resolver.points()?;
     let study = plan.study(resolved);
     let text = write::write_study(&study);
     Ok(StudyFile { study, notes, case_path: PathBuf::from(&case_name), case_text, text })
 }
 
-/// A key whose value is a number.
-#[derive(Clone, Copy, Debug)]
-struct Numeric {
-    key: &'static str,
-    dimension: Dimension,
-    /// Of a key that takes whole numbers, nothing.
-    quantity: Option<&'static Quantity>,
+/// The key of this name, if a study may vary it.
+fn varied(name: &str) -> Option<&'static Key> {
+    keys::find(name).filter(|key| key.varies)
 }
 
-impl Numeric {
-    fn of(key: &str) -> Option<Self> {
-        let quantity = keys::QUANTITIES.into_iter().find(|quantity| quantity.key == key);
-        match quantity {
-            Some(quantity) => {
-                Some(Self { key: quantity.key, dimension: quantity.dimension, quantity: Some(quantity) })
-            }
-            None if key == keys::HARMONICS => {
-                Some(Self { key: keys::HARMONICS, dimension: Dimension::Ratio, quantity: None })
-            }
-            None => None,
-        }
-    }
+/// What the numbers of a key measure.
+fn dimension(key: &Key) -> Dimension {
+    key.dimension().unwrap_or(Dimension::Ratio)
+}
 
-    const fn is_whole(&self) -> bool {
-        self.quantity.is_none()
-    }
-
-    /// A value as a case file has it, to the bit.
-    fn exact(&self, value: f64) -> String {
-        if self.is_whole() { format!("{value:.0}") } else { self.dimension.exact(value) }
-    }
+/// A number as a case file has it, to the bit.
+fn exact(key: &Key, value: f64) -> String {
+    if key.is_whole() { format!("{value:.0}") } else { dimension(key).exact(value) }
 }
 
 /// What to say of a name that is no key with a number.
@@ -126,14 +107,11 @@ fn advice(name: &str) -> String {
         "run.seed" => return "write the study's own seed = 1 above the tables".to_owned(),
         _ => {}
     }
-    let (table, key) = name.split_once('.').unwrap_or(("", name));
-    if layout::keys_of(table).contains(&key) && !table.is_empty() {
+    if keys::find(name).is_some() {
         return "take a key whose value is a number".to_owned();
     }
-    match layout::nearest_key(table, key) {
-        Some((table, key)) if Numeric::of(&format!("{table}.{key}")).is_some() => {
-            format!("did you mean {table}.{key}?")
-        }
+    match keys::nearest(name) {
+        Some(key) if key.varies => format!("did you mean {}?", key.name),
         _ => "write the full name of a key of the case whose value is a number, like air.velocity".to_owned(),
     }
 }

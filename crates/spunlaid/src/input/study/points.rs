@@ -1,9 +1,11 @@
 //! Every point of a study as a case of its own, checked.
 
 use super::super::data::DataFiles;
-use super::super::resolve::Base;
-use super::read::Plan;
-use super::{Numeric, links};
+use super::super::resolve::{self, Open};
+use super::super::written::Said;
+use super::read::{Plan, of_base};
+use super::{dimension, links, varied};
+use crate::case::keys::{self, Key, Value};
 use crate::case::{Note, Remark};
 use crate::error::{Error, Fault, Place, Problem};
 use crate::study::{Point, seed_of_point};
@@ -36,11 +38,10 @@ impl fmt::Display for StudyNote {
 /// Makes points of a plan.
 pub(super) struct Resolver<'a> {
     pub(super) study: &'a str,
-    /// Text and name of the base case.
-    pub(super) case: (&'a str, &'a str),
     /// Files that the case names.
     pub(super) files: &'a DataFiles,
-    pub(super) base: &'a Base,
+    /// The base case as written.
+    pub(super) base: &'a Open,
     pub(super) plan: &'a Plan,
 }
 
@@ -48,10 +49,7 @@ impl Resolver<'_> {
     /// All points, or everything wrong with any of them.
     pub(super) fn points(&self) -> Result<(Vec<Point>, Vec<StudyNote>), Error> {
         let Plan { factors, design, seed, .. } = self.plan;
-        let base: Vec<f64> = factors
-            .iter()
-            .map(|factor| self.base.values.get(factor.key).copied().flatten().unwrap_or(f64::NAN))
-            .collect();
+        let base: Vec<f64> = factors.iter().map(|factor| of_base(self.base, factor)).collect();
         let rows = design.rows(factors, &base, *seed);
         let count = rows.len() as u64;
         let (mut points, mut problems, mut notes) =
@@ -73,55 +71,44 @@ impl Resolver<'_> {
         let Plan { factors, links, order, replicates, seed, common_phases, .. } = self.plan;
         let known = |name: &str| match factors.iter().position(|factor| factor.key == name) {
             Some(i) => values.get(i).copied(),
-            None => self.base.values.get(name).copied().flatten(),
+            None => self.base.number(varied(name)?),
         };
         let linked = links::values(links, order, &known);
         values.extend(linked);
-        let keys = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
-        let set: Vec<(Numeric, f64)> = keys.filter_map(Numeric::of).zip(values.iter().copied()).collect();
-        let at = || Place::Point {
-            study: self.study.to_owned(),
-            number: index + 1,
-            values: set
-                .iter()
-                .map(|(n, v)| format!("{} = {}", n.key, n.dimension.pretty(*v)))
-                .collect::<Vec<_>>()
-                .join(", "),
-        };
-        // A number that is none cannot be written into a case.
-        let faults: Vec<Problem> = (set.iter())
-            .filter_map(|(numeric, value)| {
-                let fault = match numeric.quantity {
-                    Some(quantity) => quantity.fault(*value)?,
-                    None if *value >= 1.0 && *value < 1e15 => return None,
-                    None => Fault::OutOfRange { least: 1, most: 1_000_000_000_000_000 },
-                };
-                let value = Some(numeric.dimension.pretty(*value));
-                Some(Problem { place: at(), key: numeric.key.to_owned(), value, what: fault })
-            })
-            .collect();
+        let names = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
+        let set: Vec<(&'static Key, f64)> = names.filter_map(varied).zip(values.iter().copied()).collect();
+        let pretty = |(key, value): &(&'static Key, f64)| dimension(key).pretty(*value);
+        let all: Vec<String> = set.iter().map(|one| format!("{} = {}", one.0.name, pretty(one))).collect();
+        let (study, number, all) = (self.study.to_owned(), index + 1, all.join(", "));
+        let at = Place::Point { study, number, values: all };
+        let (mut written, mut faults) = (self.base.written.clone(), Vec::new());
+        for one in &set {
+            let (key, value) = *one;
+            let said = |value| Said { place: at.clone(), shown: Some(pretty(one)), value: Some(value) };
+            match number_of(key, value) {
+                Ok(value) => written.set(key, said(value)),
+                Err(what) => faults.push(Problem {
+                    place: at.clone(),
+                    key: key.name.to_owned(),
+                    value: Some(pretty(one)),
+                    what,
+                }),
+            }
+        }
         if !faults.is_empty() {
             return Err(faults.into());
         }
         let seed = if *common_phases { *seed } else { seed_of_point(*seed, index) };
-        let own = [("run.seed", seed), ("run.replicates", replicates.at_most)];
-        let changes: Vec<(String, String)> = (set.iter())
-            .map(|(numeric, value)| (numeric.key.to_owned(), numeric.exact(*value)))
-            .chain(own.map(|(key, value)| (key.to_owned(), value.to_string())))
-            .collect();
-        match super::super::parse_with(self.files, self.case.0, self.case.1, &changes) {
-            Ok((case, mut notes)) => {
-                for note in notes.iter_mut().filter(|note| note.place == Place::Override) {
-                    note.place = at();
-                    note.value = shown(&note.key, &set).or_else(|| note.value.take());
-                }
-                Ok((Point { values, case }, notes))
+        for (name, value) in [("run.seed", seed), ("run.replicates", replicates.at_most)] {
+            if let Some(key) = keys::find(name) {
+                let (shown, value) = (Some(value.to_string()), Some(Value::Whole(value)));
+                written.set(key, Said { place: at.clone(), shown, value });
             }
+        }
+        match resolve::open(written, self.files).and_then(Open::resolve) {
+            Ok((case, notes)) => Ok((Point { values, case }, notes)),
             Err(Error::Rejected(mut problems)) => {
-                for problem in &mut problems {
-                    problem.place = at();
-                    problem.value = shown(&problem.key, &set).or_else(|| problem.value.take());
-                }
+                problems.iter_mut().for_each(|problem| problem.place = at.clone());
                 Err(problems.into())
             }
             Err(other) => Err(other),
@@ -129,11 +116,16 @@ impl Resolver<'_> {
     }
 }
 
-/// The value of a key that the study sets, as people read it.
-fn shown(key: &str, set: &[(Numeric, f64)]) -> Option<String> {
-    set.iter()
-        .find(|(numeric, _)| numeric.key == key)
-        .map(|(numeric, value)| numeric.dimension.pretty(*value))
+/// A number as the value of a key.
+fn number_of(key: &Key, value: f64) -> Result<Value, Fault> {
+    if !key.is_whole() {
+        return key.kind.accept(Value::Number(value));
+    }
+    if (1.0..1e15).contains(&value) {
+        Ok(Value::Whole(value as u64))
+    } else {
+        Err(Fault::OutOfRange { least: 1, most: 1_000_000_000_000_000 })
+    }
 }
 
 /// The remarks on all points, those of one kind on one key together.

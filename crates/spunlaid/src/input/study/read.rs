@@ -1,12 +1,12 @@
 //! What a study file says, checked as far as it can be without making the points.
 
 use super::super::FORMAT_VERSION;
-use super::super::document::kind;
-use super::super::layout::{self, nearest};
-use super::super::resolve::Base;
+use super::super::document::{kind, table_named};
+use super::super::resolve::Open;
 use super::super::source::{Source, fit};
 use super::super::values::integer;
-use super::{MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, Numeric, links};
+use super::{MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, dimension, links, varied};
+use crate::case::keys::{Key, nearest_word};
 use crate::error::{Error, Fault, Finding, Place, Problem, StudyFault};
 use crate::study::{Design, Factor, Link, MEASURES, Point, Replicates, Study};
 use crate::units::Dimension;
@@ -72,11 +72,11 @@ impl<'a> Reader<'a> {
             if KEYS.contains(&name.as_ref()) {
                 reader.entries.insert(name.into_owned(), entry);
             } else {
-                if layout::table(&name).is_some() {
+                if table_named(&name).is_some() {
                     tables.push((entry, name.into_owned()));
                     continue;
                 }
-                let advice = match nearest(&name, KEYS.iter().map(|key| (*key, 0.0))) {
+                let advice = match nearest_word(&name, KEYS.into_iter()) {
                     Some(key) => {
                         reader.excused.push(key);
                         format!("did you mean {key}?")
@@ -164,10 +164,10 @@ impl<'a> Reader<'a> {
     }
 
     /// The plan; nothing where anything was found wrong.
-    pub(super) fn plan(&mut self, base: &Base, asked: Option<u64>) -> Option<Plan> {
+    pub(super) fn plan(&mut self, base: &Open, asked: Option<u64>) -> Option<Plan> {
         let design_entry = self.entries.remove("design");
         let design = self.design(design_entry.as_ref());
-        let seed = self.whole("seed", 0, u64::MAX).unwrap_or(base.seed);
+        let seed = self.whole("seed", 0, u64::MAX).unwrap_or(base.case.run.seed);
         let common_phases = self.truth("common_phases").unwrap_or(true);
         let replicates = self.replicates(base);
         let factors = self.factors(design);
@@ -218,7 +218,7 @@ impl<'a> Reader<'a> {
             "latin-hypercube" => Design::LatinHypercube(points.unwrap_or(1)),
             "sobol" => Design::Sobol(points.unwrap_or(1)),
             other => {
-                let nearest = nearest(other, NAMES.iter().map(|name| (*name, 0.0)));
+                let nearest = nearest_word(other, NAMES.into_iter());
                 let nearest = nearest.map(|name| format!("\"{name}\""));
                 self.reject(entry, "design", Fault::NotOneOf { nearest, allowed: NAMES.to_vec() });
                 return Design::Grid;
@@ -266,11 +266,11 @@ impl<'a> Reader<'a> {
         None
     }
 
-    fn replicates(&mut self, base: &Base) -> Replicates {
+    fn replicates(&mut self, base: &Open) -> Replicates {
         const MOST: u64 = 1_000_000;
         const KEYS: [&str; 3] = ["at_least", "at_most", "until"];
         let Some(entry) = self.entries.remove("replicates") else {
-            return Replicates::fixed(base.replicates);
+            return Replicates::fixed(base.case.run.replicates);
         };
         let DeValue::Table(table) = entry.value else {
             return Replicates::fixed(self.whole_in(&entry, "replicates", 1, MOST).unwrap_or(1));
@@ -287,7 +287,7 @@ impl<'a> Reader<'a> {
                 "at_most" => bounds[1] = self.whole_in(&entry, &name, 2, MOST),
                 "until" => until = self.until(entry),
                 other => {
-                    let advice = nearest(other, KEYS.iter().map(|key| (*key, 0.0))).map_or_else(
+                    let advice = nearest_word(other, KEYS.into_iter()).map_or_else(
                         || "it takes at_least, at_most and until".to_owned(),
                         |key| format!("did you mean {key}?"),
                     );
@@ -319,7 +319,7 @@ impl<'a> Reader<'a> {
             let entry = self.entry(at, value);
             let Some(measure) = MEASURES.iter().position(|measure| measure.name == name) else {
                 let names = MEASURES.map(|measure| measure.name);
-                let advice = nearest(&name, names.iter().map(|name| (*name, 0.0))).map_or_else(
+                let advice = nearest_word(&name, names.into_iter()).map_or_else(
                     || format!("there are {}", names.join(", ")),
                     |name| format!("did you mean {name}?"),
                 );
@@ -335,7 +335,7 @@ impl<'a> Reader<'a> {
         until
     }
 
-    fn links(&mut self, factors: &[Factor], base: &Base) -> Vec<Link> {
+    fn links(&mut self, factors: &[Factor], base: &Open) -> Vec<Link> {
         let Some(entry) = self.entries.remove("link") else {
             return Vec::new();
         };
@@ -345,14 +345,14 @@ impl<'a> Reader<'a> {
         };
         let (mut links, mut entries) = (Vec::new(), Vec::new());
         for (key, entry) in self.flat(table) {
-            let Some(numeric) = self.numeric(&entry, &key) else {
+            let Some(linked) = self.varied(&entry, &key) else {
                 continue;
             };
-            if factors.iter().any(|factor| factor.key == numeric.key) {
+            if factors.iter().any(|factor| factor.key == linked.name) {
                 self.reject(&entry, &key, StudyFault::Twice);
                 continue;
             }
-            if links.iter().any(|link: &Link| link.key == numeric.key) {
+            if links.iter().any(|link: &Link| link.key == linked.name) {
                 let entry = Entry { shown: None, ..entry };
                 self.reject(&entry, "", Fault::Duplicate { key });
                 continue;
@@ -365,7 +365,7 @@ impl<'a> Reader<'a> {
                 );
                 continue;
             };
-            match links::read(&numeric, text) {
+            match links::read(linked, text) {
                 Ok(link) => {
                     links.push(link);
                     entries.push(entry);
@@ -389,13 +389,13 @@ impl<'a> Reader<'a> {
         links
     }
 
-    /// The key's dimension and the like; nothing, with the problem noted, of a key that cannot be set.
-    pub(super) fn numeric(&mut self, entry: &Entry<'_>, key: &str) -> Option<Numeric> {
-        let numeric = Numeric::of(key);
-        if numeric.is_none() {
-            self.reject(entry, key, StudyFault::NotVaried { advice: super::advice(key) });
+    /// The key; nothing, with the problem noted, of one that a study cannot set.
+    fn varied(&mut self, entry: &Entry<'_>, name: &str) -> Option<&'static Key> {
+        let key = varied(name);
+        if key.is_none() {
+            self.reject(entry, name, StudyFault::NotVaried { advice: super::advice(name) });
         }
-        numeric
+        key
     }
 
     /// The entries of a table in the order written, `air.velocity = …` and `"air.velocity" = …` alike.
@@ -404,7 +404,7 @@ impl<'a> Reader<'a> {
         for ((at, key), value) in in_order(table) {
             let entry = self.entry(at, value);
             match entry.value {
-                DeValue::Table(inner) if layout::table(&key).is_some() => {
+                DeValue::Table(inner) if table_named(&key).is_some() => {
                     for ((at, inner_key), value) in in_order(inner) {
                         flat.push((format!("{key}.{inner_key}"), self.entry(at, value)));
                     }
@@ -434,24 +434,24 @@ impl<'a> Reader<'a> {
         }
         let mut factors = Vec::new();
         for (key, entry) in flat {
-            let Some(numeric) = self.numeric(&entry, &key) else {
+            let Some(varied) = self.varied(&entry, &key) else {
                 continue;
             };
-            if factors.iter().any(|factor: &Factor| factor.key == numeric.key) {
+            if factors.iter().any(|factor: &Factor| factor.key == varied.name) {
                 let entry = Entry { shown: None, ..entry };
                 self.reject(&entry, "", Fault::Duplicate { key });
                 continue;
             }
-            if let Some(levels) = self.levels(&numeric, entry, design) {
-                let Numeric { key, dimension, .. } = numeric;
-                factors.push(Factor { key, dimension, whole: numeric.is_whole(), levels });
+            if let Some(levels) = self.levels(varied, entry, design) {
+                let (dimension, whole) = (dimension(varied), varied.is_whole());
+                factors.push(Factor { key: varied.name, dimension, whole, levels });
             }
         }
         factors
     }
 
     /// What only shows when factors are taken together.
-    fn combination(&mut self, entry: &Entry<'_>, design: Design, factors: &[Factor], base: &Base) {
+    fn combination(&mut self, entry: &Entry<'_>, design: Design, factors: &[Factor], base: &Open) {
         let (found, most) = (factors.len(), design.most_factors());
         if found > most {
             self.reject(entry, "design", StudyFault::TooManyFactors { found, design: design.name(), most });
@@ -465,7 +465,7 @@ impl<'a> Reader<'a> {
         }
         if design == Design::OneAtATime {
             for factor in factors {
-                if base.values.get(factor.key).is_none_or(Option::is_none) {
+                if of_base(base, factor).is_nan() {
                     let purpose = "vary it around its value there";
                     self.reject_whole(factor.key, StudyFault::NotWritten { purpose });
                 }
@@ -478,15 +478,15 @@ impl<'a> Reader<'a> {
         entry: Option<&Entry<'_>>,
         design: Design,
         factors: &[Factor],
-        base: &Base,
+        base: &Open,
         asked: Option<u64>,
         replicates: &Replicates,
     ) {
         let Some(entry) = entry else {
             return;
         };
-        let of = |factor: &Factor| base.values.get(factor.key).copied().flatten().unwrap_or(f64::NAN);
-        let count = design.count(factors, &factors.iter().map(of).collect::<Vec<_>>());
+        let values: Vec<f64> = factors.iter().map(|factor| of_base(base, factor)).collect();
+        let count = design.count(factors, &values);
         let exact = count as u64;
         if count > MOST_POINTS as f64 {
             let points = if count < 1e15 { exact.to_string() } else { format!("{count:.1e}") };
@@ -508,6 +508,11 @@ impl<'a> Reader<'a> {
             self.reject(entry, "design", StudyFault::TooManyFibres { fibres, most });
         }
     }
+}
+
+/// The value of a factor in the base case; NaN where it has none.
+pub(super) fn of_base(base: &Open, factor: &Factor) -> f64 {
+    varied(factor.key).and_then(|key| base.number(key)).unwrap_or(f64::NAN)
 }
 
 /// Keys, with their bytes, and values of a table in the order they are written.

@@ -1,7 +1,7 @@
 //! A study as a file, every default written out.
 
 use super::super::FORMAT_VERSION;
-use super::Numeric;
+use super::{exact, varied};
 use crate::study::{Design, Levels, MEASURES, Study};
 use crate::units::shortest;
 use std::fmt::Write;
@@ -33,8 +33,8 @@ pub(super) fn write_study(study: &Study) -> String {
     }
     text.push_str("\n[vary]\n");
     for factor in &study.factors {
-        let exact = |value: f64| match Numeric::of(factor.key) {
-            Some(numeric) if numeric.is_whole() => numeric.exact(value),
+        let exact = |value: f64| match varied(factor.key) {
+            Some(key) if key.is_whole() => exact(key, value),
             _ => format!("\"{}\"", factor.dimension.exact(value)),
         };
         let _ = match &factor.levels {

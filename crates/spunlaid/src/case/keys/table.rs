@@ -1,0 +1,641 @@
+//! The table: a row for each key, in the order of a case file.
+
+use super::value::{Content, FileKind, Kind, SPECTRA, Sign, Value};
+use super::{Key, LeftOut};
+use crate::air::{Axis, EddyModel, Flow, LENGTH_CONSTANT, PlacedField, SpectrumShape, TIME_CONSTANT};
+use crate::case::{Case, MOST_REPLICATES, whole_parts};
+use crate::chain::schemes::Scheme;
+use crate::drag::{FrictionLaw, NormalLaw};
+use crate::error::Fault;
+use crate::fibre::Root;
+use crate::units::Dimension;
+use crate::vec3::Vec3;
+use Sign::{Any, NotNegative, Positive};
+
+/// How a key reads and writes a case.
+struct Access {
+    get: fn(&Case) -> Option<Value>,
+    set: fn(&mut Case, &Value) -> Result<(), Fault>,
+}
+
+/// A number of the case, `number!(fibre.diameter)`.
+macro_rules! number {
+    ($($field:ident).+) => {
+        Access {
+            get: |case| Some(Value::Number(case.$($field).+)),
+            set: |case, value| {
+                case.$($field).+ = number(value)?;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// One of several things that have a name, `choice!(fibre.root, Root::ALL)`.
+macro_rules! choice {
+    ($($field:ident).+, $all:expr) => {
+        Access {
+            get: |case| Some(case.$($field).+.name().into()),
+            set: |case, value| {
+                case.$($field).+ = named(value, &$all, |one| one.name())?;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// A number of the air that the flow may tell.
+macro_rules! of_air {
+    ($field:ident) => {
+        Access {
+            get: |case| Some(Value::Number(case.air.$field)),
+            set: |case, value| {
+                case.air.$field = number(value)?;
+                case.air.from_flow.$field = false;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// A number that only a CFD field gives a meaning.
+macro_rules! of_field {
+    ($field:ident) => {
+        Access {
+            get: |case| Some(Value::Number(placed(case)?.$field)),
+            set: |case, value| {
+                placed_mut(case)?.$field = number(value)?;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// A time that is counted in steps.
+macro_rules! steps {
+    ($field:ident, $time:ident, $least:expr) => {
+        Access {
+            get: |case| (case.run.time_step > 0.0).then(|| Value::Number(case.run.$time())),
+            set: |case, value| {
+                case.run.$field = whole_parts(number(value)?, case.run.time_step).0.max($least);
+                Ok(())
+            },
+        }
+    };
+}
+
+pub(super) static KEYS: [Key; 40] = [
+    quantity("fibre.length", Dimension::Length, Positive, number!(fibre.length))
+        .required("1 m")
+        .meaning("Length of the fibre, from its root to its free end.")
+        .label("Fibre length *L*")
+        .slider(0.1, 2.0),
+    quantity("fibre.diameter", Dimension::Length, Positive, number!(fibre.diameter))
+        .required("50 µm")
+        .meaning("Diameter of the round fibre.")
+        .label("Fibre diameter *d*")
+        .slider(5e-6, 2e-4)
+        .in_flight(),
+    quantity("fibre.density", Dimension::Density, Positive, number!(fibre.density))
+        .required("950 kg/m³")
+        .meaning("Density of the polymer.")
+        .label("Fibre density")
+        .slider(800.0, 1500.0)
+        .in_flight(),
+    quantity("fibre.youngs_modulus", Dimension::Pressure, Positive, number!(fibre.youngs_modulus))
+        .required("2 GPa")
+        .meaning("Young's modulus of the polymer, along the fibre; the fibre is elastic throughout.")
+        .label("Young’s modulus *E*")
+        .slider(1e7, 1e10)
+        .in_flight(),
+    quantity("fibre.element_length", Dimension::Length, Positive, Access {
+        get: |case| {
+            let length = case.fibre.rest_length();
+            (length > 0.0 && length.is_finite()).then_some(Value::Number(length))
+        },
+        set: |case, value| {
+            let elements = whole_parts(case.fibre.length, number(value)?).0.max(1);
+            case.fibre.elements = usize::try_from(elements).unwrap_or(usize::MAX);
+            Ok(())
+        },
+    })
+    .follows("as long as an eddy, or a little shorter for a whole number of elements")
+    .meaning("Length of the elements that the fibre is cut into. Shorter elements follow shorter waves and take longer.")
+    .label("Element length *l*")
+    .slider(2e-3, 0.1)
+    .counted(),
+    choose("fibre.root", || Root::ALL.map(Root::name).to_vec(), choice!(fibre.root, Root::ALL))
+        .value("pinned")
+        .meaning(
+            "How the root is held: `pinned` may turn, `clamped` keeps its direction, `free` is not held at all.",
+        ),
+    key("fibre.direction", Kind::Direction, Access {
+        get: |case| Some(case.fibre.direction.into()),
+        set: |case, value| {
+            case.fibre.direction = vector(value)?;
+            Ok(())
+        },
+    })
+    .value("[1.0, 0.0, 0.0]")
+    .meaning("Direction in which the straight fibre starts, and in which a clamped root holds it. x is the way of the air and of gravity."),
+    quantity("air.velocity", Dimension::Velocity, Any, Access {
+        get: |case| Some(Value::Number(case.air.velocity)),
+        set: |case, value| {
+            let flow = match case.air.flow {
+                Flow::Uniform => {
+                    case.air.velocity = number(value)?;
+                    return Ok(());
+                }
+                Flow::Profile(_) => "air.profile",
+                Flow::Field(_) => "air.field",
+            };
+            Err(Fault::FlowTells { flow })
+        },
+    })
+    .told(|case| !case.air.is_uniform())
+    .required("10 m/s")
+    .meaning("Mean velocity of the air along x. A record, a profile or a field tells it instead.")
+    .label("Mean velocity *U*")
+    .slider(0.0, 60.0)
+    .in_flight(),
+    file("air.profile", FileKind::Profile, Access {
+        get: |case| match &case.air.flow {
+            Flow::Profile(profile) => Some(Content::Profile(profile.clone()).into()),
+            _ => None,
+        },
+        set: |case, value| {
+            let Value::Content(Content::Profile(profile)) = value else {
+                return Err(Fault::ReadWithCase);
+            };
+            case.air.flow = Flow::Profile(profile.clone());
+            Ok(())
+        },
+    })
+    .follows("the same air everywhere")
+    .meaning("Table of the air down the line: velocity and, where it has the columns, turbulence over the distance from the root."),
+    file("air.field", FileKind::Field, Access {
+        get: |case| Some(Content::Field(placed(case)?.field.clone()).into()),
+        set: |case, value| {
+            let Value::Content(Content::Field(field)) = value else {
+                return Err(Fault::ReadWithCase);
+            };
+            let (field, axis, unit) = (field.clone(), Axis::ALL[0], 1.0);
+            let root = PlacedField::middle_of_inlet(&field, axis, unit);
+            let (length_constant, time_constant) = (LENGTH_CONSTANT, TIME_CONSTANT);
+            case.air.flow = Flow::Field(PlacedField { field, root, axis, unit, length_constant, time_constant });
+            Ok(())
+        },
+    })
+    .follows("the same air everywhere")
+    .meaning("CFD solution that the fibre hangs in: VTK files or tables of points, with velocity and, where there is any, k with ε or ω."),
+    key("air.field_root", Kind::Point, Access {
+        get: |case| Some(placed(case)?.root.into()),
+        set: |case, value| {
+            placed_mut(case)?.root = vector(value)?;
+            Ok(())
+        },
+    })
+    .follows("the middle of the side at which the air enters the box around the field")
+    .meaning(
+        "Where in the field the root of the fibre is: the three coordinates of the field, as lengths. Choose the place \
+         of the spinneret's hole, or of the slot where the fibre enters the diffuser.",
+    ),
+    choose("air.field_axis", || Axis::ALL.map(Axis::name).to_vec(), Access {
+        get: |case| Some(placed(case)?.axis.name().into()),
+        set: |case, value| {
+            placed_mut(case)?.axis = named(value, &Axis::ALL, |axis| axis.name())?;
+            Ok(())
+        },
+    })
+    .value("x")
+    .meaning(
+        "Which direction of the field is down for the fibre: its x, the way of gravity. Write `-z` where the line of \
+         the CFD model runs down along −z.",
+    ),
+    quantity("air.field_unit", Dimension::Length, Positive, of_field!(unit))
+        .value("1 m")
+        .meaning(
+            "Length of one unit of the field's coordinates. Write `1 mm` where the mesh was drawn in millimetres; \
+             velocities are not scaled by it.",
+        )
+        .fixed(),
+    quantity("air.length_constant", Dimension::Ratio, Positive, of_field!(length_constant))
+        .value("0.43")
+        .meaning("Constant of the eddies' length in a field, C_L k^1.5/ε.")
+        .label("Constant of the eddies’ length *C*_{L}")
+        .slider(0.1, 1.0),
+    quantity("air.time_constant", Dimension::Ratio, Positive, of_field!(time_constant))
+        .value("0.3")
+        .meaning("Constant of the eddies' lifetime in a field, T = C_T k/ε; the cut-off frequency is there ¼ (velocity/length + 1/T).")
+        .label("Constant of the eddies’ lifetime *C*_{T}")
+        .slider(0.1, 1.0),
+    quantity("air.speed_factor", Dimension::Ratio, Positive, Access {
+        get: |case| (!case.air.is_uniform()).then_some(Value::Number(case.air.speed_factor)),
+        set: |case, value| {
+            if case.air.is_uniform() {
+                let (needed, remedy) = ("air.profile or air.field", "change air.velocity");
+                return Err(Fault::Needs { needed, remedy });
+            }
+            case.air.speed_factor = number(value)?;
+            Ok(())
+        },
+    })
+    .value("1")
+    .meaning("Factor on all velocities of a profile or a field: how to try the same flow faster or slower.")
+    .label("Factor on the velocity of the air")
+    .slider(0.2, 3.0)
+    .in_flight(),
+    quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative, of_air!(turbulence_intensity))
+        .told(|case| case.air.from_flow.turbulence_intensity)
+        .required("0.1")
+        .meaning("Rms of each fluctuating component of the velocity, over the mean velocity. A record, a profile or a field may tell it.")
+        .label("Turbulence intensity *Tu*")
+        .slider(0.0, 0.5)
+        .in_flight(),
+    quantity("air.length_scale", Dimension::Length, Positive, of_air!(length_scale))
+        .told(|case| case.air.from_flow.length_scale)
+        .required("50 mm")
+        .meaning("Length of an eddy: over it the fluctuation is the same along the fibre. A record, a profile or a field may tell it.")
+        .label("Length of the eddies *L*_{T}")
+        .slider(5e-3, 0.2),
+    quantity("air.cutoff_frequency", Dimension::Frequency, Positive, of_air!(cutoff_frequency))
+        .told(|case| case.air.from_flow.cutoff_frequency)
+        .required("100 Hz")
+        .meaning("Highest frequency of the turbulence; nothing lies above it. A record, a spectrum, a profile or a field may tell it.")
+        .label("Cut-off frequency *f*")
+        .slider(10.0, 1000.0),
+    quantity("air.density", Dimension::Density, NotNegative, number!(air.density))
+        .value("1.204 kg/m³")
+        .meaning("Density of the air; left out, that at 20 °C. `0 kg/m³` is a vacuum.")
+        .label("Air density")
+        .slider(0.0, 2.0)
+        .in_flight(),
+    quantity(
+        "air.kinematic_viscosity",
+        Dimension::KinematicViscosity,
+        Positive,
+        number!(air.kinematic_viscosity),
+    )
+    .value("1.51e-5 m²/s")
+    .meaning("Kinematic viscosity of the air; left out, that at 20 °C.")
+    .label("Kinematic viscosity *ν*")
+    .slider(1e-5, 6e-5)
+    .in_flight(),
+    file("air.spectrum", FileKind::Spectrum, Access {
+        get: |case| match &case.air.spectrum {
+            SpectrumShape::Measured(table) => Some(Content::Spectrum(table.clone()).into()),
+            shape => Some(shape.name().into()),
+        },
+        set: |case, value| {
+            case.air.spectrum = match value {
+                Value::Content(Content::Spectrum(table)) => SpectrumShape::Measured(table.clone()),
+                Value::Text(name) if name == SPECTRA[0] => SpectrumShape::Flat,
+                Value::Text(name) if name == SPECTRA[1] => SpectrumShape::VonKarman,
+                _ => return Err(Fault::ReadWithCase),
+            };
+            Ok(())
+        },
+    })
+    .value("flat")
+    .meaning("How the turbulence spreads over frequency: `flat` up to the cut-off, von Kármán's form, or a CSV file with a measured one."),
+    file("air.record", FileKind::Records, Access {
+        get: |case| {
+            let records = &case.air.records;
+            (!records.is_empty()).then(|| Content::Records(records.clone()).into())
+        },
+        set: |case, value| {
+            let Value::Content(Content::Records(records)) = value else {
+                return Err(Fault::ReadWithCase);
+            };
+            let rates = || records.iter().map(|record| 1.0 / record.interval);
+            let first = rates().next().unwrap_or(0.0);
+            if let Some(other) = rates().find(|rate| (rate / first - 1.0).abs() >= 1e-9) {
+                return Err(Fault::RecordRates { first, other });
+            }
+            case.air.records = records.clone();
+            Ok(())
+        },
+    })
+    .follows("turbulence summed from waves")
+    .meaning("Measured velocity record whose fluctuation moves the fibre, as CSV or Parquet; or a list with one for each eddy."),
+    quantity("air.record_rate", Dimension::Frequency, Positive, Access {
+        get: |case| case.air.records.first()?.rate.map(Value::Number),
+        set: |case, value| {
+            let rate = number(value)?;
+            match case.air.records.first() {
+                None => Err(Fault::Needs { needed: "air.record", remedy: "leave it out" }),
+                // The records have been read with it.
+                Some(record) if record.rate == Some(rate) => Ok(()),
+                Some(_) => Err(Fault::ReadWithCase),
+            }
+        },
+    })
+    .follows("what the record's column of time tells")
+    .meaning("Sampling rate of a record that has no column of time.")
+    .fixed(),
+    choose("air.eddies", || vec!["independent", "convected"], Access {
+        get: |case| Some(case.air.eddies.name().into()),
+        set: |case, value| {
+            let models = [EddyModel::Independent, EddyModel::Convected { decay_time: f64::INFINITY }];
+            let model = named(value, &models, |model| model.name())?;
+            if model.name() != case.air.eddies.name() {
+                case.air.eddies = model;
+            }
+            Ok(())
+        },
+    })
+    .value("independent")
+    .meaning("How the turbulence hangs together along the fibre: eddies side by side that know nothing of each other, or a pattern that the mean flow carries along."),
+    quantity("air.decay_time", Dimension::Time, Positive, Access {
+        get: |case| match case.air.eddies {
+            EddyModel::Convected { decay_time } if decay_time.is_finite() => Some(Value::Number(decay_time)),
+            _ => None,
+        },
+        set: |case, value| match &mut case.air.eddies {
+            EddyModel::Convected { decay_time } => {
+                *decay_time = number(value)?;
+                Ok(())
+            }
+            EddyModel::Independent => {
+                let remedy = "leave it out, or have the eddies convected";
+                Err(Fault::Needs { needed: "air.eddies = \"convected\"", remedy })
+            }
+        },
+    })
+    .follows("never: the pattern is frozen")
+    .meaning("Time in which a convected pattern forgets itself: the time constant of its correlation as it is carried along.")
+    .label("Decay time of the eddies")
+    .slider(1e-3, 0.1),
+    key("air.harmonics", Kind::Whole(1, usize::MAX as u64), Access {
+        get: |case| Some(Value::Whole(case.air.harmonics as u64)),
+        set: |case, value| {
+            case.air.harmonics = usize::try_from(whole(value)?).unwrap_or(usize::MAX);
+            Ok(())
+        },
+    })
+    .follows("the power of two from 128 up that keeps the turbulence from repeating for twice the run")
+    .meaning("Number of waves that the turbulence is summed from; it must be more than cut-off frequency times duration.")
+    .label("Number of harmonics")
+    .varies()
+    .counted(),
+    choose(
+        "drag.along",
+        || FrictionLaw::ALL.map(FrictionLaw::name).to_vec(),
+        Access {
+            get: |case| Some(case.drag.along.name().into()),
+            set: |case, value| {
+                let law = named(value, &FrictionLaw::ALL, |law| law.name())?;
+                if law.name() != case.drag.along.name() {
+                    case.drag.along = law;
+                }
+                Ok(())
+            },
+        },
+    )
+    .value("matsui")
+    .meaning("Law of the friction along the fibre: Matsui's with its factor, Majumdar and Shambaugh's, or laminar after Sakiadis or after Glauert and Lighthill.")
+    .in_flight(),
+    choose(
+        "drag.across",
+        || NormalLaw::ALL.map(NormalLaw::name).to_vec(),
+        choice!(drag.across, NormalLaw::ALL),
+    )
+    .value("ju-shambaugh")
+    .meaning("Law of the drag across the fibre: Ju and Shambaugh's, fitted from 13 to 390 µm, or Marheineke and Wegener's for any diameter.")
+    .in_flight(),
+    quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative, Access {
+        get: |case| case.drag.along.factor().map(Value::Number),
+        set: |case, value| match &mut case.drag.along {
+            FrictionLaw::Matsui { factor } => {
+                *factor = number(value)?;
+                Ok(())
+            }
+            _ => {
+                let (needed, remedy) = ("drag.along = \"matsui\"", "strike it out, the law has its own");
+                Err(Fault::Needs { needed, remedy })
+            }
+        },
+    })
+    .value("0.9")
+    .meaning("Factor of Matsui's friction law: 0.37 to 0.9 are in use.")
+    .label("Friction coefficient *β*")
+    .slider(0.2, 1.2)
+    .in_flight(),
+    quantity("run.duration", Dimension::Time, Positive, steps!(steps, duration, 1))
+        .required("1 s")
+        .meaning("Time that is simulated.")
+        .label("Simulated time")
+        .slider(0.1, 10.0)
+        .counted(),
+    quantity("run.time_step", Dimension::Time, Positive, Access {
+        get: |case| Some(Value::Number(case.run.time_step)),
+        set: |case, value| {
+            set_time_step(case, number(value)?);
+            Ok(())
+        },
+    })
+    .follows("the longest of 1, 2 or 5 times a power of ten that keeps the error tolerance and half the stability limit")
+    .meaning("Length of a time step. It must stay below the stability limit, which a message tells where it does not.")
+    .label("Time step *h*")
+    .slider(1e-7, 1e-3)
+    .counted(),
+    quantity("run.error_tolerance", Dimension::Ratio, Positive, Access {
+        get: |_| None,
+        set: |case, value| {
+            let (time_step, _) = case.suggested_time_step(number(value)?, case.run.duration());
+            set_time_step(case, time_step);
+            Ok(())
+        },
+    })
+    .value("0.003")
+    .meaning(
+        "How far the path of the free end may be off because steps are finite, over its amplitude. A time step is \
+         chosen from it, so it only matters where `run.time_step` is left out.",
+    )
+    .label("Error tolerance")
+    .slider(1e-4, 0.03)
+    .counted(),
+    key("run.replicates", Kind::Whole(1, MOST_REPLICATES), Access {
+        get: |case| Some(Value::Whole(case.run.replicates)),
+        set: |case, value| {
+            case.run.replicates = whole(value)?;
+            Ok(())
+        },
+    })
+    .value("10")
+    .meaning("Number of fibres, each in turbulence of its own. Means and standard errors are over them."),
+    key("run.seed", Kind::Whole(0, u64::MAX), Access {
+        get: |case| Some(Value::Whole(case.run.seed)),
+        set: |case, value| {
+            case.run.seed = whole(value)?;
+            Ok(())
+        },
+    })
+    .value("1")
+    .meaning("Seed of the random phases: another seed, other turbulence; the same seed, the same results to the last bit."),
+    choose("run.scheme", || Scheme::ALL.map(Scheme::name).to_vec(), choice!(run.scheme, Scheme::ALL))
+        .value("semi-implicit-euler")
+        .meaning("Time integration: the paper's is of first order, `leapfrog` of second, and `implicit-tension` takes long steps."),
+    quantity("run.gravity", Dimension::Acceleration, Any, number!(run.gravity))
+        .value("9.81 m/s²")
+        .meaning("Acceleration of gravity, along x.")
+        .label("Gravity *g*")
+        .slider(0.0, 20.0)
+        .in_flight(),
+    quantity("run.spin_up", Dimension::Time, NotNegative, steps!(spin_up_steps, spin_up, 0))
+        .value("0 s")
+        .meaning(
+            "Time at the start that the statistics leave out. The fibre starts straight and at rest, so a fraction of a \
+             second passes until its motion no longer depends on the start.",
+        )
+        .label("Spin-up")
+        .slider(0.0, 1.0)
+        .counted(),
+    quantity("run.output_interval", Dimension::Time, Positive, steps!(output_steps, output_interval, 1))
+        .value("1 ms")
+        .meaning("Time from one recorded instant to the next.")
+        .label("Output interval")
+        .slider(1e-4, 1e-2)
+        .counted(),
+    quantity("run.damping", Dimension::Rate, NotNegative, number!(run.damping))
+        .value("0 1/s")
+        .meaning("Rate at which the velocity of every node dies out, besides the drag of the air.")
+        .label("Damping")
+        .slider(0.0, 100.0)
+        .in_flight(),
+];
+
+const fn key(name: &'static str, kind: Kind, access: Access) -> Key {
+    let Access { get, set } = access;
+    Key {
+        name,
+        kind,
+        left_out: LeftOut::Follows(""),
+        meaning: "",
+        label: name,
+        varies: false,
+        in_flight: false,
+        slider: None,
+        counted: false,
+        get,
+        set,
+        told: |_| false,
+    }
+}
+
+/// A study may vary it.
+const fn quantity(name: &'static str, dimension: Dimension, sign: Sign, access: Access) -> Key {
+    key(name, Kind::Quantity(dimension, sign), access).varies()
+}
+
+const fn choose(name: &'static str, names: fn() -> Vec<&'static str>, access: Access) -> Key {
+    key(name, Kind::Choice(names), access)
+}
+
+const fn file(name: &'static str, kind: FileKind, access: Access) -> Key {
+    key(name, Kind::File(kind), access)
+}
+
+impl Key {
+    const fn required(self, example: &'static str) -> Self {
+        Self { left_out: LeftOut::Required(example), ..self }
+    }
+
+    const fn value(self, value: &'static str) -> Self {
+        Self { left_out: LeftOut::Value(value), ..self }
+    }
+
+    const fn follows(self, words: &'static str) -> Self {
+        Self { left_out: LeftOut::Follows(words), ..self }
+    }
+
+    const fn meaning(self, meaning: &'static str) -> Self {
+        Self { meaning, ..self }
+    }
+
+    const fn label(self, label: &'static str) -> Self {
+        Self { label, ..self }
+    }
+
+    const fn slider(self, least: f64, greatest: f64) -> Self {
+        Self { slider: Some((least, greatest)), ..self }
+    }
+
+    const fn varies(self) -> Self {
+        Self { varies: true, ..self }
+    }
+
+    const fn fixed(self) -> Self {
+        Self { varies: false, ..self }
+    }
+
+    const fn in_flight(self) -> Self {
+        Self { in_flight: true, ..self }
+    }
+
+    const fn counted(self) -> Self {
+        Self { counted: true, ..self }
+    }
+
+    const fn told(self, told: fn(&Case) -> bool) -> Self {
+        Self { told, ..self }
+    }
+}
+
+/// The value has been accepted by its kind; another one is a mistake of whoever calls.
+fn unfit(value: &Value, wanted: &str) -> Fault {
+    Fault::WrongType { found: value.what(), wanted: wanted.to_owned() }
+}
+
+fn number(value: &Value) -> Result<f64, Fault> {
+    value.number().ok_or_else(|| unfit(value, "a number"))
+}
+
+fn whole(value: &Value) -> Result<u64, Fault> {
+    match value {
+        Value::Whole(number) => Ok(*number),
+        _ => Err(unfit(value, "a whole number")),
+    }
+}
+
+fn vector(value: &Value) -> Result<Vec3<f64>, Fault> {
+    match value {
+        Value::Vector(vector) => Ok(*vector),
+        _ => Err(unfit(value, "a vector")),
+    }
+}
+
+fn named<T: Copy>(value: &Value, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, Fault> {
+    let found = match value {
+        Value::Text(text) => all.iter().copied().find(|one| name(*one) == text),
+        _ => None,
+    };
+    found.ok_or_else(|| unfit(value, "a name"))
+}
+
+fn placed(case: &Case) -> Option<&PlacedField> {
+    match &case.air.flow {
+        Flow::Field(placed) => Some(placed),
+        _ => None,
+    }
+}
+
+fn placed_mut(case: &mut Case) -> Result<&mut PlacedField, Fault> {
+    match &mut case.air.flow {
+        Flow::Field(placed) => Ok(placed),
+        _ => {
+            let remedy = "leave it out, or name the file of a CFD field";
+            Err(Fault::Needs { needed: "air.field", remedy })
+        }
+    }
+}
+
+/// Takes another step and keeps the times that are counted in steps.
+fn set_time_step(case: &mut Case, time_step: f64) {
+    let run = &mut case.run;
+    let steps = |time: f64| whole_parts(time, time_step).0;
+    let (duration, spin_up, output) = (run.duration(), run.spin_up(), run.output_interval());
+    (run.steps, run.spin_up_steps, run.output_steps) =
+        (steps(duration).max(1), steps(spin_up), steps(output).max(1));
+    run.time_step = time_step;
+}

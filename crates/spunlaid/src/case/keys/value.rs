@@ -1,0 +1,301 @@
+//! Values of keys: which kinds there are, and what each kind allows.
+
+use crate::air::{FromFile, Measured, Profile, SpectrumTable};
+use crate::error::Fault;
+use crate::field::Field;
+use crate::units::{Dimension, Wanted, shortest};
+use crate::vec3::Vec3;
+use std::path::{Path, PathBuf};
+
+/// The value of a key.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Value {
+    /// A quantity, in SI units.
+    Number(f64),
+    /// A whole number.
+    Whole(u64),
+    /// A name such as `clamped`; or any value as text, `20 m/s`.
+    Text(String),
+    /// A direction [-] or a point [m].
+    Vector(Vec3<f64>),
+    /// Files that are still to be read.
+    Paths(Vec<PathBuf>),
+    /// What was read from files.
+    Content(Content),
+}
+
+/// What was read from the files that a key names.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Content {
+    /// Values down the line.
+    Profile(FromFile<Profile>),
+    /// A CFD solution.
+    Field(FromFile<Field>),
+    /// A spectrum.
+    Spectrum(FromFile<SpectrumTable>),
+    /// Velocity records.
+    Records(Vec<FromFile<Measured>>),
+}
+
+impl Content {
+    /// The files it was read from.
+    pub fn paths(&self) -> Vec<&Path> {
+        match self {
+            Self::Profile(file) => vec![file.path()],
+            Self::Field(file) => vec![file.path()],
+            Self::Spectrum(file) => vec![file.path()],
+            Self::Records(files) => files.iter().map(FromFile::path).collect(),
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(value: f64) -> Self {
+        Self::Number(value)
+    }
+}
+
+impl From<u64> for Value {
+    fn from(value: u64) -> Self {
+        Self::Whole(value)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl From<Vec3<f64>> for Value {
+    fn from(vector: Vec3<f64>) -> Self {
+        Self::Vector(vector)
+    }
+}
+
+impl From<[f64; 3]> for Value {
+    fn from([x, y, z]: [f64; 3]) -> Self {
+        Self::Vector(Vec3::new(x, y, z))
+    }
+}
+
+impl From<Content> for Value {
+    fn from(content: Content) -> Self {
+        Self::Content(content)
+    }
+}
+
+impl Value {
+    /// What it is, with its article.
+    pub(super) const fn what(&self) -> &'static str {
+        match self {
+            Self::Number(_) => "a number",
+            Self::Whole(_) => "a whole number",
+            Self::Text(_) => "a text",
+            Self::Vector(_) => "a vector",
+            Self::Paths(_) | Self::Content(_) => "a file",
+        }
+    }
+
+    /// A quantity or whole number as a number.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(value) => Some(*value),
+            Self::Whole(value) => Some(*value as f64),
+            _ => None,
+        }
+    }
+}
+
+/// Which numbers a quantity may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// Above zero.
+    Positive,
+    /// Zero or above.
+    NotNegative,
+    /// Any.
+    Any,
+}
+
+/// What a file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// Values down the line.
+    Profile,
+    /// A CFD solution.
+    Field,
+    /// A spectrum; the key takes the name of a shape as well.
+    Spectrum,
+    /// A velocity record, or several.
+    Records,
+}
+
+/// What a key takes.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// A quantity with its unit.
+    Quantity(Dimension, Sign),
+    /// A whole number, from the least to the most.
+    Whole(u64, u64),
+    /// One of several names.
+    Choice(fn() -> Vec<&'static str>),
+    /// A direction in space, of any length but zero.
+    Direction,
+    /// A point in space.
+    Point,
+    /// The path of a file.
+    File(FileKind),
+}
+
+/// The shapes of spectrum that have a name.
+pub(super) const SPECTRA: [&str; 2] = ["flat", "von-karman"];
+
+impl Kind {
+    /// The value as the key keeps it: texts read, numbers in the right kind, directions of length one.
+    ///
+    /// # Errors
+    /// When the key takes no such value.
+    pub(crate) fn accept(&self, value: Value) -> Result<Value, Fault> {
+        let value = match (self, value) {
+            (_, Value::Text(text)) => self.read(&text)?,
+            (Self::Quantity(..), Value::Whole(number)) => Value::Number(number as f64),
+            (Self::Whole(..), Value::Number(number))
+                if number.fract() == 0.0 && (0.0..1.8e19).contains(&number) =>
+            {
+                Value::Whole(number as u64)
+            }
+            (Self::Direction, Value::Vector(vector)) => Value::Vector(unit(vector)?),
+            (_, value) => value,
+        };
+        self.fault(&value).map_or(Ok(value), Err)
+    }
+
+    /// What is wrong with a value on its own.
+    pub(crate) fn fault(&self, value: &Value) -> Option<Fault> {
+        let not_finite = |v: &Vec3<f64>| ![v.x, v.y, v.z].iter().all(|c| c.is_finite());
+        match (self, value) {
+            (Self::Quantity(_, _), Value::Number(value)) if !value.is_finite() => Some(Fault::NotFinite),
+            (Self::Quantity(dimension, sign), Value::Number(value)) => {
+                let quantity = dimension.name();
+                match sign {
+                    Sign::Positive if *value <= 0.0 => Some(Fault::NotPositive { quantity }),
+                    Sign::NotNegative if *value < 0.0 => Some(Fault::Negative { quantity }),
+                    _ => None,
+                }
+            }
+            (&Self::Whole(least, most), Value::Whole(value)) => {
+                (!(least..=most).contains(value)).then_some(Fault::OutOfRange { least, most })
+            }
+            (Self::Direction | Self::Point, Value::Vector(v)) if not_finite(v) => Some(Fault::NotFinite),
+            (Self::Direction, Value::Vector(v)) => ((v.norm() - 1.0).abs() > 1e-12).then_some(Fault::NotUnit),
+            (Self::Choice(_) | Self::File(FileKind::Spectrum), Value::Text(text)) => {
+                let names = self.names();
+                if names.contains(&text.as_str()) {
+                    return None;
+                }
+                let nearest = super::nearest_word(text, names.iter().copied());
+                Some(Fault::NotOneOf { nearest: nearest.map(|name| format!("\"{name}\"")), allowed: names })
+            }
+            (Self::Point, Value::Vector(_)) | (Self::File(_), Value::Paths(_) | Value::Content(_)) => None,
+            (_, value) => Some(Fault::WrongType { found: value.what(), wanted: self.wanted() }),
+        }
+    }
+
+    /// The names that may be written, if any.
+    pub fn names(&self) -> Vec<&'static str> {
+        match self {
+            Self::Choice(names) => names(),
+            Self::File(FileKind::Spectrum) => SPECTRA.into_iter().chain(["spectrum.csv"]).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// What to write, in words.
+    pub(crate) fn wanted(&self) -> String {
+        match self {
+            Self::Quantity(dimension, _) => Wanted(*dimension).to_string(),
+            Self::Whole(..) => "a whole number without quotes, like 10".to_owned(),
+            Self::Choice(_) => {
+                let quoted: Vec<String> = self.names().iter().map(|name| format!("\"{name}\"")).collect();
+                quoted.join(" or ")
+            }
+            Self::Direction => "three plain numbers, like [1.0, 0.0, 0.0]".to_owned(),
+            Self::Point => "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned(),
+            Self::File(FileKind::Records) => {
+                "the path of a record, \"probe.csv\", or a list with one for each eddy".to_owned()
+            }
+            Self::File(_) => "the path of a file, in quotes".to_owned(),
+        }
+    }
+
+    /// Reads a value from text, `20 m/s`.
+    fn read(&self, text: &str) -> Result<Value, Fault> {
+        let parts = || -> Vec<&str> {
+            let list = text.trim().trim_start_matches('[').trim_end_matches(']');
+            list.split(',').map(|part| part.trim().trim_matches(['"', '\''])).collect()
+        };
+        let vector = |dimension: Dimension| match parts()[..] {
+            [x, y, z] => {
+                Ok(Value::Vector(Vec3::new(dimension.parse(x)?, dimension.parse(y)?, dimension.parse(z)?)))
+            }
+            _ => Err(Fault::WrongType { found: "a text", wanted: self.wanted() }),
+        };
+        match self {
+            Self::Quantity(dimension, _) => Ok(Value::Number(dimension.parse(text)?)),
+            Self::Whole(..) => text
+                .trim()
+                .parse()
+                .map(Value::Whole)
+                .map_err(|_| Fault::WrongType { found: "a text", wanted: self.wanted() }),
+            Self::Direction => match vector(Dimension::Ratio)? {
+                Value::Vector(v) => Ok(Value::Vector(unit(v)?)),
+                other => Ok(other),
+            },
+            Self::Point => vector(Dimension::Length),
+            Self::Choice(_) => Ok(Value::Text(text.to_owned())),
+            Self::File(FileKind::Spectrum) if !text.contains('.') => Ok(Value::Text(text.to_owned())),
+            Self::File(_) => Ok(Value::Paths(vec![PathBuf::from(text)])),
+        }
+    }
+
+    /// The value for people.
+    pub(crate) fn pretty(&self, value: &Value) -> String {
+        match (self, value) {
+            (Self::Quantity(dimension, _), Value::Number(value)) => dimension.pretty(*value),
+            (_, Value::Number(value)) => shortest(*value),
+            (_, Value::Whole(value)) => value.to_string(),
+            (_, Value::Text(text)) => format!("\"{}\"", crate::units::excerpt(text, 60)),
+            (_, Value::Vector(v)) => format!("[{}, {}, {}]", v.x, v.y, v.z),
+            (_, Value::Paths(paths)) => listed(paths.iter().map(PathBuf::as_path)),
+            (_, Value::Content(content)) => listed(content.paths().into_iter()),
+        }
+    }
+}
+
+fn listed<'a>(paths: impl Iterator<Item = &'a Path>) -> String {
+    paths.map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ")
+}
+
+/// The unit vector along `v`; `v` itself if it is one but for rounding.
+fn unit(v: Vec3<f64>) -> Result<Vec3<f64>, Fault> {
+    if (v.norm() - 1.0).abs() <= 4.0 * f64::EPSILON {
+        return Ok(v);
+    }
+    let largest = v.x.abs().max(v.y.abs()).max(v.z.abs());
+    if largest == 0.0 {
+        return Err(Fault::ZeroDirection);
+    }
+    // Division by the largest first, lest the squares overflow or vanish.
+    let v = Vec3::new(v.x / largest, v.y / largest, v.z / largest);
+    let norm = v.norm();
+    Ok(Vec3::new(v.x / norm, v.y / norm, v.z / norm))
+}
