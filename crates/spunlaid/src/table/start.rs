@@ -104,10 +104,10 @@ fn numbers<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, 
 
 /// The first row of numbers and words: where most lines in a row look alike.
 fn mixed<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, Parting)> {
-    let looks = |i: usize| -> Option<(Parting, Vec<Looks>)> {
+    let looks = |i: usize| {
         let parting = Parting::of(text(i));
         let looks: Vec<Looks> = parting.cells(text(i)).iter().map(|cell| Looks::of(cell, parting)).collect();
-        looks.contains(&Looks::Number).then_some((parting, looks))
+        (parting, looks)
     };
     let alike = |a: &[Looks], b: &[Looks]| {
         let same = |(a, b): (&Looks, &Looks)| a == b || *a == Looks::Missing || *b == Looks::Missing;
@@ -118,11 +118,15 @@ fn mixed<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, Pa
     while i < lines {
         let from = i;
         i += 1;
-        let Some((parting, first)) = looks(from) else { continue };
-        while i < lines && looks(i).is_some_and(|(other, next)| other == parting && alike(&first, &next)) {
+        let (parting, first) = looks(from);
+        if !first.contains(&Looks::Number) {
+            continue;
+        }
+        let continues = |(other, next): (Parting, Vec<Looks>)| other == parting && alike(&first, &next);
+        while i < lines && continues(looks(i)) {
             i += 1;
         }
-        if longest.is_none_or(|(length, ..)| i - from > length) {
+        if longest.is_none_or(|(length, ..)| i - from >= length) {
             longest = Some((i - from, from, parting));
         }
     }
