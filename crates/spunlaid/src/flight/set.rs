@@ -18,7 +18,7 @@ impl Flight {
     /// A key that there is not, a value that the key does not take or with which the case cannot be run, and a key that
     /// cannot change in flight; the flight is then as it was.
     pub fn set(&mut self, key: &str, value: impl Into<Value>) -> Result<(), Error> {
-        let key = keys::named(key).map_err(|problem| vec![problem])?;
+        let key = keys::named(key)?;
         let refused = |reason| Err(FlightFault::NotInFlight { key: key.name, reason }.into());
         if !key.in_flight {
             return refused("a flight keeps its mesh, its times, its eddies and its files");
@@ -32,7 +32,7 @@ impl Flight {
             if key.get(case).is_none() {
                 return refused("it has no meaning for the case of this flight");
             }
-            key.set(case, value.clone()).map_err(|problem| vec![problem])?;
+            key.set(case, value.clone())?;
             case.check().map_err(Error::Rejected)?;
         }
         self.fly_on_as(cases, key.name)

@@ -72,7 +72,7 @@ pub fn find(name: &str) -> Option<&'static Key> {
 ///
 /// # Errors
 /// When there is none: the problem says which key may be meant.
-pub fn named(name: &str) -> Result<&'static Key, Problem> {
+pub fn named(name: &str) -> Result<&'static Key, Box<Problem>> {
     find(name).ok_or_else(|| {
         let (table, _) = name.split_once('.').unwrap_or(("", name));
         let known = of_table(table).map(Key::short).collect::<Vec<_>>();
@@ -83,7 +83,8 @@ pub fn named(name: &str) -> Result<&'static Key, Problem> {
         };
         let nearest = nearest(name).map(|key| key.name.to_owned());
         let what = Fault::UnknownKey { nearest, where_, known };
-        Finding { place: Place::Code, key: crate::units::excerpt(name, 60), value: None, what }
+        let key = crate::units::excerpt(name, 60);
+        Box::new(Finding { place: Place::Code, key, value: None, what })
     })
 }
 
@@ -149,14 +150,12 @@ impl Key {
     ///
     /// # Errors
     /// When the key takes no such value, or means nothing to this case.
-    pub fn set(&self, case: &mut Case, value: impl Into<Value>) -> Result<(), Problem> {
+    pub fn set(&self, case: &mut Case, value: impl Into<Value>) -> Result<(), Box<Problem>> {
         let value = value.into();
         let shown = self.kind.pretty(&value);
-        self.kind.accept(value).and_then(|value| (self.set)(case, &value)).map_err(|what| Finding {
-            place: Place::Code,
-            key: self.name.to_owned(),
-            value: Some(shown),
-            what,
+        self.kind.accept(value).and_then(|value| (self.set)(case, &value)).map_err(|what| {
+            let (place, key) = (Place::Code, self.name.to_owned());
+            Box::new(Finding { place, key, value: Some(shown), what })
         })
     }
 
