@@ -53,7 +53,7 @@
 pub mod lanes;
 pub mod vec3;
 
-pub mod fft;
+mod fft;
 pub mod units;
 
 pub mod error;

@@ -139,7 +139,8 @@ fn frozen_harmonics_and_samples_of_the_turbulence() {
         assert_eq!(table1_air().default_harmonics(duration), harmonics);
     }
     let columns = 20.0 * 3.0 * 8.0 * 8.0;
-    for (duration, samples) in [(0.1, 49.0), (1.0, 409.0), (10.0, 4_009.0)] {
+    // No more than three quarters of a repeat time and what the interpolation looks ahead.
+    for (duration, samples) in [(0.1, 49.0), (1.0, 409.0), (10.0, 3_080.0), (1e6, 3_080.0)] {
         let air = Air { harmonics: table1_air().default_harmonics(duration), ..table1_air() };
         assert_eq!(Wind::memory(&air, 20, duration), samples * columns, "{duration} s");
     }
@@ -148,7 +149,7 @@ fn frozen_harmonics_and_samples_of_the_turbulence() {
 #[test]
 fn frozen_memory_of_a_bundle() {
     for (scheme, bytes_per_node) in
-        [(Scheme::SemiImplicitEuler, 960), (Scheme::Leapfrog, 960), (Scheme::ImplicitTension, 1984)]
+        [(Scheme::SemiImplicitEuler, 964), (Scheme::Leapfrog, 964), (Scheme::ImplicitTension, 1988)]
     {
         let kept = |elements: usize| {
             let fibre = spunlaid::fibre::Fibre { elements, ..table1_fibre() };
@@ -232,4 +233,17 @@ fn statistics_keep_a_few_numbers_of_each_flight_however_long() {
         assert!(taken.kept <= most, "{} bytes kept of {bytes} in each flight", taken.kept);
         assert!(taken.peak <= 2 * bytes + most, "{} bytes at once of {bytes}", taken.peak);
     }
+}
+
+#[test]
+fn memory_of_a_flight_does_not_grow_with_its_time() {
+    let case = table1(Scheme::ImplicitTension, 5e-4, 1.0);
+    let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case: &case, replicate }).collect();
+    let mut flight = Flight::new(&jobs, Isa::detect()).expect("the case flies");
+    // 256 harmonics of 100 Hz: windows follow one another every 1.92 s.
+    flight.step_to(4.0).expect("the case flies");
+    let seconds = |flight: &mut Flight, to: f64| memory_of(|| flight.step_to(to).expect("the case flies")).1;
+    let (ten, hundred) = (seconds(&mut flight, 14.0), seconds(&mut flight, 114.0));
+    assert_eq!((ten.kept, hundred.kept), (0, 0));
+    assert_eq!(ten.peak, hundred.peak);
 }

@@ -271,7 +271,7 @@ fn tables_of_many_programs_are_read() {
             rows("1;2;3;4;5", ",")
         ),
         format!(
-            "[Name]\nPlane 1\n\n[Data]\nX [ m ], Y [ m ], Z [ m ], Velocity u [ m s^-1 ], Velocity v [ m s^-1 ], Velocity w [ m s^-1 ], Wind Kinetic Energy [ m^2 s^-2 ], Wind Eddy Dissipation [ m^2 s^-3 ]\n{}",
+            "[Name]\nPlane 1\n\n[Data]\nX [ m ], Y [ m ], Z [ m ], Velocity u [ m s^-1 ], Velocity v [ m s^-1 ], Velocity w [ m s^-1 ], Turbulence Kinetic Energy [ m^2 s^-2 ], Turbulence Eddy Dissipation [ m^2 s^-3 ]\n{}",
             rows("1;2;3;4;5", ", ")
         ),
         format!(

@@ -110,7 +110,7 @@ fn rejects_values_with_the_way_out() {
         (
             "air.profile",
             "air.csv".into(),
-            "air.profile = air.csv is read from a file together with the case; write it in the case file and read that \
+            "air.profile = \"air.csv\" is read from a file together with the case; write it in the case file and read that \
              again",
         ),
         (

@@ -218,7 +218,7 @@ fn a_lost_fibre_costs_its_neighbours_nothing() {
     let (mut good, _) = parse_case(SHORT, "case.toml", &[]).unwrap();
     good.run.steps = 5000;
     let mut bad = good.clone();
-    (bad.fibre.diameter, bad.air.velocity) = (1e-5, 600.0);
+    (bad.fibre.diameter, bad.air.velocity) = (2e-6, 3000.0);
     let study = Study::of_cases([good.clone(), bad, good.clone()], Replicates::fixed(3));
     let mut journal = flown(&study, 1);
     let alone = flown(&Study::of_cases([good], Replicates::fixed(3)), 1).records(0, 9).unwrap();

@@ -4,7 +4,7 @@
 mod common;
 
 use common::*;
-use spunlaid::air::{Air, StreamKey, Wind};
+use spunlaid::air::{Air, Stream, StreamKey, Wind};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::statistics::{Welch, Window};
 use std::f64::consts::PI;
@@ -19,7 +19,7 @@ fn streams(air: &Air, seed: u64) -> Vec<(Air, StreamKey)> {
 /// Fluctuations `[lane][eddy][component][sample]` of the sum of cosines, sampled every `interval` over
 /// `duration`.
 fn records(air: &Air, seed: u64, interval: f64, duration: f64) -> Vec<Vec<f64>> {
-    let wind = Wind::repeating(Isa::detect(), &streams(air, seed), EDDIES, duration);
+    let wind = Wind::repeating(Isa::detect(), Stream::uniform(&streams(air, seed), EDDIES), duration);
     records_of(wind.expect("fibres that agree"), air, interval, 0.0..duration)
 }
 
@@ -71,8 +71,8 @@ fn analytic_signal_is_the_sum_of_cosines_to_1e_7() {
     let period = 2.0 * air.repeat_time();
     let samples = 3 * 17 * 16;
     let interval = period / samples as f64;
-    let mut wind =
-        Wind::repeating(Isa::detect(), &streams(&air, 7), EDDIES, period).expect("fibres that agree");
+    let mut wind = Wind::repeating(Isa::detect(), Stream::uniform(&streams(&air, 7), EDDIES), period)
+        .expect("fibres that agree");
     let record: Vec<f64> = (0..samples).map(|i| wind.at(i as f64 * interval)[2].lane(5).y).collect();
     let (amplitudes, residual) = fitted_harmonics(&air, &record, interval);
     // Interpolation from samples and by cubics, 1e-7 of the rms each, in the worst of the phases twice that.
@@ -238,7 +238,8 @@ fn identical_to_one_sum_of_cosines_until_the_first_window_fades() {
     let hop = 0.75 * air.repeat_time();
     let lanes = streams(&air, 4);
     let mut windows = Wind::uniform(Isa::detect(), &lanes, EDDIES, 1.0).expect("fibres that agree");
-    let mut sum = Wind::repeating(Isa::detect(), &lanes, EDDIES, 1.0).expect("fibres that agree");
+    let mut sum =
+        Wind::repeating(Isa::detect(), Stream::uniform(&lanes, EDDIES), 1.0).expect("fibres that agree");
     // The interpolation looks four samples ahead, of which there are 64 in a repeat time.
     let first = hop - 4.0 * air.repeat_time() / 64.0;
     for i in 0..200 {

@@ -79,18 +79,12 @@ impl Wind {
         Self::along(isa, Stream::uniform(lanes, eddies), horizon)
     }
 
-    /// The sum of cosines alone in a uniform flow, as the paper has it: the fluctuation repeats after
-    /// [`Air::repeat_time`] but for its sign.
+    /// One sum of cosines alone, as the paper has it: the fluctuation repeats after [`Air::repeat_time`] but for its
+    /// sign.
     ///
     /// # Errors
     /// As of [`Wind::along`], and for air with records.
-    pub fn repeating(
-        isa: Isa,
-        lanes: &[(Air, StreamKey)],
-        eddies: usize,
-        horizon: f64,
-    ) -> Result<Self, FlightFault> {
-        let streams = Stream::uniform(lanes, eddies);
+    pub fn repeating(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, FlightFault> {
         check(&streams)?;
         if !streams[0].air.records.is_empty() {
             return Err(FlightFault::Differ { what: "air.record", lane: 0 });

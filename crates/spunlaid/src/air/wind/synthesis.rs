@@ -55,7 +55,7 @@ pub struct Stream {
 
 impl Stream {
     /// The streams of a uniform flow, whose eddies are all alike and independent.
-    pub(super) fn uniform(lanes: &[(Air, StreamKey)], eddies: usize) -> Vec<Self> {
+    pub fn uniform(lanes: &[(Air, StreamKey)], eddies: usize) -> Vec<Self> {
         let stream = |(air, key): &(Air, StreamKey)| Self {
             air: air.clone(),
             eddies: vec![air.turbulence_of_an_eddy(); eddies],
