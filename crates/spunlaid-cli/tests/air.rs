@@ -109,6 +109,6 @@ fn a_fibre_out_of_its_field_is_told_of() {
     let said = String::from_utf8_lossy(&out.stderr);
     assert!(said.contains("beyond what the flow of the case knows"), "{said}");
     assert!(said.contains("100 % of the time outside"), "{said}");
-    let share = desk.summary("out")["fibre"]["share_outside_flow"].as_f64().unwrap();
+    let share = desk.summary("out")["fibre"]["share_outside_flow"]["mean"].as_f64().unwrap();
     assert_eq!(share, 1.0);
 }

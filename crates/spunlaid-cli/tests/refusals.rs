@@ -37,8 +37,8 @@ fn rejects_bad_cases_and_writes_nothing() {
         (spoilt("[run]", "[run"), &["not valid TOML"]),
         (spoilt("seed = 7", "seed = 7\nharmonics = 3"), &["run.harmonics = 3 is out of place", "[air]"]),
         (
-            spoilt(r#"cutoff_frequency = "100 Hz""#, "cutoff_frequency = \"100 Hz\"\nharmonics = 1"),
-            &["repeat"],
+            spoilt(r#"cutoff_frequency = "100 Hz""#, "cutoff_frequency = \"100 Hz\"\nharmonics = 0"),
+            &["air.harmonics = 0 is out of range"],
         ),
         (
             spoilt("[air]", "element_length = \"1 nm\"\n[air]"),

@@ -47,7 +47,7 @@ fn the_numbers_of_the_amplitude_are_those_of_the_results() {
     let figure = figures.iter().find(|figure| figure.name == "amplitude_along_fibre").unwrap();
     let text = figure.table.csv();
     let mut lines = text.lines();
-    assert_eq!(lines.next(), Some("series,distance_mm,amplitude_mm,error"));
+    assert_eq!(lines.next(), Some("series,distance_mm,amplitude_along_the_fibre_mm,error"));
     let mut row = |wanted: &str| {
         let (series, values) = lines.next().unwrap().split_once(',').unwrap();
         assert_eq!(series, wanted);

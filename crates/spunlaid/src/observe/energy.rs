@@ -10,14 +10,23 @@ use crate::statistics::median;
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        number("work_error", "work_error_percent", "Work check, typical", WORK, Over::Median, "work check"),
+        number(
+            "work_error",
+            "work_error_percent",
+            "Work check, typical",
+            WORK,
+            Over::Median,
+            &FIGURE,
+            "work check",
+        ),
         number(
             "work_error_at_end",
             "work_error_at_end_percent",
             "Work check, at the end",
             "the work check at the end of the flight",
             Over::Mean,
-            "work check at the end",
+            &AT_END,
+            "work check",
         ),
         number(
             "balance_error",
@@ -25,6 +34,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             "Full balance, typical",
             BALANCE,
             Over::Median,
+            &FIGURE,
             "energy balance",
         ),
         number(
@@ -33,7 +43,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             "Full balance, at the end",
             "the full balance at the end of the flight",
             Over::Mean,
-            "energy balance at the end",
+            &AT_END,
+            "energy balance",
         ),
         series("work_error_over_time", "work_error_over_time_percent", "Work check over time", "work check"),
         series(
@@ -57,7 +68,8 @@ pub(super) const DISSIPATION: Declaration = Declaration {
             "what the scheme has taken out of the motion with the waves of tension that it damps, of the air’s work; median over \
              time",
             Over::Median,
-            "taken out by the scheme",
+            &TAKEN_OUT,
+            "typical",
         ),
         number(
             "tension_dissipation_at_end",
@@ -65,7 +77,8 @@ pub(super) const DISSIPATION: Declaration = Declaration {
             "Taken out by the scheme, at the end",
             "the same at the end of the flight",
             Over::Mean,
-            "taken out by the scheme at the end",
+            &TAKEN_OUT,
+            "at the end",
         ),
     ],
     applies: |case| case.run.scheme == Scheme::ImplicitTension,
@@ -89,6 +102,22 @@ const FIGURE: Figure = Figure {
     caption: "",
 };
 
+const AT_END: Figure = Figure {
+    name: "energy_error_at_end",
+    title: "Energy error at the end",
+    words: "energy error at the end",
+    ..FIGURE
+};
+
+const TAKEN_OUT: Figure = Figure {
+    name: "tension_dissipation",
+    title: "Taken out by the scheme",
+    words: "dissipation of the scheme",
+    logarithmic: false,
+    from_zero: true,
+    caption: "",
+};
+
 const OVER_TIME: Figure = Figure {
     name: "energy_errors",
     title: "Energy errors over time",
@@ -104,9 +133,10 @@ const fn number(
     label: &'static str,
     meaning: &'static str,
     over_replicates: Over,
+    figure: &'static Figure,
     series: &'static str,
 ) -> Measure {
-    let (unit, kind, group, figure) = (OF_PERCENT, Kind::Number, ENERGY, &FIGURE);
+    let (unit, kind, group) = (OF_PERCENT, Kind::Number, ENERGY);
     Measure { name, column, label, meaning, unit, kind, group, over_replicates, figure, series }
 }
 
