@@ -29,9 +29,9 @@ fn table1() -> Case {
 #[test]
 fn rejects_jobs_that_cannot_fly_together() {
     let case = table1();
-    let (mut finer, mut longer, mut damped, mut broken) =
+    let (mut coarser, mut longer, mut damped, mut broken) =
         (case.clone(), case.clone(), case.clone(), case.clone());
-    finer.fibre.elements = 40;
+    coarser.fibre.elements = 10;
     longer.run.steps = 2000;
     damped.run.damping = 1.0;
     broken.fibre.diameter = -1.0;
@@ -41,7 +41,8 @@ fn rejects_jobs_that_cannot_fly_together() {
     };
     assert!(matches!(fault(&[]), Error::Flight(FlightFault::Empty)));
     assert!(matches!(fault(&[&case; 9]), Error::Flight(FlightFault::TooMany { fibres: 9, most: 8 })));
-    for (other, what) in [(&finer, "number of elements"), (&longer, "run.duration"), (&damped, "run.damping")]
+    for (other, what) in
+        [(&coarser, "number of elements"), (&longer, "run.duration"), (&damped, "run.damping")]
     {
         let fault = fault(&[&case, &case, other]).to_string();
         assert!(fault.contains("fibre 3") && fault.contains(what), "{fault}");
