@@ -29,13 +29,13 @@ pub struct Drag {
 }
 
 impl Drag {
-    /// The laws for the element of a fibre in air of `density` [kg/m³] and `viscosity` (kinematic) [m²/s].
+    /// The laws for an element of a fibre in air of `density` [kg/m³] and kinematic `viscosity` [m²/s].
     pub fn of_element(&self, fibre: &Fibre, density: f64, viscosity: f64) -> ElementDrag {
         let d = fibre.diameter;
         let l = fibre.rest_length();
         let re_per_velocity = d / viscosity;
         let pressure_area = 0.5 * density * d * l;
-        // Of |V| = 1 m/s, and the shift of a curve over log2 V².
+        // The factor of a power is the force at |V| = 1 m/s; a curve is shifted along log2 V².
         let power = |factor, exponent| Share { factor, growth: Growth::Power(exponent) };
         let curve = |factor, curve, s: f64| Share {
             factor: factor * density * viscosity * l,
@@ -75,13 +75,13 @@ pub struct ElementDrag {
 /// The drag in one direction, `F = c g(|V|) V`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Share {
-    /// `c`: the force [N] where `g V = 1`.
+    /// `c`: the force [N] at `g V = 1`.
     pub factor: f64,
     /// `g`.
     pub growth: Growth,
 }
 
-/// How drag by velocity grows with the velocity.
+/// How the ratio of drag to velocity grows with the velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Growth {
     /// `|V|^p`, `V` in m/s; `p` between 0 and 1 [-].
@@ -92,7 +92,7 @@ pub enum Growth {
 }
 
 impl ElementDrag {
-    /// Half of it: the share of each of the element's two nodes.
+    /// Half the drag, which is the share of each of the element's two nodes.
     pub(crate) fn half(self) -> Self {
         let half = |share: Share| Share { factor: 0.5 * share.factor, ..share };
         Self { along: half(self.along), across: half(self.across) }
@@ -100,9 +100,9 @@ impl ElementDrag {
 }
 
 impl Share {
-    /// The force [N] at a speed [m/s], as the law has it.
+    /// The force [N] of the law at a speed [m/s].
     ///
-    /// * `place` – of the element's centre, in elements from the root
+    /// * `place` – distance of the element's centre from the root, in elements
     pub fn force(&self, speed: f64, place: f64) -> f64 {
         let speed = speed.abs();
         self.factor
@@ -125,7 +125,7 @@ impl Share {
 }
 
 impl ElementDrag {
-    /// The curves along and across, which all fibres of a bundle have in common.
+    /// The curves along and across, which all fibres of a flight have in common.
     pub(crate) fn curves(&self) -> [Option<Curve>; 2] {
         [self.along.curve(), self.across.curve()]
     }
@@ -154,7 +154,7 @@ impl DragLanes {
         Self { factor: both(&|share, _| share.factor), curve: lanes[0].curves(), growth: both(&growth) }
     }
 
-    /// What the powers of the law are taken of: the relative velocity along the element and across it.
+    /// Splits the relative velocity into its parts along and across the element.
     ///
     /// * `relative` – velocity of the air relative to the element's centre [m/s]
     /// * `tangent` – unit vector along the element
@@ -165,20 +165,20 @@ impl DragLanes {
         Split { along, across, powers: Wide([along.abs().0, across.dot(across).0]) }
     }
 
-    /// Whether both laws are powers, as the paper's are.
+    /// Whether both laws are powers of the velocity, as in the paper.
     #[inline(always)]
     pub(crate) fn is_powers(&self) -> bool {
         self.curve[0].is_none() && self.curve[1].is_none()
     }
 
-    /// Takes `g_t` and `g_n` where both laws are powers.
+    /// Computes `g_t` and `g_n` if both laws are powers.
     #[inline(always)]
     pub(crate) fn raise<S: Simd>(&self, split: &mut Split<S>) {
         let exponents = [S::load(&self.growth[0]), S::load(&self.growth[1])];
         split.powers = power(split.powers, Wide(exponents));
     }
 
-    /// Takes `g_t` and `g_n` of element `j`, whatever the laws.
+    /// Computes `g_t` and `g_n` of element `j` for any laws.
     #[inline(always)]
     pub(crate) fn look_up<S: Register>(&self, j: usize, split: &mut Split<S>) {
         let [mut along, across] = split.powers.0;
@@ -189,8 +189,7 @@ impl DragLanes {
         split.powers = Wide([self.grown(0, Wide(along), 2.0).0, self.grown(1, Wide(across), 1.0).0]);
     }
 
-    /// `g` in one direction from the logarithm of what its power is taken of, `to_square` times which is
-    /// `log2 V²`.
+    /// `g` in one direction from `log2`, the logarithm of the base of its power; `to_square · log2` is `log2 V²`.
     #[inline(always)]
     fn grown<S: Register>(&self, direction: usize, log2: Wide<S>, to_square: f64) -> Wide<S> {
         let growth = Wide::load(&self.growth[direction]);
@@ -209,12 +208,12 @@ impl DragLanes {
     }
 }
 
-/// A relative velocity along and across an element, on the way to its drag.
+/// A relative velocity along and across an element, with the powers that give the drag.
 #[derive(Clone, Copy)]
 pub(crate) struct Split<S: Simd> {
     along: Wide<S>,
     across: Vec3<Wide<S>>,
-    /// `|V_t|` and `|V_n|²` abreast, then `g_t` and `g_n`.
+    /// First `|V_t|` and `|V_n|²`, then `g_t` and `g_n`.
     powers: Wide<[S; 2]>,
 }
 

@@ -1,13 +1,13 @@
-//! Energy of the chain and the two ledgers kept against it.
+//! Energy of the chain, and the two checks of the work done on it.
 
 use crate::chain::Chain;
 use crate::chain::forces::Element;
-use crate::chain::ledger::Work;
 use crate::chain::schemes::Scheme;
+use crate::chain::work::WorkDone;
 use crate::lanes::{Isa, Lanes, Register, Task, Wide, bend_ratio};
 use crate::vec3::Vec3;
 
-/// Energies [J] of eight chains at one instant, work done on them since the start.
+/// Energies [J] of eight chains at one instant, and the work done on them since the start.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Energy {
     /// `Σ ½ m v²`.
@@ -24,19 +24,19 @@ pub struct Energy {
     pub drag_work: Lanes,
     /// Work of the damping, negative.
     pub damping_work: Lanes,
-    /// What the implicit tension has taken out of the motion beyond what the elements store.
+    /// Energy that the implicit tension has taken out of the motion and that the elements do not store.
     pub tension_dissipation: Lanes,
     /// Kinetic and potential energy at the start.
     pub initial: Lanes,
-    /// Largest strain of an element at this instant, by size [-].
+    /// Largest absolute strain of an element at this instant [-].
     pub strain: Lanes,
 }
 
 impl Energy {
-    /// What a chain holds: kinetic, axial and bending energy, work of gravity, largest strain.
+    /// Kinetic, axial and bending energy of a chain, work of gravity, and largest strain.
     ///
     /// * `position`, `velocity` – of the `N+1` nodes at the same instant [m, m/s]
-    /// * `start` – positions at time 0, from where gravity's work counts [m]
+    /// * `start` – positions at time 0, where the work of gravity is zero [m]
     pub(crate) fn held(
         isa: Isa,
         chain: &Chain,
@@ -47,13 +47,13 @@ impl Energy {
         isa.run(Held { chain, position, velocity, start })
     }
 
-    /// Enters the work done since the start, when the chain held `initial`.
+    /// Adds the work done since the start, at which the chain had the energy `initial`.
     ///
-    /// * `before`, `after` – the ledger before and after the step that starts at this instant
+    /// * `before`, `after` – the sums of work before and after the step that starts at this instant
     pub(crate) fn enter_work(
         &mut self,
         initial: &Self,
-        (before, after): (&Work, &Work),
+        (before, after): (&WorkDone, &WorkDone),
         scheme: Scheme,
         h: f64,
     ) {
@@ -67,15 +67,15 @@ impl Energy {
         }
     }
 
-    /// Potential and kinetic energy and what the implicit tension has dissipated, less the work of gravity,
-    /// drag and damping [J]: zero but for the error of the time integration.  theory.md (36)
+    /// Potential and kinetic energy plus the dissipation of the implicit tension, minus the work of gravity,
+    /// drag and damping [J]. It differs from zero by the error of the time integration only. theory.md (36)
     pub fn imbalance(&self) -> Lanes {
         let held = self.kinetic + self.axial + self.bending + self.tension_dissipation;
         held - self.initial - self.gravity_work - self.drag_work - self.damping_work
     }
 }
 
-/// The energies that depend on where the nodes are and how fast they go.
+/// Computes the energies that depend on positions and velocities.
 struct Held<'a> {
     chain: &'a Chain,
     position: &'a [Vec3<Lanes>],

@@ -29,7 +29,7 @@ impl<S: Register> WideComplex<S> {
         Complex { re: self.re.store(), im: self.im.store() }
     }
 
-    /// Product with the same number in every lane.
+    /// Product with one complex number, the same for every lane.
     #[inline(always)]
     pub(crate) fn times(self, (re, im): (f64, f64)) -> Self {
         let (re, im) = (Wide::splat(re), Wide::splat(im));
@@ -45,7 +45,7 @@ pub(crate) fn unit(turns: f64) -> (f64, f64) {
 
 /// Unscaled inverse Fourier transform `y_m = Σ_n x_n e^{2πi nm/M}`, `M` a power of two.
 ///
-/// Stockham's radix-2 form: no bit reversal, unit stride, one pass per factor of two.
+/// Stockham's radix-2 form, which needs no bit reversal and one pass per factor of two.
 #[derive(Clone, Debug)]
 pub struct InverseTransform {
     /// `e^{2πi k/M}`, `k < M/2`, as (cosine, sine).

@@ -1,4 +1,4 @@
-//! The fibre: geometry, material, mesh and how it is held.
+//! The fibre: geometry, material, mesh and root.
 
 use crate::vec3::Vec3;
 use std::f64::consts::PI;
@@ -8,15 +8,15 @@ use std::f64::consts::PI;
 pub enum Root {
     /// Held in place, free to turn.
     Pinned,
-    /// Held in place and direction, by a rotational spring of half a cell, `2EI/l`, which makes static
-    /// deflection second order in the element length.
+    /// Held in place and direction. A rotational spring of `2EI/l` makes the static deflection second order in
+    /// the element length.
     Clamped,
-    /// Not held at all: a cut fibre, free to fly off.
+    /// Not held: a cut fibre that flies away.
     Free,
 }
 
 impl Root {
-    /// All of them.
+    /// Every kind of root.
     pub const ALL: [Self; 3] = [Self::Pinned, Self::Clamped, Self::Free];
 
     /// Name in the case file.
@@ -29,7 +29,7 @@ impl Root {
     }
 }
 
-/// A fibre cut into elements of equal rest length, in SI units.
+/// A fibre of elements with equal rest length, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre {
     /// Length `L` [m].
@@ -42,9 +42,9 @@ pub struct Fibre {
     pub youngs_modulus: f64,
     /// Number of elements `N`; the chain has `N+1` nodes.
     pub elements: usize,
-    /// How node 1 is held.
+    /// How the first node is held.
     pub root: Root,
-    /// Unit vector along which the straight fibre starts, and in which a clamped root holds it.
+    /// Unit vector along the straight fibre at the start. A clamped root keeps this direction.
     pub direction: Vec3<f64>,
 }
 
@@ -64,7 +64,7 @@ impl Fibre {
         PI * self.diameter.powi(4) / 64.0
     }
 
-    /// Mass of an element `Δm = ρ_f l A` [kg]; a node carries as much, the two ends half. theory.md (9)
+    /// Mass of an element `Δm = ρ_f l A` [kg]. An interior node has this mass, an end node half of it. theory.md (9)
     pub fn element_mass(&self) -> f64 {
         self.density * self.rest_length() * self.cross_section()
     }
@@ -93,12 +93,12 @@ impl Fibre {
         }
     }
 
-    /// Longest stable explicit step of the axial waves, `l √(ρ_f/E)` [s].    theory.md (30)
+    /// Longest stable explicit step for axial waves, `l √(ρ_f/E)` [s].    theory.md (30)
     pub fn axial_step_limit(&self) -> f64 {
         self.rest_length() * (self.density / self.youngs_modulus).sqrt()
     }
 
-    /// Longest stable explicit step of the bending waves, `2l²/(d √(E/ρ_f))` [s]. theory.md (31)
+    /// Longest stable explicit step for bending waves, `2l²/(d √(E/ρ_f))` [s]. theory.md (31)
     pub fn bending_step_limit(&self) -> f64 {
         let wave_speed = (self.youngs_modulus / self.density).sqrt();
         2.0 * self.rest_length().powi(2) / (self.diameter * wave_speed)

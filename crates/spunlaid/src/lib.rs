@@ -1,12 +1,12 @@
 //! Simulator of fibres in turbulent air, for the spunbonding of nonwovens.
 //!
-//! The way of the data is one line:
+//! The data goes through these stages:
 //!
 //! case file → [`case::Case`] (validated, SI) → fibres packed in [`lanes`] → step by step → observers →
 //! statistics → files
 //!
-//! This crate goes from the first to the statistics; the program `spunlaid` writes the files. What the
-//! program does, in short:
+//! This crate does everything from the case file to the statistics; the program `spunlaid` writes the files. In
+//! short, the program does this:
 //!
 //! ```
 //! use spunlaid::ensemble::{Computing, Keep, Results, fly};
@@ -36,18 +36,16 @@
 //! # }
 //! ```
 //!
-//! A file is read by [`input::read_case`]; a [`case::Case`] may as well be built in code, and then
-//! [`case::Case::check`] says whether it can be run. Every quantity is in SI units, and its documentation
-//! says which.
+//! [`input::read_case`] reads a file. A [`case::Case`] can also be built in code; [`case::Case::check`] then says
+//! whether it can be run. Every quantity is in SI units, and its documentation gives the unit.
 //!
-//! Equations are cited as `theory.md (n)`; they are in `docs/theory.md` of the repository, and what they were
-//! checked against is in `docs/validation.md`.
+//! Equations are cited as `theory.md (n)`. They are in `docs/theory.md` of the repository; `docs/validation.md`
+//! describes the checks.
 
-// Units stand in brackets, [m/s], which rustdoc takes for links that lead nowhere.
+// Units are written in brackets, [m/s], which rustdoc would take for broken links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-// The rooms, from left to right: each imports only from those above it, with the exceptions that
-// tests/rooms.rs names.
+// Each module imports only from the modules above it. tests/rooms.rs checks this and names the exceptions.
 // Vector instructions are unsafe to call; nothing else in the workspace is.
 #[allow(unsafe_code)]
 pub mod lanes;

@@ -81,7 +81,7 @@ impl<S: Simd> Vec3<Wide<S>> {
         self.x.mul_add(other.x, self.y.mul_add(other.y, self.z * other.z))
     }
 
-    /// Scalar product and `sum`.
+    /// Scalar product plus `sum`.
     #[inline(always)]
     pub(crate) fn dot_add(self, other: Self, sum: Wide<S>) -> Wide<S> {
         self.x.mul_add(other.x, self.y.mul_add(other.y, self.z.mul_add(other.z, sum)))

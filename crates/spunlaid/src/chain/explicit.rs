@@ -1,21 +1,21 @@
-//! The explicit schemes: semi-implicit Euler and leapfrog.
+//! The explicit time-integration schemes: semi-implicit Euler and leapfrog.
 
-use super::force_pass::{Block, Motion, force_pass};
+use super::force_pass::{ElementBlock, Integrator, force_pass};
 use super::forces::Element;
-use super::ledger::{Sums, Work};
+use super::work::{WorkDone, WorkRegisters};
 use super::{Chain, Constants};
 use crate::air::AirAtElements;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
-/// Advances eight chains by one step: velocities by `kick` [s] of acceleration, then positions by `drift`
-/// [s] of velocity.
+/// Advances eight chains by one step. The velocities change by `kick` [s] times the acceleration, then the
+/// positions change by `drift` [s] times the velocity.
 ///
 /// * `wind` – the air at the time of the positions
 /// * `eddy` – index into the wind for each of the `N` elements
-/// * `work` – ledger the step adds to
+/// * `work` – sums of the work to which the step adds
 /// * `damped` – whether there is any damping
-/// * `split` – whether the ledger also keeps apart what the velocities before the kick gave
+/// * `split` – whether to store separately the work that belongs to the velocities before the kick
 #[inline(always)]
 pub(crate) fn step<S: Register, const LEAPFROG: bool>(
     chain: &mut Chain,
@@ -23,12 +23,12 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool>(
     eddy: &[u32],
     (kick, drift): (f64, f64),
     (damped, split): (bool, bool),
-    work: &mut Work,
-    block: &mut Block<S>,
+    work: &mut WorkDone,
+    block: &mut ElementBlock<S>,
 ) {
     let elements = chain.elements();
     let Chain { position, velocity, earlier, constants: c, .. } = chain;
-    let mut mover = Mover::<S, LEAPFROG> {
+    let mut integrator = ExplicitIntegrator::<S, LEAPFROG> {
         damped,
         position: &mut position[..=elements],
         velocity: &mut velocity[..=elements],
@@ -36,14 +36,14 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool>(
         c,
         kick: Wide::splat(kick),
         drift: Wide::splat(drift),
-        work: Sums::of(work, split),
+        work: WorkRegisters::of(work, split),
     };
-    force_pass(&mut mover, c, wind, eddy, block);
-    mover.work.put(work);
+    force_pass(&mut integrator, c, wind, eddy, block);
+    integrator.work.put(work);
 }
 
-/// Moves each node on as soon as its force is complete, and keeps the ledger.
-struct Mover<'a, S: Register, const LEAPFROG: bool> {
+/// Moves each node as soon as its force is complete, and adds up the work.
+struct ExplicitIntegrator<'a, S: Register, const LEAPFROG: bool> {
     damped: bool,
     position: &'a mut [Vec3<Lanes>],
     velocity: &'a mut [Vec3<Lanes>],
@@ -51,10 +51,10 @@ struct Mover<'a, S: Register, const LEAPFROG: bool> {
     c: &'a Constants,
     kick: Wide<S>,
     drift: Wide<S>,
-    work: Sums<S>,
+    work: WorkRegisters<S>,
 }
 
-impl<S: Register, const LEAPFROG: bool> Motion<S> for Mover<'_, S, LEAPFROG> {
+impl<S: Register, const LEAPFROG: bool> Integrator<S> for ExplicitIntegrator<'_, S, LEAPFROG> {
     #[inline(always)]
     fn position(&self, i: usize) -> Vec3<Wide<S>> {
         Vec3::load(&self.position[i])

@@ -31,13 +31,14 @@ impl<S: Simd> Element<S> {
     }
 }
 
-/// Forces inside the chain that come with an element, `(a, b)` [N]: its own `tension` and the bending at the
-/// node above it. The element's upper node gets `a + b`, its lower `−b`, the node above both `−a`.
-///                                                                            theory.md (10), (13)
+/// The internal forces `(a, b)` [N] of an element: its own `tension`, and the bending at its upper node.
+///
+/// The element's upper node gets `a + b`, its lower node gets `−b`, and the next node towards the root gets
+/// `−a`.                                                                       theory.md (10), (13)
 ///
 /// Bending is exactly `−∇ ½ k_θ θ²`. With unit tangents `t₀`, `t₁`, `δ = t₁ − t₀`, `2x = 2 sin²(θ/2) = δ²/2`:
-/// `a = (k_θ θ/sin θ)/ℓ₀ · (δ + 2x t₀)`, `b = (k_θ θ/sin θ)/ℓ₁ · (δ − 2x t₁) + T t₁`: no division by a
-/// vanishing angle, no cancellation near straight.
+/// `a = (k_θ θ/sin θ)/ℓ₀ · (δ + 2x t₀)`, `b = (k_θ θ/sin θ)/ℓ₁ · (δ − 2x t₁) + T t₁`. This form does not divide
+/// by an angle that may be zero, and it loses no digits in a chain that is almost straight.
 #[inline(always)]
 pub(crate) fn internal<S: Register>(
     upper: &Element<S>,

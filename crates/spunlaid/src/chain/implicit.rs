@@ -1,40 +1,41 @@
-//! Leapfrog with implicit tension: neither axial waves nor those of the taut string limit the time step.
+//! Leapfrog with implicit tension: the time step is not limited by axial waves nor by the waves of a taut string.
 //!
-//! The tension `λ` of an element is what it will be at the end of the step, `λ = k_a (ℓ_{k+1} − l)`, along
-//! the element's direction at its start; that direction's own change over the step is averaged as in
-//! Newmark's rule, which adds a share of `h²` times the string's stiffness to the mass. The share is
-//! `½ s/(1+s)` with `s = h²λ/(ℓm)`, the square of the step over what the string's waves need to pass the
-//! element: next to nothing for short steps, where leapfrog is best left alone, and enough for long ones.
-//! Two scalar tridiagonal systems along the chain, and no more work than that.                       theory.md (29)
+//! The scheme uses the tension `λ = k_a (ℓ_{k+1} − l)` that an element will have at the end of the step. The
+//! tension acts along the element's direction at the start of the step. The change of that direction during
+//! the step is averaged as in Newmark's rule, which adds a share of `h²` times the string's stiffness to the
+//! mass. The share is `½ s/(1+s)` with `s = h²λ/(ℓm)`: the square of the ratio of the step to the time that a
+//! wave of the string needs to pass the element. The share is close to zero for short steps, where plain
+//! leapfrog is better, and large enough for long steps. Each step solves two scalar tridiagonal systems along
+//! the chain.                                                                  theory.md (29)
 //!
-//! 1. A force pass from the root gives the forces with the tensions of the last step, and eliminates the system
-//!    of the accelerations on its way.
-//! 2. From the free end up: accelerations, the velocities and edges they predict, and the elimination of
-//!    the system of the tensions' corrections `δ` (Newton's method, one iteration).
-//! 3. From the root down again: corrections and motion.
+//! 1. A force pass from the root computes the forces with the tensions of the last step, and eliminates the
+//!    system of the accelerations.
+//! 2. A pass from the free end to the root computes the accelerations, the predicted velocities and edges,
+//!    and eliminates the system of the corrections `δ` of the tensions (Newton's method, one iteration).
+//! 3. A pass from the root to the free end corrects the tensions and moves the nodes.
 
-use super::force_pass::{Block, Motion, force_pass};
+use super::force_pass::{ElementBlock, Integrator, force_pass};
 use super::forces::Element;
-use super::ledger::{Sums, Work};
+use super::work::{WorkDone, WorkRegisters};
 use super::{Chain, Constants};
 use crate::air::AirAtElements;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
-/// What the scheme keeps beside positions and velocities.
+/// What the scheme stores besides positions and velocities.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tensions {
-    /// Of each element: tension `λ` [N], and unit vector along it at the start of the step. One element
-    /// more than there is, of no direction, ends the chain.
+    /// For each element: tension `λ` [N], and its tangent at the start of the step. There is one more entry
+    /// than elements; the last tangent is zero and ends the chain.
     pub(crate) tension: Vec<Lanes>,
     tangent: Vec<Vec3<Lanes>>,
-    /// Of each node: force with the last tensions, and the drag in it [N].
+    /// For each node: force with the tensions of the last step, and the drag in it [N].
     force: Vec<Vec3<Lanes>>,
     drag: Vec<Vec3<Lanes>>,
-    /// Of each node: acceleration [m/s²] less `slope` times the next node's; then the velocity it predicts.
+    /// For each node: acceleration [m/s²] minus `slope` times that of the next node; later the predicted velocity.
     acceleration: Vec<Vec3<Lanes>>,
     slope: Vec<Lanes>,
-    /// Of each element: correction of the tension [N] less `.1` times that of the element above.
+    /// For each element: correction of the tension [N] minus `.1` times that of the element above.
     correction: Vec<(Lanes, Lanes)>,
 }
 
@@ -53,7 +54,7 @@ impl Tensions {
     }
 }
 
-/// Advances eight chains by one step of `h` [s]. Arguments as of the explicit step.
+/// Advances eight chains by one step of `h` [s]. The arguments are those of the explicit step.
 #[inline(always)]
 pub(crate) fn step<S: Register>(
     chain: &mut Chain,
@@ -61,8 +62,8 @@ pub(crate) fn step<S: Register>(
     eddy: &[u32],
     h: f64,
     (damped, split): (bool, bool),
-    work: &mut Work,
-    block: &mut Block<S>,
+    work: &mut WorkDone,
+    block: &mut ElementBlock<S>,
 ) {
     let c = &chain.constants;
     let mut predictor = Predictor::<S> {
@@ -78,13 +79,13 @@ pub(crate) fn step<S: Register>(
     };
     force_pass(&mut predictor, c, wind, eddy, block);
     predict_and_eliminate::<S>(&chain.position, &chain.velocity, c, h, &mut chain.tensions);
-    let mut sums = Sums::of(work, split);
+    let mut sums = WorkRegisters::of(work, split);
     correct_and_move::<S>(chain, h, damped, &mut sums);
     sums.put(work);
 }
 
-/// Keeps the forces with the last tensions, and eliminates `(M + K') a = F` from the root down, `K'` the
-/// averaging's share of the stiffness of the string under those tensions.
+/// Stores the forces with the tensions of the last step, and eliminates `(M + K') a = F` from the root to the
+/// free end. `K'` is the share of the string's stiffness that the averaging adds to the mass.
 struct Predictor<'a, S: Register> {
     damped: bool,
     position: &'a [Vec3<Lanes>],
@@ -94,13 +95,13 @@ struct Predictor<'a, S: Register> {
     /// `h²/m` of a node between elements.
     rate: Wide<S>,
     t: &'a mut Tensions,
-    /// `½ m s²/(1+s)` of the elements above and below the node to come, none where they push.
+    /// `½ m s²/(1+s)` of the elements above and below the next node; zero in compression.
     string: (Wide<S>, Wide<S>),
-    /// The row of the node above: its acceleration less `.1` times that of the node to come.
+    /// The row of the node above: its acceleration minus `.1` times that of the next node.
     above: (Vec3<Wide<S>>, Wide<S>),
 }
 
-impl<S: Register> Motion<S> for Predictor<'_, S> {
+impl<S: Register> Integrator<S> for Predictor<'_, S> {
     #[inline(always)]
     fn position(&self, i: usize) -> Vec3<Wide<S>> {
         Vec3::load(&self.position[i])
@@ -152,10 +153,10 @@ impl<S: Register> Motion<S> for Predictor<'_, S> {
     }
 }
 
-/// From the free end up: the predicted velocities, in place of the accelerations, and the elimination of
-/// the rows `(λ+δ)/k_a = ℓ_{k+1} − l`.
+/// From the free end to the root: replaces the accelerations by the predicted velocities, and eliminates the
+/// rows `(λ+δ)/k_a = ℓ_{k+1} − l`.
 ///
-/// With `d` the predicted edge, `d̂` its direction and `w = h²k_a/m` of a node, row `j` reads
+/// Let `d` be the predicted edge, `d̂` its direction and `w = h²k_a/m` of a node. Row `j` is
 /// `−w_j d̂·t_{j−1} δ_{j−1} + (1 + (w_j + w_{j+1}) d̂·t_j) δ_j − w_{j+1} d̂·t_{j+1} δ_{j+1} =
 /// k_a (|d| − l) − λ`.
 #[inline(always)]
@@ -202,14 +203,14 @@ fn predict_and_eliminate<S: Register>(
     }
 }
 
-/// From the root down: the corrections of the tensions, and with them the motion of the nodes.
+/// From the root to the free end: corrects the tensions and moves the nodes.
 #[inline(always)]
-fn correct_and_move<S: Register>(chain: &mut Chain, h: f64, damped: bool, sums: &mut Sums<S>) {
+fn correct_and_move<S: Register>(chain: &mut Chain, h: f64, damped: bool, sums: &mut WorkRegisters<S>) {
     let elements = chain.elements();
     let Chain { position, velocity, earlier, constants: c, tensions: t } = chain;
     let (rate, h) = (Wide::<S>::splat(1.0 / h), Wide::<S>::splat(h));
     let mut correction = Wide::zero();
-    // Of the element above: what its correction and its last tension pull with.
+    // Forces of the element above: from the correction of its tension, and from its last tension.
     let (mut change_above, mut pull_above) = (Vec3::zero(), Vec3::zero());
     for i in 0..=elements {
         let (mut change, mut pull) = (Vec3::zero(), Vec3::zero());
@@ -225,7 +226,7 @@ fn correct_and_move<S: Register>(chain: &mut Chain, h: f64, damped: bool, sums: 
         let before = Vec3::load(&velocity[i]);
         let kick = h * Wide::load(&node.inverse_mass);
         let after = (change - change_above).mul_add(kick, Vec3::load(&t.acceleration[i]));
-        // The force that moved the node; what no other force accounts for is the tension's.
+        // The force that moved the node. What the other forces do not explain is the tension.
         let force = (after - before) * (Wide::load(&node.mass) * rate);
         let tension = force - Vec3::load(&t.force[i]) + (pull - pull_above);
         let mut damping = None;

@@ -4,8 +4,8 @@ pub(crate) mod explicit;
 pub(crate) mod force_pass;
 pub(crate) mod forces;
 pub(crate) mod implicit;
-pub mod ledger;
 pub mod schemes;
+pub mod work;
 
 use self::schemes::Scheme;
 use crate::drag::{DragLanes, ElementDrag};
@@ -13,7 +13,7 @@ use crate::fibre::{Fibre, Root};
 use crate::lanes::{Lanes, WIDTH};
 use crate::vec3::Vec3;
 
-/// One fibre and what acts on it, apart from the wind: what a lane is filled with.
+/// One fibre and what acts on it, without the wind: the content of a lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strand {
     /// The fibre.
@@ -26,28 +26,28 @@ pub struct Strand {
     pub damping: f64,
 }
 
-/// Eight fibres of as many elements each, advanced side by side.
+/// Eight fibres with equal numbers of elements, advanced side by side.
 ///
 /// Shapes: `N+1` nodes, `N` elements.
 #[derive(Clone, Debug)]
 pub struct Chain {
     /// Positions of the nodes [m].
     pub position: Vec<Vec3<Lanes>>,
-    /// Velocities of the nodes [m/s]: at the time of the positions for semi-implicit Euler, half a step
-    /// earlier for the others.
+    /// Velocities of the nodes [m/s]. Semi-implicit Euler has them at the time of the positions, the other
+    /// schemes half a step earlier.
     pub velocity: Vec<Vec3<Lanes>>,
-    /// Where velocities are staggered: those one step before [`Chain::velocity`], for the drag to extrapolate.
+    /// The velocities one step before [`Chain::velocity`]; the staggered schemes extrapolate from both.
     pub(crate) earlier: Vec<Vec3<Lanes>>,
     /// Constants of the eight fibres.
     pub(crate) constants: Constants,
-    /// Implicit tension: what that scheme keeps besides.
+    /// What only the scheme with implicit tension needs.
     pub(crate) tensions: implicit::Tensions,
 }
 
-/// What a step needs to know of eight fibres.
+/// The constants of eight fibres that a step needs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constants {
-    /// The root, which does not move where it is held.
+    /// The root. It does not move if it is held.
     pub(crate) root: Node,
     /// A node between two elements.
     pub(crate) node: Node,
@@ -59,21 +59,21 @@ pub(crate) struct Constants {
     pub(crate) root_stiffness: Lanes,
     pub(crate) root_direction: Vec3<Lanes>,
     pub(crate) damping: Lanes,
-    /// Half an element's drag: the share of each of its nodes.
+    /// Half an element's drag, which is the share of each of its two nodes.
     pub(crate) half_drag: DragLanes,
 }
 
-/// What a step needs to know of a node.
+/// The constants of a node that a step needs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Node {
     pub(crate) mass: Lanes,
-    /// 0 where the node is held.
+    /// 0 if the node is held.
     pub(crate) inverse_mass: Lanes,
     pub(crate) weight: Lanes,
 }
 
 impl Constants {
-    /// Of up to eight fibres; lanes left over repeat the first.
+    /// The constants of up to eight fibres. Unused lanes repeat the first fibre.
     fn of(strands: &[Strand]) -> Self {
         let pick = |i: usize| strands[if i < strands.len() { i } else { 0 }];
         let lanes = |value: &dyn Fn(&Strand) -> f64| Lanes::from_fn(|i| value(&pick(i)));
@@ -90,7 +90,7 @@ impl Constants {
         };
         Self {
             root: node(0, &|s| s.fibre.root != Root::Free),
-            // A chain of one element has no such node; then this is not used.
+            // A chain of one element has no such node and does not use this.
             node: node(1, &|_| false),
             end: node(elements, &|_| false),
             rest_length: lanes(&|s| s.fibre.rest_length()),
@@ -117,9 +117,9 @@ impl Constants {
 }
 
 impl Chain {
-    /// Packs up to eight fibres, straight and at rest, their roots at the origin.
+    /// Packs up to eight fibres, straight and at rest, with their roots at the origin.
     ///
-    /// Lanes left over repeat the first fibre. All must have the same number of elements as the first.
+    /// Unused lanes repeat the first fibre. All must have the same number of elements as the first.
     pub(crate) fn straight(strands: &[Strand], scheme: Scheme) -> Self {
         let elements = strands[0].fibre.elements;
         let constants = Constants::of(strands);
@@ -134,8 +134,8 @@ impl Chain {
         }
     }
 
-    /// Makes other fibres of as many elements of the chains, which stay where they are and go as fast as they go.
-    /// Tensions follow the stiffness.
+    /// Replaces the fibres by others with the same number of elements. Positions and velocities stay; tensions
+    /// change in proportion to the axial stiffness.
     pub(crate) fn become_of(&mut self, strands: &[Strand]) {
         let before = self.constants.axial_stiffness;
         self.constants = Constants::of(strands);
@@ -145,7 +145,7 @@ impl Chain {
         }
     }
 
-    /// Gives each element the implicit scheme's tension that its stretch stands for.
+    /// Sets the tension of the implicit scheme from the stretch of each element.
     pub(crate) fn settle_tensions(&mut self) {
         let stretched: Vec<Lanes> = self.tension_of_stretch().collect();
         for (tension, stretched) in self.tensions.tension.iter_mut().zip(stretched) {
@@ -153,10 +153,10 @@ impl Chain {
         }
     }
 
-    /// Tension of each element [N], negative in compression: of its stretch, or with implicit tension that which
-    /// the scheme has solved for.
+    /// Tension of each element [N], negative in compression. Implicit tension gives the tension that the scheme
+    /// has solved for, the explicit schemes give the tension of the stretch.
     pub fn tension(&self) -> Vec<Lanes> {
-        // There is one more than there are elements, or none.
+        // The implicit scheme has one more entry than elements, the other schemes have one.
         match self.tensions.tension.split_last() {
             Some((_, solved)) if solved.len() == self.elements() => solved.to_vec(),
             _ => self.tension_of_stretch().collect(),

@@ -1,20 +1,20 @@
-//! The schemes of time integration.
+//! The time-integration schemes.
 
 /// How the equations of motion are advanced in time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
-    /// `v ← v + h a(r, v)`, then `r ← r + h v`: first order, the paper's.    theory.md (27)
+    /// `v ← v + h a(r, v)`, then `r ← r + h v`. First order; the paper uses it. theory.md (27)
     SemiImplicitEuler,
-    /// Velocities at half steps, drag at the velocity extrapolated to the full step: second order.
+    /// Velocities at half steps, drag from the velocity extrapolated to the full step. Second order.
     /// theory.md (28)
     Leapfrog,
-    /// Leapfrog with the tension that the elements will have at the end of the step: no axial limit on the
-    /// step; axial waves die out.                                             theory.md (29)
+    /// Leapfrog with the tension that the elements will have at the end of the step. Axial waves do not limit
+    /// the step; the scheme damps them.                                       theory.md (29)
     ImplicitTension,
 }
 
 impl Scheme {
-    /// All of them.
+    /// Every scheme.
     pub const ALL: [Self; 3] = [Self::SemiImplicitEuler, Self::Leapfrog, Self::ImplicitTension];
 
     /// Name in the case file.
@@ -26,7 +26,7 @@ impl Scheme {
         }
     }
 
-    /// Whether velocities are kept at half steps.
+    /// Whether the velocities are those at half steps.
     pub const fn is_staggered(self) -> bool {
         !matches!(self, Self::SemiImplicitEuler)
     }

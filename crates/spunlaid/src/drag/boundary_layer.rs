@@ -1,32 +1,31 @@
 //! The laminar boundary layer of a long cylinder.
 
-/// A laminar boundary layer that grows along a cylinder, by the momentum integral over a logarithmic profile.
+/// A laminar boundary layer that grows along a cylinder, from the momentum integral of a logarithmic profile.
 ///
-/// The velocity falls, or rises, by `ln(r/a)/α` of the stream between the surface and `r = a e^α`: viscous
-/// stress is then the same through all the layer, as it is near the wall of a thin cylinder. What `α` does
-/// with the distance follows from the momentum the layer takes up.             theory.md (42)
+/// The velocity changes by the share `ln(r/a)/α` of the stream between the surface and `r = a e^α`. The viscous
+/// force is then the same at every radius in the layer, as it is near the wall of a thin cylinder. The growth of
+/// `α` with the distance follows from the momentum of the layer.               theory.md (42)
 ///
-/// The plate is its limit near the beginning, where the layer is thin. Against the equations of the boundary
-/// layer it falls short there by 8 % of the friction (moving) and 13 % (held), by 6 % where `X = 100`, by 4 %
-/// where `X = 1e4`.
+/// Near its start the layer is thin and equals that of a plate. Compared with the boundary-layer equations, its
+/// friction is too low there by 8 % (moving) and 13 % (held), by 6 % at `X = 100`, and by 4 % at `X = 1e4`.
 ///
 /// Sources: Sakiadis 1961, part III; Glauert & Lighthill 1955.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BoundaryLayer {
-    /// The cylinder comes out of its origin and moves through fluid at rest.
+    /// The cylinder leaves its origin and moves through fluid at rest.
     Moving,
-    /// The cylinder is held and the fluid streams along it.
+    /// The cylinder is held and the fluid flows along it.
     Held,
 }
 
 impl BoundaryLayer {
-    /// Distance `X = νx/(V a²)` [-] from the origin to where the layer has the thickness `α`. theory.md (43)
+    /// Distance `X = νx/(V a²)` [-] from the origin at which the layer has the thickness `α`. theory.md (43)
     ///
     /// * `thickness` – `α = ln(1 + δ/a)` [-], `α ≥ 0`
     ///
     /// Also the derivative `dX/dα`.
     fn distance(self, thickness: f64) -> (f64, f64) {
-        // 2^m α^m/(m+2)!, all terms positive; below 1e-17 of the sum beyond m = 2α + 40.
+        // 2^m α^m/(m+2)!. All terms are positive; those beyond m = 2α + 40 are below 1e-17 of the sum.
         let mut term = thickness / 3.0;
         let (mut sum, mut slope) = (0.0, 0.0);
         let mut m = 1.0;
@@ -52,7 +51,7 @@ impl BoundaryLayer {
             Self::Moving => 6.0,
             Self::Held => 12.0,
         };
-        // Newton's method on ln X(ln α), which is convex and rising: from above it comes down to the root.
+        // Newton's method on ln X(ln α), which is convex and increasing, so that it converges from above.
         let mut thickness = libm::sqrt(plate * target).min(2.0 + libm::log(1.0 + target));
         for _ in 0..50 {
             let (reached, slope) = self.distance(thickness);

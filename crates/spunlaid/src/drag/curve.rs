@@ -1,11 +1,11 @@
-//! Drag laws that are no power of the velocity, as tables for the kernel.
+//! Tables of the drag laws that are not a power of the velocity.
 
 use super::boundary_layer::BoundaryLayer;
 use super::normal::{PIECES, resistance};
 use crate::lanes::{Lanes, Register, Wide, exp2};
 use std::sync::LazyLock;
 
-/// A law as a positive function `g(s)` of one positive number [-]: the drag by the velocity.
+/// A law as a positive function `g(s)` of one positive number [-]: the ratio of drag to velocity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Curve {
     /// `1/α` over `s = V a²/(νx)`; moving through air at rest.                theory.md (43)
@@ -17,12 +17,12 @@ pub enum Curve {
 }
 
 impl Curve {
-    /// Whether `s` goes down with the distance from the root.
+    /// Whether `s` decreases with the distance from the root.
     pub(super) const fn fades(self) -> bool {
         matches!(self, Self::Moving | Self::Held)
     }
 
-    /// `g(s)` itself, which the table follows to 1e-6.
+    /// `g(s)` itself. The table agrees with it to 1e-6.
     pub fn exact(self, s: f64) -> f64 {
         match self {
             Self::Moving => 1.0 / BoundaryLayer::Moving.thickness(1.0 / s),
@@ -43,21 +43,21 @@ impl Curve {
     }
 }
 
-/// `log2 g` as a function of `q = log2 s²`: cubics of about a unit of `q` each from values and slopes at their
-/// ends, and a straight line, a power of the velocity, beyond.
+/// `log2 g` as a function of `q = log2 s²`: cubics from values and slopes at their ends, each about one unit of
+/// `q` long. Outside the table, a straight line continues it, which is a power of the velocity.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
-    /// By powers of the distance from the cubic's lower end, in cubics.
+    /// Coefficients by powers of the distance from the cubic's lower end, in units of a cubic.
     cubics: [[f64; 4]; CUBICS + 2],
-    /// Cubics to a unit of `q`.
+    /// Number of cubics for one unit of `q`.
     per_unit: f64,
-    /// Index of the cubic that begins where `q = 0`, a fraction if need be.
+    /// Index at `q = 0`; it may be a fraction.
     zero: f64,
 }
 
 /// Number of cubics: `s` from 2^-32 to 2^32.
 const CUBICS: usize = 128;
-/// `q` is taken no further than this: its power stays finite.
+/// Limit of `q`, so that its power stays finite.
 const FURTHEST: f64 = 1000.0;
 
 impl Table {
@@ -66,7 +66,7 @@ impl Table {
         let (per_unit, zero) = match curve {
             Curve::Moving | Curve::Held => (1.0, middle),
             Curve::Normal => {
-                // Cubics end where the pieces of the law do.
+                // The cubics end at the ends of the pieces of the law.
                 let [from, to] = [PIECES.0, PIECES.1].map(|s| 2.0 * libm::log2(s));
                 let per_unit = (to - from).round() / (to - from);
                 (per_unit, (middle + per_unit * from).round() - per_unit * from)
@@ -89,14 +89,14 @@ impl Table {
         Self { cubics, per_unit, zero }
     }
 
-    /// `g` of eight fibres from `q`; NaN gives some finite number.
+    /// `g` of eight fibres from `q`. NaN gives a finite number.
     #[inline(always)]
     pub(super) fn at<S: Register>(&self, q: Wide<S>) -> Wide<S> {
         let q = q.max(Wide::splat(-FURTHEST));
         let q = Wide::select_less(q, Wide::splat(FURTHEST), q, Wide::splat(FURTHEST));
         let place = q.mul_add(Wide::splat(self.per_unit), Wide::splat(self.zero));
         let (mut start, mut coefficients) = (Lanes::ZERO, [Lanes::ZERO; 4]);
-        // No closures here: they would not be compiled for the instruction set.
+        // No closures here, because they would not be compiled for the instruction set.
         for (i, place) in place.store().0.iter().enumerate() {
             let cubic = (*place as usize).min(CUBICS + 1);
             start.0[i] = cubic as f64;

@@ -1,13 +1,13 @@
-//! Laws of the friction along the fibre.
+//! Drag laws along the fibre.
 
 use super::boundary_layer::BoundaryLayer;
 
-/// Law of the friction along the fibre.
+/// Drag law along the fibre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FrictionLaw {
-    /// `C_f = β Re^-0.61`, turbulent boundary layer of a long cylinder (Matsui 1976).
+    /// `C_f = β Re^-0.61`, for the turbulent boundary layer of a long cylinder (Matsui 1976).
     Matsui {
-        /// `β` [-]: 0.37 Matsui's own, 0.9 for a single fibre in a tube.
+        /// `β` [-]: 0.37 in Matsui's own work, 0.9 for a single fibre in a tube.
         factor: f64,
     },
     /// `C_f = 0.78 Re^-0.61`, measured in melt-blowing air (Majumdar & Shambaugh 1990).
@@ -38,7 +38,7 @@ impl FrictionLaw {
         }
     }
 
-    /// `β` [-] of the law, where it is an input.
+    /// `β` [-] of the law, if it is an input.
     pub const fn factor(self) -> Option<f64> {
         match self {
             Self::Matsui { factor } => Some(factor),
@@ -52,11 +52,11 @@ impl FrictionLaw {
     /// `C_f = 4/(Re α)` of a laminar boundary layer                           theory.md (41)
     ///
     /// * `re` – Reynolds number on diameter and tangential velocity [-], `re > 0`
-    /// * `distance` – from where the boundary layer begins, over the diameter [-], `distance > 0`; it matters
-    ///   to the laminar laws alone
+    /// * `distance` – distance from the start of the boundary layer divided by the diameter [-], `distance > 0`; only
+    ///   the laminar laws depend on it
     ///
-    /// The Reynolds numbers that Matsui's form was fitted to are not known here. The laminar laws are theory, for
-    /// a layer that nothing stirs up and that begins at the root, whichever way the air goes.
+    /// The Reynolds numbers to which Matsui's form was fitted are not known here. The laminar laws are theory for an
+    /// undisturbed layer that begins at the root, for either direction of the air.
     ///
     /// Sources: Matsui 1976; Majumdar & Shambaugh 1990; Sakiadis 1961; Glauert & Lighthill 1955.
     pub fn coefficient(self, re: f64, distance: f64) -> f64 {

@@ -1,26 +1,26 @@
-//! Laws of the drag across the fibre.
+//! Drag laws across the fibre.
 
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
-/// Law of the drag across the fibre.
+/// Drag law across the fibre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NormalLaw {
     /// `C_n = 6.96 Re^-0.440 (d/78 µm)^0.404`, fitted for 13–390 µm (Ju & Shambaugh 1994).
     JuShambaugh,
-    /// Theory of slow flow, measurements of cylinders and boundary layers in one law of the Reynolds number
-    /// (Marheineke & Wegener 2011).
+    /// One function of the Reynolds number that joins the theory of slow flow, measured cylinders and boundary-layer
+    /// theory (Marheineke & Wegener 2011).
     MarheinekeWegener,
 }
 
 /// Constants of [`NormalLaw::JuShambaugh`]: factor, exponents of Re and of d, reference diameter [m].
 pub(super) const JU_SHAMBAUGH: (f64, f64, f64, f64) = (6.96, 0.440, 0.404, 78e-6);
 
-/// Reynolds numbers at which [`NormalLaw::MarheinekeWegener`] goes from slow flow over to boundary layer and wake
-/// [-].
+/// Reynolds numbers that separate the three pieces of [`NormalLaw::MarheinekeWegener`]: slow flow, transition,
+/// boundary layer and wake [-].
 pub(super) const PIECES: (f64, f64) = (0.1, 100.0);
-/// Coefficients between, by powers of `ln Re`: those with which value and slope go on at both ends. The source
-/// has them to five digits.
+/// Coefficients of the middle piece, by powers of `ln Re`. Value and slope are continuous at both ends. The source
+/// gives five digits.
 const BRIDGE: [f64; 4] = [
     1.691_089_891_757_472_3,
     -0.672_218_198_383_895_5,
@@ -40,7 +40,7 @@ impl NormalLaw {
         }
     }
 
-    /// The diameters the law was fitted to [m]; none where it is one of the Reynolds number alone.
+    /// The diameters to which the law was fitted [m]; `None` if the law depends on the Reynolds number alone.
     pub const fn fitted_diameters(self) -> Option<RangeInclusive<f64>> {
         match self {
             Self::JuShambaugh => Some(13e-6..=390e-6),
@@ -83,7 +83,7 @@ impl NormalLaw {
 pub(super) fn resistance(w: f64) -> f64 {
     let ln = libm::log(w);
     if w < PIECES.0 {
-        // ln 8 + ½ − γ, to the digits that the law was fitted with.
+        // ln 8 + ½ − γ with the digits of the source.
         let s = 2.0022 - ln;
         4.0 * PI / s * (1.0 - w * w * (s * s - 0.5 * s + 0.3125) / (32.0 * s))
     } else if w <= PIECES.1 {

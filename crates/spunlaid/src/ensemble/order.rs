@@ -1,21 +1,21 @@
-//! Work shared out to threads, results taken in order.
+//! Distributes work over threads and takes the results in order.
 
 use std::collections::BTreeMap;
 use std::sync::{Condvar, Mutex, PoisonError};
 
-/// Results waiting for their turn, and how far the giving and the taking have come.
-struct Ledger<T> {
+/// Finished results that wait for their turn, and the next items to start and to take.
+struct Queue<T> {
     next_to_start: usize,
     next_to_take: usize,
     stopped: bool,
     finished: BTreeMap<usize, T>,
 }
 
-/// Does `work(0) … work(count−1)` on `threads` threads and gives the results to `take` in that order, on
-/// the calling thread. No more than `4 × threads` results wait at once: memory stays flat.
+/// Computes `work(0) … work(count−1)` on `threads` threads and passes the results in that order to `take` on
+/// the calling thread. At most `4 × threads` results wait at once, so that memory does not grow.
 ///
 /// # Errors
-/// The first error of `take`; work not yet begun is then dropped.
+/// The first error of `take`. Work that has not begun is then left out.
 pub fn in_order<T: Send, E>(
     count: usize,
     threads: usize,
@@ -25,16 +25,16 @@ pub fn in_order<T: Send, E>(
     let threads = threads.clamp(1, count.max(1));
     let window = 4 * threads;
     let state =
-        Mutex::new(Ledger { next_to_start: 0, next_to_take: 0, stopped: false, finished: BTreeMap::new() });
+        Mutex::new(Queue { next_to_start: 0, next_to_take: 0, stopped: false, finished: BTreeMap::new() });
     let changed = Condvar::new();
-    // A panic elsewhere leaves the ledger as it was between two lines of plain assignments.
+    // A panic in another thread cannot leave the queue half changed.
     let lock = || state.lock().unwrap_or_else(PoisonError::into_inner);
     let wait = |guard| changed.wait(guard).unwrap_or_else(PoisonError::into_inner);
 
     std::thread::scope(|scope| {
         for _ in 0..threads {
             scope.spawn(|| {
-                // However the thread ends, nobody waits for it in vain.
+                // Wakes the waiting threads, also if this thread panics.
                 let _wake = OnDrop(|| {
                     if std::thread::panicking() {
                         lock().stopped = true;
@@ -42,19 +42,19 @@ pub fn in_order<T: Send, E>(
                     changed.notify_all();
                 });
                 loop {
-                    let mut ledger = lock();
-                    while !ledger.stopped
-                        && ledger.next_to_start < count
-                        && ledger.next_to_start >= ledger.next_to_take + window
+                    let mut queue = lock();
+                    while !queue.stopped
+                        && queue.next_to_start < count
+                        && queue.next_to_start >= queue.next_to_take + window
                     {
-                        ledger = wait(ledger);
+                        queue = wait(queue);
                     }
-                    if ledger.stopped || ledger.next_to_start >= count {
+                    if queue.stopped || queue.next_to_start >= count {
                         return;
                     }
-                    let item = ledger.next_to_start;
-                    ledger.next_to_start += 1;
-                    drop(ledger);
+                    let item = queue.next_to_start;
+                    queue.next_to_start += 1;
+                    drop(queue);
                     let result = work(item);
                     lock().finished.insert(item, result);
                     changed.notify_all();
@@ -62,18 +62,18 @@ pub fn in_order<T: Send, E>(
             });
         }
         for item in 0..count {
-            let mut ledger = lock();
+            let mut queue = lock();
             let result = loop {
-                if let Some(result) = ledger.finished.remove(&item) {
+                if let Some(result) = queue.finished.remove(&item) {
                     break result;
                 }
-                if ledger.stopped {
+                if queue.stopped {
                     return Ok(());
                 }
-                ledger = wait(ledger);
+                queue = wait(queue);
             };
-            ledger.next_to_take = item + 1;
-            drop(ledger);
+            queue.next_to_take = item + 1;
+            drop(queue);
             changed.notify_all();
             if let Err(error) = take(result) {
                 lock().stopped = true;
@@ -123,6 +123,6 @@ mod tests {
         };
         let done = in_order(1_000_000, 2, work, |i| if i == 5 { Err(i) } else { Ok(()) });
         assert_eq!(done, Err(5));
-        assert!(begun.into_inner() <= 5 + 1 + 2 * 8, "only what fits the window was begun");
+        assert!(begun.into_inner() <= 5 + 1 + 2 * 8, "only work within the window has begun");
     }
 }

@@ -1,15 +1,15 @@
-//! What an ensemble amounts to.
+//! The results of an ensemble.
 
 use super::Trajectory;
 use crate::observe::{Measure, Over, Value};
 use crate::statistics::{Estimate, median};
 
-/// Results of an ensemble, taken in trajectory by trajectory: memory does not grow with their records.
+/// Results of an ensemble. They are collected trajectory by trajectory, so that memory does not grow with the replicates.
 #[derive(Clone, Debug)]
 pub struct Results {
     /// The measures that are numbers, in the order of their declarations.
     pub numbers: Vec<Number>,
-    /// The measures that are curves, in the order of their declarations; empty where none were taken.
+    /// The measures that are curves, in the order of their declarations; empty if curves were not measured.
     pub curves: Vec<Curve>,
     /// The first trajectories, whole; see [`Results::collector`].
     pub trajectories: Vec<Trajectory>,
@@ -20,13 +20,13 @@ pub struct Results {
 pub struct Number {
     /// Which measure.
     pub measure: &'static Measure,
-    /// Mean and standard error over the replicates of which it is defined, and the values of all, in their order;
-    /// NaN where it is not defined. SI units.
+    /// Mean and standard error over the replicates for which the measure is defined, and the values of all
+    /// replicates in their order, NaN if not defined. SI units.
     pub estimate: Estimate,
 }
 
 impl Number {
-    /// What stands for all replicates, as the measure declares it: mean, median or largest.
+    /// The value that stands for all replicates: mean, median or largest, as the measure declares.
     pub fn value(&self) -> f64 {
         let values = &self.estimate.values;
         match self.measure.over_replicates {
@@ -46,20 +46,20 @@ pub struct Curve {
     pub places: Vec<Place>,
 }
 
-/// A point of a curve, in SI units; NaN where the measure is not defined for any replicate.
+/// A point of a curve, in SI units; NaN if the measure is defined for no replicate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Place {
     /// Distance from the root [m], time [s] or frequency [Hz].
     pub at: f64,
     /// Mean over the replicates.
     pub mean: f64,
-    /// Standard error of the mean; none from a single replicate.
+    /// Standard error of the mean; `None` for a single replicate.
     pub standard_error: Option<f64>,
-    /// The largest of any replicate.
+    /// The largest value of any replicate.
     pub largest: f64,
 }
 
-/// Takes in the trajectories of an ensemble in order; [`Collector::finish`] gives the [`Results`].
+/// Collects the trajectories of an ensemble in order; [`Collector::finish`] returns the [`Results`].
 #[derive(Clone, Debug, Default)]
 pub struct Collector {
     keep: usize,
@@ -104,37 +104,37 @@ impl Sums {
 }
 
 impl Results {
-    /// Ready to take in trajectories of one case.
+    /// A collector for the trajectories of one case.
     ///
-    /// * `keep` – how many of the first trajectories to keep whole
+    /// * `keep` – number of trajectories, from the first on, to store whole
     pub fn collector(keep: usize) -> Collector {
         Collector { keep, ..Collector::default() }
     }
 
-    /// Number of replicates taken in.
+    /// Number of replicates collected.
     pub fn replicates(&self) -> usize {
         self.numbers.first().map_or(0, |number| number.estimate.values.len())
     }
 
-    /// A number by its measure's name; none where it does not apply to the case.
+    /// A number by its measure's name; `None` if it does not apply to the case.
     pub fn number(&self, name: &str) -> Option<&Number> {
         self.numbers.iter().find(|number| number.measure.name == name)
     }
 
-    /// Mean and standard error of a number by its measure's name; NaN where there is none.
+    /// Mean and standard error of a number by its measure's name; NaN if there is none.
     pub fn estimate(&self, name: &str) -> Estimate {
         let nothing = || Estimate { mean: f64::NAN, standard_error: None, values: Vec::new() };
         self.number(name).map_or_else(nothing, |number| number.estimate.clone())
     }
 
-    /// A curve by its measure's name; empty where there is none.
+    /// A curve by its measure's name; empty if there is none.
     pub fn curve(&self, name: &str) -> &[Place] {
         self.curves.iter().find(|curve| curve.measure.name == name).map_or(&[], |curve| &curve.places)
     }
 }
 
 impl Collector {
-    /// Takes in one more trajectory.
+    /// Adds one more trajectory.
     pub fn take(&mut self, trajectory: &Trajectory) {
         if self.numbers.is_empty() && self.curves.is_empty() {
             for (measure, value) in &trajectory.values {
@@ -160,7 +160,7 @@ impl Collector {
         }
     }
 
-    /// The results over all trajectories taken in.
+    /// The results of all trajectories.
     pub fn finish(self) -> Results {
         let numbers = self.numbers.into_iter();
         let curves = self.curves.into_iter().map(|(measure, places, sums)| {
@@ -177,7 +177,7 @@ impl Collector {
     }
 }
 
-/// Mean and standard error of the values that are defined, with all of them.
+/// Mean and standard error of the finite values, together with all values.
 fn of_the_defined(values: Vec<f64>) -> Estimate {
     let defined = values.iter().copied().filter(|value| value.is_finite()).collect();
     Estimate { values, ..Estimate::of(defined) }

@@ -1,4 +1,4 @@
-//! The flight of one replicate: what is kept of it.
+//! The trajectory of one replicate.
 
 use super::Computing;
 use crate::case::Case;
@@ -10,21 +10,21 @@ use crate::vec3::Vec3;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-/// What is kept of one replicate.
+/// The stored results of one replicate.
 #[derive(Clone, Debug, Default)]
 pub struct Trajectory {
-    /// Which replicate of its case.
+    /// Number of the replicate in its case, from 0.
     pub replicate: u64,
-    /// What was measured of it, in the order of the declarations.
+    /// Its measures, in the order of the declarations.
     pub values: Vec<(&'static Measure, Value)>,
-    /// End node and energies at the recorded instants, the start included.
+    /// End node and energies at the recorded instants, including the start.
     pub samples: Vec<Sample>,
     /// The whole fibre at some of the recorded instants; empty unless asked for.
     pub shapes: Vec<Shape>,
 }
 
 impl Trajectory {
-    /// A number by its measure's name, in SI units; NaN where there is none.
+    /// A number by its measure's name, in SI units; NaN if there is none.
     pub fn number(&self, name: &str) -> f64 {
         let found = self.values.iter().find(|(measure, _)| measure.name == name);
         match found {
@@ -43,12 +43,12 @@ pub struct Shape {
     pub position: Vec<Vec3<f64>>,
 }
 
-/// What to keep of an ensemble besides the numbers measured of each fibre and its samples.
+/// What to store of an ensemble besides the numbers and samples of each fibre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Keep {
     /// Whether curves are measured too: profiles, series, spectra.
     pub curves: bool,
-    /// The whole fibres that are kept.
+    /// The whole shapes that are stored.
     pub shapes: KeepShapes,
 }
 
@@ -59,21 +59,21 @@ impl Keep {
     pub const CURVES: Self = Self { curves: true, shapes: KeepShapes::NONE };
 }
 
-/// Which shapes of an ensemble to keep.
+/// Which shapes of an ensemble to store.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KeepShapes {
-    /// Of the first so many replicates.
+    /// Number of replicates, from the first on.
     pub replicates: u64,
-    /// Every so many recorded instants.
+    /// Stores one shape for this number of recorded instants.
     pub every: u64,
 }
 
 impl KeepShapes {
-    /// None.
+    /// No shapes.
     pub const NONE: Self = Self { replicates: 0, every: 1 };
 
-    /// As many as up to eight replicates and `positions` node positions in all allow, one replicate at
-    /// least: fewer replicates first, then fewer instants.
+    /// As many shapes as fit into `positions` node positions, of one to eight replicates. If they do not fit, the
+    /// number of replicates is reduced first, then the number of instants.
     pub fn within(case: &Case, positions: u64) -> Self {
         let nodes = case.fibre.elements as u64 + 1;
         let instants = case.run.steps / case.run.output_steps + 1;
@@ -83,10 +83,10 @@ impl KeepShapes {
     }
 }
 
-/// Flies one to eight jobs side by side to the end of their cases.
+/// Computes one to eight jobs side by side to the end of their cases.
 ///
 /// # Errors
-/// Jobs that cannot fly together ([`Flight::new`]), a fibre that stops being finite, and a stop from elsewhere.
+/// The jobs cannot fly together ([`Flight::new`]), a position stops being finite, or another thread stops it.
 pub fn fly_together(
     jobs: &[Job<'_>],
     keep: Keep,
@@ -100,7 +100,7 @@ pub fn fly_together(
         jobs.iter().map(|job| Trajectory { replicate: job.replicate, ..Trajectory::default() }).collect();
     let mut step = 0;
     for instant in 0.. {
-        // Taken while advancing by the first of the steps to the next instant; the last looks ahead only.
+        // A snapshot needs one step. The last one takes that step on a copy.
         let snapshot = if step < run.steps { flight.observe() } else { flight.snapshot() };
         if !is_finite(&snapshot.position, jobs.len()) {
             return Err(divergence(jobs, computing.isa, step - run.output_steps.min(step)));
@@ -131,10 +131,10 @@ pub fn fly_together(
     Ok(trajectories)
 }
 
-/// Time a flight takes for a step of a case on this machine [s], tried out for a moment.
+/// Computing time of a flight for one step of a case [s], measured on this machine.
 ///
 /// # Errors
-/// As of [`Flight::new`].
+/// Those of [`Flight::new`].
 pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     const TRIAL: f64 = 0.05;
     let steps = ((2e5 / case.fibre.elements as f64).clamp(1.0, 1e4) as u64).min(case.run.steps).max(1);
@@ -147,12 +147,12 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     Ok(started.elapsed().as_secs_f64() / done as f64)
 }
 
-/// Whether the positions in the first `lanes` lanes are all numbers.
+/// Whether all positions in the first `lanes` lanes are finite.
 fn is_finite(position: &[Vec3<Lanes>], lanes: usize) -> bool {
     (0..lanes).all(|lane| position.iter().all(|p| p.lane(lane).norm().is_finite()))
 }
 
-/// Says where a flight lost its numbers first: flies it again, step by step after the last good one.
+/// Finds where a position stopped being finite: repeats the flight, step by step after the last good instant.
 fn divergence(jobs: &[Job<'_>], isa: Isa, good_steps: u64) -> Error {
     let mut flight = match Flight::new(jobs, isa) {
         Ok(flight) => flight,

@@ -1,4 +1,4 @@
-//! The turbulence the fibres fly in, measured as a hot wire would.
+//! The turbulence around the fibres, measured as a hot wire at a fixed point would.
 
 use super::{Computing, Job};
 use crate::air::{Spectrum, Stream, StreamKey, Wind};
@@ -12,9 +12,9 @@ use crate::statistics::{Welch, Window};
 pub struct SpectrumPoint {
     /// Frequency [Hz].
     pub frequency: f64,
-    /// Density realised by the synthesis [(m/s)²/Hz].
+    /// Spectral density of the synthesised turbulence [(m/s)²/Hz].
     pub realised: f64,
-    /// Density asked for [(m/s)²/Hz].
+    /// Spectral density of the model [(m/s)²/Hz].
     pub wanted: f64,
 }
 
@@ -23,7 +23,7 @@ pub struct SpectrumPoint {
 /// Averaged over components, eddies and up to eight replicates (Welch). Empty without turbulence.
 ///
 /// # Errors
-/// A case whose wind cannot be made, see [`Wind::along`].
+/// The wind of the case cannot be made, see [`Wind::along`].
 pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<SpectrumPoint>, Error> {
     if case.air.rms() == 0.0 {
         return Ok(Vec::new());
@@ -49,7 +49,7 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
     for record in &records {
         welch.add(record, None);
     }
-    // What the mean flow does not vary in is the same in all eddies.
+    // The mean over all eddies, which may differ if the mean flow is not uniform.
     let wanted: Vec<Spectrum<'_>> =
         turbulence.iter().flat_map(|eddy| (0..3).map(|c| eddy.spectrum(&case.air, c))).collect();
     let spectrum = welch.finish();
@@ -57,7 +57,7 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
         .points()
         .map(|(frequency, realised)| {
             let omega = 2.0 * std::f64::consts::PI * frequency;
-            // Per hertz instead of per radian a second.
+            // Per hertz instead of per radian per second.
             let sum: f64 = wanted.iter().map(|spectrum| spectrum.energy(omega)).sum();
             let wanted = sum / wanted.len() as f64 * 2.0 * std::f64::consts::PI;
             SpectrumPoint { frequency, realised, wanted }
@@ -70,7 +70,7 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
 /// the shortest period, over the run or `most` [s] of it.
 ///
 /// # Errors
-/// A case whose wind cannot be made, see [`Wind::along`].
+/// The wind of the case cannot be made, see [`Wind::along`].
 pub fn velocity_record(case: &Case, isa: Isa, most: f64) -> Result<Vec<(f64, f64)>, Error> {
     let duration = case.run.duration().min(most);
     let stream = [(case.air.clone(), StreamKey { seed: case.run.seed, replicate: 0 })];

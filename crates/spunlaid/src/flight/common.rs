@@ -1,11 +1,11 @@
-//! What fibres that fly side by side must have in common.
+//! The settings that fibres in one flight must have in common.
 
 use crate::air::FromFile;
 use crate::case::Case;
 use crate::drag::Curve;
 use crate::error::FlightFault;
 
-/// What fibres that fly side by side must have in common; all else may differ from lane to lane.
+/// The settings that fibres in one flight must have in common. All others may differ from lane to lane.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Common {
     elements: usize,
@@ -39,12 +39,12 @@ impl Common {
             cutoff_frequency: air.cutoff_frequency.to_bits(),
             harmonics: air.harmonics,
             records: air.records.iter().map(FromFile::checksum).collect(),
-            // None is in a uniform flow.
+            // A uniform flow is never looked up.
             steps_between_looks: if air.is_uniform() { 0 } else { case.steps_between_looks() },
         }
     }
 
-    /// What the fibre of a lane differs in from the first, if in anything.
+    /// Refuses a fibre that differs from the first one in any of these settings.
     pub(super) fn check(&self, other: &Self, lane: usize) -> Result<(), FlightFault> {
         let same = [
             ("the number of elements (fibre.length, fibre.element_length)", self.elements == other.elements),

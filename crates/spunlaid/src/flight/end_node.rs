@@ -11,7 +11,7 @@ pub struct EndNodeStatistics {
     /// Sums of squared deviations from the mean, of y and z.
     squares: [Lanes; 2],
     crossings: [Lanes; 2],
-    /// Side of the x-z and of the x-y plane last seen: −1, +1, or 0 before the node left the plane.
+    /// Last side of the x-z plane and of the x-y plane: −1, +1, or 0 before the node left the plane.
     side: [Lanes; 2],
 }
 
@@ -22,16 +22,16 @@ pub struct EndNodeMotion {
     pub amplitude_y: f64,
     /// Standard deviation of z over time [m].
     pub amplitude_z: f64,
-    /// Half the sign changes of y, by the observed time [Hz].
+    /// Half the number of sign changes of y, divided by the observed time [Hz].
     pub frequency_y: f64,
-    /// Half the sign changes of z, by the observed time [Hz].
+    /// Half the number of sign changes of z, divided by the observed time [Hz].
     pub frequency_z: f64,
     /// Mean position [m].
     pub mean: Vec3<f64>,
 }
 
 impl EndNodeStatistics {
-    /// Takes in one more position (Welford's running mean and variance).
+    /// Adds one more position (Welford's running mean and variance).
     #[inline(always)]
     pub(crate) fn see<S: Register>(&mut self, position: &Vec3<Lanes>) {
         self.count += 1.0;

@@ -1,4 +1,4 @@
-//! Fibres in flight: up to eight side by side, advanced by whoever owns them.
+//! A flight: up to eight fibres side by side, advanced by its owner.
 //!
 //! ```
 //! use spunlaid::flight::{Flight, Job};
@@ -25,9 +25,9 @@ pub use end_node::{EndNodeMotion, EndNodeStatistics};
 
 use crate::air::{Eddies, Stream, StreamKey, Surroundings, Wind};
 use crate::case::Case;
-use crate::chain::force_pass::Block;
-use crate::chain::ledger::Work;
+use crate::chain::force_pass::ElementBlock;
 use crate::chain::schemes::Scheme;
+use crate::chain::work::WorkDone;
 use crate::chain::{Chain, Strand};
 use crate::chain::{explicit, implicit};
 use crate::energy::Energy;
@@ -36,7 +36,7 @@ use crate::fibre::Root;
 use crate::lanes::{Isa, Lanes, Register, Task, WIDTH};
 use crate::vec3::Vec3;
 
-/// One replicate of a case: the unit of work, fully described by data.
+/// One replicate of a case: the smallest piece of work.
 #[derive(Clone, Copy, Debug)]
 pub struct Job<'a> {
     /// The case.
@@ -46,21 +46,21 @@ pub struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Where its turbulence comes from.
+    /// The source of its turbulence.
     pub(crate) fn stream(&self, eddies: &Eddies) -> Stream {
         let key = StreamKey { seed: self.case.run.seed, replicate: self.replicate };
         Stream { air: self.case.air.clone(), eddies: self.case.turbulence_along(eddies), key }
     }
 }
 
-/// Up to eight fibres in flight, side by side. It owns all that it needs and goes on for as long as it is
-/// stepped.
+/// Up to eight fibres in flight, side by side. A flight owns everything that it needs, and it may continue for
+/// any time.
 ///
-/// Fibres that fly together have the same bits as fibres that fly alone.
+/// A fibre has the same bits alone and together with others.
 #[derive(Clone, Debug)]
 pub struct Flight {
     isa: Isa,
-    /// The fibres' cases and replicates; none where the flight was put together from parts.
+    /// The fibres' cases and replicates; empty if the flight was assembled from parts.
     cases: Vec<(Case, u64)>,
     scheme: Scheme,
     damped: bool,
@@ -69,16 +69,16 @@ pub struct Flight {
     start: Start,
     eddies: Eddies,
     wind: Wind,
-    /// Where the air is not the same everywhere: what of it is around the fibres.
+    /// The flow around the fibres, if it is not uniform.
     surroundings: Option<Surroundings>,
-    work: Work,
+    work: WorkDone,
     steps_done: u64,
-    /// Steps whose positions the end-node statistics leave out.
+    /// Number of steps at the start that the end-node statistics leave out.
     spin_up: u64,
     end_node: EndNodeStatistics,
 }
 
-/// Where the fibres started.
+/// State of the fibres at the start.
 #[derive(Clone, Debug, Default)]
 struct Start {
     position: Vec<Vec3<Lanes>>,
@@ -101,14 +101,14 @@ pub struct Snapshot {
     pub energy: Energy,
 }
 
-/// What a flight is put together from, see [`Flight::assembled`].
+/// The air of a flight that is assembled from parts, see [`Flight::assembled`].
 #[derive(Clone, Debug)]
 pub struct Surrounded {
     /// Which element lies in which eddy.
     pub eddies: Eddies,
-    /// The wind in each of these; with surroundings, of mean zero and rms one.
+    /// The wind in each eddy; with surroundings, its mean is zero and its rms is one.
     pub wind: Wind,
-    /// What is around the fibres where the flow is not uniform.
+    /// The flow around the fibres, if it is not uniform.
     pub surroundings: Option<Surroundings>,
 }
 
@@ -118,21 +118,21 @@ impl From<(&Eddies, &Wind)> for Surrounded {
     }
 }
 
-/// Steps between two looks for numbers that are lost.
+/// Number of steps between two checks that all positions are finite.
 const STEPS_UNSEEN: u64 = 256;
 
 impl Flight {
-    /// Fibres at the start of their cases: straight, at rest, the wind blowing.
+    /// Fibres at the start of their cases: straight and at rest, in moving air.
     ///
     /// # Errors
-    /// No job or more than eight, a case that cannot be run ([`Case::check`]), and cases that cannot fly
-    /// together. They must agree in the number of elements, the eddy of each element, the times, the scheme, the
-    /// kinds of the drag laws, the cut-off frequency, the number of harmonics, the records, and in whether they
-    /// are damped.
+    /// There is no job or there are more than eight, a case cannot be run ([`Case::check`]), or the cases cannot
+    /// fly together. Cases that fly together have the same number of elements, eddy of each element, times,
+    /// scheme, kinds of drag laws, cut-off frequency, number of harmonics and records; and either all or none of
+    /// them are damped.
     pub fn new(jobs: &[Job<'_>], isa: Isa) -> Result<Self, Error> {
         let first = jobs.first().ok_or(FlightFault::Empty)?;
         for (lane, job) in jobs.iter().enumerate() {
-            // Replicates of one case are most often given as the same reference.
+            // Replicates of one case usually share one reference.
             if lane > 0 && std::ptr::eq(job.case, jobs[lane - 1].case) {
                 continue;
             }
@@ -150,12 +150,12 @@ impl Flight {
         Ok(flight)
     }
 
-    /// Straight fibres at rest in air that is made already, to be advanced by steps of `h` [s].
+    /// Straight fibres at rest in given air, to be advanced by steps of `h` [s].
     ///
     /// # Errors
-    /// No strand or more than eight, strands of unequal numbers of elements or of drag laws of several kinds,
-    /// eddies or surroundings for another number of elements, a wind for another number of eddies, and a step
-    /// that is not positive.
+    /// There is no strand or there are more than eight, the strands have different numbers of elements or
+    /// different kinds of drag laws, the eddies or surroundings have another number of elements, the wind has
+    /// another number of eddies, or the step is not positive.
     pub fn assembled(
         isa: Isa,
         strands: &[Strand],
@@ -190,23 +190,23 @@ impl Flight {
             eddies,
             wind,
             surroundings,
-            work: Work::default(),
+            work: WorkDone::default(),
             steps_done: 0,
             spin_up: 0,
             end_node: EndNodeStatistics::default(),
         };
-        // Clones then share the first samples.
+        // Clones made later share the first samples.
         flight.wind.prepare();
         flight.begin();
         Ok(flight)
     }
 
-    /// Puts the nodes elsewhere, with velocities, and starts the clock and all records again.
+    /// Sets positions and velocities of all nodes, and starts the clock and all statistics again.
     ///
     /// * `position`, `velocity` – of the `N+1` nodes [m, m/s]
     ///
     /// # Errors
-    /// As many positions and velocities as there are nodes are needed.
+    /// The number of positions or velocities is not the number of nodes.
     pub fn restart_from(
         &mut self,
         position: Vec<Vec3<Lanes>>,
@@ -220,13 +220,13 @@ impl Flight {
         }
         (self.chain.position, self.chain.velocity) = (position, velocity);
         self.steps_done = 0;
-        self.work = Work::default();
+        self.work = WorkDone::default();
         self.end_node = EndNodeStatistics::default();
         self.begin();
         Ok(())
     }
 
-    /// Adds to the velocity of a node [m/s]: a push from outside the model.
+    /// Adds to the velocity of a node [m/s], as a push from outside does.
     pub fn push(&mut self, node: usize, by: Vec3<Lanes>) {
         for velocities in [&mut self.chain.velocity, &mut self.chain.earlier] {
             if let Some(velocity) = velocities.get_mut(node) {
@@ -235,7 +235,7 @@ impl Flight {
         }
     }
 
-    /// Puts a node at rest at a place [m], as a hand would.
+    /// Puts a node at rest at a given position [m].
     pub fn hold(&mut self, node: usize, at: Vec3<Lanes>) {
         if let Some(position) = self.chain.position.get_mut(node) {
             *position = at;
@@ -244,18 +244,18 @@ impl Flight {
         }
     }
 
-    /// Number of fibres: lanes from here on repeat the first.
+    /// Number of fibres. The lanes after them repeat the first fibre.
     pub fn fibres(&self) -> usize {
         if self.cases.is_empty() { WIDTH } else { self.cases.len() }
     }
 
-    /// The case that the fibre of a lane flies now, with all that was set in flight; none of lanes left over and
-    /// where the flight was put together from parts.
+    /// The present case of the fibre in a lane, with all changes made in flight. `None` for an unused lane, and
+    /// if the flight was assembled from parts.
     pub fn case(&self, lane: usize) -> Option<&Case> {
         self.cases.get(lane).map(|(case, _)| case)
     }
 
-    /// The chains, positions and velocities as the scheme keeps them.
+    /// The chains, with positions and velocities as the scheme stores them.
     pub fn chain(&self) -> &Chain {
         &self.chain
     }
@@ -270,7 +270,7 @@ impl Flight {
         self.h
     }
 
-    /// Statistics of the end nodes so far, spin-up left out.
+    /// Statistics of the end nodes so far, without the spin-up.
     pub fn end_node(&self) -> &EndNodeStatistics {
         &self.end_node
     }
@@ -313,7 +313,7 @@ impl Flight {
         self.clone().observe()
     }
 
-    /// Positions, velocities and energies now, taken while advancing by one step.
+    /// Positions, velocities and energies now. The flight advances by one step.
     pub fn observe(&mut self) -> Snapshot {
         let time = self.time();
         let position = self.chain.position.clone();
@@ -333,19 +333,19 @@ impl Flight {
         Snapshot { time, position, velocity, tension, energy }
     }
 
-    /// Share of the time that the elements of a lane's fibre have spent outside of what the flow knows; none
-    /// where the air is the same everywhere.
+    /// Share of the time that the elements of the fibre in a lane have spent outside the given flow. `None` in
+    /// uniform air.
     pub fn outside(&self, lane: usize) -> Option<f64> {
         self.surroundings.as_ref().map(|surroundings| surroundings.outside(lane))
     }
 
-    /// The first fibre and node whose position is no number, if any is.
+    /// The first fibre and node whose position is not finite, if there is one.
     pub(crate) fn lost(&self) -> Option<Error> {
         let position = &self.chain.position;
         let lost = |lane: usize| position.iter().position(|p| !p.lane(lane).norm().is_finite());
         let (lane, node) = (0..self.fibres()).find_map(|lane| Some((lane, lost(lane)?)))?;
         let case = self.cases.get(lane);
-        // A held root that is no number is so by what the first element did to it.
+        // A held root becomes NaN only through the first element.
         let held = case.is_some_and(|(case, _)| case.fibre.root != Root::Free);
         Some(Error::NotFinite {
             replicate: case.map_or(lane as u64, |(_, replicate)| *replicate) + 1,
@@ -358,7 +358,7 @@ impl Flight {
         })
     }
 
-    /// Remembers the start, and takes the first half kick where the scheme wants it.
+    /// Stores the start, and takes the first half kick of the staggered schemes.
     fn begin(&mut self) {
         let (position, velocity) = (self.chain.position.clone(), self.chain.velocity.clone());
         let energy = Energy::held(self.isa, &self.chain, &position, &velocity, &position);
@@ -369,8 +369,8 @@ impl Flight {
         }
     }
 
-    /// Takes the velocities from time 0 to half a step before, and makes the first extrapolation of the
-    /// drag's velocity give those at time 0.
+    /// Moves the velocities from time 0 to half a step before it, and chooses the earlier velocities so that the
+    /// first extrapolation gives the velocities at time 0.
     fn start_staggered(&mut self) {
         if !self.scheme.is_staggered() {
             return;
@@ -382,7 +382,7 @@ impl Flight {
         self.run(1, (-0.5 * self.h, 0.0), false);
         self.scheme = scheme;
         self.steps_done = 0;
-        self.work = Work::default();
+        self.work = WorkDone::default();
         self.end_node = EndNodeStatistics::default();
         for (i, &v0) in at_rest.iter().enumerate() {
             let v = self.chain.velocity[i];
@@ -392,7 +392,7 @@ impl Flight {
 
     fn run(&mut self, steps: u64, kick_and_drift: (f64, f64), split: bool) {
         let isa = self.isa;
-        // The very first step always: the ledger begins with it.
+        // The very first step always stores the work separately, because the sums begin with it.
         let first = steps.min(u64::from(self.steps_done == 0));
         for (steps, split) in [(first, true), (steps - first, split)] {
             if steps > 0 {
@@ -402,7 +402,7 @@ impl Flight {
     }
 }
 
-/// So many steps of a flight in the wind of their time; a macro, for a closure would be called, not inlined.
+/// Advances a flight by a number of steps in its wind. This is a macro because a closure would not be inlined.
 macro_rules! in_wind {
     ($steps:expr, $b:ident, |$wind:ident, $eddy:ident| $step:block) => {
         for _ in 0..$steps {
@@ -420,7 +420,7 @@ macro_rules! in_wind {
     };
 }
 
-/// Steps of a flight; with `split` the ledger keeps apart what the velocities before each kick gave.
+/// Steps of a flight. With `split`, the work of the velocities before each kick is stored separately.
 struct Advance<'a> {
     flight: &'a mut Flight,
     steps: u64,
@@ -446,7 +446,7 @@ impl Advance<'_> {
     fn steps<S: Register, const LEAPFROG: bool>(self) {
         let (b, by) = (self.flight, self.kick_and_drift);
         let how = (b.damped, self.split);
-        let mut block = Block::new();
+        let mut block = ElementBlock::new();
         in_wind!(self.steps, b, |wind, eddy| {
             explicit::step::<S, LEAPFROG>(&mut b.chain, wind, eddy, by, how, &mut b.work, &mut block);
         });
@@ -456,7 +456,7 @@ impl Advance<'_> {
     fn implicit_steps<S: Register>(self) {
         let b = self.flight;
         let how = (b.damped, self.split);
-        let mut block = Block::new();
+        let mut block = ElementBlock::new();
         in_wind!(self.steps, b, |wind, eddy| {
             implicit::step::<S>(&mut b.chain, wind, eddy, b.h, how, &mut b.work, &mut block);
         });
@@ -482,13 +482,13 @@ fn surrounded(cases: &[(Case, u64)], isa: Isa) -> Result<Surrounded, FlightFault
     let eddies = case.eddies();
     let streams =
         cases.iter().map(|(case, replicate)| Job { case, replicate: *replicate }.stream(&eddies)).collect();
-    // One step more than the run: the last instant's energies look one step ahead.
+    // One step more than the run, because the energies at the last instant need one more step.
     let wind = Wind::along(isa, streams, case.run.duration() + case.run.time_step)?;
     let surroundings = case.surroundings(cases.iter().map(|(case, _)| case.air.clone()))?;
     Ok(Surrounded { eddies, wind, surroundings })
 }
 
-/// What strands that fly together must have in common.
+/// Refuses strands that cannot fly together.
 fn check_strands(strands: &[Strand]) -> Result<(), FlightFault> {
     let Some(first) = strands.first() else {
         return Err(FlightFault::Empty);

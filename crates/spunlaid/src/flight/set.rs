@@ -11,12 +11,12 @@ impl Flight {
     /// Changes a key of the cases of all fibres while they fly: `flight.set("air.velocity", "20 m/s")`, or 20.0 as a
     /// number in SI units. [`Key::in_flight`](keys::Key) says which keys may change.
     ///
-    /// The fibres go on from where they are, as fast as they are. The energy that the change gives them or takes from
-    /// them does not count as an error of the balance. Statistics go on too; see [`Flight::forget_statistics`].
+    /// Positions and velocities of the fibres stay as they are. The energy that the change adds or removes does not
+    /// count as an error of the balance. The statistics continue; see [`Flight::forget_statistics`].
     ///
     /// # Errors
-    /// A key that there is not, a value that the key does not take or with which the case cannot be run, and a key that
-    /// cannot change in flight; the flight is then as it was.
+    /// The key does not exist or cannot change in flight, the key does not accept the value, or the case cannot be run
+    /// with it. The flight then stays unchanged.
     pub fn set(&mut self, key: &str, value: impl Into<Value>) -> Result<(), Error> {
         let key = keys::named(key)?;
         let refused = |reason| Err(FlightFault::NotInFlight { key: key.name, reason }.into());
@@ -65,7 +65,7 @@ impl Flight {
         Ok(())
     }
 
-    /// What the chains hold by the velocities as the scheme keeps them.
+    /// Energies of the chains from the velocities as the scheme stores them.
     fn held(&self) -> Energy {
         let Self { isa, chain, start, .. } = self;
         Energy::held(*isa, chain, &chain.position, &chain.velocity, &start.position)

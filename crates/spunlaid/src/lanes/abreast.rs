@@ -1,8 +1,8 @@
-//! Several registers abreast as one: what one chain of operations waits for, the others fill.
+//! Several registers used as one: while one operation waits for its input, the processor works on the others.
 
 use super::{Lanes, Simd};
 
-/// Each register by the same operation. A closure would not be compiled for its instructions.
+/// The same operation on each register. This is a macro because a closure would not be compiled for its instructions.
 macro_rules! each {
     ($($name:ident($($other:ident),*);)*) => {$(
         #[inline(always)]
@@ -15,7 +15,7 @@ macro_rules! each {
     )*};
 }
 
-/// The same, with what does not differ between them: bits, or a count of them.
+/// The same for operations with a common argument: bits, or a number of bits.
 macro_rules! each_with {
     ($($name:ident$(::<$count:ident>)?($($bits:ident)?);)*) => {$(
         #[inline(always)]
@@ -28,7 +28,7 @@ macro_rules! each_with {
     )*};
 }
 
-// Some operations want the same register of several.
+// Some operations need the register of the same index of several arguments.
 #[allow(clippy::needless_range_loop)]
 impl<S: Simd, const K: usize> Simd for [S; K] {
     each! {

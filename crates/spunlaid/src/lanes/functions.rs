@@ -1,14 +1,14 @@
 //! Elementary functions with the same bits on every machine.
 //!
-//! The system's `pow`, `sin` and `atan2` differ between machines in the last bit, and call one lane at
-//! a time. These are polynomials (minimax fits made with 40 digits) in fused multiply-adds only.
+//! The system's `pow`, `sin` and `atan2` differ between machines in the last bit, and they work on one lane at a
+//! time. The functions here are polynomials (minimax fits made with 40 digits) of fused multiply-adds only.
 
-// The fits' coefficients are written as fitted, near to known constants as some are.
+// The coefficients are written as fitted, although some are close to known constants.
 #![allow(clippy::approx_constant, clippy::excessive_precision)]
 
 use super::{Lanes, Register, Simd, Wide};
 
-/// `Σ cᵢ xⁱ` by Horner's rule: the fewest operations; what they wait for each other, others fill.
+/// `Σ cᵢ xⁱ` by Horner's rule, which needs the fewest operations.
 #[inline(always)]
 fn polynomial<S: Simd, const N: usize>(x: Wide<S>, c: &[f64; N]) -> Wide<S> {
     let mut sum = Wide::splat(c[N - 1]);
@@ -66,20 +66,20 @@ const BEND: [f64; 11] = [
     0.000_001_116_733_502_542_407_263,
 ];
 
-/// Bits of √½: mantissas are taken from here up, so that `log2` is smooth through 1.
+/// Bits of √½. Mantissas begin here, so that `log2` is smooth at 1.
 const SQRT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
 const MANTISSA: u64 = (1 << 52) - 1;
 const ONE: u64 = 0x3ff0_0000_0000_0000;
-/// 2⁵²; an integer below it stands in the low bits of `2⁵² + integer`.
+/// 2⁵²; the low bits of `2⁵² + integer` are the integer.
 const TWO_52: f64 = 4_503_599_627_370_496.0;
 /// 1.5·2⁵²; adding it rounds a small number to the nearest integer.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
 /// Base-2 logarithm of positive, normal numbers, to 4.9e-8 absolute.
 ///
-/// Zero and subnormals give −1022 (the smallest normal's), so that a positive power of them is
-/// negligibly small instead of undefined. NaN and infinity give some finite number: callers multiply
-/// by the argument again.
+/// Zero and subnormals give −1022, the value of the smallest normal number, so that a positive power of them is
+/// negligibly small instead of undefined. NaN and infinity give a finite number; callers multiply by the argument
+/// again.
 #[inline(always)]
 pub(crate) fn log2<S: Simd>(x: Wide<S>) -> Wide<S> {
     let shifted = x.max(Wide::splat(f64::MIN_POSITIVE)).0.add_bits(ONE - SQRT_HALF);
@@ -93,8 +93,8 @@ pub(crate) fn log2<S: Simd>(x: Wide<S>) -> Wide<S> {
 pub(crate) fn exp2<S: Simd>(x: Wide<S>) -> Wide<S> {
     let rounded = x + Wide::splat(ROUND);
     let rest = x - (rounded - Wide::splat(ROUND));
-    // The low bits of `rounded` hold the integer in two's complement; the rest shifts out, and adding it
-    // to the exponent multiplies by its power of two.
+    // The low bits of `rounded` are the integer in two's complement. The shift removes all other bits, and adding
+    // the result to the exponent multiplies by the power of two.
     Wide(polynomial(rest, &EXP2).0.add_as_integers(rounded.0.shift_left::<52>()))
 }
 
@@ -107,8 +107,8 @@ pub(crate) fn power<S: Simd>(x: Wide<S>, exponent: Wide<S>) -> Wide<S> {
 /// `θ/sin θ` for two unit vectors at the angle `θ`, from the square of their difference,
 /// `δ² = 4 sin²(θ/2)`, to 2e-13 relative.
 ///
-/// Up to 29° a short polynomial, up to 60° a longer one, beyond the arctangent lane by lane. A lane's
-/// value does not depend on which way its neighbours go.
+/// Up to 29° it uses a short polynomial, up to 60° a longer one, and beyond the arctangent lane by lane. The value
+/// of a lane does not depend on its neighbours.
 #[inline(always)]
 pub(crate) fn bend_ratio<S: Register>(turn_squared: Wide<S>) -> Wide<S> {
     const NARROW: f64 = 0.25;
@@ -133,7 +133,7 @@ fn arc_ratios(turn_squared: Lanes, above: f64) -> Lanes {
 
 /// `θ/sin θ` from `x = sin²(θ/2)` by the arctangent.
 fn arc_ratio(x: f64) -> f64 {
-    // x may exceed 1 by rounding; a fold back onto itself keeps a finite moment.
+    // x may exceed 1 by rounding; the bound keeps the moment of a folded fibre finite.
     let y = (1.0 - x).max(f64::EPSILON);
     libm::atan2(libm::sqrt(x), libm::sqrt(y)) / libm::sqrt(x * y)
 }
@@ -167,7 +167,7 @@ pub(crate) fn cos_sin_turn<S: Simd>(turns: Wide<S>) -> (Wide<S>, Wide<S>) {
     let t = (rounded - Wide::splat(ROUND)).neg_mul_add(Wide::splat(0.25), turns);
     let s = polynomial(t * t, &SIN_TURN) * t;
     let c = polynomial(t * t, &COS_TURN);
-    // Which quarter turn, in the low bits: odd ones swap, and cos is + − − +, sin is + + − −.
+    // The low bits are the number of the quarter turn. Odd ones swap cos and sin; cos is + − − +, sin is + + − −.
     let odd = Wide(rounded.0.and_bits(1).or_bits(TWO_52.to_bits())) - Wide::splat(TWO_52);
     let half = Wide::splat(0.5);
     let (cos, sin) = (Wide::select_less(half, odd, s, c), Wide::select_less(half, odd, c, s));

@@ -2,20 +2,20 @@
 
 use super::{Plain, Register};
 
-/// An instruction set the kernel is compiled for. All give the same bits; they differ in speed.
+/// An instruction set for which the kernel is compiled. All give the same bits; they differ in speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Isa {
     /// x86-64 with AVX-512 F, DQ and VL: eight lanes in one register.
     Avx512,
     /// x86-64 with AVX2 and FMA: eight lanes in two registers.
     Avx2,
-    /// What every machine of the target has. On x86-64 that excludes fused multiply-add, which is then
-    /// computed in software: exact, and slow.
+    /// The instructions that every machine of the target has. On x86-64 these do not include fused multiply-add, which
+    /// is then computed in software, exactly but slowly.
     Baseline,
 }
 
 impl Isa {
-    /// Every instruction set this machine can run, the fastest first.
+    /// Every instruction set that this machine can run, the fastest first.
     pub fn available() -> Vec<Self> {
         let mut found = Vec::new();
         #[cfg(target_arch = "x86_64")]
@@ -35,7 +35,7 @@ impl Isa {
         found
     }
 
-    /// The fastest this machine can run.
+    /// The fastest instruction set that this machine can run.
     pub fn detect() -> Self {
         Self::available()[0]
     }
@@ -49,9 +49,9 @@ impl Isa {
         }
     }
 
-    /// Runs `task` compiled for this instruction set; where the machine lacks it, for the baseline.
+    /// Runs `task` compiled for this instruction set, or for the baseline if the machine lacks it.
     ///
-    /// Only what is inlined into the task's `call` is compiled so.
+    /// Only code that is inlined into the task's `call` is compiled for it.
     #[inline]
     pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
         #[cfg(target_arch = "x86_64")]
@@ -70,11 +70,11 @@ impl Isa {
     }
 }
 
-/// Work that [`Isa::run`] compiles once for every instruction set.
+/// Work that is compiled once for every instruction set.
 pub(crate) trait Task {
     /// What the work returns.
     type Output;
-    /// Does the work. Mark it and all it calls `#[inline(always)]`.
+    /// Does the work. It and everything that it calls must be `#[inline(always)]`.
     fn call<S: Register>(self) -> Self::Output;
 }
 

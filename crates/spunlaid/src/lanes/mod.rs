@@ -1,11 +1,11 @@
 //! Eight numbers side by side: the number type of the kernel.
 //!
-//! The same arithmetic advances eight independent fibres at once. Every operation acts lane by lane and
-//! is one of those IEEE 754 rounds exactly (add, subtract, multiply, divide, square root, fused
-//! multiply-add), so a lane never learns what its neighbours hold nor how wide the machine's registers
-//! are: the bits of a fibre are the same alone or packed with seven others, on any instruction set.
+//! The same arithmetic advances eight independent fibres at once. Every operation acts on each lane alone and is
+//! one that IEEE 754 rounds exactly (add, subtract, multiply, divide, square root, fused multiply-add). The result
+//! of a lane therefore depends neither on its neighbours nor on the width of the registers: a fibre has the same
+//! bits alone and with seven others, on any instruction set.
 //!
-//! [`Lanes`] is how they lie in memory, `Wide` how they stand in registers.
+//! [`Lanes`] is their form in memory, `Wide` their form in registers.
 
 mod abreast;
 mod functions;
@@ -22,10 +22,10 @@ pub(crate) use wide::Wide;
 use std::array::from_fn;
 use std::ops::{Add, Mul, Sub};
 
-/// How many fibres a [`Lanes`] holds side by side.
+/// Number of fibres in a [`Lanes`].
 pub const WIDTH: usize = 8;
 
-/// Eight `f64` side by side, one for each fibre of a bundle.
+/// Eight `f64` side by side, one for each fibre of a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Lanes(pub [f64; WIDTH]);

@@ -1,13 +1,13 @@
-//! The operations the kernel is made of, for each instruction set.
+//! The operations of the kernel for each instruction set.
 //!
-//! Everything here rounds exactly as IEEE 754 says, or moves bits: the same bits on any of them.
+//! Every operation rounds exactly as IEEE 754 says or moves bits, and so gives the same bits on each of them.
 
 use super::{Lanes, WIDTH};
 
-/// Eight numbers in registers, or several times eight, with the operations the kernel needs.
+/// Eight numbers in registers, or several times eight, with the operations that the kernel needs.
 ///
-/// The types that implement it never leave the crate: [`super::Isa::run`] alone picks one, after it has
-/// found its instructions on the machine.
+/// Only [`super::Isa::run`] chooses one of the types that implement it, after it has found the instructions on the
+/// machine.
 pub(crate) trait Simd: Copy {
     fn splat(value: f64) -> Self;
     fn load(lanes: &Lanes) -> Self;
@@ -20,7 +20,7 @@ pub(crate) trait Simd: Copy {
     /// `addend − self · factor`, rounded once.
     fn neg_mul_add(self, factor: Self, addend: Self) -> Self;
     fn sqrt(self) -> Self;
-    /// The larger, `other` where they cannot be compared.
+    /// The larger of the two; `other` if one of them is NaN.
     fn max(self, other: Self) -> Self;
     /// `a < b ? yes : no`.
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self;
@@ -29,15 +29,15 @@ pub(crate) trait Simd: Copy {
     fn and_bits(self, bits: u64) -> Self;
     fn or_bits(self, bits: u64) -> Self;
     fn xor(self, other: Self) -> Self;
-    /// Adds the bits of both as integers, wrapping round.
+    /// Adds the bits of both as integers, with wrap-around.
     fn add_as_integers(self, other: Self) -> Self;
-    /// Adds to the bits as to an integer, wrapping round.
+    /// Adds an integer to the bits, with wrap-around.
     fn add_bits(self, bits: u64) -> Self;
     fn shift_right<const N: u32>(self) -> Self;
     fn shift_left<const N: u32>(self) -> Self;
 }
 
-/// [`Simd`] that holds exactly the eight lanes of a bundle.
+/// [`Simd`] of exactly the eight lanes of a flight.
 pub(crate) trait Register: Simd {
     fn store(self) -> Lanes;
 }
@@ -267,7 +267,7 @@ mod x86 {
         }
     }
 
-    /// Both halves by the same instruction. A closure would not be compiled for it.
+    /// The same instruction on both halves. This is a macro because a closure would not be compiled for it.
     macro_rules! halves {
         ($instruction:ident, $a:expr $(, $other:expr)*) => {
             unsafe { Avx2($instruction($a.0 $(, $other.0)*), $instruction($a.1 $(, $other.1)*)) }

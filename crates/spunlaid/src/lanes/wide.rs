@@ -4,7 +4,7 @@ use super::Lanes;
 use super::simd::{Register, Simd};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-/// Eight numbers in registers, or several times eight: what the kernel calculates with.
+/// Eight numbers in registers, or several times eight.
 #[derive(Clone, Copy)]
 pub(crate) struct Wide<S: Simd>(pub(crate) S);
 
@@ -51,7 +51,7 @@ impl<S: Simd> Wide<S> {
         Self(self.0.and_bits(!SIGN))
     }
 
-    /// The larger, `other` where they cannot be compared.
+    /// The larger of the two; `other` if one of them is NaN.
     #[inline(always)]
     pub(crate) fn max(self, other: Self) -> Self {
         Self(self.0.max(other.0))

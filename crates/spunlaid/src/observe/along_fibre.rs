@@ -1,4 +1,4 @@
-//! How far each node of the fibre swings.
+//! Amplitude of each node of the fibre.
 
 use super::{Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Value, always};
 use crate::case::Case;
@@ -46,13 +46,13 @@ const fn measure(
             words: "amplitude along the fibre",
             logarithmic: false,
             from_zero: true,
-            caption: "How far each node swings: the standard deviation of its y and z over time.",
+            caption: "Amplitude of each node: the standard deviation of its y and z over time.",
         },
         series,
     }
 }
 
-/// Running mean and spread of every node, taken at the recorded instants (Welford).
+/// Running mean and variance of every node at the recorded instants (Welford).
 #[derive(Debug)]
 struct Spread {
     rest_length: f64,

@@ -1,4 +1,4 @@
-//! How much the fibre is bent, along its length.
+//! Curvature along the fibre.
 
 use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PER_METRE, Seen, Value, always};
 use crate::case::Case;
@@ -12,8 +12,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
         name: "curvature",
         column: "curvature_per_m",
         label: "Curvature along the fibre",
-        meaning: "root of the mean square over time of the curvature at each node between two elements, 2 sin(θ/2)/l of the \
-                  angle θ between them",
+        meaning: "root mean square over time of the curvature 2 sin(θ/2)/l at each node, with the angle θ between its two \
+                  elements",
         unit: PER_METRE,
         kind: Kind::Profile,
         group: FIBRE,
@@ -24,8 +24,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             words: "curvature along the fibre",
             logarithmic: false,
             from_zero: true,
-            caption: "How much the fibre is bent at each node: the root of the mean square over time of one over the radius of its bend. \
-                      Bends shorter than an element are not resolved.",
+            caption: "Curvature at each node: the root mean square over time of one over the bending radius. Bends that are shorter \
+                      than an element are not resolved.",
         },
         series: "rms",
     }],
@@ -39,7 +39,7 @@ struct Curvature {
     isa: Isa,
     rest_length: f64,
     count: f64,
-    /// Of `|t₁ − t₀|²`, `t` the elements' directions [-].
+    /// Sums of `|t₁ − t₀|²` with the tangents `t` of the two elements [-].
     squares: Vec<Lanes>,
 }
 
@@ -65,7 +65,7 @@ impl Observer for Curvature {
     }
 }
 
-/// Adds the squared turns from each element to the next.
+/// Adds the squared change of the tangent from each element to the next.
 struct Turns<'a> {
     position: &'a [Vec3<Lanes>],
     squares: &'a mut [Lanes],
@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn analytic_curvature_of_a_circle() {
-        // A regular polygon of 60 corners of radius 0.2 m: 2 sin(θ/2)/l = 1/R to the last digits.
+        // For a regular polygon with 60 corners and radius R = 0.2 m, 2 sin(θ/2)/l is exactly 1/R.
         let corner = |i: usize| {
             let angle = std::f64::consts::TAU * i as f64 / 60.0;
             Vec3::splat(Vec3::new(0.2 * angle.cos(), 0.2 * angle.sin(), 0.0))

@@ -1,4 +1,4 @@
-//! How far the free end gets from the axis of the flow.
+//! Distance of the free end from the axis of the flow.
 
 use super::{Declaration, END_NODE, Figure, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Value, always};
 use crate::flight::Flight;
@@ -11,7 +11,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             "deflection_99",
             "deflection_99_m",
             "Deflection, 99 % of the time",
-            "distance from the axis through the root that the free end keeps within for 99 % of the recorded instants",
+            "distance from the axis through the root that the free end does not exceed at 99 % of the recorded instants",
             "99 %",
         ),
         measure(

@@ -21,8 +21,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
 
 const DEVIATION: &str = "standard deviation over time of the free end’s position";
 const CROSSINGS: &str = "half the number of sign changes per second of the free end’s position";
-const MEAN_X: &str =
-    "mean over time of the free end’s x; the less of the fibre’s length it is, the more the fibre is bent";
+const MEAN_X: &str = "mean over time of the free end’s x; the smaller it is against the fibre’s length, the more the fibre is bent";
 
 const AMPLITUDE: Figure = figure("amplitude", "Amplitude", "amplitude", true);
 const FREQUENCY: Figure = figure("frequency", "Frequency", "frequency", true);
@@ -45,10 +44,10 @@ const fn across(
     Measure { name, column, label, meaning, unit, kind, group, over_replicates, figure, series }
 }
 
-/// The flight itself sees the free ends, at every step.
+/// The flight itself takes the statistics of the free ends at every step.
 #[derive(Debug)]
 struct EndNode {
-    /// Time that the statistics are taken over [s].
+    /// Time over which the statistics are taken [s].
     observed: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The two energy ledgers, as errors.
+//! The errors of the two energy checks.
 
 use super::{
     Declaration, ENERGY, Figure, Kind, Measure, OF_PERCENT, Observer, Over, Sample, Seen, Value, always,
@@ -58,15 +58,15 @@ pub(super) const DECLARATION: Declaration = Declaration {
     observer: |_| Box::new(Errors { of: ERRORS, times: Vec::new(), percent: Default::default() }),
 };
 
-/// What the scheme takes out of the motion.
+/// Energy that the scheme takes out of the motion.
 pub(super) const DISSIPATION: Declaration = Declaration {
     measures: &[
         number(
             "tension_dissipation",
             "tension_dissipation_percent",
             "Taken out by the scheme, typical",
-            "what the scheme has taken out of the motion with the waves of tension that it damps, of the air’s work; median over \
-             time",
+            "energy that the scheme has taken out of the motion by damping axial waves, as a share of the air’s work; median \
+             over time",
             Over::Median,
             &TAKEN_OUT,
             "typical",
@@ -85,9 +85,9 @@ pub(super) const DISSIPATION: Declaration = Declaration {
     observer: |_| Box::new(Errors { of: TAKEN, times: Vec::new(), percent: Default::default() }),
 };
 
-const WORK: &str = "the paper’s work check: work of all forces against the kinetic energy; median over time. It only says that the steps \
-     are short against the motion";
-const BALANCE: &str = "what the full energy balance leaves over, of the air’s work; median over time. It would notice a wrong force";
+const WORK: &str = "the paper’s work check: difference between the work of all forces and the kinetic energy; median over time. It shows \
+     only whether the steps are short against the motion";
+const BALANCE: &str = "error of the full energy balance, as a share of the air’s work; median over time. It would reveal a wrong force";
 
 const ERRORS: &[(fn(&Sample) -> f64, bool)] =
     &[(Sample::work_error_percent, true), (Sample::balance_error_percent, true)];
@@ -124,7 +124,7 @@ const OVER_TIME: Figure = Figure {
     words: "energy errors",
     logarithmic: true,
     from_zero: false,
-    caption: "Both energy ledgers over time, mean over the replicates; the largest of any replicate is shaded.",
+    caption: "Errors of both energy checks over time, mean over the replicates. The shaded area reaches to the largest of any replicate.",
 };
 
 const fn number(

@@ -1,4 +1,4 @@
-//! Whether the fibres stay in the flow that is known.
+//! Share of the time that the fibres spend outside the given flow.
 
 use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PERCENT, Seen, Value};
 use crate::flight::Flight;
@@ -8,8 +8,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
         name: "share_outside_flow",
         column: "share_outside_flow",
         label: "Time outside the flow",
-        meaning: "share of the time that the elements spend outside of the profile or the field; the air of the nearest known \
-                  place is taken there",
+        meaning: "share of the time that the elements spend outside the profile or the field; the simulation uses the air at the \
+                  nearest point there",
         unit: PERCENT,
         kind: Kind::Number,
         group: FIBRE,
@@ -28,7 +28,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
     observer: |_| Box::new(Outside),
 };
 
-/// The flight itself counts the looks that it takes at the flow.
+/// The flight itself counts how often it looks up the flow outside.
 #[derive(Debug)]
 struct Outside;
 

@@ -4,8 +4,8 @@
 //! Flight → recorded instants → observers (one file each) → values of each fibre → statistics over replicates
 //! ```
 //!
-//! A new measure is a file of this room with a [`Declaration`], and a line in [`DECLARED`]. The summary, the tables,
-//! the report with its figures and CSV files, the columns of studies and their ranking loop over the declarations.
+//! A new measure is a file of this folder with a [`Declaration`], and a line in [`DECLARED`]. The summary, the
+//! tables, the report with its figures and CSV files, and the studies loop over the declarations.
 
 mod along_fibre;
 mod curvature;
@@ -39,7 +39,7 @@ pub const DECLARED: &[&Declaration] = &[
     &energy::DISSIPATION,
 ];
 
-/// Some measures and the observer that takes them together.
+/// Some measures, and the observer that takes all of them.
 #[derive(Debug)]
 pub struct Declaration {
     /// The measures, in the order of the observer's values.
@@ -57,25 +57,25 @@ pub struct Measure {
     pub name: &'static str,
     /// Name in tables and in `summary.json`, with its SI unit: `amplitude_y_m`.
     pub column: &'static str,
-    /// What it is called in a table: `Amplitude in y`.
+    /// Its label in a table: `Amplitude in y`.
     pub label: &'static str,
-    /// What it is.
+    /// Its definition in words.
     pub meaning: &'static str,
-    /// The unit it is shown in.
+    /// The unit in which it is shown.
     pub unit: Unit,
-    /// What kind of result it is.
+    /// Number or curve.
     pub kind: Kind,
-    /// What it belongs to.
+    /// Its group.
     pub group: Group,
-    /// What stands for the replicates where one number must do.
+    /// The statistic over the replicates that is shown.
     pub over_replicates: Over,
-    /// The figure that it is drawn in.
+    /// The figure that shows it.
     pub figure: &'static Figure,
-    /// What it is called in that figure: `*y*`.
+    /// Its label in that figure: `*y*`.
     pub series: &'static str,
 }
 
-/// What a measure belongs to: a heading of tables, a part of `summary.json`.
+/// A group of measures: a heading of tables, and a part of `summary.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Group {
     /// Name in `summary.json`.
@@ -88,7 +88,7 @@ pub struct Group {
 pub const END_NODE: Group = Group { name: "end_node", title: "free end of the fibre" };
 /// The fibre as a whole.
 pub const FIBRE: Group = Group { name: "fibre", title: "fibre" };
-/// The energy ledgers.
+/// The energy checks.
 pub const ENERGY: Group = Group { name: "energy", title: "energy errors" };
 
 /// A unit to show values in.
@@ -96,7 +96,7 @@ pub const ENERGY: Group = Group { name: "energy", title: "energy errors" };
 pub struct Unit {
     /// As it is written; empty for a plain number.
     pub shown: &'static str,
-    /// How many of it make one SI unit.
+    /// Factor from the SI unit to this unit.
     pub per_si: f64,
 }
 
@@ -110,9 +110,9 @@ pub const MILLINEWTONS: Unit = Unit { shown: "mN", per_si: 1e3 };
 pub const PER_METRE: Unit = Unit { shown: "1/m", per_si: 1.0 };
 /// Square millimetres per hertz.
 pub const SQUARE_MILLIMETRES_PER_HERTZ: Unit = Unit { shown: "mm²/Hz", per_si: 1e6 };
-/// Hundredths of a ratio.
+/// Per cent, of a ratio.
 pub const PERCENT: Unit = Unit { shown: "%", per_si: 1e2 };
-/// Of what is a percentage already.
+/// Per cent, of a value that is already in per cent.
 pub const OF_PERCENT: Unit = Unit { shown: "%", per_si: 1.0 };
 
 /// What kind of result a measure is.
@@ -129,7 +129,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// What the curve is over: name with the SI unit in a table, what an axis is called, and its unit.
+    /// The abscissa of the curve: its name with the SI unit in a table, its label on an axis, and its unit.
     pub const fn over(self) -> Option<(&'static str, &'static str, Unit)> {
         match self {
             Self::Number => None,
@@ -140,7 +140,7 @@ impl Kind {
     }
 }
 
-/// What stands for all replicates where one number must do.
+/// The statistic over the replicates that stands for all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Over {
     /// Their mean, which has a standard error.
@@ -158,22 +158,22 @@ pub struct Figure {
     pub name: &'static str,
     /// Its title, which also names the axis of the measures.
     pub title: &'static str,
-    /// What it shows, in a sentence: `the amplitude`.
+    /// What it shows, in words: `amplitude`.
     pub words: &'static str,
     /// Whether the axis of the measures is logarithmic.
     pub logarithmic: bool,
     /// Whether that axis begins at zero.
     pub from_zero: bool,
-    /// What a reader should know, for a curve: sentences under it.
+    /// Sentences under a curve.
     pub caption: &'static str,
 }
 
-/// Something seen at a recorded instant.
+/// The state of the fibres at a recorded instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a> {
     /// The fibres.
     pub snapshot: &'a Snapshot,
-    /// What is recorded of each of the eight.
+    /// The sample of each of the eight fibres.
     pub samples: &'a [Sample],
     /// Whether the spin-up is over.
     pub settled: bool,
@@ -190,10 +190,10 @@ pub enum Value {
 
 /// Looks at up to eight fibres while they fly.
 pub trait Observer: std::fmt::Debug + Send {
-    /// Sees a recorded instant. Instants come in order, the start first.
+    /// Receives a recorded instant. The instants come in order and begin with the start.
     fn see(&mut self, seen: &Seen<'_>);
 
-    /// The values of one fibre, one for each declared measure. The flight is over.
+    /// The values of one fibre at the end of the flight, one for each declared measure.
     fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value>;
 }
 
@@ -202,17 +202,17 @@ pub trait Observer: std::fmt::Debug + Send {
 pub struct Observers(Vec<(&'static Declaration, Box<dyn Observer>)>);
 
 impl Observers {
-    /// Of everything that applies to a case.
+    /// The observers of all measures that apply to a case.
     ///
-    /// * `curves` – whether curves are wanted too; without them, as in a study, an observer of curves alone is
-    ///   left out
+    /// * `curves` – whether to measure curves too. A study does without; observers of curves alone are then left
+    ///   out.
     pub fn of(case: &Case, curves: bool) -> Self {
         let wanted = |d: &&Declaration| curves || d.measures.iter().any(|m| m.kind == Kind::Number);
         let declared = DECLARED.iter().copied().filter(wanted).filter(|declared| (declared.applies)(case));
         Self(declared.map(|declared| (declared, (declared.observer)(case))).collect())
     }
 
-    /// Shows all of them a recorded instant.
+    /// Passes a recorded instant to all observers.
     pub fn see(&mut self, seen: &Seen<'_>) {
         self.0.iter_mut().for_each(|(_, observer)| observer.see(seen));
     }
@@ -225,7 +225,7 @@ impl Observers {
     }
 }
 
-/// How many measures are numbers.
+/// The number of measures that are numbers.
 pub const NUMBERS: usize = {
     let (mut count, mut i) = (0, 0);
     while i < DECLARED.len() {
@@ -239,7 +239,7 @@ pub const NUMBERS: usize = {
     count
 };
 
-/// All measures that are numbers, whether they apply to a case or not: what a study keeps of a fibre.
+/// All measures that are numbers, whether they apply to a case or not. A study stores these for each fibre.
 pub const MEASURES: [&Measure; NUMBERS] = {
     let mut all = [&DECLARED[0].measures[0]; NUMBERS];
     let (mut count, mut i) = (0, 0);

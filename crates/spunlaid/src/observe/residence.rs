@@ -1,4 +1,4 @@
-//! The circle that the free end stays in.
+//! The circle in which the free end stays.
 
 use super::{Declaration, END_NODE, Figure, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Value, always};
 use crate::flight::Flight;
@@ -10,8 +10,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
         name: "residence_radius",
         column: "residence_radius_m",
         label: "Circle of 90 % of the time",
-        meaning: "radius of the circle about the free end’s mean place, seen along the flow, in which it is at 90 % of the \
-                  recorded instants",
+        meaning: "radius of the circle around the free end’s mean position, seen along the flow, in which the free end is at \
+                  90 % of the recorded instants",
         unit: MILLIMETRES,
         kind: Kind::Number,
         group: END_NODE,
@@ -30,7 +30,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
     observer: |_| Box::new(Residence::default()),
 };
 
-/// Share of the time that the circle holds.
+/// Share of the time that the free end is in the circle.
 const SHARE: f64 = 0.9;
 
 /// y and z of the free ends at the recorded instants after the spin-up [m].
@@ -64,7 +64,7 @@ mod tests {
 
     #[test]
     fn analytic_circle_of_a_uniform_disc() {
-        // Of a disc of radius R, 90 % of the area lies within R √0.9.
+        // In a disc of radius R, 90 % of the area is within R √0.9.
         let spiral = |i: u32| {
             let (r, angle) = ((f64::from(i) / 20_000.0).sqrt(), 2.399_963 * f64::from(i));
             (5.0 + r * angle.cos(), -2.0 + r * angle.sin())

@@ -1,4 +1,4 @@
-//! The pull on the root.
+//! Tension at the root.
 
 use super::{Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observer, Over, Seen, Value};
 use crate::fibre::Root;
@@ -50,7 +50,7 @@ const fn measure(
     Measure { name, column, label, meaning, unit, kind, group, over_replicates, figure, series }
 }
 
-/// Tension of the uppermost elements after the spin-up [N].
+/// Tension of the elements at the root after the spin-up [N].
 #[derive(Debug)]
 struct RootTension {
     count: f64,

@@ -1,4 +1,4 @@
-//! What is recorded of a fibre at an instant.
+//! The record of a fibre at an instant.
 
 use crate::energy::Energy;
 use crate::flight::Snapshot;
@@ -25,15 +25,15 @@ pub struct Sample {
     pub air_work: f64,
     /// Work of the damping [J].
     pub damping_work: f64,
-    /// What the implicit tension has taken out of the motion beyond what the elements store [J]; zero with
-    /// the explicit schemes.
+    /// Energy that the implicit tension has taken out of the motion and that the elements do not store [J]; zero
+    /// with the explicit schemes.
     pub tension_dissipation: f64,
-    /// What the energy balance leaves over [J].
+    /// Error of the energy balance [J].
     pub imbalance: f64,
 }
 
 impl Sample {
-    /// What a snapshot holds of the fibre in a lane.
+    /// The sample of the fibre in a lane.
     pub(crate) fn of(snapshot: &Snapshot, lane: usize) -> Self {
         let e: &Energy = &snapshot.energy;
         Self {
@@ -56,18 +56,18 @@ impl Sample {
         percent(self.work - self.kinetic, self.kinetic).abs()
     }
 
-    /// What the energy balance leaves over, by the work of the air [%]; without air by that of gravity,
-    /// without either by the kinetic energy; NaN while that is zero.         theory.md (36)
+    /// Error of the energy balance divided by the work of the air [%]. If that work is zero, the divisor is the
+    /// work of gravity or else the kinetic energy; NaN if all are zero.      theory.md (36)
     pub fn balance_error_percent(&self) -> f64 {
         percent(self.imbalance, self.input()).abs()
     }
 
-    /// What the implicit tension has dissipated, by the same as the balance [%].
+    /// Dissipation of the implicit tension, with the same divisor as the balance [%].
     pub fn tension_dissipation_percent(&self) -> f64 {
         percent(self.tension_dissipation, self.input().abs())
     }
 
-    /// What the energies are compared with [J].
+    /// The divisor of the relative errors [J].
     fn input(&self) -> f64 {
         let scales = [self.air_work, self.gravity_work, self.kinetic];
         scales.into_iter().find(|&w| w != 0.0).unwrap_or(0.0)

@@ -1,4 +1,4 @@
-//! At which frequencies the free end moves.
+//! Power spectrum of the free end's motion.
 
 use super::{
     Declaration, END_NODE, Figure, Kind, Measure, Observer, Over, SQUARE_MILLIMETRES_PER_HERTZ, Seen, Value,
@@ -15,7 +15,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         measure("spectrum_z", "spectrum_z_m2_hz", "Spectrum of z", "*z*"),
     ],
     applies: always,
-    observer: |case| Box::new(Motion::of(case)),
+    observer: |case| Box::new(EndPositions::of(case)),
 };
 
 const fn measure(
@@ -39,8 +39,8 @@ const fn measure(
             words: "spectrum of the motion",
             logarithmic: true,
             from_zero: false,
-            caption: "How the motion of the free end is spread over frequencies, averaged over all replicates \
-                      (Welch’s method). The area under a curve is the amplitude squared.",
+            caption: "Power spectral density of the free end’s position, averaged over all replicates \
+                      (Welch’s method). The area under a curve is the square of the amplitude.",
         },
         series,
     }
@@ -48,13 +48,13 @@ const fn measure(
 
 /// y and z of the free ends at the recorded instants after the spin-up [m].
 #[derive(Debug)]
-struct Motion {
+struct EndPositions {
     interval: f64,
     segment: usize,
     end: [[Vec<f64>; 2]; WIDTH],
 }
 
-impl Motion {
+impl EndPositions {
     fn of(case: &Case) -> Self {
         let run = &case.run;
         let samples = (run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1)) as usize + 1;
@@ -63,7 +63,7 @@ impl Motion {
     }
 }
 
-impl Observer for Motion {
+impl Observer for EndPositions {
     fn see(&mut self, seen: &Seen<'_>) {
         if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
             for (lane, [y, z]) in self.end.iter_mut().enumerate() {

@@ -1,42 +1,42 @@
-//! The ledger of the work done on the nodes.
+//! WorkRegisters of the work done on the nodes.
 
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
 /// Running sums of `F·v` over nodes and steps, with the velocities before and after each kick.
 ///
-/// With `r_{k+1} − r_k = h v_after`, the trapezoidal rule of theory.md (33) up to time `t_K` is
-/// `½h (Σ_{k<K} F_k·(v_before + v_after) + F_K·v_before)`, the very first `F₀·v_before` left out.
+/// Since `r_{k+1} − r_k = h v_after`, the trapezoidal rule of theory.md (33) up to time `t_K` is
+/// `½h (Σ_{k<K} F_k·(v_before + v_after) + F_K·v_before)`, without the very first term `F₀·v_before`.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Power {
+pub struct WorkSum {
     /// `Σ F·(v_before + v_after)` over all steps.
     pub(crate) both: Lanes,
-    /// `Σ F·v_before` of the last step, if that one kept it apart.
+    /// `Σ F·v_before` of the last step, if that step stored it separately.
     pub(crate) before: Lanes,
 }
 
-impl Power {
-    /// Work [J] up to the start of the last step; `earlier` is the ledger before that step.
+impl WorkSum {
+    /// Work [J] up to the start of the last step; `earlier` holds the sums before that step.
     pub(crate) fn work(&self, earlier: &Self, h: f64) -> Lanes {
         (earlier.both + self.before) * Lanes::splat(0.5 * h)
     }
 }
 
-/// Work done on the nodes: of all forces together, and of those that no potential accounts for.
+/// Work done on the nodes by all forces together, and by the forces that have no potential.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Work {
+pub struct WorkDone {
     /// All forces (theory.md (33), Eq 35 of the paper).
-    pub total: Power,
+    pub total: WorkSum,
     /// The drag of the air.
-    pub drag: Power,
+    pub drag: WorkSum,
     /// The mass-proportional damping.
-    pub damping: Power,
-    /// The tension, where it is implicit.
-    pub tension: Power,
+    pub damping: WorkSum,
+    /// The tension; used by implicit tension only.
+    pub tension: WorkSum,
 }
 
-impl Work {
-    /// Drops what the first step added for the time before it; called once, after that step.
+impl WorkDone {
+    /// Removes what the first step added for the time before the start. Called once, after that step.
     pub(crate) fn begin(&mut self) {
         for power in [&mut self.total, &mut self.drag, &mut self.damping, &mut self.tension] {
             power.both = power.both - power.before;
@@ -45,17 +45,17 @@ impl Work {
     }
 }
 
-/// A [`Work`] in registers: of the total force, the drag, the damping and the implicit tension.
-pub(crate) struct Sums<S: Register> {
-    /// Whether `before` is kept.
+/// [`WorkDone`] in registers: by all forces, drag, damping and implicit tension.
+pub(crate) struct WorkRegisters<S: Register> {
+    /// Whether `before` is stored.
     split: bool,
     both: [Wide<S>; 4],
     before: [Wide<S>; 4],
 }
 
-impl<S: Register> Sums<S> {
+impl<S: Register> WorkRegisters<S> {
     #[inline(always)]
-    pub(crate) fn of(work: &Work, split: bool) -> Self {
+    pub(crate) fn of(work: &WorkDone, split: bool) -> Self {
         Self {
             split,
             both: [
@@ -68,7 +68,7 @@ impl<S: Register> Sums<S> {
         }
     }
 
-    /// Adds `F·(v_before + v_after)` of the total force and the drag, and of the damping where there is any.
+    /// Adds `F·(v_before + v_after)` of the total force, of the drag, and of the damping if there is any.
     #[inline(always)]
     pub(crate) fn add(
         &mut self,
@@ -100,10 +100,10 @@ impl<S: Register> Sums<S> {
     }
 
     #[inline(always)]
-    pub(crate) fn put(self, work: &mut Work) {
-        work.total = Power { both: self.both[0].store(), before: self.before[0].store() };
-        work.drag = Power { both: self.both[1].store(), before: self.before[1].store() };
-        work.damping = Power { both: self.both[2].store(), before: self.before[2].store() };
-        work.tension = Power { both: self.both[3].store(), before: self.before[3].store() };
+    pub(crate) fn put(self, work: &mut WorkDone) {
+        work.total = WorkSum { both: self.both[0].store(), before: self.before[0].store() };
+        work.drag = WorkSum { both: self.both[1].store(), before: self.before[1].store() };
+        work.damping = WorkSum { both: self.both[2].store(), before: self.before[2].store() };
+        work.tension = WorkSum { both: self.both[3].store(), before: self.before[3].store() };
     }
 }
