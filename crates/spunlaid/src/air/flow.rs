@@ -12,11 +12,11 @@ pub enum Flow {
     Uniform,
     /// Along x as in a table.
     Profile(FromFile<Profile>),
-    /// In space as a CFD solution has it.
+    /// In space as in a CFD solution.
     Field(PlacedField),
 }
 
-/// Which of the case's numbers the flow tells in their place.
+/// Which numbers of the case come from the flow instead.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FromFlow {
     /// [`Air::turbulence_intensity`].
@@ -38,7 +38,7 @@ pub struct LocalAir {
     pub length_scale: f64,
     /// Cut-off frequency of the spectrum [Hz].
     pub cutoff_frequency: f64,
-    /// Whether the place is inside what the flow knows.
+    /// Whether the place lies inside the flow's data.
     pub inside: bool,
 }
 
@@ -52,7 +52,7 @@ impl Flow {
         }
     }
 
-    /// What the flow can tell besides the velocity.
+    /// Which numbers the flow contains besides the velocity.
     pub fn tells(&self) -> FromFlow {
         match self {
             Self::Uniform => FromFlow::default(),
@@ -79,9 +79,9 @@ impl Air {
         self.flow == Flow::Uniform
     }
 
-    /// The air at a place, from the root, x the way of gravity [m].
+    /// The air at a place [m]. The origin is the root, and x points along gravity.
     ///
-    /// * `hint` – of the last place near by: saves time and changes nothing
+    /// * `hint` – remembers the last place near by; it saves time and does not change the result
     pub fn local(&self, at: Vec3<f64>, hint: &mut Hint) -> LocalAir {
         match &self.flow {
             Flow::Uniform => LocalAir {
@@ -96,8 +96,8 @@ impl Air {
         }
     }
 
-    /// Turbulence from `k` and `ε`: rms √(2k/3), length `C_L k^1.5/ε`, and the cut-off `1/(4T)` of the flat
-    /// spectrum whose integral time is that of eddies which pass by and turn over, `1/T = |U|/L + ε/(C_T k)`.
+    /// Turbulence from `k` and `ε`: rms √(2k/3), length scale `C_L k^1.5/ε`, and the cut-off frequency `1/(4T)` of
+    /// a flat spectrum with the integral time `T`. Eddies pass by and decay: `1/T = |U|/L + ε/(C_T k)`.
     /// theory.md (48), (49)
     fn of_field(&self, placed: &PlacedField, at: Vec3<f64>, hint: &mut Hint) -> LocalAir {
         let Local { velocity, k, epsilon, inside } = self.in_field(placed, at, hint);
@@ -120,8 +120,8 @@ impl Air {
         }
     }
 
-    /// What a fibre feels of the air at a place: mean velocity and rms of the fluctuation [m/s], and whether the
-    /// place is inside what the flow knows.
+    /// The air that acts on a fibre at a place: mean velocity and rms of the fluctuation [m/s], and whether the
+    /// place lies inside the flow's data.
     ///
     /// * `hint` – as of [`Air::local`]
     pub(super) fn felt(&self, at: Vec3<f64>, hint: &mut Hint) -> (Vec3<f64>, f64, bool) {
@@ -137,7 +137,7 @@ impl Air {
         }
     }
 
-    /// The field's own words, its speeds by the factor.
+    /// The field's values, with all velocities multiplied by the speed factor.
     fn in_field(&self, placed: &PlacedField, at: Vec3<f64>, hint: &mut Hint) -> Local {
         let Local { velocity, k, epsilon, inside } = placed.at(at, hint);
         let factor = self.speed_factor;
@@ -171,7 +171,7 @@ impl Air {
             rms: intensity * velocity.abs(),
             length_scale: column(from.length_scale, &profile.length_scale, self.length_scale),
             cutoff_frequency: if from.cutoff_frequency {
-                // In faster air the same eddies pass sooner.
+                // In faster air the same eddies pass in less time.
                 let cutoff = profile.at(&profile.cutoff_frequency, x);
                 self.speed_factor * cutoff.unwrap_or(self.cutoff_frequency)
             } else {
@@ -181,10 +181,10 @@ impl Air {
         }
     }
 
-    /// Sets the numbers that the flow tells to what they are along a fibre: the mean of the velocity, the
-    /// intensity and the length scale, the highest cut-off.
+    /// Sets the numbers that come from the flow to their values along a fibre: the means of velocity, intensity
+    /// and length scale, and the highest cut-off frequency.
     ///
-    /// They stand for the air wherever one number must do: in messages, and where a time step is chosen.
+    /// They are used where a single number is needed: in messages, and to choose the time step.
     ///
     /// * `along` – from the root to the end of the straight fibre [m]
     pub fn settle(&mut self, along: Vec3<f64>) {

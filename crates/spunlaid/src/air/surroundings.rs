@@ -1,4 +1,4 @@
-//! The air that eight fibres have around them, where it is not the same everywhere.
+//! The air around eight fibres in a flow that is not uniform.
 
 use super::{Air, EddyVelocities};
 use crate::error::FlightFault;
@@ -6,12 +6,12 @@ use crate::field::Hint;
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use crate::vec3::Vec3;
 
-/// The wind at one instant, element by element.
+/// The air velocity at one instant, element by element.
 pub(crate) trait AirAtElements<S: Register>: Copy {
-    /// What is the same in all of an eddy.
+    /// The signal of an eddy, the same for all of its elements.
     fn signal(&self, eddy: u32) -> Vec3<Wide<S>>;
 
-    /// Velocity of the air at element `j` [m/s], `signal` that of its eddy.
+    /// Velocity of the air at element `j` [m/s]; `signal` is that of its eddy.
     fn at(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>>;
 }
 
@@ -84,7 +84,7 @@ impl Surroundings {
         if self.looks == 0 { 0.0 } else { self.outside[lane] as f64 / self.looks as f64 }
     }
 
-    /// Other air from now on, of the same flows; what was looked up is kept until the next look.
+    /// Replaces the air by another one of the same flow. The values of the last look are kept until the next.
     pub(crate) fn change(&mut self, by: Self) {
         (self.airs, self.every) = (by.airs, by.every);
     }
@@ -152,7 +152,7 @@ impl<S: Register> AirAtElements<S> for LocalVelocities<'_, S> {
     #[inline(always)]
     fn at(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
         let Place { value, rise } = &self.places[j];
-        // No closures here: they would be called, not inlined.
+        // No closures here, because the compiler does not inline them.
         let rms = Wide::load(&rise[3]).mul_add(self.steps, Wide::load(&value[3]));
         let x = Wide::load(&rise[0]).mul_add(self.steps, Wide::load(&value[0]));
         let y = Wide::load(&rise[1]).mul_add(self.steps, Wide::load(&value[1]));

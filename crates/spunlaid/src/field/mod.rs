@@ -1,8 +1,8 @@
-//! The air as computational fluid dynamics gives it: velocity and turbulence in space, sampled at points.
+//! Steady air flow from computational fluid dynamics: velocity and turbulence in space, sampled at points.
 //!
 //! file (VTK, table of points) → [`Field`] → [`Field::sample`] → [`Local`]
 //!
-//! **In** goes a steady solution: the mean velocity [m/s] at points or in cells and, where known, the turbulent kinetic
+//! **Input** is a steady solution: the mean velocity [m/s] at points or in cells and, if known, the turbulent kinetic
 //! energy `k` [m²/s²] with its dissipation rate `ε` [m²/s³] or the specific dissipation rate `ω` [1/s].
 //! It comes from a file ([`Field::read`]), from bytes ([`Field::parse`]) or from numbers in memory.
 //!
@@ -10,19 +10,20 @@
 //! |---|---|
 //! | `.vtu`, `.vts`, `.vti`, `.vtr` | XML VTK, ASCII or binary, plain or compressed with zlib or LZ4 |
 //! | `.vtk` | legacy VTK, versions 1 to 5 |
-//! | text | a row for each point, as [`crate::table`] describes |
+//! | text | one row for each point, as [`crate::table`] describes |
 //!
 //! The format is recognised from the file's content. Arrays and columns are recognised by their names, as OpenFOAM,
 //! Fluent, CFX and ParaView write them; `docs/air.md` of the repository lists them. Numbers are in SI units unless a
 //! name ends with another unit, as `x_mm` does.
 //!
-//! **Out** comes the air at any point, [`Local`]: velocity, `k`, `ε` and whether the point lies in the field. On a
-//! [lattice](Field::lattice) it is linear in each coordinate, in a [mesh](Field::mesh) linear in tetrahedra, among
-//! [points](Field::points) a mean of what the nearest eight make of it; a flow that is linear in space comes out
-//! exactly. Outside of the field it is the air at the edge. [`FieldWarning`]s tell what was left out or mended.
+//! **Output** is the air at any point, [`Local`]: velocity, `k`, `ε` and whether the point lies in the field. On a
+//! [lattice](Field::lattice) it is linear in each coordinate. In a [mesh](Field::mesh) it is linear in tetrahedra.
+//! Among [points](Field::points) it is a weighted mean of the nearest eight. A flow that is linear in space is
+//! reproduced exactly. Outside the field it is the air at the edge. A [`FieldWarning`] says what was left out or
+//! corrected.
 //!
-//! **Limits.** Coordinates and values lie within ±1e30. A file is held in memory while it is read; what is taken
-//! beyond that follows from the bytes there are, never from what a header promises.
+//! **Limits.** Coordinates and values lie within ±1e30. A file is held in memory while it is read. Further memory is
+//! taken only for the bytes that are there, never for what a header promises.
 //!
 //! ```
 //! use spunlaid::field::{Field, Hint};
@@ -63,7 +64,7 @@ use points::Points;
 use std::fmt;
 use values::Quantities;
 
-/// Coordinates beyond are as good as these: squares of distances are still numbers [m].
+/// Coordinates are limited to this value, so that squares of distances stay finite [m].
 const FARTHEST: f64 = 1e3 * values::LARGEST;
 
 /// The air in a part of space, steady in time, in SI units.
@@ -73,7 +74,7 @@ pub struct Field {
     turbulence: bool,
 }
 
-/// What carries the values.
+/// How the points with the values are arranged.
 #[derive(Debug)]
 enum Support {
     Lattice(Lattice),
@@ -86,17 +87,17 @@ enum Support {
 pub struct Local {
     /// Mean velocity [m/s].
     pub velocity: Vec3<f64>,
-    /// Turbulent kinetic energy `k` [m²/s²]; zero where the field has none.
+    /// Turbulent kinetic energy `k` [m²/s²]; zero if the field has none.
     pub k: f64,
-    /// Dissipation rate `ε` of the turbulent kinetic energy [m²/s³]; zero where the field has none.
+    /// Dissipation rate `ε` of the turbulent kinetic energy [m²/s³]; zero if the field has none.
     pub epsilon: f64,
-    /// Whether the point lies in the field; outside, the values are those of its edge.
+    /// Whether the point lies in the field. Outside, the values are those of its edge.
     pub inside: bool,
 }
 
-/// Where a point was found, so that the next one near by is found in a few steps.
+/// Remembers where a point was found, so that the next one near by is found in a few steps.
 ///
-/// It saves time and changes nothing else: a hint from elsewhere, or of another field, does no harm.
+/// It saves time and does not change the result, even if it comes from another field.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Hint(u32);
 
@@ -104,11 +105,11 @@ impl Field {
     /// A field on a lattice whose points are all combinations of three rows of coordinates; between them the
     /// values are linear in each coordinate.
     ///
-    /// A row of one point makes a field that does not change in that direction. Outside, the field is as at
-    /// the nearest point of the lattice’s box.
+    /// If a row has one point, the field does not change in that direction. Outside, the field has the values of
+    /// the nearest point of the lattice's box.
     ///
     /// * `axes` – coordinates along x, y and z, each increasing [m]
-    /// * `values` – at the points, those along x first, then along y, then along z
+    /// * `values` – at the points; x changes fastest, z slowest
     ///
     /// # Errors
     /// When coordinates do not increase, or values are too few, too many or not finite.
@@ -121,17 +122,17 @@ impl Field {
 
     /// A field on a mesh of cells, each cut into tetrahedra within which the values are linear.
     ///
-    /// Neighbours agree on how the face between them is cut, so that the field is continuous. Points at one
-    /// place are taken for one, with the mean of their values. Outside, the field is as at the nearest point
-    /// of the mesh’s surface: where that is a wall, the air beyond it stands still.
+    /// Neighbours agree on how the face between them is cut, so the field is continuous. Points at the same place
+    /// count as one point with the mean of their values. Outside, the field has the values of the nearest point
+    /// of the mesh's surface: beyond a wall the air stands still.
     ///
     /// * `points` – [m]
     /// * `cells` – of these points
     /// * `values` – at the points
     ///
     /// # Errors
-    /// When a cell names a point that is not there, no cell has a volume, or numbers are too few, too many or
-    /// not finite.
+    /// When a cell names a point that does not exist, when no cell has a volume, or when values are too few, too
+    /// many or not finite.
     pub fn mesh(
         points: &[Vec3<f64>],
         cells: &Cells,
@@ -144,12 +145,11 @@ impl Field {
 
     /// A field of points without cells, in any order.
     ///
-    /// If they are those of a lattice, see [`Field::lattice`]. Otherwise the value anywhere is the mean of what
-    /// the nearest eight make of it by their gradients, which are fitted to their neighbours. Outside of the
-    /// box around all points, and farther from the nearest point than its neighbours are, the field is as at
-    /// that point. If all points have one coordinate along an axis, the field does not change along it.
-    ///
-    /// Points at one place are taken for one, with the mean of their values.
+    /// Points that form a lattice make a [`Field::lattice`]. Otherwise the value is a weighted mean of what the
+    /// nearest eight points extrapolate along their gradients, which are fitted to their neighbours. The field
+    /// has the values of the nearest point outside the box around all points, and where that point is farther
+    /// away than its own neighbours are. If all points have the same coordinate along an axis, the field does not
+    /// change along it. Points at the same place count as one point with the mean of their values.
     ///
     /// * `points` – [m]
     /// * `values` – at the points
@@ -186,8 +186,8 @@ impl Field {
 
     /// The air at a point.
     ///
-    /// * `at` – [m]; at a place that is no number the air stands still
-    /// * `hint` – where the last point was found, and then this one; not used by all kinds of field
+    /// * `at` – [m]; if a coordinate is NaN, the air stands still
+    /// * `hint` – where the last point was found; set to where this one is found. Only meshes use it
     pub fn sample(&self, at: Vec3<f64>, hint: &mut Hint) -> Local {
         let at = [at.x, at.y, at.z].map(|x| x.clamp(-FARTHEST, FARTHEST));
         if at.iter().any(|x| x.is_nan()) {
@@ -202,7 +202,7 @@ impl Field {
         Local { velocity: Vec3::new(u, v, w), k: k.max(0.0), epsilon: epsilon.max(0.0), inside }
     }
 
-    /// What kind of field it is and how large.
+    /// The kind of field and its size.
     pub fn describe(&self) -> Description {
         match &self.support {
             Support::Lattice(lattice) => Description::Lattice { points: lattice.points() },
@@ -212,7 +212,7 @@ impl Field {
     }
 }
 
-/// What kind of field it is and how large; reads as `a mesh of 3120 points and 2400 cells`.
+/// The kind of a field and its size; prints as `a mesh of 3120 points and 2400 cells`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Description {
     /// A lattice.

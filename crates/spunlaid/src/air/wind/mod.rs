@@ -80,7 +80,7 @@ impl Wind {
     }
 
     /// The sum of cosines alone in a uniform flow, as the paper has it: the fluctuation repeats after
-    /// [`Air::repeat_time`] but for its sign.
+    /// [`Air::repeat_time`] with the opposite sign.
     ///
     /// # Errors
     /// As of [`Wind::along`], and for air with records.

@@ -1,4 +1,4 @@
-//! Blocks of bytes as VTK’s XML files hold them: with a header, perhaps compressed, perhaps in base 64.
+//! Decodes the blocks of bytes in VTK's XML files. They have a header and may be compressed and in base 64.
 
 use crate::error::{FieldFault, FileFault};
 use base64::Engine;
@@ -9,7 +9,7 @@ use std::io::Read;
 
 /// Most that is taken from a file, as numbers of eight bytes [bytes].
 const MOST: u64 = 1 << 32;
-/// LZ4 makes no more bytes than so many out of one.
+/// Largest number of bytes that LZ4 can make from one byte.
 const LZ4_EXPANSION: usize = 255;
 
 /// How blocks of bytes are packed.
@@ -29,7 +29,7 @@ pub(super) enum Compressor {
     Lz4,
 }
 
-/// How many bytes may still be taken from a file.
+/// How many bytes may still be decoded from a file.
 #[derive(Debug)]
 pub(super) struct Budget(u64);
 
@@ -38,7 +38,7 @@ impl Budget {
         Self(MOST)
     }
 
-    /// Takes so many numbers.
+    /// Counts numbers that are decoded, and refuses those beyond the limit.
     pub(super) fn spend(&mut self, numbers: usize) -> Result<(), FileFault> {
         let left = self.0.checked_sub((numbers as u64).saturating_mul(8));
         self.0 = left.ok_or(FieldFault::TooLarge { most: MOST })?;
@@ -51,7 +51,7 @@ impl Budget {
     }
 }
 
-/// The bytes that are packed here; what follows them is not looked at.
+/// Unpacks the bytes of an array. What follows them is ignored.
 pub(super) fn unpack<'a>(
     packed: &'a [u8],
     packing: Packing,
@@ -94,7 +94,7 @@ pub(super) fn unpack<'a>(
     Ok(Cow::Owned(bytes))
 }
 
-/// Adds a block of so many bytes, expanded.
+/// Expands a block and adds its `wanted` bytes to the output.
 fn expand(
     compressed: &[u8],
     wanted: usize,
@@ -109,7 +109,7 @@ fn expand(
             let decoder = flate2::bufread::ZlibDecoder::new(compressed);
             decoder.take(wanted as u64).read_to_end(bytes).map_err(|error| error.to_string())
         }
-        // Memory for what a header promises is taken only as far as the block can hold it.
+        // The header may promise more than the block can hold, so memory is taken only for what the block can expand to.
         Compressor::Lz4 if wanted / LZ4_EXPANSION > compressed.len() => Ok(0),
         Compressor::Lz4 => {
             bytes.resize(before + wanted, 0);
@@ -146,7 +146,7 @@ impl Header<'_> {
     }
 }
 
-/// Bytes in base 64; a header may be encoded apart from what follows it, and ends with padding then.
+/// Decodes base 64. A header may be encoded separately; it then ends with padding.
 fn of_base64(text: &[u8]) -> Result<Vec<u8>, FileFault> {
     let config = GeneralPurposeConfig::new()
         .with_decode_padding_mode(DecodePaddingMode::Indifferent)

@@ -1,4 +1,4 @@
-//! From the pieces of a file to a field.
+//! Makes a field of the pieces of a file.
 
 use super::array::Array;
 use super::encoding::Budget;
@@ -137,7 +137,7 @@ impl Reader<'_, '_> {
         .into())
     }
 
-    /// A quantity of one component, zero where the file has it negative.
+    /// A quantity of one component. Negative values become zero, with a warning.
     fn scalar(&mut self, measure: Measure) -> Result<Option<Vec<f64>>, FileError> {
         for of_cells in [false, true] {
             let (names, components) = self.list(of_cells);
@@ -180,7 +180,7 @@ impl Reader<'_, '_> {
         self.arrays(of_cells).iter().map(|array| (Name::new(&array.name), array.components)).unzip()
     }
 
-    /// The numbers of an array, at the points and in SI units.
+    /// The numbers of an array in SI units, moved from cells to points if needed.
     fn numbers(&mut self, of_cells: bool, array: usize, factor: f64) -> Result<Vec<f64>, FileError> {
         let (points, cells) = self.piece.grid.counts()?;
         let array = if of_cells { &self.piece.cell_data[array] } else { &self.piece.point_data[array] };
