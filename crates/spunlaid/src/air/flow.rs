@@ -1,7 +1,7 @@
 //! How the mean flow, and the strength and size of its turbulence, change from place to place.
 
 use super::{Air, FromFile, PlacedField, Profile};
-use crate::field::{Hint, Local};
+use crate::field::{Around, Hint, Local};
 use crate::vec3::Vec3;
 
 /// Where the mean flow comes from.
@@ -120,21 +120,82 @@ impl Air {
         }
     }
 
-    /// The air that acts on a fibre at a place: mean velocity and rms of the fluctuation [m/s], and whether the
-    /// place lies inside the flow's data.
+    /// The air that acts on a fibre around a place, linear in space: mean velocity and, in the fourth place, the
+    /// rms of the fluctuation [m/s].
     ///
     /// * `hint` – as of [`Air::local`]
-    pub(super) fn felt(&self, at: Vec3<f64>, hint: &mut Hint) -> (Vec3<f64>, f64, bool) {
+    pub(super) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
         match &self.flow {
+            Flow::Uniform | Flow::Profile(_) => self.around_in_profile(at, hint),
             Flow::Field(placed) => {
-                let Local { velocity, k, inside, .. } = self.in_field(placed, at, hint);
-                (velocity, self.rms_in_field(velocity, k), inside)
-            }
-            Flow::Uniform | Flow::Profile(_) => {
-                let LocalAir { velocity, rms, inside, .. } = self.local(at, hint);
-                (velocity, rms, inside)
+                let mut around = placed.around(at, hint);
+                let [u, v, w, root_k] = around.value.map(|value| value * self.speed_factor);
+                around.gradients = around.gradients.map(|of| of.map(|change| change * self.speed_factor));
+                let rms_per_root = (2.0_f64 / 3.0).sqrt();
+                let rms = if self.from_flow.turbulence_intensity {
+                    around.gradients.iter_mut().for_each(|of| of[3] *= rms_per_root);
+                    rms_per_root * root_k
+                } else {
+                    let speed = Vec3::new(u, v, w).norm();
+                    let per_speed = if speed > 0.0 { self.turbulence_intensity / speed } else { 0.0 };
+                    around
+                        .gradients
+                        .iter_mut()
+                        .for_each(|of| of[3] = per_speed * (u * of[0] + v * of[1] + w * of[2]));
+                    self.turbulence_intensity * speed
+                };
+                Around { value: [u, v, w, rms], ..around }
             }
         }
+    }
+
+    /// In a profile the air changes along x only. The gradient is that between two points near by.
+    fn around_in_profile(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
+        let mut value = |x: f64| {
+            let LocalAir { velocity, rms, inside, .. } = self.local(Vec3::new(x, at.y, at.z), hint);
+            ([velocity.x, velocity.y, velocity.z, rms], inside)
+        };
+        let (here, inside) = value(at.x);
+        let reach = match &self.flow {
+            Flow::Profile(profile) => profile.closest_rows() / 32.0,
+            _ => f64::INFINITY,
+        };
+        let mut gradients = [[0.0; 4]; 3];
+        if reach.is_finite() && reach > 0.0 {
+            let (before, after) = (value(at.x - reach).0, value(at.x + reach).0);
+            gradients[0] = std::array::from_fn(|i| (after[i] - before[i]) / (2.0 * reach));
+        }
+        Around { value: here, gradients, reach, inside }
+    }
+
+    /// Longest time between two looks at the air around the elements of a fibre [s].
+    ///
+    /// It is 1/64 of the time in which the mean flow passes an eddy, or in which the flow's own gradients change
+    /// the velocity by as much as the largest velocity, if that is shorter.
+    ///
+    /// * `along` – from the root to the end of the straight fibre [m]
+    pub fn time_between_looks(&self, along: Vec3<f64>) -> f64 {
+        let passing = self.length_scale / self.velocity.abs();
+        let steepest = if matches!(self.flow, Flow::Field(_)) { self.steepest(along) } else { 0.0 };
+        passing.min(1.0 / steepest) / 64.0
+    }
+
+    /// The largest gradient of the velocity [1/s] at points around a straight fibre, as far from it as a tenth of
+    /// its length.
+    fn steepest(&self, along: Vec3<f64>) -> f64 {
+        const PLACES: usize = 1024;
+        let mut hint = Hint::default();
+        let length = along.norm();
+        let share = |i: usize, ratio: f64| ((i + 1) as f64 * ratio).fract();
+        let gradient = |i: usize| {
+            let across = [0.671_043_606_703_789_2, 0.549_700_477_901_967_3];
+            let [y, z] = across.map(|ratio| 0.2 * length * (share(i, ratio) - 0.5));
+            let at = along * share(i, 0.819_172_513_396_164_5) + Vec3::new(0.0, y, z);
+            let Around { gradients, inside, .. } = self.around(at, &mut hint);
+            let squares: f64 = gradients.iter().flat_map(|of| &of[..3]).map(|change| change * change).sum();
+            if inside { squares.sqrt() } else { 0.0 }
+        };
+        (0..PLACES).map(gradient).fold(0.0, f64::max)
     }
 
     /// The field's values, with all velocities multiplied by the speed factor.

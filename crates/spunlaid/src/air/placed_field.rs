@@ -1,7 +1,7 @@
 //! A CFD field, and where the fibre hangs in it.
 
 use super::FromFile;
-use crate::field::{Field, Hint, Local};
+use crate::field::{Around, Field, Hint, Local};
 use crate::vec3::Vec3;
 
 /// A direction along an axis of a field, forwards or backwards.
@@ -89,6 +89,23 @@ impl PlacedField {
         let place = (self.root + self.axis.to_field(at)) * (1.0 / self.unit);
         let local = self.field.sample(place, hint);
         Local { velocity: self.axis.to_fibre(local.velocity), ..local }
+    }
+
+    /// The air around a place of the fibre's frame [m], linear in space, in that frame.
+    pub(super) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
+        let place = (self.root + self.axis.to_field(at)) * (1.0 / self.unit);
+        let Around { value, gradients, reach, inside } = self.field.around(place, hint);
+        let turned = |[u, v, w, root_k]: [f64; 4]| {
+            let v = self.axis.to_fibre(Vec3::new(u, v, w));
+            [v.x, v.y, v.z, root_k]
+        };
+        let along = |axis: Vec3<f64>| {
+            let way = self.axis.to_field(axis) * (1.0 / self.unit);
+            let [x, y, z] = &gradients;
+            turned(std::array::from_fn(|i| way.x * x[i] + way.y * y[i] + way.z * z[i]))
+        };
+        let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
+        Around { value: turned(value), gradients: axes.map(along), reach: reach * self.unit, inside }
     }
 
     /// Upper limit for the length of an eddy: the diagonal of the field's box [m].

@@ -24,6 +24,11 @@ impl Profile {
         (self.x.first().copied().unwrap_or(0.0), self.x.last().copied().unwrap_or(0.0))
     }
 
+    /// The smallest distance between two rows [m].
+    pub(super) fn closest_rows(&self) -> f64 {
+        self.x.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min)
+    }
+
     /// The value of a column at `x` [m].
     pub(super) fn at(&self, column: &[f64], x: f64) -> Option<f64> {
         let (first, last) = self.range();

@@ -42,6 +42,7 @@
 //! # }
 //! ```
 
+mod bricks;
 mod lattice;
 mod mesh;
 mod node;
@@ -57,6 +58,8 @@ pub use warning::FieldWarning;
 
 use crate::error::FileError;
 use crate::vec3::Vec3;
+pub(crate) use bricks::Around;
+use bricks::Bricks;
 use lattice::Lattice;
 use mesh::Mesh;
 use node::Node;
@@ -72,6 +75,7 @@ const FARTHEST: f64 = 1e3 * values::LARGEST;
 pub struct Field {
     support: Support,
     turbulence: bool,
+    bricks: Bricks,
 }
 
 /// How the points with the values are arranged.
@@ -80,6 +84,24 @@ enum Support {
     Lattice(Lattice),
     Mesh(Mesh),
     Points(Points),
+}
+
+impl Support {
+    fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+        match self {
+            Self::Lattice(lattice) => lattice.bounds(),
+            Self::Mesh(mesh) => mesh.bounds(),
+            Self::Points(points) => points.bounds(),
+        }
+    }
+
+    fn sample(&self, at: [f64; 3], hint: &mut Hint) -> (Quantities, bool) {
+        match self {
+            Self::Lattice(lattice) => lattice.sample(at),
+            Self::Mesh(mesh) => mesh.sample(at, hint),
+            Self::Points(points) => points.sample(at),
+        }
+    }
 }
 
 /// The air at a point.
@@ -117,7 +139,7 @@ impl Field {
         let count = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
         let quantities = values.check(count.unwrap_or(usize::MAX))?;
         let lattice = Lattice::new(axes, quantities)?;
-        Ok(Self { support: Support::Lattice(lattice), turbulence: values.has_turbulence() })
+        Ok(Self::of(Support::Lattice(lattice), values))
     }
 
     /// A field on a mesh of cells, each cut into tetrahedra within which the values are linear.
@@ -140,7 +162,7 @@ impl Field {
     ) -> Result<(Self, Vec<FieldWarning>), FileError> {
         let quantities = values.check(points.len())?;
         let (mesh, warnings) = Mesh::new(points, cells, quantities)?;
-        Ok((Self { support: Support::Mesh(mesh), turbulence: values.has_turbulence() }, warnings))
+        Ok((Self::of(Support::Mesh(mesh), values), warnings))
     }
 
     /// A field of points without cells, in any order.
@@ -166,7 +188,12 @@ impl Field {
             None => Support::Points(Points::new(nodes)?),
         };
         let merged = (merged > 0).then_some(FieldWarning::Merged { points: merged });
-        Ok((Self { support, turbulence: values.has_turbulence() }, merged.into_iter().collect()))
+        Ok((Self::of(support, values), merged.into_iter().collect()))
+    }
+
+    fn of(support: Support, values: &Values) -> Self {
+        let bricks = Bricks::new(support.bounds());
+        Self { support, turbulence: values.has_turbulence(), bricks }
     }
 
     /// Whether the field has `k` and `ε`.
@@ -176,11 +203,7 @@ impl Field {
 
     /// The lowest and the highest coordinates [m].
     pub fn bounds(&self) -> (Vec3<f64>, Vec3<f64>) {
-        let (low, high) = match &self.support {
-            Support::Lattice(lattice) => lattice.bounds(),
-            Support::Mesh(mesh) => mesh.bounds(),
-            Support::Points(points) => points.bounds(),
-        };
+        let (low, high) = self.support.bounds();
         (vector(low), vector(high))
     }
 
@@ -193,13 +216,22 @@ impl Field {
         if at.iter().any(|x| x.is_nan()) {
             return Local::default();
         }
-        let (values, inside) = match &self.support {
-            Support::Lattice(lattice) => lattice.sample(at),
-            Support::Mesh(mesh) => mesh.sample(at, hint),
-            Support::Points(points) => points.sample(at),
-        };
+        let (values, inside) = self.support.sample(at, hint);
         let [u, v, w, k, epsilon] = values;
         Local { velocity: Vec3::new(u, v, w), k: k.max(0.0), epsilon: epsilon.max(0.0), inside }
+    }
+
+    /// The air around a point, linear in space, from values that are sampled once and kept. Where a flow is smooth,
+    /// it differs from [`Field::sample`] by less than a thousandth of the velocity.
+    ///
+    /// * `at` – [m]
+    /// * `hint` – as of [`Field::sample`]
+    pub(crate) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
+        let at = [at.x, at.y, at.z].map(|x| x.clamp(-FARTHEST, FARTHEST));
+        if at.iter().any(|x| x.is_nan()) {
+            return Around::default();
+        }
+        self.bricks.around(at, |at| self.support.sample(at, hint))
     }
 
     /// The kind of field and its size.
