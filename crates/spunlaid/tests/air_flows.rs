@@ -182,6 +182,45 @@ fn order_the_air_between_looks_is_of_second_order() {
     assert!(error(case.steps_between_looks() / 10) < 1e-4 * amplitude);
 }
 
+/// The interval between looks follows the gradients of the field, not only its eddies: waves of 20 mm.
+#[test]
+fn the_interval_between_looks_follows_the_gradients() {
+    let wave = |s: f64| 4.0 * (s * std::f64::consts::TAU / 0.02).sin();
+    let row = |low: f64, high: f64, n: usize| -> Vec<f64> {
+        (0..=n).map(|i| low + (high - low) * i as f64 / n as f64).collect()
+    };
+    let axes = [row(-0.1, 1.2, 1), row(-0.12, 0.12, 240), row(-0.12, 0.12, 240)];
+    let mut values = Values::default();
+    for &z in &axes[2] {
+        for &y in &axes[1] {
+            values.velocity.extend(axes[0].iter().map(|_| Vec3::new(10.0, wave(z) + 1.0, wave(y))));
+        }
+    }
+    let waves = Field::lattice(axes, &values).unwrap();
+    let mut case = table1(&[("run.duration", "0.1 s"), ("air.length_scale", "500 mm")]);
+    case.run.time_step = 1e-5;
+    case.air.flow = placed(waves, Vec3::default(), Axis::ALL[0], 1.0);
+    let calm = Air { turbulence_intensity: 0.0, ..case.air.clone() };
+    let (eddies, still) = (case.eddies(), Air { velocity: 0.0, flow: Flow::Uniform, ..case.air.clone() });
+    let key = StreamKey { seed: 1, replicate: 0 };
+    let wind = Wind::uniform(Isa::detect(), &[(still, key)], eddies.count(), 0.11).unwrap();
+    let path = |every: u64| -> Vec<Vec3<f64>> {
+        let surroundings = Surroundings::new(vec![calm.clone()], case.fibre.elements, every).unwrap();
+        let air = Surrounded { surroundings: Some(surroundings), ..Surrounded::from((&eddies, &wind)) };
+        let strands = [case.strand()];
+        let mut flight = Flight::assembled(Isa::detect(), &strands, air, Scheme::Leapfrog, 1e-5).unwrap();
+        let place = |_| {
+            flight.advance(100);
+            flight.chain().position[case.fibre.elements].lane(0)
+        };
+        (0..100).map(place).collect()
+    };
+    let (exact, found) = (path(1), path(case.steps_between_looks()));
+    let farthest = exact.iter().map(|p| p.y.hypot(p.z)).fold(0.0, f64::max);
+    let off = exact.iter().zip(&found).map(|(a, b)| (*a - *b).norm()).fold(0.0, f64::max);
+    assert!(farthest > 0.01 && off < 1e-3 * farthest, "{off:e} of {farthest}");
+}
+
 /// k and ε of a uniform turbulence: rms √(2k/3), length scale C_L k^1.5/ε, and the cut-off frequency from passing
 /// and decay. A speed factor changes them by similarity.
 #[test]

@@ -57,6 +57,36 @@ fn analytic_linear_fields_are_exact_in_every_cell() {
     assert!(error_of_lattice < tolerance, "lattice: {error_of_lattice:e}");
 }
 
+/// The kept values and their gradients are those of the field, as far as they reach.
+#[test]
+fn analytic_the_air_around_a_point_is_the_field_within_its_reach() {
+    for field in [lattice(16, smooth), field(&Block::cube(16, 0.2), Made::Hexahedra, smooth)] {
+        let (mut hint, mut used, mut worst) = (Hint::default(), 0, 0.0_f64);
+        for point in inside(2000) {
+            let here = field.around(at(point), &mut hint);
+            assert!(here.inside, "{point:?}");
+            used += usize::from(here.reach > 0.0);
+            for corner in 0..9 {
+                let by = [0, 1, 2].map(|axis| match corner {
+                    8 => 0.0,
+                    _ => here.reach * if corner >> axis & 1 == 0 { 0.999 } else { -0.999 },
+                });
+                let there = at([0, 1, 2].map(|axis| point[axis] + by[axis]));
+                let exact = field.sample(there, &mut hint);
+                if exact.inside {
+                    let exact = [exact.velocity.x, exact.velocity.y, exact.velocity.z, exact.k.sqrt()];
+                    for (i, exact) in exact.into_iter().enumerate() {
+                        let change: f64 = (0..3).map(|axis| here.gradients[axis][i] * by[axis]).sum();
+                        worst = worst.max((here.value[i] + change - exact).abs());
+                    }
+                }
+            }
+        }
+        // Values are about one; the error at the corners of the reach is some times that within the lattice.
+        assert!(used > 1900 && worst < 5e-3, "{used} {worst:e}");
+    }
+}
+
 #[test]
 fn order_of_interpolation_is_two() {
     // Halving the cells divides the error by four; the largest error of 2000 points varies by less than 20 %.

@@ -168,6 +168,18 @@ impl Air {
         Around { value: here, gradients, reach, inside }
     }
 
+    /// Mean velocity along a straight fibre, and mean speed there [m/s].
+    ///
+    /// * `along` – from its root to its end [m]
+    pub fn along_and_speed(&self, along: Vec3<f64>) -> (f64, f64) {
+        const PLACES: usize = 64;
+        let (mut hint, way) = (Hint::default(), along * (1.0 / along.norm()));
+        let velocities = (0..PLACES).map(|i| along * ((i as f64 + 0.5) / PLACES as f64));
+        let velocities = velocities.map(|at| self.local(at, &mut hint).velocity);
+        let share = 1.0 / PLACES as f64;
+        velocities.fold((0.0, 0.0), |(mean, speed), v| (mean + share * v.dot(way), speed + share * v.norm()))
+    }
+
     /// Longest time between two looks at the air around the elements of a fibre [s].
     ///
     /// It is 1/64 of the time in which the mean flow passes an eddy, or in which the flow's own gradients change

@@ -132,6 +132,14 @@ impl Air {
         air
     }
 
+    /// The memory of a CFD field, which all fibres share [bytes].
+    pub fn field_memory(&self) -> usize {
+        match &self.flow {
+            Flow::Field(placed) => placed.field.memory(),
+            Flow::Uniform | Flow::Profile(_) => 0,
+        }
+    }
+
     /// Rms of each velocity component `u = Tu Ū` [m/s].
     pub fn rms(&self) -> f64 {
         self.turbulence_intensity * self.velocity.abs()

@@ -29,19 +29,19 @@ const MOST_MEMORY: usize = 1 << 30;
 const MOST_BRICKS: f64 = 1e6;
 
 /// Velocity along x, y and z and `√k` [m/s]. Unlike `k`, its root is proportional to the fluctuation.
-pub(super) type Brief = [f64; 4];
+type Brief = [f64; 4];
 
-/// The air around a point, linear in space, in the field's own coordinates.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Around {
+/// The air around a point, linear in space, see [`Field::around`](super::Field::around).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Around {
     /// Velocity along x, y and z and `√k` at the point [m/s].
-    pub(crate) value: Brief,
-    /// Their change along x, y and z [per unit of length].
-    pub(crate) gradients: [Brief; 3],
-    /// Distance along each axis within which the gradients are accurate enough.
-    pub(crate) reach: f64,
+    pub value: [f64; 4],
+    /// Their changes along x, y and z [1/s].
+    pub gradients: [[f64; 4]; 3],
+    /// Distance along each axis within which the gradients are accurate enough [m].
+    pub reach: f64,
     /// Whether the point lies in the field.
-    pub(crate) inside: bool,
+    pub inside: bool,
 }
 
 #[derive(Debug)]

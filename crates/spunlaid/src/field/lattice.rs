@@ -66,6 +66,11 @@ impl Lattice {
         [0, 1, 2].map(|i| self.axes[i].at.len())
     }
 
+    /// The memory taken [bytes].
+    pub(super) fn memory(&self) -> usize {
+        size_of_val(&*self.values)
+    }
+
     pub(super) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         ([0, 1, 2].map(|i| self.axes[i].at[0]), [0, 1, 2].map(|i| self.axes[i].at[self.axes[i].at.len() - 1]))
     }

@@ -52,13 +52,13 @@ mod tree;
 mod values;
 mod warning;
 
+pub use bricks::Around;
 pub use mesh::cells::{Cells, Shape};
 pub use values::Values;
 pub use warning::FieldWarning;
 
 use crate::error::FileError;
 use crate::vec3::Vec3;
-pub(crate) use bricks::Around;
 use bricks::Bricks;
 use lattice::Lattice;
 use mesh::Mesh;
@@ -76,6 +76,8 @@ pub struct Field {
     support: Support,
     turbulence: bool,
     bricks: Bricks,
+    /// Why there is no turbulence, if it was read from a file.
+    lacks: Option<String>,
 }
 
 /// How the points with the values are arranged.
@@ -193,7 +195,7 @@ impl Field {
 
     fn of(support: Support, values: &Values) -> Self {
         let bricks = Bricks::new(support.bounds());
-        Self { support, turbulence: values.has_turbulence(), bricks }
+        Self { support, turbulence: values.has_turbulence(), bricks, lacks: None }
     }
 
     /// Whether the field has `k` and `ε`.
@@ -201,10 +203,26 @@ impl Field {
         self.turbulence
     }
 
+    /// What a file lacks for `k` and `ε`, and the arrays that it has; none if they are there.
+    pub fn why_no_turbulence(&self) -> Option<&str> {
+        self.lacks.as_deref().filter(|_| !self.turbulence)
+    }
+
     /// The lowest and the highest coordinates [m].
     pub fn bounds(&self) -> (Vec3<f64>, Vec3<f64>) {
         let (low, high) = self.support.bounds();
         (vector(low), vector(high))
+    }
+
+    /// The memory that the field takes now [bytes]. It grows while places are looked up with [`Field::around`], by
+    /// 1 GiB at most.
+    pub fn memory(&self) -> usize {
+        let support = match &self.support {
+            Support::Lattice(lattice) => lattice.memory(),
+            Support::Mesh(mesh) => mesh.memory(),
+            Support::Points(points) => points.memory(),
+        };
+        support + self.bricks.memory()
     }
 
     /// The air at a point.
@@ -221,12 +239,15 @@ impl Field {
         Local { velocity: Vec3::new(u, v, w), k: k.max(0.0), epsilon: epsilon.max(0.0), inside }
     }
 
-    /// The air around a point, linear in space, from values that are sampled once and kept. Where a flow is smooth,
-    /// it differs from [`Field::sample`] by less than a thousandth of the velocity.
+    /// The air around a point, linear in space: its value and gradients at the point, and how far these may be used.
+    ///
+    /// It comes from lattices of values that are sampled once and kept for the life of the field. They are made as
+    /// fine as needed: within its reach the error is about a thousandth of the largest velocity near by. Where the
+    /// field is too rough for that, it is [`Field::sample`] with a reach of zero.
     ///
     /// * `at` – [m]
     /// * `hint` – as of [`Field::sample`]
-    pub(crate) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
+    pub fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
         let at = [at.x, at.y, at.z].map(|x| x.clamp(-FARTHEST, FARTHEST));
         if at.iter().any(|x| x.is_nan()) {
             return Around::default();

@@ -25,6 +25,11 @@ impl Tree {
         Self { points, axes }
     }
 
+    /// The memory taken [bytes].
+    pub(super) fn memory(&self) -> usize {
+        size_of_val(&*self.points) + self.axes.len()
+    }
+
     /// Fills `found` with the nearest points, nearest first: the square of the distance [m²] and the number of
     /// the point. Entries left over have the distance infinity.
     pub(super) fn nearest(&self, at: [f64; 3], found: &mut [(f64, u32)]) {

@@ -102,6 +102,13 @@ impl Mesh {
         self.cells.size()
     }
 
+    /// The memory taken [bytes].
+    pub(super) fn memory(&self) -> usize {
+        // The tree of boxes groups up to six, and each group has a box of its own.
+        let boxes = self.cells.size() * (size_of::<CellBox>() + size_of::<[[f64; 3]; 2]>() / 4);
+        size_of_val(&*self.nodes) + size_of_val(&*self.tetrahedra) + boxes + self.surface.memory()
+    }
+
     pub(super) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         self.bounds
     }

@@ -76,6 +76,11 @@ impl Points {
         self.sites.len()
     }
 
+    /// The memory taken [bytes].
+    pub(super) fn memory(&self) -> usize {
+        size_of_val(&*self.sites) + self.tree.memory()
+    }
+
     pub(super) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         self.bounds
     }

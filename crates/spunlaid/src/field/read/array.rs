@@ -135,7 +135,7 @@ impl Array<'_> {
             Source::Numbers(numbers) => Ok(numbers.iter().map(|x| T::of_float(*x)).collect()),
             Source::Bytes { bytes, big_endian } => self.converted(bytes, *big_endian),
             Source::Packed { bytes, packing, big_endian } => {
-                let bytes = encoding::unpack(bytes, *packing, *big_endian, budget);
+                let bytes = encoding::unpack(bytes, *packing, *big_endian, self.number.size(), budget);
                 bytes.and_then(|bytes| self.converted(&bytes, *big_endian))
             }
         };

@@ -11,6 +11,8 @@ use std::io::Read;
 const MOST: u64 = 1 << 32;
 /// Largest number of bytes that LZ4 can make from one byte.
 const LZ4_EXPANSION: usize = 255;
+/// Largest number of bytes that zlib can make from one byte.
+const ZLIB_EXPANSION: usize = 1032;
 
 /// How blocks of bytes are packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,17 +47,24 @@ impl Budget {
         Ok(())
     }
 
-    /// Whether so many bytes, soon to be numbers, may be decoded.
-    fn allow(&self, bytes: usize) -> Result<(), FileFault> {
-        if bytes as u64 > self.0 { Err(FieldFault::TooLarge { most: MOST }.into()) } else { Ok(()) }
+    /// Whether so many bytes may be decoded: they and the numbers they become are in memory together.
+    ///
+    /// * `size` – of a number as written [bytes]
+    fn allow(&self, bytes: usize, size: usize) -> Result<(), FileFault> {
+        let numbers = (bytes / size.max(1)).saturating_mul(8);
+        let together = bytes.saturating_add(numbers) as u64;
+        if together > self.0 { Err(FieldFault::TooLarge { most: MOST }.into()) } else { Ok(()) }
     }
 }
 
 /// Unpacks the bytes of an array. What follows them is ignored.
+///
+/// * `size` – of a number as written [bytes]
 pub(super) fn unpack<'a>(
     packed: &'a [u8],
     packing: Packing,
     big_endian: bool,
+    size: usize,
     budget: &Budget,
 ) -> Result<Cow<'a, [u8]>, FileFault> {
     let packed = if packing.base64 { Cow::Owned(of_base64(packed)?) } else { Cow::Borrowed(packed) };
@@ -75,13 +84,19 @@ pub(super) fn unpack<'a>(
     if blocks == 0 {
         return Ok(Cow::Borrowed(&[]));
     }
+    let number_size = size;
     let [size, last] = [header.number("the size of blocks")?, header.number("the size of the last block")?];
     let width = if packing.wide_header { 8 } else { 4 };
     if blocks > (packed.len() - header.at) / width {
         return Err(FileFault::CutOff { wanted: "the sizes of the blocks" });
     }
     let mut rest = &packed[header.at + blocks * width..];
-    let mut bytes = Vec::new();
+    let whole = (blocks - 1).saturating_mul(size).saturating_add(if last > 0 { last } else { size });
+    budget.allow(whole, number_size)?;
+    // The whole is taken at once, because a growing list would take up to three times as much, but no more than the
+    // blocks can expand to.
+    let expansion = if packing.compressor == Compressor::Lz4 { LZ4_EXPANSION } else { ZLIB_EXPANSION };
+    let mut bytes = Vec::with_capacity(whole.min(rest.len().saturating_mul(expansion)));
     for block in 0..blocks {
         let length = header.number("the size of a block")?;
         let Some((compressed, after)) = rest.split_at_checked(length) else {
@@ -89,7 +104,7 @@ pub(super) fn unpack<'a>(
         };
         rest = after;
         let wanted = if block + 1 == blocks && last > 0 { last } else { size };
-        expand(compressed, wanted, packing.compressor, &mut bytes, budget)?;
+        expand(compressed, wanted, packing.compressor, &mut bytes)?;
     }
     Ok(Cow::Owned(bytes))
 }
@@ -100,10 +115,8 @@ fn expand(
     wanted: usize,
     compressor: Compressor,
     bytes: &mut Vec<u8>,
-    budget: &Budget,
 ) -> Result<(), FileFault> {
     let before = bytes.len();
-    budget.allow(before.saturating_add(wanted))?;
     let expanded = match compressor {
         Compressor::None | Compressor::Zlib => {
             let decoder = flate2::bufread::ZlibDecoder::new(compressed);

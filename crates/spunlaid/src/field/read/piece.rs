@@ -21,12 +21,37 @@ pub(super) fn assemble(
     mut pieces: Vec<Piece<'_>>,
     budget: &mut Budget,
 ) -> Result<(Field, Vec<FieldWarning>), FileError> {
+    let lacks = pieces.first().and_then(|piece| {
+        let arrays = || piece.point_data.iter().chain(&piece.cell_data);
+        let names: Vec<Name> = arrays().map(|array| Name::new(&array.name)).collect();
+        let components: Vec<usize> = arrays().map(|array| array.components).collect();
+        lacks(&names, &components)
+    });
+    let (mut field, warnings) = joined(&mut pieces, budget)?;
+    field.lacks = lacks;
+    Ok((field, warnings))
+}
+
+/// What a file with these arrays lacks for turbulence, and what it has.
+pub(super) fn lacks(names: &[Name], components: &[usize]) -> Option<String> {
+    let has = |measure| names::scalar(names, components, measure).is_ok_and(|found| found.is_some());
+    let missing = match (has(Measure::K), has(Measure::Epsilon) || has(Measure::Omega)) {
+        (true, true) => return None,
+        (true, false) => "it has k but neither ε nor ω",
+        (false, true) => "it has ε or ω but no k",
+        (false, false) => "it has neither k nor ε nor ω",
+    };
+    let found: Vec<String> = names.iter().map(|name| crate::units::excerpt(&name.written, 40)).collect();
+    Some(format!("{missing} among {}", crate::error::listed(&found)))
+}
+
+fn joined(pieces: &mut [Piece<'_>], budget: &mut Budget) -> Result<(Field, Vec<FieldWarning>), FileError> {
     let mut warnings = Vec::new();
     let mut values = Vec::new();
-    for piece in &pieces {
+    for piece in pieces.iter() {
         values.push(Reader { piece, budget, warnings: &mut warnings }.values()?);
     }
-    if let ([piece], [values]) = (pieces.as_slice(), values.as_slice()) {
+    if let ([piece], [values]) = (&*pieces, values.as_slice()) {
         if let Grid::Scattered(points) = &piece.grid {
             let (field, more) = Field::points(points, values)?;
             return Ok((field, [warnings, more].concat()));

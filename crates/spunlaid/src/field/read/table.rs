@@ -4,7 +4,7 @@ use super::array::{Array, Number, Source};
 use super::encoding::Budget;
 use super::grid::Grid;
 use super::names::{self, Found, Name};
-use super::piece::{Piece, assemble};
+use super::piece::{Piece, assemble, lacks};
 use crate::error::{FieldFault, FileError, FileFault, FileKind, FilePlace};
 use crate::field::{Field, FieldWarning};
 use crate::table::Table;
@@ -35,7 +35,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError
         columns.iter_mut().zip(numbers).for_each(|(column, number)| column.push(number));
     }
     let piece = piece(&names, &used, &columns, coordinates);
-    let (field, mut warnings) = assemble(vec![piece], &mut Budget::new())?;
+    let (mut field, mut warnings) = assemble(vec![piece], &mut Budget::new())?;
+    // The piece has only the columns that are used.
+    field.lacks = lacks(&names, &vec![1; names.len()]);
     if let (rows @ 1.., first) = dropped {
         warnings.push(FieldWarning::Dropped { rows, first });
     }
