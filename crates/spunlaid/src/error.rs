@@ -12,6 +12,7 @@ pub use file::{FileError, FileFault, FileKind, FilePlace};
 pub use flight::FlightFault;
 pub use profile::ProfileFault;
 pub use record::RecordFault;
+pub(crate) use record::listed;
 pub use study::{JournalError, StudyFault};
 
 use crate::units::{Dimension, Printable, QuantityFault, shortest};
@@ -192,6 +193,18 @@ pub enum Fault {
     /// A required key is not there.
     #[error("is missing; add {line} to [{table}]")]
     Missing {
+        /// The table it belongs in.
+        table: &'static str,
+        /// A line that would do.
+        line: String,
+    },
+    /// A required key is not there, and the field lacks what would tell it.
+    #[error(
+        "is missing, and the field does not tell it: {why}; write these arrays too, or add {line} to [{table}]"
+    )]
+    MissingOfField {
+        /// What the field lacks and what it has.
+        why: String,
         /// The table it belongs in.
         table: &'static str,
         /// A line that would do.

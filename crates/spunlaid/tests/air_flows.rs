@@ -1,4 +1,4 @@
-//! Air that differs from place to place, against flows known in closed form.
+//! Air that varies in space, compared with flows in closed form.
 #![allow(clippy::unwrap_used)]
 
 use spunlaid::air::{Air, Axis, Eddies, Flow, FromFile, FromFlow, PlacedField, Profile, StreamKey};
@@ -74,8 +74,8 @@ fn placed(field: Field, root: Vec3<f64>, axis: Axis, unit: f64) -> Flow {
 
 const TOLD: FromFlow = FromFlow { turbulence_intensity: true, length_scale: true, cutoff_frequency: true };
 
-/// A profile that says everywhere what the uniform case says makes the same flight; the way there differs
-/// in rounding only, and the motion of the taut fibre does not blow that up.
+/// A profile with the same values everywhere as the uniform case makes the same flight. Only rounding differs,
+/// and the motion of the taut fibre does not amplify it.
 #[test]
 fn analytic_a_constant_profile_is_the_uniform_flow() {
     let uniform = table1(&[("run.time_step", "20 µs"), ("run.duration", "0.2 s"), ("run.replicates", "3")]);
@@ -99,8 +99,8 @@ fn analytic_a_constant_profile_is_the_uniform_flow() {
     }
 }
 
-/// The air around a straight fibre at rest, in a flow linear in space: what its elements are accelerated by in
-/// the first step is the drag law at the velocity of their centres.
+/// A straight fibre at rest in a flow that is linear in space: the acceleration of its elements in the first step
+/// follows from the drag law at the velocity of their centres.
 #[test]
 fn analytic_elements_feel_the_velocity_at_their_centres() {
     let shear = |at: Vec3<f64>| Vec3::new(4.0 + 3.0 * at.x, 1.0 - 0.5 * at.x, 0.25 * at.x);
@@ -141,8 +141,8 @@ fn analytic_elements_feel_the_velocity_at_their_centres() {
     }
 }
 
-/// Between looks the air is carried on along straight lines: a flight with looks at every step and one with
-/// looks as the case chooses them differ to second order only.
+/// Between looks the air is extrapolated linearly. A flight with a look at every step and one with the case's own
+/// interval differ only to second order.
 #[test]
 fn order_the_air_between_looks_is_of_second_order() {
     let swirl = |at: Vec3<f64>| Vec3::new(10.0 - 4.0 * at.x, 2.0 + 40.0 * at.z, -40.0 * at.y);
@@ -182,8 +182,47 @@ fn order_the_air_between_looks_is_of_second_order() {
     assert!(error(case.steps_between_looks() / 10) < 1e-4 * amplitude);
 }
 
-/// k and ε of a uniform turbulence: rms √(2k/3), length C_L k^1.5/ε, cut-off from passing and turning over;
-/// speeds by a factor change them as similarity wants.
+/// The interval between looks follows the gradients of the field, not only its eddies: waves of 20 mm.
+#[test]
+fn the_interval_between_looks_follows_the_gradients() {
+    let wave = |s: f64| 4.0 * (s * std::f64::consts::TAU / 0.02).sin();
+    let row = |low: f64, high: f64, n: usize| -> Vec<f64> {
+        (0..=n).map(|i| low + (high - low) * i as f64 / n as f64).collect()
+    };
+    let axes = [row(-0.1, 1.2, 1), row(-0.12, 0.12, 240), row(-0.12, 0.12, 240)];
+    let mut values = Values::default();
+    for &z in &axes[2] {
+        for &y in &axes[1] {
+            values.velocity.extend(axes[0].iter().map(|_| Vec3::new(10.0, wave(z) + 1.0, wave(y))));
+        }
+    }
+    let waves = Field::lattice(axes, &values).unwrap();
+    let mut case = table1(&[("run.duration", "0.1 s"), ("air.length_scale", "500 mm")]);
+    case.run.time_step = 1e-5;
+    case.air.flow = placed(waves, Vec3::default(), Axis::ALL[0], 1.0);
+    let calm = Air { turbulence_intensity: 0.0, ..case.air.clone() };
+    let (eddies, still) = (case.eddies(), Air { velocity: 0.0, flow: Flow::Uniform, ..case.air.clone() });
+    let key = StreamKey { seed: 1, replicate: 0 };
+    let wind = Wind::uniform(Isa::detect(), &[(still, key)], eddies.count(), 0.11).unwrap();
+    let path = |every: u64| -> Vec<Vec3<f64>> {
+        let surroundings = Surroundings::new(vec![calm.clone()], case.fibre.elements, every).unwrap();
+        let air = Surrounded { surroundings: Some(surroundings), ..Surrounded::from((&eddies, &wind)) };
+        let strands = [case.strand()];
+        let mut flight = Flight::assembled(Isa::detect(), &strands, air, Scheme::Leapfrog, 1e-5).unwrap();
+        let place = |_| {
+            flight.advance(100);
+            flight.chain().position[case.fibre.elements].lane(0)
+        };
+        (0..100).map(place).collect()
+    };
+    let (exact, found) = (path(1), path(case.steps_between_looks()));
+    let farthest = exact.iter().map(|p| p.y.hypot(p.z)).fold(0.0, f64::max);
+    let off = exact.iter().zip(&found).map(|(a, b)| (*a - *b).norm()).fold(0.0, f64::max);
+    assert!(farthest > 0.01 && off < 1e-3 * farthest, "{off:e} of {farthest}");
+}
+
+/// k and ε of a uniform turbulence: rms √(2k/3), length scale C_L k^1.5/ε, and the cut-off frequency from passing
+/// and decay. A speed factor changes them by similarity.
 #[test]
 fn analytic_turbulence_from_k_and_epsilon() {
     let (k, epsilon) = (1.5, 30.0);
@@ -257,7 +296,7 @@ fn analytic_eddies_grow_with_the_length_scale() {
     assert_eq!(eddies.count(), 5);
 }
 
-/// Elements beyond the ends of what is known are counted, and a warning says so beforehand.
+/// Elements outside the data are counted, and a warning says so before the run.
 #[test]
 fn a_fibre_that_leaves_the_flow_is_told_of() {
     let mut case = table1(&[("run.time_step", "20 µs"), ("run.duration", "0.05 s"), ("run.replicates", "1")]);
@@ -266,12 +305,12 @@ fn a_fibre_that_leaves_the_flow_is_told_of() {
     let notes = case.check().unwrap();
     assert_eq!(notes.len(), 1);
     assert!(notes[0].to_string().contains("beyond what the flow of the case knows"), "{}", notes[0]);
-    // Ten of twenty elements hang below, but for the end's rising.
+    // Ten of twenty elements hang below; a few less when the end rises.
     let outside = flights(&case)[0].number("share_outside_flow");
     assert!((0.45..=0.55).contains(&outside), "{outside}");
 }
 
-/// Fibres in fields fly the same whatever their neighbours, the threads and the instruction set.
+/// The flight of a fibre in a field does not depend on its neighbours, the threads or the instruction set.
 #[test]
 fn identical_in_any_bundle_on_any_instruction_set() {
     let mut case =

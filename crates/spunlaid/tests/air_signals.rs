@@ -1,5 +1,4 @@
-//! The turbulence other than the paper's: spectra by name and by table, eddies that are carried along,
-//! fluctuations out of a record.
+//! Turbulence beyond the paper's: spectra by name and from tables, convected eddies, and fluctuations from a record.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -58,7 +57,7 @@ fn spectra(air: &Air, interval: f64, samples: usize) -> [Vec<(f64, f64)>; 2] {
     })
 }
 
-/// Whatever the shape, the variance over a full period is u² to the last digit that the interpolation leaves.
+/// For any shape the variance over a full period is u², up to the error of the interpolation.
 #[test]
 fn stat_variance_does_not_depend_on_the_shape() {
     let table = SpectrumTable { frequency: vec![5.0, 20.0, 60.0], energy: vec![1.0, 3.0, 0.0] };
@@ -112,7 +111,7 @@ fn published_von_karman_spectra_along_and_across() {
     for (component, printed) in printed.into_iter().enumerate() {
         let spectrum = air.energy_spectrum(component);
         let density = |f: f64| spectrum.energy(2.0 * std::f64::consts::PI * f) * 2.0 * std::f64::consts::PI;
-        // What lies above the cut-off is missing, and all else raised by as much.
+        // The energy above the cut-off is missing; the rest is raised to give the same variance.
         let kept: f64 =
             (0..200_000).map(|i| (f64::from(i) + 0.5) * 0.01).map(|f| printed(f * l / u) / f * 0.01).sum();
         let factor = density(20.0) * 20.0 / air.rms().powi(2) / printed(20.0 * l / u);
@@ -149,7 +148,7 @@ fn stat_realised_spectra_follow_the_shape() {
     }
 }
 
-/// A frozen pattern: what passes an element now passed the first one earlier, by the distance over the speed.
+/// A frozen pattern: an element feels what the first one felt earlier, by the distance over the speed.
 #[test]
 fn analytic_a_frozen_pattern_is_carried_at_the_mean_velocity() {
     let air = Air { eddies: EddyModel::Convected { decay_time: f64::INFINITY }, ..table1_air() };
@@ -166,7 +165,7 @@ fn analytic_a_frozen_pattern_is_carried_at_the_mean_velocity() {
     }
 }
 
-/// What is carried along forgets itself as e^(−t/T), and the mesh does not matter.
+/// The correlation of the carried pattern decays as e^(−t/T), on any mesh.
 #[test]
 fn stat_a_carried_pattern_forgets_itself_in_its_decay_time() {
     let decay_time = 0.02;
@@ -206,7 +205,7 @@ fn record(components: usize, samples: usize) -> FromFile<Measured> {
 }
 
 /// At the instants of its samples the fluctuation is the record's, over its rms and times the air's; stretches
-/// begin as far apart as promised; what was measured together stays together.
+/// start as far apart as promised, and components measured together stay together.
 #[test]
 fn identical_samples_of_the_record_in_stretches_far_apart() {
     for components in [1, 2, 3] {
@@ -270,7 +269,7 @@ fn analytic_between_samples_parabolas_are_exact() {
     }
 }
 
-/// A frozen record: an element sees what the root saw earlier, to the nearest sample.
+/// A frozen record: an element feels what the root felt earlier, to the nearest sample.
 #[test]
 fn analytic_a_record_is_carried_along_the_fibre() {
     let air = Air {

@@ -1,5 +1,4 @@
-//! Each element flies in the velocity of its own eddy, on meshes finer than, as fine as and coarser than
-//! the eddies.
+//! Each element feels the velocity of its own eddy, on meshes finer than, as fine as and coarser than the eddies.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! Fields from files: whatever the encoding and whichever the program, the field is the same.
+//! Fields from files: the field does not depend on the encoding or on the program that wrote it.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -153,7 +153,7 @@ fn analytic_values_of_cells_are_the_mean_at_points() {
     let cell = |x: usize| (12, [0, 1, 4, 3, 6, 7, 10, 9].map(|i| i + x).to_vec(), vec![]);
     let mesh = Mesh {
         points: points.clone(),
-        // A face of the boundary between them, whose value counts for nothing.
+        // A face of the boundary between them, whose value is ignored.
         cells: vec![cell(0), (9, vec![0, 3, 9, 6], vec![]), cell(1)],
         point_data: Vec::new(),
         cell_data: vec![("U", 3, vec![1.0, 0.0, 0.0, 99.0, 99.0, 99.0, 3.0, 0.0, 0.0])],
@@ -188,10 +188,10 @@ fn analytic_epsilon_is_from_omega() {
     let local = field.sample(Vec3::new(0.5, 0.5, 0.5), &mut Hint::default());
     assert!(field.has_turbulence());
     assert_eq!((local.k, local.epsilon), (2.0, 0.09 * 2.0 * 100.0));
-    // k alone is no turbulence.
+    // k alone does not make turbulence.
     let (field, _) = read(&vti([2, 2, 2], [0.0; 3], [1.0; 3], [&data[..2], &[]], ASCII), "a.vti");
     assert!(!field.has_turbulence() && field.sample(Vec3::default(), &mut Hint::default()).k == 0.0);
-    // Below zero it is taken for zero, with a word.
+    // Negative values become zero, with a warning.
     let data = [
         ("U", 3, vec![0.0; 24]),
         ("k", 1, [vec![-1e-9], ones(1.0)[1..].to_vec()].concat()),
@@ -218,7 +218,7 @@ fn names_of_many_programs_are_known() {
     for (names, velocity, k, epsilon) in [
         (&[("p", 1), ("U", 3), ("k", 1), ("epsilon", 1)][..], vector(2.0), 3.0, 4.0),
         (&[("Velocity", 3), ("TKE", 1), ("turb-diss-rate", 1)][..], vector(1.0), 2.0, 3.0),
-        // The mean goes before an instant, whatever the order.
+        // The mean comes before the instantaneous velocity, in any order.
         (&[("U", 3), ("UMean", 3)][..], vector(2.0), 0.0, 0.0),
         (&[("x-velocity", 1), ("y-velocity", 1), ("z-velocity", 1)][..], Vec3::new(1.0, 2.0, 3.0), 0.0, 0.0),
         (&[("Velocity_Z", 1), ("Velocity_X", 1), ("Velocity_Y", 1)][..], Vec3::new(2.0, 3.0, 1.0), 0.0, 0.0),
@@ -231,7 +231,7 @@ fn names_of_many_programs_are_known() {
             0.0,
         ),
         (&[("Velocity [cm s^-1]", 3)][..], vector(1.0) * 0.01, 0.0, 0.0),
-        // Three components are no ω but the vorticity.
+        // An array of three components is the vorticity, not ω.
         (&[("U", 3), ("omega", 3), ("k", 1)][..], vector(1.0), 0.0, 0.0),
     ] {
         let local = by_names(names).unwrap();
@@ -292,11 +292,11 @@ fn tables_of_many_programs_are_read() {
         assert_eq!(local.velocity, Vec3::new(1.0, 2.0, 3.0), "{text}");
         assert!((local.k - 4.0).abs() < 1e-12 && (local.epsilon - 5.0).abs() < 1e-12, "{text}: {local:?}");
     }
-    // A plane flow does without z and w.
+    // A plane flow needs neither z nor w.
     let (field, _) = read(b"x,y,u,v\n0,0,1,2\n1,0,1,2\n0,1,3,2\n1,1,3,2\n", "a.csv");
     let local = field.sample(Vec3::new(0.5, 0.5, 9.0), &mut Hint::default());
     assert_eq!((local.velocity, local.inside), (Vec3::new(2.0, 2.0, 0.0), true));
-    // Rows without all their numbers are left out, whichever is missing.
+    // Rows that lack any number are left out.
     let (field, warnings) =
         read(b"x,y,u,v\n0,0,1,2\n1,0,1,2\n5,5,nan,2\n0,1,3,2\n7,7,,1\n1,1,3,2\n8,8,1,\n", "a.csv");
     assert_eq!(warnings, [FieldWarning::Dropped { rows: 3, first: 4 }]);

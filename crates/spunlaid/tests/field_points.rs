@@ -1,5 +1,4 @@
-//! Fields of points without cells: what is linear comes out exactly, what is smooth to second order, and the field is
-//! continuous.
+//! Fields of points without cells: linear flows are exact, smooth flows are second order, and the field is continuous.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -25,7 +24,7 @@ fn scattered(count: usize, values: impl Fn([f64; 3]) -> [f64; 5]) -> Field {
 
 #[test]
 fn analytic_linear_fields_are_exact_between_points() {
-    // As far as the ridge of the fit and the condition of its neighbours, at worst 1e2, leave it.
+    // The ridge of the fit and the condition number of the neighbours, at worst 1e2, limit the accuracy.
     let field = scattered(3000, linear);
     let mut hint = Hint::default();
     for point in inside(2000) {
@@ -57,7 +56,7 @@ fn analytic_linear_fields_are_exact_between_points_in_columns() {
         let local = field.sample(at(point), &mut Hint::default());
         between += usize::from(local.inside);
         for (found, wanted) in numbers(local).into_iter().zip(linear(point)) {
-            // The ridge counts for more where neighbours tell little of a direction: 1e-13 over 1e-2, times 10.
+            // The ridge matters more in a direction with few neighbours: 1e-13 over 1e-2, times 10.
             assert!(!local.inside || (found - wanted).abs() < 1e-9, "{point:?}: {found} {wanted}");
         }
     }
@@ -66,7 +65,7 @@ fn analytic_linear_fields_are_exact_between_points_in_columns() {
 
 #[test]
 fn order_between_points_is_two() {
-    // Eight times the points are twice as close. Mean errors, for the gaps between random points vary.
+    // Eight times as many points are twice as close. Mean errors, because the gaps between random points vary.
     let mean = |count: usize| {
         let field = scattered(count, smooth);
         let mut hint = Hint::default();
@@ -86,7 +85,7 @@ fn analytic_outside_of_points_the_nearest_counts() {
     let field = scattered(500, linear);
     let local = field.sample(V::new(2.0, 3.0, 2.0), &mut Hint::default());
     assert_eq!((numbers(local), local.inside), (linear([1.0; 3]), false));
-    // A ball within them that is empty.
+    // An empty ball among the points.
     let hollow = inside(3000).filter(|point| (at(*point) - at([0.5; 3])).norm() > 0.4);
     let points: Vec<[f64; 3]> = hollow.collect();
     let places: Vec<V> = points.iter().map(|point| at(*point)).collect();
@@ -148,7 +147,7 @@ fn analytic_points_in_a_plane_are_a_plane_flow() {
 }
 
 proptest! {
-    /// Any place gives finite numbers, far away too.
+    /// Any place gives finite numbers, also far away.
     #[test]
     fn invariant_samples_are_finite(place in prop::array::uniform3(prop::num::f64::ANY)) {
         let local = scattered(50, smooth).sample(at(place), &mut Hint::default());

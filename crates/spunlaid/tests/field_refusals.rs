@@ -1,4 +1,5 @@
-//! What is no field of air is refused with place and way out, and never more memory is taken than a file is worth.
+//! Files that hold no field of air are refused with the place and the way out, and memory stays in proportion to the
+//! file.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -134,7 +135,7 @@ fn rejects_grids_with_place_and_way_out() {
         ),
         (
             "0 1 0 1",
-            "a.vtu:4: WholeExtent: \"0 1 0 1\" stands in the place of numbers parted by blanks; is the file whole, and the right one?",
+            "a.vtu:4: WholeExtent: \"0 1 0 1\" stands in the place of numbers separated by blanks; is the file whole, and the right one?",
         ),
     ] {
         assert_eq!(refused(image.replace("0 1 0 1 0 1", extent).as_bytes()), said);
@@ -162,7 +163,7 @@ fn rejects_bytes_that_cannot_be_decoded() {
     let start = plain.windows(2).position(|pair| pair == b"_\xd8").unwrap() + 1;
     let mut promising = plain.clone();
     promising[start..start + 4].copy_from_slice(&[0xff; 4]);
-    // The first array is not needed, so that nobody minds.
+    // The first array is not needed, so its fault does not matter.
     assert!(Field::parse(&promising, "a.vtu").is_ok());
     for squeeze in [Squeeze::Zlib, Squeeze::Lz4] {
         let mut bytes = of(squeeze);

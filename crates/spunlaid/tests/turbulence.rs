@@ -1,5 +1,5 @@
-//! The synthesised turbulence: what it is made of, against the sum of cosines it stands for, and against
-//! the statistics asked of it.
+//! The synthesised turbulence, compared with the sum of cosines that it represents and with the statistics that it must
+//! have.
 
 mod common;
 
@@ -257,7 +257,7 @@ fn identical_wind_however_far_it_was_made_ahead_and_in_any_order() {
     let (mut in_order, mut hopping) = (wind(0.0), wind(3.0));
     for i in 0..300 {
         let t = f64::from(i) * 3.3e-3;
-        // To and fro over several windows.
+        // Forwards and backwards over several windows.
         hopping.at((t * 7.0) % 1.1);
         assert_eq!(in_order.at(t), hopping.at(t), "at {t} s");
         assert_eq!(in_order.at(t), wind(t).at(t), "at {t} s");
@@ -369,6 +369,6 @@ fn frozen_memory_of_a_wind_that_blows_for_hours() {
         assert!(seen.iter().all(|earlier| *earlier != now), "the wind repeats");
         seen.push(now);
     }
-    // Three quarters of a repeat time at most, whatever the time.
+    // At most three quarters of a repeat time at any time.
     assert_eq!(Wind::memory(&air, EDDIES, 10.0), Wind::memory(&air, EDDIES, 1e6));
 }

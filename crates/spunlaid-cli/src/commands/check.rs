@@ -68,7 +68,7 @@ fn cost(case: &Case) -> Result<(), Failure> {
     say::line(&format!(
         "# to expect: {} on {busy} of {threads} threads, {:.0} MiB of memory, {} of results",
         duration(seconds),
-        memory + 30.0,
+        memory + case.air.field_memory() as f64 / f64::from(1 << 20) + 30.0,
         size(on_disk(case))
     ));
     Ok(())

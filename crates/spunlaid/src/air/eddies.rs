@@ -1,16 +1,16 @@
-//! How the turbulence is strung along a fibre: which elements move in the same air.
+//! How the turbulence varies along a fibre: which elements feel the same eddy.
 
-/// How the turbulence at one place on the fibre hangs together with that at the next.
+/// How the turbulence at one place of the fibre is related to that at the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum EddyModel {
-    /// Eddies of one length scale each, side by side along the fibre and independent of one another.
+    /// Eddies one length scale long, side by side along the fibre and independent of one another.
     /// theory.md (23)
     #[default]
     Independent,
-    /// A frozen pattern that the mean flow carries along the fibre (Taylor's hypothesis), which forgets itself
-    /// in the course of `decay_time` [s]; infinite where it never does.       theory.md (47)
+    /// A pattern that the mean flow carries along the fibre (Taylor's hypothesis). Its correlation decays with
+    /// `decay_time` [s]; infinite for a frozen pattern.                       theory.md (47)
     Convected {
-        /// Time constant of the correlation of what is carried along [s].
+        /// Time constant of the correlation of the carried pattern [s].
         decay_time: f64,
     },
 }
@@ -33,16 +33,15 @@ pub struct Eddies {
 }
 
 impl Eddies {
-    /// Eddies of `length_scale` [m] along a fibre of `length` [m] cut into `elements`: an element lies in
-    /// the eddy that its centre lies in, by arc length.                       theory.md (23)
+    /// Eddies of `length_scale` [m] along a fibre of `length` [m] with `elements`. An element belongs to the eddy
+    /// that contains its centre, by arc length.                               theory.md (23)
     pub fn along(length: f64, elements: usize, length_scale: f64) -> Self {
         let size = length / elements as f64;
-        // A centre on a border, but for rounding, belongs to the eddy below it.
+        // A centre on a border belongs to the next eddy, also when rounding puts it just before the border.
         Self::of((0..elements).map(|j| ((j as f64 + 0.5) * size / length_scale + 1e-9).floor() as u32))
     }
 
-    /// Eddies as long as the length scale [m] where they begin, by arc length [m]; never shorter than an
-    /// element.
+    /// Eddies whose length is the length scale [m] at the arc length [m] where they begin, but at least one element.
     pub fn growing(length: f64, elements: usize, length_scale: impl Fn(f64) -> f64) -> Self {
         let size = length / elements as f64;
         let (mut eddy, mut end) = (0, length_scale(0.0).max(size));
@@ -54,7 +53,7 @@ impl Eddies {
         }))
     }
 
-    /// An eddy for every element: for what is carried along the fibre.
+    /// One eddy for every element, for a pattern that is carried along the fibre.
     pub fn of_each(elements: usize) -> Self {
         Self::of(0..elements as u32)
     }
@@ -75,7 +74,7 @@ impl Eddies {
         self.count
     }
 
-    /// Middle of each eddy's elements, in elements from the root; of an eddy without any, that of the next.
+    /// Middle of each eddy, in elements from the root. An eddy without elements has the middle of the next one.
     pub fn middles(&self) -> Vec<f64> {
         let mut middles = vec![0.0; self.count];
         let mut first = 0;

@@ -1,13 +1,13 @@
-//! What the turbulence of one eddy is made of.
+//! The turbulence of one eddy.
 
 use super::{Air, Eddies, EddyModel, Spectrum};
 use crate::field::Hint;
 use crate::vec3::Vec3;
 
-/// The turbulence of one eddy: how strong, how fast, and how it follows from that of the eddy above.
+/// The turbulence of one eddy: its strength, its frequencies, and its relation to the eddy above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EddyTurbulence {
-    /// Mean velocity along x that its signal is to contain [m/s].
+    /// Mean velocity along x that its signal contains [m/s].
     pub mean: f64,
     /// Rms of each component [m/s].
     pub rms: f64,
@@ -15,9 +15,9 @@ pub struct EddyTurbulence {
     pub cutoff_frequency: f64,
     /// Integral time of the component along the flow, by Taylor's hypothesis `L_T/Ū` [s].
     pub integral_time: f64,
-    /// Time that the flow takes from the eddy above to this one [s]; none where the two are independent.
+    /// Time that the flow takes from the eddy above to this one [s]; `None` if the two are independent.
     pub carried: Option<f64>,
-    /// What part of the time constant of its memory that is [-].
+    /// That time divided by the decay time [-].
     pub forgotten: f64,
 }
 
@@ -28,8 +28,8 @@ impl EddyTurbulence {
         of(self) == of(other)
     }
 
-    /// Energy spectrum of a component of its signal. Harmonics stand as close in every eddy, so that all
-    /// repeat after the same time.
+    /// Energy spectrum of a component of its signal. The spacing of the harmonics is the same in every eddy, so
+    /// that all signals repeat after the same time.
     pub fn spectrum<'a>(&self, air: &'a Air, component: usize) -> Spectrum<'a> {
         let times = (self.cutoff_frequency, self.integral_time);
         Spectrum::new(&air.spectrum, self.rms, times, component, 1.0 / air.repeat_time())
@@ -66,8 +66,8 @@ impl Air {
 
     /// The turbulence of each eddy along a straight fibre.
     ///
-    /// In a uniform flow it has its strength and contains the mean flow; elsewhere its rms is one and its mean
-    /// zero, for the strength and the mean are those of the place where an element happens to be.
+    /// In a uniform flow the signals contain the mean flow and have their rms. Otherwise their rms is one and
+    /// their mean zero: the mean and the rms are then those of the place where an element is.
     ///
     /// * `along` – from its root to its end [m]
     pub fn turbulence_along(
@@ -94,7 +94,7 @@ impl Air {
                 }
                 if let EddyModel::Convected { decay_time } = self.eddies {
                     let time = (middle - above) * spacing / speed;
-                    // Nothing is carried through air at rest.
+                    // Air at rest carries nothing.
                     if eddy > 0 && time.is_finite() {
                         (turbulence.carried, turbulence.forgotten) = (Some(time), time / decay_time);
                     }

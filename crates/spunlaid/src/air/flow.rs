@@ -1,7 +1,7 @@
 //! How the mean flow, and the strength and size of its turbulence, change from place to place.
 
 use super::{Air, FromFile, PlacedField, Profile};
-use crate::field::{Hint, Local};
+use crate::field::{Around, Hint, Local};
 use crate::vec3::Vec3;
 
 /// Where the mean flow comes from.
@@ -12,11 +12,11 @@ pub enum Flow {
     Uniform,
     /// Along x as in a table.
     Profile(FromFile<Profile>),
-    /// In space as a CFD solution has it.
+    /// In space as in a CFD solution.
     Field(PlacedField),
 }
 
-/// Which of the case's numbers the flow tells in their place.
+/// Which numbers of the case come from the flow instead.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FromFlow {
     /// [`Air::turbulence_intensity`].
@@ -38,7 +38,7 @@ pub struct LocalAir {
     pub length_scale: f64,
     /// Cut-off frequency of the spectrum [Hz].
     pub cutoff_frequency: f64,
-    /// Whether the place is inside what the flow knows.
+    /// Whether the place lies inside the flow's data.
     pub inside: bool,
 }
 
@@ -52,7 +52,7 @@ impl Flow {
         }
     }
 
-    /// What the flow can tell besides the velocity.
+    /// Which numbers the flow contains besides the velocity.
     pub fn tells(&self) -> FromFlow {
         match self {
             Self::Uniform => FromFlow::default(),
@@ -79,9 +79,9 @@ impl Air {
         self.flow == Flow::Uniform
     }
 
-    /// The air at a place, from the root, x the way of gravity [m].
+    /// The air at a place [m]. The origin is the root, and x points along gravity.
     ///
-    /// * `hint` – of the last place near by: saves time and changes nothing
+    /// * `hint` – remembers the last place near by; it saves time and does not change the result
     pub fn local(&self, at: Vec3<f64>, hint: &mut Hint) -> LocalAir {
         match &self.flow {
             Flow::Uniform => LocalAir {
@@ -96,8 +96,8 @@ impl Air {
         }
     }
 
-    /// Turbulence from `k` and `ε`: rms √(2k/3), length `C_L k^1.5/ε`, and the cut-off `1/(4T)` of the flat
-    /// spectrum whose integral time is that of eddies which pass by and turn over, `1/T = |U|/L + ε/(C_T k)`.
+    /// Turbulence from `k` and `ε`: rms √(2k/3), length scale `C_L k^1.5/ε`, and the cut-off frequency `1/(4T)` of
+    /// a flat spectrum with the integral time `T`. Eddies pass by and decay: `1/T = |U|/L + ε/(C_T k)`.
     /// theory.md (48), (49)
     fn of_field(&self, placed: &PlacedField, at: Vec3<f64>, hint: &mut Hint) -> LocalAir {
         let Local { velocity, k, epsilon, inside } = self.in_field(placed, at, hint);
@@ -120,24 +120,97 @@ impl Air {
         }
     }
 
-    /// What a fibre feels of the air at a place: mean velocity and rms of the fluctuation [m/s], and whether the
-    /// place is inside what the flow knows.
+    /// The air that acts on a fibre around a place, linear in space: mean velocity and, in the fourth place, the
+    /// rms of the fluctuation [m/s].
     ///
     /// * `hint` – as of [`Air::local`]
-    pub(super) fn felt(&self, at: Vec3<f64>, hint: &mut Hint) -> (Vec3<f64>, f64, bool) {
+    pub(super) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
         match &self.flow {
+            Flow::Uniform | Flow::Profile(_) => self.around_in_profile(at, hint),
             Flow::Field(placed) => {
-                let Local { velocity, k, inside, .. } = self.in_field(placed, at, hint);
-                (velocity, self.rms_in_field(velocity, k), inside)
-            }
-            Flow::Uniform | Flow::Profile(_) => {
-                let LocalAir { velocity, rms, inside, .. } = self.local(at, hint);
-                (velocity, rms, inside)
+                let mut around = placed.around(at, hint);
+                let [u, v, w, root_k] = around.value.map(|value| value * self.speed_factor);
+                around.gradients = around.gradients.map(|of| of.map(|change| change * self.speed_factor));
+                let rms_per_root = (2.0_f64 / 3.0).sqrt();
+                let rms = if self.from_flow.turbulence_intensity {
+                    around.gradients.iter_mut().for_each(|of| of[3] *= rms_per_root);
+                    rms_per_root * root_k
+                } else {
+                    let speed = Vec3::new(u, v, w).norm();
+                    let per_speed = if speed > 0.0 { self.turbulence_intensity / speed } else { 0.0 };
+                    around
+                        .gradients
+                        .iter_mut()
+                        .for_each(|of| of[3] = per_speed * (u * of[0] + v * of[1] + w * of[2]));
+                    self.turbulence_intensity * speed
+                };
+                Around { value: [u, v, w, rms], ..around }
             }
         }
     }
 
-    /// The field's own words, its speeds by the factor.
+    /// In a profile the air changes along x only. The gradient is that between two points near by.
+    fn around_in_profile(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
+        let mut value = |x: f64| {
+            let LocalAir { velocity, rms, inside, .. } = self.local(Vec3::new(x, at.y, at.z), hint);
+            ([velocity.x, velocity.y, velocity.z, rms], inside)
+        };
+        let (here, inside) = value(at.x);
+        let reach = match &self.flow {
+            Flow::Profile(profile) => profile.closest_rows() / 32.0,
+            _ => f64::INFINITY,
+        };
+        let mut gradients = [[0.0; 4]; 3];
+        if reach.is_finite() && reach > 0.0 {
+            let (before, after) = (value(at.x - reach).0, value(at.x + reach).0);
+            gradients[0] = std::array::from_fn(|i| (after[i] - before[i]) / (2.0 * reach));
+        }
+        Around { value: here, gradients, reach, inside }
+    }
+
+    /// Mean velocity along a straight fibre, and mean speed there [m/s].
+    ///
+    /// * `along` – from its root to its end [m]
+    pub fn along_and_speed(&self, along: Vec3<f64>) -> (f64, f64) {
+        const PLACES: usize = 64;
+        let (mut hint, way) = (Hint::default(), along * (1.0 / along.norm()));
+        let velocities = (0..PLACES).map(|i| along * ((i as f64 + 0.5) / PLACES as f64));
+        let velocities = velocities.map(|at| self.local(at, &mut hint).velocity);
+        let share = 1.0 / PLACES as f64;
+        velocities.fold((0.0, 0.0), |(mean, speed), v| (mean + share * v.dot(way), speed + share * v.norm()))
+    }
+
+    /// Longest time between two looks at the air around the elements of a fibre [s].
+    ///
+    /// It is 1/64 of the time in which the mean flow passes an eddy, or in which the flow's own gradients change
+    /// the velocity by as much as the largest velocity, if that is shorter.
+    ///
+    /// * `along` – from the root to the end of the straight fibre [m]
+    pub fn time_between_looks(&self, along: Vec3<f64>) -> f64 {
+        let passing = self.length_scale / self.velocity.abs();
+        let steepest = if matches!(self.flow, Flow::Field(_)) { self.steepest(along) } else { 0.0 };
+        passing.min(1.0 / steepest) / 64.0
+    }
+
+    /// The largest gradient of the velocity [1/s] at points around a straight fibre, as far from it as a tenth of
+    /// its length.
+    fn steepest(&self, along: Vec3<f64>) -> f64 {
+        const PLACES: usize = 1024;
+        let mut hint = Hint::default();
+        let length = along.norm();
+        let share = |i: usize, ratio: f64| ((i + 1) as f64 * ratio).fract();
+        let gradient = |i: usize| {
+            let across = [0.671_043_606_703_789_2, 0.549_700_477_901_967_3];
+            let [y, z] = across.map(|ratio| 0.2 * length * (share(i, ratio) - 0.5));
+            let at = along * share(i, 0.819_172_513_396_164_5) + Vec3::new(0.0, y, z);
+            let Around { gradients, inside, .. } = self.around(at, &mut hint);
+            let squares: f64 = gradients.iter().flat_map(|of| &of[..3]).map(|change| change * change).sum();
+            if inside { squares.sqrt() } else { 0.0 }
+        };
+        (0..PLACES).map(gradient).fold(0.0, f64::max)
+    }
+
+    /// The field's values, with all velocities multiplied by the speed factor.
     fn in_field(&self, placed: &PlacedField, at: Vec3<f64>, hint: &mut Hint) -> Local {
         let Local { velocity, k, epsilon, inside } = placed.at(at, hint);
         let factor = self.speed_factor;
@@ -171,7 +244,7 @@ impl Air {
             rms: intensity * velocity.abs(),
             length_scale: column(from.length_scale, &profile.length_scale, self.length_scale),
             cutoff_frequency: if from.cutoff_frequency {
-                // In faster air the same eddies pass sooner.
+                // In faster air the same eddies pass in less time.
                 let cutoff = profile.at(&profile.cutoff_frequency, x);
                 self.speed_factor * cutoff.unwrap_or(self.cutoff_frequency)
             } else {
@@ -181,10 +254,10 @@ impl Air {
         }
     }
 
-    /// Sets the numbers that the flow tells to what they are along a fibre: the mean of the velocity, the
-    /// intensity and the length scale, the highest cut-off.
+    /// Sets the numbers that come from the flow to their values along a fibre: the means of velocity, intensity
+    /// and length scale, and the highest cut-off frequency.
     ///
-    /// They stand for the air wherever one number must do: in messages, and where a time step is chosen.
+    /// They are used where a single number is needed: in messages, and to choose the time step.
     ///
     /// * `along` – from the root to the end of the straight fibre [m]
     pub fn settle(&mut self, along: Vec3<f64>) {

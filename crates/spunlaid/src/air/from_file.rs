@@ -18,7 +18,7 @@ impl<T> FromFile<T> {
         Self { path, checksum, content }
     }
 
-    /// Where the file is.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -28,13 +28,13 @@ impl<T> FromFile<T> {
         self.checksum
     }
 
-    /// The same content, to be found elsewhere.
+    /// The same content at another path.
     pub fn moved_to(&self, path: PathBuf) -> Self {
         Self { path, checksum: self.checksum, content: Arc::clone(&self.content) }
     }
 }
 
-// Derived, it would ask for a content that can be cloned.
+// A derived implementation would require `T: Clone`.
 impl<T> Clone for FromFile<T> {
     fn clone(&self) -> Self {
         self.moved_to(self.path.clone())
@@ -49,7 +49,7 @@ impl<T> Deref for FromFile<T> {
     }
 }
 
-/// By content: where a file lies does not matter.
+/// Compares the contents; the folder of the file does not matter.
 impl<T> PartialEq for FromFile<T> {
     fn eq(&self, other: &Self) -> bool {
         self.checksum == other.checksum && self.path.file_name() == other.path.file_name()

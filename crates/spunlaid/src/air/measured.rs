@@ -1,4 +1,4 @@
-//! A measured fluctuation that fibres fly in.
+//! A measured velocity fluctuation.
 
 use std::sync::Arc;
 
@@ -8,17 +8,17 @@ use std::sync::Arc;
 pub struct Measured {
     /// Time between samples [s].
     pub interval: f64,
-    /// One to three components, that along the mean flow first.
+    /// One to three components; the first is along the mean flow.
     pub components: Vec<Arc<[f64]>>,
     /// Integral time of the component along the flow [s].
     pub integral_time: f64,
-    /// The sampling rate, where it was given with the record instead of being in it [Hz].
+    /// The sampling rate, if the case gives it because the record does not contain it [Hz].
     pub rate: Option<f64>,
-    /// What the record says of the air.
+    /// What the record says about the air.
     pub says: Said,
 }
 
-/// What a record says of the air; where its mean was taken off, only what does not rest on that.
+/// What a record says about the air. A record without its mean gives only the numbers that do not need it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Said {
     /// Mean velocity [m/s].
@@ -31,12 +31,12 @@ pub struct Said {
     pub cutoff_frequency: f64,
 }
 
-/// How many integral times apart two stretches of a record count as uncorrelated: what is exponentially
-/// correlated has fallen to 0.7 %.
+/// Two stretches of a record count as uncorrelated if they are this many integral times apart. An exponential
+/// correlation has then fallen to 0.7 %.
 pub const APART: f64 = 5.0;
 
 impl Measured {
-    /// From the components [m/s]; their means are taken off.
+    /// Makes a fluctuation of the components [m/s] by subtracting their means.
     pub fn new(interval: f64, components: &[&[f64]], integral_time: f64, says: Said) -> Self {
         let fluctuations: Vec<Vec<f64>> = components.iter().map(|values| without_mean(values)).collect();
         let variance = |values: &Vec<f64>| values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64;
@@ -51,8 +51,8 @@ impl Measured {
         self.components.first().map_or(0, |component| component.len())
     }
 
-    /// Stretches that one eddy takes at a time, and for each of the three directions which of them and which
-    /// component: what was measured together stays together, what was not comes from elsewhere in the record.
+    /// How many stretches one eddy needs at a time, and for each of the three directions the index of its stretch
+    /// and of its component. Components measured together stay together; missing ones come from another stretch.
     pub(super) fn directions(&self) -> (usize, [(usize, usize); 3]) {
         match self.components.len() {
             1 => (3, [(0, 0), (1, 0), (2, 0)]),
@@ -61,25 +61,25 @@ impl Measured {
         }
     }
 
-    /// Stretches that one eddy takes at a time.
+    /// How many stretches one eddy needs at a time.
     pub fn stretches_each(&self) -> usize {
         self.directions().0
     }
 
-    /// Samples that a stretch of `duration` [s] takes, those before and after it included that its
-    /// interpolation rests on.
+    /// Number of samples of a stretch of `duration` [s], with those before and after it that the interpolation
+    /// needs.
     pub fn stretch(&self, duration: f64) -> f64 {
         (duration / self.interval).ceil() + 4.0
     }
 
-    /// How many stretches of `duration` [s] can begin at instants that are far enough apart for them to be
-    /// uncorrelated at any one time.
+    /// How many stretches of `duration` [s] the record holds whose starts are far enough apart for them to be
+    /// uncorrelated.
     pub fn stretches(&self, duration: f64) -> f64 {
         let room = self.samples() as f64 - self.stretch(duration);
         (room * self.interval / (APART * self.integral_time)).floor().max(if room >= 0.0 { 1.0 } else { 0.0 })
     }
 
-    /// How long the record must be [s] for so many of them.
+    /// How long the record must be [s] for that many stretches.
     pub fn duration_for(&self, stretches: f64, duration: f64) -> f64 {
         stretches * APART * self.integral_time + self.stretch(duration) * self.interval
     }

@@ -3,7 +3,7 @@
 //! ```text
 //! Flow (uniform, profile, field) → mean velocity, rms, length scale and cut-off at each place
 //! SpectrumShape, or a Measured record → signals of the turbulence, one to an eddy and direction
-//! EddyModel → how the signals hang together along the fibre
+//! EddyModel → how the signals are related along the fibre
 //! ```
 
 mod eddies;
@@ -32,15 +32,15 @@ pub use wind::{Stream, StreamKey, Wind};
 
 use std::path::{Path, PathBuf};
 
-/// The air of a case, in SI units. Where its flow varies from place to place, the numbers that the flow tells
-/// are those along the fibre, see [`Air::settle`].
+/// The air of a case, in SI units. If the flow varies from place to place, the numbers that come from it are those
+/// along the fibre, see [`Air::settle`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Air {
     /// Mean velocity `Ū` along x [m/s].
     pub velocity: f64,
     /// Turbulence intensity `Tu = u/Ū` [-], `u` the rms of each component.
     pub turbulence_intensity: f64,
-    /// Length `L_T` over which the velocity is one eddy's [m].
+    /// Length scale `L_T` of the eddies [m].
     pub length_scale: f64,
     /// Cut-off frequency `f` of the spectrum [Hz].
     pub cutoff_frequency: f64,
@@ -48,20 +48,19 @@ pub struct Air {
     pub density: f64,
     /// Kinematic viscosity `ν` [m²/s].
     pub kinematic_viscosity: f64,
-    /// Number of harmonics `N_h` a component is summed from.
+    /// Number of harmonics `N_h` of a component.
     pub harmonics: usize,
     /// How the mean flow varies from place to place.
     pub flow: Flow,
-    /// Which of the numbers above the flow tells.
+    /// Which of the numbers above come from the flow.
     pub from_flow: FromFlow,
     /// Factor on all velocities of a flow that is not uniform [-].
     pub speed_factor: f64,
-    /// How the turbulence spreads over frequency.
+    /// How the energy of the turbulence spreads over frequency.
     pub spectrum: SpectrumShape,
-    /// How the turbulence hangs together along the fibre.
+    /// How the turbulence is related along the fibre.
     pub eddies: EddyModel,
-    /// Records that the fluctuation is taken from, one for all eddies or one for each; none where it is
-    /// synthesised.
+    /// Records of the fluctuation, one for all eddies or one for each; empty if the fluctuation is synthesised.
     pub records: Vec<FromFile<Measured>>,
 }
 
@@ -73,7 +72,7 @@ impl Air {
     /// * `length_scale` – of the eddies [m]
     /// * `cutoff_frequency` – [Hz]
     ///
-    /// Density and viscosity are those of air at 20 °C, the harmonics as many as last for a second.
+    /// Density and viscosity are those of air at 20 °C. The harmonics last for a flight of one second.
     pub fn uniform(
         velocity: f64,
         turbulence_intensity: f64,
@@ -113,7 +112,7 @@ impl Air {
         files
     }
 
-    /// The same air, its files to be found elsewhere.
+    /// The same air with its files at other paths.
     pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
         fn moved<T>(file: &FromFile<T>, place: impl Fn(&Path) -> PathBuf) -> FromFile<T> {
             file.moved_to(place(file.path()))
@@ -133,6 +132,14 @@ impl Air {
         air
     }
 
+    /// The memory of a CFD field, which all fibres share [bytes].
+    pub fn field_memory(&self) -> usize {
+        match &self.flow {
+            Flow::Field(placed) => placed.field.memory(),
+            Flow::Uniform | Flow::Profile(_) => 0,
+        }
+    }
+
     /// Rms of each velocity component `u = Tu Ū` [m/s].
     pub fn rms(&self) -> f64 {
         self.turbulence_intensity * self.velocity.abs()
@@ -143,16 +150,16 @@ impl Air {
         self.turbulence_of_an_eddy().spectrum(self, component)
     }
 
-    /// The time after which one sum of cosines repeats but for its sign, `N_h/f` [s].
+    /// The time after which one sum of cosines repeats with the opposite sign, `N_h/f` [s].
     pub fn repeat_time(&self) -> f64 {
         self.harmonics as f64 / self.cutoff_frequency
     }
 
-    /// The number of harmonics taken where the case leaves it open: a power of two from 128 up.
+    /// The number of harmonics if the case does not give it: a power of two, at least 128.
     ///
-    /// Their repeat time is twice `duration` [s] at least, so that one window lasts for the flight. Long flights
-    /// pass through several windows instead: no more than 1024 harmonics then, or as many as make a window last
-    /// for 256 integral times. theory.md (50)
+    /// Their repeat time is at least twice `duration` [s], so that one window lasts for the flight. Long flights
+    /// pass through several windows: then there are at most 1024 harmonics, or as many as make a window last for
+    /// 256 integral times. theory.md (50)
     ///
     /// * `duration` – of the flight [s]
     pub fn default_harmonics(&self, duration: f64) -> usize {

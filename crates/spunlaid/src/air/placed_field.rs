@@ -1,7 +1,7 @@
-//! A CFD field, and where in it the fibre hangs.
+//! A CFD field, and where the fibre hangs in it.
 
 use super::FromFile;
-use crate::field::{Field, Hint, Local};
+use crate::field::{Around, Field, Hint, Local};
 use crate::vec3::Vec3;
 
 /// A direction along an axis of a field, forwards or backwards.
@@ -9,12 +9,12 @@ use crate::vec3::Vec3;
 pub struct Axis {
     /// 0, 1, 2 for x, y, z.
     pub index: usize,
-    /// Against the axis.
+    /// Whether the direction is against the axis.
     pub backwards: bool,
 }
 
 impl Axis {
-    /// All there are, the first that of a field whose flow is along x.
+    /// All six directions. The first is that of a field whose flow is along x.
     pub const ALL: [Self; 6] = [
         Self { index: 0, backwards: false },
         Self { index: 1, backwards: false },
@@ -36,10 +36,10 @@ impl Axis {
         }
     }
 
-    /// A vector of the fibre's frame, whose x is along this axis, in the frame of the field. Both frames are
-    /// right-handed.
+    /// Turns a vector from the fibre's frame, whose x is along this axis, into the frame of the field. Both frames
+    /// are right-handed.
     fn to_field(self, v: Vec3<f64>) -> Vec3<f64> {
-        // Turned about z by half a turn to go backwards.
+        // A half turn about z reverses the direction.
         let [x, y, z] = if self.backwards { [-v.x, -v.y, v.z] } else { [v.x, v.y, v.z] };
         match self.index {
             0 => Vec3::new(x, y, z),
@@ -48,7 +48,7 @@ impl Axis {
         }
     }
 
-    /// The way back.
+    /// Turns a vector from the frame of the field into the fibre's frame.
     fn to_fibre(self, v: Vec3<f64>) -> Vec3<f64> {
         let [x, y, z] = match self.index {
             0 => [v.x, v.y, v.z],
@@ -64,9 +64,9 @@ impl Axis {
 pub struct PlacedField {
     /// The field.
     pub field: FromFile<Field>,
-    /// Where the fibre's root is in it [m].
+    /// Position of the fibre's root in the field [m].
     pub root: Vec3<f64>,
-    /// Which way of the field is x of the fibre, that of gravity.
+    /// The direction of the field that is the fibre's x, along gravity.
     pub axis: Axis,
     /// Length of a unit of its coordinates [m].
     pub unit: f64,
@@ -76,22 +76,39 @@ pub struct PlacedField {
     pub time_constant: f64,
 }
 
-/// `C_L` where the case leaves it open: of the longitudinal integral scale at high Reynolds numbers
+/// `C_L` if the case does not give it: for the longitudinal integral scale at high Reynolds numbers
 /// (Pope 2000, section 6.5.7).
 pub const LENGTH_CONSTANT: f64 = 0.43;
-/// `C_T` where the case leaves it open: the lifetime of an eddy in the discrete random walk model
+/// `C_T` if the case does not give it: the lifetime of an eddy in the discrete random walk model
 /// (Gosman & Ioannides 1983, twice the Lagrangian time 0.15 k/ε).
 pub const TIME_CONSTANT: f64 = 0.30;
 
 impl PlacedField {
-    /// The air at a place of the fibre's frame, its origin the root [m].
+    /// The air at a place of the fibre's frame [m]. The origin is the root.
     pub(super) fn at(&self, at: Vec3<f64>, hint: &mut Hint) -> Local {
         let place = (self.root + self.axis.to_field(at)) * (1.0 / self.unit);
         let local = self.field.sample(place, hint);
         Local { velocity: self.axis.to_fibre(local.velocity), ..local }
     }
 
-    /// Longest that an eddy can be, for lack of room: the diagonal of the field's box [m].
+    /// The air around a place of the fibre's frame [m], linear in space, in that frame.
+    pub(super) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
+        let place = (self.root + self.axis.to_field(at)) * (1.0 / self.unit);
+        let Around { value, gradients, reach, inside } = self.field.around(place, hint);
+        let turned = |[u, v, w, root_k]: [f64; 4]| {
+            let v = self.axis.to_fibre(Vec3::new(u, v, w));
+            [v.x, v.y, v.z, root_k]
+        };
+        let along = |axis: Vec3<f64>| {
+            let way = self.axis.to_field(axis) * (1.0 / self.unit);
+            let [x, y, z] = &gradients;
+            turned(std::array::from_fn(|i| way.x * x[i] + way.y * y[i] + way.z * z[i]))
+        };
+        let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
+        Around { value: turned(value), gradients: axes.map(along), reach: reach * self.unit, inside }
+    }
+
+    /// Upper limit for the length of an eddy: the diagonal of the field's box [m].
     pub(super) fn size(&self) -> f64 {
         let (low, high) = self.field.bounds();
         (high - low).norm() * self.unit
@@ -106,7 +123,7 @@ impl PlacedField {
         (Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1))
     }
 
-    /// The middle of the side at which x enters the field's box: where a root is put by default [m].
+    /// The middle of the side where x enters the field's box [m]. This is the default place of the root.
     pub fn middle_of_inlet(field: &Field, axis: Axis, unit: f64) -> Vec3<f64> {
         let (low, high) = field.bounds();
         let middle = (low + high) * 0.5;

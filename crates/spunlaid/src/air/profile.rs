@@ -1,20 +1,20 @@
-//! Air that changes with the distance from the root, as a wire measures it down a diffuser.
+//! Air that changes with the distance from the root, as measured with a hot wire along a diffuser.
 
 use super::spectrum::linear;
 
-/// The air as a function of the distance x from the root along the mean flow: straight lines between the
-/// points, outside them the air of the nearest.
+/// The air as a function of the distance x from the root along the mean flow. It is linear between the points;
+/// outside them it is the air of the nearest point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Profile {
     /// Distances, rising [m].
     pub x: Vec<f64>,
     /// Mean velocity along x [m/s].
     pub velocity: Vec<f64>,
-    /// Turbulence intensity [-]; empty where the profile does not tell.
+    /// Turbulence intensity [-]; empty if the profile lacks it.
     pub turbulence_intensity: Vec<f64>,
-    /// Length scale [m]; empty where the profile does not tell.
+    /// Length scale [m]; empty if the profile lacks it.
     pub length_scale: Vec<f64>,
-    /// Cut-off frequency [Hz]; empty where the profile does not tell.
+    /// Cut-off frequency [Hz]; empty if the profile lacks it.
     pub cutoff_frequency: Vec<f64>,
 }
 
@@ -22,6 +22,11 @@ impl Profile {
     /// From the first to the last point [m].
     pub fn range(&self) -> (f64, f64) {
         (self.x.first().copied().unwrap_or(0.0), self.x.last().copied().unwrap_or(0.0))
+    }
+
+    /// The smallest distance between two rows [m].
+    pub(super) fn closest_rows(&self) -> f64 {
+        self.x.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min)
     }
 
     /// The value of a column at `x` [m].

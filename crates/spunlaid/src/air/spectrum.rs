@@ -17,7 +17,7 @@ pub enum SpectrumShape {
 }
 
 impl SpectrumShape {
-    /// What it is called.
+    /// Name in the case file.
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Flat => "flat",
@@ -27,12 +27,12 @@ impl SpectrumShape {
     }
 }
 
-/// A spectrum as a table: straight lines between its points, nothing outside.
+/// A spectrum as a table. It is linear between its points and zero outside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectrumTable {
     /// Frequencies, rising [Hz].
     pub frequency: Vec<f64>,
-    /// Energy at each; only its shape counts.
+    /// Energy at each frequency; only the shape matters.
     pub energy: Vec<f64>,
 }
 
@@ -47,7 +47,7 @@ impl SpectrumTable {
     }
 }
 
-/// The value at `x` on straight lines through the points; none outside them.
+/// Linear interpolation at `x`; `None` outside the points.
 ///
 /// * `xs` – rising
 pub(super) fn linear(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
@@ -59,9 +59,9 @@ pub(super) fn linear(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
     Some(if x1 > x0 { y0 + (y1 - y0) * ((x - x0) / (x1 - x0)) } else { y0 })
 }
 
-/// One-sided energy spectrum `E(ω)` of a velocity component, nothing above the cut-off.
+/// One-sided energy spectrum `E(ω)` of a velocity component. It is zero above the cut-off frequency.
 ///
-/// `∫ E dω = u²`, to the fineness of the harmonics where the shape is not flat.
+/// `∫ E dω = u²`; if the shape is not flat, the sum over the harmonics replaces the integral.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum<'a> {
     shape: &'a SpectrumShape,
@@ -78,7 +78,7 @@ impl<'a> Spectrum<'a> {
     /// * `cutoff_frequency` – [Hz]
     /// * `integral_time` – of the component along the flow [s]; only the von Kármán spectrum depends on it
     /// * `component` – 0 along the mean flow, 1 and 2 across it
-    /// * `spacing` – of the harmonics that the variance is shared out to [Hz]
+    /// * `spacing` – of the harmonics that the variance is divided among [Hz]
     pub fn new(
         shape: &'a SpectrumShape,
         rms: f64,
@@ -93,12 +93,12 @@ impl<'a> Spectrum<'a> {
             SpectrumShape::Flat => count as f64,
             _ => (0..count).map(|n| spectrum.relative(spectrum.frequency(n))).sum(),
         };
-        // A shape without energy up to the cut-off has none to give.
+        // A shape may have no energy below the cut-off.
         spectrum.level = if sum > 0.0 { rms * rms / sum } else { 0.0 };
         spectrum
     }
 
-    /// Number of harmonics up to the cut-off; one at least.
+    /// Number of harmonics up to the cut-off; at least one.
     fn harmonics(&self) -> usize {
         ((self.cutoff / self.spacing).round() as usize).max(1)
     }
@@ -122,7 +122,7 @@ impl<'a> Spectrum<'a> {
         self.level * self.relative(frequency) / (2.0 * PI * self.spacing)
     }
 
-    /// The shape alone: 1 at its plateau, or whatever the table says.
+    /// The shape without the level: 1 at the plateau, or the table's value.
     fn relative(&self, frequency: f64) -> f64 {
         match self.shape {
             SpectrumShape::Flat => 1.0,

@@ -1,17 +1,17 @@
-//! The air that eight fibres have around them, where it is not the same everywhere.
+//! The air around eight fibres in a flow that is not uniform.
 
 use super::{Air, EddyVelocities};
 use crate::error::FlightFault;
-use crate::field::Hint;
+use crate::field::{Around, Hint};
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use crate::vec3::Vec3;
 
-/// The wind at one instant, element by element.
+/// The air velocity at one instant, element by element.
 pub(crate) trait AirAtElements<S: Register>: Copy {
-    /// What is the same in all of an eddy.
+    /// The signal of an eddy, the same for all of its elements.
     fn signal(&self, eddy: u32) -> Vec3<Wide<S>>;
 
-    /// Velocity of the air at element `j` [m/s], `signal` that of its eddy.
+    /// Velocity of the air at element `j` [m/s]; `signal` is that of its eddy.
     fn at(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>>;
 }
 
@@ -29,8 +29,8 @@ impl<S: Register> AirAtElements<S> for EddyVelocities<'_, S> {
 
 /// Mean velocity and rms where an element is, of eight fibres.
 ///
-/// Looked up every few steps and carried on along a straight line from the last two looks in between: the
-/// error is of second order in the time between them.
+/// Looked up every few steps and extrapolated linearly from the last two looks in between: the error is of second
+/// order in the time between them.
 #[derive(Clone, Copy, Debug, Default)]
 struct Place {
     /// Velocity x, y, z and rms at the last look [m/s].
@@ -39,18 +39,43 @@ struct Place {
     rise: [Lanes; 4],
 }
 
+/// The air around an element of eight fibres, linear in space. It is used until the element has moved too far.
+#[derive(Clone, Copy, Debug)]
+struct Nearby {
+    /// Where the element was [m].
+    at: Vec3<Lanes>,
+    /// How far it may move along each axis [m].
+    reach: Lanes,
+    /// Velocity x, y, z and rms there [m/s].
+    value: [Lanes; 4],
+    /// Their change along x, y and z [1/s].
+    gradients: [[Lanes; 4]; 3],
+    /// One if the place lies outside the flow's data, zero otherwise.
+    outside: Lanes,
+}
+
+/// Nothing is known of the air yet.
+const UNKNOWN: Nearby = Nearby {
+    at: Vec3::new(Lanes::ZERO, Lanes::ZERO, Lanes::ZERO),
+    reach: Lanes::splat(-1.0),
+    value: [Lanes::ZERO; 4],
+    gradients: [[Lanes::ZERO; 4]; 3],
+    outside: Lanes::ZERO,
+};
+
 /// The air around the elements of eight fibres.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
     airs: Vec<Air>,
     places: Vec<Place>,
+    nearby: Vec<Nearby>,
     /// Where each fibre's element was found last.
     hints: Vec<[Hint; WIDTH]>,
     /// Steps from one look to the next.
     every: u64,
     looked: bool,
-    /// Of each fibre's looks, those at elements outside of what the flow knows, and all.
-    outside: [u64; WIDTH],
+    /// Number of each fibre's looks at elements outside of the flow's data, and number of all looks.
+    outside: Lanes,
     looks: u64,
 }
 
@@ -70,8 +95,9 @@ impl Surroundings {
 
     fn around_elements(airs: Vec<Air>, elements: usize, every: u64) -> Self {
         let places = vec![Place::default(); elements];
+        let nearby = vec![UNKNOWN; elements];
         let hints = vec![[Hint::default(); WIDTH]; elements];
-        Self { airs, places, hints, every, looked: false, outside: [0; WIDTH], looks: 0 }
+        Self { airs, places, nearby, hints, every, looked: false, outside: Lanes::ZERO, looks: 0 }
     }
 
     /// Number of elements.
@@ -79,14 +105,15 @@ impl Surroundings {
         self.places.len()
     }
 
-    /// Share of the time that the elements of a lane's fibre have spent outside of what the flow knows.
+    /// Share of the time that the elements of a lane's fibre have spent outside of the flow's data.
     pub fn outside(&self, lane: usize) -> f64 {
-        if self.looks == 0 { 0.0 } else { self.outside[lane] as f64 / self.looks as f64 }
+        if self.looks == 0 { 0.0 } else { self.outside.0[lane] / self.looks as f64 }
     }
 
-    /// Other air from now on, of the same flows; what was looked up is kept until the next look.
+    /// Replaces the air by another one of the same flow. The values of the last look are kept until the next.
     pub(crate) fn change(&mut self, by: Self) {
         (self.airs, self.every) = (by.airs, by.every);
+        self.nearby.fill(UNKNOWN);
     }
 
     /// Forgets the looks so far.
@@ -94,7 +121,8 @@ impl Surroundings {
         *self = Self::around_elements(std::mem::take(&mut self.airs), self.places.len(), self.every);
     }
 
-    /// The wind before a step: `now` where and as strong as the elements feel it.
+    /// The wind before a step: `now` with the mean flow and the rms at the elements.
+    #[inline(always)]
     pub(crate) fn around<'s, S: Register>(
         &'s mut self,
         step: u64,
@@ -103,34 +131,59 @@ impl Surroundings {
     ) -> LocalVelocities<'s, S> {
         let since = step % self.every;
         if since == 0 {
-            self.look(position);
+            self.look::<S>(position);
         }
         LocalVelocities { now, places: &self.places, steps: Wide::splat(since as f64) }
     }
 
-    #[inline(never)]
-    fn look(&mut self, position: &[Vec3<Lanes>]) {
-        let per_step = 1.0 / self.every as f64;
-        let places = self.places.iter_mut().zip(&mut self.hints);
-        for ((place, hints), ends) in places.zip(position.windows(2)) {
-            let mut value = [Lanes::ZERO; 4];
-            for (lane, hint) in hints.iter_mut().enumerate() {
-                let Some(air) = self.airs.get(lane) else {
-                    value.iter_mut().for_each(|of| of.0[lane] = of.0[0]);
-                    continue;
-                };
-                let centre = (ends[0].lane(lane) + ends[1].lane(lane)) * 0.5;
-                let (velocity, rms, inside) = air.felt(centre, hint);
-                self.outside[lane] += u64::from(!inside);
-                let found = [velocity.x, velocity.y, velocity.z, rms];
-                value.iter_mut().zip(found).for_each(|(of, found)| of.0[lane] = found);
+    #[inline(always)]
+    fn look<S: Register>(&mut self, position: &[Vec3<Lanes>]) {
+        let half = Wide::<S>::splat(0.5);
+        // The first look has none before it to extrapolate from.
+        let per_step = Wide::splat(if self.looked { 1.0 / self.every as f64 } else { 0.0 });
+        let mut outside = Wide::<S>::load(&self.outside);
+        for (j, ends) in position.windows(2).enumerate() {
+            let centre = (Vec3::load(&ends[0]) + Vec3::load(&ends[1])) * half;
+            let nearby = &self.nearby[j];
+            let mut moved = centre - Vec3::load(&nearby.at);
+            let farthest = moved.x.abs().max(moved.y.abs()).max(moved.z.abs());
+            let beyond = farthest - Wide::load(&nearby.reach);
+            if beyond.any_above(0.0) {
+                self.renew(j, &centre.store(), &beyond.store());
+                moved = centre - Vec3::load(&self.nearby[j].at);
             }
-            let rise = |i: usize| (value[i] - place.value[i]) * Lanes::splat(per_step);
-            let rise = if self.looked { std::array::from_fn(rise) } else { [Lanes::ZERO; 4] };
-            *place = Place { value, rise };
+            let (nearby, place) = (&self.nearby[j], &mut self.places[j]);
+            outside += Wide::load(&nearby.outside);
+            for i in 0..4 {
+                let [x, y, z] = &nearby.gradients;
+                let value = Wide::load(&x[i]).mul_add(moved.x, Wide::load(&nearby.value[i]));
+                let value = Wide::load(&y[i]).mul_add(moved.y, value);
+                let value = Wide::load(&z[i]).mul_add(moved.z, value);
+                let rise = (value - Wide::load(&place.value[i])) * per_step;
+                (place.value[i], place.rise[i]) = (value.store(), rise.store());
+            }
         }
+        self.outside = outside.store();
         self.looks += self.places.len() as u64;
         self.looked = true;
+    }
+
+    /// Looks up the air around an element of those fibres whose `beyond` is above zero.
+    #[inline(never)]
+    fn renew(&mut self, element: usize, centre: &Vec3<Lanes>, beyond: &Lanes) {
+        let (nearby, hints) = (&mut self.nearby[element], &mut self.hints[element]);
+        for (lane, hint) in hints.iter_mut().enumerate().filter(|(lane, _)| beyond.0[*lane] > 0.0) {
+            let at = centre.lane(lane);
+            let air = &self.airs[if lane < self.airs.len() { lane } else { 0 }];
+            let Around { value, gradients, reach, inside } = air.around(at, hint);
+            nearby.at.set_lane(lane, at);
+            nearby.reach.0[lane] = reach;
+            nearby.outside.0[lane] = if inside { 0.0 } else { 1.0 };
+            for i in 0..4 {
+                nearby.value[i].0[lane] = value[i];
+                (0..3).for_each(|axis| nearby.gradients[axis][i].0[lane] = gradients[axis][i]);
+            }
+        }
     }
 }
 
@@ -152,7 +205,7 @@ impl<S: Register> AirAtElements<S> for LocalVelocities<'_, S> {
     #[inline(always)]
     fn at(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
         let Place { value, rise } = &self.places[j];
-        // No closures here: they would be called, not inlined.
+        // No closures here, because the compiler does not inline them.
         let rms = Wide::load(&rise[3]).mul_add(self.steps, Wide::load(&value[3]));
         let x = Wide::load(&rise[0]).mul_add(self.steps, Wide::load(&value[0]));
         let y = Wide::load(&rise[1]).mul_add(self.steps, Wide::load(&value[1]));

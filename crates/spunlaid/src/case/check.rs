@@ -4,11 +4,12 @@ use super::keys::{self, finding};
 use super::memory::BUNDLE_MEMORY_LIMIT;
 use super::note::{Note, Remark};
 use super::{Case, StepLimit};
-use crate::air::{FromFile, Measured};
+use crate::air::{Flow, FromFile, Measured};
 use crate::chain::schemes::Scheme;
 use crate::drag::NormalLaw;
 use crate::error::{Fault, Finding, Place, Problem};
 use crate::field::Hint;
+use crate::units::Dimension;
 use crate::vec3::Vec3;
 
 /// Most steps of a run.
@@ -89,12 +90,61 @@ impl Case {
         // At the centres of the first and the last element.
         let centres = [0.5 * l, fibre.length - 0.5 * l].map(|s| fibre.direction * s);
         let knows = |at: Vec3<f64>| self.air.local(at, &mut Hint::default()).inside;
-        if !centres.into_iter().all(knows) {
+        let root_outside = self.root_outside();
+        if root_outside.is_none() && !centres.into_iter().all(knows) {
             note("fibre.length", fibre.length, Remark::LeavesFlow);
         }
         let felt = there_is_air && self.air.rms() > 0.0;
         if felt && self.air.length_scale < l * (1.0 - 1e-9) {
             note("air.length_scale", self.air.length_scale, Remark::EddiesSkipped { element_length: l });
+        }
+        notes.extend(root_outside);
+        notes.extend(self.field_notes());
+        notes
+    }
+
+    /// Whether the root is farther outside of a field's box than rounding.
+    fn root_outside(&self) -> Option<Note> {
+        let Flow::Field(placed) = &self.air.flow else {
+            return None;
+        };
+        let (low, high) = placed.field.bounds();
+        let (root, far) = (placed.root * (1.0 / placed.unit), 1e-9 * (high - low).norm());
+        let outside = |x: f64, low: f64, high: f64| low < high && !(low - far..=high + far).contains(&x);
+        if !(outside(root.x, low.x, high.x)
+            || outside(root.y, low.y, high.y)
+            || outside(root.z, low.z, high.z))
+        {
+            return None;
+        }
+        let shown = |v: Vec3<f64>| {
+            let of = |x: f64| Dimension::Length.pretty_to(x * placed.unit, 4);
+            format!("[{}, {}, {}]", of(v.x), of(v.y), of(v.z))
+        };
+        let what = Remark::RootOutside { low: shown(low), high: shown(high) };
+        let value = Some(shown(root));
+        Some(Note { place: Place::Code, key: "air.field_root".to_owned(), value, what })
+    }
+
+    /// A field that may be turned or scaled wrongly.
+    fn field_notes(&self) -> Vec<Note> {
+        let Flow::Field(placed) = &self.air.flow else {
+            return Vec::new();
+        };
+        let mut notes = Vec::new();
+        let mut note = |key: &str, value: String, what| {
+            notes.push(Note { place: Place::Code, key: key.to_owned(), value: Some(value), what });
+        };
+        let (along, speed) = self.air.along_and_speed(self.along());
+        if along < 0.25 * speed {
+            note("air.field_axis", format!("\"{}\"", placed.axis.name()), Remark::NotAlong { along, speed });
+        }
+        let (low, high) = placed.extent();
+        let size = high - low;
+        let (field, fibre) = (size.x.max(size.y).max(size.z), self.fibre.length);
+        if field > 30.0 * fibre || field < fibre / 30.0 {
+            let unit = Dimension::Length.pretty(placed.unit);
+            note("air.field_unit", unit, Remark::FieldSize { field, fibre });
         }
         notes
     }

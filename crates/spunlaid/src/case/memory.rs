@@ -12,6 +12,8 @@ const VECTORS_PER_NODE: f64 = 10.0;
 const VECTOR: f64 = 192.0;
 /// Bytes of the end nodes and energies of eight fibres at a recorded instant.
 const RECORD: f64 = 8.0 * 14.0 * 8.0;
+/// Bytes of the air around an element of eight fibres in a flow that is not uniform.
+const SURROUNDINGS: f64 = 2000.0;
 /// Bytes of scratch space that the synthesis of turbulence takes per harmonic.
 const SYNTHESIS: f64 = 1200.0;
 
@@ -52,7 +54,9 @@ impl Case {
             0.0
         };
         let instants = (self.run.steps / self.run.output_steps.max(1) + 1) as f64;
+        let surroundings = if air.is_uniform() { 0.0 } else { elements * SURROUNDINGS };
         let (chain, records) = ((elements + 1.0) * VECTORS_PER_NODE * VECTOR, instants * RECORD);
+        let chain = chain + surroundings;
         BundleMemory { chain, turbulence, synthesis, records }
     }
 }

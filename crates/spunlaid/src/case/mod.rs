@@ -128,11 +128,10 @@ impl Case {
         Surroundings::new(airs.collect(), self.fibre.elements, self.steps_between_looks()).map(Some)
     }
 
-    /// Steps from one look at the flow around the fibre to the next: those in which the mean flow passes 1/64
-    /// of an eddy.
+    /// Steps from one look at the flow around the fibre to the next, see [`Air::time_between_looks`].
     pub fn steps_between_looks(&self) -> u64 {
-        let passing = self.air.length_scale / self.air.velocity.abs();
-        ((passing / 64.0 / self.run.time_step) as u64).clamp(1, self.run.steps.max(1))
+        let time = self.air.time_between_looks(self.along());
+        ((time / self.run.time_step) as u64).clamp(1, self.run.steps.max(1))
     }
 
     /// Largest Reynolds number across the fibre to expect [-]: of the mean flow's part across it as it starts,

@@ -101,6 +101,39 @@ pub enum Remark {
         "reaches from the root beyond what the flow of the case knows; out there the air of the nearest known place is taken"
     )]
     LeavesFlow,
+    /// A root outside of the field.
+    #[error(
+        "is outside of the box around the field, {low} to {high}; the air of the nearest place of the field is taken there"
+    )]
+    RootOutside {
+        /// Lowest coordinates of the box.
+        low: String,
+        /// Highest coordinates of the box.
+        high: String,
+    },
+    /// Air that hardly flows along the fibre, or against it.
+    #[error(
+        "lets the air flow along the fibre with {} on average, where its speed is {}: {}; choose the direction in which the air leaves the spinneret",
+        Dimension::Velocity.pretty_to(*along, 3), Dimension::Velocity.pretty_to(*speed, 3),
+        if *along < 0.0 { "it blows from the end to the root" } else { "it blows across" }
+    )]
+    NotAlong {
+        /// Mean velocity along the fibre [m/s].
+        along: f64,
+        /// Mean speed [m/s].
+        speed: f64,
+    },
+    /// A field much larger or smaller than the fibre.
+    #[error(
+        "makes the field {} long, where the fibre is {}; is it the unit in which the mesh was drawn?",
+        Dimension::Length.pretty_to(*field, 3), Dimension::Length.pretty(*fibre)
+    )]
+    FieldSize {
+        /// Longest side of the box around the field [m].
+        field: f64,
+        /// Length of the fibre [m].
+        fibre: f64,
+    },
     /// Elements shorter than the fibre is thick.
     #[error("is longer than the elements, {}: the chain is finer than the fibre is thick", Dimension::Length.pretty(*element_length))]
     ElementsStubby {
@@ -119,6 +152,9 @@ impl Remark {
                 | Self::EddiesSkipped { .. }
                 | Self::Field(_)
                 | Self::LeavesFlow
+                | Self::RootOutside { .. }
+                | Self::NotAlong { .. }
+                | Self::FieldSize { .. }
                 | Self::ElementsStubby { .. }
         )
     }

@@ -161,7 +161,7 @@ pub enum RecordFault {
     },
 }
 
-pub(super) fn listed(names: &[String]) -> String {
+pub(crate) fn listed(names: &[String]) -> String {
     const MOST: usize = 12;
     let mut shown: Vec<&str> = names.iter().take(MOST).map(String::as_str).collect();
     let more = format!("{} more", names.len().saturating_sub(MOST));

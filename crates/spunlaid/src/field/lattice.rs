@@ -4,13 +4,13 @@ use super::node::Node;
 use super::values::{Quantities, in_range};
 use crate::error::{FieldFault, FileError, FileFault};
 
-/// How much coordinates of one level may differ, as a share of the extent.
+/// Coordinates that differ by less than this share of the extent count as equal.
 const ROUNDING: f64 = 1e-9;
 
 #[derive(Debug)]
 pub(super) struct Lattice {
     axes: [Axis; 3],
-    /// Along x first, then y, then z.
+    /// The values along x come first, then y, then z.
     values: Vec<Quantities>,
 }
 
@@ -41,8 +41,8 @@ impl Lattice {
         Ok(Self { axes: axes.map(Axis::new), values })
     }
 
-    /// The lattice that points make, in whatever order, if they do: all combinations of three rows of
-    /// coordinates, each once.
+    /// The lattice that the points form, in any order. `None` unless they are all combinations of three rows
+    /// of coordinates, each of them once.
     pub(super) fn of_points(nodes: &[Node]) -> Option<Self> {
         let axes = [0, 1, 2].map(|axis| levels(nodes.iter().map(|node| node.at[axis]).collect()));
         let size = axes.each_ref().map(Vec::len);
@@ -64,6 +64,11 @@ impl Lattice {
 
     pub(super) fn points(&self) -> [usize; 3] {
         [0, 1, 2].map(|i| self.axes[i].at.len())
+    }
+
+    /// The memory taken [bytes].
+    pub(super) fn memory(&self) -> usize {
+        size_of_val(&*self.values)
     }
 
     pub(super) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
@@ -94,7 +99,7 @@ impl Lattice {
     }
 }
 
-/// The coordinates that differ by more than rounding, increasing; of those that do not, the least.
+/// The different coordinates in increasing order. Of those that differ only by rounding, the smallest is kept.
 fn levels(mut coordinates: Vec<f64>) -> Vec<f64> {
     coordinates.sort_unstable_by(f64::total_cmp);
     let extent = coordinates.first().zip(coordinates.last()).map_or(0.0, |(low, high)| high - low);
@@ -106,9 +111,9 @@ fn levels(mut coordinates: Vec<f64>) -> Vec<f64> {
 struct Place {
     /// The point before it.
     before: usize,
-    /// To the point after it: one, or none on an axis of a single point.
+    /// Number of points from there to the next one: 1, or 0 on an axis with a single point.
     step: usize,
-    /// How far it is on the way there, 0 to 1.
+    /// Distance from the point before it as a share of the spacing, 0 to 1.
     share: f64,
     inside: bool,
 }
@@ -126,7 +131,7 @@ impl Axis {
         if last == 0 {
             return Place { before: 0, step: 0, share: 0.0, inside: true };
         }
-        // Where it would be if the points were evenly spaced; they often are.
+        // First try the place it has if the points are evenly spaced, because they often are.
         let mut before = (((x - self.at[0]) * self.density) as usize).min(last - 1);
         if x < self.at[before] || x > self.at[before + 1] {
             before = self.at.partition_point(|point| *point <= x).saturating_sub(1).min(last - 1);

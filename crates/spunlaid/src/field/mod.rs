@@ -1,8 +1,8 @@
-//! The air as computational fluid dynamics gives it: velocity and turbulence in space, sampled at points.
+//! Steady air flow from computational fluid dynamics: velocity and turbulence in space, sampled at points.
 //!
 //! file (VTK, table of points) → [`Field`] → [`Field::sample`] → [`Local`]
 //!
-//! **In** goes a steady solution: the mean velocity [m/s] at points or in cells and, where known, the turbulent kinetic
+//! **Input** is a steady solution: the mean velocity [m/s] at points or in cells and, if known, the turbulent kinetic
 //! energy `k` [m²/s²] with its dissipation rate `ε` [m²/s³] or the specific dissipation rate `ω` [1/s].
 //! It comes from a file ([`Field::read`]), from bytes ([`Field::parse`]) or from numbers in memory.
 //!
@@ -10,19 +10,20 @@
 //! |---|---|
 //! | `.vtu`, `.vts`, `.vti`, `.vtr` | XML VTK, ASCII or binary, plain or compressed with zlib or LZ4 |
 //! | `.vtk` | legacy VTK, versions 1 to 5 |
-//! | text | a row for each point, as [`crate::table`] describes |
+//! | text | one row for each point, as [`crate::table`] describes |
 //!
 //! The format is recognised from the file's content. Arrays and columns are recognised by their names, as OpenFOAM,
 //! Fluent, CFX and ParaView write them; `docs/air.md` of the repository lists them. Numbers are in SI units unless a
 //! name ends with another unit, as `x_mm` does.
 //!
-//! **Out** comes the air at any point, [`Local`]: velocity, `k`, `ε` and whether the point lies in the field. On a
-//! [lattice](Field::lattice) it is linear in each coordinate, in a [mesh](Field::mesh) linear in tetrahedra, among
-//! [points](Field::points) a mean of what the nearest eight make of it; a flow that is linear in space comes out
-//! exactly. Outside of the field it is the air at the edge. [`FieldWarning`]s tell what was left out or mended.
+//! **Output** is the air at any point, [`Local`]: velocity, `k`, `ε` and whether the point lies in the field. On a
+//! [lattice](Field::lattice) it is linear in each coordinate. In a [mesh](Field::mesh) it is linear in tetrahedra.
+//! Among [points](Field::points) it is a weighted mean of the nearest eight. A flow that is linear in space is
+//! reproduced exactly. Outside the field it is the air at the edge. A [`FieldWarning`] says what was left out or
+//! corrected.
 //!
-//! **Limits.** Coordinates and values lie within ±1e30. A file is held in memory while it is read; what is taken
-//! beyond that follows from the bytes there are, never from what a header promises.
+//! **Limits.** Coordinates and values lie within ±1e30. A file is held in memory while it is read. Further memory is
+//! taken only for the bytes that are there, never for what a header promises.
 //!
 //! ```
 //! use spunlaid::field::{Field, Hint};
@@ -41,6 +42,7 @@
 //! # }
 //! ```
 
+mod bricks;
 mod lattice;
 mod mesh;
 mod node;
@@ -50,12 +52,14 @@ mod tree;
 mod values;
 mod warning;
 
+pub use bricks::Around;
 pub use mesh::cells::{Cells, Shape};
 pub use values::Values;
 pub use warning::FieldWarning;
 
 use crate::error::FileError;
 use crate::vec3::Vec3;
+use bricks::Bricks;
 use lattice::Lattice;
 use mesh::Mesh;
 use node::Node;
@@ -63,7 +67,7 @@ use points::Points;
 use std::fmt;
 use values::Quantities;
 
-/// Coordinates beyond are as good as these: squares of distances are still numbers [m].
+/// Coordinates are limited to this value, so that squares of distances stay finite [m].
 const FARTHEST: f64 = 1e3 * values::LARGEST;
 
 /// The air in a part of space, steady in time, in SI units.
@@ -71,9 +75,12 @@ const FARTHEST: f64 = 1e3 * values::LARGEST;
 pub struct Field {
     support: Support,
     turbulence: bool,
+    bricks: Bricks,
+    /// Why there is no turbulence, if it was read from a file.
+    lacks: Option<String>,
 }
 
-/// What carries the values.
+/// How the points with the values are arranged.
 #[derive(Debug)]
 enum Support {
     Lattice(Lattice),
@@ -81,22 +88,40 @@ enum Support {
     Points(Points),
 }
 
+impl Support {
+    fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+        match self {
+            Self::Lattice(lattice) => lattice.bounds(),
+            Self::Mesh(mesh) => mesh.bounds(),
+            Self::Points(points) => points.bounds(),
+        }
+    }
+
+    fn sample(&self, at: [f64; 3], hint: &mut Hint) -> (Quantities, bool) {
+        match self {
+            Self::Lattice(lattice) => lattice.sample(at),
+            Self::Mesh(mesh) => mesh.sample(at, hint),
+            Self::Points(points) => points.sample(at),
+        }
+    }
+}
+
 /// The air at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Local {
     /// Mean velocity [m/s].
     pub velocity: Vec3<f64>,
-    /// Turbulent kinetic energy `k` [m²/s²]; zero where the field has none.
+    /// Turbulent kinetic energy `k` [m²/s²]; zero if the field has none.
     pub k: f64,
-    /// Dissipation rate `ε` of the turbulent kinetic energy [m²/s³]; zero where the field has none.
+    /// Dissipation rate `ε` of the turbulent kinetic energy [m²/s³]; zero if the field has none.
     pub epsilon: f64,
-    /// Whether the point lies in the field; outside, the values are those of its edge.
+    /// Whether the point lies in the field. Outside, the values are those of its edge.
     pub inside: bool,
 }
 
-/// Where a point was found, so that the next one near by is found in a few steps.
+/// Remembers where a point was found, so that the next one near by is found in a few steps.
 ///
-/// It saves time and changes nothing else: a hint from elsewhere, or of another field, does no harm.
+/// It saves time and does not change the result, even if it comes from another field.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Hint(u32);
 
@@ -104,11 +129,11 @@ impl Field {
     /// A field on a lattice whose points are all combinations of three rows of coordinates; between them the
     /// values are linear in each coordinate.
     ///
-    /// A row of one point makes a field that does not change in that direction. Outside, the field is as at
-    /// the nearest point of the lattice’s box.
+    /// If a row has one point, the field does not change in that direction. Outside, the field has the values of
+    /// the nearest point of the lattice's box.
     ///
     /// * `axes` – coordinates along x, y and z, each increasing [m]
-    /// * `values` – at the points, those along x first, then along y, then along z
+    /// * `values` – at the points; x changes fastest, z slowest
     ///
     /// # Errors
     /// When coordinates do not increase, or values are too few, too many or not finite.
@@ -116,22 +141,22 @@ impl Field {
         let count = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
         let quantities = values.check(count.unwrap_or(usize::MAX))?;
         let lattice = Lattice::new(axes, quantities)?;
-        Ok(Self { support: Support::Lattice(lattice), turbulence: values.has_turbulence() })
+        Ok(Self::of(Support::Lattice(lattice), values))
     }
 
     /// A field on a mesh of cells, each cut into tetrahedra within which the values are linear.
     ///
-    /// Neighbours agree on how the face between them is cut, so that the field is continuous. Points at one
-    /// place are taken for one, with the mean of their values. Outside, the field is as at the nearest point
-    /// of the mesh’s surface: where that is a wall, the air beyond it stands still.
+    /// Neighbours agree on how the face between them is cut, so the field is continuous. Points at the same place
+    /// count as one point with the mean of their values. Outside, the field has the values of the nearest point
+    /// of the mesh's surface: beyond a wall the air stands still.
     ///
     /// * `points` – [m]
     /// * `cells` – of these points
     /// * `values` – at the points
     ///
     /// # Errors
-    /// When a cell names a point that is not there, no cell has a volume, or numbers are too few, too many or
-    /// not finite.
+    /// When a cell names a point that does not exist, when no cell has a volume, or when values are too few, too
+    /// many or not finite.
     pub fn mesh(
         points: &[Vec3<f64>],
         cells: &Cells,
@@ -139,17 +164,16 @@ impl Field {
     ) -> Result<(Self, Vec<FieldWarning>), FileError> {
         let quantities = values.check(points.len())?;
         let (mesh, warnings) = Mesh::new(points, cells, quantities)?;
-        Ok((Self { support: Support::Mesh(mesh), turbulence: values.has_turbulence() }, warnings))
+        Ok((Self::of(Support::Mesh(mesh), values), warnings))
     }
 
     /// A field of points without cells, in any order.
     ///
-    /// If they are those of a lattice, see [`Field::lattice`]. Otherwise the value anywhere is the mean of what
-    /// the nearest eight make of it by their gradients, which are fitted to their neighbours. Outside of the
-    /// box around all points, and farther from the nearest point than its neighbours are, the field is as at
-    /// that point. If all points have one coordinate along an axis, the field does not change along it.
-    ///
-    /// Points at one place are taken for one, with the mean of their values.
+    /// Points that form a lattice make a [`Field::lattice`]. Otherwise the value is a weighted mean of what the
+    /// nearest eight points extrapolate along their gradients, which are fitted to their neighbours. The field
+    /// has the values of the nearest point outside the box around all points, and where that point is farther
+    /// away than its own neighbours are. If all points have the same coordinate along an axis, the field does not
+    /// change along it. Points at the same place count as one point with the mean of their values.
     ///
     /// * `points` – [m]
     /// * `values` – at the points
@@ -166,7 +190,12 @@ impl Field {
             None => Support::Points(Points::new(nodes)?),
         };
         let merged = (merged > 0).then_some(FieldWarning::Merged { points: merged });
-        Ok((Self { support, turbulence: values.has_turbulence() }, merged.into_iter().collect()))
+        Ok((Self::of(support, values), merged.into_iter().collect()))
+    }
+
+    fn of(support: Support, values: &Values) -> Self {
+        let bricks = Bricks::new(support.bounds());
+        Self { support, turbulence: values.has_turbulence(), bricks, lacks: None }
     }
 
     /// Whether the field has `k` and `ε`.
@@ -174,35 +203,59 @@ impl Field {
         self.turbulence
     }
 
+    /// What a file lacks for `k` and `ε`, and the arrays that it has; none if they are there.
+    pub fn why_no_turbulence(&self) -> Option<&str> {
+        self.lacks.as_deref().filter(|_| !self.turbulence)
+    }
+
     /// The lowest and the highest coordinates [m].
     pub fn bounds(&self) -> (Vec3<f64>, Vec3<f64>) {
-        let (low, high) = match &self.support {
-            Support::Lattice(lattice) => lattice.bounds(),
-            Support::Mesh(mesh) => mesh.bounds(),
-            Support::Points(points) => points.bounds(),
-        };
+        let (low, high) = self.support.bounds();
         (vector(low), vector(high))
+    }
+
+    /// The memory that the field takes now [bytes]. It grows while places are looked up with [`Field::around`], by
+    /// 1 GiB at most.
+    pub fn memory(&self) -> usize {
+        let support = match &self.support {
+            Support::Lattice(lattice) => lattice.memory(),
+            Support::Mesh(mesh) => mesh.memory(),
+            Support::Points(points) => points.memory(),
+        };
+        support + self.bricks.memory()
     }
 
     /// The air at a point.
     ///
-    /// * `at` – [m]; at a place that is no number the air stands still
-    /// * `hint` – where the last point was found, and then this one; not used by all kinds of field
+    /// * `at` – [m]; if a coordinate is NaN, the air stands still
+    /// * `hint` – where the last point was found; set to where this one is found. Only meshes use it
     pub fn sample(&self, at: Vec3<f64>, hint: &mut Hint) -> Local {
         let at = [at.x, at.y, at.z].map(|x| x.clamp(-FARTHEST, FARTHEST));
         if at.iter().any(|x| x.is_nan()) {
             return Local::default();
         }
-        let (values, inside) = match &self.support {
-            Support::Lattice(lattice) => lattice.sample(at),
-            Support::Mesh(mesh) => mesh.sample(at, hint),
-            Support::Points(points) => points.sample(at),
-        };
+        let (values, inside) = self.support.sample(at, hint);
         let [u, v, w, k, epsilon] = values;
         Local { velocity: Vec3::new(u, v, w), k: k.max(0.0), epsilon: epsilon.max(0.0), inside }
     }
 
-    /// What kind of field it is and how large.
+    /// The air around a point, linear in space: its value and gradients at the point, and how far these may be used.
+    ///
+    /// It comes from lattices of values that are sampled once and kept for the life of the field. They are made as
+    /// fine as needed: within its reach the error is about a thousandth of the largest velocity near by. Where the
+    /// field is too rough for that, it is [`Field::sample`] with a reach of zero.
+    ///
+    /// * `at` – [m]
+    /// * `hint` – as of [`Field::sample`]
+    pub fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
+        let at = [at.x, at.y, at.z].map(|x| x.clamp(-FARTHEST, FARTHEST));
+        if at.iter().any(|x| x.is_nan()) {
+            return Around::default();
+        }
+        self.bricks.around(at, |at| self.support.sample(at, hint))
+    }
+
+    /// The kind of field and its size.
     pub fn describe(&self) -> Description {
         match &self.support {
             Support::Lattice(lattice) => Description::Lattice { points: lattice.points() },
@@ -212,7 +265,7 @@ impl Field {
     }
 }
 
-/// What kind of field it is and how large; reads as `a mesh of 3120 points and 2400 cells`.
+/// The kind of a field and its size; prints as `a mesh of 3120 points and 2400 cells`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Description {
     /// A lattice.

@@ -1,4 +1,4 @@
-//! Points and the air there.
+//! Points with the values of the air there.
 
 use super::mean;
 use super::values::{LARGEST, Quantities, in_range};
@@ -6,7 +6,7 @@ use crate::error::{FieldFault, FileError, FilePlace};
 use crate::vec3::Vec3;
 use std::cmp::Ordering;
 
-/// A point and its values: one line of a processor's cache.
+/// A point and its values. It fills one cache line.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(64))]
 pub(super) struct Node {
@@ -15,10 +15,10 @@ pub(super) struct Node {
     pub(super) values: Quantities,
 }
 
-/// Points that can be computed with, each with its values.
+/// Combines points and values after checking that the coordinates are in range.
 pub(super) fn nodes(points: &[Vec3<f64>], values: Vec<Quantities>) -> Result<Vec<Node>, FileError> {
     let node = |(i, (point, values)): (usize, (&Vec3<f64>, Quantities))| {
-        // With zero added, −0 and 0 are one place.
+        // Adding zero turns −0 into 0, so that both count as one place.
         let at = [point.x + 0.0, point.y + 0.0, point.z + 0.0];
         match at.into_iter().find(|x| !in_range(*x)) {
             None => Ok(Node { at, values }),
@@ -29,8 +29,10 @@ pub(super) fn nodes(points: &[Vec3<f64>], values: Vec<Quantities>) -> Result<Vec
     points.iter().zip(values).enumerate().map(node).collect()
 }
 
-/// For each point the first one at the same place, which gets the mean of their values; and how many points
-/// differ from the first one.
+/// Merges points at the same place: the first of them gets the mean of their values.
+///
+/// Returns for each point the first point at its place, and the number of points whose values differed from
+/// those of the first.
 pub(super) fn merge(nodes: &mut [Node]) -> (Vec<u32>, u64) {
     let mut order: Vec<u32> = (0..nodes.len() as u32).collect();
     order.sort_unstable_by(|a, b| compare(&nodes[*a as usize].at, &nodes[*b as usize].at).then(a.cmp(b)));
@@ -54,7 +56,7 @@ pub(super) fn merge(nodes: &mut [Node]) -> (Vec<u32>, u64) {
     (place_of, differ)
 }
 
-/// By z, then y, then x.
+/// Orders points by z, then y, then x.
 pub(super) fn compare(a: &[f64; 3], b: &[f64; 3]) -> Ordering {
     a[2].total_cmp(&b[2]).then(a[1].total_cmp(&b[1])).then(a[0].total_cmp(&b[0]))
 }

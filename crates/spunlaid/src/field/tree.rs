@@ -1,19 +1,19 @@
-//! A k-d tree: which points are nearest.
+//! A k-d tree that finds the nearest points.
 //!
-//! Of points just as near, those of the smaller number come first, so that the answer does not depend on how the
-//! tree is built.
+//! Points at the same distance are ordered by their numbers, so the answer does not depend on how the tree is
+//! built.
 
 use super::node::bounding_box;
 
-/// Points that are looked at one by one.
+/// A part of the list with no more points than this is searched point by point.
 const LEAF: usize = 16;
 
 #[derive(Debug)]
 pub(super) struct Tree {
-    /// Each part of the list has its middle point, along the part's longest axis, in its middle; those before
-    /// lie below, those after above.
+    /// The middle entry of each part of the list is the median along the part's longest axis. The entries before
+    /// it lie below the median, those after it above.
     points: Vec<([f64; 3], u32)>,
-    /// The longest axis of the part that a point is the middle of.
+    /// The longest axis of the part whose middle entry this is.
     axes: Vec<u8>,
 }
 
@@ -25,8 +25,13 @@ impl Tree {
         Self { points, axes }
     }
 
-    /// Finds as many of the nearest points as there is room for, the nearest first: the square of the distance
-    /// [m²] and the number, or infinity where there are no more.
+    /// The memory taken [bytes].
+    pub(super) fn memory(&self) -> usize {
+        size_of_val(&*self.points) + self.axes.len()
+    }
+
+    /// Fills `found` with the nearest points, nearest first: the square of the distance [m²] and the number of
+    /// the point. Entries left over have the distance infinity.
     pub(super) fn nearest(&self, at: [f64; 3], found: &mut [(f64, u32)]) {
         found.fill((f64::INFINITY, u32::MAX));
         self.look(0, self.points.len(), at, found);
@@ -69,7 +74,7 @@ fn part(points: &mut [([f64; 3], u32)], axes: &mut [u8]) {
     part(&mut after[1..], &mut axes_after[1..]);
 }
 
-/// Puts a point in its place among the nearest, of which there is room for one at least, if it is one.
+/// Inserts a point into the sorted list of the nearest if it is near enough. The list has at least one entry.
 #[inline]
 fn insert(point: (f64, u32), found: &mut [(f64, u32)]) {
     let mut place = found.len();

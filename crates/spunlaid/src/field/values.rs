@@ -1,25 +1,25 @@
-//! Values at points, as they come in and as they are kept.
+//! Values at points: as given by the caller, and as stored.
 
 use crate::error::{FieldFault, FileError, FilePlace};
 use crate::vec3::Vec3;
 
-/// Largest coordinate [m] and largest value [SI] that are taken; beyond, volumes and squares overflow.
+/// Largest coordinate [m] and largest value [SI] that are accepted. Larger ones make volumes and squares overflow.
 pub(super) const LARGEST: f64 = 1e30;
 
-/// `C_µ` of the k-ε model, by which the dissipation rate is `ε = C_µ k ω`        Wilcox 1988.
+/// `C_µ` of the k-ε model. The dissipation rate is `ε = C_µ k ω`                 Wilcox 1988.
 pub(super) const C_MU: f64 = 0.09;
 
 /// Velocity along x, y and z [m/s], `k` [m²/s²] and `ε` [m²/s³] at a point.
 pub(super) type Quantities = [f64; 5];
 
-/// What a field says at its points, in SI units.
+/// The values of a field at its points, in SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Values {
     /// Mean velocity [m/s].
     pub velocity: Vec<Vec3<f64>>,
-    /// Turbulent kinetic energy `k` [m²/s²]; empty where it is not known.
+    /// Turbulent kinetic energy `k` [m²/s²]; empty if it is not known.
     pub k: Vec<f64>,
-    /// Dissipation rate `ε` [m²/s³]; empty where it is not known.
+    /// Dissipation rate `ε` [m²/s³]; empty if it is not known.
     pub epsilon: Vec<f64>,
 }
 
@@ -36,7 +36,7 @@ impl Values {
         self.epsilon.append(&mut more.epsilon);
     }
 
-    /// The values point by point, if each of `points` has its own.
+    /// The values point by point, after checking that there is one for each of `points`.
     pub(super) fn check(&self, points: usize) -> Result<Vec<Quantities>, FileError> {
         let lengths = [
             ("velocity", self.velocity.len(), false),
@@ -64,7 +64,7 @@ impl Values {
     }
 }
 
-/// Whether a number is finite and can be computed with.
+/// Whether a number is finite and small enough to compute with.
 pub(super) fn in_range(value: f64) -> bool {
     value.abs() <= LARGEST
 }

@@ -1,49 +1,49 @@
-//! What the user of a field should know.
+//! Warnings about a field.
 
 use std::fmt;
 
-/// Something about a field that the reader of what comes of it should know.
+/// Something that was left out or corrected when a field was made.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum FieldWarning {
-    /// Points, lines and faces among the cells.
+    /// Some cells are points, lines or faces.
     NotSolid {
         /// How many.
         cells: u64,
     },
-    /// Cells with curved edges.
+    /// Some cells have curved edges.
     HigherOrder {
         /// How many.
         cells: u64,
     },
-    /// Cells without volume.
+    /// Some cells have no volume.
     Flat {
         /// How many.
         cells: u64,
     },
-    /// Cells so crooked that no point sees all of their inside.
+    /// Some cells are so distorted that they fold over themselves.
     Folded {
         /// How many.
         cells: u64,
     },
-    /// Points at the place of another one, with other values.
+    /// Some points lie at the same place and have different values.
     Merged {
         /// How many.
         points: u64,
     },
-    /// Values at cells, not at points.
+    /// The values are given at cells, not at points.
     OfCells {
         /// The array.
         array: String,
     },
-    /// Rows of a table without all of their numbers.
+    /// Some rows of a table lack a number.
     Dropped {
         /// How many.
         rows: u64,
-        /// The line of the first.
+        /// Line of the first such row.
         first: u64,
     },
-    /// Turbulence below zero.
+    /// Some values of the turbulence are negative.
     Negative {
         /// The array.
         array: String,
@@ -58,11 +58,11 @@ impl fmt::Display for FieldWarning {
             Self::NotSolid { cells } => {
                 write!(
                     f,
-                    "{cells} cells are points, lines or faces, of the boundary perhaps, and are left out"
+                    "{cells} cells are points, lines or faces, perhaps of the boundary; they are left out"
                 )
             }
             Self::HigherOrder { cells } => {
-                write!(f, "{cells} cells have curved edges; their corners alone are used")
+                write!(f, "{cells} cells have curved edges; only their corners are used")
             }
             Self::Flat { cells } => write!(f, "{cells} cells have no volume and are left out"),
             Self::Folded { cells } => write!(
@@ -71,19 +71,19 @@ impl fmt::Display for FieldWarning {
             ),
             Self::Merged { points } => write!(
                 f,
-                "{points} points lie exactly where another one does and differ from it; the mean of their values is \
-                 taken"
+                "{points} points lie exactly at the place of another point but have other values; the mean of their \
+                 values is used"
             ),
             Self::OfCells { array } => write!(
                 f,
-                "{array} is given for cells and goes to their points as the mean of the cells around: at walls the air \
-                 does not come to rest; write values at points if you can"
+                "{array} is given at cells; each point gets the mean of the cells around it, so the air does not come \
+                 to rest at walls; write values at points if you can"
             ),
             Self::Dropped { rows, first } => {
-                write!(f, "{rows} rows lack a number and are left out, the first in line {first}")
+                write!(f, "{rows} rows lack a number and are left out; the first is in line {first}")
             }
             Self::Negative { array, points } => {
-                write!(f, "{array} is negative at {points} points, where zero is taken")
+                write!(f, "{array} is negative at {points} points; zero is used there")
             }
         }
     }

@@ -64,6 +64,15 @@ impl<'a> Document<'a> {
 
     fn read_entry(&mut self, key: &'static Key, entry: Entry<'_>) {
         let Entry { place, shown, value } = entry;
+        // A unit alone is one of it.
+        let value = match value {
+            DeValue::String(unit)
+                if key.name == "air.field_unit" && unit.chars().all(char::is_alphabetic) =>
+            {
+                DeValue::String(format!("1 {unit}").into())
+            }
+            value => value,
+        };
         let read = values::read(&key.kind, &value, |named| self.beside(&place, named));
         let (value, fault) = match read {
             Ok(value) => (Some(value), None),

@@ -48,7 +48,15 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                     if !is_told(&mut case.air, key.name) && !written.is_excused(key.name) =>
                 {
                     let (table, line) = (key.table(), key.example());
-                    written.reject(key.name, Fault::Missing { table, line });
+                    let why = match &case.air.flow {
+                        Flow::Field(placed) if key.table() == "air" => placed.field.why_no_turbulence(),
+                        _ => None,
+                    };
+                    let fault = match why {
+                        Some(why) => Fault::MissingOfField { why: why.to_owned(), table, line },
+                        None => Fault::Missing { table, line },
+                    };
+                    written.reject(key.name, fault);
                 }
                 _ => {}
             }

@@ -79,8 +79,8 @@ impl Wind {
         Self::along(isa, Stream::uniform(lanes, eddies), horizon)
     }
 
-    /// One sum of cosines alone, as the paper has it: the fluctuation repeats after [`Air::repeat_time`] but for its
-    /// sign.
+    /// One sum of cosines alone, as the paper has it: the fluctuation repeats after [`Air::repeat_time`] with the
+    /// opposite sign.
     ///
     /// # Errors
     /// As of [`Wind::along`], and for air with records.

@@ -1,4 +1,4 @@
-//! Which stretch of a record which eddy flies in.
+//! Assigns stretches of a record to the eddies.
 
 use super::super::{EddyTurbulence, Measured};
 use super::of_lane;
@@ -10,9 +10,8 @@ use std::sync::Arc;
 
 /// The fluctuation of eight fibres as stretches of records.
 ///
-/// The stretches are chosen so that they last until the horizon. A flight that goes on after it passes to other
-/// stretches, chosen as the first ones were: these fade in as those fade out, over
-/// [`FADE`] integral times.                                                    theory.md (50)
+/// The stretches last until the horizon. A longer flight passes to other stretches, which are chosen in the same
+/// way: they fade in over [`FADE`] integral times while the old ones fade out.  theory.md (50)
 #[derive(Clone, Debug)]
 pub(super) struct Stretches {
     streams: Arc<Vec<Stream>>,
@@ -23,7 +22,7 @@ pub(super) struct Stretches {
     /// Samples in which one choice passes into the next.
     fade: u64,
     chosen: u64,
-    /// `[eddy][component]`, those chosen last and those before them.
+    /// `[eddy][component]`, the current stretches and the previous ones.
     now: Vec<Stretch>,
     before: Vec<Stretch>,
 }
@@ -92,8 +91,8 @@ struct Stretch {
 }
 
 impl Stretch {
-    /// The fluctuation so many samples after its start, and its rise over a sample interval there: the cubics
-    /// between samples are Catmull and Rom's. A record that ends is read backwards from there.
+    /// The fluctuation a number of samples after its start, and its rise over a sample interval there, for
+    /// Catmull-Rom cubics between samples. At the end of a record it is read backwards.
     #[inline(always)]
     fn value_and_slope<S: Register>(&self, sample: usize) -> (Wide<S>, Wide<S>) {
         let last = self.values.len() - 1;
@@ -161,8 +160,8 @@ fn starts(stream: &Stream, choice: u64, horizon: f64) -> Vec<[usize; 3]> {
         .collect()
 }
 
-/// So many of the numbers below `room`, evenly spaced around the ring of them from a random one on, in random
-/// order.
+/// `count` evenly spaced numbers below `room`, in random order. The first is random, and the numbers wrap around
+/// at `room`.
 fn scattered(room: usize, count: usize, random: &mut ChaCha8Rng) -> Vec<usize> {
     let mut below = |n: usize| (random.next_u64() % n as u64) as usize;
     let shift = below(room);

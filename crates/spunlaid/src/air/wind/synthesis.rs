@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::{PI, SQRT_2};
 
-/// What the random phases of a fibre are drawn from. Equal keys give equal turbulence, bit for bit.
+/// The key of the random phases of a fibre. Equal keys give equal turbulence, bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StreamKey {
     /// Master seed of the run.
@@ -30,26 +30,26 @@ impl StreamKey {
     }
 }
 
-/// A number of [0, 1).
+/// A random number in [0, 1).
 fn uniform(stream: &mut ChaCha8Rng) -> f64 {
     (stream.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
 }
 
-/// Two independent numbers of the standard normal distribution (Box and Muller).
+/// Two independent random numbers of the standard normal distribution (Box and Muller).
 fn normal(stream: &mut ChaCha8Rng) -> (f64, f64) {
     let radius = (-2.0 * libm::log(1.0 - uniform(stream))).sqrt();
     let angle = 2.0 * PI * uniform(stream);
     (radius * libm::cos(angle), radius * libm::sin(angle))
 }
 
-/// The turbulence of one fibre: where it comes from.
+/// The source of the turbulence of one fibre.
 #[derive(Clone, Debug)]
 pub struct Stream {
     /// The air.
     pub air: Air,
     /// The turbulence of each eddy, see [`Air::turbulence_along`].
     pub eddies: Vec<EddyTurbulence>,
-    /// What its phases are drawn from.
+    /// The key of its random phases.
     pub key: StreamKey,
 }
 
@@ -70,9 +70,9 @@ pub(super) struct Synthesis<'a> {
     pub(super) streams: &'a [Stream],
     pub(super) window: u64,
     pub(super) grid: Grid,
-    /// For one sample after the other, which sample of the window it takes and how much of it.
+    /// For each sample, which sample of the window it takes and with which factor.
     pub(super) shares: Vec<(usize, Share)>,
-    /// Where they are added, `[sample][eddy][component]`.
+    /// The samples that they are added to, `[sample][eddy][component]`.
     pub(super) into: &'a mut [Lanes],
 }
 
@@ -145,7 +145,7 @@ impl<'a> Harmonics<'a> {
         Self { streams, window, scale, amplitude: zero(), phase: zero() }
     }
 
-    /// Goes on to a component of an eddy.
+    /// Moves on to a component of an eddy.
     fn enter(&mut self, eddy: usize, component: usize) {
         for lane in 0..WIDTH {
             if lane < self.streams.len() {
@@ -161,7 +161,7 @@ impl<'a> Harmonics<'a> {
     fn enter_lane(&mut self, lane: usize, eddy: usize, component: usize) {
         let Stream { air, eddies, key } = &self.streams[lane];
         let turbulence = &eddies[eddy];
-        // Most eddies sound alike.
+        // Most eddies have the same spectrum.
         let like_above = eddy > 0 && eddies[eddy - 1].same_spectrum(turbulence);
         if !like_above {
             let amplitudes = turbulence.spectrum(air, component).amplitudes();
@@ -174,7 +174,7 @@ impl<'a> Harmonics<'a> {
         let phase = self.phase[component].iter_mut().map(|of| &mut of.0[lane]);
         match turbulence.carried {
             None => phase.for_each(|phase| *phase = uniform(&mut stream)),
-            // What arrives later lags behind; what is forgotten walks away at random: theory.md (47).
+            // The phase lags by the time of arrival, and changes at random as the correlation decays: theory.md (47).
             Some(time) => {
                 let lag = time / air.repeat_time();
                 let step = (2.0 * turbulence.forgotten).sqrt() / (2.0 * PI);

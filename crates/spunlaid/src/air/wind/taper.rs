@@ -1,14 +1,14 @@
-//! The taper that samples are interpolated with.
+//! The taper that interpolates the samples.
 
 use std::f64::consts::PI;
 
-/// How many samples an interpolated value rests on.
+/// Number of samples that an interpolated value is computed from.
 pub(super) const SPREAD: usize = 8;
 
 /// The Kaiser-Bessel taper `φ(x) = I₀(β √(1−(2x/w)²))/I₀(β)`, |x| ≤ w/2 = SPREAD/2 sample spacings.
 ///
-/// A signal of frequencies up to a quarter of the sampling rate, each divided by the taper's transform
-/// there, is restored by a sum over the eight nearest samples to 1e-7 of its rms. theory.md (19)
+/// The sum over the eight nearest samples restores a signal with frequencies up to a quarter of the sampling rate to
+/// 1e-7 of its rms, if each frequency was divided by the taper's transform. theory.md (19)
 pub(super) struct Taper {
     beta: f64,
 }

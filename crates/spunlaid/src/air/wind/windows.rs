@@ -18,14 +18,14 @@ use crate::lanes::{Isa, Lanes};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Samples before time zero that the interpolation there rests on.
+/// Samples before time zero that the interpolation needs there.
 const BEFORE: i64 = SPREAD as i64 / 2 - 1;
 
 /// The fluctuation of eight fibres as samples, made in blocks.
 #[derive(Clone, Debug)]
 pub(super) struct Windows {
     isa: Isa,
-    /// Shared by clones, as the samples are: a look ahead copies neither.
+    /// Clones share it and the samples, so that a step on trial copies neither.
     streams: Arc<Vec<Stream>>,
     grid: Grid,
     /// `[sample][eddy][component]`
@@ -36,14 +36,14 @@ pub(super) struct Windows {
     last: i64,
 }
 
-/// How the samples lie in the windows.
+/// How the samples are divided among the windows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid {
     /// Samples in a repeat time, four or more for each harmonic.
     pub(super) period: usize,
     /// Time between samples [s].
     spacing: f64,
-    /// Whether there is but one window, which repeats.
+    /// Whether there is only one window, which repeats.
     repeats: bool,
 }
 
@@ -58,8 +58,8 @@ impl Grid {
         if self.repeats { i64::MAX } else { 3 * (self.period / 4) as i64 }
     }
 
-    /// The block of samples from `first` on: to the end of the stretch between two starts of windows in which its
-    /// eighth sample lies, or up to `last`.
+    /// The block of samples that begins at `first`. It ends at the next start of a window after its eighth sample,
+    /// or at `last`.
     fn block(&self, first: i64, last: i64) -> Range<i64> {
         let hop = self.hop();
         let eighth = first + SPREAD as i64;
@@ -73,7 +73,7 @@ impl Grid {
         (samples.start.max(0) / hop - 1).max(0)..(samples.end - 1).max(0) / hop + 1
     }
 
-    /// What of a window a sample is made of, and how much of it; none where the window is not heard.
+    /// The sample of a window that a sample uses, and the factor; `None` if the window does not contribute.
     ///
     /// The sample of the window lies within its repeat time; a sample before time zero or, where the window
     /// repeats, later is that of the opposite sign half a full period away.
@@ -95,7 +95,7 @@ impl Grid {
     }
 }
 
-/// How much of a window a sample takes.
+/// The factor of a window at a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Share {
     Whole,
@@ -109,7 +109,7 @@ impl Windows {
         Self::on(isa, streams, grid, horizon)
     }
 
-    /// But one window, which repeats after its repeat time but for the sign.
+    /// Only one window, which repeats after its repeat time with the opposite sign.
     pub(super) fn repeating(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Self {
         let grid = Grid::of(&streams[0].air, true);
         Self::on(isa, streams, grid, horizon)
@@ -144,7 +144,7 @@ impl Windows {
 
     #[inline(never)]
     fn go_to(&mut self, first: i64) {
-        // The old block is not needed any more; without this both would be in memory.
+        // Free the old block first, so that the two are never in memory together.
         self.block = Arc::default();
         let last = match self.last {
             last if first < last => last,
@@ -181,7 +181,7 @@ impl Windows {
 /// Samples needed to interpolate anywhere in `[0, horizon]`.
 fn sample_count(horizon: f64, spacing: f64) -> i64 {
     let intervals = (horizon / spacing).ceil();
-    // What would not fit is asked for later, if ever.
+    // Samples beyond this number are made later, when they are needed.
     let intervals = if intervals > 0.0 && intervals < 1e15 { intervals as i64 } else { 0 };
     intervals + SPREAD as i64 + 1
 }

@@ -2,27 +2,27 @@
 
 use crate::error::{FieldFault, FileError, FilePlace};
 
-/// What kind of cell.
+/// The shape of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Four points.
     Tetrahedron,
-    /// Five: those of the base in turn, then the tip.
+    /// Five points: those of the base in order around it, then the tip.
     Pyramid,
-    /// Six, a triangular prism: those of one triangle in turn, then the ones across from them.
+    /// Six points, a triangular prism: those of one triangle in order around it, then the opposite ones.
     Wedge,
-    /// Eight: those of one face in turn, then the ones across from them.
+    /// Eight points: those of one face in order around it, then the opposite ones.
     Hexahedron,
-    /// Ten: those of one pentagon in turn, then the ones across from them.
+    /// Ten points: those of one pentagon in order around it, then the opposite ones.
     PentagonalPrism,
-    /// Twelve: those of one hexagon in turn, then the ones across from them.
+    /// Twelve points: those of one hexagon in order around it, then the opposite ones.
     HexagonalPrism,
-    /// Any number of faces; made with [`Cells::push_polyhedron`].
+    /// Any number of faces; added with [`Cells::push_polyhedron`].
     Polyhedron,
 }
 
 impl Shape {
-    /// The faces, each as corners in turn, all seen from the same side; none for a polyhedron.
+    /// The faces, each as its corners in order around it, all seen from the same side; none for a polyhedron.
     const fn faces(self) -> &'static [&'static [usize]] {
         match self {
             Self::Tetrahedron => &[&[0, 1, 3], &[1, 2, 3], &[2, 0, 3], &[0, 2, 1]],
@@ -54,7 +54,7 @@ impl Shape {
         }
     }
 
-    /// Number of corners; none for a polyhedron, which has any.
+    /// Number of corners; 0 for a polyhedron, which has no fixed number.
     pub const fn corners(self) -> usize {
         match self {
             Self::Tetrahedron => 4,
@@ -67,7 +67,7 @@ impl Shape {
         }
     }
 
-    /// With its article.
+    /// Name with its article.
     const fn name(self) -> &'static str {
         match self {
             Self::Tetrahedron => "a tetrahedron",
@@ -81,17 +81,17 @@ impl Shape {
     }
 }
 
-/// The cells of a mesh, by the numbers of their points, from 0.
+/// The cells of a mesh. Points are numbered from 0.
 #[derive(Clone, Debug, Default)]
 pub struct Cells {
     list: Vec<Entry>,
-    /// Of one cell after the other; of a polyhedron, those of one face after the other.
+    /// Points of one cell after the other; for a polyhedron those of one face after the other.
     points: Vec<u32>,
-    /// Numbers of points of the faces of polyhedra.
+    /// Number of points of each face of the polyhedra.
     faces: Vec<u32>,
 }
 
-/// What a cell is and where its points, and its faces if it is a polyhedron, begin.
+/// Shape of a cell, and where its points begin; for a polyhedron also where its faces begin.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     shape: Shape,
@@ -117,10 +117,10 @@ impl Cells {
 
     /// Adds a cell.
     ///
-    /// * `points` – as many as the shape has corners, in its order
+    /// * `points` – one for each corner, in the order given at [`Shape`]
     ///
     /// # Errors
-    /// When the number of points is another.
+    /// When the number of points is not that of the shape's corners.
     pub fn push(&mut self, shape: Shape, points: &[u32]) -> Result<(), FileError> {
         if points.len() != shape.corners() || shape == Shape::Polyhedron {
             let (name, found, wanted) = (shape.name(), points.len(), shape.corners());
@@ -134,17 +134,16 @@ impl Cells {
 
     /// Adds a polyhedron.
     ///
-    /// * `faces` – each as its points in turn, from whichever side
+    /// * `faces` – each as its points in order around it, seen from either side
     pub fn push_polyhedron<'a>(&mut self, faces: impl IntoIterator<Item = &'a [u32]>) {
         self.list.push(self.next(Shape::Polyhedron));
         for face in faces {
-            // No face has more points than can be numbered.
             self.faces.push(face.len() as u32);
             self.points.extend_from_slice(face);
         }
     }
 
-    /// Adds cells of points that are numbered anew, from `first`.
+    /// Adds the cells of another list and adds `first` to the numbers of their points.
     pub(in crate::field) fn append(&mut self, more: &Self, first: u32) {
         let Entry { points, faces, .. } = self.next(Shape::Polyhedron);
         let moved =
@@ -154,7 +153,7 @@ impl Cells {
         self.faces.extend_from_slice(&more.faces);
     }
 
-    /// Where a cell that comes next begins.
+    /// Where the next cell begins.
     fn next(&self, shape: Shape) -> Entry {
         Entry { shape, points: self.points.len(), faces: self.faces.len() }
     }
@@ -163,7 +162,7 @@ impl Cells {
         self.list[cell].shape == Shape::Polyhedron
     }
 
-    /// Hands out each face of a cell, as its points in turn.
+    /// Calls `face` with the points of each face of a cell, in order around it.
     pub(super) fn each_face(&self, cell: usize, mut face: impl FnMut(&[u32])) {
         let Entry { shape, points, faces } = self.list[cell];
         let mut rest = &self.points[points..];
@@ -184,7 +183,7 @@ impl Cells {
         }
     }
 
-    /// Puts the points of a cell in the place of the list’s, each once, in order.
+    /// Replaces the content of `list` by the points of a cell, each once, in increasing order.
     pub(in crate::field) fn corners(&self, cell: usize, list: &mut Vec<u32>) {
         list.clear();
         self.each_face(cell, |points| list.extend_from_slice(points));
@@ -192,7 +191,7 @@ impl Cells {
         list.dedup();
     }
 
-    /// The first point named that is not among so many, and its cell.
+    /// The first cell that names a point whose number is `points` or larger, and that number.
     pub(super) fn beyond(&self, points: usize) -> Option<(usize, u32)> {
         (0..self.len()).find_map(|cell| {
             let mut wrong = None;

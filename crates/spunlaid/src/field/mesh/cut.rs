@@ -1,42 +1,42 @@
-//! Cells cut into tetrahedra, so that neighbours agree on the face between them.
+//! Cuts cells into tetrahedra so that neighbours agree on how the face between them is cut.
 //!
-//! Every face is parted into triangles by the diagonals from its point of the smallest number, which both of
-//! its cells know. A cell is then the tetrahedra that its own point of the smallest number makes with the
-//! triangles it is no corner of: all faces around that point are parted from it, so nothing is left over. That
-//! is the pulling triangulation of a convex polyhedron; Dompierre et al. 1999 use it for hexahedra, wedges and
-//! pyramids. A cell that is not convex is cut from its centroid, where the mean of its points' values is put.
+//! The diagonals from the point with the smallest number divide each face into triangles. Both cells of a face
+//! find the same triangles in this way. The point with the smallest number of the whole cell then forms a
+//! tetrahedron with each triangle that it is not a corner of; together these fill the cell. This is the pulling
+//! triangulation of a convex polyhedron; Dompierre et al. 1999 use it for hexahedra, wedges and pyramids. A cell
+//! that is not convex is cut from its centroid, which gets the mean of the values at the cell's points.
 
 use super::cells::Cells;
 use crate::field::node::{Node, bounding_box};
 use crate::field::{mean, vector};
 use crate::vec3::Vec3;
 
-/// Least volume of a tetrahedron or a cell, by the third power of the cell's diagonal: less is rounding.
+/// Smallest volume of a tetrahedron or a cell, divided by the cube of the cell's diagonal. Less is rounding.
 const FLAT: f64 = 1e-12;
 /// Share of a cell's volume that may be folded over before it is cut from its centroid.
 const BENT: f64 = 1e-3;
-/// And before it is counted: meshers leave cells behind that are folded over by a hundredth or two.
+/// Share above which the cell is counted in a warning. Meshers often leave cells that are folded by 1 or 2 %.
 const FOLDED: f64 = 0.05;
 
-/// What cells are cut into.
+/// The result of cutting cells.
 #[derive(Default)]
 pub(super) struct Cut {
-    /// The nodes of each tetrahedron, so that its volume is positive.
+    /// The nodes of each tetrahedron, ordered so that its volume is positive.
     pub(super) tetrahedra: Vec<[u32; 4]>,
-    /// Where the tetrahedra of each cell with a volume end.
+    /// For each cell with a volume, the end of its tetrahedra in the list.
     pub(super) ends: Vec<u32>,
-    /// All triangles of all these cells' faces.
+    /// The triangles of the faces of all cells with a volume.
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Cells without volume.
+    /// Number of cells without volume.
     pub(super) flat: u64,
-    /// Cells that fold over themselves.
+    /// Number of cells that fold over themselves.
     pub(super) folded: u64,
 }
 
 impl Cut {
-    /// Cuts a cell; a centroid is added to the nodes where one is needed.
+    /// Cuts a cell and adds a centroid to the nodes if one is needed.
     ///
-    /// * `place_of` – for each point, the first one at its place
+    /// * `place_of` – for each point, the first point at its place
     pub(super) fn add(&mut self, cells: &Cells, cell: usize, place_of: &[u32], nodes: &mut Vec<Node>) {
         let triangles = triangles(cells, cell, place_of, nodes);
         let Some(tip) = triangles.iter().flatten().copied().min() else {
@@ -72,7 +72,7 @@ fn triangles(cells: &Cells, cell: usize, place_of: &[u32], nodes: &[Node]) -> Ve
     cells.each_face(cell, |points| {
         face.clear();
         face.extend(points.iter().map(|point| place_of[*point as usize]));
-        // A face that has collapsed names a point twice in a row.
+        // A collapsed face names the same point twice in a row.
         face.dedup();
         while face.len() > 1 && face.first() == face.last() {
             face.pop();
@@ -88,7 +88,7 @@ fn triangles(cells: &Cells, cell: usize, place_of: &[u32], nodes: &[Node]) -> Ve
     triangles
 }
 
-/// Turns the faces of a polyhedron, of which files say no side, so that they look away from its centroid.
+/// Turns the faces of a polyhedron outwards, away from its centroid. Files do not say which side is outside.
 fn face_outwards(triangles: &mut [[u32; 3]], ends: &[usize], nodes: &[Node]) {
     let centre = centroid(triangles, nodes).at;
     let mut start = 0;
@@ -102,11 +102,11 @@ fn face_outwards(triangles: &mut [[u32; 3]], ends: &[usize], nodes: &[Node]) {
     }
 }
 
-/// The tetrahedra that a tip makes with triangles.
+/// The tetrahedra between a tip and triangles.
 struct Cone<'a> {
     tip: u32,
     triangles: &'a [[u32; 3]],
-    /// Six times the volume of each, of either sign.
+    /// Six times the volume of each, with its sign.
     volumes: Vec<f64>,
 }
 
@@ -122,13 +122,13 @@ impl<'a> Cone<'a> {
         self.volumes.iter().sum::<f64>().abs()
     }
 
-    /// The part that has the other sign, as a share of the volume.
+    /// The volume of the tetrahedra with the opposite sign, as a share of the cell's volume.
     fn folded(&self) -> f64 {
         let whole: f64 = self.volumes.iter().map(|volume| volume.abs()).sum();
         0.5 * (whole / self.volume() - 1.0)
     }
 
-    /// Those with a volume above `least`, in order.
+    /// The tetrahedra with a volume above `least`.
     fn tetrahedra(&self, least: f64) -> impl Iterator<Item = [u32; 4]> {
         let sign = self.volumes.iter().sum::<f64>().signum();
         let tip = self.tip;
@@ -144,7 +144,7 @@ fn volume(tip: [f64; 3], triangle: &[u32; 3], nodes: &[Node]) -> f64 {
     a.dot(b.cross(c))
 }
 
-/// The mean of the corners and of their values; what is linear has its right value there.
+/// The mean of the corners and of their values. It is exact for values that are linear in space.
 fn centroid(triangles: &[[u32; 3]], nodes: &[Node]) -> Node {
     let mut corners: Vec<u32> = triangles.iter().flatten().copied().collect();
     corners.sort_unstable();

@@ -1,9 +1,9 @@
-//! Triangles that are there twice: the faces between neighbours.
+//! Finds triangles that occur twice: the faces between neighbours.
 
-/// Calls `pair` for any two triangles with the same nodes, and `alone` for those that no other one matches; by
-/// their places in the list.
+/// Calls `pair` for two triangles with the same nodes and `alone` for a triangle that occurs once, with their
+/// places in the list.
 ///
-/// Triangles are gathered by their smallest node, of which each has a few, in time and memory of their number.
+/// Triangles are grouped by their smallest node. Time and memory are proportional to the number of triangles.
 pub(super) fn match_up(
     nodes: usize,
     triangles: impl Iterator<Item = [u32; 3]> + Clone,

@@ -1,4 +1,4 @@
-//! Values on a mesh of cells, linear in each of the tetrahedra they are cut into.
+//! Values on a mesh of cells. Each cell is cut into tetrahedra, and the values are linear in each of them.
 
 pub(super) mod cells;
 mod cut;
@@ -17,13 +17,13 @@ use rstar::{AABB, RTree};
 
 /// Most tetrahedra that are kept; they take 32 bytes each.
 pub(super) const MOST_TETRAHEDRA: usize = 1 << 26;
-/// How far beyond a face, as a share of a tetrahedron's height, a point still counts as within: rounding.
+/// How far outside a face a point still counts as inside because of rounding, as a share of the height.
 const EDGE: f64 = 1e-9;
-/// And if no tetrahedron has it within: rounding in slivers.
+/// The same when no tetrahedron contains the point, which happens in very flat ones.
 const GAP: f64 = 1e-6;
-/// Steps from tetrahedron to tetrahedron before the tree is asked.
+/// Steps from tetrahedron to tetrahedron before the tree of boxes is searched instead.
 const LONGEST_WALK: usize = 64;
-/// Where there is no neighbour.
+/// Marks a face without a neighbour.
 const NOTHING: u32 = u32::MAX;
 
 #[derive(Debug)]
@@ -31,21 +31,21 @@ pub(super) struct Mesh {
     nodes: Vec<Node>,
     tetrahedra: Vec<Tetrahedron>,
     cells: RTree<CellBox>,
-    /// The nodes of the surface.
+    /// Nodes of the surface.
     surface: Tree,
-    /// Points that were given.
+    /// Number of points given.
     points: usize,
     bounds: ([f64; 3], [f64; 3]),
 }
 
-/// The box around a cell and its tetrahedra, first and end.
+/// The box around a cell, with the first and the end of its tetrahedra.
 type CellBox = GeomWithData<Rectangle<[f64; 3]>, [u32; 2]>;
 
 #[derive(Debug)]
 struct Tetrahedron {
-    /// Its nodes, so that its volume is positive.
+    /// Nodes, ordered so that the volume is positive.
     nodes: [u32; 4],
-    /// The tetrahedron beyond the face across from each node, or [`NOTHING`].
+    /// The neighbour behind the face opposite to each node, or [`NOTHING`].
     beyond: [u32; 4],
 }
 
@@ -102,6 +102,13 @@ impl Mesh {
         self.cells.size()
     }
 
+    /// The memory taken [bytes].
+    pub(super) fn memory(&self) -> usize {
+        // The tree of boxes groups up to six, and each group has a box of its own.
+        let boxes = self.cells.size() * (size_of::<CellBox>() + size_of::<[[f64; 3]; 2]>() / 4);
+        size_of_val(&*self.nodes) + size_of_val(&*self.tetrahedra) + boxes + self.surface.memory()
+    }
+
     pub(super) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         self.bounds
     }
@@ -119,7 +126,7 @@ impl Mesh {
         (self.nearest(at), false)
     }
 
-    /// Goes from the tetrahedron of the hint through the face that the point lies farthest beyond, and on.
+    /// Starts at the tetrahedron of the hint and moves on through the face that the point lies farthest outside of.
     fn walk(&self, at: [f64; 3], hint: Hint) -> Option<(u32, [f64; 4])> {
         let mut here = hint.0.checked_sub(1)?;
         for _ in 0..LONGEST_WALK {
@@ -139,7 +146,7 @@ impl Mesh {
         None
     }
 
-    /// Looks into all cells around the point and takes the tetrahedron that it is deepest in.
+    /// Of all cells whose box contains the point, takes the tetrahedron that the point lies deepest in.
     fn search(&self, at: [f64; 3]) -> Option<(u32, [f64; 4])> {
         let mut best = None;
         let mut deepest = -GAP;
@@ -163,7 +170,7 @@ impl Mesh {
         self.nodes.get(found[0].1 as usize).map(|node| node.values).unwrap_or_default()
     }
 
-    /// Barycentric coordinates: the weights of the nodes, with the sum of one.
+    /// Barycentric coordinates: the weights of the four nodes, whose sum is one.
     #[inline]
     fn weights(&self, tetrahedron: &Tetrahedron, at: [f64; 3]) -> [f64; 4] {
         let [o, a, b, c] = tetrahedron.nodes.map(|node| vector(self.nodes[node as usize].at));
@@ -176,7 +183,7 @@ impl Mesh {
     }
 }
 
-/// The nodes of the triangles that are of one cell only.
+/// The nodes of the triangles that belong to one cell only.
 fn surface(triangles: &[[u32; 3]], nodes: &[Node]) -> Tree {
     let mut corners = Vec::new();
     let alone = |i: u32| corners.extend_from_slice(&triangles[i as usize]);
@@ -198,7 +205,7 @@ fn boxes(cut: &Cut, nodes: &[Node]) -> RTree<CellBox> {
     RTree::bulk_load(boxes.collect())
 }
 
-/// Tetrahedra that know what is beyond their faces.
+/// Tetrahedra with their neighbours.
 fn neighbours(tetrahedra: &[[u32; 4]], nodes: usize) -> Vec<Tetrahedron> {
     let across = |[a, b, c, d]: [u32; 4]| [[b, c, d], [a, c, d], [a, b, d], [a, b, c]];
     let faces = tetrahedra.iter().flat_map(|nodes| across(*nodes));

@@ -1,14 +1,14 @@
-//! Gradients that fit the changes towards neighbours best.
+//! Least-squares gradients from the differences to the neighbours.
 
 use crate::field::values::Quantities;
 
-/// Least part of the neighbours that has to tell of each direction.
+/// Least share of the neighbours that must lie in each direction.
 const SPREAD: f64 = 0.01;
-/// What is added to the fit, as a share, so that gradients of which no neighbour tells are zero.
+/// Share that is added to the diagonal, so that a gradient without neighbours in its direction is zero.
 const RIDGE: f64 = 1e-13;
 
-/// A weighted least-squares fit; every neighbour counts with its distance to the power −2, that is by its
-/// direction.
+/// A weighted least-squares fit. The weight of a neighbour is its distance to the power −2, so that only its
+/// direction counts.
 #[derive(Clone, Copy)]
 pub(super) struct Fit {
     /// Sum of products of directions.
@@ -19,8 +19,8 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// * `plane` – axes along which nothing changes and no neighbour lies
-    /// * `most` – neighbours that will be added, at the most
+    /// * `plane` – axes along which nothing changes
+    /// * `most` – largest number of neighbours that will be added
     pub(super) fn new(plane: [bool; 3], most: usize) -> Self {
         let mut normal = [[0.0; 3]; 3];
         for axis in (0..3).filter(|axis| plane[*axis]) {
@@ -43,7 +43,7 @@ impl Fit {
         self.neighbours += 1.0;
     }
 
-    /// Whether the neighbours tell of all directions.
+    /// Whether there are neighbours in all directions.
     pub(super) fn is_spread(&self) -> bool {
         let (normal, _) = self.eliminated();
         (0..3).all(|axis| normal[axis][axis] > SPREAD * self.neighbours)

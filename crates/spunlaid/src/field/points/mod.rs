@@ -1,9 +1,9 @@
 //! Values at points without cells.
 //!
-//! Every point knows the gradients that fit its neighbours best. The value anywhere is the mean of what the
-//! nearest points make of it, each along its own gradients; a point's weight falls to zero with its distance as
-//! another one takes its place, so that the field is continuous. The weights are those of Franke & Little, in
-//! Franke 1982. No point makes less of `k` and `ε` than half of what it has itself.
+//! Each point has gradients that are fitted to its neighbours. The value anywhere is a weighted mean: each of the
+//! nearest points extrapolates its own value along its gradients. The weight of a point falls to zero with
+//! distance before another point replaces it among the nearest, so the field is continuous. The weights are those
+//! of Franke & Little, in Franke 1982. No point extrapolates `k` and `ε` to less than half of its own values.
 
 mod fit;
 
@@ -14,16 +14,16 @@ use super::values::Quantities;
 use crate::error::{FieldFault, FileError};
 use fit::Fit;
 
-/// Points that a value is the mean of; the next one sets how far they reach.
+/// Number of points in the mean. The distance of the next one is where the weights become zero.
 const NEAREST: usize = 8;
-/// Neighbours that gradients are fitted to: twice as many again until they tell of all directions.
+/// Number of neighbours that gradients are fitted to. It is doubled until there are some in all directions.
 const NEIGHBOURS: [usize; 4] = [16, 32, 64, 128];
 
 #[derive(Debug)]
 pub(super) struct Points {
     sites: Vec<Site>,
     tree: Tree,
-    /// Axes along which all points have one coordinate: a plane flow.
+    /// Axes along which all points have the same coordinate, as in a plane flow.
     plane: [bool; 3],
     bounds: ([f64; 3], [f64; 3]),
 }
@@ -39,7 +39,7 @@ struct Site {
 }
 
 impl Points {
-    /// * `nodes` – each at a place of its own
+    /// * `nodes` – no two of them at the same place
     pub(super) fn new(nodes: Vec<Node>) -> Result<Self, FileError> {
         if nodes.len() <= NEAREST {
             return Err(FieldFault::TooFewPoints { found: nodes.len(), least: NEAREST + 1 }.into());
@@ -76,6 +76,11 @@ impl Points {
         self.sites.len()
     }
 
+    /// The memory taken [bytes].
+    pub(super) fn memory(&self) -> usize {
+        size_of_val(&*self.sites) + self.tree.memory()
+    }
+
     pub(super) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         self.bounds
     }
@@ -95,7 +100,7 @@ impl Points {
         }
         let weights = nearest.map(|(distance_2, _)| {
             let distance = distance_2.sqrt();
-            // As a share of what the nearest would have if there were no limit to its reach.
+            // Relative to the nearest point's weight 1/d².
             let weight = (1.0 - distance / reach) * (least / distance);
             weight * weight
         });
@@ -106,14 +111,14 @@ impl Points {
 }
 
 impl Site {
-    /// What the values are elsewhere, by the gradients here.
+    /// Extrapolates the values of this point along its gradients.
     fn continued(&self, at: [f64; 3]) -> Quantities {
         let mut values = self.node.values;
         for (axis, gradient) in self.gradients.iter().enumerate() {
             let along = at[axis] - self.node.at[axis];
             values.iter_mut().zip(gradient).for_each(|(value, change)| *value += along * change);
         }
-        // Next to walls k and ε are so steep that gradients would carry them below zero.
+        // Next to walls k and ε are so steep that extrapolation would make them negative.
         for (value, here) in values.iter_mut().zip(self.node.values).skip(3) {
             *value = value.max(0.5 * here);
         }

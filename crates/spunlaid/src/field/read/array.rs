@@ -1,4 +1,4 @@
-//! Arrays of numbers, as they stand in a file until they are asked for.
+//! Arrays of numbers in a file, decoded when they are needed.
 
 use super::encoding::{self, Budget, Packing};
 use crate::error::{FieldFault, FileError, FileFault, FilePlace};
@@ -21,7 +21,7 @@ pub(super) enum Number {
 }
 
 impl Number {
-    /// By its name in VTK’s XML files.
+    /// The type with this name in VTK's XML files.
     pub(super) fn of_xml(name: &str) -> Option<Self> {
         Some(match name {
             "Int8" => Self::I8,
@@ -38,14 +38,14 @@ impl Number {
         })
     }
 
-    /// By its name in VTK’s legacy files.
+    /// The type with this name in VTK's legacy files.
     pub(super) fn of_legacy(name: &str) -> Option<Self> {
         Some(match name.to_ascii_lowercase().as_str() {
             "char" | "signed_char" | "vtktypeint8" => Self::I8,
             "unsigned_char" | "vtktypeuint8" => Self::U8,
             "short" | "vtktypeint16" => Self::I16,
             "unsigned_short" | "vtktypeuint16" => Self::U16,
-            // Identifiers are written as 32-bit numbers, whatever they are in memory.
+            // VTK writes identifiers as 32-bit numbers, also where it uses 64 bits in memory.
             "int" | "vtkidtype" | "vtktypeint32" => Self::I32,
             "unsigned_int" | "vtktypeuint32" => Self::U32,
             "long" | "vtktypeint64" => Self::I64,
@@ -70,13 +70,13 @@ impl Number {
 /// How the numbers are written.
 #[derive(Clone, Debug)]
 pub(super) enum Source<'a> {
-    /// As text, parted by white space.
+    /// Text, separated by white space.
     Text(&'a [u8]),
-    /// As bytes and nothing else; whether the largest byte of a number comes first.
+    /// Plain bytes.
     Bytes { bytes: &'a [u8], big_endian: bool },
-    /// As they are.
+    /// Numbers that are already decoded.
     Numbers(&'a [f64]),
-    /// As blocks of bytes with a header.
+    /// Blocks of bytes with a header.
     Packed { bytes: &'a [u8], packing: Packing, big_endian: bool },
 }
 
@@ -85,14 +85,14 @@ pub(super) enum Source<'a> {
 pub(super) struct Array<'a> {
     pub(super) name: String,
     pub(super) number: Number,
-    /// Of each point or cell.
+    /// Numbers for each point or cell.
     pub(super) components: usize,
     pub(super) source: Source<'a>,
-    /// Where it is in the file.
+    /// Place in the file.
     pub(super) place: FilePlace,
 }
 
-/// What a number is read as: any number as `f64`, a whole one as `i64`.
+/// The type that numbers are converted to: `f64`, or `i64` for whole numbers.
 pub(super) trait Read: FromStr {
     fn of_float(x: f64) -> Self;
     fn of_signed(x: i64) -> Self;
@@ -128,14 +128,14 @@ impl Read for i64 {
 }
 
 impl Array<'_> {
-    /// All numbers there are.
+    /// All numbers of the array.
     pub(super) fn all<T: Read>(&self, budget: &mut Budget) -> Result<Vec<T>, FileError> {
         let numbers = match &self.source {
             Source::Text(text) => words(text),
             Source::Numbers(numbers) => Ok(numbers.iter().map(|x| T::of_float(*x)).collect()),
             Source::Bytes { bytes, big_endian } => self.converted(bytes, *big_endian),
             Source::Packed { bytes, packing, big_endian } => {
-                let bytes = encoding::unpack(bytes, *packing, *big_endian, budget);
+                let bytes = encoding::unpack(bytes, *packing, *big_endian, self.number.size(), budget);
                 bytes.and_then(|bytes| self.converted(&bytes, *big_endian))
             }
         };
@@ -143,7 +143,7 @@ impl Array<'_> {
         within.map_err(|fault| self.fault(fault))
     }
 
-    /// The numbers of so many points or cells.
+    /// The numbers for `count` points or cells.
     pub(super) fn of<T: Read>(&self, count: usize, budget: &mut Budget) -> Result<Vec<T>, FileError> {
         let (numbers, wanted) = (self.all(budget)?, count.saturating_mul(self.components));
         if numbers.len() == wanted {
@@ -152,7 +152,7 @@ impl Array<'_> {
         Err(self.fault(FieldFault::Count { found: numbers.len(), wanted, of: "numbers" }))
     }
 
-    /// What is wrong, with the array’s name and place.
+    /// An error with the array's name and place.
     pub(super) fn fault(&self, fault: impl Into<FileFault>) -> FileError {
         FileError::from(fault.into()).array(&self.name).at(self.place)
     }
@@ -167,7 +167,7 @@ impl Array<'_> {
         }
         let number = |written: &[u8]| {
             let mut bits = [0; 8];
-            // The lowest byte first, whatever the file has.
+            // Bring the bytes into little-endian order.
             for (i, byte) in written.iter().enumerate() {
                 bits[if big_endian { size - 1 - i } else { i }] = *byte;
             }

@@ -1,4 +1,4 @@
-//! Blocks of bytes as VTK’s XML files hold them: with a header, perhaps compressed, perhaps in base 64.
+//! Decodes the blocks of bytes in VTK's XML files. They have a header and may be compressed and in base 64.
 
 use crate::error::{FieldFault, FileFault};
 use base64::Engine;
@@ -9,8 +9,10 @@ use std::io::Read;
 
 /// Most that is taken from a file, as numbers of eight bytes [bytes].
 const MOST: u64 = 1 << 32;
-/// LZ4 makes no more bytes than so many out of one.
+/// Largest number of bytes that LZ4 can make from one byte.
 const LZ4_EXPANSION: usize = 255;
+/// Largest number of bytes that zlib can make from one byte.
+const ZLIB_EXPANSION: usize = 1032;
 
 /// How blocks of bytes are packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +31,7 @@ pub(super) enum Compressor {
     Lz4,
 }
 
-/// How many bytes may still be taken from a file.
+/// How many bytes may still be decoded from a file.
 #[derive(Debug)]
 pub(super) struct Budget(u64);
 
@@ -38,24 +40,31 @@ impl Budget {
         Self(MOST)
     }
 
-    /// Takes so many numbers.
+    /// Counts numbers that are decoded, and refuses those beyond the limit.
     pub(super) fn spend(&mut self, numbers: usize) -> Result<(), FileFault> {
         let left = self.0.checked_sub((numbers as u64).saturating_mul(8));
         self.0 = left.ok_or(FieldFault::TooLarge { most: MOST })?;
         Ok(())
     }
 
-    /// Whether so many bytes, soon to be numbers, may be decoded.
-    fn allow(&self, bytes: usize) -> Result<(), FileFault> {
-        if bytes as u64 > self.0 { Err(FieldFault::TooLarge { most: MOST }.into()) } else { Ok(()) }
+    /// Whether so many bytes may be decoded: they and the numbers they become are in memory together.
+    ///
+    /// * `size` – of a number as written [bytes]
+    fn allow(&self, bytes: usize, size: usize) -> Result<(), FileFault> {
+        let numbers = (bytes / size.max(1)).saturating_mul(8);
+        let together = bytes.saturating_add(numbers) as u64;
+        if together > self.0 { Err(FieldFault::TooLarge { most: MOST }.into()) } else { Ok(()) }
     }
 }
 
-/// The bytes that are packed here; what follows them is not looked at.
+/// Unpacks the bytes of an array. What follows them is ignored.
+///
+/// * `size` – of a number as written [bytes]
 pub(super) fn unpack<'a>(
     packed: &'a [u8],
     packing: Packing,
     big_endian: bool,
+    size: usize,
     budget: &Budget,
 ) -> Result<Cow<'a, [u8]>, FileFault> {
     let packed = if packing.base64 { Cow::Owned(of_base64(packed)?) } else { Cow::Borrowed(packed) };
@@ -75,13 +84,19 @@ pub(super) fn unpack<'a>(
     if blocks == 0 {
         return Ok(Cow::Borrowed(&[]));
     }
+    let number_size = size;
     let [size, last] = [header.number("the size of blocks")?, header.number("the size of the last block")?];
     let width = if packing.wide_header { 8 } else { 4 };
     if blocks > (packed.len() - header.at) / width {
         return Err(FileFault::CutOff { wanted: "the sizes of the blocks" });
     }
     let mut rest = &packed[header.at + blocks * width..];
-    let mut bytes = Vec::new();
+    let whole = (blocks - 1).saturating_mul(size).saturating_add(if last > 0 { last } else { size });
+    budget.allow(whole, number_size)?;
+    // The whole is taken at once, because a growing list would take up to three times as much, but no more than the
+    // blocks can expand to.
+    let expansion = if packing.compressor == Compressor::Lz4 { LZ4_EXPANSION } else { ZLIB_EXPANSION };
+    let mut bytes = Vec::with_capacity(whole.min(rest.len().saturating_mul(expansion)));
     for block in 0..blocks {
         let length = header.number("the size of a block")?;
         let Some((compressed, after)) = rest.split_at_checked(length) else {
@@ -89,27 +104,25 @@ pub(super) fn unpack<'a>(
         };
         rest = after;
         let wanted = if block + 1 == blocks && last > 0 { last } else { size };
-        expand(compressed, wanted, packing.compressor, &mut bytes, budget)?;
+        expand(compressed, wanted, packing.compressor, &mut bytes)?;
     }
     Ok(Cow::Owned(bytes))
 }
 
-/// Adds a block of so many bytes, expanded.
+/// Expands a block and adds its `wanted` bytes to the output.
 fn expand(
     compressed: &[u8],
     wanted: usize,
     compressor: Compressor,
     bytes: &mut Vec<u8>,
-    budget: &Budget,
 ) -> Result<(), FileFault> {
     let before = bytes.len();
-    budget.allow(before.saturating_add(wanted))?;
     let expanded = match compressor {
         Compressor::None | Compressor::Zlib => {
             let decoder = flate2::bufread::ZlibDecoder::new(compressed);
             decoder.take(wanted as u64).read_to_end(bytes).map_err(|error| error.to_string())
         }
-        // Memory for what a header promises is taken only as far as the block can hold it.
+        // The header may promise more than the block can hold, so memory is taken only for what the block can expand to.
         Compressor::Lz4 if wanted / LZ4_EXPANSION > compressed.len() => Ok(0),
         Compressor::Lz4 => {
             bytes.resize(before + wanted, 0);
@@ -146,7 +159,7 @@ impl Header<'_> {
     }
 }
 
-/// Bytes in base 64; a header may be encoded apart from what follows it, and ends with padding then.
+/// Decodes base 64. A header may be encoded separately; it then ends with padding.
 fn of_base64(text: &[u8]) -> Result<Vec<u8>, FileFault> {
     let config = GeneralPurposeConfig::new()
         .with_decode_padding_mode(DecodePaddingMode::Indifferent)

@@ -1,20 +1,20 @@
-//! Where the points of a piece of a file are, and which cells they make.
+//! The points of a piece of a file, and the cells that they form.
 
 use super::unstructured::{Listed, Solid};
 use crate::error::{FieldFault, FileError};
 use crate::vec3::Vec3;
 
-/// Where the points of a piece are.
+/// How the points of a piece are arranged.
 pub(super) enum Grid {
-    /// On a lattice of even steps; so many points along each axis.
+    /// A lattice with even steps, and its number of points along each axis.
     Image { origin: [f64; 3], spacing: [f64; 3], size: [usize; 3] },
-    /// On a lattice.
+    /// A lattice with any steps.
     Lattice([Vec<f64>; 3]),
-    /// In rows, rows of rows, and rows of these.
+    /// A structured grid: three indices for each point, which may lie anywhere.
     Structured { size: [usize; 3], points: Vec<Vec3<f64>> },
-    /// Anywhere, without cells.
+    /// Points anywhere, without cells.
     Scattered(Vec<Vec3<f64>>),
-    /// Anywhere.
+    /// Points anywhere, with cells.
     Unstructured { points: Vec<Vec3<f64>>, solid: Solid, cells: usize },
 }
 
@@ -24,7 +24,7 @@ impl Grid {
         Ok(Self::Unstructured { points, solid, cells: listed.types.len() })
     }
 
-    /// Points along each axis, of a grid that has axes.
+    /// Number of points along each axis, if the grid has axes.
     fn size(&self) -> Option<[usize; 3]> {
         match self {
             Self::Image { size, .. } | Self::Structured { size, .. } => Some(*size),
@@ -45,7 +45,7 @@ impl Grid {
         }
     }
 
-    /// Hands out every cell with the numbers of its corners.
+    /// Calls a function with each cell and the numbers of its corners.
     pub(super) fn each_cell(&self, mut cell: impl FnMut(usize, &[u32])) {
         let mut corners = Vec::new();
         let Some([nx, ny, nz]) = self.size() else {
@@ -61,7 +61,7 @@ impl Grid {
         for number in 0..mx * my * mz {
             let (x, y, z) = (number % mx, number / mx % my, number / mx / my);
             corners.clear();
-            // Around each of two faces, as a hexahedron has them; a grid one point thick has only one.
+            // In order around each of two opposite faces. A grid that is one point thick has only one.
             for k in z..(z + 2).min(nz) {
                 for (i, j) in [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)] {
                     if i < nx && j < ny {
@@ -73,7 +73,7 @@ impl Grid {
         }
     }
 
-    /// From values of cells to values of points: the mean of the cells around.
+    /// Turns values at cells into values at points: each point gets the mean of the cells around it.
     pub(super) fn to_points(&self, values: &[f64], components: usize, points: usize) -> Vec<f64> {
         let mut sums = vec![0.0; points * components];
         let mut around = vec![0u32; points];
@@ -104,14 +104,14 @@ impl Grid {
     }
 }
 
-/// The product, if points of that number can be told apart.
+/// The product, if that many points can be numbered.
 pub(super) fn counted(size: [usize; 3]) -> Result<usize, FileError> {
     let product = size.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
     let product = product.filter(|product| u32::try_from(*product).is_ok());
     product.ok_or_else(|| FieldFault::TooMany { most: u32::MAX.into(), of: "points" }.into())
 }
 
-/// From rows of three numbers to vectors.
+/// Turns rows of three numbers into vectors.
 pub(super) fn vectors(numbers: &[f64]) -> Vec<Vec3<f64>> {
     numbers.chunks_exact(3).map(|v| Vec3::new(v[0], v[1], v[2])).collect()
 }

@@ -1,4 +1,4 @@
-//! VTK’s legacy files, as text or as bytes of which the largest of a number comes first.
+//! VTK's legacy files, as text or in big-endian binary.
 
 use super::array::{Array, Number, Source};
 use super::encoding::Budget;
@@ -26,7 +26,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError
     })
 }
 
-/// Goes through the file from front to back.
+/// Reads the file from the first byte to the last.
 struct Scanner<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -36,7 +36,7 @@ struct Scanner<'a> {
 impl<'a> Scanner<'a> {
     fn piece(&mut self, budget: &mut Budget) -> Result<Piece<'a>, FileError> {
         let first = self.rest_of_line();
-        // Since version 5 cells are listed with their ends, before that with their numbers of points.
+        // Since version 5 the file lists where each cell ends; before that, the number of points of each cell.
         let version = first.strip_prefix(START).and_then(|version| str::from_utf8(version).ok());
         let version: f64 = version.and_then(|version| version.trim().parse().ok()).unwrap_or(3.0);
         self.rest_of_line();
@@ -130,7 +130,7 @@ impl<'a> Scanner<'a> {
             };
             listed.ends = list("OFFSETS", count)?;
             listed.connectivity = list("CONNECTIVITY", size)?;
-            // The first is where the first cell begins.
+            // The first number is where the first cell begins.
             listed.ends = listed.ends.into_iter().skip(1).collect();
         } else {
             let array = self.array("CELLS".to_owned(), Number::I32, 1, size)?;
@@ -152,7 +152,7 @@ impl<'a> Scanner<'a> {
 
     /// The arrays at the end of the file.
     fn data(&mut self, piece: &mut Piece<'a>) -> Result<(), FileError> {
-        // Of points or of cells, and how many there are.
+        // Whether the arrays are of points or of cells, and how many there are.
         let mut of = None;
         while let Some(keyword) = self.peek() {
             self.word()?;
@@ -161,7 +161,7 @@ impl<'a> Scanner<'a> {
                     of = Some((keyword == "CELL_DATA", self.parse("a number of points or cells")?));
                 }
                 ("METADATA", _) => self.metadata(),
-                // Fields of the data set as a whole are left out.
+                // Field data of the whole data set are left out.
                 ("FIELD", None) => drop(self.fields()?),
                 (_, None) => return Err(wrong(keyword, "POINT_DATA or CELL_DATA")),
                 (_, Some((of_cells, count))) => {
@@ -230,7 +230,7 @@ impl<'a> Scanner<'a> {
             let components = self.parse("a number of components")?;
             let tuples: usize = self.parse("a number of points or cells")?;
             match self.word()? {
-                // A field of texts: one a line.
+                // An array of texts, one on each line.
                 "string" if !self.binary => {
                     for _ in 0..tuples.saturating_add(1).min(self.bytes.len()) {
                         self.rest_of_line();
@@ -245,13 +245,13 @@ impl<'a> Scanner<'a> {
         Ok(arrays)
     }
 
-    /// Passes over remarks on an array, which end with an empty line.
+    /// Skips the metadata of an array, which end with an empty line.
     fn metadata(&mut self) {
         self.rest_of_line();
         while self.at < self.bytes.len() && !self.rest_of_line().trim_ascii().is_empty() {}
     }
 
-    /// Takes an array of so many times so many numbers, from the next line on in binary files.
+    /// Takes an array of `count` rows. In binary files it begins on the next line.
     fn array(
         &mut self,
         name: String,
@@ -271,7 +271,7 @@ impl<'a> Scanner<'a> {
         } else {
             self.skip_blanks();
             let start = self.at;
-            // More words than bytes there are not.
+            // There cannot be more words than bytes.
             if numbers > self.bytes.len() {
                 return Err(missing());
             }
@@ -308,7 +308,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// As [`Scanner::keyword`], past fields of the data set as a whole and remarks.
+    /// As [`Scanner::keyword`], but skips field data of the whole data set and metadata.
     fn next_keyword(&mut self, wanted: &'static str) -> Result<(), FileError> {
         loop {
             match self.peek() {
@@ -340,7 +340,7 @@ impl<'a> Scanner<'a> {
         Ok(word)
     }
 
-    /// What is left of the line, and on to the next.
+    /// The rest of the line; the scanner moves on to the next.
     fn rest_of_line(&mut self) -> &'a [u8] {
         let rest = &self.bytes[self.at..];
         let end = rest.iter().position(|byte| *byte == b'\n');
@@ -348,7 +348,7 @@ impl<'a> Scanner<'a> {
         &rest[..end.unwrap_or(rest.len())]
     }
 
-    /// The byte reached.
+    /// The current byte.
     fn place(&self) -> FilePlace {
         FilePlace::Byte(self.at as u64 + 1)
     }

@@ -1,7 +1,7 @@
 //! Fields from files.
 //!
-//! A file is read as a whole; what is taken of memory beyond that follows from the bytes there are, never from
-//! what a header promises.
+//! A file is read as a whole. Further memory is taken only for the bytes that are there, never for what a header
+//! promises.
 
 mod array;
 mod encoding;
@@ -21,15 +21,15 @@ use std::path::Path;
 impl Field {
     /// Reads a field from a file, VTK or a table; the format is recognised from the file's content.
     ///
-    /// `docs/air.md` of the repository names the formats, and what arrays and columns may be called.
+    /// `docs/air.md` of the repository lists the formats and the names of arrays and columns.
     ///
     /// # Errors
-    /// When the file cannot be read or holds no field of air; the message says where and why.
+    /// When the file cannot be read or holds no field of air. The message says where and why.
     pub fn read(path: &Path) -> Result<(Self, Vec<FieldWarning>), FileError> {
         Self::parse(&file::read(path, FileKind::Field, u64::MAX)?, &path.display().to_string())
     }
 
-    /// Reads a field from the bytes of a file; `name` is what messages call it.
+    /// Reads a field from the bytes of a file. Messages call it `name`.
     ///
     /// # Errors
     /// As [`Field::read`].
@@ -53,7 +53,7 @@ impl Field {
     }
 }
 
-/// The line of a text that a place among its bytes is in.
+/// Converts a byte of a text file into its line.
 fn line(text: &[u8], place: FilePlace) -> FilePlace {
     let FilePlace::Byte(byte) = place else {
         return place;

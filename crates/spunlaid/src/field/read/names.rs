@@ -1,14 +1,14 @@
-//! What programs call the quantities, and in which units.
+//! The names and units that CFD programs use.
 
 use crate::error::{FieldFault, FileError};
 use crate::units::excerpt;
 
-/// Names of the velocity vector, the preferred first: turbulence is added to the mean, so that goes before
-/// what a transient solver has at one instant.
+/// Names of the velocity vector, the preferred ones first. The mean comes before the velocity that a transient
+/// solver has at one instant, because turbulence is added to it.
 const VECTORS: [&str; 8] = ["umean", "u_mean", "velocity_mean", "mean_velocity", "u", "velocity", "vel", "v"];
-/// Endings that tell the components.
+/// Endings that mark the components.
 const ENDINGS: [[&str; 3]; 4] = [["x", "y", "z"], ["0", "1", "2"], ["i", "j", "k"], ["u", "v", "w"]];
-/// What a component may be called on its own.
+/// Names of single components.
 const COMPONENTS: [[&str; 3]; 2] = [["u", "v", "w"], ["x_velocity", "y_velocity", "z_velocity"]];
 const COORDINATES: [[&str; 3]; 5] = [
     ["x", "y", "z"],
@@ -46,7 +46,7 @@ const OMEGA: [&str; 6] = [
     "turbulence_eddy_frequency",
 ];
 
-/// What a quantity is measured in.
+/// The dimension of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Measure {
     Length,
@@ -57,7 +57,7 @@ pub(super) enum Measure {
 }
 
 impl Measure {
-    /// Units by their letters and digits alone, and what they are in SI units.
+    /// Units, written with letters and digits only, and their values in SI units.
     const fn units(self) -> &'static [(&'static str, f64)] {
         match self {
             Self::Length => &[("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6)],
@@ -86,7 +86,7 @@ impl Measure {
 pub(super) struct Name {
     /// As written.
     pub(super) written: String,
-    /// In small letters, with one `_` for whatever parts its words, units too.
+    /// In lower case, with one `_` between words and before units.
     plain: String,
 }
 
@@ -104,7 +104,7 @@ impl Name {
         Self { written: written.to_owned(), plain }
     }
 
-    /// What its unit is in SI units if this is the name, perhaps followed by a unit.
+    /// The value of its unit in SI units, if this is the name, with or without a unit at its end.
     fn is(&self, name: &str, measure: Measure) -> Option<Result<f64, FileError>> {
         let unit = self.plain.strip_prefix(name)?;
         if unit.is_empty() {
@@ -115,7 +115,7 @@ impl Name {
         if let Some((_, factor)) = known {
             return Some(Ok(*factor));
         }
-        // In brackets it can be nothing else.
+        // A word in brackets can only be a unit.
         let bracket = self.written.trim_end().strip_suffix([']', ')'])?.rsplit(['[', '(']).next()?;
         if Self::new(bracket).plain.split('_').collect::<String>() != unit {
             return None;
@@ -125,7 +125,7 @@ impl Name {
     }
 }
 
-/// Where a quantity is: its place in the list of arrays, and what its unit is in SI units.
+/// Where a quantity is: its index in the list of arrays, and the value of its unit in SI units.
 pub(super) type Found = (usize, f64);
 
 /// Where the velocity is.
@@ -137,7 +137,7 @@ pub(super) enum Velocity {
     Components([Option<Found>; 3]),
 }
 
-/// The first of some names that is there.
+/// The first of some names that exists.
 fn first(
     names: &[Name],
     wanted: &[&str],
@@ -189,7 +189,7 @@ pub(super) fn velocity(names: &[Name], components: &[usize]) -> Result<Option<Ve
     Ok(None)
 }
 
-/// Finds the coordinates; the third is not there in a plane flow.
+/// Finds the coordinates. A plane flow may lack the third.
 pub(super) fn coordinates(names: &[Name]) -> Result<[Option<Found>; 3], FileError> {
     let mut best = [None; 3];
     for spelt in COORDINATES {
@@ -220,7 +220,7 @@ pub(super) fn scalar(
     first(names, wanted, measure, |i| components[i] == 1)
 }
 
-/// The columns of a table that are used, by their places.
+/// The indices of the columns that are used.
 pub(super) fn used(names: &[Name]) -> Result<Vec<usize>, FileError> {
     let ones = vec![1; names.len()];
     let velocity = match velocity(names, &ones)? {

@@ -1,4 +1,4 @@
-//! From the pieces of a file to a field.
+//! Makes a field of the pieces of a file.
 
 use super::array::Array;
 use super::encoding::Budget;
@@ -21,12 +21,37 @@ pub(super) fn assemble(
     mut pieces: Vec<Piece<'_>>,
     budget: &mut Budget,
 ) -> Result<(Field, Vec<FieldWarning>), FileError> {
+    let lacks = pieces.first().and_then(|piece| {
+        let arrays = || piece.point_data.iter().chain(&piece.cell_data);
+        let names: Vec<Name> = arrays().map(|array| Name::new(&array.name)).collect();
+        let components: Vec<usize> = arrays().map(|array| array.components).collect();
+        lacks(&names, &components)
+    });
+    let (mut field, warnings) = joined(&mut pieces, budget)?;
+    field.lacks = lacks;
+    Ok((field, warnings))
+}
+
+/// What a file with these arrays lacks for turbulence, and what it has.
+pub(super) fn lacks(names: &[Name], components: &[usize]) -> Option<String> {
+    let has = |measure| names::scalar(names, components, measure).is_ok_and(|found| found.is_some());
+    let missing = match (has(Measure::K), has(Measure::Epsilon) || has(Measure::Omega)) {
+        (true, true) => return None,
+        (true, false) => "it has k but neither ε nor ω",
+        (false, true) => "it has ε or ω but no k",
+        (false, false) => "it has neither k nor ε nor ω",
+    };
+    let found: Vec<String> = names.iter().map(|name| crate::units::excerpt(&name.written, 40)).collect();
+    Some(format!("{missing} among {}", crate::error::listed(&found)))
+}
+
+fn joined(pieces: &mut [Piece<'_>], budget: &mut Budget) -> Result<(Field, Vec<FieldWarning>), FileError> {
     let mut warnings = Vec::new();
     let mut values = Vec::new();
-    for piece in &pieces {
+    for piece in pieces.iter() {
         values.push(Reader { piece, budget, warnings: &mut warnings }.values()?);
     }
-    if let ([piece], [values]) = (pieces.as_slice(), values.as_slice()) {
+    if let ([piece], [values]) = (&*pieces, values.as_slice()) {
         if let Grid::Scattered(points) = &piece.grid {
             let (field, more) = Field::points(points, values)?;
             return Ok((field, [warnings, more].concat()));
@@ -137,7 +162,7 @@ impl Reader<'_, '_> {
         .into())
     }
 
-    /// A quantity of one component, zero where the file has it negative.
+    /// A quantity of one component. Negative values become zero, with a warning.
     fn scalar(&mut self, measure: Measure) -> Result<Option<Vec<f64>>, FileError> {
         for of_cells in [false, true] {
             let (names, components) = self.list(of_cells);
@@ -180,7 +205,7 @@ impl Reader<'_, '_> {
         self.arrays(of_cells).iter().map(|array| (Name::new(&array.name), array.components)).unzip()
     }
 
-    /// The numbers of an array, at the points and in SI units.
+    /// The numbers of an array in SI units, moved from cells to points if needed.
     fn numbers(&mut self, of_cells: bool, array: usize, factor: f64) -> Result<Vec<f64>, FileError> {
         let (points, cells) = self.piece.grid.counts()?;
         let array = if of_cells { &self.piece.cell_data[array] } else { &self.piece.point_data[array] };

@@ -1,17 +1,17 @@
-//! Tables of points: a row for each.
+//! Tables of points, one row for each point.
 
 use super::array::{Array, Number, Source};
 use super::encoding::Budget;
 use super::grid::Grid;
 use super::names::{self, Found, Name};
-use super::piece::{Piece, assemble};
+use super::piece::{Piece, assemble, lacks};
 use crate::error::{FieldFault, FileError, FileFault, FileKind, FilePlace};
 use crate::field::{Field, FieldWarning};
 use crate::table::Table;
 use crate::units::excerpt;
 use crate::vec3::Vec3;
 
-/// A header that would do.
+/// An example of a valid header.
 const EXAMPLE: &str = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s";
 
 /// Reads a table.
@@ -24,7 +24,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError
     let coordinates = coordinates(&names)?;
     let used = names::used(&names)?;
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); used.len()];
-    // Rows that lack a number, and the line of the first.
+    // Number of rows that lack a number, and the line of the first.
     let mut dropped = (0, 0);
     while table.next_row()? {
         let numbers = used.iter().map(|column| table.number(*column)).collect::<Result<Vec<f64>, _>>()?;
@@ -35,14 +35,16 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError
         columns.iter_mut().zip(numbers).for_each(|(column, number)| column.push(number));
     }
     let piece = piece(&names, &used, &columns, coordinates);
-    let (field, mut warnings) = assemble(vec![piece], &mut Budget::new())?;
+    let (mut field, mut warnings) = assemble(vec![piece], &mut Budget::new())?;
+    // The piece has only the columns that are used.
+    field.lacks = lacks(&names, &vec![1; names.len()]);
     if let (rows @ 1.., first) = dropped {
         warnings.push(FieldWarning::Dropped { rows, first });
     }
     Ok((field, warnings))
 }
 
-/// The columns of the coordinates, the third of which a plane flow does without.
+/// The columns of the coordinates. A plane flow may lack the third.
 fn coordinates(names: &[Name]) -> Result<[Option<Found>; 3], FileError> {
     let columns = names::coordinates(names)?;
     let missing = ['x', 'y'].into_iter().zip(columns).find(|(_, column)| column.is_none());

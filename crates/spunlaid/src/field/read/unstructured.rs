@@ -10,37 +10,36 @@ pub(super) struct Listed {
     pub(super) types: Vec<i64>,
     /// The points of all cells, one cell after the other.
     pub(super) connectivity: Vec<i64>,
-    /// Where those of each cell end.
+    /// Where the points of each cell end in that list.
     pub(super) ends: Vec<i64>,
     pub(super) polyhedra: Polyhedra,
 }
 
-/// Where the faces of polyhedra are.
+/// Where a file keeps the faces of polyhedra.
 #[derive(Default)]
 pub(super) enum Polyhedra {
-    /// In the place of their points: the number of faces, then of each face the number of points and they.
+    /// In the connectivity: the number of faces, then for each face the number of its points and the points.
     #[default]
     Inline,
-    /// The same in a list of its own, and where it ends for each cell; −1 where there is none.
+    /// The same in a separate list, with the end for each cell; −1 for a cell that is no polyhedron.
     Stream { faces: Vec<i64>, ends: Vec<i64> },
-    /// The points of all faces, where those of each face end, the faces of all cells, where those of each cell
-    /// end.
+    /// Four lists: the points of all faces, the end of each face, the faces of all cells, the end of each cell.
     Table { points: Vec<i64>, ends: Vec<i64>, faces: Vec<i64>, cell_ends: Vec<i64> },
 }
 
-/// Cells with an inside.
+/// Cells that have a volume.
 #[derive(Default)]
 pub(super) struct Solid {
     pub(super) cells: Cells,
-    /// The place of each in the lists.
+    /// The index of each in the file's list.
     pub(super) places: Vec<usize>,
-    /// Vertices, lines and faces that were left out.
+    /// Number of vertices, lines and faces that were left out.
     pub(super) flat: u64,
-    /// Cells of which only the corners are taken.
+    /// Number of cells of which only the corners are used.
     pub(super) higher_order: u64,
 }
 
-/// What VTK’s types of cells are here.
+/// How VTK's types of cells are treated.
 enum Kind {
     Flat,
     Voxel,
@@ -70,9 +69,9 @@ fn kind(number: i64) -> Option<Kind> {
 }
 
 impl Listed {
-    /// The cells with an inside.
+    /// The cells that have a volume.
     ///
-    /// * `points` – how many there are
+    /// * `points` – number of points
     pub(super) fn solid(&self, points: usize) -> Result<Solid, FileError> {
         if self.ends.len() != self.types.len() {
             let fault =
@@ -101,7 +100,7 @@ impl Listed {
             Kind::Voxel => {
                 let mut corners = corners(own)?;
                 if corners.len() == Shape::Hexahedron.corners() {
-                    // Its points go in rows, not around.
+                    // Its points are listed in rows, not around the face.
                     corners.swap(2, 3);
                     corners.swap(6, 7);
                 }
@@ -143,7 +142,7 @@ impl Listed {
     }
 }
 
-/// From the number of faces, and of each face the number of points and they, to the faces.
+/// Reads the faces from a list: the number of faces, then for each face the number of its points and the points.
 fn stream(entries: &[i64]) -> Result<Vec<&[i64]>, FileFault> {
     const WANTED: FileFault = FileFault::CutOff { wanted: "the faces of a polyhedron" };
     let (count, mut rest) = entries.split_first().ok_or(WANTED)?;
@@ -158,7 +157,7 @@ fn stream(entries: &[i64]) -> Result<Vec<&[i64]>, FileFault> {
     Ok(faces)
 }
 
-/// The part of a list that belongs to one of several things, by where their parts end.
+/// The part of a list at `place`, given the ends of all parts.
 fn part<'a>(list: &'a [i64], ends: &[i64], place: usize) -> Result<&'a [i64], FileFault> {
     let end = ends.get(place).copied().ok_or(FileFault::CutOff { wanted: "where each cell or face ends" })?;
     let start = if place == 0 { 0 } else { ends[place - 1] };

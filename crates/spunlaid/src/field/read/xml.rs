@@ -1,7 +1,6 @@
 //! VTK’s XML files: unstructured and structured grids, rectilinear grids, images.
 //!
-//! What stands before the bytes at the end of such a file is a small tree; arrays stay where they are in the
-//! file until they are asked for.
+//! Such a file is a small XML tree, often followed by appended bytes. Arrays are decoded only when they are needed.
 
 use super::array::{Array, Number, Source};
 use super::encoding::{Budget, Compressor, Packing};
@@ -50,14 +49,14 @@ fn whole(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
     assemble(pieces, &mut budget)
 }
 
-/// Bytes at the end of a file.
+/// The appended bytes at the end of a file.
 #[derive(Clone, Copy)]
 struct Appended<'a> {
     bytes: &'a [u8],
     base64: bool,
 }
 
-/// The text of a file, closed where bytes follow, and these.
+/// Separates the XML text of a file from the appended bytes. The text gets a closing tag if bytes follow.
 fn parted(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<Appended<'_>>), FileError> {
     const TAG: &[u8] = b"<AppendedData";
     let tag = bytes.windows(TAG.len()).position(|window| window == TAG);
@@ -76,7 +75,7 @@ fn parted(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<Appended<'_>>), FileErro
     Ok((Cow::Owned(format!("{text}</VTKFile>")), Some(Appended { bytes, base64 })))
 }
 
-/// What a file says of its numbers.
+/// How the numbers of a file are written.
 #[derive(Clone, Copy)]
 struct Format {
     big_endian: bool,
@@ -106,7 +105,7 @@ impl Format {
     }
 }
 
-/// Where in the appended data arrays begin, in order.
+/// Where the arrays begin in the appended data, in increasing order.
 fn offsets(grid: Node<'_, '_>) -> Vec<usize> {
     let mut offsets: Vec<usize> =
         grid.descendants().filter_map(|node| node.attribute("offset")?.parse().ok()).collect();
@@ -244,7 +243,7 @@ impl<'a> File<'a> {
                     return Err(FileError::from(FileFault::CutOff { wanted: "an array" }).array(&name));
                 };
                 let packing = Packing { base64: appended.base64, compressor, wide_header };
-                // In base 64 the file goes on after the last array.
+                // After the last array in base 64 the XML text goes on.
                 let end = bytes.iter().position(|byte| *byte == b'<').filter(|_| appended.base64);
                 Source::Packed { bytes: &bytes[..end.unwrap_or(bytes.len())], packing, big_endian }
             }
@@ -273,19 +272,19 @@ fn extent(node: Node<'_, '_>) -> Result<([f64; 3], [usize; 3]), FileError> {
     }
 }
 
-/// Numbers parted by blanks.
+/// Numbers separated by blanks.
 fn numbers<const N: usize>(node: Node<'_, '_>, name: &'static str) -> Result<Option<[f64; N]>, FileError> {
     let Some(text) = node.attribute(name) else {
         return Ok(None);
     };
     let numbers: Option<Vec<f64>> =
         text.split_ascii_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
-    let fault = || FieldFault::Syntax { found: excerpt(text, 40), wanted: "numbers parted by blanks" };
+    let fault = || FieldFault::Syntax { found: excerpt(text, 40), wanted: "numbers separated by blanks" };
     let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
     numbers.map(Some).ok_or_else(|| FileError::from(fault()).array(name))
 }
 
-/// A number of things.
+/// A whole number.
 fn number(node: Node<'_, '_>, name: &'static str) -> Result<usize, FileError> {
     let text = node.attribute(name).unwrap_or_default();
     let fault = || FieldFault::Syntax { found: excerpt(text, 40), wanted: "a whole number" };

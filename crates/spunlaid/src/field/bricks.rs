@@ -1,0 +1,314 @@
+//! A field in bricks of values, so that looking it up costs the same for every kind of field.
+//!
+//! The box of the field is divided into bricks. A brick holds values on a small lattice and is filled when a
+//! point in it is first looked up. If the lattice is not accurate enough, the brick is divided into eight. A
+//! brick that is still not accurate after several divisions is not used: there the field itself is sampled.
+//!
+//! The content of a brick does not depend on who fills it, or when, so results are reproducible.
+
+use super::values::Quantities;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Bricks along the longest side of the box.
+const ALONG: f64 = 32.0;
+/// Cells along the side of a brick.
+const CELLS: usize = 4;
+/// Points along the side of a brick.
+const SIDE: usize = CELLS + 1;
+const POINTS: usize = SIDE * SIDE * SIDE;
+/// How often a brick is divided into eight at most.
+const DEEPEST: u32 = 4;
+/// Largest error of a brick, as a share of the largest value in the undivided brick.
+const ERROR: f64 = 5e-4;
+/// Points between those of the lattice where the error is measured.
+const PROBES: usize = 24;
+/// Most memory that bricks take [bytes]. Bricks beyond it are made again at every look.
+const MOST_MEMORY: usize = 1 << 30;
+/// Most bricks before any is divided.
+const MOST_BRICKS: f64 = 1e6;
+
+/// Velocity along x, y and z and `√k` [m/s]. Unlike `k`, its root is proportional to the fluctuation.
+type Brief = [f64; 4];
+
+/// The air around a point, linear in space, see [`Field::around`](super::Field::around).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Around {
+    /// Velocity along x, y and z and `√k` at the point [m/s].
+    pub value: [f64; 4],
+    /// Their changes along x, y and z [1/s].
+    pub gradients: [[f64; 4]; 3],
+    /// Distance along each axis within which the gradients are accurate enough [m].
+    pub reach: f64,
+    /// Whether the point lies in the field.
+    pub inside: bool,
+}
+
+#[derive(Debug)]
+pub(super) struct Bricks {
+    low: [f64; 3],
+    high: [f64; 3],
+    /// Side of an undivided brick.
+    size: f64,
+    count: [usize; 3],
+    bricks: OnceLock<Box<[OnceLock<Brick>]>>,
+    memory: AtomicUsize,
+}
+
+#[derive(Debug)]
+enum Brick {
+    /// Not accurate enough.
+    Rough,
+    Whole(Box<Values>),
+    Divided(Box<Parts>),
+}
+
+#[derive(Debug)]
+struct Parts {
+    parts: [OnceLock<Brick>; 8],
+    /// Largest error allowed in them.
+    allowed: f64,
+}
+
+#[derive(Debug)]
+struct Values {
+    at: [Brief; POINTS],
+    inside: bool,
+}
+
+/// A place in a brick.
+struct Place {
+    /// Corner of the brick.
+    corner: [f64; 3],
+    /// Side of the brick.
+    size: f64,
+    /// From the corner, 0 to 1 across the brick.
+    share: [f64; 3],
+    divisions: u32,
+}
+
+impl Bricks {
+    pub(super) fn new((low, high): ([f64; 3], [f64; 3])) -> Self {
+        let extent = [0, 1, 2].map(|axis| high[axis] - low[axis]);
+        let longest = extent.into_iter().fold(0.0, f64::max);
+        let mut size = longest / ALONG;
+        let count = |size: f64| extent.map(|extent| (extent / size).ceil().clamp(1.0, MOST_BRICKS));
+        if !(size > 0.0 && count(size).into_iter().product::<f64>() <= MOST_BRICKS) {
+            size = 0.0;
+        }
+        let count = if size > 0.0 { count(size).map(|count| count as usize) } else { [1; 3] };
+        Self { low, high, size, count, bricks: OnceLock::new(), memory: AtomicUsize::new(0) }
+    }
+
+    /// The memory taken so far [bytes].
+    pub(super) fn memory(&self) -> usize {
+        self.memory.load(Ordering::Relaxed)
+    }
+
+    /// The air around a point.
+    ///
+    /// * `sample` – the field itself
+    pub(super) fn around(
+        &self,
+        at: [f64; 3],
+        mut sample: impl FnMut([f64; 3]) -> (Quantities, bool),
+    ) -> Around {
+        let within = (0..3).all(|axis| {
+            let flat = self.low[axis] == self.high[axis];
+            flat || self.low[axis] <= at[axis] && at[axis] <= self.high[axis]
+        });
+        if within && self.size > 0.0 {
+            let mut place = self.place(at);
+            let bricks = self.bricks.get_or_init(|| {
+                let count = self.count.iter().product();
+                self.memory.fetch_add(count * size_of::<OnceLock<Brick>>(), Ordering::Relaxed);
+                (0..count).map(|_| OnceLock::new()).collect()
+            });
+            let index =
+                [0, 1, 2].map(|axis| ((place.corner[axis] - self.low[axis]) / self.size).round() as usize);
+            let index = index[0] + self.count[0] * (index[1] + self.count[1] * index[2]);
+            if let Some(brick) = bricks.get(index) {
+                if let Some(around) = self.look(brick, &mut place, None, &mut sample) {
+                    return around;
+                }
+            }
+        }
+        let (values, inside) = sample(at);
+        Around { value: brief(values), gradients: [[0.0; 4]; 3], reach: 0.0, inside }
+    }
+
+    fn place(&self, at: [f64; 3]) -> Place {
+        let (mut corner, mut share) = (self.low, [0.0; 3]);
+        for axis in (0..3).filter(|axis| self.low[*axis] < self.high[*axis]) {
+            let along = (at[axis] - self.low[axis]) / self.size;
+            let before = along.floor().min((self.count[axis] - 1) as f64).max(0.0);
+            corner[axis] = self.low[axis] + before * self.size;
+            share[axis] = (along - before).clamp(0.0, 1.0);
+        }
+        Place { corner, size: self.size, share, divisions: 0 }
+    }
+
+    fn look(
+        &self,
+        brick: &OnceLock<Brick>,
+        place: &mut Place,
+        allowed: Option<f64>,
+        sample: &mut impl FnMut([f64; 3]) -> (Quantities, bool),
+    ) -> Option<Around> {
+        let made;
+        let brick = match brick.get() {
+            Some(brick) => brick,
+            None if self.memory() > MOST_MEMORY => {
+                made = self.make(place, allowed, sample);
+                &made
+            }
+            None => brick.get_or_init(|| {
+                let brick = self.make(place, allowed, sample);
+                let memory = match &brick {
+                    Brick::Rough => 0,
+                    Brick::Whole(_) => size_of::<Values>(),
+                    Brick::Divided(_) => size_of::<Parts>(),
+                };
+                self.memory.fetch_add(memory, Ordering::Relaxed);
+                brick
+            }),
+        };
+        match brick {
+            Brick::Rough => None,
+            Brick::Whole(values) => Some(values.around(place)),
+            Brick::Divided(parts) => {
+                let half = 0.5 * place.size;
+                let mut part = 0;
+                for axis in 0..3 {
+                    let upper = place.share[axis] >= 0.5;
+                    part |= usize::from(upper) << axis;
+                    place.corner[axis] += if upper { half } else { 0.0 };
+                    place.share[axis] = 2.0 * place.share[axis] - if upper { 1.0 } else { 0.0 };
+                }
+                (place.size, place.divisions) = (half, place.divisions + 1);
+                self.look(&parts.parts[part], place, Some(parts.allowed), sample)
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn make(
+        &self,
+        place: &Place,
+        allowed: Option<f64>,
+        sample: &mut impl FnMut([f64; 3]) -> (Quantities, bool),
+    ) -> Brick {
+        let flat = [0, 1, 2].map(|axis| self.low[axis] == self.high[axis]);
+        let mut at = |share: [f64; 3]| {
+            let point = [0, 1, 2].map(|axis| {
+                let x = place.corner[axis] + share[axis] * place.size;
+                x.clamp(self.low[axis], self.high[axis])
+            });
+            let (values, inside) = sample(point);
+            (brief(values), inside)
+        };
+        let mut values = Values { at: [[0.0; 4]; POINTS], inside: true };
+        let mut outside = 0;
+        for i in 0..POINTS {
+            let index = [i % SIDE, i / SIDE % SIDE, i / (SIDE * SIDE)];
+            if let Some(axis) = (0..3).find(|axis| flat[*axis] && index[*axis] > 0) {
+                values.at[i] = values.at[i - [1, SIDE, SIDE * SIDE][axis]];
+                continue;
+            }
+            let (value, inside) = at(index.map(|index| index as f64 / CELLS as f64));
+            values.at[i] = value;
+            outside += usize::from(!inside);
+        }
+        values.inside = outside == 0;
+        let largest = values.at.as_flattened().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let allowed = allowed.unwrap_or(ERROR * largest);
+        let error = values.error_of_every_second().max({
+            // Points at random, because a regular pattern could miss a regular flow.
+            let probe = |i: usize| {
+                let share = [0, 1, 2].map(|axis| (0.5 + (i + 1) as f64 * RATIOS[axis]).fract());
+                let (exact, inside) = at(share);
+                let found = values.between(share).0;
+                if inside == values.inside { difference(&exact, &found) } else { f64::INFINITY }
+            };
+            (0..PROBES).map(probe).fold(0.0, f64::max)
+        });
+        if error <= allowed {
+            return Brick::Whole(Box::new(values));
+        }
+        if place.divisions == DEEPEST {
+            return Brick::Rough;
+        }
+        Brick::Divided(Box::new(Parts { parts: Default::default(), allowed }))
+    }
+}
+
+/// Steps of an evenly spread sequence of points along x, y and z (Roberts' R₃).
+const RATIOS: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_2, 0.549_700_477_901_967_3];
+
+fn brief([u, v, w, k, _]: Quantities) -> Brief {
+    [u, v, w, k.max(0.0).sqrt()]
+}
+
+fn difference(a: &Brief, b: &Brief) -> f64 {
+    a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+}
+
+impl Values {
+    fn around(&self, place: &Place) -> Around {
+        let (value, gradients) = self.between(place.share);
+        let spacing = place.size / CELLS as f64;
+        Around {
+            value,
+            gradients: gradients.map(|of| of.map(|change| change / spacing)),
+            reach: 0.5 * spacing,
+            inside: self.inside,
+        }
+    }
+
+    /// The values linear in each coordinate, and their changes over a cell along x, y and z.
+    #[inline]
+    fn between(&self, share: [f64; 3]) -> (Brief, [Brief; 3]) {
+        let along = share.map(|share| share * CELLS as f64);
+        let before = along.map(|along| (along as usize).min(CELLS - 1));
+        let [sx, sy, sz] = [0, 1, 2].map(|axis| along[axis] - before[axis] as f64);
+        let first = before[0] + SIDE * (before[1] + SIDE * before[2]);
+        let corner = |y: usize, z: usize| {
+            let row = first + SIDE * (y + SIDE * z);
+            (&self.at[row], &self.at[row + 1])
+        };
+        let (mut value, mut gradients) = ([0.0; 4], [[0.0; 4]; 3]);
+        let [ll, hl, lh, hh] = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
+        for i in 0..4 {
+            let [dll, dhl, dlh, dhh] = [ll, hl, lh, hh].map(|(low, high)| high[i] - low[i]);
+            let [ll, hl, lh, hh] = [(ll.0[i], dll), (hl.0[i], dhl), (lh.0[i], dlh), (hh.0[i], dhh)]
+                .map(|(low, rise)| low + sx * rise);
+            let (low, high) = (ll + sy * (hl - ll), lh + sy * (hh - lh));
+            value[i] = low + sz * (high - low);
+            let (dx_low, dx_high) = (dll + sy * (dhl - dll), dlh + sy * (dhh - dlh));
+            gradients[0][i] = dx_low + sz * (dx_high - dx_low);
+            gradients[1][i] = (hl - ll) + sz * ((hh - lh) - (hl - ll));
+            gradients[2][i] = high - low;
+        }
+        (value, gradients)
+    }
+
+    /// Half of the largest error that the lattice would have with every second point only: about its own error
+    /// where the field has kinks, and twice that where it is smooth.
+    fn error_of_every_second(&self) -> f64 {
+        let mut worst = 0.0_f64;
+        for i in 0..POINTS {
+            let index = [i % SIDE, i / SIDE % SIDE, i / (SIDE * SIDE)];
+            let ends = |axis: usize| (index[axis] - index[axis] % 2, index[axis] + index[axis] % 2);
+            let [x, y, z] = [ends(0), ends(1), ends(2)];
+            let mut mean = [0.0; 4];
+            for corner in 0..8 {
+                let pick =
+                    |(low, high): (usize, usize), bit: usize| if corner >> bit & 1 == 0 { low } else { high };
+                let node = &self.at[pick(x, 0) + SIDE * (pick(y, 1) + SIDE * pick(z, 2))];
+                mean.iter_mut().zip(node).for_each(|(mean, value)| *mean += 0.125 * value);
+            }
+            worst = worst.max(difference(&mean, &self.at[i]));
+        }
+        0.5 * worst
+    }
+}
