@@ -1,4 +1,4 @@
-//! Which factor matters: main effects with their confidence intervals, the largest on top.
+//! Main effects of the factors with their confidence intervals, the largest at the top.
 
 use super::quantity::{Along, Group, label_of_key};
 use crate::numbers::range;
@@ -15,7 +15,7 @@ const TOP: f64 = 40.0;
 const SIZE: f64 = 14.0;
 const SMALL: f64 = 12.0;
 
-/// The effects on a group of results, factor by factor.
+/// The effects of all factors on a group of results.
 pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     let of_measure = |measure: usize| rankings.iter().find(|ranking| ranking.measure == measure);
     let shown: Vec<(&Ranking, Marker, &str, &str)> = (group.of.iter())
@@ -39,7 +39,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     let scale = Scale::fit(&Axis::linear(&label), all, 7);
 
     let height = TOP + ROW * order.len() as f64 + 58.0;
-    let title = format!("What moves the {}", group.figure.words);
+    let title = format!("Effects on the {}", group.figure.words);
     let mut svg = Svg::new(WIDTH, height, &title);
     let names = order.iter().map(|factor| width(label_of_key(study.factors[*factor].key), SIZE));
     let left = names.fold(120.0, f64::max).min(250.0) + 24.0;

@@ -1,4 +1,4 @@
-//! Every figure of every kind of study can be drawn.
+//! All kinds of studies give figures.
 
 use super::super::sample;
 use super::*;
@@ -6,7 +6,7 @@ use spunlaid::study::{Effect, Factor, Levels, MEASURES, Point, Replicates, Spaci
 use spunlaid::units::Dimension;
 use spunlaid_charts::png;
 
-/// A study of made-up factors and results.
+/// A study with synthetic factors and results.
 fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
     let keys = [
         ("air.velocity", Dimension::Velocity),
