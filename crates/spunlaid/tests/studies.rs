@@ -9,7 +9,7 @@ use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
 use spunlaid::study::{
     Batch, Journal, Landing, MEASURES, PointResults, Progress, Record, Replicates, Study, fly_batches,
-    measured, rankings, results_of_point, run,
+    measured, results_of_point, run,
 };
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -231,95 +231,6 @@ fn a_lost_fibre_costs_its_neighbours_nothing() {
     let results: PointResults = results_of_point(&mut journal, 1).unwrap();
     assert_eq!((results.n, results.lost), (0, 3));
     assert!(results.mean[0].is_nan() && results.standard_error[0].is_none());
-}
-
-/// A study with synthetic results: `y = 5 + 3 x₁ − 1 x₂ + 0 x₃` over ranges of −1 to 1, with noise.
-fn made_up(design: &str, noise: impl Fn(usize, u64) -> f64) -> (Study, Journal) {
-    let text = format!(
-        "case = 'case.toml'\n{design}\nreplicates = 6\n[vary]\n'air.velocity' = {{ from = '5 m/s', to = '15 m/s' STEPS }}\n\
-         'fibre.diameter' = {{ from = '20 µm', to = '80 µm', spacing = 'log' STEPS }}\n\
-         'air.turbulence_intensity' = {{ from = 0.05, to = 0.25 STEPS }}\n"
-    );
-    let steps = if design.contains("points") { "" } else { ", steps = 3" };
-    let study = study(&text.replace("STEPS", steps)).study;
-    let mut journal = Journal::in_memory(study.points.len());
-    for (index, point) in study.points.iter().enumerate() {
-        let x: Vec<f64> = study.factors.iter().zip(&point.values).map(|(f, v)| f.place(*v)).collect();
-        for replicate in 0..6 {
-            let y = 5.0 + 3.0 * x[0] - x[1] + noise(index, replicate);
-            let landing = Landing::Measured([y; MEASURES.len()]);
-            journal.add(&[Record { point: index as u64, replicate, landing }]).unwrap();
-        }
-    }
-    (study, journal)
-}
-
-/// Reproducible pseudo-random noise of standard deviation one.
-fn scatter(i: usize, j: u64) -> f64 {
-    let sum: f64 = (0..12)
-        .map(|k| {
-            let x = ((i * 31 + j as usize * 7919 + k * 104_729) as f64 * 12.9898 + 0.5).sin() * 43758.5453;
-            x - x.floor()
-        })
-        .sum();
-    sum - 6.0
-}
-
-#[test]
-fn analytic_effects_of_a_straight_line() {
-    for design in [
-        "design = 'grid'",
-        "design = 'one-at-a-time'",
-        "design = 'latin-hypercube'\npoints = 20",
-        "design = 'sobol'\npoints = 16",
-    ] {
-        let (study, mut journal) = made_up(design, |_, _| 0.0);
-        let rankings = rankings(&study, &mut journal).unwrap();
-        assert_eq!(rankings.len(), MEASURES.len());
-        let ranking = &rankings[0];
-        let order: Vec<usize> = ranking.effects.iter().map(|effect| effect.factor).collect();
-        assert_eq!(order, [0, 1, 2], "{design}");
-        for (effect, expected) in ranking.effects.iter().zip([6.0, -2.0, 0.0]) {
-            assert!((effect.change - expected).abs() < 1e-12, "{design}: {effect:?}");
-            assert!(effect.half_width.unwrap() < 1e-12, "{design}: {effect:?}");
-        }
-        assert!((ranking.middle - 5.0).abs() < 1e-12 && (ranking.explained - 1.0).abs() < 1e-12);
-    }
-}
-
-#[test]
-fn stat_intervals_hold_the_truth_as_often_as_they_say() {
-    // Noise of each fibre alone, and noise that all points of a replicate share the slope of.
-    for shared in [0.0, 0.5] {
-        let (mut inside, mut all) = (0, 0);
-        for trial in 0..200 {
-            let (study, mut journal) =
-                made_up("design = 'latin-hypercube'\npoints = 12", |point, replicate| {
-                    let x = 2.0 * (point as f64 / 11.0) - 1.0;
-                    scatter(1000 * trial + point, replicate)
-                        + shared * scatter(7_000_000 + trial, replicate) * x
-                });
-            for effect in &rankings(&study, &mut journal).unwrap()[0].effects {
-                let truth = [6.0, -2.0, 0.0][effect.factor];
-                inside += u32::from((effect.change - truth).abs() <= effect.half_width.unwrap());
-                all += 1;
-            }
-        }
-        // 95 % of 600; the wider of two intervals holds a little more. Below by four standard errors at most.
-        let share = f64::from(inside) / f64::from(all);
-        assert!(
-            share > 0.95 - 4.0 * (0.95f64 * 0.05 / 600.0).sqrt() && share < 0.995,
-            "{share} with {shared}"
-        );
-    }
-}
-
-#[test]
-fn effects_that_cannot_be_told_apart_are_not_ranked() {
-    let text = "case = 'case.toml'\ndesign = 'paired'\nreplicates = 2\n[vary]\n'air.velocity' = ['5 m/s', '10 m/s', '15 m/s']\n'air.turbulence_intensity' = [0.1, 0.2, 0.3]\n";
-    let study = study(text).study;
-    let mut journal = flown(&study, 2);
-    assert_eq!(rankings(&study, &mut journal).unwrap(), []);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::words::count;
 use crate::figures::name_of_key;
-use crate::numbers::{number, plus_minus};
+use crate::numbers::{THIN, number, plus_minus};
 use askama::Template;
 use spunlaid::study::{Design, Effect, PointResults, Ranking, Study};
 use spunlaid_charts::Figure;
@@ -30,6 +30,8 @@ pub(crate) struct StudyReport<'a> {
     pub(crate) results: &'a [PointResults],
     /// Main effects; empty if the study cannot tell them.
     pub(crate) rankings: &'a [Ranking],
+    /// Why there are no main effects.
+    pub(crate) refusal: Option<&'a str>,
     pub(crate) figures: &'a [Figure],
     /// Warnings and remarks for the reader.
     pub(crate) notes: &'a [String],
@@ -51,6 +53,7 @@ struct Page<'a> {
     notes: &'a [String],
     ranking_heads: Vec<&'static str>,
     rankings: Vec<RankingRow>,
+    refusal: Option<&'a str>,
     explained: Vec<String>,
     figures: &'a [Figure],
     heads: Vec<String>,
@@ -92,6 +95,7 @@ pub(crate) fn study_html(input: &StudyReport<'_>) -> String {
         notes: input.notes,
         ranking_heads: SHOWN.map(|(_, head, _)| head).to_vec(),
         rankings: ranking_rows(study, shown),
+        refusal: input.refusal,
         explained: explained(shown),
         figures: input.figures,
         heads: heads(study),
@@ -189,11 +193,10 @@ fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
     };
     let row = |effect: &Effect| {
         let factor = &study.factors[effect.factor];
-        let (least, greatest) = factor.ends();
-        let pretty = |value| factor.dimension.pretty(value);
+        let [from, to] = [effect.from, effect.to].map(|value| factor.pretty(value));
         RankingRow {
             name: name_of_key(factor.key),
-            range: format!("{} to {}", pretty(least), pretty(greatest)),
+            range: if factor.names.len() > 2 { "largest difference".to_owned() } else { format!("{from} to {to}") },
             cells: SHOWN
                 .iter()
                 .map(|(measure, _, unit)| cell(rankings, *measure, effect.factor, *unit))
@@ -220,7 +223,8 @@ fn explained(rankings: &[Ranking]) -> Vec<String> {
     let of = |(measure, ..): &(usize, &str, f64)| {
         let ranking = rankings.iter().find(|ranking| ranking.measure == *measure);
         ranking
-            .map_or_else(String::new, |ranking| format!("{} %", number((ranking.explained * 100.0).round())))
+            .filter(|ranking| ranking.explained.is_finite())
+            .map_or_else(|| "–".to_owned(), |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())))
     };
     SHOWN.iter().map(of).collect()
 }

@@ -14,6 +14,8 @@ pub struct Factor {
     pub dimension: Dimension,
     /// Whether it takes whole numbers only.
     pub whole: bool,
+    /// The names of a key that takes names; its values are then indices into them. Empty for numbers.
+    pub names: Vec<&'static str>,
     /// The values it takes.
     pub levels: Levels,
 }
@@ -215,6 +217,14 @@ impl Factor {
         }
     }
 
+    /// A value for people: a quantity with its unit, or a name.
+    pub fn pretty(&self, value: f64) -> String {
+        match self.names.get(value as usize) {
+            Some(name) => (*name).to_owned(),
+            None => self.dimension.pretty(value),
+        }
+    }
+
     /// How its values are spaced.
     pub fn spacing(&self) -> Spacing {
         match &self.levels {
@@ -225,7 +235,11 @@ impl Factor {
 
     /// Position of a value in the range: −1 at the least value, +1 at the greatest; logarithmic where so spaced.
     pub fn place(&self, value: f64) -> f64 {
-        let (least, greatest) = self.ends();
+        self.place_between(value, self.ends())
+    }
+
+    /// Position of a value between two others: −1 at the first, +1 at the second; logarithmic where so spaced.
+    pub(super) fn place_between(&self, value: f64, (least, greatest): (f64, f64)) -> f64 {
         let share = match self.spacing() {
             Spacing::Linear => (value - least) / (greatest - least),
             Spacing::Logarithmic => libm::log(value / least) / libm::log(greatest / least),
@@ -260,7 +274,7 @@ mod tests {
     use super::*;
 
     fn factor(levels: Levels) -> Factor {
-        Factor { key: "air.velocity", dimension: Dimension::Velocity, whole: false, levels }
+        Factor { key: "air.velocity", dimension: Dimension::Velocity, whole: false, names: Vec::new(), levels }
     }
 
     fn range(from: f64, to: f64, steps: u64, spacing: Spacing) -> Factor {

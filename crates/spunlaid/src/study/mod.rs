@@ -19,7 +19,7 @@ mod sobol;
 
 pub use crate::observe::MEASURES;
 pub use design::{Design, Factor, Levels, Spacing};
-pub use effects::{Effect, Ranking, rankings};
+pub use effects::{Effect, Ranking, Rankings, Refusal, Term, rankings};
 pub use journal::{Found, Header, Journal};
 pub use measures::{Landing, Measured, Record, measured};
 pub use pack::{Batch, fly_batches};

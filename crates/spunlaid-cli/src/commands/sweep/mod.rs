@@ -132,13 +132,15 @@ fn write(
     let staging = folder.staging()?;
     let results = output::study::write(&staging, study, journal)?;
     let rankings = rankings(study, journal)?;
-    let figures = study_figures(study, &results, &rankings);
+    let figures = study_figures(study, &results, &rankings.of_measures);
+    let refusal = rankings.refusal.filter(|_| study.factors.len() > 1).map(|refusal| refusal.to_string());
     output::pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let report = study_html(&StudyReport {
         name: &name(sweep),
         study,
         results: &results,
-        rankings: &rankings,
+        rankings: &rankings.of_measures,
+        refusal: refusal.as_deref(),
         figures: &figures,
         notes: &file.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
         study_toml: &file.text,
@@ -150,6 +152,9 @@ fn write(
     let flown: u64 = results.iter().map(|point| point.n + point.lost).sum();
     if !sweep.quiet {
         say::text(&table::results(study, &results));
+        if let Some(refusal) = &refusal {
+            say::line(&format!("the keys are not ranked: {refusal}"));
+        }
         if before == flown {
             say::line("the study was already complete: no fibre was flown, and the files were written again");
         }

@@ -10,6 +10,9 @@ use spunlaid_charts::{
 
 const COLOURS: [&str; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 
+/// Dashes of the lines, so that curves can be told apart without their colours.
+const DASHES: [Option<&str>; FAMILY] = [None, Some("8 4"), Some("2 3"), Some("8 3 2 3"), Some("14 4"), Some("8 3 2 3 2 3")];
+
 /// The last sentence of a caption: the meaning of the error bars.
 pub(super) const BARS: &str = "The bars show one standard error of the mean over the replicates.";
 
@@ -79,17 +82,20 @@ pub(super) fn family(
     let place = Along::new(&study.factors[along]);
     let title = format!("{} over {} and {}", group.figure.title, name_of_key(key), name_of_key(of.key));
     let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
-    for (level, colour) in of.values().into_iter().zip(COLOURS) {
+    for ((level, colour), dash) in of.values().into_iter().zip(COLOURS).zip(DASHES) {
         let points: Vec<usize> =
             (0..results.len()).filter(|point| study.points[*point].values[family] == level).collect();
         for (position, (measure, called)) in group.of.iter().enumerate() {
             let marker = if position == 0 { Marker::Circle } else { Marker::Triangle };
-            let label = of.dimension.pretty(level);
-            let series = Series { marker: Some(marker), ..Series::new(&label, colour) }
+            let label = of.pretty(level);
+            let series = Series { marker: Some(marker), dash, ..Series::new(&label, colour) }
                 .named(&format!("{called} at {label}"));
-            let series = if position == 0 { series } else { series.unlabelled() };
             let spots = spots(study, results, group, *measure, (along, &place), &points);
-            chart = drawn(chart, series, &spots);
+            let line: Vec<(f64, f64)> = spots.iter().map(|(x, y, _)| (*x, *y)).collect();
+            // The legend shows the line of the first result; the table has the points with their errors.
+            let joined = series.clone().drawn_only().unmarked().width(1.6);
+            let joined = if position == 0 { joined } else { joined.unlabelled() };
+            chart = chart.line(joined, &line).scatter(series.unlabelled(), &spots);
         }
     }
     let signs = match group.of.as_slice() {
@@ -99,7 +105,7 @@ pub(super) fn family(
         _ => String::new(),
     };
     let caption = format!(
-        "{} over {}, a colour for each value of the {}, means over the replicates.{signs} {BARS}",
+        "{} over {}, a colour and a dash for each value of the {}, means over the replicates.{signs} {BARS}",
         group.figure.title,
         name_of_key(key),
         name_of_key(of.key),

@@ -444,7 +444,7 @@ impl<'a> Reader<'a> {
             }
             if let Some(levels) = self.levels(varied, entry, design) {
                 let (dimension, whole) = (dimension(varied), varied.is_whole());
-                factors.push(Factor { key: varied.name, dimension, whole, levels });
+                factors.push(Factor { key: varied.name, dimension, whole, names: Vec::new(), levels });
             }
         }
         factors
