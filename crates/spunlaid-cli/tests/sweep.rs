@@ -146,9 +146,9 @@ fn a_finished_study_is_not_flown_again() {
     place.swept("out", &[]);
     let before = contents(&place.path("out"));
     let output = said(&place.swept("out", &[]));
-    assert!(output.contains("finished already"), "{output}");
+    assert!(output.contains("already complete"), "{output}");
     assert_same(&before, &contents(&place.path("out")));
-    // What was deleted but the journal comes back.
+    // All files except the journal are restored.
     for name in ["results.csv", "report.html", "study.toml"] {
         fs::remove_file(place.path("out").join(name)).unwrap();
     }
@@ -199,7 +199,7 @@ fn a_study_written_otherwise_is_the_same() {
     fs::write(place.path("study.toml"), otherwise).unwrap();
     fs::write(place.path("case.toml"), format!("# Another.\n{}", case(0.02))).unwrap();
     let output = said(&place.swept("out", &[]));
-    assert!(output.contains("finished already"), "{output}");
+    assert!(output.contains("already complete"), "{output}");
 }
 
 #[test]
@@ -212,18 +212,18 @@ fn damage_to_the_journal_is_told_and_made_good() {
     damaged[whole.len() / 2] ^= 0x10;
     fs::write(&journal, &damaged).unwrap();
     let output = said(&place.swept("out", &[]));
-    assert!(output.contains("damaged in the journal: 1 record;"), "{output}");
+    assert!(output.contains("damaged records (1 record)"), "{output}");
     assert_same(&before, &results(&place.path("out")));
     fs::write(&journal, &whole[..whole.len() - 5]).unwrap();
     let output = said(&place.swept("out", &[]));
-    assert!(output.contains("cut off half written"), "{output}");
+    assert!(output.contains("last record of the journal was incomplete"), "{output}");
     assert_same(&before, &results(&place.path("out")));
-    // Nothing but half a header, and results all the same: those are not overwritten unasked.
+    // Half a header with results: the results are not overwritten without --force.
     fs::write(&journal, &whole[..9]).unwrap();
     assert!(place.refused("out", &[]).contains("holds results already (results.csv)"));
     place.swept("out", &["--force"]);
     assert_same(&before, &results(&place.path("out")));
-    // Without results it is a study killed as it began.
+    // Without results it is a study that was killed at its start.
     for name in ["results.csv", "results.parquet", "replicates.parquet", "report.html"] {
         fs::remove_file(place.path("out").join(name)).unwrap();
     }
@@ -266,7 +266,7 @@ fn rejects_folders_with_other_results_and_files() {
     assert!(ran.status.success(), "{}", said(&ran));
     assert!(place.refused("out", &[]).contains("holds results already"));
     assert!(place.refused("case.toml", &[]).contains("is a file"));
-    // The journal of a study keeps a run away as well.
+    // A run refuses the folder of a study as well.
     place.swept("study", &[]);
     let ran = place.spunlaid(&["run", "case.toml", "--out", "study"]).output().unwrap();
     assert_eq!(ran.status.code(), Some(1), "{}", said(&ran));

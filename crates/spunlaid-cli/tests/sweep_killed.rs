@@ -1,4 +1,4 @@
-//! Killed at any moment, a study goes on where it was and ends with the same bits.
+//! A study that is killed at any moment continues, and ends with the same bits.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
@@ -8,23 +8,24 @@ use std::fs;
 use std::thread::sleep;
 use std::time::Duration;
 
-/// Numbers that look random; the moments they name are random in any case.
+/// Pseudo-random moments.
 struct Moments(u64);
 
 impl Moments {
-    /// Up to so many milliseconds.
+    /// A time of at most this many milliseconds.
     fn next(&mut self, most: u64) -> Duration {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         Duration::from_micros((self.0 >> 33) % (most * 1000))
     }
 }
 
-/// Length of the records of a journal.
+/// Number of records in a journal.
 fn records(place: &Place, out: &str) -> u64 {
-    fs::metadata(place.path(out).join("journal")).map_or(0, |about| about.len() / 88)
+    const RECORD: u64 = 24 + 8 * spunlaid::study::MEASURES.len() as u64;
+    fs::metadata(place.path(out).join("journal")).map_or(0, |about| about.len() / RECORD)
 }
 
-/// Kills sweeps at random moments until one is through or there were so many kills; gives their number.
+/// Kills sweeps at random moments until one completes or the limit is reached; returns the number of kills.
 fn killed(place: &Place, out: &str, most_kills: u32, most_ms: u64) -> u32 {
     let mut moments = Moments(42);
     let mut kept = 0;
@@ -63,9 +64,9 @@ fn identical_after_many_kills() {
     let kills = killed(&place, "killed", 25, 60);
     assert!(kills >= 10, "only {kills} kills before the end");
     let output = said(&place.swept("killed", &["--threads", "1"]));
-    assert!(output.contains("going on: "), "{output}");
+    assert!(output.contains("continuing: "), "{output}");
     assert_same(&expected, &results(&place.path("killed")));
-    // The journal holds every fibre once: what was kept was not flown again.
+    // The journal holds every fibre once, so no kept fibre was flown again.
     assert_eq!(records(&place, "killed"), records(&place, "whole"));
 }
 
@@ -92,12 +93,12 @@ fn rejects_a_second_process_and_forgets_the_lock_of_a_dead_one() {
     while !place.path("out").join("journal").exists() {
         sleep(Duration::from_millis(5));
     }
-    // The file is there a moment before it is locked.
+    // The file exists a moment before it is locked.
     sleep(Duration::from_millis(100));
     for more in [&[][..], &["--force"]] {
         let output = place.sweep("out", more).output().unwrap();
         assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-        assert!(said(&output).contains("another spunlaid is at work in this folder"), "{}", said(&output));
+        assert!(said(&output).contains("another spunlaid process is using this folder"), "{}", said(&output));
     }
     child.kill().unwrap();
     child.wait().unwrap();
@@ -118,7 +119,7 @@ fn interrupted_it_says_how_to_go_on() {
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    // Once a bundle has landed.
+    // Wait until a flight is finished.
     while records(&place, "out") < 2 {
         sleep(Duration::from_millis(5));
     }

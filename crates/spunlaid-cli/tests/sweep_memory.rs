@@ -1,4 +1,4 @@
-//! A study of 10,000 points holds its memory flat.
+//! The memory of a study does not grow with its points.
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -7,7 +7,7 @@ mod common;
 use common::{Place, case};
 use std::fs;
 
-/// Largest memory a sweep took [KiB].
+/// Largest memory of a sweep [KiB].
 fn peak(points: u64, replicates: u64) -> u64 {
     // As short as can be: three elements, ten steps.
     let case = case(2e-4).replace("length_scale = '50 mm'", "length_scale = '350 mm'");

@@ -1,5 +1,5 @@
-//! Bad studies and what is said of them: each file `bad_studies/NAME.toml` is refused with the message in
-//! `bad_studies/NAME.txt`. With `BLESS=1` in the environment the messages are written, to be read over.
+//! Bad studies and their messages: each file `bad_studies/NAME.toml` is rejected with the message in
+//! `bad_studies/NAME.txt`. With `BLESS=1` in the environment the test writes the messages, to be reviewed.
 #![allow(clippy::panic)]
 #![allow(clippy::unwrap_used)]
 
@@ -37,7 +37,7 @@ fn rejects_every_bad_study_with_its_message() {
 }
 
 #[test]
-fn rejects_what_is_no_readable_file() {
+fn rejects_unreadable_files() {
     let refusal = |path: &str| match read_study(Path::new(path), None) {
         Err(Error::File(error)) => error.fault,
         other => panic!("{other:?}"),
@@ -47,15 +47,15 @@ fn rejects_what_is_no_readable_file() {
 }
 
 #[test]
-fn enormous_studies_are_read_when_asked_for_by_number() {
+fn enormous_studies_are_read_when_requested_by_number() {
     let path = Path::new("tests/bad_studies/enormous.toml");
     assert_eq!(read_study(path, Some(40_000)).unwrap().study.points.len(), 40_000);
     let other = read_study(path, Some(40)).unwrap_err().to_string();
-    assert!(other.ends_with("makes 40000 points, not the 40 that were asked for"), "{other}");
+    assert!(other.ends_with("makes 40000 points, but 40 were requested"), "{other}");
 }
 
 #[test]
-fn every_study_in_cases_is_sound() {
+fn every_study_in_cases_is_valid() {
     let mut count = 0;
     for entry in
         ["studies", "paper"].iter().flat_map(|folder| fs::read_dir(format!("../../cases/{folder}")).unwrap())

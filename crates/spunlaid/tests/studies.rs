@@ -1,4 +1,4 @@
-//! Studies: points equal to single runs, bits that no packing changes, replicates by need, effects known beforehand.
+//! Studies: points equal single runs, bits do not depend on packing, replicates by need, effects of synthetic models.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use spunlaid::case::Case;
@@ -9,7 +9,7 @@ use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
 use spunlaid::study::{
     Batch, Journal, Landing, MEASURES, PointResults, Progress, Record, Replicates, Study, fly_batches,
-    measured, rankings, results_of_point, run,
+    measured, results_of_point, run,
 };
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -48,14 +48,14 @@ fn flown(study: &Study, threads: usize) -> Journal {
     let fibres: u64 = (0..study.points.len()).map(|point| journal.held(point)).sum();
     assert_eq!(progress.fibres_done.load(Ordering::Relaxed), fibres);
     assert_eq!(progress.points_done.load(Ordering::Relaxed), study.points.len() as u64);
-    // The way of a lost fibre ends early, and its neighbours fly twice.
+    // A lost fibre ends early, and its neighbours fly twice.
     if (0..study.points.len()).all(|point| results_of_point(&mut journal, point).unwrap().lost == 0) {
         assert_eq!(steps.into_inner(), progress.steps.into_inner());
     }
     journal
 }
 
-/// The flights of `spunlaid run`.
+/// The trajectories of `spunlaid run`.
 fn single(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let mut flights = Vec::new();
@@ -84,7 +84,7 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
         assert_eq!(study.points.len(), 12);
         let mut journal = flown(&study, 2);
         for (index, point) in study.points.iter().enumerate() {
-            // What `--print-point` prints is the point, to the bit.
+            // `--print-point` prints exactly the point.
             let (case, _) = parse_case(&write_case(&point.case), "point.toml", &[]).unwrap();
             assert_eq!(case, point.case);
             assert_eq!(case.run.seed == 7, common);
@@ -93,11 +93,11 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
             assert_eq!(records.len(), 5);
             for (flight, record) in flights.iter().zip(&records) {
                 assert_eq!(record.replicate, flight.replicate);
-                // As text, where NaN is like NaN.
+                // Text, because NaN differs from NaN.
                 let expected = Landing::Measured(measured(flight));
                 assert_eq!(format!("{:?}", record.landing), format!("{expected:?}"), "point {index}");
             }
-            // And so their means, to the bit.
+            // The means have the same bits, too.
             let mut collector = Results::collector(0);
             flights.iter().for_each(|flight| collector.take(flight));
             let (all, of_point) = (collector.finish(), results_of_point(&mut journal, index).unwrap());
@@ -134,7 +134,7 @@ fn identical_for_any_threads_and_any_packing() {
     };
     let expected = all(&mut whole);
     assert_eq!(all(&mut flown(&study, 3)), expected);
-    // Begun elsewhere: any fibres there already, the others packed with other neighbours.
+    // Some fibres exist already, so the others are packed differently.
     for (offset, stride) in [(0, 2), (1, 3), (4, 7), (0, 60)] {
         let mut journal = Journal::in_memory(study.points.len());
         let there: Vec<Record> = expected.iter().skip(offset).step_by(stride).copied().collect();
@@ -184,7 +184,7 @@ until = { amplitude_y = '10 %', frequency_y = 0.5 }
         assert!(*count == 40 || is_small(0, 0.1) && is_small(2, 0.5), "{count} of point {point}");
         assert!(*count > 3);
     }
-    // Stopped again and again, after every bundle or so.
+    // The study is stopped again and again, after about one flight each time.
     let mut kept = Mutex::new(Journal::in_memory(2));
     for _ in 0..100 {
         let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
@@ -214,7 +214,7 @@ until = { amplitude_y = '10 %', frequency_y = 0.5 }
 
 #[test]
 fn a_lost_fibre_costs_its_neighbours_nothing() {
-    // Drag that changes the velocity by more than itself in a step, which no check foresees.
+    // The drag changes the velocity by more than its value in one step, which no check foresees.
     let (mut good, _) = parse_case(SHORT, "case.toml", &[]).unwrap();
     good.run.steps = 5000;
     let mut bad = good.clone();
@@ -231,95 +231,6 @@ fn a_lost_fibre_costs_its_neighbours_nothing() {
     let results: PointResults = results_of_point(&mut journal, 1).unwrap();
     assert_eq!((results.n, results.lost), (0, 3));
     assert!(results.mean[0].is_nan() && results.standard_error[0].is_none());
-}
-
-/// A study of made-up results: `y = 5 + 3 x₁ − 1 x₂ + 0 x₃` over ranges of −1 to 1, with noise.
-fn made_up(design: &str, noise: impl Fn(usize, u64) -> f64) -> (Study, Journal) {
-    let text = format!(
-        "case = 'case.toml'\n{design}\nreplicates = 6\n[vary]\n'air.velocity' = {{ from = '5 m/s', to = '15 m/s' STEPS }}\n\
-         'fibre.diameter' = {{ from = '20 µm', to = '80 µm', spacing = 'log' STEPS }}\n\
-         'air.turbulence_intensity' = {{ from = 0.05, to = 0.25 STEPS }}\n"
-    );
-    let steps = if design.contains("points") { "" } else { ", steps = 3" };
-    let study = study(&text.replace("STEPS", steps)).study;
-    let mut journal = Journal::in_memory(study.points.len());
-    for (index, point) in study.points.iter().enumerate() {
-        let x: Vec<f64> = study.factors.iter().zip(&point.values).map(|(f, v)| f.place(*v)).collect();
-        for replicate in 0..6 {
-            let y = 5.0 + 3.0 * x[0] - x[1] + noise(index, replicate);
-            let landing = Landing::Measured([y; MEASURES.len()]);
-            journal.add(&[Record { point: index as u64, replicate, landing }]).unwrap();
-        }
-    }
-    (study, journal)
-}
-
-/// Numbers that look like noise of deviation one, and never change.
-fn scatter(i: usize, j: u64) -> f64 {
-    let sum: f64 = (0..12)
-        .map(|k| {
-            let x = ((i * 31 + j as usize * 7919 + k * 104_729) as f64 * 12.9898 + 0.5).sin() * 43758.5453;
-            x - x.floor()
-        })
-        .sum();
-    sum - 6.0
-}
-
-#[test]
-fn analytic_effects_of_a_straight_line() {
-    for design in [
-        "design = 'grid'",
-        "design = 'one-at-a-time'",
-        "design = 'latin-hypercube'\npoints = 20",
-        "design = 'sobol'\npoints = 16",
-    ] {
-        let (study, mut journal) = made_up(design, |_, _| 0.0);
-        let rankings = rankings(&study, &mut journal).unwrap();
-        assert_eq!(rankings.len(), MEASURES.len());
-        let ranking = &rankings[0];
-        let order: Vec<usize> = ranking.effects.iter().map(|effect| effect.factor).collect();
-        assert_eq!(order, [0, 1, 2], "{design}");
-        for (effect, expected) in ranking.effects.iter().zip([6.0, -2.0, 0.0]) {
-            assert!((effect.change - expected).abs() < 1e-12, "{design}: {effect:?}");
-            assert!(effect.half_width.unwrap() < 1e-12, "{design}: {effect:?}");
-        }
-        assert!((ranking.middle - 5.0).abs() < 1e-12 && (ranking.explained - 1.0).abs() < 1e-12);
-    }
-}
-
-#[test]
-fn stat_intervals_hold_the_truth_as_often_as_they_say() {
-    // Noise of each fibre alone, and noise that all points of a replicate share the slope of.
-    for shared in [0.0, 0.5] {
-        let (mut inside, mut all) = (0, 0);
-        for trial in 0..200 {
-            let (study, mut journal) =
-                made_up("design = 'latin-hypercube'\npoints = 12", |point, replicate| {
-                    let x = 2.0 * (point as f64 / 11.0) - 1.0;
-                    scatter(1000 * trial + point, replicate)
-                        + shared * scatter(7_000_000 + trial, replicate) * x
-                });
-            for effect in &rankings(&study, &mut journal).unwrap()[0].effects {
-                let truth = [6.0, -2.0, 0.0][effect.factor];
-                inside += u32::from((effect.change - truth).abs() <= effect.half_width.unwrap());
-                all += 1;
-            }
-        }
-        // 95 % of 600; the wider of two intervals holds a little more. Below by four standard errors at most.
-        let share = f64::from(inside) / f64::from(all);
-        assert!(
-            share > 0.95 - 4.0 * (0.95f64 * 0.05 / 600.0).sqrt() && share < 0.995,
-            "{share} with {shared}"
-        );
-    }
-}
-
-#[test]
-fn effects_that_cannot_be_told_apart_are_not_ranked() {
-    let text = "case = 'case.toml'\ndesign = 'paired'\nreplicates = 2\n[vary]\n'air.velocity' = ['5 m/s', '10 m/s', '15 m/s']\n'air.turbulence_intensity' = [0.1, 0.2, 0.3]\n";
-    let study = study(text).study;
-    let mut journal = flown(&study, 2);
-    assert_eq!(rankings(&study, &mut journal).unwrap(), []);
 }
 
 #[test]
@@ -378,7 +289,7 @@ fn links_follow_what_varies() {
 
 #[test]
 fn defaults_follow_what_varies() {
-    // Where the case leaves the element length open, it is that of the eddies, at every point.
+    // Without an element length in the case, every point takes the length of its eddies.
     let (case, _) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
     let text = "case = 'c'\ndesign = 'grid'\n[vary]\nair.length_scale = ['50 mm', '25 mm']\n";
     let starter = |_: &str| Ok((starter_case().to_owned(), "starter.toml".to_owned()));
@@ -389,14 +300,14 @@ fn defaults_follow_what_varies() {
 }
 
 #[test]
-fn remarks_are_told_once_for_all_points() {
+fn remarks_are_merged_over_points() {
     let text = "case = 'c'\ndesign = 'grid'\n[vary]\nfibre.diameter = ['50 µm', '5 µm', '6 µm', '7 µm']\n";
     let notes: Vec<String> = study(text).notes.iter().map(ToString::to_string).collect();
     assert_eq!(notes.len(), 1, "{notes:?}");
     assert!(
         notes[0].starts_with(
             "study.toml: point 2 (fibre.diameter = 5 µm): fibre.diameter = 5 µm is outside 13 µm"
-        ) && notes[0].ends_with("(and so for 2 other points)"),
+        ) && notes[0].ends_with("(this applies to 2 more points)"),
         "{notes:?}"
     );
 }

@@ -1,17 +1,16 @@
-//! `report.html` of a study: the question, the ranking, the figures, the points. Nothing in it depends on when or
-//! how fast it was computed.
+//! `report.html` of a study: question, ranking, figures and points. It does not depend on the time of computation.
 
 use super::words::count;
 use crate::figures::name_of_key;
-use crate::numbers::{number, plus_minus};
+use crate::numbers::{THIN, number, plus_minus};
 use askama::Template;
 use spunlaid::study::{Design, Effect, PointResults, Ranking, Study};
 use spunlaid_charts::Figure;
 
-/// Most points that are listed.
+/// Largest number of points that are listed.
 const LISTED: usize = 500;
 
-/// Results that are listed: index into the measures, head, factor from SI.
+/// The listed results: index into the measures, head of the column, factor from SI units.
 const SHOWN: [(usize, &str, f64); 6] = [
     (0, "Amplitude in y (mm)", 1e3),
     (1, "Amplitude in z (mm)", 1e3),
@@ -21,16 +20,18 @@ const SHOWN: [(usize, &str, f64); 6] = [
     (7, "Largest strain (%)", 1e2),
 ];
 
-/// Everything the report shows.
+/// Content of the report.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StudyReport<'a> {
-    /// What the study is called: the name of its file.
+    /// Name of the study: the name of its file.
     pub(crate) name: &'a str,
     pub(crate) study: &'a Study,
     /// Of every point.
     pub(crate) results: &'a [PointResults],
-    /// Main effects; none where the design does not tell them.
+    /// Main effects; empty if the study cannot tell them.
     pub(crate) rankings: &'a [Ranking],
+    /// Why there are no main effects.
+    pub(crate) refusal: Option<&'a str>,
     pub(crate) figures: &'a [Figure],
     /// Warnings and remarks for the reader.
     pub(crate) notes: &'a [String],
@@ -41,7 +42,7 @@ pub(crate) struct StudyReport<'a> {
     pub(crate) version: &'a str,
 }
 
-/// What `assets/study.html` is filled with; everything is escaped there but what is marked safe.
+/// Content of `assets/study.html`, which escapes everything that is not marked safe.
 #[derive(Template)]
 #[template(path = "study.html")]
 struct Page<'a> {
@@ -52,6 +53,7 @@ struct Page<'a> {
     notes: &'a [String],
     ranking_heads: Vec<&'static str>,
     rankings: Vec<RankingRow>,
+    refusal: Option<&'a str>,
     explained: Vec<String>,
     figures: &'a [Figure],
     heads: Vec<String>,
@@ -77,7 +79,7 @@ struct RankingRow {
 
 struct Cell {
     text: String,
-    /// May be no effect at all.
+    /// Whether the interval contains zero.
     faint: bool,
 }
 
@@ -93,6 +95,7 @@ pub(crate) fn study_html(input: &StudyReport<'_>) -> String {
         notes: input.notes,
         ranking_heads: SHOWN.map(|(_, head, _)| head).to_vec(),
         rankings: ranking_rows(study, shown),
+        refusal: input.refusal,
         explained: explained(shown),
         figures: input.figures,
         heads: heads(study),
@@ -104,7 +107,7 @@ pub(crate) fn study_html(input: &StudyReport<'_>) -> String {
         style: include_str!("../../assets/report.css"),
         study_style: include_str!("../../assets/study.css"),
     };
-    // Writing to a string fails only where a value's own formatting does, and none here can.
+    // Formatting these values into a string cannot fail.
     page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
 }
 
@@ -115,27 +118,27 @@ fn question(study: &Study) -> String {
         [one] => format!("How does the fibre’s motion depend on the {one}?"),
         [one, two] => format!("How does the fibre’s motion depend on the {one} and the {two}?"),
         [first @ .., last] => {
-            format!("What moves the fibre: the {} or the {last}?", first.join(", the "))
+            format!("Which matters most for the fibre’s motion: the {} or the {last}?", first.join(", the "))
         }
     }
 }
 
 fn summary(study: &Study, results: &[PointResults]) -> String {
     let how = match study.design {
-        Design::Grid => "every value with every other",
-        Design::OneAtATime => "the base case, and from there one factor at a time",
-        Design::Paired => "the values of the lists taken together",
+        Design::Grid => "every combination of values",
+        Design::OneAtATime => "the base case, and points in which one factor differs from it",
+        Design::Paired => "the first values of all lists, then the second values, and so on",
         Design::LatinHypercube(_) => {
-            "a Latin hypercube: the range of each factor cut into as many slices as there are points, each slice hit once"
+            "a Latin hypercube, in which the range of each factor has as many slices as there are points, and each slice holds one point"
         }
-        Design::Sobol(_) => "the first points of Sobol’s sequence, evenly spread over all ranges",
+        Design::Sobol(_) => "the first points of Sobol’s sequence, which fills all ranges evenly",
     };
     let fibres: u64 = results.iter().map(|point| point.n).sum();
     let least = results.iter().map(|point| point.n).min().unwrap_or(0);
     let most = results.iter().map(|point| point.n).max().unwrap_or(0);
     let each = if least == most { least.to_string() } else { format!("{least} to {most}") };
     let mut text = format!(
-        "{}: {how}. {} at each, {} in all.",
+        "{}: {how}. Each point has {}; the study has {} in total.",
         count(results.len() as u64, "point"),
         if most == 1 { "1 replicate".to_owned() } else { format!("{each} replicates") },
         count(fibres, "fibre")
@@ -147,7 +150,7 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
     let lost: u64 = results.iter().map(|point| point.lost).sum();
     if lost > 0 {
         text += &format!(
-            " {} lost, their positions no longer numbers; they are left out of all means.",
+            " {} lost, because the positions became infinite; all means leave them out.",
             if lost == 1 { "1 fibre was".to_owned() } else { format!("{lost} fibres were") }
         );
     }
@@ -156,11 +159,11 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
 
 fn phases(study: &Study) -> &'static str {
     if study.common_phases {
-        "Common phases: replicate 1 of every point flies in turbulence of the same random phases, and so on. Differences \
-         between points then show more sharply than the error bars of each suggest; what the phases have in common moves \
-         all points alike."
+        "Common phases: replicate 1 of every point has the same random phases of the turbulence, and likewise replicate 2 \
+         and so on. Differences between points are therefore more certain than their error bars suggest, while the \
+         errors of all points have a common part."
     } else {
-        "Every point has random phases of its own: the points are independent of each other."
+        "Every point has its own random phases, so the points are independent."
     }
 }
 
@@ -190,18 +193,17 @@ fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
     };
     let row = |effect: &Effect| {
         let factor = &study.factors[effect.factor];
-        let (least, greatest) = factor.ends();
-        let pretty = |value| factor.dimension.pretty(value);
+        let [from, to] = [effect.from, effect.to].map(|value| factor.pretty(value));
         RankingRow {
             name: name_of_key(factor.key),
-            range: format!("{} to {}", pretty(least), pretty(greatest)),
+            range: if factor.names.len() > 2 { "largest difference".to_owned() } else { format!("{from} to {to}") },
             cells: SHOWN
                 .iter()
                 .map(|(measure, _, unit)| cell(rankings, *measure, effect.factor, *unit))
                 .collect(),
         }
     };
-    // In the order of the effects on the amplitude.
+    // The rows have the order of the effects on the amplitude.
     first.effects.iter().map(row).collect()
 }
 
@@ -221,7 +223,8 @@ fn explained(rankings: &[Ranking]) -> Vec<String> {
     let of = |(measure, ..): &(usize, &str, f64)| {
         let ranking = rankings.iter().find(|ranking| ranking.measure == *measure);
         ranking
-            .map_or_else(String::new, |ranking| format!("{} %", number((ranking.explained * 100.0).round())))
+            .filter(|ranking| ranking.explained.is_finite())
+            .map_or_else(|| "–".to_owned(), |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())))
     };
     SHOWN.iter().map(of).collect()
 }

@@ -1,66 +1,66 @@
-//! What can be wrong with a study: with its file, with its journal.
+//! Errors of studies: of the study file and of the journal.
 
 use crate::units::{ExpressionFault, excerpt};
 use std::path::{Path, PathBuf};
 
-/// What is wrong with a value of a study file; reads on after `key = value `.
+/// What is wrong with a value of a study file; the message continues after `key = value `.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyFault {
-    /// A required key is not there.
+    /// A required key is missing.
     #[error("is missing; add {line}")]
     Missing {
-        /// A line that would do.
+        /// A line that would be valid.
         line: &'static str,
     },
     /// No key has this name.
     #[error("is not a key of a study file; {advice}")]
     UnknownKey {
-        /// The key that may be meant, or all there are.
+        /// The most similar key, or all keys.
         advice: String,
     },
-    /// A table of a case.
+    /// A table that belongs in a case file.
     #[error(
-        "is a table of a case; a study names its case, as case = \"table1.toml\", and `spunlaid run` flies a case"
+        "is a table of a case file; a study names its case, as in case = \"table1.toml\". To fly a single case, use `spunlaid run`"
     )]
     TableOfCase,
-    /// A key that cannot be varied or linked.
+    /// A study cannot vary or link this key.
     #[error("cannot be set by a study; {advice}")]
     NotVaried {
-        /// Why, or which can.
+        /// The reason, or a key that can be varied.
         advice: String,
     },
-    /// Varied and linked, or the like.
+    /// The key is both varied and linked.
     #[error("is both varied and linked; keep one")]
     Twice,
-    /// No values.
-    #[error("has no values; list some, as [\"5 m/s\", \"10 m/s\"], or write {{ from, to, steps }}")]
+    /// The list of values is empty.
+    #[error("has no values; list some, as in [\"5 m/s\", \"10 m/s\"], or write {{ from, to, steps }}")]
     NoValues,
-    /// Nothing varies.
+    /// The table `[vary]` is empty.
     #[error(
-        "names nothing to vary; write a key and its values, as \"air.velocity\" = [\"5 m/s\", \"10 m/s\"]"
+        "names no key to vary; write a key and its values, as in \"air.velocity\" = [\"5 m/s\", \"10 m/s\"]"
     )]
     NothingVaries,
     /// A range without a number of values where one is needed.
-    #[error("has no steps; design = \"{design}\" takes the values as they are: add steps = 5 or list them")]
+    #[error("has no steps, which design = \"{design}\" needs; add steps = 5, or list the values")]
     NoSteps {
         /// Name of the design.
         design: &'static str,
     },
-    /// A range with a number of values where none is wanted.
+    /// A range with a number of values in a design that draws its own values.
     #[error("has steps, but design = \"{design}\" draws its values from the range; leave steps out")]
     NeedlessSteps {
         /// Name of the design.
         design: &'static str,
     },
-    /// Logarithmic through zero.
-    #[error("is spaced logarithmically, which takes two ends above zero; write spacing = \"linear\"")]
+    /// Logarithmic spacing with an end at or below zero.
+    #[error("has logarithmic spacing, which needs both ends above zero; write spacing = \"linear\"")]
     LogThroughZero,
-    /// A range of no width.
-    #[error("starts where it ends; write two different ends, or a list of one value")]
+    /// Both ends of a range are equal.
+    #[error("has two equal ends; write two different ends, or a list of one value")]
     NoWidth,
     /// Lists of different lengths.
-    #[error("has {found} values where \"{first}\" has {wanted}; paired lists are of one length")]
+    #[error("has {found} values, but \"{first}\" has {wanted}; paired lists must have the same length")]
     Unpaired {
         /// Number of values.
         found: u64,
@@ -69,131 +69,135 @@ pub enum StudyFault {
         /// Its number of values.
         wanted: u64,
     },
-    /// More factors than the design takes.
-    #[error("names {found} keys; design = \"{design}\" takes at most {most}")]
+    /// More factors than the design allows.
+    #[error("varies {found} keys; design = \"{design}\" allows at most {most}")]
     TooManyFactors {
         /// Number of factors.
         found: usize,
         /// Name of the design.
         design: &'static str,
-        /// The most it takes.
+        /// The largest number allowed.
         most: usize,
     },
-    /// More points than are flown unasked.
-    #[error("makes {points} points, more than the {most} that are flown unasked; {advice}")]
+    /// More points than are flown without an explicit request.
+    #[error("makes {points} points; more than {most} must be requested by their number; {advice}")]
     TooManyPoints {
-        /// How many.
+        /// Number of points.
         points: String,
-        /// The most unasked.
+        /// The largest number without a request.
         most: u64,
         /// The way out.
         advice: String,
     },
-    /// Another number of points than asked for.
-    #[error("makes {points} points, not the {asked} that were asked for")]
+    /// The number of points differs from the number requested.
+    #[error("makes {points} points, but {asked} were requested")]
     OtherPoints {
-        /// How many.
+        /// Number of points.
         points: u64,
-        /// How many were asked for.
+        /// Number requested.
         asked: u64,
     },
-    /// More fibres than can be counted.
-    #[error("flies {fibres:.1e} fibres in all, more than {most:e}; lower the replicates or the points")]
+    /// More fibres than a study may have.
+    #[error(
+        "needs {fibres:.1e} fibres in total; at most {most:e} are possible. Reduce the replicates or the points"
+    )]
     TooManyFibres {
-        /// How many.
+        /// Number of fibres.
         fibres: f64,
-        /// The most.
+        /// The largest number.
         most: f64,
     },
-    /// A key that the case leaves open.
-    #[error("is not written in the case, where it follows from other keys; write it there, to {purpose}")]
+    /// The case does not give the key a value of its own.
+    #[error("has no value in the case, where it follows from other keys; write it there to {purpose}")]
     NotWritten {
-        /// What for.
+        /// What the value is needed for.
         purpose: &'static str,
     },
-    /// A formula.
+    /// A formula is wrong.
     #[error(transparent)]
     Expression(#[from] ExpressionFault),
-    /// Links that follow from one another.
-    #[error("follows from itself: {0}; break the circle")]
+    /// Links that depend on each other in a circle.
+    #[error("depends on itself: {0}; remove one of these links")]
     Circle(String),
-    /// A name of a result that there is none of.
-    #[error("is not a result; {advice}")]
+    /// No result has this name.
+    #[error("is not the name of a result; {advice}")]
     UnknownResult {
-        /// The result that may be meant, or all there are.
+        /// The most similar result, or all results.
         advice: String,
     },
-    /// A fraction out of range.
-    #[error("is no fraction of the mean; write a number between 0 and 1, like 0.05 or \"5 %\"")]
+    /// A fraction is out of range.
+    #[error("is not a fraction of the mean; write a number between 0 and 1, like 0.05 or \"5 %\"")]
     NoFraction,
-    /// More at least than at most.
-    #[error("is more than at_most = {most}; lower it")]
+    /// `at_least` exceeds `at_most`.
+    #[error("is larger than at_most = {most}; lower it")]
     MoreThanMost {
-        /// The most replicates.
+        /// The largest number of replicates.
         most: u64,
     },
 }
 
-/// What is wrong with a journal, the records of a study.
+/// What is wrong with a journal, the file that holds the records of a study.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum JournalError {
-    /// Another process writes it.
+    /// Another process has the journal open.
     #[error(
-        "{}: another spunlaid is at work in this folder; wait for it, or use another folder",
+        "{}: another spunlaid process is using this folder; wait until it ends, or use another folder",
         shown(path)
     )]
     InUse {
         /// The journal.
         path: PathBuf,
     },
-    /// Not a journal.
+    /// The file is not a journal.
     #[error(
-        "{}: is not the journal of a study, or its first line is damaged; nothing of it can be used. Use another folder, or start anew",
+        "{}: is not the journal of a study, or its first line is damaged, so its records cannot be used. Use another folder, or start again",
         shown(path)
     )]
     Foreign {
         /// The file.
         path: PathBuf,
     },
-    /// A journal of another format.
+    /// The journal has another format.
     #[error(
-        "{}: is a journal of format {format}, and this spunlaid knows {known}. Go on with the spunlaid that wrote it, use another folder, or start anew",
+        "{}: is a journal of format {format}, but this spunlaid reads format {known}. Continue with the version of spunlaid that wrote it, use another folder, or start again",
         shown(path)
     )]
     Format {
         /// The file.
         path: PathBuf,
-        /// Its format.
+        /// The format found.
         format: String,
-        /// The format known.
+        /// The format that this version reads.
         known: u32,
     },
-    /// It cannot be opened or read.
-    #[error("{}: cannot be used: {source}", shown(path))]
+    /// The file cannot be opened or read.
+    #[error("{}: cannot be read: {source}", shown(path))]
     Unusable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// It cannot be added to.
+    /// Records cannot be appended.
     #[error(
-        "{}: cannot be written: {source}; what has landed so far is kept. Mend that, then the same command goes on",
+        "{}: cannot be written: {source}. All finished fibres are kept. Solve this problem, then repeat the command to continue",
         shown(path)
     )]
     Unwritable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// Its records do not reach the disk.
-    #[error("the journal does not reach the disk: {0}; mend that, then the same command goes on")]
+    /// The records cannot be flushed to the disk.
+    #[error(
+        "the journal cannot be saved to the disk: {0}. Solve this problem, then repeat the command to continue"
+    )]
     Unsynced(std::io::Error),
 }
 
-/// A path as messages name it, without control characters.
+/// A path as it appears in messages, without control characters.
 fn shown(path: &Path) -> String {
     excerpt(&path.display().to_string(), 1000)
 }

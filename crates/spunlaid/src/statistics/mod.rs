@@ -9,9 +9,9 @@ pub use spectrum::{Spectrum, Welch, Window};
 pub struct Estimate {
     /// Mean over the replicates.
     pub mean: f64,
-    /// Standard error of the mean; none from a single replicate.
+    /// Standard error of the mean; `None` from a single replicate.
     pub standard_error: Option<f64>,
-    /// The replicates' own values, in their order.
+    /// The values of the replicates, in order.
     pub values: Vec<f64>,
 }
 
@@ -26,12 +26,14 @@ impl Estimate {
     }
 }
 
-/// Standard deviations of a normal variable that hold 95 %.
+/// Half the width of the central 95 % of a normal distribution, in standard deviations.
 pub const NORMAL_95: f64 = 1.959_963_984_540_054;
 
-/// Student's t for a two-sided confidence interval of 95 %, with so many degrees of freedom, one or more.
+/// Student's t for a two-sided confidence interval of 95 %.
 ///
-/// A table to 30 degrees, then Cornish and Fisher's expansion about the normal distribution, good to 1e-7.
+/// A table up to 30 degrees, then Cornish and Fisher's expansion about the normal distribution, accurate to 1e-7.
+///
+/// * `degrees` – degrees of freedom, one or more
 ///
 /// Source: Abramowitz & Stegun 26.7.5.
 pub fn student_t_95(degrees: u64) -> f64 {
@@ -56,7 +58,7 @@ pub fn student_t_95(degrees: u64) -> f64 {
     })
 }
 
-/// The value below which a share of the finite values lies, linear between neighbours; NaN of none.
+/// The quantile of the finite values at a fraction `share`, with linear interpolation; NaN without any value.
 pub fn quantile(values: &[f64], share: f64) -> f64 {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
     if sorted.is_empty() {
@@ -69,7 +71,7 @@ pub fn quantile(values: &[f64], share: f64) -> f64 {
     sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
 }
 
-/// The middle value of the finite ones.
+/// The median of the finite values; NaN without any value.
 pub fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
 }

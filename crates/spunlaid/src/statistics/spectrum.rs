@@ -4,23 +4,23 @@ use crate::fft::{Complex, InverseTransform};
 use crate::lanes::{Lanes, WIDTH};
 use std::f64::consts::PI;
 
-/// What each segment is multiplied with.
+/// The window function that multiplies each segment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Window {
-    /// `sin²`: little leakage from far off.
+    /// `sin²`: little leakage from distant frequencies.
     #[default]
     Hann,
-    /// A raised `sin²`: a narrower line, more leakage from far off.
+    /// `sin²` on a pedestal: a narrower line, but more leakage from distant frequencies.
     Hamming,
-    /// Nothing: the narrowest line, the most leakage.
+    /// One everywhere: the narrowest line and the most leakage.
     Rectangular,
 }
 
 impl Window {
-    /// Every window.
+    /// All windows.
     pub const ALL: [Self; 3] = [Self::Hann, Self::Hamming, Self::Rectangular];
 
-    /// As it is written: `hann`.
+    /// Name on the command line: `hann`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Hann => "hann",
@@ -42,10 +42,10 @@ impl Window {
 /// One-sided power spectral density of a fluctuation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
-    /// Between the frequencies [Hz].
+    /// Distance between neighbouring frequencies [Hz].
     pub step: f64,
     /// Density at one step, two steps … up to half the sampling rate [(unit)²/Hz]; empty without a whole segment.
-    /// `Σ P Δf` is the variance of what the segments resolve.
+    /// `Σ P Δf` is the variance that the segments resolve.
     pub density: Vec<f64>,
     /// Number of segments.
     pub segments: usize,
@@ -53,14 +53,14 @@ pub struct Spectrum {
     pub segment: usize,
     /// Window.
     pub window: Window,
-    /// Share of a segment that the next one has in common with it.
+    /// Fraction of a segment that overlaps the next one.
     pub overlap: f64,
-    /// Time of record that the average is worth, without what windows leave unused [s].
+    /// Effective duration of the record: less than its length, because the windows use some samples less [s].
     pub effective_duration: f64,
 }
 
 impl Spectrum {
-    /// Frequency of an entry of the density [Hz].
+    /// Frequency of entry `entry` of the density [Hz].
     pub fn frequency(&self, entry: usize) -> f64 {
         (entry + 1) as f64 * self.step
     }
@@ -76,7 +76,7 @@ impl Spectrum {
     }
 }
 
-/// Welch's method: the mean of the spectra of overlapping segments, over one record or many.   theory.md (40)
+/// Welch's method: the mean spectrum of overlapping segments of one or more records.           theory.md (40)
 #[derive(Clone, Debug)]
 pub struct Welch {
     interval: f64,
@@ -86,15 +86,16 @@ pub struct Welch {
     transform: InverseTransform,
     sums: Vec<f64>,
     segments: usize,
-    /// Sum and sum of squares over the samples of `w̄`, the sum of the squared windows at a sample.
+    /// Over all samples: the sum and the sum of squares of `w̄`, which is the sum of the squared windows at a sample.
     carried: (f64, f64),
 }
 
 impl Welch {
-    /// For records of samples `interval` [s] apart.
+    /// An empty average.
     ///
+    /// * `interval` – time between samples [s]
     /// * `segment` – samples in a segment, a power of two
-    /// * `overlap` – share of a segment that the next one has in common with it, 0 to 0.9
+    /// * `overlap` – fraction of a segment that overlaps the next one, 0 to 0.9
     pub fn new(interval: f64, segment: usize, window: Window, overlap: f64) -> Self {
         Self {
             interval,
@@ -108,19 +109,19 @@ impl Welch {
         }
     }
 
-    /// The power of two that gives a record of `samples` about eight half-overlapping segments.
+    /// A power of two that divides a record of `samples` into about eight segments with an overlap of one half.
     pub fn segment_length(samples: usize) -> usize {
         (samples / 4).max(2).next_power_of_two()
     }
 
-    /// Takes in a record; an incomplete segment at its end is not used.
+    /// Adds a record; an incomplete segment at its end is not used.
     ///
-    /// * `mean` – what is taken off the values; each segment's own mean where it is `None`
+    /// * `mean` – subtracted from the values; `None` subtracts the mean of each segment
     pub fn add(&mut self, values: &[f64], mean: Option<f64>) {
         let segment = self.weights.len();
         let hop = ((segment as f64 * (1.0 - self.overlap)).round() as usize).clamp(1, segment);
         let segments: Vec<&[f64]> = values.windows(segment).step_by(hop).collect();
-        // Two segments in a lane, one as the real and one as the imaginary part.
+        // Each lane holds two segments, as the real and the imaginary part.
         for sixteen in segments.chunks(2 * WIDTH) {
             let of = |values: &&[f64]| values.iter().sum::<f64>() / segment as f64;
             let means: Vec<f64> = sixteen.iter().map(|values| mean.unwrap_or_else(|| of(values))).collect();
@@ -135,7 +136,7 @@ impl Welch {
                 .collect();
             self.transform.run(&mut data);
             for (k, sum) in (1..).zip(&mut self.sums) {
-                // The powers of both parts add up to half of what is at k and at −k.
+                // The powers of both segments are half the sum of the powers at k and at −k.
                 let (a, b) = (&data[k], &data[segment - k]);
                 let both = a.re * a.re + a.im * a.im + b.re * b.re + b.im * b.im;
                 *sum += 0.5 * both.0.iter().sum::<f64>();
@@ -152,12 +153,12 @@ impl Welch {
         self.carried = weight.iter().fold(self.carried, |(sum, squares), w| (sum + w, squares + w * w));
     }
 
-    /// The spectrum of all records taken in.
+    /// The spectrum of all records.
     pub fn finish(self) -> Spectrum {
         let energy: f64 = self.weights.iter().map(|w| w * w).sum();
         let scale = 2.0 * self.interval / (energy * self.segments as f64);
         let mut density: Vec<f64> = self.sums.iter().map(|sum| sum * scale).collect();
-        // At half the sampling rate both sides are one.
+        // At half the sampling rate, k and −k are the same frequency.
         if let Some(last) = density.last_mut() {
             *last *= 0.5;
         }
@@ -196,7 +197,7 @@ mod tests {
         for (found, wanted) in of.density.iter().zip([2.25, 0.25]) {
             assert!((found - wanted).abs() < 1e-14, "{:?}", of.density);
         }
-        // Parseval: the variance.
+        // By Parseval's theorem the sum is the variance.
         assert!((of.density.iter().sum::<f64>() * of.step - 2.5).abs() < 1e-14);
     }
 

@@ -1,19 +1,21 @@
-//! Designs: which values of the factors are flown together.
+//! Designs: how the values of the factors are combined into points.
 
 use super::sobol::{MOST_DIMENSIONS, Sobol};
 use super::{Use, stream};
 use crate::units::Dimension;
 use rand_chacha::rand_core::Rng;
 
-/// Something that varies.
+/// A key that varies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Factor {
     /// Full key, `air.velocity`.
     pub key: &'static str,
-    /// What it measures.
+    /// Physical dimension of its values.
     pub dimension: Dimension,
-    /// Whether only whole numbers will do.
+    /// Whether it takes whole numbers only.
     pub whole: bool,
+    /// The names of a key that takes names; its values are then indices into them. Empty for numbers.
+    pub names: Vec<&'static str>,
     /// The values it takes.
     pub levels: Levels,
 }
@@ -21,27 +23,27 @@ pub struct Factor {
 /// The values a factor takes, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Levels {
-    /// These.
+    /// A list of values.
     List(Vec<f64>),
-    /// From one to the other.
+    /// A range between two ends.
     Range {
         /// One end.
         from: f64,
         /// The other end.
         to: f64,
-        /// Number of values, both ends included; none where a design draws them.
+        /// Number of values, both ends included; `None` where the design draws the values.
         steps: Option<u64>,
-        /// How they are spread.
+        /// How the values are spaced.
         spacing: Spacing,
     },
 }
 
-/// How values are spread over a range.
+/// How values are spaced over a range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spacing {
-    /// Evenly.
+    /// With equal differences.
     Linear,
-    /// In equal ratios.
+    /// With equal ratios.
     Logarithmic,
 }
 
@@ -55,18 +57,18 @@ impl Spacing {
     }
 }
 
-/// How factors are combined to points.
+/// How the values of the factors are combined into points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Design {
-    /// Every value with every other.
+    /// Every combination of values.
     Grid,
-    /// The base case, then each factor alone through its values.
+    /// The base case, and points in which one factor differs from it.
     OneAtATime,
-    /// The first values together, the second values together, and so on.
+    /// The first value of every factor, then the second value of every factor, and so on.
     Paired,
-    /// So many points, each factor's range cut into as many slices, each slice hit once.
+    /// This number of points; the range of each factor is divided into as many slices, and each slice holds one point.
     LatinHypercube(u64),
-    /// So many points of Sobol's sequence.
+    /// This number of points of Sobol's sequence.
     Sobol(u64),
 }
 
@@ -82,7 +84,7 @@ impl Design {
         }
     }
 
-    /// Most factors it takes.
+    /// Largest number of factors.
     pub const fn most_factors(self) -> usize {
         match self {
             Self::Sobol(_) => MOST_DIMENSIONS,
@@ -90,12 +92,12 @@ impl Design {
         }
     }
 
-    /// Whether it draws the values from ranges, rather than taking them as they are.
+    /// Whether it draws values from the ranges instead of using the listed values.
     pub const fn draws(self) -> bool {
         matches!(self, Self::LatinHypercube(_) | Self::Sobol(_))
     }
 
-    /// Number of points; a floating-point number, since a grid may have more than can be counted.
+    /// Number of points; a floating-point number, because a large grid may exceed the range of an integer.
     ///
     /// * `base` – values of the factors in the base case
     pub fn count(self, factors: &[Factor], base: &[f64]) -> f64 {
@@ -146,7 +148,7 @@ impl Design {
     }
 }
 
-/// Every value with every other; the last factor varies fastest.
+/// Every combination of values; the last factor varies fastest.
 fn grid(values: &[Vec<f64>]) -> Vec<Vec<f64>> {
     values.iter().fold(vec![Vec::new()], |rows, of| {
         let longer = |row: &Vec<f64>| {
@@ -161,7 +163,7 @@ fn grid(values: &[Vec<f64>]) -> Vec<Vec<f64>> {
 fn latin(points: u64, seed: u64, factor: u64) -> Vec<f64> {
     let mut random = stream(seed, Use::LatinHypercube, factor);
     let mut order: Vec<u64> = (0..points).collect();
-    // Fisher and Yates. A remainder is even enough where the divisor is far below 2⁶⁴.
+    // Shuffle of Fisher and Yates. The bias of the remainder is negligible because `last` is far below 2⁶⁴.
     for last in (1..order.len()).rev() {
         let other = random.next_u64() % (last as u64 + 1);
         order.swap(last, other as usize);
@@ -171,7 +173,7 @@ fn latin(points: u64, seed: u64, factor: u64) -> Vec<f64> {
 }
 
 impl Factor {
-    /// Its values, in the order written.
+    /// Its values, in the order of the file.
     pub fn values(&self) -> Vec<f64> {
         let values = match &self.levels {
             Levels::List(values) => values.clone(),
@@ -183,12 +185,12 @@ impl Factor {
         values.into_iter().map(|value| self.rounded(value)).collect()
     }
 
-    /// Its values but for the one of the base case.
+    /// Its values without the value of the base case.
     fn besides(&self, base: f64) -> Vec<f64> {
         self.values().into_iter().filter(|value| *value != base).collect()
     }
 
-    /// The value at a share, in [0, 1), of its range or of its list.
+    /// The value at a fraction in [0, 1) of its range or list.
     fn at(&self, share: f64) -> f64 {
         let value = match &self.levels {
             Levels::List(values) => {
@@ -215,7 +217,15 @@ impl Factor {
         }
     }
 
-    /// How its values are spread.
+    /// A value for people: a quantity with its unit, or a name.
+    pub fn pretty(&self, value: f64) -> String {
+        match self.names.get(value as usize) {
+            Some(name) => (*name).to_owned(),
+            None => self.dimension.pretty(value),
+        }
+    }
+
+    /// How its values are spaced.
     pub fn spacing(&self) -> Spacing {
         match &self.levels {
             Levels::Range { spacing, .. } => *spacing,
@@ -223,9 +233,13 @@ impl Factor {
         }
     }
 
-    /// Where a value lies in the range: −1 at the least value, +1 at the greatest, in the spacing given.
+    /// Position of a value in the range: −1 at the least value, +1 at the greatest; logarithmic where so spaced.
     pub fn place(&self, value: f64) -> f64 {
-        let (least, greatest) = self.ends();
+        self.place_between(value, self.ends())
+    }
+
+    /// Position of a value between two others: −1 at the first, +1 at the second; logarithmic where so spaced.
+    pub(super) fn place_between(&self, value: f64, (least, greatest): (f64, f64)) -> f64 {
         let share = match self.spacing() {
             Spacing::Linear => (value - least) / (greatest - least),
             Spacing::Logarithmic => libm::log(value / least) / libm::log(greatest / least),
@@ -247,7 +261,7 @@ impl Levels {
         match *self {
             Self::List(_) => f64::NAN,
             Self::Range { from, .. } if share == 0.0 => from,
-            // To the bit, whatever the rounding between.
+            // The end must be exact; the formulas below would round it.
             Self::Range { to, .. } if share == 1.0 => to,
             Self::Range { from, to, spacing: Spacing::Linear, .. } => from + (to - from) * share,
             Self::Range { from, to, spacing: Spacing::Logarithmic, .. } => from * libm::pow(to / from, share),
@@ -260,7 +274,7 @@ mod tests {
     use super::*;
 
     fn factor(levels: Levels) -> Factor {
-        Factor { key: "air.velocity", dimension: Dimension::Velocity, whole: false, levels }
+        Factor { key: "air.velocity", dimension: Dimension::Velocity, whole: false, names: Vec::new(), levels }
     }
 
     fn range(from: f64, to: f64, steps: u64, spacing: Spacing) -> Factor {

@@ -1,35 +1,55 @@
 //! Which factor matters, and how much: main effects with confidence intervals.
 //!
-//! The main effect of a factor is the change of a result from one end of its range to the other, on the straight
-//! line that fits all points best, the other factors held:
+//! The main effect of a factor is the change of a result from the least to the greatest value of the factor, on the
+//! straight line that fits the points best while the other factors stay constant:
 //!
 //! ```text
-//! y = b₀ + Σ b_j x_j + rest,  x_j = −1 … +1 over the range of factor j (of its logarithm where spaced so)
+//! y = b₀ + Σ b_j x_j + rest,  x_j = −1 … +1 over the range of factor j (of its logarithm if spaced so)
 //! effect_j = 2 b_j
 //! ```
 //!
-//! Its interval is the wider of two. One comes from the replicates: the fit is made anew with the first replicate
-//! of every point, with the second, and so on, and the fits differ as the turbulence does; this holds with common
-//! phases too. The other comes from what the line leaves of the points' means, be that noise or curvature.
+//! | design | fit |
+//! |---|---|
+//! | one-at-a-time | one line for each factor, through its own points and the base case only |
+//! | Latin hypercube, Sobol | one fit; with enough points also `x_j² − 1/3` and `x_j x_k`, so that the curvature of one factor does not disturb the effect of another |
+//! | others | one fit of straight lines |
+//!
+//! The interval comes from the replicates. With common phases, replicate r of all points is one experiment, and the
+//! effects of these experiments differ as the turbulence does; noise that all points share cancels. With independent
+//! phases, the variances of the points add up. In designs with drawn points the fit also misses what its terms do not
+//! describe; this part, estimated from the residuals, widens the interval. Without replicates, the residuals are all
+//! there is.
 
 use super::journal::Journal;
 use super::run::results_of_point;
-use super::{Point, Study};
+use super::{Design, PointResults, Study};
 use crate::error::Error;
 use crate::observe::MEASURES;
 use crate::statistics::student_t_95;
 
+/// Main effects of a study.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Rankings {
+    /// One ranking for each measure that applies to all points; empty if the factors cannot be ranked.
+    pub of_measures: Vec<Ranking>,
+    /// Why the factors cannot be ranked.
+    pub refusal: Option<Refusal>,
+}
+
 /// Main effects on one result, the largest first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ranking {
-    /// Which of the [`MEASURES`].
+    /// Index into the [`MEASURES`].
     pub measure: usize,
-    /// Value in the middle of all ranges.
+    /// Value in the middle of all ranges; NaN for one-at-a-time designs, whose lines have no common middle.
     pub middle: f64,
-    /// Share of the variation between points that the line explains.
+    /// Fraction of the variation between points that straight lines explain (adjusted R²); NaN if there are too few
+    /// points to tell.
     pub explained: f64,
     /// The effects.
     pub effects: Vec<Effect>,
+    /// The terms of the fit with their coefficients, without the constant.
+    pub terms: Vec<(Term, f64)>,
 }
 
 /// The main effect of a factor.
@@ -37,166 +57,526 @@ pub struct Ranking {
 pub struct Effect {
     /// Index of the factor.
     pub factor: usize,
-    /// Change from the least to the greatest value.
+    /// The value that the change starts from. For a factor with more than two names, the name with the least result.
+    pub from: f64,
+    /// The value that the change leads to. For a factor with more than two names, the name with the greatest result.
+    pub to: f64,
+    /// Change of the result.
     pub change: f64,
-    /// Half the width of its 95 % confidence interval; none where nothing tells it.
+    /// Half the width of its 95 % confidence interval; `None` if neither replicates nor residuals tell it.
     pub half_width: Option<f64>,
 }
 
-/// The rankings, one per measure; none where the design cannot tell the factors apart.
+/// Why the factors of a study are not ranked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// The fit would pass through all points.
+    #[error(
+        "{points} points cannot rank {keys} keys: the fit would pass through every point, whatever the results; fly at \
+         least {needed} points"
+    )]
+    TooFewPoints {
+        /// Number of points.
+        points: usize,
+        /// Number of factors.
+        keys: usize,
+        /// Smallest number of points that can be ranked.
+        needed: usize,
+    },
+    /// A factor has only one value.
+    #[error("{key} has the same value at all points; give it at least two values")]
+    OneValue {
+        /// Its key.
+        key: &'static str,
+    },
+    /// Two factors vary together.
+    #[error(
+        "{first} and {second} vary together (correlation {correlation:.2}), so their effects cannot be told apart; vary \
+         them independently, for example with design = \"grid\""
+    )]
+    Together {
+        /// Key of the one.
+        first: &'static str,
+        /// Key of the other.
+        second: &'static str,
+        /// Correlation of their values.
+        correlation: f64,
+    },
+    /// Several factors depend on each other.
+    #[error("{key} follows from the other keys at all points, so its effect cannot be told from theirs")]
+    Dependent {
+        /// Key of one of them.
+        key: &'static str,
+    },
+    /// A point has no result.
+    #[error("point {point} has no fibre that was completed")]
+    NoResult {
+        /// Number of the point, counted from 1.
+        point: usize,
+    },
+}
+
+/// Largest variance inflation of an effect by the correlation of factors; 10 is a correlation of 0.95 between two.
+const MOST_INFLATION: f64 = 10.0;
+
+/// The rankings of all measures, or the reason why there are none.
 ///
 /// # Errors
 /// When the journal cannot be read.
-pub fn rankings(study: &Study, journal: &mut Journal) -> Result<Vec<Ranking>, Error> {
-    let Some(mut fit) = Fit::new(study) else {
-        return Ok(Vec::new());
+pub fn rankings(study: &Study, journal: &mut Journal) -> Result<Rankings, Error> {
+    let refused = |refusal| Ok(Rankings { of_measures: Vec::new(), refusal: Some(refusal) });
+    if study.factors.is_empty() {
+        return Ok(Rankings::default());
+    }
+    let fits = match fits(study) {
+        Ok(fits) => fits,
+        Err(refusal) => return refused(refusal),
     };
-    for index in 0..study.points.len() {
-        let results = results_of_point(journal, index)?;
-        if results.n == 0 {
-            return Ok(Vec::new());
-        }
-        let row = fit.row(&study.points[index]);
-        fit.means.add(&row, &results.mean);
-        fit.common = fit.common.min(if results.lost > 0 { 0 } else { results.n as usize });
-    }
-    // The same replicate of every point is one experiment.
-    let mut replicates = vec![Sums::new(fit.size); fit.common];
-    if fit.common > 1 {
-        for index in 0..study.points.len() {
-            let row = fit.row(&study.points[index]);
-            let records = journal.records(index, fit.common as u64)?;
-            for (sums, record) in replicates.iter_mut().zip(records) {
-                if let Some(measured) = record.landing.measured() {
-                    sums.add(&row, measured);
-                }
-            }
+    let mut solved = Vec::with_capacity(fits.len());
+    for fit in &fits {
+        match Solution::new(fit, journal)? {
+            Ok(solution) => solved.push(solution),
+            Err(refusal) => return refused(refusal),
         }
     }
-    let means: Vec<_> = MEASURES.iter().enumerate().map(|(i, _)| fit.solve(&fit.means, i)).collect();
-    let mut squares = [0.0; MEASURES.len()];
-    let mut total = [0.0; MEASURES.len()];
-    let points = study.points.len() as f64;
-    for index in 0..study.points.len() {
-        let row = fit.row(&study.points[index]);
-        let results = results_of_point(journal, index)?;
-        for (i, y) in results.mean.iter().enumerate() {
-            let line: f64 = row.iter().zip(&means[i]).map(|(x, b)| x * b).sum();
-            squares[i] += (y - line).powi(2);
-            total[i] += (y - fit.means.xy[i][0] / points).powi(2);
+    let ranking = |measure: usize| {
+        let mut effects = Vec::new();
+        for (fit, solution) in fits.iter().zip(&solved) {
+            effects.extend(solution.effects(fit, measure));
         }
-    }
-    Ok((0..MEASURES.len()).map(|i| fit.ranking(i, &means[i], &replicates, squares[i], total[i])).collect())
+        effects.sort_by(|a, b| b.change.abs().total_cmp(&a.change.abs()));
+        let terms = fits.iter().zip(&solved).flat_map(|(fit, solution)| {
+            fit.terms.iter().copied().zip(solution.coefficients[measure].iter().skip(1).copied())
+        });
+        let middle = match solved.as_slice() {
+            [one] if study.design != Design::OneAtATime => one.coefficients[measure][0],
+            _ => f64::NAN,
+        };
+        Ranking { measure, middle, explained: explained(&fits, &solved, measure), effects, terms: terms.collect() }
+    };
+    let applies = |measure: &usize| {
+        solved.iter().all(|solution| solution.coefficients[*measure].iter().all(|b| b.is_finite()))
+    };
+    Ok(Rankings { of_measures: (0..MEASURES.len()).filter(applies).map(ranking).collect(), refusal: None })
 }
 
-/// `Xᵀy` for every measure, one column for the middle and one for each factor.
-#[derive(Clone, Debug)]
-struct Sums {
-    xy: Vec<Vec<f64>>,
-}
-
-impl Sums {
-    fn new(size: usize) -> Self {
-        Self { xy: vec![vec![0.0; size]; MEASURES.len()] }
-    }
-
-    fn add(&mut self, row: &[f64], y: &[f64; MEASURES.len()]) {
-        for (sums, y) in self.xy.iter_mut().zip(y) {
-            for (sum, x) in sums.iter_mut().zip(row) {
-                *sum += x * y;
-            }
-        }
+impl Ranking {
+    /// A point's mean without the fitted contributions of all factors but one: what is left to plot over this factor.
+    ///
+    /// * `mean` – mean of the measure at the point
+    pub fn adjusted(&self, study: &Study, point: usize, factor: usize, mean: f64) -> f64 {
+        let values = &study.points[point].values;
+        let place = |factor: usize| study.factors[factor].place(values[factor]);
+        let others = self.terms.iter().filter(|(term, _)| !term.is_of(factor));
+        mean - others.map(|(term, b)| b * term.at(&place, values)).sum::<f64>()
     }
 }
 
+/// A term of a fit; `x_j` is the place of factor j, −1 … +1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Term {
+    /// `x_j`.
+    Line(usize),
+    /// `x_j² − 1/3`, whose mean over the range is zero.
+    Square(usize),
+    /// `x_j x_k`.
+    Product(usize, usize),
+    /// 1 where a named factor has the first name, −1 where it has the second, otherwise 0.
+    Name(usize, f64, f64),
+}
+
+impl Term {
+    fn at(self, place: &dyn Fn(usize) -> f64, values: &[f64]) -> f64 {
+        match self {
+            Self::Line(j) => place(j),
+            Self::Square(j) => place(j) * place(j) - 1.0 / 3.0,
+            Self::Product(j, k) => place(j) * place(k),
+            Self::Name(j, this, last) => f64::from(values[j] == this) - f64::from(values[j] == last),
+        }
+    }
+
+    /// Whether it belongs to this factor alone.
+    fn is_of(self, factor: usize) -> bool {
+        matches!(self, Self::Line(j) | Self::Square(j) | Self::Name(j, ..) if j == factor)
+    }
+
+    /// Whether it is part of the main effects.
+    fn is_main(self) -> bool {
+        matches!(self, Self::Line(_) | Self::Name(..))
+    }
+}
+
+/// A least-squares fit over some points.
 struct Fit<'a> {
     study: &'a Study,
-    size: usize,
-    /// `(XᵀX)⁻¹`.
+    points: Vec<usize>,
+    /// Factors whose effects it tells, with their least and greatest values.
+    factors: Vec<(usize, (f64, f64))>,
+    terms: Vec<Term>,
+    /// `(XᵀX)⁻¹`; the first row and column belong to the constant.
     inverse: Vec<Vec<f64>>,
-    means: Sums,
-    /// Replicates that every point has.
-    common: usize,
+}
+
+/// The fits of a study: one of all points, or one for each factor of a one-at-a-time design.
+fn fits(study: &Study) -> Result<Vec<Fit<'_>>, Refusal> {
+    let count = study.factors.len();
+    if study.design == Design::OneAtATime {
+        let base = &study.points[0].values;
+        return (0..count)
+            .map(|factor| {
+                let is_alone = |point: &usize| {
+                    let values = &study.points[*point].values;
+                    (0..count).all(|other| other == factor || values[other] == base[other])
+                };
+                let points: Vec<usize> = (0..study.points.len()).filter(is_alone).collect();
+                Fit::new(study, points, &[factor])
+            })
+            .collect();
+    }
+    let (all, factors): (Vec<usize>, Vec<usize>) = ((0..study.points.len()).collect(), (0..count).collect());
+    let fit = Fit::new(study, all, &factors)?;
+    let (points, keys) = (fit.points.len(), count);
+    let needed = fit.terms.len() + 2;
+    if points < needed {
+        return Err(Refusal::TooFewPoints { points, keys, needed });
+    }
+    fit.check_inflation()?;
+    Ok(vec![if study.design.draws() { fit.with_curvature() } else { fit }])
 }
 
 impl<'a> Fit<'a> {
-    fn new(study: &'a Study) -> Option<Self> {
-        let size = study.factors.len() + 1;
-        if size == 1 || study.points.len() < size {
-            return None;
+    fn new(study: &'a Study, points: Vec<usize>, factors: &[usize]) -> Result<Self, Refusal> {
+        let (mut terms, mut of) = (Vec::new(), Vec::new());
+        for &factor in factors {
+            let mut levels: Vec<f64> = points.iter().map(|point| study.points[*point].values[factor]).collect();
+            levels.sort_by(f64::total_cmp);
+            levels.dedup();
+            let (Some(&least), Some(&last)) = (levels.first(), levels.last()) else {
+                continue;
+            };
+            if least == last {
+                return Err(Refusal::OneValue { key: study.factors[factor].key });
+            }
+            if study.factors[factor].names.is_empty() {
+                terms.push(Term::Line(factor));
+                let alone = study.design == Design::OneAtATime;
+                of.push((factor, if alone { (least, last) } else { study.factors[factor].ends() }));
+            } else {
+                let others = &levels[..levels.len() - 1];
+                terms.extend(others.iter().map(|&level| Term::Name(factor, level, last)));
+                of.push((factor, (least, last)));
+            }
         }
-        let means = Sums::new(size);
-        let mut fit = Self { study, size, inverse: Vec::new(), means, common: usize::MAX };
-        let mut gram = vec![vec![0.0; size]; size];
-        for point in &study.points {
-            let row = fit.row(point);
-            for (sums, x) in gram.iter_mut().zip(&row) {
-                for (sum, z) in sums.iter_mut().zip(&row) {
-                    *sum += x * z;
+        let mut fit = Self { study, points, factors: of, terms, inverse: Vec::new() };
+        if fit.points.len() <= fit.terms.len() {
+            let (points, keys, needed) = (fit.points.len(), factors.len(), fit.terms.len() + 2);
+            return Err(Refusal::TooFewPoints { points, keys, needed });
+        }
+        fit.inverse = match inverse(fit.gram()) {
+            Ok(inverse) => inverse,
+            Err(column) => return Err(fit.dependent(column)),
+        };
+        Ok(fit)
+    }
+
+    /// The same fit with squares and products, as far as there are enough points: two for each unknown.
+    fn with_curvature(self) -> Self {
+        let lines: Vec<usize> =
+            self.terms.iter().filter_map(|term| if let Term::Line(j) = term { Some(*j) } else { None }).collect();
+        let squares = lines.iter().map(|&j| Term::Square(j));
+        let products = lines.iter().enumerate().flat_map(|(i, &j)| {
+            lines.iter().skip(i + 1).map(move |&k| Term::Product(j, k)).collect::<Vec<_>>()
+        });
+        let squared: Vec<Term> = self.terms.iter().copied().chain(squares).collect();
+        let full: Vec<Term> = squared.iter().copied().chain(products).collect();
+        for terms in [full, squared] {
+            if self.points.len() >= 2 * (terms.len() + 1) {
+                let (points, factors) = (self.points.clone(), self.factors.clone());
+                let mut fit = Self { study: self.study, points, factors, terms, inverse: Vec::new() };
+                if let Ok(inverse) = inverse(fit.gram()) {
+                    fit.inverse = inverse;
+                    return fit;
                 }
             }
         }
-        fit.inverse = inverse(gram)?;
-        Some(fit)
+        self
     }
 
-    fn row(&self, point: &Point) -> Vec<f64> {
-        let places = self.study.factors.iter().zip(&point.values).map(|(factor, v)| factor.place(*v));
-        std::iter::once(1.0).chain(places).collect()
+    fn size(&self) -> usize {
+        self.terms.len() + 1
     }
 
-    fn solve(&self, sums: &Sums, measure: usize) -> Vec<f64> {
-        let xy = &sums.xy[measure];
-        self.inverse.iter().map(|row| row.iter().zip(xy).map(|(a, b)| a * b).sum()).collect()
-    }
-
-    fn ranking(
-        &self,
-        measure: usize,
-        line: &[f64],
-        replicates: &[Sums],
-        squares: f64,
-        total: f64,
-    ) -> Ranking {
-        let fits: Vec<Vec<f64>> = replicates.iter().map(|sums| self.solve(sums, measure)).collect();
-        let between = |j: usize| {
-            let n = fits.len() as f64;
-            let mean = fits.iter().map(|b| b[j]).sum::<f64>() / n;
-            let variance = fits.iter().map(|b| (b[j] - mean).powi(2)).sum::<f64>() / (n - 1.0);
-            (fits.len() > 1).then(|| student_t_95(fits.len() as u64 - 1) * (variance / n).sqrt())
+    fn row(&self, point: usize) -> Vec<f64> {
+        let values = &self.study.points[point].values;
+        let place = |factor: usize| {
+            let ends = self.factors.iter().find(|(j, _)| *j == factor).map_or((0.0, 0.0), |(_, ends)| *ends);
+            self.study.factors[factor].place_between(values[factor], ends)
         };
-        let left = self.study.points.len() - self.size;
-        let residual = |j: usize| {
-            let variance = squares / left as f64 * self.inverse[j][j];
-            (left > 0).then(|| student_t_95(left as u64) * variance.sqrt())
+        std::iter::once(1.0).chain(self.terms.iter().map(|term| term.at(&place, values))).collect()
+    }
+
+    /// `XᵀX`.
+    fn gram(&self) -> Vec<Vec<f64>> {
+        let size = self.size();
+        let mut gram = vec![vec![0.0; size]; size];
+        for &point in &self.points {
+            let row = self.row(point);
+            for (sums, x) in gram.iter_mut().zip(&row) {
+                add(sums, *x, &row);
+            }
+        }
+        gram
+    }
+
+    /// Refuses factors that almost follow from others.
+    fn check_inflation(&self) -> Result<(), Refusal> {
+        let (gram, n) = (self.gram(), self.points.len() as f64);
+        let inflated = (1..self.size()).find(|&j| {
+            let spread = gram[j][j] - gram[0][j] * gram[0][j] / n;
+            matches!(self.terms[j - 1], Term::Line(_)) && spread * self.inverse[j][j] > MOST_INFLATION
+        });
+        inflated.map_or(Ok(()), |column| Err(self.dependent(column)))
+    }
+
+    /// The refusal of a column that follows from the others: names the other factor if there is a single one.
+    fn dependent(&self, column: usize) -> Refusal {
+        let (gram, n) = (self.gram(), self.points.len() as f64);
+        let cross = |j: usize, k: usize| gram[j][k] - gram[0][j] * gram[0][k] / n;
+        let correlation = |k: usize| cross(column, k) / (cross(column, column) * cross(k, k)).sqrt();
+        let others = (1..self.size()).filter(|k| *k != column);
+        let nearest = others.max_by(|a, b| correlation(*a).abs().total_cmp(&correlation(*b).abs()));
+        let key = |column: usize| match self.terms[column.max(1) - 1] {
+            Term::Line(j) | Term::Square(j) | Term::Product(j, _) | Term::Name(j, ..) => self.study.factors[j].key,
         };
-        let mut effects: Vec<Effect> = (1..self.size)
-            .map(|j| {
-                let half_width = match (between(j), residual(j)) {
-                    (Some(a), Some(b)) => Some(a.max(b)),
-                    (a, b) => a.or(b),
-                };
-                Effect { factor: j - 1, change: 2.0 * line[j], half_width: half_width.map(|w| 2.0 * w) }
-            })
-            .collect();
-        effects.sort_by(|a, b| b.change.abs().total_cmp(&a.change.abs()));
-        let explained = if total > 0.0 { 1.0 - squares / total } else { f64::NAN };
-        Ranking { measure, middle: line[0], explained, effects }
+        match nearest.filter(|k| correlation(*k).abs() > 0.9) {
+            Some(other) => {
+                let (first, second) = (key(other.min(column)), key(other.max(column)));
+                Refusal::Together { first, second, correlation: correlation(other) }
+            }
+            None => Refusal::Dependent { key: key(column) },
+        }
+    }
+
+    fn solve(&self, xy: &[f64]) -> Vec<f64> {
+        self.inverse.iter().map(|row| dot(row, xy)).collect()
+    }
+
+    /// Contrasts of the coefficients that are the main effects: factor, from, to, weights.
+    fn contrasts(&self, coefficients: &[f64]) -> Vec<(usize, f64, f64, Vec<f64>)> {
+        let contrast = |&(factor, (least, greatest)): &(usize, (f64, f64))| {
+            let mut weights = vec![0.0; self.size()];
+            let mut names: Vec<(f64, Vec<f64>)> = Vec::new();
+            let mut last = (greatest, vec![0.0; self.size()]);
+            for (column, term) in (1..).zip(&self.terms) {
+                match *term {
+                    Term::Line(j) if j == factor => weights[column] = 2.0,
+                    Term::Name(j, this, _) if j == factor => {
+                        let mut of_name = vec![0.0; self.size()];
+                        (of_name[column], last.1[column]) = (1.0, -1.0);
+                        names.push((this, of_name));
+                    }
+                    _ => {}
+                }
+            }
+            if names.is_empty() {
+                return (factor, least, greatest, weights);
+            }
+            names.push(last);
+            if names.len() > 2 {
+                names.sort_by(|a, b| dot(&a.1, coefficients).total_cmp(&dot(&b.1, coefficients)));
+            }
+            let (from, to) = (&names[0], &names[names.len() - 1]);
+            (factor, from.0, to.0, to.1.iter().zip(&from.1).map(|(b, a)| b - a).collect())
+        };
+        self.factors.iter().map(contrast).collect()
     }
 }
 
-/// The inverse of a symmetric positive definite matrix, by Gauss and Jordan; none of one that is singular but
-/// for rounding.
-fn inverse(mut matrix: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
+/// The solution of a fit for all measures.
+struct Solution {
+    coefficients: Vec<Vec<f64>>,
+    /// By measure: contrasts and the variance of each with its degrees of freedom.
+    effects: Vec<Vec<Effect>>,
+    /// By measure: squares about the straight lines, and about the mean.
+    squares: Vec<(f64, f64)>,
+}
+
+/// One number for each measure.
+type Each = [f64; MEASURES.len()];
+
+/// Deviations of a point's replicates from their mean, scaled so that the sum of their squares is the variance of the
+/// mean; by replicate.
+fn deviations(results: &PointResults, records: &[super::Record]) -> Vec<(usize, Each)> {
+    let n = results.n as f64;
+    let scale = if n > 1.0 { 1.0 / (n * (n - 1.0)).sqrt() } else { 0.0 };
+    let of = |record: &super::Record| {
+        let measured = record.landing.measured()?;
+        let deviation = std::array::from_fn(|m| (measured[m] - results.mean[m]) * scale);
+        Some((record.replicate as usize, deviation))
+    };
+    records.iter().filter_map(of).collect()
+}
+
+impl Solution {
+    fn new(fit: &Fit<'_>, journal: &mut Journal) -> Result<Result<Self, Refusal>, Error> {
+        let (study, size) = (fit.study, fit.size());
+        let zeros = || vec![vec![0.0; size]; MEASURES.len()];
+        let (mut xy, mut of_replicates, mut weights) = (zeros(), Vec::new(), Vec::new());
+        let mut replicated = true;
+        for &point in &fit.points {
+            let results = results_of_point(journal, point)?;
+            if results.n == 0 {
+                return Ok(Err(Refusal::NoResult { point: point + 1 }));
+            }
+            replicated &= results.n > 1;
+            let row = fit.row(point);
+            for (sums, y) in xy.iter_mut().zip(&results.mean) {
+                add(sums, *y, &row);
+            }
+            if study.common_phases {
+                for (replicate, deviation) in deviations(&results, &journal.records(point, u64::MAX)?) {
+                    if of_replicates.len() <= replicate {
+                        of_replicates.resize_with(replicate + 1, zeros);
+                        weights.resize(replicate + 1, 0.0);
+                    }
+                    weights[replicate] += 1.0 / (results.n as f64).powi(2);
+                    for (sums, y) in of_replicates[replicate].iter_mut().zip(&deviation) {
+                        add(sums, *y, &row);
+                    }
+                }
+            }
+        }
+        let coefficients: Vec<Vec<f64>> = xy.iter().map(|xy| fit.solve(xy)).collect();
+        let of_replicates: Vec<Vec<Vec<f64>>> =
+            of_replicates.iter().map(|sums| sums.iter().map(|xy| fit.solve(xy)).collect()).collect();
+
+        // Variance of each contrast from the replicates, and what goes into its degrees of freedom.
+        let contrasts: Vec<_> = coefficients.iter().map(|b| fit.contrasts(b)).collect();
+        let mut variances: Vec<Vec<(f64, f64)>> =
+            contrasts.iter().map(|of| vec![(0.0, 0.0); of.len()]).collect();
+        let (mut left, mut of_noise) = ([0.0; MEASURES.len()], [0.0; MEASURES.len()]);
+        let mut sums = vec![(0.0, 0.0, 0.0, 0.0); MEASURES.len()];
+        let points = fit.points.len() as f64;
+        for &point in &fit.points {
+            let (row, results) = (fit.row(point), results_of_point(journal, point)?);
+            let leverage = dot(&row, &fit.solve(&row));
+            for m in 0..MEASURES.len() {
+                let (y, b) = (results.mean[m], &coefficients[m]);
+                left[m] += (y - dot(&row, b)).powi(2);
+                let lines = (1..).zip(&fit.terms).filter(|(_, term)| term.is_main());
+                let from_mean = y - xy[m][0] / points;
+                let from_lines = y - b[0] - lines.map(|(column, _)| b[column] * row[column]).sum::<f64>();
+                let sums = &mut sums[m];
+                *sums = (
+                    sums.0 + from_lines,
+                    sums.1 + from_lines * from_lines,
+                    sums.2 + from_mean,
+                    sums.3 + from_mean * from_mean,
+                );
+                if !study.common_phases {
+                    let variance = results.standard_error[m].map_or(0.0, |error| error * error);
+                    of_noise[m] += variance * (1.0 - leverage);
+                    for ((.., weights), sum) in contrasts[m].iter().zip(&mut variances[m]) {
+                        let part = dot(weights, &fit.solve(&row)).powi(2) * variance;
+                        sum.0 += part;
+                        sum.1 += part * part / (results.n as f64 - 1.0).max(1.0);
+                    }
+                }
+            }
+            if study.common_phases {
+                for (replicate, deviation) in deviations(&results, &journal.records(point, u64::MAX)?) {
+                    for m in 0..MEASURES.len() {
+                        of_noise[m] += (deviation[m] - dot(&row, &of_replicates[replicate][m])).powi(2);
+                    }
+                }
+            }
+        }
+        let of_weights = |power: i32| weights.iter().map(|w: &f64| w.powi(power)).sum::<f64>();
+        let paired = of_weights(1).powi(2) / of_weights(2) - 1.0;
+        let effects = (0..MEASURES.len()).map(|m| {
+            let free = points - size as f64;
+            // What the terms do not describe, beyond the noise of the means.
+            let noise = if replicated { of_noise[m] } else { 0.0 };
+            let unfitted = if replicated && !study.design.draws() { 0.0 } else { (left[m] - noise).max(0.0) / free };
+            let effect = |((factor, from, to, weights), sum): (&(usize, f64, f64, Vec<f64>), &(f64, f64))| {
+                let (noise, degrees) = match (replicated, study.common_phases) {
+                    (false, _) => (0.0, f64::INFINITY),
+                    (true, true) => {
+                        let z = of_replicates.iter().map(|of| dot(weights, &of[m]).powi(2));
+                        (z.sum(), paired)
+                    }
+                    (true, false) => (sum.0, sum.0 * sum.0 / sum.1),
+                };
+                let unfitted = if unfitted == 0.0 { 0.0 } else { unfitted * dot(weights, &fit.solve(weights)) };
+                let (change, variance) = (dot(weights, &coefficients[m]), noise + unfitted);
+                let over = |part: f64, degrees: f64| if part == 0.0 { 0.0 } else { part * part / degrees };
+                let degrees = variance * variance / (over(noise, degrees) + over(unfitted, free));
+                let half_width = match (replicated || free > 0.0, variance == 0.0) {
+                    (false, _) => None,
+                    (true, true) => Some(0.0),
+                    (true, false) => Some(student_t(degrees) * variance.sqrt()),
+                };
+                Effect { factor: *factor, from: *from, to: *to, change, half_width }
+            };
+            contrasts[m].iter().zip(&variances[m]).map(effect).collect()
+        });
+        let squares = sums.iter().map(|(a, aa, b, bb)| (aa - a * a / points, bb - b * b / points));
+        Ok(Ok(Self { effects: effects.collect(), squares: squares.collect(), coefficients }))
+    }
+
+    fn effects(&self, fit: &Fit<'_>, measure: usize) -> impl Iterator<Item = Effect> {
+        debug_assert_eq!(self.effects[measure].len(), fit.factors.len());
+        self.effects[measure].iter().copied()
+    }
+}
+
+/// Adjusted R² of the straight lines.
+fn explained(fits: &[Fit<'_>], solved: &[Solution], measure: usize) -> f64 {
+    let (mut from_lines, mut from_mean, mut free, mut all) = (0.0, 0.0, 0.0, 0.0);
+    for (fit, solution) in fits.iter().zip(solved) {
+        let lines = fit.terms.iter().filter(|term| term.is_main()).count() as f64;
+        let points = fit.points.len() as f64;
+        from_lines += solution.squares[measure].0;
+        from_mean += solution.squares[measure].1;
+        free += points - lines - 1.0;
+        all += points - 1.0;
+    }
+    let explained = 1.0 - (from_lines / free) / (from_mean / all);
+    if free > 0.0 && from_mean > 0.0 { explained.max(0.0) } else { f64::NAN }
+}
+
+/// Student's t for a number of degrees of freedom that need not be whole, linear in its reciprocal.
+fn student_t(degrees: f64) -> f64 {
+    let degrees = if degrees.is_nan() { 1.0 } else { degrees.clamp(1.0, 1e9) };
+    let below = degrees.floor();
+    let share = (1.0 / below - 1.0 / degrees) / (1.0 / below - 1.0 / (below + 1.0));
+    let [a, b] = [below, below + 1.0].map(|degrees| student_t_95(degrees as u64));
+    a + share * (b - a)
+}
+
+fn add(sums: &mut [f64], factor: f64, row: &[f64]) {
+    sums.iter_mut().zip(row).for_each(|(sum, x)| *sum += factor * x);
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The inverse of a symmetric positive definite matrix, by Gauss and Jordan.
+///
+/// # Errors
+/// The column of a singular matrix that follows from the columns before it, up to rounding.
+fn inverse(mut matrix: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, usize> {
     let size = matrix.len();
     let scale: Vec<f64> = (0..size).map(|i| matrix[i][i]).collect();
     let mut inverse: Vec<Vec<f64>> =
         (0..size).map(|i| (0..size).map(|j| f64::from(u8::from(i == j))).collect()).collect();
     for pivot in 0..size {
-        // What is left of the diagonal: the part of this factor that no earlier one explains.
+        // The remaining diagonal is the part of this column that no earlier one explains.
         let value = matrix[pivot][pivot];
         if value.is_nan() || value <= 1e-9 * scale[pivot] {
-            return None;
+            return Err(pivot);
         }
         for row in [&mut matrix[pivot], &mut inverse[pivot]] {
             row.iter_mut().for_each(|x| *x /= value);
@@ -209,5 +589,5 @@ fn inverse(mut matrix: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
             }
         }
     }
-    Some(inverse)
+    Ok(inverse)
 }

@@ -1,12 +1,12 @@
-//! The journal: a record of every fibre as soon as it has landed, so that nothing is lost.
+//! The journal: it stores a record of every fibre as soon as the fibre is finished.
 //!
 //! ```text
-//! header   one line of text: what it is, format, version of the program, the study's identity
-//! record   crc32 · kind · point · replicate · its numbers, little-endian, of one length
+//! header   one line of text: magic word, format, version of the program, identity of the study
+//! record   crc32 · kind · point · replicate · numbers, little-endian, all records of equal length
 //! ```
 //!
-//! Records are only ever added. What a crash has torn off or damaged fails its checksum; such a record does not
-//! count, and the fibre is flown again.
+//! Records are appended, never changed. A record that a crash has cut off or damaged fails its checksum; it does not
+//! count, and its fibre is flown again.
 
 use super::measures::{Landing, Record};
 use crate::error::JournalError;
@@ -25,33 +25,33 @@ const RECORD: usize = 4 + 4 + 8 + 8 + 8 * MEASURES.len();
 const MEASURED: u32 = 1;
 const LOST: u32 = 2;
 
-/// Which study a journal belongs to.
+/// The study that a journal belongs to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Header {
     /// Version of the program.
     pub version: String,
-    /// A checksum over all that the records depend on.
+    /// Identity of the study: a checksum over everything that its records depend on.
     pub study: u32,
 }
 
-/// What a journal was found to hold.
+/// The content of an opened journal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Found {
     /// Fibres.
     pub fibres: u64,
-    /// Records that failed their checksum.
+    /// Records with a wrong checksum.
     pub damaged: u64,
-    /// Whether a piece of a record was cut off the end.
+    /// Whether the last record was incomplete; it has been removed.
     pub torn: bool,
 }
 
-/// The records of a study, in a file or in memory only.
+/// The records of a study, in a file or in memory.
 #[derive(Debug)]
 pub struct Journal {
     backing: Backing,
-    /// By point and replicate: one more than the number of the record; zero where there is none.
+    /// By point and replicate: index of the record plus one; zero means no record.
     slots: Vec<Vec<u32>>,
-    /// Number of records, damaged ones included.
+    /// Number of records, including damaged ones.
     records: u32,
 }
 
@@ -62,18 +62,18 @@ enum Backing {
 }
 
 impl Journal {
-    /// In memory only, for a study of so many points.
+    /// A journal in memory.
     pub fn in_memory(points: usize) -> Self {
         Self { backing: Backing::Memory(Vec::new()), slots: vec![Vec::new(); points], records: 0 }
     }
 
-    /// Opens the file, making it if need be, and keeps it to this process as long as the journal lives.
+    /// Opens the file, creates it if it does not exist, and locks it for this process until the journal is dropped.
     ///
-    /// Returns the journal, empty until it is begun or gone on with, and the header found; none where the
-    /// file is new, or was cut off before its header was written.
+    /// Returns the journal, which is empty until [`begin`](Self::begin) or [`go_on`](Self::go_on), and the header;
+    /// `None` if the file is new or its header is incomplete.
     ///
     /// # Errors
-    /// When another process has it, when it is no journal or of another format, and when it cannot be read.
+    /// When another process has locked it, when it is not a journal or has another format, and when it cannot be read.
     pub fn open(path: &Path) -> Result<(Self, Option<Header>), JournalError> {
         let failed = |source| JournalError::Unusable { path: path.to_owned(), source };
         let mut options = OpenOptions::new();
@@ -81,7 +81,7 @@ impl Journal {
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Err(JournalError::InUse { path: path.to_owned() }),
-            // Where a file system knows no locks, the person must see to it.
+            // Some file systems have no locks; the user must then start one process only.
             Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
             Err(TryLockError::Error(error)) => return Err(failed(error)),
         }
@@ -93,7 +93,7 @@ impl Journal {
                 let parsed = parse_header(&String::from_utf8_lossy(line));
                 (Some(parsed.map_err(|fault| fault.at(path))?), end as u64 + 1)
             }
-            // A header cut off while it was written.
+            // An incomplete header, as left by a crash.
             None if head.len() < LONGEST_HEADER
                 && MAGIC.as_bytes().starts_with(first(&head, MAGIC.len())) =>
             {
@@ -126,10 +126,10 @@ impl Journal {
         Ok(())
     }
 
-    /// Takes in the records found, for a study of so many points and replicates, and cuts off what is torn.
+    /// Reads the records of a study with this number of points and replicates, and removes an incomplete last record.
     ///
     /// # Errors
-    /// When the file cannot be read or cut.
+    /// When the file cannot be read or shortened.
     pub fn go_on(&mut self, points: usize, most_replicates: u64) -> Result<Found, JournalError> {
         let Backing::File { file, path, start } = &mut self.backing else {
             return Ok(Found::default());
@@ -140,7 +140,7 @@ impl Journal {
         self.slots = vec![Vec::new(); points];
         self.records = 0;
         let mut found = Found::default();
-        // Number of records up to the last sound one.
+        // Number of records up to the last valid one.
         let mut sound = 0;
         let mut reader = BufReader::with_capacity(1 << 16, file);
         let mut bytes = [0; RECORD];
@@ -166,7 +166,7 @@ impl Journal {
             }
         }
         if found.torn || sound < self.records {
-            // New records must follow sound ones at whole places.
+            // New records must start at a multiple of the record length.
             let file = reader.into_inner();
             file.set_len(start + u64::from(sound) * RECORD as u64).map_err(failed)?;
             self.records = sound;
@@ -174,10 +174,10 @@ impl Journal {
         Ok(found)
     }
 
-    /// Adds records; they are in the hands of the system when this returns.
+    /// Appends records and hands them to the operating system.
     ///
     /// # Errors
-    /// When the file cannot be written; what was written of the records is taken back.
+    /// When the file cannot be written; a part that was written is removed again.
     pub fn add(&mut self, records: &[Record]) -> Result<(), JournalError> {
         match &mut self.backing {
             Backing::Memory(kept) => kept.extend_from_slice(records),
@@ -196,10 +196,10 @@ impl Journal {
         Ok(())
     }
 
-    /// A second handle on the file, to bring records to the disk by while others are added.
+    /// A second handle of the file, to flush records to the disk while others are appended.
     ///
     /// # Errors
-    /// When the system gives none.
+    /// When the operating system cannot provide it.
     pub fn handle(&self) -> Result<Option<File>, JournalError> {
         match &self.backing {
             Backing::Memory(_) => Ok(None),
@@ -210,20 +210,20 @@ impl Journal {
         }
     }
 
-    /// Number of replicates that there are of a point.
+    /// Number of recorded replicates of a point.
     pub fn held(&self, point: usize) -> u64 {
         self.slots.get(point).map_or(0, |of| of.iter().filter(|slot| **slot != 0).count() as u64)
     }
 
-    /// Whether there is a record of a fibre.
+    /// Whether a fibre has a record.
     pub fn holds(&self, point: usize, replicate: u64) -> bool {
         self.slots.get(point).and_then(|of| of.get(replicate as usize)).is_some_and(|slot| *slot != 0)
     }
 
-    /// The records of a point's first replicates, in order, as far as there are any.
+    /// The existing records among the first `replicates` of a point, in order.
     ///
     /// # Errors
-    /// When the file cannot be read, or has changed under our hands.
+    /// When the file cannot be read, or another program has changed it.
     pub fn records(&mut self, point: usize, replicates: u64) -> Result<Vec<Record>, JournalError> {
         let slots = self.slots.get(point).map_or(&[][..], Vec::as_slice);
         let slots = slots.iter().take(replicates as usize).filter(|slot| **slot != 0).map(|slot| slot - 1);
@@ -286,7 +286,7 @@ fn parse_header(line: &str) -> Result<Header, HeaderFault> {
     }
 }
 
-/// Reads as many bytes as there are, up to the length asked for.
+/// Fills `bytes` as far as the reader has data.
 fn read_up_to(reader: &mut impl Read, bytes: &mut [u8]) -> std::io::Result<usize> {
     let mut length = 0;
     while length < bytes.len() {
@@ -319,7 +319,7 @@ fn encode(record: &Record) -> Vec<u8> {
     bytes
 }
 
-/// The record, if its checksum is right.
+/// The record; `None` if its checksum is wrong.
 fn decode(bytes: &[u8; RECORD]) -> Option<Record> {
     let (sum, rest) = bytes.split_first_chunk::<4>()?;
     if crc32fast::hash(rest) != u32::from_le_bytes(*sum) {

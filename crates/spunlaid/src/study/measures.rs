@@ -1,29 +1,29 @@
-//! What a study keeps of a trajectory.
+//! The results of a trajectory that a study keeps.
 
 use crate::ensemble::Trajectory;
 use crate::observe::{MEASURES, NUMBERS};
 
-/// The numbers measured of one fibre, in the order of [`MEASURES`]; NaN where one does not apply. SI units and
-/// percent.
+/// The numbers measured on one fibre, in the order of [`MEASURES`], in SI units and percent. NaN means that a
+/// measure does not apply to the case.
 pub type Measured = [f64; NUMBERS];
 
-/// What became of one replicate of one point.
+/// The outcome of one replicate of one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Record {
     /// Index of the point.
     pub point: u64,
     /// Index of the replicate.
     pub replicate: u64,
-    /// What became of it.
+    /// The outcome.
     pub landing: Landing,
 }
 
 /// How a flight ended.
 #[derive(Clone, Copy, Debug)]
 pub enum Landing {
-    /// With results.
+    /// The flight was completed and measured.
     Measured(Measured),
-    /// Its positions were no longer numbers.
+    /// The positions became infinite or NaN.
     Lost {
         /// Node, counted from 1 at the root.
         node: u64,
@@ -32,7 +32,7 @@ pub enum Landing {
     },
 }
 
-/// To the bit: a measure that does not apply is NaN, and like itself.
+/// Compares bits, so that NaN equals NaN.
 impl PartialEq for Landing {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
@@ -48,7 +48,7 @@ impl PartialEq for Landing {
 }
 
 impl Landing {
-    /// What was measured, if anything.
+    /// The results of a completed flight.
     pub fn measured(&self) -> Option<&Measured> {
         match self {
             Self::Measured(measured) => Some(measured),

@@ -1,4 +1,5 @@
-//! Bundles filled across points, so that ten replicates of six points leave no lane empty.
+//! Distribution of jobs to flights of eight lanes. A flight may hold replicates of several points, so that few
+//! lanes stay empty.
 
 use super::Point;
 use crate::ensemble::{Computing, Job, Keep, Trajectory, fly_together, in_order};
@@ -17,17 +18,17 @@ pub struct Batch {
     pub replicates: Range<u64>,
 }
 
-/// A fibre lost on its way: the point, the replicate and what was wrong.
+/// A fibre that was lost: point, replicate and error.
 pub(super) type Lost = (usize, u64, Error);
 
-/// Jobs shared out to bundles.
+/// Jobs distributed to flights.
 #[derive(Debug, Default)]
 struct Packing {
-    /// Batches that may fly together, and how many jobs come before each.
+    /// Batches that may fly together, each with the number of jobs before it.
     groups: Vec<Vec<(u64, Batch)>>,
-    /// Index of each group's first bundle.
-    first_bundle: Vec<usize>,
-    bundles: usize,
+    /// Index of the first flight of each group.
+    first_flight: Vec<usize>,
+    count: usize,
 }
 
 impl Packing {
@@ -44,23 +45,23 @@ impl Packing {
             let before = members.last().map_or(0, |(before, batch)| before + length(batch));
             members.push((before, batch.clone()));
         }
-        // The longest flights first: then no thread is left alone with one at the end.
+        // The longest flights come first, so that no thread is busy alone at the end.
         groups.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut packing = Self::default();
         for (_, members) in groups {
             let jobs = members.last().map_or(0, |(before, batch)| before + length(batch));
-            packing.first_bundle.push(packing.bundles);
-            packing.bundles += jobs.div_ceil(WIDTH as u64) as usize;
+            packing.first_flight.push(packing.count);
+            packing.count += jobs.div_ceil(WIDTH as u64) as usize;
             packing.groups.push(members);
         }
         packing
     }
 
-    /// The jobs of a bundle: point and replicate.
-    fn jobs(&self, bundle: usize) -> Vec<(usize, u64)> {
-        let group = self.first_bundle.partition_point(|first| *first <= bundle).saturating_sub(1);
+    /// The jobs of a flight: point and replicate.
+    fn jobs(&self, flight: usize) -> Vec<(usize, u64)> {
+        let group = self.first_flight.partition_point(|first| *first <= flight).saturating_sub(1);
         let members = &self.groups[group];
-        let first = (bundle - self.first_bundle[group]) as u64 * WIDTH as u64;
+        let first = (flight - self.first_flight[group]) as u64 * WIDTH as u64;
         let start = members.partition_point(|(before, _)| *before <= first).saturating_sub(1);
         let mut jobs = Vec::with_capacity(WIDTH);
         for (before, batch) in &members[start..] {
@@ -79,13 +80,13 @@ fn length(batch: &Batch) -> u64 {
     batch.replicates.end - batch.replicates.start
 }
 
-/// Flies batches of points, packed across points.
+/// Flies batches; a flight may hold replicates of several points.
 ///
-/// * `keep` – which flights record the whole fibre over time, by index of the replicate
-/// * `take` – receives point and flight; the replicates of a batch come in their order
+/// * `keep` – the replicates that record the whole fibre over time
+/// * `take` – receives point and trajectory; the replicates of a batch come in order
 ///
 /// # Errors
-/// A fibre that stops being finite, a stop from elsewhere, and what `take` returns.
+/// When positions become infinite or NaN, when the computation is stopped, and every error of `take`.
 pub fn fly_batches<E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
@@ -102,9 +103,9 @@ pub fn fly_batches<E: From<Error>>(
     })
 }
 
-/// As [`fly_batches`]; `land` is called on the thread that flew a bundle, as soon as it has landed.
+/// Like [`fly_batches`]. When a flight is complete, its thread calls `land`.
 ///
-/// A fibre that stops being finite does not stop the others: it is handed to `land` among the lost.
+/// A fibre whose positions become infinite or NaN does not stop the others; `land` receives it among the lost.
 pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
@@ -119,12 +120,12 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
             jobs.iter().map(|&(point, replicate)| Job { case: &points[point].case, replicate }).collect();
         fly_together(&jobs, keep, computing)
     };
-    let work = |bundle: usize| {
-        let jobs = packing.jobs(bundle);
+    let work = |flight: usize| {
+        let jobs = packing.jobs(flight);
         match fly(&jobs) {
             Ok(flights) => land(jobs.iter().map(|job| job.0).zip(flights).collect(), Vec::new()),
             Err(Error::NotFinite { .. }) => {
-                // One by one the others land, with the same bits as in company.
+                // Each fibre flies again alone, with the same bits, to find those that are lost.
                 let (mut flights, mut lost) = (Vec::new(), Vec::new());
                 for &(point, replicate) in &jobs {
                     match fly(&[(point, replicate)]) {
@@ -138,7 +139,7 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
             Err(error) => Err(error),
         }
     };
-    in_order(packing.bundles, computing.threads, work, |landed| take(landed?))
+    in_order(packing.count, computing.threads, work, |landed| take(landed?))
 }
 
 #[cfg(test)]
@@ -161,43 +162,43 @@ mod tests {
 
     #[test]
     fn every_job_flies_once_and_lanes_are_full() {
-        // Six points of ten replicates in one group: 60 jobs in 8 bundles, not 12.
+        // Six points of ten replicates in one group: 60 jobs in 8 flights, not 12.
         let points = points(&[5.0, 10.0, 20.0], &[0.05, 0.0501, 0.1]);
         let batches: Vec<Batch> = (0..9)
             .flat_map(|point| [Batch { point, replicates: 0..3 }, Batch { point, replicates: 5..12 }])
             .collect();
         let packing = Packing::new(&points, &batches);
-        // Eddies of 50 and 50.1 mm are felt by the same elements; those of 100 mm are not.
+        // Eddies of 50 and 50.1 mm act on the same elements; eddies of 100 mm do not.
         assert_eq!(packing.groups.len(), 2);
-        assert_eq!(packing.bundles, 60usize.div_ceil(8) + 30usize.div_ceil(8));
-        let mut jobs: Vec<_> = (0..packing.bundles).flat_map(|bundle| packing.jobs(bundle)).collect();
+        assert_eq!(packing.count, 60usize.div_ceil(8) + 30usize.div_ceil(8));
+        let mut jobs: Vec<_> = (0..packing.count).flat_map(|flight| packing.jobs(flight)).collect();
         jobs.sort_unstable();
         let expected: Vec<_> =
             batches.iter().flat_map(|b| b.replicates.clone().map(|r| (b.point, r))).collect();
         assert_eq!(jobs, expected);
-        let in_group = |bundle: usize| {
+        let in_group = |flight: usize| {
             let common = |job: &(usize, u64)| Common::of(&points[job.0].case);
-            let jobs = packing.jobs(bundle);
+            let jobs = packing.jobs(flight);
             jobs.iter().all(|job| common(job) == common(&jobs[0]))
         };
-        assert!((0..packing.bundles).all(in_group));
+        assert!((0..packing.count).all(in_group));
     }
 
     #[test]
-    fn curves_of_the_drag_fly_with_their_like() {
+    fn drag_laws_of_one_form_fly_together() {
         let mut points = points(&[5.0, 10.0, 20.0, 30.0], &[0.05]);
         points[1].case.drag.along = FrictionLaw::MajumdarShambaugh;
         points[2].case.drag.across = NormalLaw::MarheinekeWegener;
         points[3].case.drag.along = FrictionLaw::Sakiadis;
         let batches: Vec<Batch> = (0..4).map(|point| Batch { point, replicates: 0..4 }).collect();
-        // Powers with powers, whatever their factors and exponents.
-        assert_eq!(Packing::new(&points, &batches).bundles, 3);
+        // Power laws fly together, with any factors and exponents.
+        assert_eq!(Packing::new(&points, &batches).count, 3);
     }
 
     #[test]
-    fn nothing_to_fly_is_no_bundle() {
+    fn no_jobs_give_no_flights() {
         let points = points(&[5.0], &[0.05]);
-        assert_eq!(Packing::new(&points, &[]).bundles, 0);
-        assert_eq!(Packing::new(&points, &[Batch { point: 0, replicates: 4..4 }]).bundles, 0);
+        assert_eq!(Packing::new(&points, &[]).count, 0);
+        assert_eq!(Packing::new(&points, &[Batch { point: 0, replicates: 4..4 }]).count, 0);
     }
 }

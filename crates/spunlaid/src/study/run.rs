@@ -1,4 +1,4 @@
-//! Flying what a study still lacks, and what its points amount to.
+//! Flies the missing fibres of a study, and computes the statistics of its points.
 
 use super::journal::Journal;
 use super::measures::{Landing, Record, measured};
@@ -12,43 +12,43 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Longest time that a record waits to be brought to the disk.
+/// Time between two flushes of the journal to the disk.
 const SYNC: Duration = Duration::from_millis(500);
 
-/// How far a study has come; read it from another thread.
+/// Progress of a study; another thread may read it.
 #[derive(Debug, Default)]
 pub struct Progress {
-    /// Fibres wanted so far; grows where more replicates turn out to be needed.
+    /// Fibres planned so far; the number grows when a point needs more replicates.
     pub fibres: AtomicU64,
-    /// Fibres there are.
+    /// Fibres finished.
     pub fibres_done: AtomicU64,
-    /// Points that have all replicates wanted so far.
+    /// Points with all replicates planned so far.
     pub points_done: AtomicU64,
-    /// Steps of the fibres that were still to be flown; [`Computing::fibre_steps`] counts up to this.
+    /// Total steps of the fibres to fly; [`Computing::fibre_steps`] counts up to this number.
     pub steps: AtomicU64,
 }
 
-/// What a point amounts to.
+/// Statistics of a point over its replicates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointResults {
     /// Fibres measured.
     pub n: u64,
-    /// Fibres lost because their positions were no longer numbers.
+    /// Fibres lost because their positions became infinite or NaN.
     pub lost: u64,
-    /// Mean of each of the [`MEASURES`]; NaN of none.
+    /// Mean of each of the [`MEASURES`]; NaN without any fibre.
     pub mean: [f64; MEASURES.len()],
-    /// Standard error of each mean; none from a single fibre.
+    /// Standard error of each mean; `None` from a single fibre.
     pub standard_error: [Option<f64>; MEASURES.len()],
 }
 
-/// Flies what the journal does not hold yet.
+/// Flies the fibres that the journal does not hold yet.
 ///
-/// Where [`Replicates::until`] asks for it, points are flown again in rounds; whether a point is depends on its
-/// own first replicates alone, never on threads or interruptions.
+/// With [`Replicates::until`], more replicates are flown in rounds. The decision for a point depends on its own
+/// replicates only, never on threads or interruptions.
 ///
 /// # Errors
-/// A stop from elsewhere, and a journal that cannot be written or read. A fibre that stops being finite is
-/// no error: it is recorded as lost.
+/// When the computation is stopped, and when the journal cannot be written or read. A fibre whose positions become
+/// infinite or NaN is not an error; it is recorded as lost.
 pub fn run(
     study: &Study,
     journal: &Mutex<Journal>,
@@ -75,7 +75,7 @@ pub fn run(
     }
 }
 
-/// What a point amounts to, from all its replicates.
+/// Statistics of a point over all its replicates.
 ///
 /// # Errors
 /// When the journal cannot be read.
@@ -96,9 +96,9 @@ fn results_of(journal: &mut Journal, point: usize, replicates: u64) -> Result<Po
     })
 }
 
-/// How many replicates a point should have instead of `flown`; none if they are enough.
+/// The number of replicates that a point needs instead of `flown`; `None` if these are enough.
 fn more_replicates(replicates: &Replicates, results: &PointResults, flown: u64) -> Option<u64> {
-    // A point that loses its fibres gets no better by flying more.
+    // A point that loses its fibres would lose more of them.
     if flown >= replicates.at_most || results.lost > 0 && results.n < 2 {
         return None;
     }
@@ -108,7 +108,7 @@ fn more_replicates(replicates: &Replicates, results: &PointResults, flown: u64) 
         if error <= allowed { 0.0 } else { results.n as f64 * (error / allowed).powi(2) }
     };
     let needed = replicates.until.iter().map(needed).fold(0.0, f64::max);
-    // An estimate from few fibres is a rough one: never more than doubled at once.
+    // An estimate from few fibres is rough, so the number at most doubles in a round.
     (needed > 0.0).then(|| {
         let most = flown.saturating_mul(2).min(replicates.at_most);
         (needed.ceil() as u64).clamp((flown + 1).min(most), most)
@@ -141,8 +141,8 @@ fn fly_missing(
     })?
 }
 
-/// Does `work` while what is added to the journal is brought to the disk twice a second, and once more at
-/// the end. `work` can ask whether that has failed.
+/// Does `work` while another thread flushes the journal to the disk twice a second, and once more at the end.
+/// `work` receives a function that returns the error of a failed flush.
 fn with_sync<T>(
     journal: &Mutex<Journal>,
     work: impl FnOnce(&dyn Fn() -> Option<Error>) -> T,
@@ -165,7 +165,7 @@ fn with_sync<T>(
                 sync();
             }
         });
-        // However the work ends, the other thread must not wait for ever.
+        // The other thread must end even if `work` panics.
         let _end = OnDrop(|| {
             finished.store(true, Ordering::Release);
             syncing.thread().unpark();
@@ -187,7 +187,7 @@ impl<F: FnMut()> Drop for OnDrop<F> {
     }
 }
 
-/// The replicates that are wanted and not there, in runs.
+/// The missing replicates of every point, as ranges.
 fn missing(journal: &Journal, wanted: &[u64]) -> Vec<Batch> {
     let mut batches = Vec::new();
     for (point, &wanted) in wanted.iter().enumerate() {
@@ -207,7 +207,7 @@ fn missing(journal: &Journal, wanted: &[u64]) -> Vec<Batch> {
     batches
 }
 
-/// Fibres that the points still lack.
+/// Number of fibres that each point still lacks.
 struct Lacking(Vec<AtomicU64>);
 
 impl Lacking {
@@ -254,7 +254,7 @@ fn records(flights: Vec<(usize, Trajectory)>, lost: Vec<Lost>) -> Vec<Record> {
     measured.chain(lost).collect()
 }
 
-/// A panic elsewhere leaves the journal between two records.
+/// Locks the journal. A panic of another thread leaves it whole, because records are added one at a time.
 fn lock(journal: &Mutex<Journal>) -> MutexGuard<'_, Journal> {
     journal.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -3,12 +3,12 @@
 //! Direction numbers: S. Joe and F. Y. Kuo, Constructing Sobol sequences with better two-dimensional
 //! projections, SIAM J. Sci. Comput. 30 (2008) 2635–2654, the first of `new-joe-kuo-6.21201`.
 
-/// Most dimensions.
+/// Largest number of dimensions.
 pub(super) const MOST_DIMENSIONS: usize = 21;
 const BITS: usize = 32;
 
-/// Of dimensions 2 and up: coefficients of the primitive polynomial, as a number, and the first direction
-/// numbers, as many as its degree.
+/// For dimensions 2 and above: the coefficients of the primitive polynomial as bits of a number, and the first
+/// direction numbers, one for each degree.
 const TABLE: [(u32, &[u32]); MOST_DIMENSIONS - 1] = [
     (0, &[1]),
     (1, &[1, 3]),
@@ -32,14 +32,14 @@ const TABLE: [(u32, &[u32]); MOST_DIMENSIONS - 1] = [
     (4, &[1, 3, 7, 13, 13, 15, 69]),
 ];
 
-/// One dimension of the sequence, by index.
+/// One dimension of the sequence.
 #[derive(Clone, Debug)]
 pub(super) struct Sobol {
     directions: [u32; BITS],
 }
 
 impl Sobol {
-    /// Dimension `0 … 20`; beyond, the last.
+    /// Dimension `0 … 20`; larger numbers give the last dimension.
     pub(super) fn dimension(dimension: usize) -> Self {
         let mut directions = [0; BITS];
         match dimension.checked_sub(1).map(|i| TABLE[i.min(TABLE.len() - 1)]) {

@@ -1,4 +1,4 @@
-//! What the tests of this room share.
+//! A case that the tests of this module share.
 
 use crate::air::Air;
 use crate::case::{Case, Run};

@@ -1,4 +1,4 @@
-//! The results folder of a study: what it holds, whose it is, and how it is filled.
+//! The results folder of a study: checks its content, and writes the files.
 
 use super::super::interrupt::stop_on_ctrl_c;
 use crate::failure::Failure;
@@ -14,20 +14,20 @@ use std::path::{Path, PathBuf};
 const JOURNAL: &str = "journal";
 const STUDY: &str = "study.toml";
 const CASE: &str = "case.toml";
-/// What says which study it is.
+/// Files that describe the study.
 const DESCRIPTION: &[&str] = &[CASE_FILES, CASE, STUDY];
-/// What is made of the journal.
+/// Files that are made from the journal.
 const MADE: &[&str] = &["results.csv", "results.parquet", "replicates.parquet", "figures", "report.html"];
-/// What only a run leaves behind.
+/// Files that only `spunlaid run` writes.
 const OF_A_RUN: &[&str] = &["summary.json", "end_node.parquet", "energy.parquet"];
 
-/// A results folder that this process has to itself.
+/// A results folder that this process has locked.
 #[derive(Debug)]
 pub(super) struct StudyFolder {
     path: PathBuf,
 }
 
-/// What the folder was found to hold.
+/// The content of the folder when it was opened.
 #[derive(Debug)]
 pub(super) enum State {
     New,
@@ -35,7 +35,7 @@ pub(super) enum State {
 }
 
 impl StudyFolder {
-    /// Opens the folder for a study: to begin it, or to go on with the same study.
+    /// Opens the folder to begin a study, or to continue the same study.
     pub(super) fn open(
         path: &Path,
         file: &StudyFile,
@@ -66,7 +66,7 @@ impl StudyFolder {
                 }
                 folder.begin(file)?;
                 journal.begin(&wanted, file.study.points.len()).map_err(Error::from)?;
-                // That the file is there must outlast a power cut too; where folders cannot be synced, so be it.
+                // The new file must survive a power cut. Some systems cannot sync folders, so an error is ignored.
                 let _ = fs::File::open(path).and_then(|folder| folder.sync_all());
                 State::New
             }
@@ -77,7 +77,7 @@ impl StudyFolder {
             Some(_) => {
                 let points = file.study.points.len();
                 let found = journal.go_on(points, file.study.replicates.at_most).map_err(Error::from)?;
-                // They follow from the study; whoever removed them gets them back.
+                // These files follow from the study, so they are restored if someone has removed them.
                 if !folder.path.join(STUDY).exists() || !folder.path.join(CASE).exists() {
                     folder.describe(file)?;
                 }
@@ -91,12 +91,12 @@ impl StudyFolder {
         &self.path
     }
 
-    /// Collects what is made of the journal.
+    /// Collects the files that are made from the journal.
     pub(super) fn staging(&self) -> Result<Staging<'static>, Failure> {
         Staging::new(&self.path, MADE, true, stop_on_ctrl_c())
     }
 
-    /// Removes what an earlier study left and says what this one is.
+    /// Removes the files of an earlier study, and describes this one.
     fn begin(&self, file: &StudyFile) -> Result<(), Failure> {
         for name in MADE.iter().chain(OF_A_RUN) {
             remove(&self.path.join(name))?;
@@ -111,7 +111,7 @@ impl StudyFolder {
         staging.publish()
     }
 
-    /// What the study found here says otherwise.
+    /// The error that lists how the study in this folder differs.
     fn other(self, file: &StudyFile) -> Failure {
         let mut all = Vec::new();
         for (name, now) in [(STUDY, &file.text), (CASE, &file.case_text)] {
@@ -122,7 +122,7 @@ impl StudyFolder {
     }
 }
 
-/// Copies the files that the case names; gives the case's text with the paths of the copies.
+/// Copies the files that the case names, and returns the text of the case with the paths of the copies.
 fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure> {
     let cases = file.study.points.iter().map(|point| &point.case);
     let copied = beside::copy(cases, &staging.place(CASE_FILES).0)?;
@@ -134,8 +134,8 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
     }))
 }
 
-/// Refuses a folder with results that no journal accounts for. A study killed before it had one left its own two
-/// files at most.
+/// Refuses a folder with results but without a journal. A study that was killed before its journal existed has
+/// left no more than its two description files.
 fn holds_nothing_else(path: &Path) -> Result<(), Failure> {
     match MADE.iter().chain(OF_A_RUN).find(|name| path.join(name).exists()) {
         Some(found) => Err(Failure::HoldsResults { folder: path.to_owned(), found: (*found).to_owned() }),

@@ -1,4 +1,4 @@
-//! `spunlaid sweep`: fly a study and write what it gives.
+//! `spunlaid sweep`: flies a study and writes its results.
 
 mod folder;
 mod progress;
@@ -22,8 +22,8 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 
-/// Lost fibres that are told one by one.
-const LOST_TOLD: usize = 10;
+/// Largest number of lost fibres that are listed.
+const LOST_LISTED: usize = 10;
 
 pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     let file = read_study(&sweep.study, sweep.points)?;
@@ -33,7 +33,7 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     file.notes.iter().for_each(say::study_note);
     let path = sweep.out.clone().unwrap_or_else(|| PathBuf::from("results").join(name(sweep)));
     let (folder, journal, found) = StudyFolder::open(&path, &file, sweep.force)?;
-    tell_found(sweep, &file.study, &found);
+    report_found(sweep, &file.study, &found);
 
     let journal = Mutex::new(journal);
     let before = fibres(&journal, &file.study);
@@ -48,7 +48,7 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     })
 }
 
-/// What the study is called: the name of its file.
+/// Name of the study: the name of its file.
 fn name(sweep: &Sweep) -> String {
     sweep.study.file_stem().map_or_else(|| "study".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
@@ -62,19 +62,19 @@ fn print_point(study: &Study, number: u64) -> Result<(), Failure> {
     Ok(())
 }
 
-fn tell_found(sweep: &Sweep, study: &Study, found: &folder::State) {
+fn report_found(sweep: &Sweep, study: &Study, found: &folder::State) {
     match found {
         folder::State::New => {
-            let phases = if study.common_phases { "common phases" } else { "phases of their own" };
+            let phases = if study.common_phases { "common phases" } else { "independent phases" };
             let points = plural(study.points.len() as u64, "point");
             if !sweep.quiet {
-                say::aside(&format!("{points} of {} with {phases}", times(study)));
+                say::aside(&format!("{points}, each with {}, {phases}", times(study)));
             }
         }
         folder::State::Begun(found) => {
             let done = plural(found.fibres, "fibre");
             if !sweep.quiet {
-                say::aside(&format!("going on: {done} of {} there already", study.most_fibres()));
+                say::aside(&format!("continuing: {done} of {} already done", study.most_fibres()));
             }
             if found.damaged > 0 {
                 let records = if found.damaged == 1 {
@@ -83,13 +83,11 @@ fn tell_found(sweep: &Sweep, study: &Study, found: &folder::State) {
                     format!("{} records", found.damaged)
                 };
                 say::warning(&format!(
-                    "damaged in the journal: {records}; these fibres are flown again, all others are kept"
+                    "the journal has damaged records ({records}); these fibres are flown again, all others are kept"
                 ));
             }
             if found.torn {
-                say::aside(
-                    "the journal’s last record was cut off half written, as by a kill; it is flown again",
-                );
+                say::aside("the last record of the journal was incomplete; its fibre is flown again");
             }
         }
     }
@@ -134,13 +132,15 @@ fn write(
     let staging = folder.staging()?;
     let results = output::study::write(&staging, study, journal)?;
     let rankings = rankings(study, journal)?;
-    let figures = study_figures(study, &results, &rankings);
+    let figures = study_figures(study, &results, &rankings.of_measures);
+    let refusal = rankings.refusal.filter(|_| study.factors.len() > 1).map(|refusal| refusal.to_string());
     output::pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let report = study_html(&StudyReport {
         name: &name(sweep),
         study,
         results: &results,
-        rankings: &rankings,
+        rankings: &rankings.of_measures,
+        refusal: refusal.as_deref(),
         figures: &figures,
         notes: &file.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
         study_toml: &file.text,
@@ -152,8 +152,11 @@ fn write(
     let flown: u64 = results.iter().map(|point| point.n + point.lost).sum();
     if !sweep.quiet {
         say::text(&table::results(study, &results));
+        if let Some(refusal) = &refusal {
+            say::line(&format!("the keys are not ranked: {refusal}"));
+        }
         if before == flown {
-            say::line("finished already: nothing was left to fly, the files are written again");
+            say::line("the study was already complete: no fibre was flown, and the files were written again");
         }
         say::line(&format!("{} at {}", plural(flown, "fibre"), plural(results.len() as u64, "point")));
         say::line(&format!("open {}", folder.path().join("report.html").display()));
@@ -161,14 +164,14 @@ fn write(
     lost(study, journal, flown)
 }
 
-/// Tells which fibres were lost, if any.
+/// The error that lists the lost fibres, if any.
 fn lost(study: &Study, journal: &mut Journal, flown: u64) -> Result<(), Failure> {
     let (mut lost, mut first) = (0, Vec::new());
     for (index, point) in study.points.iter().enumerate() {
         for record in journal.records(index, u64::MAX).map_err(Error::from)? {
             if let Landing::Lost { node, time } = record.landing {
                 lost += 1;
-                if first.len() < LOST_TOLD {
+                if first.len() < LOST_LISTED {
                     let (number, cause) = (index + 1, point.case.likely_cause_of_divergence());
                     let replicate = record.replicate + 1;
                     first.push(format!(

@@ -1,4 +1,4 @@
-//! Progress of a study: a bar on a terminal, a line now and then in a log file.
+//! Progress of a study: a bar on a terminal, or a line from time to time in a log file.
 
 use crate::say;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -6,12 +6,12 @@ use spunlaid::study::Progress;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// Between two lines in a log file: after so long, or after such a share, but no sooner than that.
+/// A line is written to a log file after this time, or after this fraction of the work but not before the last time.
 const LINE_AFTER: Duration = Duration::from_secs(10);
 const LINE_SHARE: f64 = 0.05;
 const LINE_SOONEST: Duration = Duration::from_secs(2);
 
-/// Runs `work` while progress is shown, unless `quiet`.
+/// Runs `work` and shows its progress, unless `quiet`.
 pub(super) fn follow<T>(
     points: u64,
     progress: &Progress,
@@ -44,7 +44,7 @@ pub(super) fn follow<T>(
                 }
             }
         });
-        // Though the work panic, the other thread must not go on for ever.
+        // The other thread must end even if `work` panics.
         let _end = OnDrop(|| {
             finished.store(true, Ordering::Release);
             shown.thread().unpark();
@@ -65,8 +65,8 @@ impl<F: FnMut()> Drop for OnDrop<F> {
 struct State {
     points: (u64, u64),
     fibres: (u64, u64),
-    /// Fibres landed since the program began.
-    landed: u64,
+    /// Fibres finished since the program began.
+    finished: u64,
     steps: u64,
     steps_done: u64,
     elapsed: f64,
@@ -82,14 +82,14 @@ impl State {
     ) -> Self {
         let load = |of: &AtomicU64| of.load(Ordering::Relaxed);
         let (fibres, done) = (load(&progress.fibres), load(&progress.fibres_done));
-        // Those that were there already, once that is known.
+        // Fibres that were finished before the program began.
         if before.is_none() && fibres > 0 {
             *before = Some(done);
         }
         Self {
             points: (load(&progress.points_done), points),
             fibres: (done, fibres),
-            landed: done.saturating_sub(before.unwrap_or(done)),
+            finished: done.saturating_sub(before.unwrap_or(done)),
             steps: load(&progress.steps),
             steps_done: load(steps).min(load(&progress.steps)),
             elapsed: begun.elapsed().as_secs_f64(),
@@ -99,8 +99,8 @@ impl State {
     fn words(&self) -> String {
         let ((points, of_points), (fibres, of_fibres)) = (self.points, self.fibres);
         let mut words = format!("points {points}/{of_points}, fibres {fibres}/{of_fibres}");
-        if self.landed > 0 {
-            let rate = self.landed as f64 / self.elapsed;
+        if self.finished > 0 {
+            let rate = self.finished as f64 / self.elapsed;
             words += &format!(", {rate:.prec$} fibres/s", prec = usize::from(rate < 10.0));
         }
         if self.steps_done > 0 && self.elapsed > 1.0 {
@@ -111,7 +111,7 @@ impl State {
     }
 }
 
-/// A time to wait: `40 s`, `12 min`, `3.5 h`.
+/// A remaining time: `40 s`, `12 min`, `3.5 h`.
 fn time(seconds: f64) -> String {
     match seconds {
         s if s < 100.0 => format!("{s:.0} s"),

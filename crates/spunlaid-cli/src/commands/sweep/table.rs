@@ -4,13 +4,13 @@ use crate::numbers::plus_minus;
 use spunlaid::study::{PointResults, Study};
 use std::fmt::Write;
 
-/// Most points that are listed.
+/// Largest number of points that are listed.
 const LISTED: usize = 24;
 /// Results that are shown: index into the measures, head, factor from SI.
 const SHOWN: [(usize, &str, f64); 4] =
     [(0, "amplitude y", 1e3), (1, "amplitude z", 1e3), (2, "frequency y", 1.0), (3, "frequency z", 1.0)];
 
-/// A line per point: what varies, then mean ± standard error.
+/// A line per point: the values that vary, then mean ± standard error of the results.
 pub(super) fn results(study: &Study, results: &[PointResults]) -> String {
     let mut rows: Vec<Vec<String>> = Vec::new();
     let mut heads = vec!["point".to_owned()];

@@ -1,4 +1,4 @@
-//! Results over one factor: alone, with a second as a family of curves, or with all others at the base.
+//! Results over one factor: alone, as a family of curves for a second factor, or with all others as in the base case.
 
 use super::quantity::{Along, Group, name_of_key};
 use super::{FAMILY, file_name};
@@ -10,10 +10,13 @@ use spunlaid_charts::{
 
 const COLOURS: [&str; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 
-/// What the bars are, at the end of a caption.
-pub(super) const BARS: &str = "Bars: one standard error of the mean over the replicates, up and down.";
+/// Dashes of the lines, so that curves can be told apart without their colours.
+const DASHES: [Option<&str>; FAMILY] = [None, Some("8 4"), Some("2 3"), Some("8 3 2 3"), Some("14 4"), Some("8 3 2 3 2 3")];
 
-/// A point as drawn: place, value, ± error.
+/// The last sentence of a caption: the meaning of the error bars.
+pub(super) const BARS: &str = "The bars show one standard error of the mean over the replicates.";
+
+/// A point of the figure: abscissa, value, error.
 type Spot = (f64, f64, Option<f64>);
 
 fn series(group: &Group, position: usize) -> Series {
@@ -25,7 +28,7 @@ fn series(group: &Group, position: usize) -> Series {
     }
 }
 
-/// Results over the first factor at all points, joined in its order.
+/// Results over the first factor at all points, joined by a line.
 pub(super) fn one(study: &Study, results: &[PointResults], group: &Group) -> Figure {
     let all: Vec<usize> = (0..results.len()).collect();
     let others: Vec<String> = study.factors.iter().skip(1).map(|factor| name_of_key(factor.key)).collect();
@@ -34,7 +37,7 @@ pub(super) fn one(study: &Study, results: &[PointResults], group: &Group) -> Fig
     over(study, results, group, 0, &all, &format!("over {}{with}", name_of_key(study.factors[0].key)))
 }
 
-/// Results over a factor where all others have the values of the base case, which is the first point.
+/// Results over a factor at the points where all others are as in the base case, which is the first point.
 pub(super) fn alone(study: &Study, results: &[PointResults], group: &Group, factor: usize) -> Figure {
     let count = study.factors.len();
     let is_alone = |point: &usize| {
@@ -43,7 +46,7 @@ pub(super) fn alone(study: &Study, results: &[PointResults], group: &Group, fact
     };
     let points: Vec<usize> = (0..results.len()).filter(is_alone).collect();
     let words =
-        format!("over {} alone, all else as in the base case", name_of_key(study.factors[factor].key));
+        format!("over {} alone, everything else as in the base case", name_of_key(study.factors[factor].key));
     over(study, results, group, factor, &points, &words)
 }
 
@@ -67,7 +70,7 @@ fn over(
     Figure::of(&chart, caption)
 }
 
-/// Results over one factor, a curve for each value of another.
+/// Results over one factor, with a curve for each value of another.
 pub(super) fn family(
     study: &Study,
     results: &[PointResults],
@@ -79,17 +82,20 @@ pub(super) fn family(
     let place = Along::new(&study.factors[along]);
     let title = format!("{} over {} and {}", group.figure.title, name_of_key(key), name_of_key(of.key));
     let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
-    for (level, colour) in of.values().into_iter().zip(COLOURS) {
+    for ((level, colour), dash) in of.values().into_iter().zip(COLOURS).zip(DASHES) {
         let points: Vec<usize> =
             (0..results.len()).filter(|point| study.points[*point].values[family] == level).collect();
         for (position, (measure, called)) in group.of.iter().enumerate() {
             let marker = if position == 0 { Marker::Circle } else { Marker::Triangle };
-            let label = of.dimension.pretty(level);
-            let series = Series { marker: Some(marker), ..Series::new(&label, colour) }
+            let label = of.pretty(level);
+            let series = Series { marker: Some(marker), dash, ..Series::new(&label, colour) }
                 .named(&format!("{called} at {label}"));
-            let series = if position == 0 { series } else { series.unlabelled() };
             let spots = spots(study, results, group, *measure, (along, &place), &points);
-            chart = drawn(chart, series, &spots);
+            let line: Vec<(f64, f64)> = spots.iter().map(|(x, y, _)| (*x, *y)).collect();
+            // The legend shows the line of the first result; the table has the points with their errors.
+            let joined = series.clone().drawn_only().unmarked().width(1.6);
+            let joined = if position == 0 { joined } else { joined.unlabelled() };
+            chart = chart.line(joined, &line).scatter(series.unlabelled(), &spots);
         }
     }
     let signs = match group.of.as_slice() {
@@ -99,7 +105,7 @@ pub(super) fn family(
         _ => String::new(),
     };
     let caption = format!(
-        "{} over {}, a colour for each value of the {}, means over the replicates.{signs} {BARS}",
+        "{} over {}, a colour and a dash for each value of the {}, means over the replicates.{signs} {BARS}",
         group.figure.title,
         name_of_key(key),
         name_of_key(of.key),
@@ -124,7 +130,7 @@ fn spots(
     spots
 }
 
-/// Markers with bars, joined by a fine line.
+/// Markers with bars, joined by a thin line.
 pub(super) fn drawn(chart: Chart, series: Series, spots: &[Spot]) -> Chart {
     let line: Vec<(f64, f64)> = spots.iter().map(|(x, y, _)| (*x, *y)).collect();
     chart.line(series.clone().adorning().unmarked().width(1.0), &line).scatter(series, spots)

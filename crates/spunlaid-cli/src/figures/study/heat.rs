@@ -1,4 +1,4 @@
-//! Results over two factors of many values: a map in colours.
+//! Results over two factors with many values: a colour map.
 
 use super::quantity::{Along, Group, label_of_key, name_of_key};
 use crate::numbers::significant;
@@ -11,7 +11,7 @@ use spunlaid_charts::{
 
 const SIZE: (f64, f64) = (640.0, 440.0);
 const PLOT: (f64, f64, f64, f64) = (84.0, 22.0, 500.0, 370.0);
-/// Dark blue to yellow, alike to all eyes: matplotlib's viridis at eight places.
+/// Dark blue to yellow, readable with any colour vision: matplotlib's viridis at eight values.
 const COLOURS: [(f64, f64, f64); 8] = [
     (68.0, 1.0, 84.0),
     (70.0, 50.0, 126.0),
@@ -23,7 +23,7 @@ const COLOURS: [(f64, f64, f64); 8] = [
     (253.0, 231.0, 37.0),
 ];
 
-/// A map of each result of a group; the first factor upwards, the second along.
+/// A map of each result of a group; the first factor is on the vertical axis, the second on the horizontal one.
 pub(super) fn maps(study: &Study, results: &[PointResults], group: &Group) -> Vec<Figure> {
     group.of.iter().map(|(measure, label)| map(study, results, group, *measure, label)).collect()
 }
@@ -55,7 +55,7 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     for i in 0..up.len() {
         for j in 0..along.len() {
             let (x, y) = (left + j as f64 * w, bottom - (i + 1) as f64 * h);
-            // A hair's breadth wider, so that no gaps show between.
+            // The small overlap prevents visible gaps.
             let fill = if value(i, j).is_finite() { colour(share(value(i, j))) } else { PAPER.to_owned() };
             rectangle(&mut svg, (x, y), (w + 0.3, h + 0.3), &fill);
         }
@@ -75,8 +75,8 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     svg.text((18.0, (top + bottom) / 2.0), &of_up.axis.label, title_text(false));
     scale(&mut svg, group, (least, most));
     let caption = format!(
-        "{which}, mean over the replicates, over {} (along) and {} (up). The values, with standard errors, are in \
-         results.csv.",
+        "{which}, mean over the replicates, over {} (horizontal) and {} (vertical). The values and their standard \
+         errors are in results.csv.",
         spunlaid_charts::svg::plain(label_of_key(study.factors[1].key)),
         spunlaid_charts::svg::plain(label_of_key(study.factors[0].key)),
     );
@@ -94,7 +94,7 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     Figure { name: format!("{}{axis}_map", group.figure.name), title, caption, svg: svg.finish(), table }
 }
 
-/// The colours and what they stand for.
+/// The colour scale.
 fn scale(svg: &mut Svg, group: &Group, (least, most): (f64, f64)) {
     let (_, top, right, bottom) = PLOT;
     let (left, width, steps) = (right + 24.0, 16.0, 64);
@@ -127,7 +127,7 @@ fn colour(share: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", mixed(a.0, b.0), mixed(a.1, b.1), mixed(a.2, b.2))
 }
 
-/// At most eight of so many places, evenly.
+/// Indices of at most eight evenly spaced labels.
 fn some(count: usize) -> impl Iterator<Item = usize> {
     let stride = count.div_ceil(8).max(1);
     (0..count).step_by(stride)

@@ -1,4 +1,4 @@
-//! The figures of a study: curves over one factor, families of curves over two, main effects over more.
+//! The figures of a study: curves over one factor, families of curves over two factors, main effects over more.
 
 mod curves;
 mod heat;
@@ -14,10 +14,10 @@ use spunlaid_charts::Figure;
 
 pub(crate) use quantity::name_of_key;
 
-/// Most levels of a factor that get a curve each; more become a map.
+/// Largest number of values of a factor that are drawn as curves; more are drawn as a map.
 const FAMILY: usize = 6;
 
-/// The figures of a study, in the order a reader wants them.
+/// The figures of a study, the most important first.
 pub(crate) fn study_figures(study: &Study, results: &[PointResults], rankings: &[Ranking]) -> Vec<Figure> {
     let mut groups = quantity::groups();
     groups.retain(|group| group.applies(results));
@@ -29,7 +29,7 @@ pub(crate) fn study_figures(study: &Study, results: &[PointResults], rankings: &
         }
         (Design::Grid, 2) => {
             let counts = [0, 1].map(|i| study.factors[i].values().len());
-            // Along the axis what has more values, as curves what has fewer.
+            // The factor with more values is on the axis.
             let (along, family) = if counts[0] > counts[1] { (0, 1) } else { (1, 0) };
             for group in &groups {
                 if counts[family] <= FAMILY {

@@ -1,4 +1,4 @@
-//! What the axes of a study's figures say: quantities, units handy to read.
+//! The axes of a study's figures: quantities and readable units.
 
 use spunlaid::case::keys;
 use spunlaid::observe::{self, Unit};
@@ -7,12 +7,12 @@ use spunlaid::study::{Factor, MEASURES, PointResults};
 use spunlaid::units::Dimension;
 use spunlaid_charts::Axis;
 
-/// Results shown in one figure, as they are declared: one, or that of y and that of z.
+/// The results of one figure, as they are declared: one result, or one in y and one in z.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     pub(super) figure: &'static observe::Figure,
     pub(super) unit: Unit,
-    /// Indices into the measures, and what each is called.
+    /// Indices into the measures, and the names of the series.
     pub(super) of: Vec<(usize, &'static str)>,
 }
 
@@ -42,12 +42,12 @@ impl Group {
         }
     }
 
-    /// Whether it is what the fibre does across the flow, rather than a check or a detail.
+    /// Whether it describes the motion across the flow.
     pub(super) fn is_motion(&self) -> bool {
         matches!(self.of[..], [(_, "*y*"), (_, "*z*")])
     }
 
-    /// Whether it has been measured of any fibre.
+    /// Whether it applies to any point.
     pub(super) fn applies(&self, results: &[PointResults]) -> bool {
         results.iter().any(|point| self.of.iter().any(|(measure, _)| point.mean[*measure].is_finite()))
     }
@@ -59,15 +59,15 @@ impl Group {
     }
 }
 
-/// What a key is called, with its letter: `Mean velocity *U*`.
+/// Label of a key with its letter: `Mean velocity *U*`.
 pub(super) fn label_of_key(key: &str) -> &str {
     keys::find(key).map_or(key, |key| key.label)
 }
 
-/// What a key is called in a sentence: `the mean velocity`.
+/// Name of a key within a sentence: `mean velocity`.
 pub(crate) fn name_of_key(key: &str) -> String {
     let label = spunlaid_charts::svg::plain(label_of_key(key));
-    // Without the letter at its end.
+    // The letter at the end is left out.
     let words = match label.rsplit_once(' ') {
         Some((words, letter)) if letter.chars().count() <= 2 => words,
         _ => &label,
@@ -79,11 +79,11 @@ pub(crate) fn name_of_key(key: &str) -> String {
     words.chars().enumerate().map(|(i, c)| if i == 0 { c.to_ascii_lowercase() } else { c }).collect()
 }
 
-/// A factor as it stands along an axis.
+/// The axis of a factor.
 #[derive(Clone, Debug)]
 pub(super) struct Along {
     pub(super) axis: Axis,
-    /// From SI units to those of the axis.
+    /// Converts SI units to the units of the axis.
     scale: f64,
     pub(super) unit: &'static str,
 }
@@ -108,7 +108,7 @@ impl Along {
     }
 }
 
-/// A unit in which a value of this size is easily read, and the factor from SI units.
+/// A readable unit for a value of this size, and the factor from SI units.
 fn handy(dimension: Dimension, size: f64) -> (f64, &'static str) {
     match dimension {
         Dimension::Length if size < 1e-3 => (1e6, "µm"),

@@ -1,4 +1,4 @@
-//! Which factor matters: main effects with their confidence intervals, the largest on top.
+//! Main effects of the factors with their confidence intervals, the largest at the top.
 
 use super::quantity::{Along, Group, label_of_key};
 use crate::numbers::range;
@@ -15,7 +15,7 @@ const TOP: f64 = 40.0;
 const SIZE: f64 = 14.0;
 const SMALL: f64 = 12.0;
 
-/// The effects on a group of results, factor by factor.
+/// The effects of all factors on a group of results.
 pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     let of_measure = |measure: usize| rankings.iter().find(|ranking| ranking.measure == measure);
     let shown: Vec<(&Ranking, Marker, &str, &str)> = (group.of.iter())
@@ -39,7 +39,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     let scale = Scale::fit(&Axis::linear(&label), all, 7);
 
     let height = TOP + ROW * order.len() as f64 + 58.0;
-    let title = format!("What moves the {}", group.figure.words);
+    let title = format!("Effects on the {}", group.figure.words);
     let mut svg = Svg::new(WIDTH, height, &title);
     let names = order.iter().map(|factor| width(label_of_key(study.factors[*factor].key), SIZE));
     let left = names.fold(120.0, f64::max).min(250.0) + 24.0;
@@ -69,9 +69,15 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
         let of = &study.factors[*factor];
         let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
         svg.text((left - 12.0, y - 2.0), label_of_key(of.key), name);
-        let (least, greatest) = of.ends();
         let place = Along::new(of);
-        let range = format!("{} {}", range(place.place(least), place.place(greatest)), place.unit);
+        let compared = shown.first().and_then(|of| of.0.effects.iter().find(|effect| effect.factor == *factor));
+        let range = match (of.names.len(), compared) {
+            (0, Some(effect)) => {
+                format!("{} {}", range(place.place(effect.from), place.place(effect.to)), place.unit)
+            }
+            (2, Some(effect)) => format!("{} to {}", of.pretty(effect.from), of.pretty(effect.to)),
+            _ => "largest difference".to_owned(),
+        };
         let style = Text { size: SMALL, colour: GREY, anchor: Anchor::End, upright: true };
         svg.text((left - 12.0, y + 14.0), range.trim_end(), style);
         for (index, (ranking, marker, colour, _)) in shown.iter().enumerate() {
@@ -90,17 +96,24 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     }
     let explained: Vec<String> = shown
         .iter()
+        .filter(|(ranking, ..)| ranking.explained.is_finite())
         .map(|(ranking, .., label)| {
             format!("{:.0} % in {}", 100.0 * ranking.explained, label.replace('*', ""))
         })
         .collect();
+    let explained = if explained.is_empty() {
+        String::new()
+    } else {
+        format!(
+            " Straight lines explain {} of the variation between points; if that is little, look at the curves instead.",
+            explained.join(" and ")
+        )
+    };
     let caption = format!(
-        "How much the {} changes from the least to the greatest value of each factor, on the straight line that fits \
-         all points best, the other factors held. Bars: 95 % confidence intervals; one that reaches across zero may be \
-         no effect at all. The line explains {} of the variation between points; where that is little, look at the \
-         curves instead.",
+        "Change of the {} from the least to the greatest value of each factor, on the straight line that fits the points \
+         best while the other factors stay constant. The bars are 95 % confidence intervals; if a bar crosses zero, there \
+         may be no effect.{explained}",
         group.figure.words,
-        explained.join(" and "),
     );
     let change = Axis::linear(&format!("Change ({})", group.unit.shown));
     let mut table = Table::new([change.column(), "error".to_owned()]);

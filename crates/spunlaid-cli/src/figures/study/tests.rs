@@ -1,4 +1,4 @@
-//! Every figure of every kind of study can be drawn.
+//! All kinds of studies give figures.
 
 use super::super::sample;
 use super::*;
@@ -6,7 +6,7 @@ use spunlaid::study::{Effect, Factor, Levels, MEASURES, Point, Replicates, Spaci
 use spunlaid::units::Dimension;
 use spunlaid_charts::png;
 
-/// A study of made-up factors and results.
+/// A study with synthetic factors and results.
 fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
     let keys = [
         ("air.velocity", Dimension::Velocity),
@@ -18,7 +18,7 @@ fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
             let spacing = if key == "fibre.diameter" { Spacing::Logarithmic } else { Spacing::Linear };
             let steps = (!design.draws()).then_some(steps as u64);
             let levels = Levels::Range { from: 1e-3, to: 1e-1, steps, spacing };
-            Factor { key, dimension, whole: false, levels }
+            Factor { key, dimension, whole: false, names: Vec::new(), levels }
         })
         .collect();
     let rows = design.rows(&factors, &vec![1e-3; factors.len()], 1);
@@ -39,11 +39,13 @@ fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
 fn rankings(study: &Study) -> Vec<Ranking> {
     let effect = |factor: usize| Effect {
         factor,
+        from: 1e-3,
+        to: 1e-1,
         change: -0.01 / (factor + 1) as f64,
         half_width: (factor > 0).then_some(0.006),
     };
     let effects: Vec<Effect> = (0..study.factors.len()).map(effect).collect();
-    let ranking = |measure| Ranking { measure, middle: 0.1, explained: 0.9, effects: effects.clone() };
+    let ranking = |measure| Ranking { measure, middle: 0.1, explained: 0.9, effects: effects.clone(), terms: Vec::new() };
     (0..MEASURES.len()).map(ranking).collect()
 }
 

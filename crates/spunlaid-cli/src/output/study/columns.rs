@@ -1,4 +1,4 @@
-//! What the columns are called and hold.
+//! Names and contents of the columns.
 
 use super::super::parquet::{Column, Holds};
 use spunlaid::study::{MEASURES, Study};
@@ -11,7 +11,7 @@ pub(crate) enum Value {
     Number(f64),
 }
 
-/// Names of the inputs' columns, the key and its SI unit: `air.velocity_m_s`.
+/// Names of the input columns, the key and its SI unit: `air.velocity_m_s`.
 fn inputs(study: &Study) -> impl Iterator<Item = String> {
     study.inputs().map(|(key, dimension)| format!("{key}{}", dimension.suffix()))
 }

@@ -1,4 +1,4 @@
-//! Comma-separated values: a line of names, then a line per row; what is missing is empty.
+//! Comma-separated values: a header, then a line per row. Missing values are empty cells.
 
 use super::super::parquet::Column;
 use super::columns::Value;
@@ -14,7 +14,7 @@ pub(super) struct Csv {
 }
 
 impl Csv {
-    /// * `now`, `later` – where the table is written, and where it will be
+    /// * `now`, `later` – the temporary path of the table, and its final path
     pub(super) fn create((now, later): (PathBuf, PathBuf), columns: &[Column]) -> Result<Self, Failure> {
         let file = File::create(now).map_err(Failure::unwritable(&later))?;
         let mut csv = Self { path: later, writer: Writer::from_writer(file) };

@@ -1,4 +1,4 @@
-//! Tables of a study: a row per point, a row per fibre.
+//! Tables of a study: one with a row per point, one with a row per fibre.
 
 mod columns;
 mod csv;
@@ -9,12 +9,12 @@ use super::parquet::{Column, Parquet};
 use crate::failure::Failure;
 use spunlaid::study::{Journal, Landing, MEASURES, PointResults, Record, Study, results_of_point};
 
-/// Values that are gathered before they are written.
+/// Number of values that are collected before they are written.
 const VALUES: usize = 1 << 18;
 
-/// Writes `results.csv`, `results.parquet` and `replicates.parquet`; gives what the points amount to.
+/// Writes `results.csv`, `results.parquet` and `replicates.parquet`, and returns the statistics of the points.
 ///
-/// Rows are written as they are read: memory does not grow with the fibres.
+/// Rows are written as they are read, so that memory does not grow with the number of fibres.
 pub(crate) fn write(
     staging: &Staging<'_>,
     study: &Study,

@@ -1,12 +1,12 @@
-//! What differs between two files.
+//! Differences between two TOML files.
 
 use super::super::source::fit;
 use std::collections::BTreeMap;
 use toml::de::{DeTable, DeValue};
 
-/// What one TOML text says otherwise than another, key by key: `air.velocity was "10 m/s", is "12 m/s"`.
+/// The keys whose values differ between two TOML texts: `air.velocity was "10 m/s", is "12 m/s"`.
 ///
-/// Comments, order and spacing make no difference.
+/// Comments, order and spaces are ignored.
 pub fn differences(was: &str, is: &str) -> Vec<String> {
     let (was, is) = (entries(was), entries(is));
     let keys: std::collections::BTreeSet<&String> = was.keys().chain(is.keys()).collect();
@@ -14,14 +14,14 @@ pub fn differences(was: &str, is: &str) -> Vec<String> {
         .filter_map(|key| match (was.get(key), is.get(key)) {
             (Some(was), Some(is)) if was == is => None,
             (Some(was), Some(is)) => Some(format!("{key} was {was}, is {is}")),
-            (Some(was), None) => Some(format!("{key} was {was}, is not there")),
-            (None, Some(is)) => Some(format!("{key} was not there, is {is}")),
+            (Some(was), None) => Some(format!("{key} was {was}, is missing")),
+            (None, Some(is)) => Some(format!("{key} was missing, is {is}")),
             (None, None) => None,
         })
         .collect()
 }
 
-/// Full keys and the text of their values; one entry, without a key, for what is no TOML.
+/// Full keys and the text of their values; a single entry if the text is not TOML.
 fn entries(text: &str) -> BTreeMap<String, String> {
     let mut entries = BTreeMap::new();
     match DeTable::parse(text) {
@@ -47,7 +47,7 @@ mod tests {
     use super::differences;
 
     #[test]
-    fn differences_are_told_key_by_key() {
+    fn differences_are_listed_by_key() {
         let was = "a = 1 # one\n[b]\nc = [1, 2]\nd.e = \"x\"\ngone = 1\n";
         assert_eq!(differences(was, "a=1\n[b]\nd = { e = \"x\" }\ngone =  1\nc = [1, 2]\n"), [""; 0]);
         assert_eq!(
@@ -55,13 +55,10 @@ mod tests {
             [
                 "a was 1, is 2",
                 "b.d.e was \"x\", is \"y\"",
-                "b.gone was 1, is not there",
-                "b.new was not there, is 2"
+                "b.gone was 1, is missing",
+                "b.new was missing, is 2"
             ]
         );
-        assert_eq!(
-            differences("a = 1", "a = "),
-            ["a was 1, is not there", "the file was not there, is damaged"]
-        );
+        assert_eq!(differences("a = 1", "a = "), ["a was 1, is missing", "the file was missing, is damaged"]);
     }
 }

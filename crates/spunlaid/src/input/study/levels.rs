@@ -9,11 +9,11 @@ use crate::error::{Fault, StudyFault};
 use crate::study::{Design, Levels, Spacing};
 use toml::de::DeValue;
 
-/// Most values of a list or range.
+/// Largest number of values in a list or range.
 const MOST_VALUES: u64 = 10_000_000;
 
 impl<'a> Reader<'a> {
-    /// The values of a factor; nothing, with the problems noted, where they cannot be read.
+    /// The values of a factor; `None` if they cannot be read, after noting the problems.
     pub(super) fn levels(&mut self, varied: &Key, entry: Entry<'a>, design: Design) -> Option<Levels> {
         match entry.value {
             DeValue::Array(list) => {
@@ -100,7 +100,7 @@ impl<'a> Reader<'a> {
                 },
                 other => {
                     let advice = nearest_word(other, KEYS.into_iter()).map_or_else(
-                        || "a range takes from, to, steps and spacing".to_owned(),
+                        || "a range has the keys from, to, steps and spacing".to_owned(),
                         |key| format!("did you mean {key}?"),
                     );
                     self.reject(&entry, &key, StudyFault::UnknownKey { advice });
@@ -113,7 +113,8 @@ impl<'a> Reader<'a> {
         }
         let [Some(from), Some(to)] = ends else {
             whole.shown = None;
-            for (end, line) in ends.into_iter().zip(["from = and the first value", "to = and the last value"])
+            for (end, line) in
+                ends.into_iter().zip(["from = with the first value", "to = with the last value"])
             {
                 if end.is_none() {
                     let key = format!("{}.{}", varied.name, &line[..line.find(' ').unwrap_or(0)]);

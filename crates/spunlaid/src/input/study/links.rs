@@ -1,4 +1,4 @@
-//! Keys that follow from others.
+//! Links: keys that follow from other keys by a formula.
 
 use super::super::resolve::Open;
 use super::{advice, dimension, varied};
@@ -8,9 +8,9 @@ use crate::study::Link;
 use crate::units::{Expression, ExpressionFault, Powers};
 use std::collections::BTreeMap;
 
-/// Formulas that have a name: name, key it is for, formula.
+/// Formulas with a name: the name, the key it is for, the formula.
 const READY_MADE: [(&str, &str, &str); 1] =
-    // The integral time of a flat spectrum is 1/(4f); carried past at the mean velocity, an eddy is U/(4f) long.
+    // The integral time of a flat spectrum is 1/(4f). By Taylor's hypothesis the length of an eddy is then U/(4f).
     [("taylor", "air.cutoff_frequency", "air.velocity / (4 * air.length_scale)")];
 
 /// Reads the formula of a key.
@@ -24,7 +24,7 @@ pub(super) fn read(key: &Key, text: &str) -> Result<Link, StudyFault> {
             return Err(ExpressionFault::UnknownName { name: name.to_owned(), advice: advice(name) }.into());
         }
     }
-    // Units do not depend on values.
+    // Units do not depend on values, so any value serves for this check.
     let (_, found) = expression.value(&|name| Some((1.0, Powers::of(dimension(varied(name)?)))))?;
     let wanted = Powers::of(dimension(key));
     if !found.agree(wanted) {
@@ -34,10 +34,10 @@ pub(super) fn read(key: &Key, text: &str) -> Result<Link, StudyFault> {
     Ok(Link { key: key.name, dimension: dimension(key), expression })
 }
 
-/// An order in which every link comes after those it follows from.
+/// An order in which every link comes after the links it depends on.
 ///
 /// # Errors
-/// Index of a link that follows from itself, and the keys around the circle.
+/// Index of a link that depends on itself, and the keys of the circle.
 pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, StudyFault)> {
     let mut order: Vec<usize> = Vec::new();
     let of_key: BTreeMap<&str, usize> = links.iter().enumerate().map(|(i, link)| (link.key, i)).collect();
@@ -55,7 +55,7 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, StudyFault)> {
             None => {
                 let start = (0..links.len()).find(|i| !order.contains(i)).unwrap_or(0);
                 let mut way = vec![start];
-                // Everything that waits, waits for something that waits: the way comes round.
+                // Every waiting link waits for another waiting link, so this path returns to a link on it.
                 let last = loop {
                     let next = way.last().and_then(|i| waits_for(*i)).unwrap_or(start);
                     if way.contains(&next) {
@@ -72,17 +72,17 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, StudyFault)> {
     Ok(order)
 }
 
-/// The first key a link uses that has no value of its own, neither varied nor linked nor written.
+/// The first key in a link's formula that has no value: neither varied nor linked nor written in the case.
 pub(super) fn unwritten<'a>(link: &'a Link, set: &[&str], base: &Open) -> Option<&'a str> {
     let has_value =
         |name: &str| set.contains(&name) || varied(name).is_some_and(|key| base.number(key).is_some());
     link.expression.names().into_iter().find(|name| !has_value(name))
 }
 
-/// The values of the links, in their own order.
+/// The values of the links, in the order of `links`.
 ///
-/// * `order` – as from [`order`]
-/// * `known` – value of a key that is not linked
+/// * `order` – the order of [`order`]
+/// * `known` – returns the value of a key that is not linked
 pub(super) fn values(links: &[Link], order: &[usize], known: &dyn Fn(&str) -> Option<f64>) -> Vec<f64> {
     let mut values: Vec<Option<f64>> = vec![None; links.len()];
     for &i in order {

@@ -1,4 +1,4 @@
-//! Study files: what varies around a case, to a [`Study`] with every point resolved, and back.
+//! Study files: reads a file to a [`Study`] with all its points, and writes it back.
 
 mod differences;
 mod levels;
@@ -19,11 +19,11 @@ use crate::study::Study;
 use crate::units::Dimension;
 use std::path::{Path, PathBuf};
 
-/// Most points of a study that are flown without being asked for by number.
+/// Largest number of points that is flown without an explicit request.
 pub const MOST_POINTS_UNASKED: u64 = 10_000;
-/// Most points of a study.
+/// Largest number of points of a study.
 const MOST_POINTS: u64 = 10_000_000;
-/// Most fibres of a study.
+/// Largest number of fibres of a study.
 const MOST_FIBRES: u64 = 4_000_000_000;
 
 /// A study file, read.
@@ -31,23 +31,22 @@ const MOST_FIBRES: u64 = 4_000_000_000;
 pub struct StudyFile {
     /// The study.
     pub study: Study,
-    /// What there is to remark on its points.
+    /// Remarks on its points.
     pub notes: Vec<StudyNote>,
-    /// The text of the base case, as it is.
+    /// The text of the base case, unchanged.
     pub case_text: String,
-    /// What the base case is called: its path, where it is a file.
+    /// Path of the base case, or its name if it is not a file.
     pub case_path: PathBuf,
-    /// The study as a file, every default written out; it names the case `case.toml`.
+    /// The study as a file with every default written out; it names the case `case.toml`.
     pub text: String,
 }
 
 /// Reads a study file and the case it names, and resolves and checks every point.
 ///
-/// * `points` – number of points asked for, where there are more than [`MOST_POINTS_UNASKED`]
+/// * `points` – the number of points requested; required above [`MOST_POINTS_UNASKED`]
 ///
 /// # Errors
-/// When a file cannot be read, and when anything is wrong with the study or any of its points: then everything
-/// found.
+/// When a file cannot be read, and when the study or any of its points is wrong; the error lists all problems.
 pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Error> {
     let text = file::read(path, FileKind::Study)?;
     let beside = |case: &str| path.parent().map_or_else(|| PathBuf::from(case), |folder| folder.join(case));
@@ -57,7 +56,9 @@ pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Error> 
     })
 }
 
-/// Reads the text of a study file; `case` finds text and name of the case it names.
+/// Reads the text of a study file.
+///
+/// * `case` – returns text and path of the case that the study names
 ///
 /// # Errors
 /// As [`read_study`].
@@ -85,26 +86,26 @@ pub fn parse_study(
     Ok(StudyFile { study, notes, case_path: PathBuf::from(&case_name), case_text, text })
 }
 
-/// The key of this name, if a study may vary it.
+/// The key with this name, if a study may vary it.
 fn varied(name: &str) -> Option<&'static Key> {
     keys::find(name).filter(|key| key.varies)
 }
 
-/// What the numbers of a key measure.
+/// Physical dimension of a key's values.
 fn dimension(key: &Key) -> Dimension {
     key.dimension().unwrap_or(Dimension::Ratio)
 }
 
-/// A number as a case file has it, to the bit.
+/// A number in the form of a case file, without rounding.
 fn exact(key: &Key, value: f64) -> String {
     if key.is_whole() { format!("{value:.0}") } else { dimension(key).exact(value) }
 }
 
-/// What to say of a name that is no key with a number.
+/// Advice for a name that a study cannot vary.
 fn advice(name: &str) -> String {
     match name {
-        "run.replicates" => return "write the study's own replicates = 10 above the tables".to_owned(),
-        "run.seed" => return "write the study's own seed = 1 above the tables".to_owned(),
+        "run.replicates" => return "write replicates = 10 in the study file, above its tables".to_owned(),
+        "run.seed" => return "write seed = 1 in the study file, above its tables".to_owned(),
         _ => {}
     }
     if keys::find(name).is_some() {

@@ -1,4 +1,4 @@
-//! Every point of a study as a case of its own, checked.
+//! Makes a checked case of every point of a study.
 
 use super::super::data::DataFiles;
 use super::super::resolve::{self, Open};
@@ -12,14 +12,14 @@ use crate::study::{Point, seed_of_point};
 use std::fmt;
 use std::mem::{Discriminant, discriminant};
 
-/// A remark on points of a study, told once for all of them.
+/// A remark that applies to one or more points of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyNote {
     /// The remark on the first of them.
     pub note: Note,
     /// Number of points.
     pub points: u64,
-    /// Whether these are all points.
+    /// Whether it applies to all points.
     pub all: bool,
 }
 
@@ -29,13 +29,13 @@ impl fmt::Display for StudyNote {
         match self.points {
             _ if self.all && matches!(self.note.place, Place::File { .. }) => Ok(()),
             1 => Ok(()),
-            2 => f.write_str(" (and so for another point)"),
-            points => write!(f, " (and so for {} other points)", points - 1),
+            2 => f.write_str(" (this applies to one more point)"),
+            points => write!(f, " (this applies to {} more points)", points - 1),
         }
     }
 }
 
-/// Makes points of a plan.
+/// Makes the points of a plan.
 pub(super) struct Resolver<'a> {
     pub(super) study: &'a str,
     /// Files that the case names.
@@ -46,7 +46,7 @@ pub(super) struct Resolver<'a> {
 }
 
 impl Resolver<'_> {
-    /// All points, or everything wrong with any of them.
+    /// All points, or the problems of all of them.
     pub(super) fn points(&self) -> Result<(Vec<Point>, Vec<StudyNote>), Error> {
         let Plan { factors, design, seed, .. } = self.plan;
         let base: Vec<f64> = factors.iter().map(|factor| of_base(self.base, factor)).collect();
@@ -128,7 +128,7 @@ fn number_of(key: &Key, value: f64) -> Result<Value, Fault> {
     }
 }
 
-/// The remarks on all points, those of one kind on one key together.
+/// The remarks on all points; remarks of the same kind on the same key are merged.
 #[derive(Default)]
 struct Notes(Vec<(Discriminant<Remark>, StudyNote)>);
 

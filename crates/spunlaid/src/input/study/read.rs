@@ -1,4 +1,4 @@
-//! What a study file says, checked as far as it can be without making the points.
+//! Reads a study file, and checks everything that can be checked before its points are made.
 
 use super::super::FORMAT_VERSION;
 use super::super::document::{kind, table_named};
@@ -17,7 +17,7 @@ use toml::de::{DeTable, DeValue};
 const KEYS: [&str; 9] =
     ["version", "case", "design", "points", "replicates", "common_phases", "seed", "vary", "link"];
 
-/// A value with the place and the text it was written in.
+/// A value with its place and its text in the file.
 pub(super) struct Entry<'a> {
     pub(super) at: usize,
     pub(super) place: Place,
@@ -25,20 +25,20 @@ pub(super) struct Entry<'a> {
     pub(super) value: DeValue<'a>,
 }
 
-/// Reads a study file; gathers all that is wrong with it.
+/// Reads a study file and collects its problems.
 pub(super) struct Reader<'a> {
     pub(super) source: Source<'a>,
     entries: BTreeMap<String, Entry<'a>>,
     problems: Vec<Problem>,
-    /// Keys that are missed only because they are misspelt.
+    /// Keys that are missing only because they are misspelt.
     excused: Vec<&'static str>,
 }
 
-/// A study whose points are still to be made.
+/// A study before its points are made.
 pub(super) struct Plan {
     pub(super) factors: Vec<Factor>,
     pub(super) links: Vec<Link>,
-    /// An order in which the links can be worked out.
+    /// An order in which the links can be evaluated.
     pub(super) order: Vec<usize>,
     pub(super) design: Design,
     pub(super) seed: u64,
@@ -54,7 +54,7 @@ impl Plan {
 }
 
 impl<'a> Reader<'a> {
-    /// Takes the file apart.
+    /// Splits the file into its entries.
     ///
     /// # Errors
     /// When the text is not TOML.
@@ -81,7 +81,7 @@ impl<'a> Reader<'a> {
                         reader.excused.push(key);
                         format!("did you mean {key}?")
                     }
-                    None => format!("it takes {} and {}", KEYS[..8].join(", "), KEYS[8]),
+                    None => format!("the keys are {} and {}", KEYS[..8].join(", "), KEYS[8]),
                 };
                 reader.reject(&entry, &name, StudyFault::UnknownKey { advice });
             }
@@ -89,7 +89,7 @@ impl<'a> Reader<'a> {
         tables.sort_by_key(|(entry, _)| entry.at);
         if let Some((entry, name)) = tables.first() {
             if !reader.entries.contains_key("case") {
-                // All else would only repeat it.
+                // The file is a case, so all other problems would only repeat this one.
                 reader.problems.clear();
                 reader.excused.push("case");
             }
@@ -110,7 +110,7 @@ impl<'a> Reader<'a> {
         self.problems.push(Finding { place, key: fit(key), value, what: fault.into() });
     }
 
-    /// A problem of the whole file.
+    /// Notes a problem of the whole file.
     fn reject_whole(&mut self, key: &str, fault: StudyFault) {
         if self.excused.contains(&key) && matches!(fault, StudyFault::Missing { .. }) {
             return;
@@ -124,14 +124,14 @@ impl<'a> Reader<'a> {
         self.reject(entry, key, fault);
     }
 
-    /// Everything found wrong, in the order of the file.
+    /// All problems, in the order of the file.
     pub(super) fn rejected(self) -> Error {
         let mut problems = self.problems;
         problems.sort_by(|a, b| a.place.cmp(&b.place));
         problems.into()
     }
 
-    /// The case the study names; nothing, with the problem noted, where it names none or the file is newer.
+    /// The name of the case; `None` if it is missing or the file is newer, after noting the problem.
     pub(super) fn case(&mut self) -> Option<String> {
         if let Some(version) = self.entries.remove("version") {
             let known = FORMAT_VERSION;
@@ -157,13 +157,13 @@ impl<'a> Reader<'a> {
         match &entry.value {
             DeValue::String(text) => Some(text.clone().into_owned()),
             _ => {
-                self.wrong_type(&entry, "case", "the name of a case file, in quotes");
+                self.wrong_type(&entry, "case", "the path of a case file, in quotes");
                 None
             }
         }
     }
 
-    /// The plan; nothing where anything was found wrong.
+    /// The plan; `None` if the file has problems.
     pub(super) fn plan(&mut self, base: &Open, asked: Option<u64>) -> Option<Plan> {
         let design_entry = self.entries.remove("design");
         let design = self.design(design_entry.as_ref());
@@ -228,12 +228,13 @@ impl<'a> Reader<'a> {
             None if draws => {
                 self.reject_whole(
                     "points",
-                    StudyFault::Missing { line: "points = 64, how many the design draws" },
+                    StudyFault::Missing { line: "points = 64, the number of points of the design" },
                 );
             }
             Some(points) if !draws => {
-                let advice =
-                    format!("design = \"{text}\" has as many points as its values make; leave it out");
+                let advice = format!(
+                    "the number of points of design = \"{text}\" follows from its values; remove this key"
+                );
                 self.reject(&points, "points", StudyFault::UnknownKey { advice });
             }
             _ => {}
@@ -288,15 +289,14 @@ impl<'a> Reader<'a> {
                 "until" => until = self.until(entry),
                 other => {
                     let advice = nearest_word(other, KEYS.into_iter()).map_or_else(
-                        || "it takes at_least, at_most and until".to_owned(),
+                        || "the keys are at_least, at_most and until".to_owned(),
                         |key| format!("did you mean {key}?"),
                     );
                     self.reject(&entry, &name, StudyFault::UnknownKey { advice });
                 }
             }
         }
-        let line =
-            "[replicates] until = { amplitude_y = \"5 %\" }: the standard error, by the mean, to reach";
+        let line = "[replicates] until = { amplitude_y = \"5 %\" }, the wanted standard error as a fraction of the mean";
         if until.is_empty() && self.problems.is_empty() {
             self.reject_whole("replicates.until", StudyFault::Missing { line });
         }
@@ -310,7 +310,7 @@ impl<'a> Reader<'a> {
 
     fn until(&mut self, entry: Entry<'a>) -> Vec<(usize, f64)> {
         let DeValue::Table(table) = entry.value else {
-            self.wrong_type(&entry, "replicates.until", "a table, as { amplitude_y = \"5 %\" }");
+            self.wrong_type(&entry, "replicates.until", "a table, like { amplitude_y = \"5 %\" }");
             return Vec::new();
         };
         let mut until = Vec::new();
@@ -320,7 +320,7 @@ impl<'a> Reader<'a> {
             let Some(measure) = MEASURES.iter().position(|measure| measure.name == name) else {
                 let names = MEASURES.map(|measure| measure.name);
                 let advice = nearest_word(&name, names.into_iter()).map_or_else(
-                    || format!("there are {}", names.join(", ")),
+                    || format!("the results are {}", names.join(", ")),
                     |name| format!("did you mean {name}?"),
                 );
                 self.reject(&entry, &key, StudyFault::UnknownResult { advice });
@@ -361,7 +361,7 @@ impl<'a> Reader<'a> {
                 self.wrong_type(
                     &entry,
                     &key,
-                    "a formula in quotes, as \"air.velocity / (4 * air.length_scale)\"",
+                    "a formula in quotes, like \"air.velocity / (4 * air.length_scale)\"",
                 );
                 continue;
             };
@@ -389,7 +389,7 @@ impl<'a> Reader<'a> {
         links
     }
 
-    /// The key; nothing, with the problem noted, of one that a study cannot set.
+    /// The key; `None` if a study cannot vary it, after noting the problem.
     fn varied(&mut self, entry: &Entry<'_>, name: &str) -> Option<&'static Key> {
         let key = varied(name);
         if key.is_none() {
@@ -398,7 +398,7 @@ impl<'a> Reader<'a> {
         key
     }
 
-    /// The entries of a table in the order written, `air.velocity = …` and `"air.velocity" = …` alike.
+    /// The entries of a table in the order of the file; `air.velocity = …` and `"air.velocity" = …` are equal.
     pub(super) fn flat(&mut self, table: DeTable<'a>) -> Vec<(String, Entry<'a>)> {
         let mut flat = Vec::new();
         for ((at, key), value) in in_order(table) {
@@ -419,7 +419,7 @@ impl<'a> Reader<'a> {
     fn factors(&mut self, design: Design) -> Vec<Factor> {
         let Some(entry) = self.entries.remove("vary") else {
             let line =
-                "[vary] and below it a key and its values, as \"air.velocity\" = [\"5 m/s\", \"10 m/s\"]";
+                "[vary] and below it a key and its values, like \"air.velocity\" = [\"5 m/s\", \"10 m/s\"]";
             self.reject_whole("vary", StudyFault::Missing { line });
             return Vec::new();
         };
@@ -444,13 +444,13 @@ impl<'a> Reader<'a> {
             }
             if let Some(levels) = self.levels(varied, entry, design) {
                 let (dimension, whole) = (dimension(varied), varied.is_whole());
-                factors.push(Factor { key: varied.name, dimension, whole, levels });
+                factors.push(Factor { key: varied.name, dimension, whole, names: Vec::new(), levels });
             }
         }
         factors
     }
 
-    /// What only shows when factors are taken together.
+    /// Checks the factors together.
     fn combination(&mut self, entry: &Entry<'_>, design: Design, factors: &[Factor], base: &Open) {
         let (found, most) = (factors.len(), design.most_factors());
         if found > most {
@@ -466,7 +466,7 @@ impl<'a> Reader<'a> {
         if design == Design::OneAtATime {
             for factor in factors {
                 if of_base(base, factor).is_nan() {
-                    let purpose = "vary it around its value there";
+                    let purpose = "vary it around this value";
                     self.reject_whole(factor.key, StudyFault::NotWritten { purpose });
                 }
             }
@@ -491,14 +491,14 @@ impl<'a> Reader<'a> {
         if count > MOST_POINTS as f64 {
             let points = if count < 1e15 { exact.to_string() } else { format!("{count:.1e}") };
             let advice = format!(
-                "{MOST_POINTS} are possible: vary fewer keys or values, or take design = \"latin-hypercube\""
+                "at most {MOST_POINTS} are possible: vary fewer keys or values, or write design = \"latin-hypercube\""
             );
             let most = MOST_POINTS_UNASKED;
             self.reject(entry, "design", StudyFault::TooManyPoints { points, most, advice });
         } else if let Some(asked) = asked.filter(|asked| *asked != exact) {
             self.reject(entry, "design", StudyFault::OtherPoints { points: exact, asked });
         } else if exact > MOST_POINTS_UNASKED && asked.is_none() {
-            let advice = format!("ask for {exact} points by their number");
+            let advice = format!("request {exact} points by this number");
             let (points, most) = (exact.to_string(), MOST_POINTS_UNASKED);
             self.reject(entry, "design", StudyFault::TooManyPoints { points, most, advice });
         }
@@ -510,12 +510,12 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The value of a factor in the base case; NaN where it has none.
+/// The value of a factor in the base case; NaN if it has none.
 pub(super) fn of_base(base: &Open, factor: &Factor) -> f64 {
     varied(factor.key).and_then(|key| base.number(key)).unwrap_or(f64::NAN)
 }
 
-/// Keys, with their bytes, and values of a table in the order they are written.
+/// Keys with their positions, and values of a table in the order of the file.
 pub(super) fn in_order<'a>(table: DeTable<'a>) -> Vec<((usize, String), Spanned<DeValue<'a>>)> {
     let mut entries: Vec<_> = table
         .into_iter()

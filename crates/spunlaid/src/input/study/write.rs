@@ -1,4 +1,4 @@
-//! A study as a file, every default written out.
+//! Writes a study as a file, with every default.
 
 use super::super::FORMAT_VERSION;
 use super::{exact, varied};
@@ -6,9 +6,9 @@ use crate::study::{Design, Levels, MEASURES, Study};
 use crate::units::shortest;
 use std::fmt::Write;
 
-/// Writes a study as TOML; the case it names is `case.toml`, beside it.
+/// Writes a study as TOML; it names the case `case.toml`, in the same folder.
 ///
-/// Reading the text with the same case gives the same points to the last bit.
+/// Reading the text with the same case gives exactly the same points.
 pub(super) fn write_study(study: &Study) -> String {
     let mut text = format!("version = {FORMAT_VERSION}\ncase = \"case.toml\"\n");
     // Writing to a text cannot fail.
