@@ -2,12 +2,15 @@
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
+use spunlaid::case::{Case, Note};
+use spunlaid::error::Error;
+use spunlaid::input::{Overrides, read_case};
 use spunlaid::record::IntegralRule;
 use spunlaid::statistics::Window;
 use spunlaid::units::Dimension;
 use std::path::PathBuf;
 
-/// Simulate fibres in turbulent air: how far and how often the free end swings, and why.
+/// Simulate fibres in turbulent air: amplitude, frequency and shape of their motion
 #[derive(Debug, Parser)]
 #[command(name = "spunlaid", version, about, after_help = EXAMPLES, propagate_version = true)]
 pub(crate) struct Arguments {
@@ -18,18 +21,18 @@ pub(crate) struct Arguments {
 const EXAMPLES: &str = "\
 Examples:
   spunlaid new my.toml                              write a commented case to start from
-  spunlaid keys field                               what the keys about a field mean
-  spunlaid check my.toml                            see what it means: mesh, limits, time to expect
+  spunlaid keys field                               explain the keys about a field
+  spunlaid check my.toml                            show mesh, limits, expected time and memory
   spunlaid run my.toml                              fly it; then open results/my/report.html
   spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
-  spunlaid sweep my_study.toml                      fly it at many values of what you vary
+  spunlaid sweep my_study.toml                      fly it with many values of some keys
   spunlaid analyse wire.csv                         make the air of a case from a velocity record
 
-A case is a small text file: the fibre, the air, the run. Lengths, speeds and the like carry
-their unit (\"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\").
+A case is a small text file that describes fibre, air and run. Quantities have a unit:
+\"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\".
 
-Exit codes: 0 done; 1 the input is wrong: arguments, case, study, record, or the folder named;
-2 the input is not to blame: a file cannot be written, fibres were lost; 130 interrupted.";
+Exit codes: 0 done; 1 the input is wrong (arguments, case, study, record, or the named folder);
+2 another failure (a file cannot be written, a flight diverged); 130 interrupted.";
 
 /// What to do.
 #[derive(Debug, Subcommand)]
@@ -37,19 +40,19 @@ pub(crate) enum Command {
     /// Fly the fibres of a case and write table, data, figures and report
     #[command(after_help = RUN_HELP)]
     Run(Run),
-    /// Fly a case at many values of its keys: which matters, and how much?
+    /// Fly a case with many values of its keys, and rank which keys matter
     #[command(after_help = SWEEP_HELP)]
     Sweep(Sweep),
-    /// Draw every result figure of the paper anew and put its claims to the test
+    /// Reproduce every result figure of the paper and test its claims
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(Reproduce),
     /// Make the air of a case from a measured velocity record: mean, intensity, scales, spectrum
     #[command(after_help = ANALYSE_HELP)]
     Analyse(Analyse),
-    /// Read a case and print what it means, without flying it
+    /// Show a case with all defaults, its mesh, limits and expected cost, without flying it
     #[command(after_help = CHECK_HELP)]
     Check(Check),
-    /// Explain the keys of a case: what each means, what it takes, what is taken without it
+    /// Explain the keys of a case: meaning, allowed values, default
     #[command(after_help = KEYS_HELP)]
     Keys(Keys),
     /// Write a commented case file to start from
@@ -65,15 +68,15 @@ pub(crate) enum Command {
 const KEYS_HELP: &str = "\
 Examples:
   spunlaid keys                        every key
-  spunlaid keys field                  those with this word in their name or meaning
+  spunlaid keys field                  the keys with this word in their name or meaning
   spunlaid keys run.spin_up            one of them
-  spunlaid keys --markdown > keys.md   the same as a document";
+  spunlaid keys --markdown > keys.md   the same as a Markdown document";
 
 const RUN_HELP: &str = "\
 The results folder holds
-  report.html          open it in a browser: the fibre moving, figures, table; works offline
+  report.html          for the browser: the moving fibre, figures, table; works offline
   summary.json         every result with mean, standard error and the replicates' values
-  case.toml            the case with every default written out: run it again for the same bits
+  case.toml            the case with every default; running it gives the same bits
   end_node.parquet     the free end over time      energy.parquet   both energy ledgers over time
   shape.pvd, shape/    the fibre over time, for ParaView (open shape.pvd)
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
@@ -90,22 +93,22 @@ A study is a small text file beside the case it varies:
   # points = 64              # how many a latin-hypercube or sobol design draws
   replicates = 10            # fibres per point; or a table:
                              #   [replicates] at_most = 100, until = { amplitude_y = \"3 %\" }
-  # common_phases = true     # all points in turbulence of the same random phases
+  # common_phases = true     # the same random phases of turbulence at all points
   # seed = 1
-  [vary]                     # any key of a case whose value is a number
+  [vary]                     # any key of a case with a number as value
   \"air.velocity\"   = [\"5 m/s\", \"10 m/s\", \"20 m/s\"]
   \"fibre.diameter\" = { from = \"20 um\", to = \"200 um\", steps = 4, spacing = \"log\" }
   [link]                     # keys that follow from others
   \"air.cutoff_frequency\" = \"air.velocity / (4 * air.length_scale)\"    # or just \"taylor\"
 
-Nothing is lost: killed at any moment, the same command goes on where it was and ends with the same
-bits. The results folder holds
-  report.html          open it in a browser: what was asked, table, figures, ranking
+If a sweep is interrupted, the same command continues it and gives the same bits. The results
+folder holds
+  report.html          for the browser: the study, table, figures, ranking
   results.csv          a row per point: inputs, then mean, standard error (_se) and n of every result
   results.parquet      the same            replicates.parquet   a row per fibre
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
-  study.toml, case.toml   the study as it was run; sweep them again for the same bits
-  journal              every fibre as it landed; keep it and the study can be gone on with
+  study.toml, case.toml   the study as it was run; sweeping it again gives the same bits
+  journal              the results of every fibre; with it the study can be continued
 
 Examples:
   spunlaid sweep cases/studies/velocity.toml
@@ -113,59 +116,68 @@ Examples:
 
 const REPRODUCE_HELP: &str = "\
 The results folder holds
-  report.html   the paper's claims one by one with evidence and verdict, what it leaves open, the figures
+  report.html   the paper's claims with evidence and verdict, its open questions, the figures
   figures/      every figure as SVG and PNG, and its numbers as CSV
   summary.json  the claims, their evidence and verdicts      case.toml  the base case, Table 1
 
-The studies that it flies are the files cases/paper/*.toml of the repository, which are built in.
+It flies the studies cases/paper/*.toml of the repository, which are built into the program.
 
 Examples:
-  spunlaid reproduce                                       as the paper did it
-  spunlaid reproduce --scheme implicit-tension --replicates 40   in seconds, with smaller errors
+  spunlaid reproduce                                       with the paper's scheme
+  spunlaid reproduce --scheme implicit-tension --replicates 40   faster, with smaller errors
   spunlaid reproduce --figures 9,11a --out results/two";
 
 const ANALYSE_HELP: &str = "\
-A record is a CSV file (comma, semicolon, tab or blanks; decimal point or comma; # comments) or a
-Parquet file with a column of time and one to three of velocity, evenly sampled:
+A record is an evenly sampled CSV or Parquet file with one time column and one to three velocity
+columns. CSV cells are separated by comma, semicolon, tab or blanks:
 
   time_s,u_m_s,v_m_s          Zeit [ms];u [m/s]          (or no time column and --rate \"20 kHz\")
   0.00000,10.12,-0.31         0,00;10,12
   0.00005,10.25,-0.28         0,05;10,25
 
-The first velocity, or the one called u, is along the mean flow. Missing samples (empty, NaN, rows
-that the times skip) are filled in along straight lines, up to --max-gap in a row.
+The first velocity column, or the one called u, is along the mean flow. Missing samples are
+interpolated, up to --max-gap in a row.
 
 The results folder holds
-  report.html          open it in a browser: record, histogram, spectrum, autocorrelation, table
-  analysis.json        every result as {value, low, high}, a 95 % confidence interval
-  air.toml             the [air] of a case, ready to be pasted; or to be given key by key with --set
+  report.html          for the browser: record, histogram, spectrum, autocorrelation, table
+  analysis.json        every result as {value, low, high} with a 95 % confidence interval
+  air.toml             the [air] table of a case, to be pasted into a case file
   spectrum.csv, autocorrelation.csv      the curves          figures/   the figures as SVG, PNG, CSV
 
-Integral time: the autocorrelation integrated up to
+The integral time is the integral of the autocorrelation up to
   first-zero           its first zero (the usual choice)
-  e-fold               where it has fallen to 1/e; of an exponential this keeps 63 %
-  fixed=\"50 ms\"        a lag of your choice
+  e-fold               the lag where it falls to 1/e (63 % of the integral of an exponential)
+  fixed=\"50 ms\"        a given lag
 
 Examples:
   spunlaid analyse cases/records/probe.csv
   spunlaid analyse wire.csv --rate \"20 kHz\" --velocity-unit m/s --integral e-fold --out results/wire";
 
 const CHECK_HELP: &str = "\
-Prints the case with every default written out, the mesh, the longest stable time step, and the
-memory and time to expect.
+Prints the case with every default, the mesh, the limits of the time step, and the expected time,
+memory and size of the results. The output is itself a case file.
 
 Example:
   spunlaid check cases/table1.toml --set fibre.element_length=\"5 mm\"";
 
-/// A case and what to change in it.
+/// A case and changes to it.
 #[derive(Debug, Args)]
 pub(crate) struct CaseSource {
     /// Case file (TOML)
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub(crate) case: PathBuf,
-    /// Set a key of the case for this time, as air.velocity="20 m/s"; may be repeated
+    /// Set a key of the case for this run, as air.velocity="20 m/s"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
+}
+
+impl CaseSource {
+    /// Reads the case with the values of `--set` and these.
+    pub(crate) fn read(&self, more: &[(&str, String)]) -> Result<(Case, Vec<Note>), Error> {
+        let more = more.iter().map(|(key, value)| ((*key).to_owned(), value.clone()));
+        let values: Vec<_> = self.set.iter().cloned().chain(more).collect();
+        read_case(&self.case, Overrides { values: &values, word: "--set" })
+    }
 }
 
 fn key_and_value(text: &str) -> Result<(String, String), String> {
@@ -182,16 +194,16 @@ pub(crate) struct Run {
     /// Folder for the results [default: results/<name of the case>]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) out: Option<PathBuf>,
-    /// Number of fibres with different turbulence, in place of run.replicates
+    /// Number of fibres, each in its own turbulence; replaces run.replicates
     #[arg(long, value_name = "N")]
     pub(crate) replicates: Option<u64>,
-    /// Master seed of the turbulence, in place of run.seed
+    /// Seed of the turbulence; replaces run.seed
     #[arg(long, value_name = "S")]
     pub(crate) seed: Option<u64>,
-    /// Threads to compute on [default: all cores]; results are the same for any number
+    /// Number of threads [default: all cores]; it does not change the results
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: Option<u16>,
-    /// No progress bar and no table; warnings and errors still show
+    /// No progress bar and no table; warnings and errors are still shown
     #[arg(long, short)]
     pub(crate) quiet: bool,
     /// Print summary.json instead of the table
@@ -210,16 +222,16 @@ pub(crate) struct Sweep {
     /// Folder for the results [default: results/<name of the study>]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) out: Option<PathBuf>,
-    /// Threads to compute on [default: all cores]; results are the same for any number
+    /// Number of threads [default: all cores]; it does not change the results
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: Option<u16>,
-    /// No progress and no table; warnings and errors still show
+    /// No progress and no table; warnings and errors are still shown
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// Start anew, dropping what the output folder holds of a study
+    /// Start again; deletes the study in the output folder
     #[arg(long)]
     pub(crate) force: bool,
-    /// Number of points, to fly more than 10000
+    /// Confirm the number of points; needed above 10000 points
     #[arg(long, value_name = "N")]
     pub(crate) points: Option<u64>,
     /// Print the case of point K, counted from 1, and fly nothing
@@ -232,19 +244,19 @@ pub(crate) struct Reproduce {
     /// Folder for the results [default: results/paper]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) out: Option<PathBuf>,
-    /// Figures to draw, as 9,10,11a; all of them if left out
+    /// Figures to draw, as 9,10,11a [default: all]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub(crate) figures: Vec<String>,
-    /// Fibres at each point; the paper flew ten
+    /// Fibres at each point; the paper has ten
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) replicates: u64,
-    /// Time integration: the paper's with 1 µs, or another with a step that suits it
+    /// Time integration: the paper's with 1 µs, or another with a suitable step
     #[arg(long, value_enum, default_value = "semi-implicit-euler")]
     pub(crate) scheme: SchemeName,
-    /// Threads to compute on [default: all cores]; results are the same for any number
+    /// Number of threads [default: all cores]; it does not change the results
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: Option<u16>,
-    /// No progress bar and no list of claims; errors still show
+    /// No progress bar and no list of claims; errors are still shown
     #[arg(long, short)]
     pub(crate) quiet: bool,
     /// Replace the results in the output folder
@@ -260,46 +272,46 @@ pub(crate) struct Analyse {
     /// Folder for the results [default: results/<name of the record>]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) out: Option<PathBuf>,
-    /// Sampling rate, as "20 kHz"; a column of time is then not needed, and not used
+    /// Sampling rate, as "20 kHz"; a time column is then ignored
     #[arg(long, value_name = "RATE", value_parser = |t: &str| quantity(Dimension::Frequency, t))]
     pub(crate) rate: Option<f64>,
-    /// Unit of the time where the header has none: s, ms, us
+    /// Unit of the time if the header has none: s, ms, us
     #[arg(long, value_name = "UNIT")]
     pub(crate) time_unit: Option<String>,
-    /// Unit of the velocities where the header has none: m/s, cm/s, km/h
+    /// Unit of the velocities if the header has none: m/s, cm/s, km/h
     #[arg(long, value_name = "UNIT")]
     pub(crate) velocity_unit: Option<String>,
-    /// Columns that are velocities, by name or number, that along the flow first, as u,v
+    /// Velocity columns by name or number, the one along the flow first, as u,v
     #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
-    /// Column that is the time, by name or number
+    /// Time column by name or number
     #[arg(long, value_name = "COLUMN")]
     pub(crate) time_column: Option<String>,
-    /// Lines to leave out at the start of a CSV file
+    /// Lines to skip at the start of a CSV file
     #[arg(long, value_name = "LINES", default_value_t = 0)]
     pub(crate) skip: u64,
-    /// Most missing samples in a row that are filled in
+    /// Most missing samples in a row that are interpolated
     #[arg(long, value_name = "SAMPLES", default_value_t = spunlaid::record::LONGEST_GAP)]
     pub(crate) max_gap: usize,
-    /// Mean velocity, as "10 m/s", where the record holds the fluctuation only
+    /// Mean velocity, as "10 m/s", if the record holds the fluctuation only
     #[arg(long, value_name = "SPEED", value_parser = |t: &str| quantity(Dimension::Velocity, t))]
     pub(crate) mean_velocity: Option<f64>,
-    /// How far the autocorrelation is integrated: first-zero, e-fold or fixed="50 ms"
+    /// End of the integral of the autocorrelation: first-zero, e-fold or fixed="50 ms"
     #[arg(long, value_name = "RULE", default_value = "first-zero", value_parser = integral)]
     pub(crate) integral: IntegralRule,
-    /// Samples in a segment of the spectrum, a power of two [default: by the integral time]
+    /// Samples in a segment of the spectrum, a power of two [default: from the integral time]
     #[arg(long, value_name = "SAMPLES")]
     pub(crate) segment: Option<usize>,
     /// Window of the segments: hann, hamming or rectangular
     #[arg(long, value_name = "NAME", default_value = "hann", value_parser = window)]
     pub(crate) window: Window,
-    /// Share of a segment that the next one overlaps, 0 to 0.9
+    /// Overlap of neighbouring segments, 0 to 0.9
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, value_parser = overlap)]
     pub(crate) overlap: f64,
     /// End of the flat part of the spectrum, as "20 Hz" [default: an eighth of the cut-off]
     #[arg(long, value_name = "FREQUENCY", value_parser = |t: &str| quantity(Dimension::Frequency, t))]
     pub(crate) flat_until: Option<f64>,
-    /// No table; warnings and errors still show
+    /// No table; warnings and errors are still shown
     #[arg(long, short)]
     pub(crate) quiet: bool,
     /// Print analysis.json instead of the table
@@ -317,7 +329,7 @@ pub(crate) enum SchemeName {
     SemiImplicitEuler,
     /// Second order
     Leapfrog,
-    /// Long steps: hundreds of times faster
+    /// Long steps, hundreds of times faster
     ImplicitTension,
 }
 
@@ -352,22 +364,22 @@ pub(crate) struct Check {
 
 #[derive(Debug, Args)]
 pub(crate) struct Keys {
-    /// Only keys with this in their name or meaning
+    /// Show only keys with this word in their name or meaning
     pub(crate) pattern: Option<String>,
-    /// As Markdown, the way docs/keys.md is made
+    /// Print Markdown; docs/keys.md is made this way
     #[arg(long)]
     pub(crate) markdown: bool,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct New {
-    /// File to write; must not exist yet
+    /// File to write; it must not exist yet
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct Completions {
-    /// Shell to complete in
+    /// The shell
     pub(crate) shell: Shell,
 }

@@ -1,4 +1,4 @@
-//! Why the program ends without doing what it was asked.
+//! The errors of the program, their messages and exit codes.
 
 use parquet::errors::ParquetError;
 use spunlaid::error::{Error, Fault, FileError, FileFault, JournalError, RecordFault, StudyFault};
@@ -7,12 +7,12 @@ use std::io;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 
-/// Why the program ends early.
+/// An error that ends the program.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The library says no.
+    /// An error of the library.
     Library(Error),
-    /// The record to analyse cannot be used.
+    /// The record for `analyse` cannot be used.
     Record(Box<FileError>),
     /// A file or folder cannot be written.
     Unwritable { path: PathBuf, source: io::Error },
@@ -26,7 +26,7 @@ pub(crate) enum Failure {
     Exists { path: PathBuf },
     /// A figure cannot be drawn.
     Figure { name: String, reason: String },
-    /// What was to be read on standard output could not be written there.
+    /// Standard output cannot be written.
     Unheard { why: &'static io::Error },
     /// A study was interrupted.
     Paused { done: u64, of: u64 },
@@ -36,15 +36,15 @@ pub(crate) enum Failure {
     OtherVersion { folder: PathBuf, version: String },
     /// The paper has no such figure.
     NoSuchFigure { name: String, known: String },
-    /// No key is like this.
+    /// No key has this word.
     NoSuchKey { pattern: String, nearest: Vec<&'static str> },
-    /// A study has fewer points than that.
+    /// The study has fewer points.
     NoSuchPoint { point: u64, points: u64 },
-    /// Fibres stopped being finite.
+    /// The positions of fibres became infinite or NaN.
     FibresLost { lost: u64, of: u64, first: Vec<String> },
     /// A table cannot be encoded.
     Table { path: PathBuf, source: ParquetError },
-    /// The program has a fault; it has told where.
+    /// The program panicked; the message has been printed.
     Panicked,
 }
 
@@ -53,7 +53,7 @@ impl Failure {
         |source| Self::Unwritable { path: path.to_owned(), source }
     }
 
-    /// A table that could not be written: what the system says, where it is the one that refused.
+    /// A table that cannot be written. If the operating system refused, its message is used.
     pub(crate) fn table(path: &Path, error: ParquetError) -> Self {
         let path = path.to_owned();
         match error {
@@ -65,7 +65,7 @@ impl Failure {
         }
     }
 
-    /// 1 the input is wrong, 2 the input is not to blame, 130 interrupted.
+    /// 1 if the input is wrong, 130 if interrupted, 2 otherwise.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Library(Error::Interrupted) | Self::Paused { .. } => 130,
@@ -89,9 +89,9 @@ impl Failure {
         }
     }
 
-    /// Does `work`; a panic in it, which is a fault of the program, becomes a failure like others.
+    /// Does `work`. A panic in it is a fault of the program and becomes a failure.
     pub(crate) fn catch_panic(work: impl FnOnce() -> Result<(), Self>) -> Result<(), Self> {
-        // Nothing of what the work has touched is used afterwards.
+        // Nothing that the work has touched is used afterwards.
         panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or(Err(Self::Panicked))
     }
 }
@@ -112,7 +112,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Library(Error::Interrupted) => {
-                write!(f, "interrupted; nothing was written. The same command starts again")
+                write!(f, "interrupted; nothing was written. Repeat the command to start again")
             }
             Self::Library(error) => write!(f, "{error}{}", options(error)),
             Self::Record(error) => write!(f, "{error}{}", record_options(&error.fault)),
@@ -147,21 +147,24 @@ impl fmt::Display for Failure {
                 write!(f, "{}: is a file; name a folder with --out", path.display())
             }
             Self::Exists { path } => {
-                write!(f, "{}: exists already and is left alone; name another file", path.display())
+                write!(f, "{}: exists already and is not overwritten; name another file", path.display())
             }
             Self::Figure { name, reason } => write!(f, "figure {name} cannot be drawn: {reason}"),
             Self::Unheard { why } => {
-                write!(f, "standard output: cannot be written: {why}; all else is done")
+                write!(f, "standard output: cannot be written: {why}; everything else is done")
             }
             Self::Paused { done, of } => {
-                write!(f, "interrupted; {done} of {of} fibres are done and kept. The same command goes on")
+                write!(
+                    f,
+                    "interrupted; {done} of {of} fibres are done and kept. Repeat the command to continue"
+                )
             }
             Self::OtherStudy { folder, differences } => other_study(f, folder, differences),
             Self::OtherVersion { folder, version } => write!(
                 f,
                 "{}: holds a study of spunlaid {version}, and this is {}; their numbers may differ in the last bits and \
-                 are not mixed. What is there can be read as it is; go on with spunlaid {version}, name another folder \
-                 with --out, or start anew with --force",
+                 are not mixed. The results there can still be read. Continue with spunlaid {version}, name another \
+                 folder with --out, or start again with --force",
                 folder.display(),
                 env!("CARGO_PKG_VERSION")
             ),
@@ -171,20 +174,20 @@ impl fmt::Display for Failure {
             Self::FibresLost { lost, of, first } => {
                 write!(
                     f,
-                    "{lost} of {of} fibres were lost, their positions no longer numbers; all others are in the results"
+                    "{lost} of {of} fibres were lost because their positions became infinite; all others are in the results"
                 )?;
                 first.iter().try_for_each(|line| write!(f, "\n{line}"))
             }
             Self::Table { path, source } => write!(f, "{}: cannot be written: {source}", path.display()),
             Self::Panicked => write!(
                 f,
-                "the program has a fault, told above; please report it with the case or study that shows it"
+                "the program has a fault, see above; please report it with the case or study that shows it"
             ),
         }
     }
 }
 
-/// The options that the way out of a library's error takes.
+/// The options that help with an error of the library.
 fn options(error: &Error) -> &'static str {
     match error {
         Error::Journal(JournalError::InUse { .. }) => " (--out)",
@@ -223,7 +226,7 @@ fn record_options(fault: &FileFault) -> &'static str {
     }
 }
 
-/// Most differences that are told.
+/// Largest number of differences that are listed.
 const MOST_TOLD: usize = 20;
 
 fn other_study(f: &mut fmt::Formatter<'_>, folder: &Path, differences: &[String]) -> fmt::Result {
@@ -231,14 +234,14 @@ fn other_study(f: &mut fmt::Formatter<'_>, folder: &Path, differences: &[String]
     if differences.is_empty() {
         return write!(
             f,
-            "{folder}: holds results of this study, but its points are not the same now: the program itself has \
-             changed. Name another folder with --out, or start anew with --force"
+            "{folder}: holds results of this study, but its points have changed because the program has changed. Name \
+             another folder with --out, or start again with --force"
         );
     }
     write!(
         f,
-        "{folder}: holds results of another study; name another folder with --out, start anew with --force, or change \
-         back what differs:"
+        "{folder}: holds results of another study; name another folder with --out, start again with --force, or undo \
+         these differences:"
     )?;
     differences.iter().take(MOST_TOLD).try_for_each(|line| write!(f, "\n{line}"))?;
     match differences.len().checked_sub(MOST_TOLD) {
@@ -255,7 +258,7 @@ mod tests {
 
     static FULL: LazyLock<io::Error> = LazyLock::new(|| io::ErrorKind::StorageFull.into());
 
-    /// Every failure of the program, and of the library those that are not about the text of an input.
+    /// Every failure of the program, and those of the library that are not about the text of an input.
     #[test]
     fn each_failure_has_the_exit_code_of_whose_fault_it_is() {
         let path = || PathBuf::from("there");

@@ -19,7 +19,7 @@ fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
-            // Help and version are no mistakes; everything else is wrong input.
+            // Help and version are not errors; everything else is wrong input.
             let code = u8::from(error.use_stderr());
             let _ = error.print();
             return ExitCode::from(code);

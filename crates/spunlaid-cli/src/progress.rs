@@ -4,7 +4,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
-/// Runs `work` while a bar follows `done` up to `total`; without a terminal, or if `quiet`, no bar.
+/// Runs `work` and shows a bar that follows `done` up to `total`. There is no bar without a terminal or if `quiet`.
 pub(crate) fn follow<T>(
     done: &AtomicU64,
     total: u64,
@@ -17,7 +17,8 @@ pub(crate) fn follow<T>(
     if bar.is_hidden() {
         return work();
     }
-    let style = ProgressStyle::with_template("{msg} [{bar:32}] {percent:>3} %  {elapsed} gone, {eta} left");
+    let style =
+        ProgressStyle::with_template("{msg} [{bar:32}] {percent:>3} %  {elapsed} elapsed, {eta} left");
     if let Ok(style) = style {
         bar.set_style(style.progress_chars("=> "));
     }

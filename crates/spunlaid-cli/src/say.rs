@@ -1,7 +1,7 @@
-//! Words to the person: results to standard output, remarks and errors to standard error.
+//! Output to the user: results on standard output; notes, warnings and errors on standard error.
 //!
-//! Who reads may have gone, as `head` does when it has enough: that is no error. A standard output that cannot
-//! be written for another reason is one, and [`lost`] tells it at the end.
+//! A reader may close its end early, as `head` does; this is not an error. If standard output cannot be written
+//! for another reason, [`lost`] reports it at the end.
 
 use anstyle::{AnsiColor, Style};
 use spunlaid::case::Note;
@@ -16,29 +16,29 @@ const NOTE: Style = AnsiColor::Cyan.on_default();
 
 static LOST: OnceLock<Error> = OnceLock::new();
 
-/// Why words to standard output were lost, if they were.
+/// The reason why output was lost, if it was.
 pub(crate) fn lost() -> Option<&'static Error> {
     LOST.get()
 }
 
-/// What went wrong, a line for each thing that did.
+/// An error, one line for each problem.
 pub(crate) fn error(what: &impl Display) {
     for line in what.to_string().lines() {
         aside(&format!("{ERROR}error:{ERROR:#} {line}"));
     }
 }
 
-/// What to know of the case all the same.
+/// A note or a warning about a case.
 pub(crate) fn note(note: &Note) {
     remark(note.what.is_warning(), note);
 }
 
-/// What to know of the points of a study all the same.
+/// A note or a warning about points of a study.
 pub(crate) fn study_note(note: &StudyNote) {
     remark(note.note.what.is_warning(), note);
 }
 
-/// What is not as it should be, but no reason to stop.
+/// A warning.
 pub(crate) fn warning(text: &str) {
     remark(true, &text);
 }
@@ -48,9 +48,9 @@ fn remark(is_warning: bool, what: &impl Display) {
     aside(&format!("{style}{word}:{style:#} {what}"));
 }
 
-/// What is going on, beside the results.
+/// A line on standard error.
 pub(crate) fn aside(text: &str) {
-    // There is nowhere left to say that this does not work.
+    // If standard error cannot be written, there is no other place for a message.
     let _ = writeln!(anstream::stderr(), "{text}");
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn line(line: &str) {
     text(&format!("{line}\n"));
 }
 
-/// Text as it is.
+/// Text of results, unchanged.
 pub(crate) fn text(text: &str) {
     let mut out = anstream::stdout().lock();
     if let Err(error) = out.write_all(text.as_bytes()).and_then(|()| out.flush())

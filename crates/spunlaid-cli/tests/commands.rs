@@ -38,7 +38,7 @@ fn check_remarks_on_rounded_elements_and_extrapolated_drag_once() {
     let output = command.arg("--set").arg("run.time_step=1 us").output().unwrap();
     assert!(output.status.success());
     let said = String::from_utf8(output.stderr).unwrap();
-    let note = "note: --set fibre.element_length = \"33 mm\" leaves no whole number of elements: 6 of 33.33 mm are taken";
+    let note = "note: --set fibre.element_length = \"33 mm\" does not divide fibre.length into whole elements: 6 of 33.33 mm are used";
     assert_eq!(said.matches(note).count(), 1, "{said}");
     assert_eq!(
         said.matches("warning: --set fibre.diameter = \"5 um\" is outside 13 µm to 390 µm").count(),
@@ -57,7 +57,7 @@ fn new_writes_a_case_that_can_be_run_and_overwrites_nothing() {
     success(&mut desk.with("run my.toml", &shorter));
     assert_eq!(
         refusal(&mut desk.spunlaid("new my.toml"), 1),
-        "error: my.toml: exists already and is left alone; name another file\n"
+        "error: my.toml: exists already and is not overwritten; name another file\n"
     );
     assert!(desk.read("my.toml") == written);
     let said = refusal(&mut desk.spunlaid("new no/such/folder/my.toml"), 2);

@@ -56,7 +56,7 @@ fn interrupted_nothing_is_left() {
         assert!(output.stdout.is_empty());
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(
-            said.ends_with("error: interrupted; nothing was written. The same command starts again\n"),
+            said.ends_with("error: interrupted; nothing was written. Repeat the command to start again\n"),
             "{said}"
         );
         assert_eq!(desk.entries(""), names(&["brief.toml"]));

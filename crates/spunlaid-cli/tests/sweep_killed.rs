@@ -129,7 +129,7 @@ fn interrupted_it_says_how_to_go_on() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", said(&output));
     assert!(
-        said(&output).contains("fibres are done and kept. The same command goes on"),
+        said(&output).contains("fibres are done and kept. Repeat the command to continue"),
         "{}",
         said(&output)
     );

@@ -1,4 +1,4 @@
-//! What can go wrong, and how it is told: where, which key, what value, what is allowed, the way out.
+//! Errors. A message names the place, the key, the value, what is allowed, and how to correct it.
 
 mod field;
 mod file;
@@ -22,16 +22,16 @@ use std::fmt::{self, Write};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A file cannot be used.
+    /// A file that cannot be used.
     #[error(transparent)]
     File(#[from] Box<FileError>),
-    /// The case cannot be run as it is: everything found, in the order of the file.
+    /// The case cannot be run. All problems found, in the order of the file.
     #[error("{}", one_per_line(.0))]
     Rejected(Vec<Problem>),
-    /// A fibre's positions are no longer numbers.
+    /// The positions of a fibre have become infinite or NaN.
     #[error("replicate {replicate}: node {node} is no longer finite at {time:e} s; {cause}")]
     NotFinite {
-        /// Which replicate, counted from 1.
+        /// The replicate, counted from 1.
         replicate: u64,
         /// Node, counted from 1 at the root.
         node: usize,
@@ -46,13 +46,13 @@ pub enum Error {
     /// The records of a study cannot be read or written.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// Stopped from outside before the end.
+    /// The computation was stopped from outside.
     #[error("interrupted before the end")]
     Interrupted,
 }
 
 impl Error {
-    /// What a program should exit with: 1 the input is wrong, 2 the input is not to blame.
+    /// The exit code for a program: 1 if the input is wrong, 2 if the cause is something else.
     pub const fn exit_code(&self) -> u8 {
         match self {
             Self::NotFinite { .. } | Self::Interrupted => 2,
@@ -82,7 +82,7 @@ impl From<Vec<Problem>> for Error {
     }
 }
 
-/// Most problems that are told at once; more are counted.
+/// Largest number of problems that are listed; further ones are only counted.
 const MOST_TOLD: usize = 20;
 
 fn one_per_line(problems: &[Problem]) -> String {
@@ -93,30 +93,30 @@ fn one_per_line(problems: &[Problem]) -> String {
     lines.join("\n")
 }
 
-/// Where a value was written.
+/// The place where a value was written.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Place {
-    /// In a program that built the case itself.
+    /// In a program that built the case in memory.
     #[default]
     Code,
     /// In a case file.
     File {
         /// Name of the file, as given.
         file: String,
-        /// Line, from 1, where one is to blame.
+        /// Line, counted from 1, if known.
         line: Option<usize>,
-        /// Column, from 1, where one is to blame.
+        /// Column, counted from 1, if known.
         column: Option<usize>,
     },
-    /// In an override, `--set key=value`.
-    Override,
+    /// In an override, which comes before the key in messages: `override`, or the program's word for it.
+    Override(String),
     /// At a point of a study.
     Point {
         /// Name of the study file, as given.
         study: String,
-        /// Number of the point, from 1.
+        /// Number of the point, counted from 1.
         number: u64,
-        /// What varies, as people read it.
+        /// The varied values as text.
         values: String,
     },
 }
@@ -125,7 +125,7 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Code => Ok(()),
-            Self::Override => f.write_str("--set "),
+            Self::Override(word) => write!(f, "{word} "),
             Self::Point { study, number, values } => write!(f, "{study}: point {number} ({values}): "),
             Self::File { file, line, column } => {
                 f.write_str(file)?;
@@ -138,16 +138,16 @@ impl fmt::Display for Place {
     }
 }
 
-/// Something found in a case: reads as `cases/a.toml:12: run.time_step = "50 µs" ` and what of it.
+/// A finding about a value of a case. It is shown as `cases/a.toml:12: run.time_step = "50 µs" ` and a text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding<W> {
-    /// Where the value was written.
+    /// The place where the value was written.
     pub place: Place,
-    /// Key in the case file, `run.time_step`; empty where no key is to blame.
+    /// Key in the case file, `run.time_step`. Empty if the finding is not about a key.
     pub key: String,
-    /// The value as written, or else as people read it; none where there is none.
+    /// The value as written, or formatted for people. None if there is no value.
     pub value: Option<String>,
-    /// What of it.
+    /// What was found.
     pub what: W,
 }
 
@@ -168,7 +168,7 @@ impl<W: fmt::Display> fmt::Display for Finding<W> {
     }
 }
 
-/// What is wrong with a value of a case; reads on after `key = value `.
+/// What is wrong with a value of a case. The text continues after `key = value `.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -178,24 +178,24 @@ pub enum Fault {
         /// What the parser says.
         message: String,
     },
-    /// The key is there twice.
+    /// The key is written twice.
     #[error("\"{key}\" is written twice; keep one")]
     Duplicate {
         /// The key as written.
         key: String,
     },
-    /// The file is of a later version of the format.
-    #[error("is newer than this spunlaid reads ({known}); update spunlaid")]
+    /// The file has a newer version of the format.
+    #[error("is newer than the format that this spunlaid reads ({known}); update spunlaid")]
     NewerVersion {
         /// The newest version known.
         known: u32,
     },
-    /// A required key is not there.
+    /// A required key is missing.
     #[error("is missing; add {line} to [{table}]")]
     Missing {
         /// The table it belongs in.
         table: &'static str,
-        /// A line that would do.
+        /// An example line.
         line: String,
     },
     /// A required key is not there, and the field lacks what would tell it.
@@ -213,20 +213,20 @@ pub enum Fault {
     /// No table has this name.
     #[error("is not a table of a case file; {}", did_you_mean(nearest, || "the tables are [fibre], [air], [drag] and [run]".into()))]
     UnknownTable {
-        /// The table that may be meant.
+        /// The most similar table.
         nearest: Option<String>,
     },
     /// No key has this name.
     #[error("is not a key of a case file; {}", did_you_mean(nearest, || format!("{where_} takes {}", all_of(known))))]
     UnknownKey {
-        /// The key that may be meant.
+        /// The most similar key.
         nearest: Option<String>,
         /// The table, or the top of the file.
         where_: String,
-        /// What that takes.
+        /// The keys that are known there.
         known: Vec<&'static str>,
     },
-    /// The key belongs in another table.
+    /// The key belongs to another table.
     #[error("is out of place; it belongs in [{table}], as {table}.{key}")]
     Misplaced {
         /// The table it belongs in.
@@ -234,10 +234,10 @@ pub enum Fault {
         /// The key.
         key: &'static str,
     },
-    /// Not the kind of value the key takes.
+    /// A value of the wrong kind.
     #[error("is {found}; write {wanted}")]
     WrongType {
-        /// The kind found, with its article.
+        /// The kind found, with an article.
         found: &'static str,
         /// What to write.
         wanted: String,
@@ -245,84 +245,88 @@ pub enum Fault {
     /// A quantity that cannot be read.
     #[error(transparent)]
     Quantity(#[from] QuantityFault),
-    /// Something that only a study file has.
+    /// A fault of a study file.
     #[error(transparent)]
     Study(#[from] StudyFault),
-    /// Not one of the names the key takes.
+    /// A name that the key does not take.
     #[error("is unknown; {}", did_you_mean(nearest, || format!("write {}", one_of(allowed))))]
     NotOneOf {
-        /// What may be meant, in quotes.
+        /// The most similar name, in quotes.
         nearest: Option<String>,
-        /// The names.
+        /// The names that the key takes.
         allowed: Vec<&'static str>,
     },
     /// A whole number out of range.
     #[error("is out of range; write {}", if least == most { least.to_string() } else { format!("a whole number from {least} to {most}") })]
     OutOfRange {
-        /// The least allowed.
+        /// The smallest allowed.
         least: u64,
-        /// The most allowed.
+        /// The largest allowed.
         most: u64,
     },
     /// NaN or infinite.
-    #[error("is not a finite number; write one that is")]
+    #[error("is not a finite number; write a finite one")]
     NotFinite,
     /// Zero or negative.
-    #[error("is not positive; {quantity} greater than zero is needed here")]
+    #[error("is not positive; {quantity} above zero is needed")]
     NotPositive {
-        /// What is needed, with its article.
+        /// What is needed, with an article.
         quantity: &'static str,
     },
     /// Negative.
-    #[error("is negative; {quantity} of zero or more is needed here")]
+    #[error("is negative; {quantity} of zero or more is needed")]
     Negative {
-        /// What is needed, with its article.
+        /// What is needed, with an article.
         quantity: &'static str,
     },
-    /// A file that the case names.
+    /// A file named in the case cannot be used.
     #[error("cannot be used: {0}")]
     File(Box<FileError>),
-    /// A number that the flow tells already.
-    #[error("has no effect where {flow} tells the velocity; leave it out, and scale with air.speed_factor")]
+    /// A number that the flow gives already.
+    #[error(
+        "has no effect because {flow} gives the velocity; leave it out, and scale the flow with air.speed_factor"
+    )]
     FlowTells {
         /// The key that names the flow.
         flow: &'static str,
     },
-    /// A key that needs another.
+    /// A key that needs another key.
     #[error("has no effect without {needed}; {remedy}")]
     Needs {
         /// What it needs.
         needed: &'static str,
-        /// The way out.
+        /// How to correct it.
         remedy: &'static str,
     },
-    /// A value that only reading the case anew can set.
-    #[error("is read from a file together with the case; write it in the case file and read that again")]
+    /// A value that can only be set by reading the case again.
+    #[error("is read from a file together with the case; write it in the case file and read the case again")]
     ReadWithCase,
     /// Two keys that exclude each other.
-    #[error("cannot go with {other}; {remedy}")]
+    #[error("cannot be combined with {other}; {remedy}")]
     Excludes {
         /// The other key.
         other: &'static str,
-        /// The way out.
+        /// How to correct it.
         remedy: &'static str,
     },
-    /// A record too short for the fibre.
+    /// A record that is too short for the flight of a fibre.
     #[error(
-        "is too short: the turbulence along one fibre takes {stretches} stretches of {} that begin 5 integral times apart, \
-         a record of {}; shorten run.duration, lengthen air.length_scale or measure for longer",
+        "is too short: the turbulence along one fibre needs {stretches} sections of {} that start 5 integral times apart, \
+         so a record of {}; shorten run.duration, lengthen air.length_scale or record for longer",
         Dimension::Time.pretty(*duration), Dimension::Time.pretty_to(*wanted, 3)
     )]
     RecordTooShort {
-        /// Stretches that one fibre takes.
+        /// Number of sections that one fibre needs.
         stretches: u64,
-        /// Time that each lasts [s].
+        /// Length of a section [s].
         duration: f64,
-        /// How long a record would do [s].
+        /// Length of a sufficient record [s].
         wanted: f64,
     },
-    /// Another number of records than eddies.
-    #[error("names {records} records where the fibre has {eddies} eddies; name one for all, or one for each")]
+    /// The numbers of records and eddies differ.
+    #[error(
+        "names {records} records, but the fibre has {eddies} eddies; name one record for all, or one for each eddy"
+    )]
     RecordsPerEddy {
         /// Records there are.
         records: usize,
@@ -330,7 +334,9 @@ pub enum Fault {
         eddies: usize,
     },
     /// Records of different sampling rates.
-    #[error("names records of different sampling rates, {first} and {other} Hz; resample them to the same")]
+    #[error(
+        "names records of different sampling rates, {first} and {other} Hz; resample them to the same rate"
+    )]
     RecordRates {
         /// Of the first [Hz].
         first: f64,
@@ -338,18 +344,18 @@ pub enum Fault {
         other: f64,
     },
     /// A direction of length zero.
-    #[error("points nowhere; write a vector like [1.0, 0.0, 0.0], of any length but zero")]
+    #[error("has length zero; write a vector like [1.0, 0.0, 0.0] of any other length")]
     ZeroDirection,
     /// A direction that is not a unit vector, in a case built by a program.
     #[error("is not a unit vector; divide it by its length")]
     NotUnit,
-    /// A fibre as thick as long.
-    #[error("is not smaller than fibre.length = {}; a fibre is longer than it is thick", Dimension::Length.pretty(*length))]
+    /// A diameter that is not smaller than the length.
+    #[error("is not smaller than fibre.length = {}; a fibre must be longer than it is thick", Dimension::Length.pretty(*length))]
     TooThick {
         /// Length of the fibre [m].
         length: f64,
     },
-    /// A step longer than the explicit schemes bear.
+    /// A time step at or above the stability limit.
     #[error(
         "exceeds the stability limit {} ({cause} of {} elements); lower it to at most {} or lengthen fibre.element_length",
         Dimension::Time.pretty(*limit), Dimension::Length.pretty(*element_length), Dimension::Time.pretty(*advice)
@@ -361,62 +367,62 @@ pub enum Fault {
         cause: &'static str,
         /// Rest length of an element [m].
         element_length: f64,
-        /// A safe step [s].
+        /// A stable step [s].
         advice: f64,
     },
-    /// More steps than can be waited for.
+    /// More steps than are allowed.
     #[error(
-        "takes {steps:.1e} steps of {}, more than {most:e}; shorten it or lengthen run.time_step",
+        "needs {steps:.1e} steps of {}, more than {most:e}; shorten it or lengthen run.time_step",
         Dimension::Time.pretty(*time_step)
     )]
     TooManySteps {
         /// Number of steps.
         steps: f64,
-        /// The most allowed.
+        /// The largest allowed.
         most: f64,
         /// Time step [s].
         time_step: f64,
     },
-    /// More than memory holds.
-    #[error("needs {} for eight fibres side by side, most of it for {what}, where {} may be taken; {remedy}", memory(*bytes), memory(*most))]
+    /// More memory than is allowed.
+    #[error("needs {} of memory for eight fibres side by side, most of it for {what}; at most {} is allowed; {remedy}", memory(*bytes), memory(*most))]
     TooMuchMemory {
-        /// How much [bytes].
+        /// Memory needed [bytes].
         bytes: f64,
         /// The most allowed [bytes].
         most: f64,
-        /// What takes most of it.
+        /// What needs most of it.
         what: &'static str,
-        /// The way out.
+        /// How to correct it.
         remedy: &'static str,
     },
-    /// More results than can be kept.
+    /// More recorded instants than are allowed.
     #[error(
         "records {records:.1e} instants over all replicates, more than {most:e}; lengthen it or lower run.replicates"
     )]
     TooManyRecords {
-        /// Instants times replicates.
+        /// Recorded instants times replicates.
         records: f64,
-        /// The most allowed.
+        /// The largest allowed.
         most: f64,
     },
-    /// A time not shorter than the run.
-    #[error("leaves nothing to observe of run.duration = {}; shorten it", Dimension::Time.pretty(*duration))]
+    /// A spin-up as long as the run.
+    #[error("is not shorter than run.duration = {}, so that no time is left for the statistics; shorten it", Dimension::Time.pretty(*duration))]
     SpinUpTooLong {
         /// Time simulated [s].
         duration: f64,
     },
-    /// A time longer than the run.
+    /// An interval longer than the run.
     #[error("is longer than run.duration = {}; shorten it", Dimension::Time.pretty(*duration))]
     IntervalTooLong {
         /// Time simulated [s].
         duration: f64,
     },
-    /// Numbers too large or too small to compute with.
+    /// Values from which a number follows that is too large or too small.
     #[error(
-        "makes {what} {}, beyond what can be computed with; check the magnitude of the values it follows from", shortest(*value)
+        "makes {what} {}, which is out of the range of floating-point numbers; check the values that it follows from", shortest(*value)
     )]
     Degenerate {
-        /// What follows from the values.
+        /// The number that follows from the values.
         what: &'static str,
         /// Its value in SI units.
         value: f64,
@@ -443,7 +449,7 @@ fn joined(mut words: Vec<String>, last: &str) -> String {
     }
 }
 
-/// Memory as people read it: `3.1 GiB`.
+/// Memory formatted for people: `3.1 GiB`.
 pub(crate) fn memory(bytes: f64) -> String {
     let (unit, size) = [("GiB", 30), ("MiB", 20), ("KiB", 10), ("bytes", 0)]
         .into_iter()

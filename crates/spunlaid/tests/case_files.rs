@@ -132,30 +132,30 @@ fn what_was_rounded_is_said() {
     for (line, said) in [
         (
             "element_length = \"30 mm\"",
-            "case.toml:7: fibre.element_length = \"30 mm\" leaves no whole number of elements: 33 of 30.3 mm are taken",
+            "case.toml:7: fibre.element_length = \"30 mm\" does not divide fibre.length into whole elements: 33 of 30.3 mm are used",
         ),
         (
             "element_length = \"3 m\"",
-            "case.toml:7: fibre.element_length = \"3 m\" leaves no whole number of elements: 1 of 1 m is taken\n\
-             case.toml:19: air.length_scale = \"50 mm\" is shorter than the elements, 1 m: an element feels only the eddy \
-             at its centre; shorten fibre.element_length to feel all",
+            "case.toml:7: fibre.element_length = \"3 m\" does not divide fibre.length into whole elements: 1 of 1 m is used\n\
+             case.toml:19: air.length_scale = \"50 mm\" is shorter than the elements (1 m): each element only feels the eddy \
+             at its centre. Shorten fibre.element_length so that every eddy acts on the fibre",
         ),
         (
             "time_step = \"3 µs\"",
-            "case.toml:34: run.time_step = \"3 µs\" leaves no whole number of steps in run.duration: 333334 of 2.999994 µs are taken",
+            "case.toml:34: run.time_step = \"3 µs\" does not divide run.duration into whole steps: 333334 of 2.999994 µs are used",
         ),
         (
             "spin_up = \"1.4 µs\"",
-            "case.toml:34: run.spin_up = \"1.4 µs\" is no whole number of time steps: 1 µs is taken",
+            "case.toml:34: run.spin_up = \"1.4 µs\" is not a whole number of time steps: 1 µs is used",
         ),
         (
             "output_interval = \"0.1 µs\"",
-            "case.toml:34: run.output_interval = \"0.1 µs\" is no whole number of time steps: 1 µs is taken",
+            "case.toml:34: run.output_interval = \"0.1 µs\" is not a whole number of time steps: 1 µs is used",
         ),
         (
             "diameter = \"500 µm\"",
-            "case.toml:7: fibre.diameter = \"500 µm\" is outside 13 µm to 390 µm, the diameters drag.across = \"ju-shambaugh\" \
-             was fitted for; the drag across the fibre is extrapolated, \"marheineke-wegener\" is for any diameter",
+            "case.toml:7: fibre.diameter = \"500 µm\" is outside 13 µm to 390 µm, the range of diameters that drag.across = \"ju-shambaugh\" \
+             was fitted to; the drag across the fibre is extrapolated. \"marheineke-wegener\" is valid for any diameter",
         ),
     ] {
         assert_eq!(remarks(&with(line)).join("\n"), said);
@@ -176,9 +176,9 @@ fn a_drag_law_says_once_where_it_ends() {
     assert_eq!(
         fast,
         [
-            "--set fibre.diameter = \"6 mm\" lets the air pass across the fibre at Reynolds numbers up to 11900, beyond \
-          1e4, where drag.across = \"marheineke-wegener\" ends; the drag across the fibre is extrapolated, no law \
-          here is for so thick a fibre in so fast air"
+            "override fibre.diameter = \"6 mm\" gives Reynolds numbers across the fibre up to 11900, and \
+          drag.across = \"marheineke-wegener\" is valid up to 1e4; the drag across the fibre is extrapolated. No other \
+          law covers so thick a fibre in so fast air"
         ]
     );
     let vacuum = set(&[law, thick, ("air.velocity", "100 m/s"), ("air.density", "0 kg/m^3")]);

@@ -38,59 +38,59 @@ fn rejects_meshes_with_place_and_way_out() {
         (
             "0 1 4 3",
             "0 1 99 3",
-            "a.vtu: cell 1: names point 99, counted from 0, where there are 27; is the file whole?",
+            "a.vtu: cell 1: names point 99, counted from 0, where there are 27; is the file complete?",
         ),
         (
             "0 1 4 3",
             "0 1 -4 3",
-            "a.vtu: cell 1: names point -4, counted from 0, where there are 27; is the file whole?",
+            "a.vtu: cell 1: names point -4, counted from 0, where there are 27; is the file complete?",
         ),
         (
             types,
             &types.replace("12", "43"),
-            "a.vtu: cell 1: is of VTK type 43, which is not read here; write tetrahedra, voxels, hexahedra, wedges, pyramids or polyhedra",
+            "a.vtu: cell 1: is of VTK type 43, which is not supported; write tetrahedra, voxels, hexahedra, wedges, pyramids or polyhedra",
         ),
         (
             types,
             &types.replace("12", "13"),
-            "a.vtu: cell 1: a wedge of 8 points, where 6 are needed; is the file whole?",
+            "a.vtu: cell 1: a wedge has 8 points and needs 6; is the file complete?",
         ),
         (ends, &ends.replace("16", "7"), "a.vtu: cell 2: goes from 8 to 7; it must increase"),
         (
             ends,
             &ends.replace("16", "999"),
-            "a.vtu: cell 2: has 64 entries in its list where 999 are needed; is the file whole?",
+            "a.vtu: cell 2: has 64 entries in its list and needs 999; is the file complete?",
         ),
         (
             "0 1 4 3",
             "0 1 4",
-            "a.vtu: cell 8: has 63 entries in its list where 64 are needed; is the file whole?",
+            "a.vtu: cell 8: has 63 entries in its list and needs 64; is the file complete?",
         ),
         (
             "0 1 4 3",
             "0 1 4 x",
-            "a.vtu:27: connectivity: \"x\" stands in the place of a number; is the file whole, and the right one?",
+            "a.vtu:27: connectivity: \"x\" was found instead of a number; is the file complete, and is it the right one?",
         ),
         ("<Points>", "<Spots>", "a.vtu:25: is not valid XML: expected 'Spots' tag, not 'Points' at 25:1"),
         (
             "Float64\" Name=\"Points",
             "Float16\" Name=\"Points",
-            "a.vtu:22: Points: \"Float16\" stands in the place of a type of number; is the file whole, and the right one?",
+            "a.vtu:22: Points: \"Float16\" was found instead of a type of number; is the file complete, and is it the right one?",
         ),
         (
             "NumberOfPoints=\"27\"",
             "NumberOfPoints=\"1000000000000\"",
-            "a.vtu:22: Points: has 81 numbers where 3000000000000 are needed; is the file whole?",
+            "a.vtu:22: Points: has 81 numbers and needs 3000000000000; is the file complete?",
         ),
         (
             "NumberOfCells=\"8\"",
             "NumberOfCells=\"1000000000000\"",
-            "a.vtu:33: types: has 8 numbers where 1000000000000 are needed; is the file whole?",
+            "a.vtu:33: types: has 8 numbers and needs 1000000000000; is the file complete?",
         ),
         (
             "NumberOfCells=\"8\"",
             "NumberOfCells=\"-8\"",
-            "a.vtu:4: NumberOfCells: \"-8\" stands in the place of a whole number; is the file whole, and the right one?",
+            "a.vtu:4: NumberOfCells: \"-8\" was found instead of a whole number; is the file complete, and is it the right one?",
         ),
         (
             "type=\"UnstructuredGrid\"",
@@ -100,7 +100,7 @@ fn rejects_meshes_with_place_and_way_out() {
         (
             "header_type",
             "compressor=\"vtkLZMADataCompressor\" header_type",
-            "a.vtu: is written with the compressor vtkLZMADataCompressor, which is not read here; write it with zlib, LZ4 or none",
+            "a.vtu: is written with the compressor vtkLZMADataCompressor, which is not supported; write it with zlib, LZ4 or none",
         ),
     ] {
         assert_eq!(changed(&plain, from, to), said);
@@ -124,18 +124,18 @@ fn rejects_grids_with_place_and_way_out() {
     let data = values(&Block::cube(1, 0.0).points);
     let image = String::from_utf8(vti([2, 2, 2], [0.0; 3], [1.0; 3], [&data, &[]], ASCII)).unwrap();
     for (extent, said) in [
-        ("0 99 0 99 0 99", "a.vtu:9: U: has 24 numbers where 3000000 are needed; is the file whole?"),
+        ("0 99 0 99 0 99", "a.vtu:9: U: has 24 numbers and needs 3000000; is the file complete?"),
         (
             "0 9999 0 9999 0 9999",
             "a.vtu: has more than 4294967295 points; cut out the part where the fibres fly, or thin it",
         ),
         (
             "0 -5 0 1 0 1",
-            "a.vtu:4: WholeExtent: \"-4\" stands in the place of a number of points of one or more; is the file whole, and the right one?",
+            "a.vtu:4: WholeExtent: \"-4\" was found instead of a number of points of one or more; is the file complete, and is it the right one?",
         ),
         (
             "0 1 0 1",
-            "a.vtu:4: WholeExtent: \"0 1 0 1\" stands in the place of numbers separated by blanks; is the file whole, and the right one?",
+            "a.vtu:4: WholeExtent: \"0 1 0 1\" was found instead of numbers parted by blanks; is the file complete, and is it the right one?",
         ),
     ] {
         assert_eq!(refused(image.replace("0 1 0 1 0 1", extent).as_bytes()), said);
@@ -217,17 +217,17 @@ fn rejects_legacy_files_with_place_and_way_out() {
         (
             "ASCII",
             "DATASET POLYDATA",
-            "a.vtu:4: \"POLYDATA\" stands in the place of STRUCTURED_POINTS, RECTILINEAR_GRID, STRUCTURED_GRID or UNSTRUCTURED_GRID; is the file whole, and the right one?",
+            "a.vtu:4: \"POLYDATA\" was found instead of STRUCTURED_POINTS, RECTILINEAR_GRID, STRUCTURED_GRID or UNSTRUCTURED_GRID; is the file complete, and is it the right one?",
         ),
         (
             "TEXT",
             "",
-            "a.vtu:3: \"TEXT\" stands in the place of ASCII or BINARY; is the file whole, and the right one?",
+            "a.vtu:3: \"TEXT\" was found instead of ASCII or BINARY; is the file complete, and is it the right one?",
         ),
         (
             "ASCII",
             "DATASET STRUCTURED_POINTS\nDIMENSIONS 2 0 2",
-            "a.vtu:5: \"0\" stands in the place of a number of points of one or more; is the file whole, and the right one?",
+            "a.vtu:5: \"0\" was found instead of a number of points of one or more; is the file complete, and is it the right one?",
         ),
         (
             "ASCII",
@@ -243,8 +243,8 @@ fn rejects_legacy_files_with_place_and_way_out() {
 fn rejects_tables_with_place_and_way_out() {
     let head = "x,y,z,u,v,w\n";
     for (text, said) in [
-        ("", "a.vtu: holds no rows of numbers; is it the right file?"),
-        (head, "a.vtu: holds no rows of numbers; is it the right file?"),
+        ("", "a.vtu: contains no rows of numbers; is it the right file?"),
+        (head, "a.vtu: contains no rows of numbers; is it the right file?"),
         (
             "1,2,3,4,5,6\n",
             "a.vtu: has no line of names above its numbers; write one, like x_m,y_m,z_m,u_m_s,v_m_s,w_m_s",
@@ -263,11 +263,11 @@ fn rejects_tables_with_place_and_way_out() {
         ),
         (
             &format!("{head}1,2,3,4,5,6\n1,2,3,4,5\n"),
-            "a.vtu:3: this row has 5 cells where 6 are needed; is the file cut off here?",
+            "a.vtu:3: this row has 5 cells and needs 6; is the file cut off here?",
         ),
         (
             &format!("{head}1,2,3,4,5,6\n1,2,3,4,5,6,7\n"),
-            "a.vtu:3: this row has 7 cells where 6 are needed; do decimal commas meet a comma between cells?",
+            "a.vtu:3: this row has 7 cells and needs 6; are both decimals and cells separated by commas??",
         ),
         (
             &format!("{head}1,2,3,4,5,6\n1,2,x7,4,5,6\n"),
@@ -279,7 +279,7 @@ fn rejects_tables_with_place_and_way_out() {
         ),
         (
             &format!("{head}1,2,3,4,5,6\n"),
-            "a.vtu: has 1 points; at least 9 are needed between which the air can be known",
+            "a.vtu: has 1 points; at least 9 are needed for interpolation",
         ),
         (
             "FoamFile\n{\n}\n",
@@ -318,7 +318,7 @@ fn rejects_what_is_no_file() {
     let lzma = Path::new("tests/field_fixtures/lzma.refused");
     assert_eq!(
         said(lzma),
-        "tests/field_fixtures/lzma.refused: is written with the compressor vtkLZMADataCompressor, which is not read here; write it with zlib, LZ4 or none"
+        "tests/field_fixtures/lzma.refused: is written with the compressor vtkLZMADataCompressor, which is not supported; write it with zlib, LZ4 or none"
     );
 }
 

@@ -239,7 +239,7 @@ fn rejects_what_is_no_field() {
     };
     assert_eq!(
         said(&points, &cells, &still(7)),
-        "velocity: has 7 values where 8 are needed; is the file whole?"
+        "velocity: has 7 values and needs 8; is the file complete?"
     );
     let mut wrong = still(8);
     wrong.velocity[3].y = f64::NAN;
@@ -251,7 +251,7 @@ fn rejects_what_is_no_field() {
     beyond.push(Shape::Tetrahedron, &[0, 1, 2, 8]).unwrap();
     assert_eq!(
         said(&points, &beyond, &still(8)),
-        "cell 1: names point 8, counted from 0, where there are 8; is the file whole?"
+        "cell 1: names point 8, counted from 0, where there are 8; is the file complete?"
     );
     let mut flat = Cells::new();
     flat.push(Shape::Tetrahedron, &[0, 1, 2, 3]).unwrap();
@@ -261,7 +261,7 @@ fn rejects_what_is_no_field() {
     );
     assert_eq!(
         Cells::new().push(Shape::Wedge, &[1, 2]).unwrap_err().to_string(),
-        "cell 1: a wedge of 2 points, where 6 are needed; is the file whole?"
+        "cell 1: a wedge has 2 points and needs 6; is the file complete?"
     );
     let said = |axes: [Vec<f64>; 3]| Field::lattice(axes, &still(4)).unwrap_err().to_string();
     assert_eq!(said([vec![0.0, 1.0], vec![1.0, 1.0], vec![0.0]]), "y: goes from 1 to 1; it must increase");
@@ -272,7 +272,7 @@ fn rejects_what_is_no_field() {
     let few: Vec<V> = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(at).to_vec();
     assert_eq!(
         Field::points(&few, &still(3)).unwrap_err().to_string(),
-        "has 3 points; at least 9 are needed between which the air can be known"
+        "has 3 points; at least 9 are needed for interpolation"
     );
 }
 

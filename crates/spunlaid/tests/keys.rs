@@ -98,11 +98,11 @@ fn rejects_values_with_the_way_out() {
             Value::from("20"),
             "air.velocity = \"20\" has no unit; write a velocity with its unit: m/s, cm/s, mm/s, km/h or m/min",
         ),
-        ("air.velocity", f64::NAN.into(), "air.velocity = NaN m/s is not a finite number; write one that is"),
+        ("air.velocity", f64::NAN.into(), "air.velocity = NaN m/s is not a finite number; write a finite one"),
         (
             "fibre.diameter",
             (-1.0).into(),
-            "fibre.diameter = -1 m is not positive; a length greater than zero is needed here",
+            "fibre.diameter = -1 m is not positive; a length above zero is needed",
         ),
         ("fibre.root", "clampd".into(), "fibre.root = \"clampd\" is unknown; did you mean \"clamped\"?"),
         ("run.seed", 1.5.into(), "run.seed = 1.5 is a number; write a whole number without quotes, like 10"),

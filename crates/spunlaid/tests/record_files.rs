@@ -141,11 +141,11 @@ fn rejects_with_line_column_and_way_out() {
     let head = "time_s,u_m_s\n0,1\n1,2\n2,3\n";
     let plain = Layout::default();
     for (text, said) in [
-        ("", "a.csv: holds no rows of numbers; is it the right file?"),
-        ("time_s,u_m_s\n", "a.csv: holds no rows of numbers; is it the right file?"),
+        ("", "a.csv: contains no rows of numbers; is it the right file?"),
+        ("time_s,u_m_s\n", "a.csv: contains no rows of numbers; is it the right file?"),
         (
             "time_s,u_m_s\n0,1\n",
-            "a.csv: holds 1 samples; at least 64 are needed to say anything about turbulence",
+            "a.csv: holds 1 samples; at least 64 are needed for statistics of turbulence",
         ),
         (
             "time_s,p_Pa\n0,1\n",
@@ -157,11 +157,11 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             "time,u_m_s\n0,1\n",
-            "a.csv: column time: holds a time and has no unit; write the unit into its name, like time_s",
+            "a.csv: column time: contains a time and has no unit; write the unit in its name, like time_s",
         ),
         (
             "time_s,u\n0,1\n",
-            "a.csv: column u: holds a velocity and has no unit; write the unit into its name, like u_m_s",
+            "a.csv: column u: contains a velocity and has no unit; write the unit in its name, like u_m_s",
         ),
         (
             "time_s,u [Hz]\n0,1\n",
@@ -181,11 +181,11 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             &format!("{head}3\n"),
-            "a.csv:5: this row has 1 cells where 2 are needed; is the file cut off here?",
+            "a.csv:5: this row has 1 cells and needs 2; is the file cut off here?",
         ),
         (
             &format!("{head}3,1,5\n"),
-            "a.csv:5: this row has 3 cells where 2 are needed; do decimal commas meet a comma between cells?",
+            "a.csv:5: this row has 3 cells and needs 2; are both decimals and cells separated by commas??",
         ),
         (
             &format!("{head}2,4\n"),
@@ -209,7 +209,7 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             "time_s;u_m_s\n0,1;1,5\n0,2;1.5\n",
-            "a.csv:3: column u_m_s: \"1.5\" has the other decimal sign than the rows before; write all numbers with a point, or all with a comma",
+            "a.csv:3: column u_m_s: \"1.5\" has another decimal sign than the rows above; write all numbers with a point, or all with a comma",
         ),
         (
             "time_s,u_m_s\nbaz,1\n",
@@ -231,7 +231,7 @@ fn rejects_with_line_column_and_way_out() {
     for (layout, said) in [
         (
             layout(|l| l.velocity_unit = Some("cm/s".into())),
-            "a.csv: column u_m_s: is in m_s by its header, and cm/s was asked for; give no unit, or mend the header",
+            "a.csv: column u_m_s: is in m_s by its header, and cm/s was asked for; give no unit, or correct the header",
         ),
         (
             layout(|l| l.velocity_unit = Some("furlong".into())),

@@ -111,37 +111,37 @@ fn rejects_overrides_by_their_name() {
         (
             "run.time_step",
             "50 µs",
-            "--set run.time_step = \"50 µs\" exceeds the stability limit 34.46 µs (axial waves of 50 mm elements); \
+            "override run.time_step = \"50 µs\" exceeds the stability limit 34.46 µs (axial waves of 50 mm elements); \
              lower it to at most 31 µs or lengthen fibre.element_length",
         ),
         (
             "air.velocity",
             "20",
-            "--set air.velocity = 20 has no unit; write a velocity with its unit: m/s, cm/s, mm/s, km/h or m/min",
+            "override air.velocity = 20 has no unit; write a velocity with its unit: m/s, cm/s, mm/s, km/h or m/min",
         ),
         (
             "air.velocty",
             "20 m/s",
-            "--set air.velocty = \"20 m/s\" is not a key of a case file; did you mean air.velocity?",
+            "override air.velocty = \"20 m/s\" is not a key of a case file; did you mean air.velocity?",
         ),
         (
             "velocity",
             "20 m/s",
-            "--set velocity = \"20 m/s\" is out of place; it belongs in [air], as air.velocity",
+            "override velocity = \"20 m/s\" is out of place; it belongs in [air], as air.velocity",
         ),
-        ("fibre.root", "clampd", "--set fibre.root = \"clampd\" is unknown; did you mean \"clamped\"?"),
-        ("aer.velocity", "20 m/s", "--set [aer] is not a table of a case file; did you mean [air]?"),
-        ("air", "still", "--set air is a table; write one of its keys, --set air.key=value"),
+        ("fibre.root", "clampd", "override fibre.root = \"clampd\" is unknown; did you mean \"clamped\"?"),
+        ("aer.velocity", "20 m/s", "override [aer] is not a table of a case file; did you mean [air]?"),
+        ("air", "still", "override air is a table; write one of its keys, override air.key=value"),
         (
             "air.velocity",
             "",
-            "--set air.velocity = \"\" does not start with a number; write a velocity with its unit: \
+            "override air.velocity = \"\" does not start with a number; write a velocity with its unit: \
              m/s, cm/s, mm/s, km/h or m/min",
         ),
         (
             "run.time_step",
             "1e-300 s",
-            "../../cases/table1.toml:18: run.duration = \"1 s\" takes 1.0e300 steps of 1e-300 s, more than 1e12; \
+            "../../cases/table1.toml:18: run.duration = \"1 s\" needs 1.0e300 steps of 1e-300 s, more than 1e12; \
              shorten it or lengthen run.time_step",
         ),
     ] {
@@ -173,13 +173,13 @@ fn rejects_a_case_that_code_built() {
     assert_eq!(
         said,
         [
-            "fibre.length = -1 m is not positive; a length greater than zero is needed here",
+            "fibre.length = -1 m is not positive; a length above zero is needed",
             "fibre.direction = [1.1, 0, 0] is not a unit vector; divide it by its length",
-            "air.velocity = NaN m/s is not a finite number; write one that is",
+            "air.velocity = NaN m/s is not a finite number; write a finite one",
             "air.harmonics = 0 is out of range; write a whole number from 1 to 18446744073709551615",
-            "run.duration = 0 s is not positive; a time greater than zero is needed here",
+            "run.duration = 0 s is not positive; a time above zero is needed",
             "run.replicates = 0 is out of range; write a whole number from 1 to 10000000",
-            "run.output_interval = 0 s is not positive; a time greater than zero is needed here",
+            "run.output_interval = 0 s is not positive; a time above zero is needed",
             "fibre.elements = 0 is out of range; write a whole number from 1 to 18446744073709551615",
         ]
     );

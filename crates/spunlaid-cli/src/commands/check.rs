@@ -6,12 +6,12 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::{Case, RECORD_ON_DISK};
 use spunlaid::ensemble::{KeepShapes, pace};
-use spunlaid::input::{read_case, write_case};
+use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::units::Dimension;
 
 pub(crate) fn check(check: &Check) -> Result<(), Failure> {
-    let (case, notes) = read_case(&check.source.case, &check.source.set)?;
+    let (case, notes) = check.source.read(&[])?;
     notes.iter().for_each(say::note);
     say::line("# the case, every default written out");
     say::text(&write_case(&case));

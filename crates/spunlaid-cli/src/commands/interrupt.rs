@@ -4,9 +4,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// A flag that Ctrl-C sets from now on.
+/// Installs a handler for Ctrl-C and returns the flag that it sets.
 pub(super) fn stop_on_ctrl_c() -> &'static AtomicBool {
-    // Without a handler Ctrl-C still ends the program, only less tidily.
+    // Without the handler, Ctrl-C still ends the program but leaves its hidden folder behind.
     let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
     &STOP
 }

@@ -1,4 +1,4 @@
-//! `spunlaid keys`: what the keys of a case mean.
+//! `spunlaid keys`: explains the keys of a case.
 
 use crate::args::Keys;
 use crate::failure::Failure;
@@ -7,7 +7,7 @@ use spunlaid::case::keys::{self, Key, LeftOut, TABLES};
 use spunlaid::units::{Dimension, Wanted};
 use std::fmt::Write;
 
-/// Most keys named where nothing is found.
+/// Largest number of suggestions if no key is found.
 const MOST_NEAREST: usize = 3;
 /// Longest line of the reference, in characters.
 const WIDTH: usize = 100;
@@ -30,11 +30,11 @@ pub(crate) fn keys(asked: &Keys) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A key for reading in the terminal.
+/// The description of a key for the terminal.
 fn reference(key: &Key) -> String {
     let mut text = format!("{}\n", key.name);
     let default = match key.left_out {
-        LeftOut::Required(example) => format!("none, it must be written, like {example}"),
+        LeftOut::Required(example) => format!("none; the key is required, like {example}"),
         LeftOut::Value(words) | LeftOut::Follows(words) => words.to_owned(),
     };
     for (title, words) in [
@@ -60,7 +60,7 @@ fn reference(key: &Key) -> String {
     text
 }
 
-/// What may be written, with the units of a quantity.
+/// The allowed values, with the units of a quantity.
 fn takes(key: &Key) -> String {
     match key.dimension() {
         Some(dimension) if dimension != Dimension::Ratio => {
@@ -72,27 +72,27 @@ fn takes(key: &Key) -> String {
     }
 }
 
-/// Where its value may change, in words.
+/// Where its value may change.
 fn may_change(key: &Key) -> String {
     match (key.varies, key.in_flight) {
-        (true, true) => "from point to point of a study, and in flight",
-        (true, false) => "from point to point of a study",
-        (false, true) => "in flight",
+        (true, true) => "in a study, and during a flight",
+        (true, false) => "in a study",
+        (false, true) => "during a flight",
         (false, false) => "",
     }
     .to_owned()
 }
 
-/// Keys as a document, a table for each table of the case.
+/// The keys as a Markdown document with one table for each table of the case.
 fn markdown(found: &[&Key]) -> String {
     let mut text = "# The keys of a case
 
-This page is made by `spunlaid keys --markdown > docs/keys.md`; `spunlaid keys WORD` shows the keys with a word in their
+This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys WORD` shows the keys with a word in their
 name or meaning.
 
-A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`. `um` will do for `µm`, and `kg/m^3` for `kg/m³`.
-Each key can also be set for one run, `--set air.velocity=\"20 m/s\"`. Keys marked *study* can be varied by
-`spunlaid sweep`; those marked *flight* may change while a fibre flies, for programs that steer one.
+A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`. `um` is the same as `µm`, and `kg/m^3` is the same
+as `kg/m³`. Each key can also be set for one run, `--set air.velocity=\"20 m/s\"`. `spunlaid sweep` can vary keys marked
+*study*. A program can change keys marked *flight* during a flight.
 "
     .to_owned();
     for table in TABLES {

@@ -1,4 +1,4 @@
-//! What the program can be asked to do.
+//! The commands of the program.
 
 mod analyse;
 mod check;
@@ -17,7 +17,7 @@ pub(crate) use run::run;
 pub(crate) use small::{completions, new};
 pub(crate) use sweep::sweep;
 
-/// The number of threads asked for, or one for each core.
+/// The requested number of threads, or one for each core.
 fn threads(asked: Option<u16>) -> usize {
     asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
 }

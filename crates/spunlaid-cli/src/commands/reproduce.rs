@@ -1,4 +1,4 @@
-//! `spunlaid reproduce`: the paper's figures anew, and its claims put to the test.
+//! `spunlaid reproduce`: draws the paper's figures again and tests its claims.
 
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
@@ -29,7 +29,7 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 
-/// The figures there are to choose from.
+/// The figures that can be chosen.
 const FIGURES: [&str; 9] = ["2", "3", "8a", "8b", "9", "10", "11a", "11b", "11c"];
 
 pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
@@ -59,8 +59,8 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let case_toml = write_case(&base);
     let how = format!(
-        "{} at each point, scheme {}, time step {} µs, the same random phases at all points of a figure. Figures 8 by \
-         the paper’s own scheme whatever the others.",
+        "{} at each point, scheme {}, time step {} µs, the same random phases at all points of a figure. Figures 8a and 8b \
+         always use the paper’s own scheme.",
         plural(base.run.replicates, "replicate"),
         scheme.name(),
         base.run.time_step * 1e6
@@ -87,14 +87,14 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The figures asked for, all if none; `8`, `9` and `11` mean all their parts.
+/// The requested figures, or all if none are named. `8`, `9` and `11` mean all their parts.
 fn chosen(asked: &[String]) -> Result<Vec<&'static str>, Failure> {
     if asked.is_empty() {
         return Ok(FIGURES.to_vec());
     }
     let mut wanted = Vec::new();
     for name in asked {
-        // 9a and 9b are drawn from the same flights.
+        // 9a and 9b come from the same flights.
         let plain = match name.as_str() {
             "9a" | "9b" => "9",
             "10a" | "10b" => "10",
@@ -110,22 +110,22 @@ fn chosen(asked: &[String]) -> Result<Vec<&'static str>, Failure> {
     Ok(FIGURES.into_iter().filter(|figure| wanted.contains(figure)).collect())
 }
 
-/// A parameter that is varied, and what its study says of it.
+/// A varied parameter and the points of its study.
 struct Trend {
     parameter: Parameter,
-    /// The values [SI], each with the place of its point in the study of everything.
+    /// The values [SI], each with the index of its point in the joint study.
     points: Vec<(f64, usize)>,
 }
 
-/// Everything that is to be flown.
+/// All flights that are needed.
 struct Flying {
     wanted: Vec<&'static str>,
-    /// Table 1 with several time steps, for Figures 8.
+    /// Table 1 with several time steps, for Figures 8a and 8b.
     steps: Vec<Case>,
     trends: Vec<Trend>,
-    /// Each with the place of its point.
+    /// The names of the choices, each with the index of its point in the joint study.
     choices: Vec<(&'static str, usize)>,
-    /// All that the trends and choices need.
+    /// The joint study: all points of the trends and choices.
     study: Study,
     base: Case,
 }
@@ -133,7 +133,7 @@ struct Flying {
 impl Flying {
     fn new(base: &Case, wanted: &[&'static str]) -> Result<Self, Failure> {
         let wants = |figure| wanted.contains(&figure);
-        // Points that studies share, Table 1 above all, are flown once.
+        // Points that several studies share, such as Table 1, are flown once.
         let mut cases: Vec<Case> = Vec::new();
         let mut place = |case: Case| {
             let mut case = in_scheme(case, base.run.scheme, base.run.time_step);
@@ -168,7 +168,7 @@ impl Flying {
         self.study.most_fibres() + self.steps.len() as u64 * self.base.run.replicates
     }
 
-    /// Steps of all fibres.
+    /// Number of steps of all fibres.
     fn steps(&self) -> u64 {
         let points = self.study.points.iter().map(|p| p.case.run.steps * p.case.run.replicates);
         let steps = self.steps.iter().map(|case| case.run.steps * case.run.replicates);
@@ -200,11 +200,11 @@ impl Flying {
     }
 }
 
-/// What has been flown.
+/// The results of all flights.
 struct Flown {
     flying: Flying,
     points: Vec<PointResults>,
-    /// Time step and results.
+    /// Time steps and their results.
     steps: Vec<(f64, Results)>,
     record: Vec<(f64, f64)>,
     spectrum: Vec<SpectrumPoint>,
@@ -264,7 +264,7 @@ impl Flown {
         claims
     }
 
-    /// Table 1 by choice: amplitudes [mm] and frequencies [Hz] with their errors.
+    /// Table 1 with each choice: amplitudes [mm] and frequencies [Hz] with their errors.
     fn choices(&self) -> Vec<(String, Vec<String>)> {
         let cells = |point: usize| {
             let results = &self.points[point];

@@ -1,4 +1,4 @@
-//! `spunlaid run`: fly a case and write what it gives.
+//! `spunlaid run`: flies a case and writes the results.
 
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
@@ -14,20 +14,20 @@ use crate::report::{self, ReportInput};
 use crate::{progress, say};
 use spunlaid::case::{Case, Note};
 use spunlaid::ensemble::{Computing, Keep, KeepShapes, Results, fly, turbulence_spectrum};
-use spunlaid::input::{read_case, write_case};
+use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
 use std::ffi::OsStr;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
-/// Replicates kept whole for the report and ParaView.
+/// Number of replicates whose shapes are kept for the report and ParaView.
 const KEPT: usize = WIDTH;
-/// Node positions kept for the report and ParaView: 24 bytes each.
+/// Number of node positions kept for the report and ParaView. Each takes 24 bytes.
 pub(super) const POSITIONS: u64 = 4_000_000;
 
 pub(crate) fn run(run: &Run) -> Result<(), Failure> {
-    let (case, notes) = read_case(&run.source.case, &overrides(run))?;
+    let (case, notes) = run.source.read(&overrides(run))?;
     notes.iter().for_each(say::note);
     let folder = run.out.clone().unwrap_or_else(|| default_folder(run));
     let stop = stop_on_ctrl_c();
@@ -74,11 +74,10 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The command line's changes to the case.
-fn overrides(run: &Run) -> Vec<(String, String)> {
+/// The changes to the case on the command line.
+fn overrides(run: &Run) -> Vec<(&'static str, String)> {
     let own = [("run.replicates", run.replicates), ("run.seed", run.seed)];
-    let own = own.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?.to_string())));
-    run.source.set.iter().cloned().chain(own).collect()
+    own.into_iter().filter_map(|(key, value)| Some((key, value?.to_string()))).collect()
 }
 
 /// `results/<name of the case>`.
@@ -90,7 +89,7 @@ fn case_name(run: &Run) -> &OsStr {
     run.source.case.file_stem().unwrap_or("run".as_ref())
 }
 
-/// Flies all replicates; tables are written as they come.
+/// Flies all replicates. The tables are written during the flights.
 fn flights(case: &Case, computing: Computing<'_>, staging: &Staging<'_>) -> Result<Results, Failure> {
     let mut end_node = Table::create(staging.place("end_node.parquet"), END_NODE)?;
     let mut energy = Table::create(staging.place("energy.parquet"), ENERGY)?;
@@ -107,7 +106,7 @@ fn flights(case: &Case, computing: Computing<'_>, staging: &Staging<'_>) -> Resu
     Ok(collector.finish())
 }
 
-/// What to say of fibres that leave the flow.
+/// A warning about fibres that leave the region where the flow is known.
 fn outside(results: &Results) -> Option<String> {
     let share = 100.0
         * results
@@ -115,8 +114,9 @@ fn outside(results: &Results) -> Option<String> {
             .map(|number| number.estimate.mean)
             .filter(|share| *share > 0.0)?;
     Some(format!(
-        "the fibres’ elements spend {} % of the time outside of what the flow knows, beyond its walls or its ends; there \
-         they fly in the air of the nearest known place. Is the root where it should be, and the fibre not too long?",
+        "the fibres’ elements are outside the region where the flow is known for {} % of the time, beyond its walls or \
+         its ends; there, the air at the nearest known point acts on them. Check the position of the root and the length \
+         of the fibre",
         significant(share, 2)
     ))
 }
@@ -133,7 +133,7 @@ fn performance(case: &Case, computing: Computing<'_>, wall_s: f64) -> Performanc
     }
 }
 
-/// Everything the files are made of.
+/// Everything that goes into the files.
 struct Written<'a> {
     name: String,
     case: &'a Case,
@@ -149,7 +149,7 @@ impl Written<'_> {
         let case_toml = write_case(&beside::relocated(self.case, &copied));
         let turbulence = turbulence_spectrum(self.case, computing)?;
         let figures = run_figures(self.case, self.results, &turbulence);
-        // A thousand small files keep the disk busy while pictures keep the processor.
+        // Writing a thousand small files waits for the disk, so the figures are drawn at the same time.
         std::thread::scope(|scope| {
             let (flights, rest_length) = (&self.results.trajectories, self.case.fibre.rest_length());
             let shapes = scope.spawn(move || paraview::write(staging, flights, rest_length));

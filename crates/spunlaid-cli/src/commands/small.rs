@@ -8,7 +8,7 @@ use spunlaid::input::starter_case;
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 
-/// Writes a commented case to start from; never over a file.
+/// Writes a commented case to start from. It never overwrites a file.
 pub(crate) fn new(new: &New) -> Result<(), Failure> {
     let path = &new.file;
     let written = OpenOptions::new().write(true).create_new(true).open(path).and_then(|mut file| {

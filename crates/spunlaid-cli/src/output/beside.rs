@@ -1,4 +1,4 @@
-//! The files that a case names, kept with its results so that these can be run again.
+//! Copies the files that a case names into its results folder, so that the case can be run again from there.
 
 use crate::failure::Failure;
 use spunlaid::case::Case;
@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The folder for them in a results folder.
+/// The folder for these files in a results folder.
 pub(crate) const CASE_FILES: &str = "case_files";
 
-/// Copies the files of cases into `folder`; gives each the path it has from the folder above.
+/// Copies the files of cases into `folder`. Returns the path of each, relative to the results folder.
 pub(crate) fn copy<'a>(
     cases: impl IntoIterator<Item = &'a Case>,
     folder: &Path,
@@ -22,7 +22,7 @@ pub(crate) fn copy<'a>(
         fs::create_dir_all(folder).map_err(Failure::unwritable(folder))?;
         let name = unused(file, &copied);
         let to = folder.join(&name);
-        // A copy onto itself would empty it.
+        // Copying a file onto itself would empty it.
         let same = || Some(fs::canonicalize(file).ok()? == fs::canonicalize(&to).ok()?);
         if same() != Some(true) {
             fs::copy(file, &to).map_err(Failure::unwritable(&to))?;
@@ -32,13 +32,13 @@ pub(crate) fn copy<'a>(
     Ok(copied)
 }
 
-/// The case with its files where they were copied to.
+/// The case with the paths of the copied files.
 pub(crate) fn relocated(case: &Case, copied: &BTreeMap<PathBuf, PathBuf>) -> Case {
     let place = |file: &Path| copied.get(file).cloned().unwrap_or_else(|| file.to_owned());
     Case { air: case.air.with_files_at(place), ..case.clone() }
 }
 
-/// The name of the file, with a number in front where another has it already.
+/// The name of the file, with a number in front if another file has the same name.
 fn unused(file: &Path, copied: &BTreeMap<PathBuf, PathBuf>) -> PathBuf {
     let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let taken = |name: &str| copied.values().any(|path| path.file_name().is_some_and(|taken| taken == name));

@@ -1,4 +1,4 @@
-//! A results folder that is written whole or not at all.
+//! A results folder that is written completely or not at all.
 
 use super::beside::CASE_FILES;
 use super::leftovers::{self, Claim};
@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What the results folder of a run, a record or the paper holds; the last one says that it is complete.
+/// The contents of a results folder of `run`, `analyse` or `reproduce`. The last entry marks it as complete.
 pub(crate) const ENTRIES: &[&str] = &[
     "case.toml",
     CASE_FILES,
@@ -24,31 +24,31 @@ pub(crate) const ENTRIES: &[&str] = &[
     COMPLETE,
 ];
 const COMPLETE: &str = "summary.json";
-/// The new results and, while they take their place, the old ones: folders of the staging.
+/// Folders in the staging folder: the new results, and the old ones while they are replaced.
 const NEW: &str = "new";
 const OLD: &str = "old";
 
-/// A hidden folder beside or in the wanted one that collects the files; gone again unless
-/// [`Staging::publish`]ed.
+/// A hidden folder, in or beside the results folder, that collects the files. It is removed unless
+/// [`Staging::publish`] is called.
 #[derive(Debug)]
 pub(crate) struct Staging<'a> {
     folder: PathBuf,
     staging: PathBuf,
-    /// What is moved to its place, in this order.
+    /// The entries that are moved to the results folder, in this order.
     entries: &'static [&'static str],
     replace: bool,
-    /// Tells other runs that this one lives.
+    /// A lock that shows other runs that this one is alive.
     claim: Option<Claim>,
-    /// Folders above that were made for it, the deepest first, removed again if nothing is published.
+    /// Parent folders that were created for it, the deepest first. They are removed if nothing is published.
     made: Vec<PathBuf>,
     stop: &'a AtomicBool,
 }
 
 impl<'a> Staging<'a> {
-    /// Gets ready to write results to `folder`; finds out now whether that will be possible.
+    /// Prepares to write results to `folder`, and checks now whether this is possible.
     ///
-    /// * `entries` – what belongs to these results, in the order in which it is moved to its place
-    /// * `stop` – set from elsewhere, nothing is written any more
+    /// * `entries` – the possible files and folders of these results, in the order in which they are moved
+    /// * `stop` – if this is set, nothing more is written
     pub(crate) fn new(
         folder: &Path,
         entries: &'static [&'static str],
@@ -67,7 +67,7 @@ impl<'a> Staging<'a> {
             None => folder,
         };
         leftovers::remove(above);
-        // An existing folder is staged inside, so that publishing never crosses file systems.
+        // For an existing folder, staging happens inside it, so that publishing never crosses file systems.
         let home = if exists { folder } else { above };
         if exists {
             leftovers::remove(folder);
@@ -84,12 +84,12 @@ impl<'a> Staging<'a> {
         Ok(staging)
     }
 
-    /// Where a file of the results goes for now, and where it will be.
+    /// The present and the final path of a file of the results.
     pub(crate) fn place(&self, name: &str) -> (PathBuf, PathBuf) {
         (self.staging.join(NEW).join(name), self.folder.join(name))
     }
 
-    /// Writes a file, making the folders above it.
+    /// Writes a file and creates its parent folders.
     pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), Failure> {
         self.go_on()?;
         let (now, later) = self.place(name);
@@ -99,11 +99,11 @@ impl<'a> Staging<'a> {
             .map_err(|source| Failure::Unwritable { path: later, source })
     }
 
-    /// Moves everything to where it belongs: at once where there was no folder, else entry by entry, the one
-    /// that marks the results as complete last.
+    /// Moves the results to their folder. If there was no folder, this is one renaming; otherwise the entries are
+    /// moved one by one, and the one that marks the results as complete comes last.
     pub(crate) fn publish(mut self) -> Result<(), Failure> {
         self.go_on()?;
-        // Another run may have been faster.
+        // Another run may have written results in the meantime.
         refuse_results(&self.folder, self.entries, self.replace)?;
         let (new, folder) = (self.staging.join(NEW), self.folder.clone());
         let moved = if folder.exists() { self.swap(&new, &folder) } else { fs::rename(&new, &folder) };
@@ -112,7 +112,7 @@ impl<'a> Staging<'a> {
         Ok(())
     }
 
-    /// Puts the new entries in the place of the old ones, and these back should that fail.
+    /// Replaces the old entries by the new ones. If this fails, the old entries are moved back.
     fn swap(&self, new: &Path, folder: &Path) -> std::io::Result<()> {
         let old = self.staging.join(OLD);
         fs::create_dir(&old)?;
@@ -149,14 +149,14 @@ impl<'a> Staging<'a> {
 
 impl Drop for Staging<'_> {
     fn drop(&mut self) {
-        // Some systems do not remove what is open.
+        // Some operating systems cannot remove open files.
         self.claim = None;
         let _ = fs::remove_dir_all(&self.staging);
         remove_empty(&self.made);
     }
 }
 
-/// Says no to a folder that holds any part of results, unless they may be replaced.
+/// Rejects a folder that contains any part of results, unless these may be replaced.
 fn refuse_results(folder: &Path, entries: &[&str], replace: bool) -> Result<(), Failure> {
     let holds = |entry: &&&str| folder.join(entry).symlink_metadata().is_ok();
     match entries.iter().find(holds) {
@@ -167,7 +167,7 @@ fn refuse_results(folder: &Path, entries: &[&str], replace: bool) -> Result<(), 
     }
 }
 
-/// Removes folders, the deepest first, as far as they are empty.
+/// Removes those of the folders that are empty, the deepest first.
 fn remove_empty(folders: &[PathBuf]) {
     for folder in folders {
         let _ = fs::remove_dir(folder);

@@ -1,26 +1,26 @@
-//! What a run that was killed leaves behind, and how the next one tells it from a run that lives.
+//! Removes what killed runs have left behind, and recognises runs that are still alive by their locks.
 
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// How the name of a folder begins and ends in which a run collects its files.
+/// The beginning and the end of the name of a staging folder.
 const PREFIX: &str = ".spunlaid-";
 const SUFFIX: &str = ".partial";
 
-/// The file in it that is locked while the run lives; the system takes the lock off a process that dies.
+/// The file in it that is locked while the run is alive. The operating system releases the lock when the process ends.
 const LOCK: &str = "lock";
 
-/// A folder's lock; off when dropped.
+/// The lock of a folder, which is released when this value is dropped.
 #[derive(Debug)]
 pub(super) struct Claim {
     _locked: File,
 }
 
 impl Claim {
-    /// Claims a folder; none on a file system without locks, where nobody clears up either.
+    /// Locks a folder. None if the file system has no locks; then leftovers are not removed either.
     pub(super) fn on(folder: &Path) -> Option<Self> {
-        // Nobody is to find it before it is locked.
+        // The file must not be found before it is locked.
         let unlocked = folder.join(".lock");
         let file = File::create(&unlocked).ok()?;
         file.try_lock().ok()?;
@@ -29,7 +29,7 @@ impl Claim {
     }
 }
 
-/// Makes a folder of a name that no other run has.
+/// Creates a folder with a name that no other run uses.
 pub(super) fn hidden_folder(above: &Path) -> io::Result<PathBuf> {
     let mut number = std::process::id();
     loop {
@@ -41,12 +41,12 @@ pub(super) fn hidden_folder(above: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// Removes what runs that were killed have left in a folder. It is no matter if that does not work.
+/// Removes what killed runs have left in a folder. Errors are ignored.
 pub(super) fn remove(folder: &Path) {
     remove_if(folder, is_abandoned);
 }
 
-/// The same in a folder that this process has to itself: there no other run is about to claim anything.
+/// The same in a folder that only this process uses, where no other run can be about to lock anything.
 pub(crate) fn remove_unclaimed(folder: &Path) {
     remove_if(folder, |found| !found.join(LOCK).exists() || is_abandoned(found));
 }
@@ -62,8 +62,8 @@ fn remove_if(folder: &Path, is_left: impl Fn(&Path) -> bool) {
     }
 }
 
-/// Whether the run that claimed a folder is dead. Without a lock in it the folder may be one that a run is
-/// about to claim.
+/// Whether the run that locked a folder has ended. A folder without a lock file may belong to a run that is about
+/// to lock it.
 fn is_abandoned(folder: &Path) -> bool {
     File::options().write(true).open(folder.join(LOCK)).is_ok_and(|file| file.try_lock().is_ok())
 }

@@ -1,4 +1,4 @@
-//! Files of a results folder.
+//! The files of a results folder.
 
 pub(crate) mod analysis;
 pub(crate) mod beside;

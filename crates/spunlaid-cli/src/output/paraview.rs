@@ -1,15 +1,15 @@
-//! The fibre's shape over time for ParaView: `shape.pvd` opens the whole series.
+//! The shapes of the fibres over time for ParaView. `shape.pvd` opens the whole series.
 
 use super::folder::Staging;
 use crate::failure::Failure;
 use spunlaid::ensemble::Trajectory;
 use std::fmt::Write;
 
-/// Most instants of a series: each is a file.
+/// Largest number of instants in a series. Each instant is a file.
 const MOST_INSTANTS: usize = 500;
 
-/// Writes the kept shapes, evenly thinned to at most [`MOST_INSTANTS`]: one VTK PolyData file per instant with a
-/// line per replicate, and the collection that puts them in time.
+/// Writes the kept shapes, evenly thinned to at most [`MOST_INSTANTS`]. Each instant is a VTK PolyData file with one
+/// line for each replicate; a collection file gives their times.
 pub(crate) fn write(staging: &Staging<'_>, flights: &[Trajectory], rest_length: f64) -> Result<(), Failure> {
     let flights: Vec<&Trajectory> = flights.iter().filter(|f| !f.shapes.is_empty()).collect();
     let Some(first) = flights.first() else { return Ok(()) };
@@ -27,7 +27,7 @@ pub(crate) fn write(staging: &Staging<'_>, flights: &[Trajectory], rest_length: 
     staging.write("shape.pvd", collection)
 }
 
-/// VTK XML PolyData of all flights at instant `k`: points in metres, replicate and distance from the root.
+/// VTK XML PolyData of all flights at instant `k`: points [m], replicate and distance from the root [m].
 fn poly_data(flights: &[&Trajectory], k: usize, rest_length: f64) -> String {
     let nodes = flights[0].shapes[k].position.len();
     let count = flights.len() * nodes;

@@ -1,4 +1,4 @@
-//! Parquet tables, written in groups of rows.
+//! Writes Parquet tables in groups of rows.
 
 use crate::failure::Failure;
 use parquet::basic::{Compression, Encoding, Repetition, Type as PhysicalType};
@@ -15,31 +15,31 @@ use std::sync::Arc;
 /// A column of a table.
 #[derive(Clone, Debug)]
 pub(super) struct Column {
-    /// Its name, unit included.
+    /// Its name with the unit.
     pub(super) name: String,
     pub(super) holds: Holds,
 }
 
-/// What a column holds.
+/// The values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Holds {
-    /// A whole number in each row.
+    /// Whole numbers.
     Whole,
-    /// A number in each row, NaN included.
+    /// Numbers, which may be NaN.
     Number,
-    /// A finite number, or nothing.
+    /// Finite numbers; other values are missing.
     Optional,
 }
 
-/// A table that is being written; all columns must have grown by the same number of rows whenever
-/// [`Parquet::flush_when_full`] and [`Parquet::finish`] are called.
+/// A table that is being written. All columns must have the same number of rows when
+/// [`Parquet::flush_when_full`] or [`Parquet::finish`] is called.
 pub(super) struct Parquet {
-    /// Where it will be.
+    /// Its final path.
     path: PathBuf,
     writer: SerializedFileWriter<BufWriter<File>>,
     columns: Vec<Gathered>,
     group: usize,
-    /// Rows since the last group.
+    /// Number of rows since the last group.
     rows: usize,
 }
 
@@ -47,13 +47,13 @@ pub(super) struct Parquet {
 enum Gathered {
     Whole(Vec<i64>),
     Number(Vec<f64>),
-    /// The values that are known, and for each row 1 where it is.
+    /// The known values, and for each row 1 if its value is known.
     Optional(Vec<f64>, Vec<i16>),
 }
 
 impl Parquet {
-    /// * `now`, `later` – where the table is written, and where it will be
-    /// * `group` – rows that are gathered before they are written
+    /// * `now`, `later` – present and final path of the table
+    /// * `group` – number of rows in a group
     pub(super) fn create(
         (now, later): (PathBuf, PathBuf),
         columns: &[Column],
@@ -113,12 +113,12 @@ impl Parquet {
         }
     }
 
-    /// Writes the rows gathered so far if they make a group.
+    /// Writes the rows if they fill a group.
     pub(super) fn flush_when_full(&mut self) -> Result<(), Failure> {
         if self.rows >= self.group { self.flush() } else { Ok(()) }
     }
 
-    /// Writes what is left; gives the file.
+    /// Writes the remaining rows and returns the file.
     pub(super) fn finish(mut self) -> Result<File, Failure> {
         self.flush()?;
         let Self { path, writer, .. } = self;

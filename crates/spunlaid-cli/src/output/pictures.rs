@@ -1,11 +1,11 @@
-//! Figures as files: SVG and CSV as they are, PNG drawn on all threads.
+//! Writes figures as SVG, CSV and PNG files. The PNG files are drawn on all threads.
 
 use crate::failure::Failure;
 use spunlaid_charts::{Figure, png};
 use std::borrow::Borrow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Hands over the files of figures, name and content, in their order.
+/// Passes the name and content of each file of the figures to `write`, in order.
 pub(crate) fn write<F: Borrow<Figure> + Sync>(
     figures: &[F],
     mut write: impl FnMut(String, &[u8]) -> Result<(), Failure>,

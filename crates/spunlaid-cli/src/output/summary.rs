@@ -1,4 +1,4 @@
-//! `summary.json`: every result of a run.
+//! `summary.json`: all results of a run.
 
 use serde::{Serialize, Serializer};
 use serde_json::Value as Json;
@@ -11,7 +11,7 @@ use spunlaid::units::Dimension;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Version of the layout; raised when a field is renamed, removed or changes its meaning.
+/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 2;
 
 #[derive(Debug, Serialize)]
@@ -29,8 +29,8 @@ pub(crate) struct Summary<'a> {
     notes: Vec<String>,
 }
 
-/// A number over the replicates: what stands for all of them where that is not the mean, then mean, standard
-/// error and the replicates' own values.
+/// A result over the replicates: mean, standard error and the values of the replicates. Some results also have a
+/// median or a largest value, which then represents all replicates.
 #[derive(Debug, Serialize)]
 struct NumberSummary<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -42,16 +42,16 @@ struct NumberSummary<'a> {
     values: &'a [f64],
 }
 
-/// The measures of a group by their columns.
+/// The measures of a group, by the names of their columns.
 type GroupSummary<'a> = BTreeMap<&'static str, NumberSummary<'a>>;
 
-/// How fast it went; the only part that differs from run to run.
+/// The speed of the run. This is the only part that differs when a run is repeated.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Performance {
     pub(crate) wall_s: f64,
     pub(crate) threads: usize,
     pub(crate) element_steps: u64,
-    /// Time of one thread for an element and step of one fibre.
+    /// Time that one thread needs for one element and one step of one fibre.
     pub(crate) ns_per_element_step: f64,
     pub(crate) instruction_set: &'static str,
 }
@@ -111,8 +111,8 @@ fn summary_of(number: &Number) -> NumberSummary<'_> {
     }
 }
 
-/// The resolved case: every key, its SI unit in the name; null where the key means nothing to the case. Of a flow
-/// that is not uniform, the numbers are those along the fibre.
+/// The resolved case: every key, with its SI unit in the name. A key without a meaning for the case is null. If the
+/// flow is not uniform, the numbers are averages along the fibre.
 fn resolved(case: &Case) -> InOrder<InOrder<Json>> {
     let table = |name: &'static str| {
         let entry = |key: &Key| {
@@ -129,7 +129,7 @@ fn resolved(case: &Case) -> InOrder<InOrder<Json>> {
     InOrder(keys::TABLES.map(table).into())
 }
 
-/// Files are called by their names, wherever they lie.
+/// A value as JSON. Files are given by their names without folders.
 fn json(value: Value) -> Json {
     let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     match value {

@@ -6,7 +6,7 @@ use spunlaid::ensemble::{Number, Results};
 use spunlaid::observe::{Group, Over};
 use std::fmt::Write;
 
-/// The results of a run: a heading for each group of measures, a row for each number.
+/// The results of a run, with a heading for each group of measures and a row for each result.
 pub(crate) fn results(case: &Case, results: &Results) -> String {
     let n = case.run.replicates;
     let mut text = format!("mean ± standard error over {n} replicate{}\n", if n == 1 { "" } else { "s" });
@@ -24,8 +24,7 @@ pub(crate) fn results(case: &Case, results: &Results) -> String {
     text
 }
 
-/// The mean and its error, the signs ± of all rows below each other; a number alone where no mean stands for the
-/// replicates.
+/// The mean and its error, aligned at the sign ±. A median or a largest value has no error.
 fn value(of: &Number) -> String {
     let factor = of.measure.unit.per_si;
     if of.measure.over_replicates != Over::Mean {

@@ -1,11 +1,11 @@
-//! Parquet tables of a run, written flight by flight.
+//! The Parquet tables of a run, which are written flight by flight.
 
 use super::parquet::{self, Holds, Parquet};
 use crate::failure::Failure;
 use spunlaid::ensemble::{Sample, Trajectory};
 use std::path::PathBuf;
 
-/// A column of doubles: its name, unit included, and its value at an instant.
+/// A column of doubles: its name with the unit, and its value at an instant.
 type Column = (&'static str, fn(&Sample) -> f64);
 
 /// `end_node.parquet`: the free end over time.
@@ -28,17 +28,17 @@ pub(crate) const ENERGY: &[Column] = &[
     ("balance_error_percent", Sample::balance_error_percent),
 ];
 
-/// Rows gathered before a row group is written.
+/// Number of rows in a row group.
 const ROWS: usize = 1 << 18;
 
-/// A table with a row per replicate and recorded instant: `replicate` (from 1), then the columns.
+/// A table with one row for each replicate and recorded instant: `replicate` (counted from 1), then the columns.
 pub(crate) struct Table {
     writer: Parquet,
     columns: &'static [Column],
 }
 
 impl Table {
-    /// * `place` – where the table is written, and where it will be
+    /// * `place` – present and final path of the table
     pub(crate) fn create(place: (PathBuf, PathBuf), columns: &'static [Column]) -> Result<Self, Failure> {
         let replicate = parquet::Column { name: "replicate".to_owned(), holds: Holds::Whole };
         let number = |(name, _): &Column| parquet::Column { name: (*name).to_owned(), holds: Holds::Number };
@@ -56,7 +56,7 @@ impl Table {
         self.writer.flush_when_full()
     }
 
-    /// Writes what is left and closes the file.
+    /// Writes the remaining rows and closes the file.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         self.writer.finish().map(drop)
     }

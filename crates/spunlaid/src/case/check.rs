@@ -1,4 +1,4 @@
-//! What a case must meet to be run, whoever made it.
+//! The conditions that a case must meet before it can be run.
 
 use super::keys::{self, finding};
 use super::memory::BUNDLE_MEMORY_LIMIT;
@@ -12,27 +12,27 @@ use crate::field::Hint;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 
-/// Most steps of a run.
+/// Largest number of steps of a run.
 pub const MOST_STEPS: u64 = 1_000_000_000_000;
-/// Most replicates: their values, and the summary that lists them, take half a kilobyte of memory each.
+/// Largest number of replicates. Each takes half a kilobyte of memory for its values in the summary.
 pub const MOST_REPLICATES: u64 = 10_000_000;
-/// Most recorded instants, over all replicates. They are written as they come, so that memory does not grow
-/// with them; a table of them takes [`RECORD_ON_DISK`] each, these 150 GB.
+/// Largest number of recorded instants over all replicates. They are written to disk during the run, so they take
+/// no memory. Each takes [`RECORD_ON_DISK`], which makes 150 GB in all.
 pub const MOST_RECORDS: f64 = 1e9;
-/// What a recorded instant takes in tables of everything that is recorded [bytes].
+/// Size of a recorded instant in the tables of a run [bytes].
 pub const RECORD_ON_DISK: f64 = 150.0;
 
 impl Case {
     /// Checks everything that must hold for the case to be run.
     ///
-    /// Returns what there is to remark on a case that can be run.
+    /// Returns notes and warnings about a case that can be run.
     ///
     /// # Errors
-    /// All reasons why it cannot be run.
+    /// Returns every reason why the case cannot be run.
     pub fn check(&self) -> Result<Vec<Note>, Vec<Problem>> {
         let mut check = Check { case: self, problems: Vec::new() };
         check.values();
-        // Relations between values that make no sense on their own would only add noise.
+        // If a value is wrong on its own, messages about its relation to others would only confuse.
         if check.problems.is_empty() {
             check.geometry();
             check.magnitudes();
@@ -45,10 +45,10 @@ impl Case {
         if check.problems.is_empty() { Ok(self.notes()) } else { Err(check.problems) }
     }
 
-    /// The limits on the time step of the case's scheme, tightened by its damping [s].
+    /// The limits on the time step of the case's scheme [s], with damping taken into account.
     ///
-    /// With `κ = ½` for semi-implicit Euler and 1 for leapfrog, damping `c` lets a mode of limit `h₀` be
-    /// stable while `(h/h₀)² + κ c h < 1`.                                    theory.md (32)
+    /// A mode whose limit without damping is `h₀` is stable while `(h/h₀)² + κ c h < 1`, where `c` is the damping
+    /// and `κ` is ½ for semi-implicit Euler and 1 for leapfrog.                                    theory.md (32)
     pub fn stable_step_limits(&self) -> Vec<StepLimit> {
         let share = match self.run.scheme {
             Scheme::SemiImplicitEuler => 0.5,
@@ -165,7 +165,7 @@ impl Check<'_> {
         self.problems.push(Finding { place, key: key.to_owned(), value: Some(value), what: fault });
     }
 
-    /// Each value on its own.
+    /// Checks each value on its own.
     fn values(&mut self) {
         let (run, elements) = (self.case.run, self.case.fibre.elements as u64);
         for key in keys::all() {
@@ -192,7 +192,7 @@ impl Check<'_> {
         }
     }
 
-    /// What follows from the values can be computed with.
+    /// Checks that quantities which follow from the values are neither zero nor infinite.
     fn magnitudes(&mut self) {
         let (fibre, strand) = (self.case.fibre, self.case.strand());
         for (what, value) in [
@@ -200,7 +200,7 @@ impl Check<'_> {
             ("the axial stiffness of an element [N/m]", fibre.axial_stiffness()),
             ("the bending stiffness of a node [N·m]", fibre.rotational_stiffness()),
         ] {
-            // Its inverse must be finite too.
+            // The inverse must be finite as well.
             if !(value.is_normal() && (1.0 / value).is_normal()) {
                 self.blame("fibre.diameter", fibre.diameter, Fault::Degenerate { what, value });
                 return;
@@ -256,19 +256,19 @@ impl Check<'_> {
             (&case.air, memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.records));
         let chosen = air.default_harmonics(case.run.duration());
         if largest == memory.chain {
-            let fault = fault("the chain", "write a longer one");
+            let fault = fault("the chain", "choose a longer one");
             self.blame("fibre.element_length", case.fibre.rest_length(), fault);
         } else if largest == memory.turbulence {
-            let fault = fault("the turbulence", "write a longer one, or shorten run.duration");
+            let fault = fault("the turbulence", "choose a longer one, or shorten run.duration");
             self.blame("air.length_scale", air.length_scale, fault);
         } else if largest == memory.records {
-            let fault = fault("the recorded instants", "write a longer one");
+            let fault = fault("the recorded instants", "choose a longer one");
             self.blame("run.output_interval", case.run.output_interval(), fault);
         } else if air.harmonics == chosen {
-            let fault = fault("making the turbulence", "write a lower one, or shorten run.duration");
+            let fault = fault("making the turbulence", "choose a lower one, or shorten run.duration");
             self.blame("air.cutoff_frequency", air.cutoff_frequency, fault);
         } else {
-            let fault = fault("making the turbulence", "write fewer, or leave the key out");
+            let fault = fault("making the turbulence", "choose fewer, or leave the key out");
             self.blame_key("air.harmonics", air.harmonics.to_string(), fault);
         }
     }
@@ -278,7 +278,7 @@ impl Check<'_> {
         let duration = run.duration();
         let limits = self.case.stable_step_limits();
         let tightest = limits.into_iter().min_by(|a, b| a.limit.total_cmp(&b.limit));
-        // What memory cannot hold has been told already.
+        // The memory check may have reported these keys already.
         let told: Vec<String> = self.problems.iter().map(|problem| problem.key.clone()).collect();
         let told = |key: &str| told.iter().any(|told| told == key);
         if let Some(StepLimit { limit, cause }) = tightest
@@ -304,9 +304,9 @@ impl Check<'_> {
     }
 }
 
-/// The records that the turbulence is taken from.
+/// Checks of the velocity records that drive the fibre.
 impl Check<'_> {
-    /// They must last for the flight of a fibre.
+    /// Checks that the records are long enough for the flight of one fibre.
     fn records(&mut self) {
         let Some(shared) = self.case.air.records.first() else {
             return;
@@ -316,7 +316,8 @@ impl Check<'_> {
         let (records, convected) =
             (self.case.air.records.len(), turbulence.iter().any(|t| t.carried.is_some()));
         if convected && turbulence.iter().any(|eddy| eddy.forgotten > 0.0) {
-            let (other, remedy) = ("air.decay_time", "a record is carried along as it is; leave that out");
+            let (other, remedy) =
+                ("air.decay_time", "a record is carried along unchanged; leave air.decay_time out");
             self.blame_key("air.record", self.names(), Fault::Excludes { other, remedy });
         } else if convected && records > 1 {
             let (other, remedy) = ("air.eddies = \"convected\"", "one record is carried along; name one");
@@ -343,7 +344,7 @@ impl Check<'_> {
     }
 }
 
-/// The largest number of two significant digits that is not above a positive one.
+/// Rounds a positive number down to two significant digits.
 fn two_digits_down(value: f64) -> f64 {
     let power = 10f64.powf(value.log10().floor() - 1.0);
     let digits = format!("{:.0}", (value / power).floor());

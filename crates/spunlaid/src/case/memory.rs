@@ -1,4 +1,4 @@
-//! What a run takes of memory.
+//! How much memory a run needs.
 
 use super::Case;
 use crate::air::{EddyModel, Wind};

@@ -1,4 +1,4 @@
-//! A case: everything a run needs, validated, in SI units.
+//! A case: everything that a run needs, checked and in SI units.
 
 mod check;
 pub mod keys;
@@ -39,9 +39,9 @@ pub struct Run {
     pub time_step: f64,
     /// Number of steps.
     pub steps: u64,
-    /// Steps at the start that the statistics leave out.
+    /// Number of steps at the start that the statistics leave out.
     pub spin_up_steps: u64,
-    /// Steps from one recorded instant to the next.
+    /// Number of steps from one recorded instant to the next.
     pub output_steps: u64,
     /// Number of fibres with different turbulence.
     pub replicates: u64,
@@ -61,7 +61,7 @@ impl Run {
         self.steps as f64 * self.time_step
     }
 
-    /// Time the statistics leave out [s].
+    /// Time at the start that the statistics leave out [s].
     pub fn spin_up(&self) -> f64 {
         self.spin_up_steps as f64 * self.time_step
     }
@@ -72,17 +72,17 @@ impl Run {
     }
 }
 
-/// A limit on the time step, with its cause.
+/// A limit on the time step and what sets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepLimit {
-    /// What sets it: `axial waves` or `bending waves`.
+    /// What sets the limit, for example `axial waves`.
     pub cause: &'static str,
     /// The longest stable step [s]; steps must stay below it.
     pub limit: f64,
 }
 
 impl Case {
-    /// Limits on the time step of an undamped flight on this mesh, by the case's scheme.
+    /// The limits on the time step of an undamped flight with this mesh and the case's scheme.
     pub fn step_limits(&self) -> Vec<StepLimit> {
         let axial = StepLimit { cause: "axial waves", limit: self.fibre.axial_step_limit() };
         let bending = StepLimit { cause: "bending waves", limit: self.fibre.bending_step_limit() };
@@ -92,11 +92,13 @@ impl Case {
         }
     }
 
-    /// Longest step that the waves of the string under its tension stand with implicit tension [s]: 1.5
-    /// times what they need to pass an element, half of where flights were seen to fail. theory.md (32)
+    /// Longest step of implicit tension at which the waves of the taut fibre stay stable [s].
     ///
-    /// The tension is estimated at the root, from the fibre's weight and the friction of the mean flow half
-    /// way down.
+    /// It is 1.5 times the time in which such a wave passes an element. Flights were seen to fail at twice this
+    /// step.                                                                   theory.md (32)
+    ///
+    /// The tension is estimated at the root, from the fibre's weight and the friction of the mean flow at half
+    /// the fibre's length.
     fn string_step_limit(&self) -> StepLimit {
         let strand = self.strand();
         let elements = self.fibre.elements as f64;
@@ -107,7 +109,7 @@ impl Case {
         StepLimit { cause: "waves of the taut string", limit: 1.5 * self.fibre.rest_length() / speed }
     }
 
-    /// From the root to the end of the straight fibre [m].
+    /// Vector from the root to the free end of the straight fibre [m].
     pub fn along(&self) -> Vec3<f64> {
         self.fibre.direction * self.fibre.length
     }
@@ -117,7 +119,7 @@ impl Case {
         self.air.eddies_along(self.along(), self.fibre.elements)
     }
 
-    /// What fibres of as many elements have around them in these airs; nothing where they are uniform.
+    /// The air around fibres with this number of elements, one fibre for each air. None if the air is uniform.
     pub(crate) fn surroundings(
         &self,
         airs: impl Iterator<Item = Air>,
@@ -134,20 +136,20 @@ impl Case {
         ((time / self.run.time_step) as u64).clamp(1, self.run.steps.max(1))
     }
 
-    /// Largest Reynolds number across the fibre to expect [-]: of the mean flow's part across it as it starts,
-    /// or of three times the rms of the air's fluctuation, whichever is more.
+    /// Largest Reynolds number across the fibre to expect [-]. The velocity is the larger of two: the mean flow's
+    /// component across the fibre at the start, and three times the rms of the fluctuation.
     pub fn reynolds_across(&self) -> f64 {
         let sine = self.fibre.direction.y.hypot(self.fibre.direction.z);
         let speed = (self.air.velocity.abs() * sine).max(3.0 * self.air.rms());
         speed * self.fibre.diameter / self.air.kinematic_viscosity
     }
 
-    /// The turbulence of each of them.
+    /// The turbulence of each eddy.
     pub fn turbulence_along(&self, eddies: &Eddies) -> Vec<EddyTurbulence> {
         self.air.turbulence_along(self.along(), self.fibre.elements, eddies)
     }
 
-    /// The fibre and what acts on it, as the chain takes it.
+    /// The fibre, its drag, gravity and damping, in the form that the chain uses.
     pub fn strand(&self) -> Strand {
         Strand {
             fibre: self.fibre,
@@ -157,7 +159,7 @@ impl Case {
         }
     }
 
-    /// Why a fibre of this case would stop being finite, as far as the case itself tells.
+    /// The likely reason why the positions of a fibre of this case become infinite or NaN.
     pub fn likely_cause_of_divergence(&self) -> String {
         let h = self.run.time_step;
         let tightest = self.step_limits().into_iter().min_by(|a, b| a.limit.total_cmp(&b.limit));
@@ -172,7 +174,8 @@ impl Case {
     }
 }
 
-/// How often `part` goes into `whole`, to the nearest whole number, and whether it does so exactly but for rounding.
+/// How many times `part` fits into `whole`, rounded to a whole number, and whether it fits exactly (apart from
+/// floating-point rounding).
 pub(crate) fn whole_parts(whole: f64, part: f64) -> (u64, bool) {
     let ratio = whole / part;
     let nearest = ratio.round();

@@ -1,63 +1,63 @@
-//! Remarks on a case that can be run all the same.
+//! Notes and warnings about a case that can be run.
 
 use super::StepChoice;
 use crate::error::Finding;
 use crate::field::FieldWarning;
 use crate::units::Dimension;
 
-/// A remark on a case that can be run all the same.
+/// A note or a warning about a case that can be run.
 pub type Note = Finding<Remark>;
 
-/// What there is to say about a value of a case; reads on after `key = value `.
+/// What a note or a warning says about a value of a case. The text continues after `key = value `.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Remark {
     /// The fibre is not a whole number of elements long.
     #[error(
-        "leaves no whole number of elements: {elements} of {} {}",
-        Dimension::Length.pretty(*element_length), if *elements == 1 { "is taken" } else { "are taken" }
+        "does not divide fibre.length into whole elements: {elements} of {} {}",
+        Dimension::Length.pretty(*element_length), if *elements == 1 { "is used" } else { "are used" }
     )]
     ElementsRounded {
-        /// Number of elements taken.
+        /// Number of elements used.
         elements: usize,
         /// Their rest length [m].
         element_length: f64,
     },
     /// The run is not a whole number of steps long.
     #[error(
-        "leaves no whole number of steps in run.duration: {steps} of {} {}",
-        Dimension::Time.pretty_to(*time_step, 8), if *steps == 1 { "is taken" } else { "are taken" }
+        "does not divide run.duration into whole steps: {steps} of {} {}",
+        Dimension::Time.pretty_to(*time_step, 8), if *steps == 1 { "is used" } else { "are used" }
     )]
     StepShortened {
-        /// Number of steps taken.
+        /// Number of steps used.
         steps: u64,
         /// Their length [s].
         time_step: f64,
     },
-    /// A step that the case leaves open.
+    /// The case gives no time step.
     #[error(
-        "is taken, {}; stable up to {}",
+        "is used ({}); the flight is stable up to {}",
         choice.reason(), Dimension::Time.pretty(*limit)
     )]
     StepChosen {
-        /// What it was chosen by.
+        /// What limited the choice.
         choice: StepChoice,
         /// Longest stable step [s].
         limit: f64,
     },
-    /// A tolerance without a step to choose.
-    #[error("has no effect, since run.time_step is given; strike out one of the two")]
+    /// An error tolerance although the time step is given.
+    #[error("has no effect because run.time_step is given; remove one of the two")]
     ToleranceUnused,
     /// A time that is not a whole number of steps.
-    #[error("is no whole number of time steps: {} is taken", Dimension::Time.pretty(*time))]
+    #[error("is not a whole number of time steps: {} is used", Dimension::Time.pretty(*time))]
     TimeRounded {
-        /// Time taken [s].
+        /// Time used [s].
         time: f64,
     },
-    /// A diameter that the drag law was not fitted for.
+    /// A diameter outside the range that the drag law was fitted to.
     #[error(
-        "is outside {} to {}, the diameters drag.across = \"{law}\" was fitted for; the drag across the fibre is extrapolated, \
-         \"{instead}\" is for any diameter",
+        "is outside {} to {}, the range of diameters that drag.across = \"{law}\" was fitted to; the drag across the \
+         fibre is extrapolated. \"{instead}\" is valid for any diameter",
         Dimension::Length.pretty(*from), Dimension::Length.pretty(*to)
     )]
     OutsideFit {
@@ -67,13 +67,13 @@ pub enum Remark {
         from: f64,
         /// Thickest fitted [m].
         to: f64,
-        /// A law for other diameters.
+        /// A law that is valid for other diameters.
         instead: &'static str,
     },
-    /// Reynolds numbers that the drag law is not for.
+    /// Reynolds numbers above the range of the drag law.
     #[error(
-        "lets the air pass across the fibre at Reynolds numbers up to {}, beyond {}, where drag.across = \"{law}\" ends; \
-         the drag across the fibre is extrapolated, no law here is for so thick a fibre in so fast air",
+        "gives Reynolds numbers across the fibre up to {}, and drag.across = \"{law}\" is valid up to {}; the drag \
+         across the fibre is extrapolated. No other law covers so thick a fibre in so fast air",
         Dimension::Ratio.pretty_to(*reynolds, 3), Dimension::Ratio.pretty(*to)
     )]
     ReynoldsOutsideFit {
@@ -86,7 +86,8 @@ pub enum Remark {
     },
     /// Elements longer than eddies.
     #[error(
-        "is shorter than the elements, {}: an element feels only the eddy at its centre; shorten fibre.element_length to feel all",
+        "is shorter than the elements ({}): each element only feels the eddy at its centre. Shorten fibre.element_length so \
+         that every eddy acts on the fibre",
         Dimension::Length.pretty(*element_length)
     )]
     EddiesSkipped {
@@ -96,9 +97,9 @@ pub enum Remark {
     /// Something about a CFD field.
     #[error("{0}")]
     Field(FieldWarning),
-    /// A fibre longer than the air is known along it.
+    /// A fibre that reaches out of the region where the air is known.
     #[error(
-        "reaches from the root beyond what the flow of the case knows; out there the air of the nearest known place is taken"
+        "reaches out of the region where the flow is known; outside it, the air at the nearest known point is used"
     )]
     LeavesFlow,
     /// A root outside of the field.
@@ -134,8 +135,8 @@ pub enum Remark {
         /// Length of the fibre [m].
         fibre: f64,
     },
-    /// Elements shorter than the fibre is thick.
-    #[error("is longer than the elements, {}: the chain is finer than the fibre is thick", Dimension::Length.pretty(*element_length))]
+    /// Elements that are shorter than the diameter.
+    #[error("is larger than the element length, {}; use longer elements", Dimension::Length.pretty(*element_length))]
     ElementsStubby {
         /// Rest length of an element [m].
         element_length: f64,
@@ -143,7 +144,7 @@ pub enum Remark {
 }
 
 impl Remark {
-    /// Whether the results may mislead, rather than the input merely having been rounded.
+    /// Whether this is a warning: the results may mislead. Otherwise it is a note, for example on rounding.
     pub const fn is_warning(&self) -> bool {
         matches!(
             self,

@@ -1,43 +1,45 @@
-//! The time step where the case leaves it open.
+//! The choice of the time step where the case does not give one.
 
 use super::Case;
 use crate::chain::schemes::Scheme;
 use std::f64::consts::PI;
 
-/// Error tolerance where the case leaves it open too [-].
+/// Error tolerance if the case does not give one either [-].
 pub const ERROR_TOLERANCE: f64 = 0.003;
 
-/// What a chosen time step was chosen by.
+/// What limited the choice of the time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepChoice {
-    /// The error of the end node's path.
+    /// The error of the free end's path.
     Error,
     /// Half the stability limit.
     Stability,
-    /// The run itself is not longer.
+    /// The run is not longer than this step.
     Duration,
 }
 
 impl StepChoice {
-    /// In words.
+    /// The reason in words.
     pub const fn reason(self) -> &'static str {
         match self {
-            Self::Error => "for the error tolerance",
-            Self::Stability => "half the stability limit",
-            Self::Duration => "the whole run",
+            Self::Error => "it keeps the error tolerance",
+            Self::Stability => "it is at most half the stability limit",
+            Self::Duration => "the run is one step long",
         }
     }
 }
 
 impl Case {
-    /// A time step [s] that keeps the end node's path within `tolerance` of its amplitude, stable with room
-    /// to spare, of one leading digit 1, 2 or 5; whatever [`Run::time_step`](super::Run) says now.
+    /// A suitable time step [s]: 1, 2 or 5 times a power of ten.
     ///
-    /// The error is that of the paper's Table 1 case against the converged path, `0.20 ω_c h` for
-    /// semi-implicit Euler, `0.06 (ω_c h)²` for leapfrog and `0.12 (ω_c h)²` for implicit tension, with the
-    /// cut-off `ω_c` of the spectrum.                                         theory.md (32)
+    /// The step keeps the error of the free end's path below `tolerance` times its amplitude, and it is at most half
+    /// the stability limit. The present [`Run::time_step`](super::Run) does not matter.
     ///
-    /// * `duration` – of the run [s]
+    /// The error was measured on the paper's Table 1 case against the converged path: `0.20 ω_c h` for
+    /// semi-implicit Euler, `0.06 (ω_c h)²` for leapfrog and `0.12 (ω_c h)²` for implicit tension. `ω_c` is the
+    /// angular cut-off frequency.                                         theory.md (32)
+    ///
+    /// * `duration` – simulated time [s]
     pub fn suggested_time_step(&self, tolerance: f64, duration: f64) -> (f64, StepChoice) {
         let cutoff = 2.0 * PI * self.air.cutoff_frequency;
         let accurate = match self.run.scheme {
@@ -56,7 +58,7 @@ impl Case {
 /// The largest of 1, 2, 5 times a power of ten that is not above a positive number.
 fn round_down(value: f64) -> f64 {
     let exponent = value.log10().floor() as i32;
-    // Read from text, so that 2e-4 is the number that is written so.
+    // Parsing gives exactly the number that is written `2e-4`; multiplying would not.
     let candidate = |digit: &str, exponent: i32| format!("{digit}e{exponent}").parse().unwrap_or(value);
     [("5", exponent), ("2", exponent), ("1", exponent), ("5", exponent - 1)]
         .into_iter()

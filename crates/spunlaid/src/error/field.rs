@@ -1,56 +1,56 @@
-//! What can be wrong with a field of air.
+//! Errors of CFD fields.
 
 use super::memory;
 use super::record::listed;
 use crate::units::shortest;
 
-/// What is wrong with a field of air, and the way out.
+/// What is wrong with a CFD field, and how to correct it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FieldFault {
-    /// A file of another kind.
+    /// The file is of another kind.
     #[error("is {found}; {advice}")]
     Format {
-        /// What it seems to be, with its article.
+        /// What it seems to be, with an article.
         found: String,
-        /// The way out.
+        /// How to correct it.
         advice: &'static str,
     },
-    /// Something else where a certain thing belongs.
-    #[error("\"{found}\" stands in the place of {wanted}; is the file whole, and the right one?")]
+    /// Something else is written where a certain item is expected.
+    #[error("\"{found}\" was found instead of {wanted}; is the file complete, and is it the right one?")]
     Syntax {
         /// As written.
         found: String,
-        /// What belongs there.
+        /// What was expected.
         wanted: &'static str,
     },
-    /// Text that is no XML.
+    /// The text is not XML.
     #[error("is not valid XML: {message}")]
     Xml {
-        /// What the parser says.
+        /// Message of the parser.
         message: String,
     },
-    /// Bytes that cannot be decoded.
-    #[error("cannot be decoded: {message}; is the file whole? If so, write it as ASCII")]
+    /// The data cannot be decoded.
+    #[error("cannot be decoded: {message}; is the file complete? If it is, write it as ASCII")]
     Encoding {
         /// What is wrong with them.
         message: String,
     },
-    /// An encoding that is not read.
-    #[error("is written with {found}, which is not read here; write it with {advice}")]
+    /// The encoding is not supported.
+    #[error("is written with {found}, which is not supported; write it with {advice}")]
     Unsupported {
         /// What it is.
         found: String,
-        /// What would do.
+        /// What is supported.
         advice: &'static str,
     },
-    /// More than memory should hold.
-    #[error("holds more than {}, which is as much as is read of a file; cut out the part where the fibres fly", memory(*most as f64))]
+    /// The file needs more memory than is allowed.
+    #[error("contains more than {}, the most that is read from a file; cut out the part where the fibres fly", memory(*most as f64))]
     TooLarge {
-        /// The most that is read, decoded [bytes].
+        /// The most that is read, after decoding [bytes].
         most: u64,
     },
-    /// More tetrahedra than memory should hold.
+    /// There are more tetrahedra or points than are allowed.
     #[error("has more than {most} {of}; cut out the part where the fibres fly, or thin it")]
     TooMany {
         /// The most.
@@ -58,93 +58,93 @@ pub enum FieldFault {
         /// Of what.
         of: &'static str,
     },
-    /// A number of things that does not fit.
-    #[error("has {found} {of} where {wanted} are needed; is the file whole?")]
+    /// A number of values does not fit.
+    #[error("has {found} {of} and needs {wanted}; is the file complete?")]
     Count {
-        /// How many there are.
+        /// How many were found.
         found: usize,
         /// How many are needed.
         wanted: usize,
         /// Of what.
         of: &'static str,
     },
-    /// Nothing there.
-    #[error("holds no points; a field needs some")]
+    /// The file has no points.
+    #[error("has no points; a field needs points with values")]
     Empty,
-    /// No velocity among the arrays.
+    /// There is no array of velocity.
     #[error(
         "no array is a velocity, among {}; name it U or velocity, with three components, or write u, v and w",
         listed(found)
     )]
     NoVelocity {
-        /// The arrays there are.
+        /// The arrays in the file.
         found: Vec<String>,
     },
-    /// No coordinates among the columns.
+    /// A column of coordinates is missing.
     #[error("no column is a coordinate along {axis}, among {}; name it like {axis}_m", listed(found))]
     NoCoordinate {
-        /// Which.
+        /// The axis.
         axis: char,
-        /// The columns there are.
+        /// The columns in the file.
         found: Vec<String>,
     },
-    /// A unit that the quantity is not measured in, or not read.
+    /// The unit does not fit the quantity or is not supported.
     #[error("has the unit \"{unit}\"; write the values in {wanted}")]
     WrongUnit {
         /// As written.
         unit: String,
-        /// What would do.
+        /// What is supported.
         wanted: &'static str,
     },
-    /// Numbers that are none, or too large.
-    #[error("{} is no number between −{most:e} and {most:e}; mend the value, or leave out what has none", shortest(*value))]
+    /// A value is NaN or too large.
+    #[error("{} is not a number between −{most:e} and {most:e}; correct the value, or leave out points without one", shortest(*value))]
     OutOfRange {
         /// As found.
         value: f64,
         /// The most that is taken.
         most: f64,
     },
-    /// A point that is not there.
-    #[error("names point {point}, counted from 0, where there are {points}; is the file whole?")]
+    /// A cell names a point that does not exist.
+    #[error("names point {point} (counted from 0), but there are {points} points; is the file complete?")]
     NoPoint {
-        /// Its number, from 0.
+        /// Its number, counted from 0.
         point: i64,
-        /// How many there are.
+        /// How many were found.
         points: usize,
     },
-    /// A cell of a type that is not read.
+    /// The type of a cell is not supported.
     #[error(
-        "is of VTK type {kind}, which is not read here; write tetrahedra, voxels, hexahedra, wedges, pyramids or polyhedra"
+        "is of VTK type {kind}, which is not supported; write tetrahedra, voxels, hexahedra, wedges, pyramids or polyhedra"
     )]
     CellType {
         /// Its number.
         kind: i64,
     },
-    /// A cell with the wrong number of points.
-    #[error("{name} of {found} points, where {wanted} are needed; is the file whole?")]
+    /// A cell has the wrong number of points.
+    #[error("{name} has {found} points and needs {wanted}; is the file complete?")]
     CellPoints {
-        /// What kind of cell, with its article.
+        /// The kind of cell, with an article.
         name: &'static str,
-        /// Points it has.
+        /// Number of its points.
         found: usize,
-        /// Points it needs.
+        /// Number of points it needs.
         wanted: usize,
     },
-    /// A mesh without inside.
+    /// The mesh has no cells with a volume.
     #[error(
-        "has no cells with a volume{}; write the inside of the flow too, and a plane flow one cell thick or as a table of points",
+        "has no cells with a volume{}; write the interior of the flow as well, and a plane flow one cell thick or as a table of points",
         if *flat == 0 { String::new() } else { format!(", only {flat} points, lines and faces") }
     )]
     NoVolume {
         /// Cells that are points, lines or faces.
         flat: u64,
     },
-    /// Too few points to go by.
-    #[error("has {found} points; at least {least} are needed between which the air can be known")]
+    /// The field has too few points.
+    #[error("has {found} points; at least {least} are needed for interpolation")]
     TooFewPoints {
-        /// Points there are.
+        /// Number of points.
         found: usize,
-        /// Least number.
+        /// Smallest number.
         least: usize,
     },
 }

@@ -1,11 +1,11 @@
-//! What can be wrong with any file that is read: case, study, record, field, table.
+//! Errors that any file can have: case, study, record, field, table.
 
 use super::{FieldFault, ProfileFault, RecordFault, memory};
 use crate::units::{Dimension, Printable, Wanted, excerpt, shortest};
 use std::fmt::{self, Write};
 use std::path::Path;
 
-/// What a file is read as.
+/// The kind of a file that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
     /// A case.
@@ -50,39 +50,39 @@ impl FileKind {
     }
 }
 
-/// Where in a file, or among what was given.
+/// A position in a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FilePlace {
-    /// Nowhere in particular.
+    /// The whole file.
     #[default]
     Whole,
-    /// A line of a text file, from 1.
+    /// A line of a text file, counted from 1.
     Line(u64),
-    /// A row of a binary table, from 1.
+    /// A row of a binary table, counted from 1.
     Row(u64),
-    /// A byte of a file, from 1.
+    /// A byte of a file, counted from 1.
     Byte(u64),
-    /// A point, from 1.
+    /// A point, counted from 1.
     Point(u64),
-    /// A cell of a mesh, from 1.
+    /// A cell of a mesh, counted from 1.
     Cell(u64),
 }
 
-/// A reason why a file cannot be used: reads as `wire.csv:12: column u_m_s: "x" is not a number…`.
+/// The reason why a file cannot be used. It is shown as `wire.csv:12: column u_m_s: "x" is not a number…`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FileError {
-    /// Name of the file, as given; empty where there is none.
+    /// Name of the file, as given. Empty if there is no file.
     pub file: Box<str>,
-    /// Where in it.
+    /// The position in it.
     pub place: FilePlace,
-    /// The column or array, where one is to blame: `column u_m_s`.
+    /// The column or array that is wrong, if it is known: `column u_m_s`.
     pub part: Option<Box<str>>,
     /// What is wrong.
     pub fault: FileFault,
 }
 
 impl FileError {
-    /// The same, found at this place unless a place is known already.
+    /// Adds a place, unless one is known already.
     #[must_use]
     pub(crate) fn at(mut self, place: FilePlace) -> Self {
         if self.place == FilePlace::Whole {
@@ -91,27 +91,27 @@ impl FileError {
         self
     }
 
-    /// The same, found in this array unless a part is known already.
+    /// Adds the name of an array, unless a part is known already.
     #[must_use]
     pub(crate) fn array(mut self, name: &str) -> Self {
         self.part.get_or_insert_with(|| excerpt(name, 40).into());
         self
     }
 
-    /// The same, found in this column unless a part is known already.
+    /// Adds the name of a column, unless a part is known already.
     #[must_use]
     pub(crate) fn column(mut self, name: &str) -> Self {
         self.part.get_or_insert_with(|| format!("column {}", excerpt(name, 40)).into());
         self
     }
 
-    /// The same, found in this file.
+    /// Adds the name of the file.
     #[must_use]
     pub(crate) fn file(self, file: &str) -> Self {
         Self { file: excerpt(file, 1000).into(), ..self }
     }
 
-    /// The same, found in the file at this path.
+    /// Adds the path of the file.
     #[must_use]
     pub(crate) fn path(self, path: &Path) -> Self {
         self.file(&path.display().to_string())
@@ -150,95 +150,95 @@ impl fmt::Display for FileError {
     }
 }
 
-/// What is wrong with a file, and the way out.
+/// What is wrong with a file, and how to correct it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileFault {
-    /// No such file.
+    /// There is no such file.
     #[error("there is no such file; {}", .0.not_there())]
     NotThere(FileKind),
-    /// A folder.
+    /// The path is a folder.
     #[error("is a folder; name the {} in it", .0.name())]
     IsFolder(FileKind),
-    /// The system does not let it be read.
+    /// The operating system cannot read the file.
     #[error("cannot be read: {message}")]
     Unreadable {
-        /// What the system says.
+        /// Message of the operating system.
         message: String,
     },
-    /// Larger than any such file.
-    #[error("is larger than {}, which no {} is; is it the right file?", memory(*most as f64), kind.name())]
+    /// The file is too large.
+    #[error("is larger than {}, the limit for a {}; is it the right file?", memory(*most as f64), kind.name())]
     TooLarge {
-        /// What it was read as.
+        /// The kind of file that was expected.
         kind: FileKind,
-        /// The largest size read [bytes].
+        /// The largest size that is read [bytes].
         most: u64,
     },
-    /// A binary file, or text in two-byte characters.
+    /// The file is binary, or is text in two-byte characters.
     #[error("is not text; a {} is {}", .0.name(), .0.formats())]
     NotText(FileKind),
-    /// Text in another encoding.
+    /// The text has another encoding.
     #[error(
         "byte {byte:#04x} (number {position} of the file) is not UTF-8 text; save the file as UTF-8, or write um for µm"
     )]
     NotUtf8 {
         /// The first byte that is not UTF-8.
         byte: u8,
-        /// Which byte of the file it is, from 1.
+        /// Its position in the file, counted from 1.
         position: usize,
     },
-    /// A line without end.
+    /// A line is too long.
     #[error(
-        "this line is longer than {most} bytes, which no row of a table is; end each row with a line break"
+        "this line is longer than {most} bytes, the limit for a row of a table; end each row with a line break"
     )]
     LineTooLong {
-        /// The longest line read [bytes].
+        /// The longest line that is read [bytes].
         most: usize,
     },
-    /// The file ends before its time.
+    /// The file ends too early.
     #[error("ends where {wanted} should follow; is the file cut off?")]
     CutOff {
         /// What should follow.
         wanted: &'static str,
     },
-    /// No rows of data.
-    #[error("holds no rows of numbers; is it the right file?")]
+    /// The table has no rows.
+    #[error("contains no rows of numbers; is it the right file?")]
     NoRows,
-    /// A table without names.
+    /// The table has no header.
     #[error("has no line of names above its numbers; write one, like {example}")]
     NoHeader {
-        /// A line that would do.
+        /// An example line.
         example: &'static str,
     },
-    /// A row with cells missing or too many.
-    #[error("this row has {found} cells where {wanted} are needed; {}", if found < wanted { "is the file cut off here?" } else { "do decimal commas meet a comma between cells?" })]
+    /// A row has too few or too many cells.
+    #[error("this row has {found} cells and needs {wanted}; {}", if found < wanted { "is the file cut off here?" } else { "are both decimals and cells separated by commas?" })]
     Cells {
-        /// Cells there are.
+        /// Number of cells found.
         found: usize,
-        /// Cells needed.
+        /// Number of cells needed.
         wanted: usize,
     },
-    /// A text that is no number.
+    /// A cell is not a number.
     #[error("\"{text}\" is not a number; write one, or leave the cell empty where a value is missing")]
     NotANumber {
         /// As written.
         text: String,
     },
-    /// An infinite number.
+    /// A cell is an infinite number.
     #[error("\"{text}\" is not finite; leave the cell empty where a value is missing")]
     NotFinite {
         /// As written.
         text: String,
     },
-    /// Decimal points and decimal commas in one file.
+    /// The file has both decimal points and decimal commas.
     #[error(
-        "\"{text}\" has the other decimal sign than the rows before; write all numbers with a point, or all with a comma"
+        "\"{text}\" has another decimal sign than the rows above; write all numbers with a point, or all with a comma"
     )]
     MixedDecimals {
         /// As written.
         text: String,
     },
-    /// Values that must increase and do not.
+    /// Values that must increase do not.
     #[error("goes from {} to {}; it must increase", shortest(*before), shortest(*after))]
     NotIncreasing {
         /// A value.
@@ -246,15 +246,15 @@ pub enum FileFault {
         /// The next one.
         after: f64,
     },
-    /// A column without a unit.
-    #[error("holds {} and has no unit; write the unit into its name, like {example}", dimension.name())]
+    /// A column has no unit.
+    #[error("contains {} and has no unit; write the unit in its name, like {example}", dimension.name())]
     NoUnit {
         /// What it measures.
         dimension: Dimension,
-        /// A header that would do.
+        /// An example header.
         example: &'static str,
     },
-    /// A unit of something else, or one that is not known.
+    /// A unit is unknown or belongs to another quantity.
     #[error("has the unit \"{unit}\"; {} is needed", Wanted(*wanted))]
     WrongUnit {
         /// As written.
@@ -262,19 +262,19 @@ pub enum FileFault {
         /// What is needed.
         wanted: Dimension,
     },
-    /// Something that only a velocity record has.
+    /// A fault of a velocity record.
     #[error(transparent)]
     Record(#[from] RecordFault),
-    /// Something that only a field has.
+    /// A fault of a field.
     #[error(transparent)]
     Field(#[from] FieldFault),
-    /// Something that only a profile or a spectrum has.
+    /// A fault of a profile or a spectrum.
     #[error(transparent)]
     Profile(#[from] ProfileFault),
 }
 
 impl FileFault {
-    /// A cell that is no number.
+    /// The fault of a cell that is not a number.
     pub(crate) fn not_a_number(text: &str) -> Self {
         Self::NotANumber { text: excerpt(text, 40) }
     }

@@ -1,10 +1,10 @@
-//! Why fibres cannot fly side by side, or a flight cannot do what is asked of it.
+//! Errors of flights: fibres that cannot fly side by side, and requests that cannot be met.
 
-/// What is wrong with a flight that was asked for.
+/// What is wrong with a flight or with a request to it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FlightFault {
-    /// No fibre.
+    /// There is no fibre.
     #[error("a flight needs at least one fibre")]
     Empty,
     /// More fibres than lanes.
@@ -18,23 +18,23 @@ pub enum FlightFault {
     /// A wind without eddies.
     #[error("a wind needs at least one eddy")]
     NoEddies,
-    /// Turbulence of nothing.
+    /// A number of harmonics or a cut-off frequency that cannot be used.
     #[error(
         "air.harmonics and air.cutoff_frequency must be positive, and there may be at most 2^30 harmonics, for turbulence to be made"
     )]
     NoHarmonics,
-    /// A case that differs where it must not.
+    /// Cases that differ in something that must be equal.
     #[error(
         "fibre {} cannot fly beside the first: they differ in {what}; fibres of one flight must agree in it",
         lane + 1
     )]
     Differ {
-        /// What they differ in.
+        /// The key or property that differs.
         what: &'static str,
         /// Index of the fibre.
         lane: usize,
     },
-    /// A wind for another number of eddies, or surroundings for another number of elements.
+    /// A wind or surroundings with the wrong number of eddies or elements.
     #[error("the {what} is for {found} {of}, the fibres have {wanted}")]
     Size {
         /// What does not fit.
@@ -46,29 +46,29 @@ pub enum FlightFault {
         /// How many there must be.
         wanted: usize,
     },
-    /// A time step that is no step.
+    /// A time step that is not positive and finite.
     #[error("a time step of {step:e} s cannot be taken; it must be positive and finite")]
     Step {
         /// The step [s].
         step: f64,
     },
-    /// A time that has passed, or is no time.
+    /// A time in the past, or NaN.
     #[error("the flight is at {now:e} s and cannot step to {time:e} s; name a later time")]
     TimePast {
-        /// Where it was to go [s].
+        /// The requested time [s].
         time: f64,
-        /// Where it is [s].
+        /// The present time of the flight [s].
         now: f64,
     },
-    /// A flight that was put together from parts.
+    /// A flight without a case.
     #[error("this flight was put together without a case, so its keys cannot be set")]
     NoCase,
-    /// A key that cannot change in flight.
+    /// A key that cannot change during a flight.
     #[error("{key} cannot change in flight: {reason}; start another flight with it")]
     NotInFlight {
         /// The key.
         key: &'static str,
-        /// Why.
+        /// The reason.
         reason: &'static str,
     },
 }

@@ -1,55 +1,55 @@
-//! What can be wrong with a profile of the air or a spectrum.
+//! Errors of profiles and spectra.
 
 use super::record::listed;
 use crate::units::shortest;
 
-/// What is wrong with a profile or a spectrum, and the way out.
+/// What is wrong with a profile or a spectrum, and how to correct it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProfileFault {
-    /// A column that must be there.
+    /// A required column is missing.
     #[error("has no column {wanted}, among {}; name one like {example}", listed(found))]
     NoColumn {
-        /// What it holds.
+        /// The quantity in it.
         wanted: &'static str,
-        /// A header that would do.
+        /// An example header.
         example: &'static str,
-        /// The columns there are.
+        /// The columns in the file.
         found: Vec<String>,
     },
-    /// Two columns for the same.
-    #[error("the columns \"{first}\" and \"{second}\" both are {what}; keep one")]
+    /// Two columns hold the same quantity.
+    #[error("the columns \"{first}\" and \"{second}\" both hold {what}; keep one")]
     Twice {
-        /// What they hold.
+        /// The quantity in them.
         what: &'static str,
         /// The first header.
         first: String,
         /// The second header.
         second: String,
     },
-    /// A cell that is no finite number.
+    /// A cell is not a finite number.
     #[error("\"{text}\" is not a finite number; every cell of the table needs one")]
     NotANumber {
         /// The cell.
         text: String,
     },
-    /// A number of the wrong sign.
+    /// A number has the wrong sign.
     #[error("{} is {}; {}", shortest(*value), if *value < 0.0 { "negative" } else { "zero" }, if *zero { "zero or more is needed" } else { "more than zero is needed" })]
     Sign {
         /// The number [SI].
         value: f64,
-        /// Whether zero would do.
+        /// Whether zero is allowed.
         zero: bool,
     },
-    /// Too few rows.
-    #[error("has {found} {} of numbers; {least} at least are needed to draw lines between", if *found == 1 { "row" } else { "rows" })]
+    /// The table has too few rows.
+    #[error("has {found} {} of numbers; at least {least} are needed for interpolation", if *found == 1 { "row" } else { "rows" })]
     TooFewRows {
-        /// Rows there are.
+        /// Number of rows.
         found: usize,
-        /// Least number.
+        /// Smallest number of rows.
         least: usize,
     },
-    /// A spectrum without energy.
-    #[error("has no energy at any frequency; a spectrum needs some")]
+    /// The spectrum is zero everywhere.
+    #[error("is zero at every frequency; at least one value must be positive")]
     NoEnergy,
 }

@@ -1,71 +1,73 @@
-//! What can be wrong with a velocity record.
+//! Errors of velocity records.
 
 use super::{all_of, memory};
 use crate::units::{Dimension, shortest};
 
-/// What is wrong with a velocity record, and the way out.
+/// What is wrong with a velocity record, and how to correct it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordFault {
-    /// Parquet that cannot be decoded.
-    #[error("is no Parquet file that can be read: {message}; write it with Snappy compression or none")]
+    /// The Parquet file cannot be decoded.
+    #[error(
+        "is not a readable Parquet file: {message}; write it with Snappy compression or without compression"
+    )]
     Parquet {
-        /// What the decoder says.
+        /// Message of the decoder.
         message: String,
     },
-    /// A column of a type that holds no velocities.
+    /// A column has a type that cannot hold velocities.
     #[error("holds {found}; a plain column of doubles, floats or integers is needed")]
     ColumnType {
         /// The type found.
         found: String,
     },
-    /// No velocity among the columns.
+    /// No column is a velocity.
     #[error(
         "no column is a velocity, among {}; name them like u_m_s, or say which columns are velocities, and in which unit",
         listed(found)
     )]
     NoVelocity {
-        /// The columns there are.
+        /// The columns in the file.
         found: Vec<String>,
     },
-    /// More velocities than directions.
+    /// There are more than three velocity columns.
     #[error("has {} velocity columns, {}; say which of them to take, one to three", found.len(), listed(found))]
     TooManyComponents {
         /// The columns found.
         found: Vec<String>,
     },
-    /// No time and no rate.
+    /// There is neither a time column nor a sampling rate.
     #[error("has no column of time, among {}; name it like time_s, or give the sampling rate", listed(found))]
     NoTime {
-        /// The columns there are.
+        /// The columns in the file.
         found: Vec<String>,
     },
-    /// A column asked for that is not there.
+    /// The column that was asked for does not exist.
     #[error("has no column {asked}; there are {}", listed(found))]
     NoSuchColumn {
         /// As asked.
         asked: String,
-        /// The columns there are.
+        /// The columns in the file.
         found: Vec<String>,
     },
-    /// The same column asked for twice.
+    /// The same column was asked for twice.
     #[error("is asked for twice; name each column once")]
     ColumnTwice,
-    /// The header and the unit asked for do not agree.
-    #[error("is in {written} by its header, and {asked} was asked for; give no unit, or mend the header")]
+    /// The unit in the header differs from the unit asked for.
+    #[error("is in {written} by its header, and {asked} was asked for; give no unit, or correct the header")]
     MixedUnits {
         /// As in the header.
         written: String,
         /// As asked.
         asked: String,
     },
-    /// A rate that is none.
-    #[error("a sampling rate of {} Hz is not one; give one above zero", shortest(*rate))]
+    /// The sampling rate is not positive.
+    #[error("a sampling rate of {} Hz is not possible; give a rate above zero", shortest(*rate))]
     Rate {
         /// As given [Hz].
         rate: f64,
     },
-    /// Time that stands still or runs back.
+    /// The time does not increase.
     #[error(
         "time goes from {} s to {} s; rows must be in order of time. If the times are only written with too few \
          digits, give the sampling rate", shortest(*before), shortest(*after)
@@ -76,7 +78,7 @@ pub enum RecordFault {
         /// [s]
         after: f64,
     },
-    /// A step unlike the others.
+    /// The samples are not evenly spaced.
     #[error(
         "a step of {} after steps of {}; samples must be evenly spaced to within 1 %. Resample the record, or \
          give the sampling rate if the clock was even all the same",
@@ -88,7 +90,7 @@ pub enum RecordFault {
         /// [s]
         usual: f64,
     },
-    /// Too many samples missing in a row.
+    /// Too many samples in a row are missing.
     #[error(
         "{} samples in a row are missing up to here, more than the {most} that are filled in; cut the record \
          here, or allow longer gaps", shortest(*missing)
@@ -99,33 +101,33 @@ pub enum RecordFault {
         /// Most that are filled in.
         most: usize,
     },
-    /// Too few samples.
-    #[error("holds {found} samples; at least {least} are needed to say anything about turbulence")]
+    /// The record has too few samples.
+    #[error("has {found} samples; at least {least} are needed for statistics of turbulence")]
     TooFewSamples {
-        /// Samples there are.
+        /// Number of samples.
         found: usize,
         /// Least number.
         least: usize,
     },
-    /// More than can be kept.
+    /// The record has too many samples.
     #[error("holds more than {most} numbers, which would take more than {} of memory; cut it in pieces", memory(*most as f64 * 8.0))]
     TooManySamples {
         /// Most numbers that are kept.
         most: usize,
     },
-    /// Nothing fluctuates.
+    /// The velocity is constant.
     #[error("is constant, {} m/s in every sample; there is no turbulence in it. Is the probe connected?", shortest(*value))]
     Constant {
         /// [m/s]
         value: f64,
     },
-    /// Numbers too large to square.
+    /// The numbers are too large to be squared.
     #[error("holds numbers as large as {} m/s, which cannot be computed with; is the unit right?", shortest(*value))]
     TooLarge {
         /// [m/s]
         value: f64,
     },
-    /// A record of the fluctuation alone.
+    /// The record contains the fluctuation only.
     #[error(
         "the mean velocity is zero within its error ({} ± {} m/s); if the mean was taken off the record, give \
          the mean velocity", shortest(*mean), shortest(*error)
@@ -136,7 +138,7 @@ pub enum RecordFault {
         /// Half of the 95 % interval [m/s].
         error: f64,
     },
-    /// An integral over more than the record bears.
+    /// The time of integration is too long for the record.
     #[error(
         "an integral over {} reaches beyond a quarter of the record, {}; give a shorter time",
         Dimension::Time.pretty(*asked), Dimension::Time.pretty(*most)
@@ -147,7 +149,7 @@ pub enum RecordFault {
         /// The longest [s].
         most: f64,
     },
-    /// Segments that do not fit.
+    /// The segment length is not possible.
     #[error(
         "a segment of {asked} samples: not a power of two from 8 to {most}, the samples of this record; try {advice}"
     )]

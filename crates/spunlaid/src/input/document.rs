@@ -1,8 +1,8 @@
-//! A case file taken apart into its entries, each with the place it was written.
+//! Reads a case file into its entries. Each entry remembers where it was written.
 
 use super::source::{Source, fit};
 use super::written::{Said, Written};
-use super::{FORMAT_VERSION, values};
+use super::{FORMAT_VERSION, Overrides, values};
 use crate::case::keys::{self, Key};
 use crate::error::{Error, Fault, Finding, Place};
 use std::collections::BTreeMap;
@@ -10,18 +10,18 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// The one key above the tables.
+/// The only key above the tables.
 const VERSION: &str = "version";
 
-/// A value as written.
+/// A value as it was written.
 struct Entry<'a> {
     place: Place,
-    /// Source text, made fit for a message; none for tables, whose text is all over the file.
+    /// Source text, shortened for messages. None for tables, because their text is spread over the file.
     shown: Option<String>,
     value: DeValue<'a>,
 }
 
-/// The entries of a case file and of the overrides, and what is wrong with them so far.
+/// The entries of a case file and of the overrides, and the problems found so far.
 pub(super) struct Document<'a> {
     name: String,
     source: Source<'a>,
@@ -34,12 +34,8 @@ impl<'a> Document<'a> {
     /// Reads the values of the file called `name` and of the overrides.
     ///
     /// # Errors
-    /// When the text is not TOML, or of a later version of the format.
-    pub(super) fn read(
-        text: &'a str,
-        name: &str,
-        overrides: &'a [(String, String)],
-    ) -> Result<Written, Error> {
+    /// If the text is not TOML, or if its format is newer than this library.
+    pub(super) fn read(text: &'a str, name: &str, overrides: Overrides<'a>) -> Result<Written, Error> {
         let source = Source::new(text, name);
         let written = Written::new(source.whole());
         let mut document =
@@ -49,10 +45,10 @@ impl<'a> Document<'a> {
             return Err(Error::Rejected(faults.iter().map(|fault| document.source.syntax(fault)).collect()));
         }
         document.take_root(root.into_inner());
-        for (key, value) in overrides {
-            document.take_override(key.trim(), value);
+        for (key, value) in overrides.values {
+            document.take_override(overrides.word, key.trim(), value);
         }
-        // Before anything else in the file is judged.
+        // A newer format may mean other things, so this check comes first.
         document.version.take().map_or(Ok(()), check_version)?;
         for key in keys::all() {
             if let Some(entry) = document.entries.remove(key.name) {
@@ -119,8 +115,8 @@ impl<'a> Document<'a> {
         Entry { place, shown, value: value.into_inner() }
     }
 
-    /// An override replaces what the file says.
-    fn take_override(&mut self, key: &str, text: &'a str) {
+    /// Takes an override, which replaces the value in the file.
+    fn take_override(&mut self, word: &str, key: &str, text: &'a str) {
         let value = match DeValue::parse(text) {
             Ok(value) => value.into_inner(),
             Err(_) => DeValue::String(text.into()),
@@ -130,7 +126,7 @@ impl<'a> Document<'a> {
         } else {
             fit(text)
         };
-        let entry = Entry { place: Place::Override, shown: Some(shown), value };
+        let entry = Entry { place: Place::Override(word.to_owned()), shown: Some(shown), value };
         match key.split_once('.') {
             Some((table, key)) => match table_named(table) {
                 Some(table) => self.take_entry(table, key, entry),
@@ -138,7 +134,7 @@ impl<'a> Document<'a> {
             },
             None => match table_named(key) {
                 Some(table) => {
-                    let wanted = format!("one of its keys, --set {table}.key=value");
+                    let wanted = format!("one of its keys, {word} {table}.key=value");
                     let what = Fault::WrongType { found: "a table", wanted };
                     self.reject(entry.place, table, None, what);
                 }
@@ -147,7 +143,7 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// Takes in an entry of a table, or of the top of the file, if it is known there.
+    /// Takes an entry of a table or of the top of the file. Unknown keys are rejected.
     fn take_entry(&mut self, table: &'static str, key: &str, entry: Entry<'a>) {
         let full = if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") };
         if full == VERSION {
@@ -176,7 +172,7 @@ impl<'a> Document<'a> {
 
     fn reject_table(&mut self, place: Place, name: &str, keys: &DeTable<'_>) {
         let mut nearest = keys::nearest_word(name, keys::TABLES.into_iter());
-        // By its keys, where its name tells nothing.
+        // If the table's name is not similar to a known one, its keys may show which table is meant.
         for (key, _) in keys {
             nearest = nearest.or_else(|| home_of(key.get_ref()).map(Key::table));
         }
@@ -187,21 +183,22 @@ impl<'a> Document<'a> {
         self.reject(place, &format!("[{}]", fit(name)), None, Fault::UnknownTable { nearest });
     }
 
-    /// The path that an entry names: from the folder of the file, or from here where it is an override.
+    /// The path that an entry names. It is relative to the folder of the case file, or to the working directory if
+    /// the entry is an override.
     fn beside(&self, place: &Place, named: &str) -> PathBuf {
         match (place, Path::new(&self.name).parent()) {
-            (Place::Override, _) | (_, None) => PathBuf::from(named),
+            (Place::Override(_), _) | (_, None) => PathBuf::from(named),
             (_, Some(folder)) => folder.join(named),
         }
     }
 
-    /// Notes down a problem with something that is no key.
+    /// Records a problem with something that is not a key.
     fn reject(&mut self, place: Place, key: &str, value: Option<String>, what: Fault) {
         self.written.problems.push(Finding { place, key: fit(key), value, what });
     }
 }
 
-/// Refuses a file of a later format.
+/// Rejects a file of a newer format.
 fn check_version(entry: Entry<'_>) -> Result<(), Error> {
     let Entry { place, shown, value } = entry;
     let known = FORMAT_VERSION;
@@ -216,19 +213,19 @@ fn check_version(entry: Entry<'_>) -> Result<(), Error> {
     Err(vec![Finding { place, key: VERSION.to_owned(), value: shown, what }].into())
 }
 
-/// The table's name, if it is one.
+/// The name of the table, if there is such a table.
 pub(super) fn table_named(name: &str) -> Option<&'static str> {
     keys::TABLES.into_iter().find(|table| *table == name)
 }
 
-/// The only key of this name, whatever its table.
+/// The key with this short name, if exactly one table has such a key.
 fn home_of(name: &str) -> Option<&'static Key> {
     let mut homes = keys::all().iter().filter(|key| key.short() == name);
     let home = homes.next();
     if homes.next().is_some() { None } else { home }
 }
 
-/// What kind of value this is, with its article.
+/// The kind of the value in words, with an article.
 pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(_) => "a text",

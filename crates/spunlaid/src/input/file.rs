@@ -1,4 +1,4 @@
-//! The text of a file that may be anything.
+//! Reads the text of a file, which may turn out to be no text at all.
 
 use super::LARGEST_FILE;
 use crate::error::{FileError, FileFault, FileKind, FilePlace};

@@ -1,12 +1,11 @@
-//! Case and study files: TOML as people write it, to a [`Case`] or a study in SI units, and back.
+//! Reads and writes case and study files (TOML). In memory, all values are in SI units.
 //!
-//! A quantity is written with its unit, `diameter = "50 µm"`. Everything wrong with a file is told at
-//! once, each with its line, key, value, what is allowed and the way out.
+//! A quantity is written with its unit, `diameter = "50 µm"`. All problems of a file are reported at once, each
+//! with line, key, value, what is allowed and how to correct it.
 
 mod data;
 mod document;
 mod file;
-
 mod resolve;
 mod source;
 mod study;
@@ -21,48 +20,75 @@ use crate::case::{Case, Note};
 use crate::error::{Error, FileKind};
 use std::path::Path;
 
-/// The version of the case file format that this library writes, and the newest it reads.
+/// The version of the case file format that this library writes, and the newest one that it reads.
 pub const FORMAT_VERSION: u32 = 1;
-/// Largest case file read [bytes].
+/// Size of the largest case file that is read [bytes].
 pub const LARGEST_FILE: u64 = 1 << 20;
+
+/// Values that replace values of a case file or add to them.
+#[derive(Clone, Copy, Debug)]
+pub struct Overrides<'a> {
+    /// Keys and values, `("air.velocity", "20 m/s")`. A value that is not TOML is taken as text.
+    pub values: &'a [(String, String)],
+    /// What messages write before the key. A program with an option for overrides gives its name.
+    pub word: &'a str,
+}
+
+impl<'a> From<&'a [(String, String)]> for Overrides<'a> {
+    fn from(values: &'a [(String, String)]) -> Self {
+        Self { values, word: "override" }
+    }
+}
+
+impl<'a, const N: usize> From<&'a [(String, String); N]> for Overrides<'a> {
+    fn from(values: &'a [(String, String); N]) -> Self {
+        Self::from(&values[..])
+    }
+}
+
+impl<'a> From<&'a Vec<(String, String)>> for Overrides<'a> {
+    fn from(values: &'a Vec<(String, String)>) -> Self {
+        Self::from(&values[..])
+    }
+}
 
 /// Reads and checks a case file.
 ///
-/// * `overrides` – keys and values that replace the file's or add to it, `("air.velocity", "20 m/s")`; a
-///   value is taken as TOML if it is, else as text
+/// * `overrides` – keys and values that replace values of the file or add to them: `&[]`, `&[(key, value)]` or
+///   [`Overrides`]
 ///
-/// Returns the case and what there is to remark on it.
+/// Returns the case, with notes and warnings about it.
 ///
 /// # Errors
-/// When the file cannot be read, and when the case cannot be run: then everything found wrong with it.
-pub fn read_case(path: &Path, overrides: &[(String, String)]) -> Result<(Case, Vec<Note>), Error> {
+/// If the file cannot be read, or if the case cannot be run; then with every problem found.
+pub fn read_case<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<(Case, Vec<Note>), Error> {
     let text = file::read(path, FileKind::Case)?;
     parse_case(&text, &path.display().to_string(), overrides)
 }
 
-/// Reads and checks the text of a case file; `name` is what messages call the file.
+/// Reads and checks the text of a case file. Messages call the file `name`.
 ///
 /// # Errors
 /// As [`read_case`].
-pub fn parse_case(
+pub fn parse_case<'a>(
     text: &str,
     name: &str,
-    overrides: &[(String, String)],
+    overrides: impl Into<Overrides<'a>>,
 ) -> Result<(Case, Vec<Note>), Error> {
-    parse_with(&data::DataFiles::default(), text, name, overrides)
+    parse_with(&data::DataFiles::default(), text, name, overrides.into())
 }
 
-/// [`parse_case`] with files that may have been read before.
+/// [`parse_case`] with a store of files that may have been read before.
 fn parse_with(
     files: &data::DataFiles,
     text: &str,
     name: &str,
-    overrides: &[(String, String)],
+    overrides: Overrides<'_>,
 ) -> Result<(Case, Vec<Note>), Error> {
     resolve::open(document::Document::read(text, name, overrides)?, files)?.resolve()
 }
 
-/// A commented case file to start from: Table 1 of the paper, every optional key with its default.
+/// A commented case file to start from: Table 1 of the paper, with every optional key and its default.
 pub const fn starter_case() -> &'static str {
     include_str!("starter.toml")
 }

@@ -1,4 +1,4 @@
-//! From what is written to what is meant: defaults, whole elements, whole steps.
+//! Makes a case from the written values: defaults, whole elements, whole steps.
 
 use super::data::DataFiles;
 use super::written::{Said, Written, sorted};
@@ -13,25 +13,25 @@ use crate::field::FieldWarning;
 use crate::vec3::Vec3;
 use std::path::PathBuf;
 
-/// A case with every key set that stands on its own; what is counted in whole elements, steps and harmonics is
-/// open.
+/// A case in which every independent key is set. Keys that are counted in whole elements, steps and harmonics are
+/// still open.
 pub(super) struct Open {
-    /// What the case was made of.
+    /// The values that the case was made from.
     pub(super) written: Written,
-    /// Numbers that the flow tells are NaN.
+    /// The case. Numbers that the flow gives are NaN.
     pub(super) case: Case,
     notes: Vec<Note>,
 }
 
-/// Sets what is written, and what else has a default.
+/// Sets the written values and the defaults of the other keys.
 ///
 /// # Errors
-/// Everything that is wrong with any key.
+/// Every problem with any key.
 pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Error> {
     let (mut case, mut notes) = (blank(), Vec::new());
     let twice = ["air.profile", "air.field"].map(|key| written.get(key).is_some()) == [true; 2];
-    // Files come first, since they may tell what other keys would; then names, since a law or a model decides
-    // whether its numbers have a meaning.
+    // Files come first, because they may give the values of other keys. Names come next, because a law or a model
+    // decides which numbers have a meaning.
     let rank = |key: &&Key| match key.kind {
         Kind::File(_) => 0,
         Kind::Choice(_) => 1,
@@ -42,7 +42,7 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
     for key in in_order {
         let Some(Said { place, shown, value }) = written.get(key.name).cloned() else {
             match key.left_out {
-                // A key that means nothing to this case refuses its default, which is then not needed.
+                // A key without a meaning for this case refuses its default, which is then not needed.
                 LeftOut::Value(text) if !key.counted => drop(key.set(&mut case, text)),
                 LeftOut::Required(_)
                     if !is_told(&mut case.air, key.name) && !written.is_excused(key.name) =>
@@ -111,7 +111,7 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
     }
 }
 
-/// A case to set keys of.
+/// An empty case, whose keys are set one after another.
 fn blank() -> Case {
     let nan = f64::NAN;
     Case {
@@ -140,7 +140,7 @@ fn blank() -> Case {
     }
 }
 
-/// Keys that may be missed only because a file cannot be used.
+/// Keys that may be missing only because a file cannot be used.
 const fn missed_with(kind: FileKind) -> &'static str {
     match kind {
         FileKind::Spectrum => "air.cutoff_frequency",
@@ -170,8 +170,8 @@ fn load(
     Ok((content, Vec::new()))
 }
 
-/// Whether the flow or a file tells a number of the air that the case leaves out; the number is taken from a file,
-/// and left to the flow until the air is settled.
+/// Whether the flow or a file gives a number of the air that the case leaves out. A number from a file is set here;
+/// a number from the flow is set later, when the air is settled.
 fn is_told(air: &mut Air, key: &str) -> bool {
     let (tells, uniform) = (air.flow.tells(), air.is_uniform());
     let record = air.records.first().map(|record| record.says);
@@ -212,7 +212,7 @@ fn is_told(air: &mut Air, key: &str) -> bool {
 }
 
 impl Open {
-    /// The number of a key, as written or by default; none where it follows from others.
+    /// The number of a key, as written or by default. None if it follows from other keys.
     pub(super) fn number(&self, key: &Key) -> Option<f64> {
         let number = match (self.written.get(key.name), key.left_out) {
             (Some(said), _) => said.value.as_ref()?.number(),
@@ -227,10 +227,10 @@ impl Open {
         self.number(keys::find(key)?)
     }
 
-    /// The case that is meant, checked, and what there is to remark on it.
+    /// The checked case, with notes and warnings.
     ///
     /// # Errors
-    /// Everything that keeps the case from being run.
+    /// Every reason why the case cannot be run.
     pub(super) fn resolve(mut self) -> Result<(Case, Vec<Note>), Error> {
         self.count()?;
         match self.case.check() {
@@ -245,7 +245,7 @@ impl Open {
         }
     }
 
-    /// Takes whole elements, steps and harmonics.
+    /// Sets whole numbers of elements, steps and harmonics.
     fn count(&mut self) -> Result<(), Error> {
         let of = |key| self.number_of(key).unwrap_or(f64::NAN);
         let (duration, tolerance, spin_up) =
@@ -260,7 +260,7 @@ impl Open {
         let element_length = written_length.unwrap_or(case.air.length_scale.min(fibre.length));
         let (mut elements, whole) = whole_parts(fibre.length, element_length);
         if written_length.is_none() && !whole && (elements as f64) < fibre.length / element_length {
-            // No longer than an eddy: none is to be skipped.
+            // An element must not be longer than an eddy, so that no eddy is skipped.
             elements += 1;
         }
         fibre.elements = usize::try_from(elements.max(1)).unwrap_or(usize::MAX);
@@ -292,7 +292,7 @@ impl Open {
         let (nearest, whole) = whole_parts(duration, time_step);
         (run.steps, run.time_step) = (nearest, time_step);
         if !whole || nearest == 0 {
-            // More steps, and these shorter: never beyond a limit that the step as written keeps.
+            // Round up: a shorter step keeps every limit that the written step keeps.
             run.steps = steps as u64;
             run.time_step = duration / steps;
             if written_step.is_some() {

@@ -1,14 +1,14 @@
-//! The text of a TOML file, and where in it things stand.
+//! The text of a TOML file, with line and column of each position.
 
 use crate::error::{Fault, Finding, Place, Problem};
 use crate::units::excerpt;
 use std::ops::Range;
 
-/// A file's name and text.
+/// The name and text of a file.
 pub(super) struct Source<'a> {
     name: String,
     text: &'a str,
-    /// Byte at which each line starts.
+    /// Index of the byte at which each line starts.
     lines: Vec<usize>,
 }
 
@@ -18,22 +18,22 @@ impl<'a> Source<'a> {
         Self { name: name.to_owned(), text, lines: std::iter::once(0).chain(starts).collect() }
     }
 
-    /// The file as a place, for what it does not say.
+    /// The whole file as a place, for values that it does not contain.
     pub(super) fn whole(&self) -> Place {
         Place::File { file: self.name.clone(), line: None, column: None }
     }
 
-    /// The line a byte is in.
+    /// The line that contains a byte.
     pub(super) fn place(&self, byte: usize) -> Place {
         Place::File { file: self.name.clone(), line: Some(self.position(byte).0), column: None }
     }
 
-    /// The text of a value, on one line and not too long.
+    /// The text of a value, on one line and shortened.
     pub(super) fn shown(&self, span: Range<usize>) -> String {
         fit(self.text.get(span).unwrap_or_default())
     }
 
-    /// What the parser found wrong.
+    /// The problem that the parser found.
     pub(super) fn syntax(&self, fault: &toml::de::Error) -> Problem {
         let (line, column) = self.position(fault.span().map_or(0, |span| span.start));
         let place = Place::File { file: self.name.clone(), line: Some(line), column: Some(column) };
@@ -45,7 +45,7 @@ impl<'a> Source<'a> {
         Finding { place, key: String::new(), value: None, what }
     }
 
-    /// Line and column, in characters, of a byte, both from 1.
+    /// Line and column of a byte, both counted from 1; the column counts characters.
     fn position(&self, byte: usize) -> (usize, usize) {
         let line = self.lines.partition_point(|start| *start <= byte);
         let start = line.checked_sub(1).and_then(|i| self.lines.get(i)).copied().unwrap_or(0);
@@ -54,7 +54,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Source text on one line and not too long.
+/// Source text on one line, shortened.
 pub(super) fn fit(text: &str) -> String {
     excerpt(text, 60)
 }

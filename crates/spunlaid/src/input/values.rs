@@ -1,4 +1,4 @@
-//! Values as TOML has them, to the [`Value`] of a key.
+//! Converts TOML values to the [`Value`] of a key.
 
 use super::document::kind;
 use crate::case::keys::{FileKind, Kind, Value};
@@ -8,9 +8,9 @@ use crate::vec3::Vec3;
 use std::path::PathBuf;
 use toml::de::{DeInteger, DeValue};
 
-/// Reads the value of a key that takes this kind.
+/// Reads the value of a key of this kind.
 ///
-/// * `beside` – the path that a name of a file stands for
+/// * `beside` – gives the path for the name of a file
 pub(super) fn read(of: &Kind, value: &DeValue<'_>, beside: impl Fn(&str) -> PathBuf) -> Result<Value, Fault> {
     let wrong = |found| Fault::WrongType { found, wanted: of.wanted() };
     let read = match (of, value) {

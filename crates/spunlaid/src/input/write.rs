@@ -1,4 +1,4 @@
-//! A case as a file that reads back to the same bits.
+//! Writes a case as a file that reads back to the same bits.
 
 use super::FORMAT_VERSION;
 use crate::case::keys::{self, Key, Kind, Value};
@@ -9,14 +9,14 @@ use std::path::Path;
 
 /// Writes a case as TOML: every key, in SI units.
 ///
-/// Reading the text gives the same case to the last bit, and writing that the same text, for every case
-/// that passes [`Case::check`].
+/// For every case that passes [`Case::check`], reading the text gives the same case to the last bit, and writing
+/// it again gives the same text.
 pub fn write_case(case: &Case) -> String {
     let mut text = format!("version = {FORMAT_VERSION}\n");
     for table in keys::TABLES {
         // Writing to a text cannot fail.
         let _ = writeln!(text, "\n[{table}]");
-        // What the flow tells is left to it.
+        // Numbers that the flow gives are left out.
         for key in keys::of_table(table).filter(|key| !key.is_told(case)) {
             if let Some(value) = key.get(case) {
                 let _ = writeln!(text, "{} = {}", key.short(), written(case, key, value));
@@ -52,7 +52,7 @@ fn listed(paths: &[&Path]) -> String {
     if let [one] = &texts[..] { one.clone() } else { format!("[{}]", texts.join(", ")) }
 }
 
-/// A path as a TOML text.
+/// A path as a TOML string.
 fn text(path: &Path) -> String {
     let escaped = path.to_string_lossy().chars().fold(String::new(), |mut text, c| {
         match c {
@@ -71,8 +71,8 @@ fn float(value: f64) -> String {
     if text.contains(['.', 'e']) { text } else { format!("{text}.0") }
 }
 
-/// A length or time that is counted in elements or steps without the noise of its last digit, where the reader
-/// makes the same of it.
+/// A length or time that is counted in elements or steps, without the rounding noise in its last digits. The value
+/// is left as it is if the reader would not make the same number of it.
 fn tidy(case: &Case, key: &Key, value: f64) -> f64 {
     let (step, run) = (case.run.time_step, case.run);
     let same = |tidied: f64| match key.name {

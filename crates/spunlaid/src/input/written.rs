@@ -1,27 +1,27 @@
-//! What a case file says: values by key, each with the place it was written.
+//! The values of a case file by key, each with the place where it was written.
 
 use crate::case::keys::{Key, Value};
 use crate::error::{Fault, Finding, Place, Problem};
 use std::collections::BTreeMap;
 
-/// A value as written.
+/// A value as it was written.
 #[derive(Clone, Debug)]
 pub(super) struct Said {
     pub(super) place: Place,
-    /// As the file has it.
+    /// The text in the file.
     pub(super) shown: Option<String>,
-    /// None where it cannot be read, which has been told.
+    /// None if it cannot be read; the problem has been recorded.
     pub(super) value: Option<Value>,
 }
 
-/// The values of a case file, and what is wrong with it so far.
+/// The values of a case file, and the problems found so far.
 #[derive(Clone, Debug)]
 pub(super) struct Written {
-    /// The file as a place, for what it does not say.
+    /// The whole file as a place, for values that it does not contain.
     file: Place,
     values: BTreeMap<&'static str, Said>,
     pub(super) problems: Vec<Problem>,
-    /// Keys that are missed only because of another problem; tables end in a dot.
+    /// Keys that are missing only because of another problem. Names of tables end in a dot.
     excused: Vec<String>,
 }
 
@@ -43,22 +43,22 @@ impl Written {
         self.values.insert(key.name, said);
     }
 
-    /// The number of a key, where it is written.
+    /// The number of a key, if it is written.
     pub(super) fn number(&self, key: &str) -> Option<f64> {
         self.get(key)?.value.as_ref()?.number()
     }
 
-    /// Has nothing told of keys that are missed; a table ends in a dot.
+    /// Suppresses messages about these missing keys. The name of a table ends in a dot.
     pub(super) fn excuse(&mut self, keys: impl Into<String>) {
         self.excused.push(keys.into());
     }
 
-    /// Whether what is wrong with a key comes from a problem that has been told.
+    /// Whether messages about a key are suppressed.
     pub(super) fn is_excused(&self, key: &str) -> bool {
         self.excused.iter().any(|excuse| excuse == key || excuse.ends_with('.') && key.starts_with(excuse))
     }
 
-    /// Tells of a problem with the value of a key, or with its absence.
+    /// Records a problem with a key: with its value, or that it is missing.
     pub(super) fn reject(&mut self, key: &str, what: Fault) {
         let (place, value) = match self.get(key) {
             Some(said) => (said.place.clone(), said.shown.clone()),
@@ -67,7 +67,7 @@ impl Written {
         self.problems.push(Finding { place, key: key.to_owned(), value, what });
     }
 
-    /// The finding with the place and the text of the value it is about.
+    /// Adds the place and the written text of the value to a finding.
     pub(super) fn placed<W>(&self, mut finding: Finding<W>) -> Finding<W> {
         match self.get(&finding.key) {
             Some(said) => (finding.place, finding.value) = (said.place.clone(), said.shown.clone()),
@@ -80,7 +80,7 @@ impl Written {
     }
 }
 
-/// Findings in the order of the file, then of the overrides.
+/// Sorts findings by their place: first the file, then the overrides.
 pub(super) fn sorted<W>(mut findings: Vec<Finding<W>>) -> Vec<Finding<W>> {
     findings.sort_by(|a, b| a.place.cmp(&b.place));
     findings

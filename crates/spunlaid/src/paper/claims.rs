@@ -1,30 +1,30 @@
-//! The paper's claims, each with its evidence and a verdict from the data.
+//! The paper's claims. Each gets its evidence and a verdict from the data.
 
 use super::fits::{Spot, line, significance, slopes, worst_step_back};
 use super::{Both, Parameter, TrendPoint};
 
-/// Share of the variance that a line must explain to be called almost straight.
+/// Share of the variance that a straight line must explain for a trend to count as almost linear.
 const ALMOST_LINEAR: f64 = 0.97;
-/// Standard errors of a difference from where on it is taken for real.
+/// Number of standard errors from which a difference counts as significant.
 const REAL: f64 = 3.0;
-/// Standard errors of a step the wrong way that chance accounts for.
+/// Number of standard errors up to which a step in the wrong direction counts as chance.
 const CHANCE: f64 = 2.5;
-/// Change that still is "nearly constant", by the value.
+/// Largest relative change that counts as "nearly constant".
 const NEARLY: f64 = 0.1;
 
 /// Whether a claim holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The data bear it out.
+    /// The data support it.
     Holds,
-    /// The data speak against it.
+    /// The data contradict it.
     Fails,
-    /// The errors are too large to tell; more replicates would.
+    /// The errors are too large to decide. More replicates would help.
     Open,
 }
 
 impl Verdict {
-    /// In words.
+    /// The verdict in words.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Holds => "holds",
@@ -38,20 +38,20 @@ impl Verdict {
     }
 }
 
-/// Something the paper says of a figure.
+/// A claim of the paper about a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
     /// The figure.
     pub figure: &'static str,
-    /// What is claimed.
+    /// The claim.
     pub claim: &'static str,
-    /// The numbers that speak for or against it.
+    /// The numbers for or against it.
     pub evidence: String,
-    /// What follows from them.
+    /// The verdict.
     pub verdict: Verdict,
 }
 
-/// The paper's claims about a parameter. Needs two replicates or more: none of less.
+/// The paper's claims about a parameter. Empty if there are fewer than two replicates.
 pub fn claims_of_trend(parameter: Parameter, points: &[TrendPoint]) -> Vec<Claim> {
     let Some(amplitude) = spots(points, |p| p.amplitude, 1e3) else { return Vec::new() };
     let Some(frequency) = spots(points, |p| p.frequency, 1.0) else { return Vec::new() };
@@ -76,7 +76,10 @@ pub fn claims_of_trend(parameter: Parameter, points: &[TrendPoint]) -> Vec<Claim
             ),
         ],
         Parameter::Diameter => vec![
-            claim("A thick fibre swings wider than a thin one (200 µm against 18 µm).", thicker(&amplitude)),
+            claim(
+                "A thick fibre has a larger amplitude than a thin one (200 µm against 18 µm).",
+                thicker(&amplitude),
+            ),
             claim("The amplitude is a sigmoid of the diameter.", sigmoid(&amplitude)),
         ],
         Parameter::LengthScale => vec![claim(
@@ -90,7 +93,7 @@ pub fn claims_of_trend(parameter: Parameter, points: &[TrendPoint]) -> Vec<Claim
     }
 }
 
-/// The claims about the error of the work, from (time step [s], final error [%], median error over time [%]).
+/// The claims about the work error, from (time step [s], final error [%], median error over time [%]).
 pub fn claims_of_step_errors(errors: &[(f64, f64, f64)]) -> Vec<Claim> {
     let Some(&(_, last, median)) = errors.iter().find(|e| (e.0 - 1e-6).abs() < 1e-12) else {
         return Vec::new();
@@ -113,7 +116,7 @@ pub fn claims_of_step_errors(errors: &[(f64, f64, f64)]) -> Vec<Claim> {
     ]
 }
 
-/// The mean of y and z with its error, in units of `1/scale`; none where a point has no error.
+/// The mean of y and z with its error, in units of `1/scale`. None if a point has no error.
 fn spots(points: &[TrendPoint], of: fn(&TrendPoint) -> Both, scale: f64) -> Option<Vec<Spot>> {
     points
         .iter()
@@ -143,7 +146,7 @@ fn monotone(spots: &[Spot], direction: f64, unit: &str) -> (String, Verdict) {
     let overall = direction * significance(&first, &last);
     let back = worst_step_back(spots, direction);
     let evidence = format!(
-        "{:.2} ± {:.2} to {:.2} ± {:.2} {unit}; worst step the other way {back:.1} standard errors",
+        "{:.2} ± {:.2} to {:.2} ± {:.2} {unit}; largest step in the other direction {back:.1} standard errors",
         first.y, first.error, last.y, last.error
     );
     let verdict = if back > CHANCE || overall < -REAL {
@@ -156,7 +159,7 @@ fn monotone(spots: &[Spot], direction: f64, unit: &str) -> (String, Verdict) {
     (evidence, verdict)
 }
 
-/// Rises up to a place, and changes by less than a tenth from there on.
+/// Whether a trend rises up to a place and changes by less than a tenth after it.
 fn plateau(spots: &[Spot], place: f64) -> (String, Verdict) {
     let at = spots.iter().position(|s| s.x >= place * (1.0 - 1e-9)).unwrap_or(spots.len() - 1);
     let (first, knee, last) = (spots[0], spots[at], spots[spots.len() - 1]);
@@ -201,7 +204,8 @@ fn thicker(spots: &[Spot]) -> (String, Verdict) {
     (evidence, verdict)
 }
 
-/// Steepest somewhere between its ends, over the diameter itself as the paper plots it, and flatter at both.
+/// Whether the curve over the diameter is steepest between its ends and flatter at both ends. The paper plots the
+/// diameter on a linear axis.
 fn sigmoid(spots: &[Spot]) -> (String, Verdict) {
     let slopes = slopes(spots);
     let steepest = (0..slopes.len()).max_by(|&a, &b| slopes[a].0.total_cmp(&slopes[b].0)).unwrap_or(0);
@@ -221,7 +225,7 @@ fn sigmoid(spots: &[Spot]) -> (String, Verdict) {
     } else if steepest > 0 && steepest + 1 < slopes.len() {
         Verdict::Open
     } else {
-        // An inflection hidden between the two points at the end cannot be told from none.
+        // A point of inflection between the last two points cannot be seen.
         let end = if steepest == 0 { last } else { first };
         if over(end) > 2.0 { Verdict::Fails } else { Verdict::Open }
     };

@@ -1,4 +1,4 @@
-//! What a row of points with errors shows.
+//! Lines, differences and slopes of a series of points with errors.
 
 /// A point: x, y and the standard error of y.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,11 +8,11 @@ pub(super) struct Spot {
     pub(super) error: f64,
 }
 
-/// A straight line through points.
+/// A straight line fitted to points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line {
     pub(super) slope: f64,
-    /// Standard error of the slope, from the points' own errors.
+    /// Standard error of the slope, from the errors of the points.
     pub(super) slope_error: f64,
     /// Share of the variance that the line explains.
     pub(super) r_squared: f64,
@@ -29,20 +29,19 @@ pub(super) fn line(spots: &[Spot]) -> Line {
     Line { slope: sxy / sxx, slope_error: variance.sqrt() / sxx, r_squared: sxy * sxy / (sxx * syy) }
 }
 
-/// The difference of two points over its standard error.
+/// The difference of two points, divided by its standard error.
 pub(super) fn significance(from: &Spot, to: &Spot) -> f64 {
     let error = from.error.hypot(to.error);
     let difference = to.y - from.y;
     if error > 0.0 { difference / error } else { difference.signum() * f64::INFINITY }
 }
 
-/// The step against the general direction (`+1` up, `−1` down) that is worst by its standard error, in
-/// standard errors; 0 of none.
+/// The largest step against the general direction (`+1` up, `−1` down), in standard errors. Zero if there is none.
 pub(super) fn worst_step_back(spots: &[Spot], direction: f64) -> f64 {
     spots.windows(2).map(|w| -direction * significance(&w[0], &w[1])).fold(0.0, f64::max)
 }
 
-/// Slopes between neighbours, each with its standard error.
+/// Slopes between neighbouring points, each with its standard error.
 pub(super) fn slopes(spots: &[Spot]) -> Vec<(f64, f64)> {
     let slope = |w: &[Spot]| {
         let dx = w[1].x - w[0].x;

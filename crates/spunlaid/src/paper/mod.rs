@@ -1,8 +1,8 @@
-//! The studies of the paper the model is from, and what it says of their outcome.
+//! The studies of the paper that the model comes from, and the paper's claims about their results.
 //!
-//! Battocchio, Sutcliffe & Teschner 2015: Table 1, varied one parameter at a time (Figures 9 to 11), and the
-//! error of the work for three time steps (Figure 8b). Each study is a file in `cases/paper`, compiled in here,
-//! so that a program can fly it from anywhere. The claims and how they are judged are code.
+//! Battocchio, Sutcliffe & Teschner 2015 vary Table 1 one parameter at a time (Figures 9 to 11) and show the work
+//! error for three time steps (Figure 8b). Each study is a file in `cases/paper` that is compiled in, so that a
+//! program can fly it from anywhere. The claims and their judgement are code.
 
 mod claims;
 mod fits;
@@ -15,14 +15,14 @@ use crate::error::Error;
 use crate::input::{parse_case, parse_study};
 use crate::study::{PointResults, Study};
 
-/// Name and text of a file of the repository.
+/// Name and text of a file in the repository.
 macro_rules! file {
     ($name:literal) => {
         ($name, include_str!(concat!("../../../../", $name)))
     };
 }
 
-/// The case that all studies vary.
+/// The case that all the studies vary.
 const TABLE_1: (&str, &str) = file!("cases/table1.toml");
 
 /// A parameter of Table 1 that the paper varies.
@@ -45,7 +45,7 @@ impl Parameter {
     pub const ALL: [Self; 5] =
         [Self::Velocity, Self::Intensity, Self::Diameter, Self::LengthScale, Self::Cutoff];
 
-    /// The figure that shows it: `9`, `11a`.
+    /// The number of its figure: `9`, `11a`.
     pub const fn figure(self) -> &'static str {
         match self {
             Self::Velocity => "9",
@@ -56,7 +56,7 @@ impl Parameter {
         }
     }
 
-    /// In words.
+    /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Velocity => "mean air velocity",
@@ -67,7 +67,7 @@ impl Parameter {
         }
     }
 
-    /// Symbol, unit shown, and the factor from SI to it.
+    /// Symbol, displayed unit, and the factor from SI to that unit.
     pub const fn unit(self) -> (&'static str, &'static str, f64) {
         match self {
             Self::Velocity => ("U", "m/s", 1.0),
@@ -81,7 +81,7 @@ impl Parameter {
     /// The study that varies it.
     ///
     /// # Errors
-    /// As [`parse_study`]; none of the files of this version.
+    /// As [`parse_study`]. The built-in files give no error.
     pub fn study(self) -> Result<Study, Error> {
         study(match self {
             Self::Velocity => file!("cases/paper/velocity.toml"),
@@ -103,10 +103,10 @@ fn case((name, text): (&str, &str)) -> Result<Case, Error> {
     Ok(parse_case(text, name, &[])?.0)
 }
 
-/// Table 1 by a scheme: the paper's with its time step of 1 µs, others with the step that suits them.
+/// Table 1 with a scheme. The paper's scheme has the paper's time step of 1 µs; others have a suitable step.
 ///
 /// # Errors
-/// As [`parse_case`]; none of the file of this version.
+/// As [`parse_case`]. The built-in file gives no error.
 pub fn table1(scheme: Scheme) -> Result<Case, Error> {
     let mut case = case(TABLE_1)?;
     case.run.scheme = scheme;
@@ -117,7 +117,7 @@ pub fn table1(scheme: Scheme) -> Result<Case, Error> {
     Ok(in_scheme(case, scheme, time_step))
 }
 
-/// The case by another scheme and time step [s], recorded at the same times as far as whole steps allow.
+/// The case with another scheme and time step [s]. The recorded times stay the same if they are whole steps.
 pub fn in_scheme(mut case: Case, scheme: Scheme, time_step: f64) -> Case {
     let (duration, interval) = (case.run.duration(), case.run.output_interval());
     case.run.scheme = scheme;
@@ -127,36 +127,36 @@ pub fn in_scheme(mut case: Case, scheme: Scheme, time_step: f64) -> Case {
     case
 }
 
-/// The study of the three time steps of Figure 8b; its first point is shown in Figure 8a.
+/// The study of three time steps in Figure 8b. Figure 8a shows its first point.
 ///
 /// # Errors
-/// As [`parse_study`]; none of the file of this version.
+/// As [`parse_study`]. The built-in file gives no error.
 pub fn time_steps() -> Result<Study, Error> {
     study(file!("cases/paper/time_step.toml"))
 }
 
-/// What the paper's text leaves open, with what Table 1 becomes of it: name, case.
+/// The choices that the paper leaves open: the name of each, and Table 1 with it.
 ///
 /// # Errors
-/// As [`parse_study`]; none of the files of this version.
+/// As [`parse_study`]. The built-in files give no error.
 pub fn choices() -> Result<Vec<(&'static str, Case)>, Error> {
     let varied = study(file!("cases/paper/choices.toml"))?.points.into_iter().map(|point| point.case);
     let names = [
-        "as taken here: pinned root, β = 0.9, variance u²",
+        "this project's choice: pinned root, β = 0.9, variance u²",
         "β = 0.78 (Majumdar & Shambaugh)",
         "β = 0.37 (Matsui)",
-        "variance 2u², as Eqs 6–7 read literally",
-        "eddies of 25 mm, as Taylor's hypothesis has it",
+        "variance 2u², Eqs 6–7 taken literally",
+        "eddies of 25 mm, by Taylor's hypothesis",
     ];
     let mut choices: Vec<_> = names.into_iter().zip(varied).collect();
     choices.push(("clamped root", case(file!("cases/clamped_root.toml"))?));
     Ok(choices)
 }
 
-/// Of y and of z: mean and standard error of the mean.
+/// For y and for z: mean and standard error of the mean.
 pub type Both = [(f64, Option<f64>); 2];
 
-/// What a point of a figure shows: y and z, mean and standard error of the mean.
+/// A point of a figure: mean and standard error of the mean for y and z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrendPoint {
     /// Value of the parameter [SI].
@@ -170,7 +170,7 @@ pub struct TrendPoint {
 }
 
 impl TrendPoint {
-    /// Of the results of a study's point.
+    /// Takes the values from the results of a study's point.
     pub fn of(value: f64, results: &PointResults) -> Self {
         let of = |i: usize| (results.mean[i], results.standard_error[i]);
         Self { value, amplitude: [of(0), of(1)], frequency: [of(2), of(3)], n: results.n }

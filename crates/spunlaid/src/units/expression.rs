@@ -1,4 +1,4 @@
-//! Small formulas over quantities, units checked: `air.velocity / (4 * air.length_scale)`.
+//! Short formulas with quantities, whose units are checked: `air.velocity / (4 * air.length_scale)`.
 //!
 //! ```text
 //! sum     = product { (+|-) product }          power = [-] factor [ ^ power ]
@@ -9,19 +9,19 @@ use super::{ALL, Dimension, excerpt};
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Longest formula read [bytes].
+/// Longest formula that is read [bytes].
 const LONGEST: usize = 1000;
-/// Most parentheses and signs inside one another.
+/// Deepest nesting of parentheses and signs.
 const DEEPEST: usize = 50;
 
-/// Powers of metre, kilogram and second that a quantity is measured in.
+/// The unit of a quantity as powers of metre, kilogram and second.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Powers {
-    /// Of the metre.
+    /// Power of the metre.
     pub metre: f64,
-    /// Of the kilogram.
+    /// Power of the kilogram.
     pub kilogram: f64,
-    /// Of the second.
+    /// Power of the second.
     pub second: f64,
 }
 
@@ -30,7 +30,7 @@ impl Powers {
         Self { metre, kilogram, second }
     }
 
-    /// Of a dimension.
+    /// The powers of a dimension.
     pub const fn of(dimension: Dimension) -> Self {
         match dimension {
             Dimension::Length => Self::new(1.0, 0.0, 0.0),
@@ -45,7 +45,7 @@ impl Powers {
         }
     }
 
-    /// Whether the two are the same but for rounding.
+    /// Whether the two are equal apart from rounding.
     pub fn agree(self, other: Self) -> bool {
         let off = self.plus(other, -1.0);
         [off.metre, off.kilogram, off.second].iter().all(|power| power.abs() < 1e-9)
@@ -78,56 +78,56 @@ impl fmt::Display for Powers {
     }
 }
 
-/// What is wrong with a formula; reads on after `key = "text" `.
+/// What is wrong with a formula. The message continues after `key = "text" `.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExpressionFault {
-    /// It cannot be read.
-    #[error("cannot be read at \"{at}\"; {wanted} belongs there")]
+    /// The formula cannot be read.
+    #[error("cannot be read at \"{at}\"; {wanted} is expected there")]
     Syntax {
-        /// The text from there on; `the end` if nothing is left.
+        /// The text from there on, or `the end`.
         at: String,
-        /// What would do.
+        /// What is expected.
         wanted: &'static str,
     },
-    /// Too long or too deep.
-    #[error("is too long or has too many parentheses inside one another; write it shorter")]
+    /// The formula is too long or nested too deeply.
+    #[error("is too long or has too many nested parentheses; write it shorter")]
     TooLong,
-    /// Not a key whose value is a number.
-    #[error("uses {name}, which is no key with a number; {advice}")]
+    /// A name that is not a key with a number.
+    #[error("uses {name}, which is not a key with a number; {advice}")]
     UnknownName {
         /// The name.
         name: String,
-        /// The way out.
+        /// How to correct it.
         advice: String,
     },
-    /// Unlike quantities added up.
-    #[error("adds {left} and {right}; only like quantities can be added or subtracted")]
+    /// Quantities of different dimensions are added.
+    #[error("adds {left} and {right}; only quantities of the same unit can be added or subtracted")]
     Unlike {
         /// Unit on the left.
         left: Powers,
         /// Unit on the right.
         right: Powers,
     },
-    /// An exponent with a unit.
-    #[error("has an exponent in {found}; an exponent is a plain number")]
+    /// An exponent has a unit.
+    #[error("has an exponent in {found}; an exponent must be a plain number")]
     Exponent {
         /// Its unit.
         found: Powers,
     },
-    /// The result is measured in something else.
-    #[error("comes out in {found}, where {name} in {wanted} is needed; check the formula")]
+    /// The result has another dimension.
+    #[error("gives a value in {found}, but {name} in {wanted} is needed; check the formula")]
     WrongDimension {
         /// Its unit.
         found: Powers,
-        /// What is needed, with its article.
+        /// What is needed, with an article.
         name: &'static str,
         /// The unit needed.
         wanted: Powers,
     },
 }
 
-/// A formula, read.
+/// A parsed formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     text: String,
@@ -146,7 +146,7 @@ impl Expression {
     /// Reads a formula. Numbers may carry units: `10 m/s`, `50 mm`, `1.2 kg/m^3`.
     ///
     /// # Errors
-    /// When the text is no formula.
+    /// If the text is not a formula.
     pub fn parse(text: &str) -> Result<Self, ExpressionFault> {
         let text = text.trim();
         if text.len() > LONGEST {
@@ -160,24 +160,24 @@ impl Expression {
         Ok(Self { text: text.to_owned(), root })
     }
 
-    /// As written.
+    /// The formula as written.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The names it uses, units left out.
+    /// The names of keys that it uses.
     pub fn names(&self) -> BTreeSet<&str> {
         let mut names = BTreeSet::new();
         self.root.names(&mut names);
         names
     }
 
-    /// Its value in SI units, and these.
+    /// Its value in SI units, and the unit.
     ///
-    /// * `of` – value and unit of a name; nothing for an unknown one
+    /// * `of` – gives value and unit of a name, or none if the name is unknown
     ///
     /// # Errors
-    /// When units do not fit or a name is unknown.
+    /// If units do not fit or a name is unknown.
     pub fn value(
         &self,
         of: &dyn Fn(&str) -> Option<(f64, Powers)>,
@@ -243,9 +243,9 @@ impl<'a> Reader<'a> {
         self.rest = self.rest.get(bytes..).unwrap_or_default().trim_start();
     }
 
-    /// The next sign, if it is one of these.
+    /// Reads the next sign if it is one of these.
     fn take(&mut self, signs: &[char]) -> Option<char> {
-        // As typeset, the signs of subtraction and multiplication are others.
+        // Typeset text has other characters for minus and times.
         let sign = self.rest.chars().next()?;
         let plain = match sign {
             '−' => '-',
@@ -325,7 +325,7 @@ impl<'a> Reader<'a> {
             };
             self.skip(name.len());
             if self.rest.starts_with('^') {
-                // `2 mm^2` is two square millimetres.
+                // `2 mm^2` means two square millimetres.
                 let unit = self.raised(Node::Quantity(scale, powers))?;
                 let number = Node::Quantity(value, Powers::default());
                 return Ok(Node::Binary('*', Box::new(number), Box::new(unit)));
@@ -343,7 +343,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The name that stands next; empty if none does.
+    /// Reads the next name. Empty if there is none.
     fn name(&self) -> &'a str {
         let is_in_name = |c: char| c.is_alphabetic() || c.is_ascii_digit() || c == '_' || c == '.';
         let end = self.rest.find(|c| !is_in_name(c)).unwrap_or(self.rest.len());
@@ -352,7 +352,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Size and powers of a unit by its symbol.
+/// Size and powers of a unit, found by its symbol.
 fn unit(symbol: &str) -> Option<(f64, Powers)> {
     if symbol == "kg" {
         return Some((1.0, Powers::new(0.0, 1.0, 0.0)));
@@ -363,7 +363,7 @@ fn unit(symbol: &str) -> Option<(f64, Powers)> {
     }
 }
 
-/// The quantity as a key would have it, rounded once.
+/// The quantity as a key parses it, rounded once.
 fn exact(number: &str, symbol: &str) -> Option<Node> {
     if symbol.is_empty() {
         return None;

@@ -1,4 +1,4 @@
-//! Units at the door: quantities as people write them, and as the library holds them, in SI.
+//! Quantities with units. They are converted to SI units when they are read, and from SI units when they are shown.
 
 mod expression;
 mod table;
@@ -8,7 +8,7 @@ pub use expression::{Expression, ExpressionFault, Powers};
 use std::fmt;
 use table::Scale::{Over, Ten, Times};
 
-/// What a quantity measures, and so which units it takes.
+/// The dimension of a quantity, which decides the units that it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
     /// [m]
@@ -47,11 +47,11 @@ const ALL: [Dimension; 10] = [
     Dimension::Ratio,
 ];
 
-/// What is wrong with the text of a quantity; reads on after `key = "text" `.
+/// What is wrong with the text of a quantity. The message continues after `key = "text" `.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum QuantityFault {
-    /// No number at the start.
+    /// The text does not start with a number.
     #[error("does not start with a number; write {wanted}")]
     NoNumber {
         /// What to write.
@@ -63,39 +63,39 @@ pub enum QuantityFault {
         /// What to write.
         wanted: Wanted,
     },
-    /// Beyond the largest number a computer holds.
-    #[error("is too large a number; write {wanted}")]
+    /// The number is too large for a floating-point number.
+    #[error("is too large; write {wanted}")]
     TooLarge {
         /// What to write.
         wanted: Wanted,
     },
-    /// `1,5 m`.
+    /// The number has a comma: `1,5 m`.
     #[error("has a comma; write the number with a decimal point and no separators, like \"{mended}\"")]
     Comma {
-        /// The text with a point in its place.
+        /// The text with a decimal point.
         mended: String,
     },
-    /// `1_000 m`.
+    /// The number has an underscore: `1_000 m`.
     #[error("has an underscore; write the number without separators, like \"{mended}\"")]
     Underscore {
-        /// The text without.
+        /// The text without underscores.
         mended: String,
     },
-    /// A bare number where a unit belongs.
+    /// The unit is missing.
     #[error("has no unit; write {wanted}")]
     NoUnit {
         /// What to write.
         wanted: Wanted,
     },
-    /// A unit of something else.
+    /// The unit belongs to another dimension.
     #[error("is {found}; write {wanted}")]
     WrongDimension {
-        /// What the unit measures, `a length`.
+        /// The dimension of the unit, `a length`.
         found: &'static str,
         /// What to write.
         wanted: Wanted,
     },
-    /// A unit nobody knows.
+    /// The unit is unknown.
     #[error("has the unknown unit \"{unit}\"; write {wanted}")]
     UnknownUnit {
         /// As written.
@@ -105,7 +105,7 @@ pub enum QuantityFault {
     },
 }
 
-/// Says what to write for a dimension: `a length with its unit: m, cm, mm, µm or nm`.
+/// Shows what to write for a dimension: `a length with its unit: m, cm, mm, µm or nm`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wanted(pub Dimension);
 
@@ -129,7 +129,7 @@ impl fmt::Display for Wanted {
 }
 
 impl Dimension {
-    /// With its article: `a length`.
+    /// Its name with an article: `a length`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Length => "a length",
@@ -145,12 +145,12 @@ impl Dimension {
         }
     }
 
-    /// The SI unit: `m/s²`, nothing for a ratio.
+    /// The SI unit, `m/s²`. Empty for a ratio.
     pub fn si_unit(self) -> &'static str {
         self.units().first().map_or("", |unit| unit.shown)
     }
 
-    /// What the SI unit adds to the name of a column: `_m_s2`, nothing for a ratio.
+    /// The SI unit as the ending of a column's name, `_m_s2`. Empty for a ratio.
     pub fn suffix(self) -> String {
         match self.si_unit() {
             "" => String::new(),
@@ -160,11 +160,11 @@ impl Dimension {
 
     /// Reads a quantity such as `50 µm` into SI units.
     ///
-    /// Units that are a power of ten of the SI unit move the decimal exponent of the number before it is
-    /// rounded: `50 µm` is the number nearest to 5e-5, bit for bit.
+    /// If the unit is a power of ten of the SI unit, only the decimal exponent of the text changes before it is
+    /// rounded: `50 µm` gives exactly the floating-point number nearest to 5e-5.
     ///
     /// # Errors
-    /// When the text is no finite number followed by a unit of this dimension.
+    /// If the text is not a finite number followed by a unit of this dimension.
     pub fn parse(self, text: &str) -> Result<f64, QuantityFault> {
         let wanted = Wanted(self);
         let text = text.trim();
@@ -209,22 +209,22 @@ impl Dimension {
         }
     }
 
-    /// The text in the SI unit, `5e-5 m`, that [`Dimension::parse`] reads back to the same bits.
+    /// The value in the SI unit, `5e-5 m`. [`Dimension::parse`] reads it back to the same bits.
     pub fn exact(self, value: f64) -> String {
         with_unit(&shortest(value), self.si_unit())
     }
 
-    /// For people: four digits and a handy unit, `50 µm`, `34.46 µs`, `2 GPa`.
+    /// The value for people, with four digits and a suitable unit: `50 µm`, `34.46 µs`, `2 GPa`.
     pub fn pretty(self, value: f64) -> String {
         self.pretty_to(value, 4)
     }
 
-    /// [`Dimension::pretty`] to a number of digits, 1 to 17.
+    /// [`Dimension::pretty`] with a given number of digits, 1 to 17.
     pub fn pretty_to(self, value: f64, digits: usize) -> String {
         let decimals = digits.saturating_sub(1).min(16);
         let mut best = (1.0, self.si_unit());
         if value != 0.0 && value.is_finite() {
-            // The largest unit that leaves a number of one or more, or the smallest there is.
+            // The largest unit that gives a number of at least one, or else the smallest unit.
             let mut sizes: Vec<(f64, &str)> = (self.units().iter().filter(|unit| unit.pretty))
                 .filter_map(|unit| match unit.scale {
                     Ten(power) => Some((10f64.powi(power), unit.shown)),
@@ -243,7 +243,7 @@ impl Dimension {
     }
 }
 
-/// Text from outside, made fit for a message: on one line, and no longer than `longest` characters.
+/// Foreign text for a message: on one line, and shortened to `longest` characters.
 pub(crate) fn excerpt(text: &str, longest: usize) -> String {
     let mut excerpt = String::new();
     for c in text.trim().chars().take(longest) {
@@ -255,7 +255,7 @@ pub(crate) fn excerpt(text: &str, longest: usize) -> String {
     excerpt
 }
 
-/// A formatter through which nothing in a message can act on a terminal: control characters come out as `\u{1b}`.
+/// A formatter that escapes control characters as `\u{1b}`, so that no message can act on the terminal.
 pub(crate) struct Printable<'a, 'f>(pub(crate) &'a mut fmt::Formatter<'f>);
 
 impl fmt::Write for Printable<'_, '_> {
@@ -270,13 +270,13 @@ fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
 }
 
-/// The shortest text that reads back to the same bits, with an exponent where that is shorter.
+/// The shortest text that reads back to the same bits, with an exponent if that is shorter.
 pub(crate) fn shortest(value: f64) -> String {
     let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
     if scientific.len() < plain.len() { scientific } else { plain }
 }
 
-/// Splits a decimal number off the front; empty where there is none.
+/// Splits a decimal number off the front of a text. The number is empty if there is none.
 fn split_number(text: &str) -> (&str, &str) {
     let bytes = text.as_bytes();
     let digits_from =
@@ -302,7 +302,7 @@ fn split_number(text: &str) -> (&str, &str) {
     text.split_at(end)
 }
 
-/// The number times `10^power`, rounded once; infinite where too large.
+/// The number times `10^power`, rounded once. Infinite if it is too large.
 fn shifted(number: &str, power: i32) -> Option<f64> {
     let (mantissa, exponent) = match number.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()),
@@ -310,12 +310,12 @@ fn shifted(number: &str, power: i32) -> Option<f64> {
     };
     match exponent.and_then(|exponent| exponent.checked_add(power)) {
         Some(exponent) => format!("{mantissa}e{exponent}").parse().ok(),
-        // So large or so small that the unit cannot matter.
+        // The number is so large or so small that the unit does not matter.
         None => number.parse().ok(),
     }
 }
 
-/// `kg/m³`, `kg/m^3` and `kg/m3` as one spelling; so `µ` (micro), `μ` (mu) and `u`.
+/// Brings `kg/m³`, `kg/m^3` and `kg/m3` to one spelling; likewise `µ` (micro), `μ` (mu) and `u`.
 fn plain_spelling(unit: &str) -> String {
     let plain = unit.chars().filter(|c| *c != '^').map(|c| match c {
         'µ' | 'μ' => 'u',

@@ -7,13 +7,13 @@ use super::Dimension;
 pub(super) enum Scale {
     /// `10^n` SI units.
     Ten(i32),
-    /// So many SI units.
+    /// This number of SI units.
     Times(f64),
-    /// One SI unit is so many of these.
+    /// The inverse: one SI unit is this number of these units.
     Over(f64),
 }
 
-/// A unit: as shown, its spelling in plain ASCII without `^`, and its size.
+/// A unit: its symbol, its spelling in plain ASCII without `^`, and its size.
 pub(super) struct Unit {
     pub(super) shown: &'static str,
     pub(super) plain: &'static str,
@@ -69,7 +69,7 @@ const ACCELERATION: &[Unit] = &[unit("m/s²", "m/s2", Ten(0))];
 const RATIO: &[Unit] = &[unit("", "", Ten(0)), also("%", "%", Ten(-2))];
 
 impl Dimension {
-    /// The units it takes, the SI unit first.
+    /// The units of this dimension, the SI unit first.
     pub(super) const fn units(self) -> &'static [Unit] {
         match self {
             Self::Length => LENGTH,

@@ -1,11 +1,11 @@
-//! The keys of a case: one table that says everything about each.
+//! The keys of a case: one table that describes each of them.
 //!
 //! ```text
-//! table.rs, a row for each key → what a case file may hold, how a value is checked and written,
-//!   what a study may vary, labels of figures, `spunlaid keys`, docs/keys.md, `Key::set` for whoever steers a flight
+//! table.rs, one row for each key → reading, checking and writing case files, studies, labels of figures,
+//!   `spunlaid keys`, docs/keys.md, `Key::set` for programs that change a case or a flight
 //! ```
 //!
-//! A new key is a row of the table; whatever uses its value comes besides.
+//! To add a key, add a row to the table; then write the code that uses its value.
 
 mod nearest;
 mod table;
@@ -18,40 +18,40 @@ use super::Case;
 use crate::error::{Fault, Finding, Place, Problem};
 use crate::units::Dimension;
 
-/// The tables of a case file, in their order.
+/// The tables of a case file, in order.
 pub const TABLES: [&str; 4] = ["fibre", "air", "drag", "run"];
 
-/// What is taken where a case leaves a key out.
+/// What applies if a case leaves a key out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LeftOut {
-    /// Nothing: the case must say it. A value that would do.
+    /// The key is required. The text is an example value.
     Required(&'static str),
-    /// This value, as a case file has it.
+    /// This default value, written as in a case file.
     Value(&'static str),
-    /// What follows from other keys, in words.
+    /// The value follows from other keys; the text says how.
     Follows(&'static str),
 }
 
-/// A key of a case: a row of the table.
+/// A key of a case, which is a row of the table.
 #[derive(Debug)]
 pub struct Key {
     /// Full name, `air.velocity`.
     pub name: &'static str,
-    /// What it takes.
+    /// Which values it takes.
     pub kind: Kind,
-    /// What is taken where it is left out.
+    /// What applies if it is left out.
     pub left_out: LeftOut,
-    /// What it means, in a sentence or two.
+    /// Its meaning, in one or two sentences.
     pub meaning: &'static str,
-    /// What an axis of a figure is called, with its letter: `Mean velocity *U*`.
+    /// The label of an axis in figures, with its symbol: `Mean velocity *U*`.
     pub label: &'static str,
     /// Whether a study may vary it.
     pub varies: bool,
-    /// Whether it may change while a fibre flies.
+    /// Whether it may change during a flight.
     pub in_flight: bool,
-    /// Usual least and greatest value, in SI units: the ends of a slider.
+    /// The ends of a slider: the usual smallest and largest value, in SI units.
     pub slider: Option<(f64, f64)>,
-    /// Whether it is counted in whole elements, steps or harmonics, and so set after all others.
+    /// Whether it is rounded to whole elements, steps or harmonics. Such keys are set after all others.
     pub(crate) counted: bool,
     get: fn(&Case) -> Option<Value>,
     set: fn(&mut Case, &Value) -> Result<(), Fault>,
@@ -63,15 +63,15 @@ pub fn all() -> &'static [Key] {
     &table::KEYS
 }
 
-/// The key of a full name, `air.velocity`.
+/// The key with this full name, `air.velocity`.
 pub fn find(name: &str) -> Option<&'static Key> {
     all().iter().find(|key| key.name == name)
 }
 
-/// The key of a full name.
+/// The key with this full name.
 ///
 /// # Errors
-/// When there is none: the problem says which key may be meant.
+/// If no key has the name. The problem suggests a similar key.
 pub fn named(name: &str) -> Result<&'static Key, Box<Problem>> {
     find(name).ok_or_else(|| {
         let (table, _) = name.split_once('.').unwrap_or(("", name));
@@ -88,18 +88,18 @@ pub fn named(name: &str) -> Result<&'static Key, Box<Problem>> {
     })
 }
 
-/// The key that a misspelt name may mean.
+/// The key most similar to a misspelt name.
 pub fn nearest(name: &str) -> Option<&'static Key> {
     like(name).first().copied()
 }
 
-/// The keys that a misspelt name may mean, the most like first.
+/// The keys similar to a misspelt name, the most similar first.
 pub fn like(name: &str) -> Vec<&'static Key> {
     let (table, key) = name.split_once('.').unwrap_or(("", name));
     like_in(table, key)
 }
 
-/// What is found of the value of a key, in SI units; where it was written, is not known here.
+/// A finding about the value of a key, in SI units. The place where the value was written is not known here.
 pub(crate) fn finding<W>(key: &str, value: f64, what: W) -> Finding<W> {
     let value =
         find(key).map_or_else(|| crate::units::shortest(value), |key| key.kind.pretty(&Value::Number(value)));
@@ -112,7 +112,7 @@ pub fn of_table(table: &str) -> impl Iterator<Item = &'static Key> {
 }
 
 impl Key {
-    /// The table it belongs in: `air`.
+    /// The table that it belongs to: `air`.
     pub fn table(&self) -> &'static str {
         self.name.split_once('.').map_or("", |(table, _)| table)
     }
@@ -122,7 +122,7 @@ impl Key {
         self.name.split_once('.').map_or(self.name, |(_, key)| key)
     }
 
-    /// What it measures, of a quantity.
+    /// The dimension of a quantity; none for other kinds.
     pub const fn dimension(&self) -> Option<Dimension> {
         match self.kind {
             Kind::Quantity(dimension, _) => Some(dimension),
@@ -131,25 +131,25 @@ impl Key {
         }
     }
 
-    /// Whether only whole numbers will do.
+    /// Whether it takes only whole numbers.
     pub const fn is_whole(&self) -> bool {
         matches!(self.kind, Kind::Whole(..))
     }
 
-    /// The value that a case has, in SI units; none where the key means nothing to it.
+    /// The value in a case, in SI units. None if the key has no meaning for the case.
     pub fn get(&self, case: &Case) -> Option<Value> {
         (self.get)(case)
     }
 
-    /// Sets the value of a case, which keeps its mesh and its times: what follows from the key where a case file is
-    /// read, stays as it is.
+    /// Sets the value in a case. Mesh and times stay the same: only reading a case file derives other keys from
+    /// this one.
     ///
     /// * `value` – in SI units, or as text with its unit, `"20 m/s"`, or a name, `"clamped"`
     ///
-    /// The value is checked on its own; [`Case::check`] says whether the case can still be run.
+    /// Only the value itself is checked. [`Case::check`] says whether the case can still be run.
     ///
     /// # Errors
-    /// When the key takes no such value, or means nothing to this case.
+    /// If the key does not take this value, or has no meaning for this case.
     pub fn set(&self, case: &mut Case, value: impl Into<Value>) -> Result<(), Box<Problem>> {
         let value = value.into();
         let shown = self.kind.pretty(&value);
@@ -159,17 +159,17 @@ impl Key {
         })
     }
 
-    /// Sets a value that has been accepted.
+    /// Sets a value that has been checked already.
     pub(crate) fn apply(&self, case: &mut Case, value: &Value) -> Result<(), Fault> {
         (self.set)(case, value)
     }
 
-    /// Whether something else tells the value, so that a case file leaves it out.
+    /// Whether a flow or a file gives the value, so that a case file leaves it out.
     pub(crate) fn is_told(&self, case: &Case) -> bool {
         (self.told)(case)
     }
 
-    /// A line of a case file that states it, with a value that would do.
+    /// An example line of a case file.
     pub(crate) fn example(&self) -> String {
         let (LeftOut::Required(value) | LeftOut::Value(value) | LeftOut::Follows(value)) = self.left_out;
         match self.kind {
@@ -180,7 +180,7 @@ impl Key {
         }
     }
 
-    /// What may be written, in words: `a length above zero`.
+    /// The allowed values in words: `a length above zero`.
     pub fn allowed(&self) -> String {
         match self.kind {
             Kind::Quantity(dimension, Sign::Positive) => format!("{} above zero", dimension.name()),

@@ -1,4 +1,4 @@
-//! The table: a row for each key, in the order of a case file.
+//! The table of keys: one row for each, in the order of a case file.
 
 use super::value::{Content, FileKind, Kind, SPECTRA, Sign, Value};
 use super::{Key, LeftOut};
@@ -12,13 +12,13 @@ use crate::units::Dimension;
 use crate::vec3::Vec3;
 use Sign::{Any, NotNegative, Positive};
 
-/// How a key reads and writes a case.
+/// How to get and set the value of a key in a case.
 struct Access {
     get: fn(&Case) -> Option<Value>,
     set: fn(&mut Case, &Value) -> Result<(), Fault>,
 }
 
-/// A number of the case, `number!(fibre.diameter)`.
+/// Access to a number of the case: `number!(fibre.diameter)`.
 macro_rules! number {
     ($($field:ident).+) => {
         Access {
@@ -31,7 +31,7 @@ macro_rules! number {
     };
 }
 
-/// One of several things that have a name, `choice!(fibre.root, Root::ALL)`.
+/// Access to one of several named options: `choice!(fibre.root, Root::ALL)`.
 macro_rules! choice {
     ($($field:ident).+, $all:expr) => {
         Access {
@@ -44,7 +44,7 @@ macro_rules! choice {
     };
 }
 
-/// A number of the air that the flow may tell.
+/// Access to a number of the air that the flow may give instead.
 macro_rules! of_air {
     ($field:ident) => {
         Access {
@@ -58,7 +58,7 @@ macro_rules! of_air {
     };
 }
 
-/// A number that only a CFD field gives a meaning.
+/// Access to a number that only matters for a CFD field.
 macro_rules! of_field {
     ($field:ident) => {
         Access {
@@ -71,7 +71,7 @@ macro_rules! of_field {
     };
 }
 
-/// A time that is counted in steps.
+/// Access to a time that is a whole number of steps.
 macro_rules! steps {
     ($field:ident, $time:ident, $least:expr) => {
         Access {
@@ -104,7 +104,7 @@ pub(super) static KEYS: [Key; 40] = [
         .in_flight(),
     quantity("fibre.youngs_modulus", Dimension::Pressure, Positive, number!(fibre.youngs_modulus))
         .required("2 GPa")
-        .meaning("Young's modulus of the polymer, along the fibre; the fibre is elastic throughout.")
+        .meaning("Young's modulus of the polymer along the fibre. The fibre is elastic.")
         .label("Young’s modulus *E*")
         .slider(1e7, 1e10)
         .in_flight(),
@@ -119,15 +119,15 @@ pub(super) static KEYS: [Key; 40] = [
             Ok(())
         },
     })
-    .follows("as long as an eddy, or a little shorter for a whole number of elements")
-    .meaning("Length of the elements that the fibre is cut into. Shorter elements follow shorter waves and take longer.")
+    .follows("the length of an eddy, or a little less so that a whole number of elements fits")
+    .meaning("Length of the elements that the fibre is divided into. Shorter elements resolve shorter waves, and the run takes longer.")
     .label("Element length *l*")
     .slider(2e-3, 0.1)
     .counted(),
     choose("fibre.root", || Root::ALL.map(Root::name).to_vec(), choice!(fibre.root, Root::ALL))
         .value("pinned")
         .meaning(
-            "How the root is held: `pinned` may turn, `clamped` keeps its direction, `free` is not held at all.",
+            "How the root is held: `pinned` can turn, `clamped` keeps its direction, `free` is not held.",
         ),
     key("fibre.direction", Kind::Direction, Access {
         get: |case| Some(case.fibre.direction.into()),
@@ -137,7 +137,7 @@ pub(super) static KEYS: [Key; 40] = [
         },
     })
     .value("[1.0, 0.0, 0.0]")
-    .meaning("Direction in which the straight fibre starts, and in which a clamped root holds it. x is the way of the air and of gravity."),
+    .meaning("Direction of the straight fibre at the start, and of a clamped root throughout. The air and gravity act along x."),
     quantity("air.velocity", Dimension::Velocity, Any, Access {
         get: |case| Some(Value::Number(case.air.velocity)),
         set: |case, value| {
@@ -154,7 +154,7 @@ pub(super) static KEYS: [Key; 40] = [
     })
     .told(|case| !case.air.is_uniform())
     .required("10 m/s")
-    .meaning("Mean velocity of the air along x. A record, a profile or a field tells it instead.")
+    .meaning("Mean velocity of the air along x. A record, a profile or a field gives it instead.")
     .label("Mean velocity *U*")
     .slider(0.0, 60.0)
     .in_flight(),
@@ -172,7 +172,7 @@ pub(super) static KEYS: [Key; 40] = [
         },
     })
     .follows("the same air everywhere")
-    .meaning("Table of the air down the line: velocity and, where it has the columns, turbulence over the distance from the root."),
+    .meaning("Table of the air along the fibre line: velocity over the distance from the root and, if it has such columns, turbulence."),
     file("air.field", FileKind::Field, Access {
         get: |case| Some(Content::Field(placed(case)?.field.clone()).into()),
         set: |case, value| {
@@ -187,7 +187,7 @@ pub(super) static KEYS: [Key; 40] = [
         },
     })
     .follows("the same air everywhere")
-    .meaning("CFD solution that the fibre hangs in: VTK files or tables of points, with velocity and, where there is any, k with ε or ω."),
+    .meaning("CFD solution around the fibre: VTK files or tables of points with the velocity and, if available, k with ε or ω."),
     key("air.field_root", Kind::Point, Access {
         get: |case| Some(placed(case)?.root.into()),
         set: |case, value| {
@@ -195,10 +195,10 @@ pub(super) static KEYS: [Key; 40] = [
             Ok(())
         },
     })
-    .follows("the middle of the side at which the air enters the box around the field")
+    .follows("the middle of the side where the air enters the box around the field")
     .meaning(
-        "Where in the field the root of the fibre is: the three coordinates of the field, as lengths. Choose the place \
-         of the spinneret's hole, or of the slot where the fibre enters the diffuser.",
+        "Position of the root in the field: three coordinates, as lengths. Choose the position of the spinneret's hole, \
+         or of the slot where the fibre enters the diffuser.",
     ),
     choose("air.field_axis", || Axis::ALL.map(Axis::name).to_vec(), Access {
         get: |case| Some(placed(case)?.axis.name().into()),
@@ -209,24 +209,24 @@ pub(super) static KEYS: [Key; 40] = [
     })
     .value("x")
     .meaning(
-        "Which direction of the field is down for the fibre: its x, the way of gravity. Write `-z` where the line of \
-         the CFD model runs down along −z.",
+        "Direction in the field that is the fibre's x, the direction of gravity. Write `-z` if the CFD model points down \
+         along −z.",
     ),
     quantity("air.field_unit", Dimension::Length, Positive, of_field!(unit))
         .value("1 m")
         .meaning(
-            "Length of one unit of the field's coordinates. Write `1 mm` where the mesh was drawn in millimetres; \
-             velocities are not scaled by it.",
+            "Length of one unit of the field's coordinates. Write `1 mm` if the mesh was drawn in millimetres. Velocities \
+             are not scaled.",
         )
         .fixed(),
     quantity("air.length_constant", Dimension::Ratio, Positive, of_field!(length_constant))
         .value("0.43")
-        .meaning("Constant of the eddies' length in a field, C_L k^1.5/ε.")
+        .meaning("Constant C_L of the eddies' length C_L k^1.5/ε in a field.")
         .label("Constant of the eddies’ length *C*_{L}")
         .slider(0.1, 1.0),
     quantity("air.time_constant", Dimension::Ratio, Positive, of_field!(time_constant))
         .value("0.3")
-        .meaning("Constant of the eddies' lifetime in a field, T = C_T k/ε; the cut-off frequency is there ¼ (velocity/length + 1/T).")
+        .meaning("Constant C_T of the eddies' lifetime T = C_T k/ε in a field. The cut-off frequency follows as ¼ (velocity/length + 1/T).")
         .label("Constant of the eddies’ lifetime *C*_{T}")
         .slider(0.1, 1.0),
     quantity("air.speed_factor", Dimension::Ratio, Positive, Access {
@@ -241,32 +241,32 @@ pub(super) static KEYS: [Key; 40] = [
         },
     })
     .value("1")
-    .meaning("Factor on all velocities of a profile or a field: how to try the same flow faster or slower.")
+    .meaning("Factor on all velocities of a profile or a field. It makes the same flow faster or slower.")
     .label("Factor on the velocity of the air")
     .slider(0.2, 3.0)
     .in_flight(),
     quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative, of_air!(turbulence_intensity))
         .told(|case| case.air.from_flow.turbulence_intensity)
         .required("0.1")
-        .meaning("Rms of each fluctuating component of the velocity, over the mean velocity. A record, a profile or a field may tell it.")
+        .meaning("Rms of each fluctuating velocity component, divided by the mean velocity. A record, a profile or a field may give it instead.")
         .label("Turbulence intensity *Tu*")
         .slider(0.0, 0.5)
         .in_flight(),
     quantity("air.length_scale", Dimension::Length, Positive, of_air!(length_scale))
         .told(|case| case.air.from_flow.length_scale)
         .required("50 mm")
-        .meaning("Length of an eddy: over it the fluctuation is the same along the fibre. A record, a profile or a field may tell it.")
+        .meaning("Length of an eddy. Within this length the fluctuation is the same along the fibre. A record, a profile or a field may give it instead.")
         .label("Length of the eddies *L*_{T}")
         .slider(5e-3, 0.2),
     quantity("air.cutoff_frequency", Dimension::Frequency, Positive, of_air!(cutoff_frequency))
         .told(|case| case.air.from_flow.cutoff_frequency)
         .required("100 Hz")
-        .meaning("Highest frequency of the turbulence; nothing lies above it. A record, a spectrum, a profile or a field may tell it.")
+        .meaning("Highest frequency of the turbulence. A record, a spectrum, a profile or a field may give it instead.")
         .label("Cut-off frequency *f*")
         .slider(10.0, 1000.0),
     quantity("air.density", Dimension::Density, NotNegative, number!(air.density))
         .value("1.204 kg/m³")
-        .meaning("Density of the air; left out, that at 20 °C. `0 kg/m³` is a vacuum.")
+        .meaning("Density of the air. The default is for 20 °C. `0 kg/m³` is a vacuum.")
         .label("Air density")
         .slider(0.0, 2.0)
         .in_flight(),
@@ -277,7 +277,7 @@ pub(super) static KEYS: [Key; 40] = [
         number!(air.kinematic_viscosity),
     )
     .value("1.51e-5 m²/s")
-    .meaning("Kinematic viscosity of the air; left out, that at 20 °C.")
+    .meaning("Kinematic viscosity of the air. The default is for 20 °C.")
     .label("Kinematic viscosity *ν*")
     .slider(1e-5, 6e-5)
     .in_flight(),
@@ -297,7 +297,7 @@ pub(super) static KEYS: [Key; 40] = [
         },
     })
     .value("flat")
-    .meaning("How the turbulence spreads over frequency: `flat` up to the cut-off, von Kármán's form, or a CSV file with a measured one."),
+    .meaning("Shape of the turbulence spectrum: `flat` up to the cut-off frequency, von Kármán's, or a measured one from a CSV file."),
     file("air.record", FileKind::Records, Access {
         get: |case| {
             let records = &case.air.records;
@@ -316,8 +316,8 @@ pub(super) static KEYS: [Key; 40] = [
             Ok(())
         },
     })
-    .follows("turbulence summed from waves")
-    .meaning("Measured velocity record whose fluctuation moves the fibre, as CSV or Parquet; or a list with one for each eddy."),
+    .follows("turbulence is made from harmonics")
+    .meaning("Measured velocity record, as CSV or Parquet, whose fluctuation moves the fibre. A list gives one record for each eddy."),
     quantity("air.record_rate", Dimension::Frequency, Positive, Access {
         get: |case| case.air.records.first()?.rate.map(Value::Number),
         set: |case, value| {
@@ -330,8 +330,8 @@ pub(super) static KEYS: [Key; 40] = [
             }
         },
     })
-    .follows("what the record's column of time tells")
-    .meaning("Sampling rate of a record that has no column of time.")
+    .follows("the rate of the record's time column")
+    .meaning("Sampling rate of a record without a time column.")
     .fixed(),
     choose("air.eddies", || vec!["independent", "convected"], Access {
         get: |case| Some(case.air.eddies.name().into()),
@@ -345,7 +345,7 @@ pub(super) static KEYS: [Key; 40] = [
         },
     })
     .value("independent")
-    .meaning("How the turbulence hangs together along the fibre: eddies side by side that know nothing of each other, or a pattern that the mean flow carries along."),
+    .meaning("How the turbulence is correlated along the fibre: independent eddies side by side, or a pattern that the mean flow carries along."),
     quantity("air.decay_time", Dimension::Time, Positive, Access {
         get: |case| match case.air.eddies {
             EddyModel::Convected { decay_time } if decay_time.is_finite() => Some(Value::Number(decay_time)),
@@ -362,8 +362,8 @@ pub(super) static KEYS: [Key; 40] = [
             }
         },
     })
-    .follows("never: the pattern is frozen")
-    .meaning("Time in which a convected pattern forgets itself: the time constant of its correlation as it is carried along.")
+    .follows("no decay: the pattern is frozen")
+    .meaning("Time constant with which a convected pattern loses its correlation while it travels.")
     .label("Decay time of the eddies")
     .slider(1e-3, 0.1),
     key("air.harmonics", Kind::Whole(1, usize::MAX as u64), Access {
@@ -373,8 +373,8 @@ pub(super) static KEYS: [Key; 40] = [
             Ok(())
         },
     })
-    .follows("the power of two from 128 up that keeps the turbulence from repeating for twice the run")
-    .meaning("Number of waves that the turbulence is summed from; it must be more than cut-off frequency times duration.")
+    .follows("the smallest power of two, at least 128, for which the turbulence does not repeat within twice the run")
+    .meaning("Number of harmonics that the turbulence is summed from. It must be larger than cut-off frequency times duration.")
     .label("Number of harmonics")
     .varies()
     .counted(),
@@ -393,7 +393,7 @@ pub(super) static KEYS: [Key; 40] = [
         },
     )
     .value("matsui")
-    .meaning("Law of the friction along the fibre: Matsui's with its factor, Majumdar and Shambaugh's, or laminar after Sakiadis or after Glauert and Lighthill.")
+    .meaning("Law of the friction along the fibre: Matsui's with a factor, Majumdar and Shambaugh's, or the laminar ones of Sakiadis or of Glauert and Lighthill.")
     .in_flight(),
     choose(
         "drag.across",
@@ -401,7 +401,7 @@ pub(super) static KEYS: [Key; 40] = [
         choice!(drag.across, NormalLaw::ALL),
     )
     .value("ju-shambaugh")
-    .meaning("Law of the drag across the fibre: Ju and Shambaugh's, fitted from 13 to 390 µm, or Marheineke and Wegener's for any diameter.")
+    .meaning("Law of the drag across the fibre: Ju and Shambaugh's, fitted to 13–390 µm, or Marheineke and Wegener's, valid for any diameter.")
     .in_flight(),
     quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative, Access {
         get: |case| case.drag.along.factor().map(Value::Number),
@@ -411,19 +411,19 @@ pub(super) static KEYS: [Key; 40] = [
                 Ok(())
             }
             _ => {
-                let (needed, remedy) = ("drag.along = \"matsui\"", "strike it out, the law has its own");
+                let (needed, remedy) = ("drag.along = \"matsui\"", "remove it, this law has its own");
                 Err(Fault::Needs { needed, remedy })
             }
         },
     })
     .value("0.9")
-    .meaning("Factor of Matsui's friction law: 0.37 to 0.9 are in use.")
+    .meaning("Factor of Matsui's friction law. Values from 0.37 to 0.9 are in use.")
     .label("Friction coefficient *β*")
     .slider(0.2, 1.2)
     .in_flight(),
     quantity("run.duration", Dimension::Time, Positive, steps!(steps, duration, 1))
         .required("1 s")
-        .meaning("Time that is simulated.")
+        .meaning("Simulated time.")
         .label("Simulated time")
         .slider(0.1, 10.0)
         .counted(),
@@ -434,8 +434,8 @@ pub(super) static KEYS: [Key; 40] = [
             Ok(())
         },
     })
-    .follows("the longest of 1, 2 or 5 times a power of ten that keeps the error tolerance and half the stability limit")
-    .meaning("Length of a time step. It must stay below the stability limit, which a message tells where it does not.")
+    .follows("the largest of 1, 2 or 5 times a power of ten that keeps the error tolerance and half the stability limit")
+    .meaning("Length of a time step. It must be below the stability limit; otherwise a message gives the limit.")
     .label("Time step *h*")
     .slider(1e-7, 1e-3)
     .counted(),
@@ -449,8 +449,8 @@ pub(super) static KEYS: [Key; 40] = [
     })
     .value("0.003")
     .meaning(
-        "How far the path of the free end may be off because steps are finite, over its amplitude. A time step is \
-         chosen from it, so it only matters where `run.time_step` is left out.",
+        "Largest error of the free end's path that the time step may cause, divided by its amplitude. The time step is \
+         chosen from it if `run.time_step` is left out.",
     )
     .label("Error tolerance")
     .slider(1e-4, 0.03)
@@ -463,7 +463,7 @@ pub(super) static KEYS: [Key; 40] = [
         },
     })
     .value("10")
-    .meaning("Number of fibres, each in turbulence of its own. Means and standard errors are over them."),
+    .meaning("Number of fibres, each in its own turbulence. Means and standard errors are taken over them."),
     key("run.seed", Kind::Whole(0, u64::MAX), Access {
         get: |case| Some(Value::Whole(case.run.seed)),
         set: |case, value| {
@@ -472,10 +472,10 @@ pub(super) static KEYS: [Key; 40] = [
         },
     })
     .value("1")
-    .meaning("Seed of the random phases: another seed, other turbulence; the same seed, the same results to the last bit."),
+    .meaning("Seed of the random phases. Another seed gives other turbulence; the same seed gives the same results to the last bit."),
     choose("run.scheme", || Scheme::ALL.map(Scheme::name).to_vec(), choice!(run.scheme, Scheme::ALL))
         .value("semi-implicit-euler")
-        .meaning("Time integration: the paper's is of first order, `leapfrog` of second, and `implicit-tension` takes long steps."),
+        .meaning("Time integration: the paper's scheme has first order, `leapfrog` has second order, `implicit-tension` allows long steps."),
     quantity("run.gravity", Dimension::Acceleration, Any, number!(run.gravity))
         .value("9.81 m/s²")
         .meaning("Acceleration of gravity, along x.")
@@ -485,8 +485,8 @@ pub(super) static KEYS: [Key; 40] = [
     quantity("run.spin_up", Dimension::Time, NotNegative, steps!(spin_up_steps, spin_up, 0))
         .value("0 s")
         .meaning(
-            "Time at the start that the statistics leave out. The fibre starts straight and at rest, so a fraction of a \
-             second passes until its motion no longer depends on the start.",
+            "Time at the start that the statistics leave out. The fibre starts straight and at rest, and its motion depends \
+             on this start for a fraction of a second.",
         )
         .label("Spin-up")
         .slider(0.0, 1.0)
@@ -499,7 +499,7 @@ pub(super) static KEYS: [Key; 40] = [
         .counted(),
     quantity("run.damping", Dimension::Rate, NotNegative, number!(run.damping))
         .value("0 1/s")
-        .meaning("Rate at which the velocity of every node dies out, besides the drag of the air.")
+        .meaning("Rate at which the velocity of every node decays, in addition to the drag of the air.")
         .label("Damping")
         .slider(0.0, 100.0)
         .in_flight(),
@@ -523,7 +523,7 @@ const fn key(name: &'static str, kind: Kind, access: Access) -> Key {
     }
 }
 
-/// A study may vary it.
+/// A quantity, which a study may vary.
 const fn quantity(name: &'static str, dimension: Dimension, sign: Sign, access: Access) -> Key {
     key(name, Kind::Quantity(dimension, sign), access).varies()
 }
@@ -582,7 +582,7 @@ impl Key {
     }
 }
 
-/// The value has been accepted by its kind; another one is a mistake of whoever calls.
+/// The fault of a value of the wrong kind. It only occurs if the caller has not checked the value.
 fn unfit(value: &Value, wanted: &str) -> Fault {
     Fault::WrongType { found: value.what(), wanted: wanted.to_owned() }
 }
@@ -630,7 +630,7 @@ fn placed_mut(case: &mut Case) -> Result<&mut PlacedField, Fault> {
     }
 }
 
-/// Takes another step and keeps the times that are counted in steps.
+/// Changes the time step. All times of the run stay the same; their numbers of steps change.
 fn set_time_step(case: &mut Case, time_step: f64) {
     let run = &mut case.run;
     let steps = |time: f64| whole_parts(time, time_step).0;

@@ -1,4 +1,4 @@
-//! Values of keys: which kinds there are, and what each kind allows.
+//! The kinds of values that keys take, and what each kind allows.
 
 use crate::air::{FromFile, Measured, Profile, SpectrumTable};
 use crate::error::Fault;
@@ -21,11 +21,11 @@ pub enum Value {
     Vector(Vec3<f64>),
     /// Files that are still to be read.
     Paths(Vec<PathBuf>),
-    /// What was read from files.
+    /// The content of files.
     Content(Content),
 }
 
-/// What was read from the files that a key names.
+/// The content of the files that a key names.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Content {
@@ -40,7 +40,7 @@ pub enum Content {
 }
 
 impl Content {
-    /// The files it was read from.
+    /// The files that it was read from.
     pub fn paths(&self) -> Vec<&Path> {
         match self {
             Self::Profile(file) => vec![file.path()],
@@ -94,7 +94,7 @@ impl From<Content> for Value {
 }
 
 impl Value {
-    /// What it is, with its article.
+    /// Its kind in words, with an article.
     pub(super) const fn what(&self) -> &'static str {
         match self {
             Self::Number(_) => "a number",
@@ -105,7 +105,7 @@ impl Value {
         }
     }
 
-    /// A quantity or whole number as a number.
+    /// The number, if it is a quantity or a whole number.
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Number(value) => Some(*value),
@@ -126,29 +126,29 @@ pub enum Sign {
     Any,
 }
 
-/// What a file holds.
+/// What a file contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
     /// Values down the line.
     Profile,
     /// A CFD solution.
     Field,
-    /// A spectrum; the key takes the name of a shape as well.
+    /// A spectrum. The key also takes the name of a spectrum's shape.
     Spectrum,
-    /// A velocity record, or several.
+    /// One velocity record or several.
     Records,
 }
 
-/// What a key takes.
+/// Which values a key takes.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
     /// A quantity with its unit.
     Quantity(Dimension, Sign),
-    /// A whole number, from the least to the most.
+    /// A whole number between a smallest and a largest one.
     Whole(u64, u64),
     /// One of several names.
     Choice(fn() -> Vec<&'static str>),
-    /// A direction in space, of any length but zero.
+    /// A direction in space: a vector of any length except zero.
     Direction,
     /// A point in space.
     Point,
@@ -156,14 +156,14 @@ pub enum Kind {
     File(FileKind),
 }
 
-/// The shapes of spectrum that have a name.
+/// The names of the built-in shapes of spectra.
 pub(super) const SPECTRA: [&str; 2] = ["flat", "von-karman"];
 
 impl Kind {
-    /// The value as the key keeps it: texts read, numbers in the right kind, directions of length one.
+    /// Converts a value to the form that the key stores: texts are parsed, directions are normalised.
     ///
     /// # Errors
-    /// When the key takes no such value.
+    /// If the key does not take this value.
     pub(crate) fn accept(&self, value: Value) -> Result<Value, Fault> {
         let value = match (self, value) {
             (_, Value::Text(text)) => self.read(&text)?,
@@ -179,7 +179,7 @@ impl Kind {
         self.fault(&value).map_or(Ok(value), Err)
     }
 
-    /// What is wrong with a value on its own.
+    /// What is wrong with a value, if anything.
     pub(crate) fn fault(&self, value: &Value) -> Option<Fault> {
         let not_finite = |v: &Vec3<f64>| ![v.x, v.y, v.z].iter().all(|c| c.is_finite());
         match (self, value) {
@@ -210,7 +210,7 @@ impl Kind {
         }
     }
 
-    /// The names that may be written, if any.
+    /// The names that the key takes, if any.
     pub fn names(&self) -> Vec<&'static str> {
         match self {
             Self::Choice(names) => names(),
@@ -219,7 +219,7 @@ impl Kind {
         }
     }
 
-    /// What to write, in words.
+    /// In words, what to write.
     pub(crate) fn wanted(&self) -> String {
         match self {
             Self::Quantity(dimension, _) => Wanted(*dimension).to_string(),
@@ -237,7 +237,7 @@ impl Kind {
         }
     }
 
-    /// Reads a value from text, `20 m/s`.
+    /// Parses a text such as `20 m/s`.
     fn read(&self, text: &str) -> Result<Value, Fault> {
         let parts = || -> Vec<&str> {
             let list = text.trim().trim_start_matches('[').trim_end_matches(']');
@@ -267,7 +267,7 @@ impl Kind {
         }
     }
 
-    /// The value for people.
+    /// The value as text for people.
     pub(crate) fn pretty(&self, value: &Value) -> String {
         match (self, value) {
             (Self::Quantity(dimension, _), Value::Number(value)) => dimension.pretty(*value),
@@ -285,7 +285,7 @@ fn listed<'a>(paths: impl Iterator<Item = &'a Path>) -> String {
     paths.map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// The unit vector along `v`; `v` itself if it is one but for rounding.
+/// The unit vector along `v`. If `v` already is one apart from rounding, it is returned unchanged.
 fn unit(v: Vec3<f64>) -> Result<Vec3<f64>, Fault> {
     if (v.norm() - 1.0).abs() <= 4.0 * f64::EPSILON {
         return Ok(v);
@@ -294,7 +294,7 @@ fn unit(v: Vec3<f64>) -> Result<Vec3<f64>, Fault> {
     if largest == 0.0 {
         return Err(Fault::ZeroDirection);
     }
-    // Division by the largest first, lest the squares overflow or vanish.
+    // Dividing by the largest component first keeps the squares from overflowing or vanishing.
     let v = Vec3::new(v.x / largest, v.y / largest, v.z / largest);
     let norm = v.norm();
     Ok(Vec3::new(v.x / norm, v.y / norm, v.z / norm))

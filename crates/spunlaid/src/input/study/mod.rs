@@ -74,7 +74,7 @@ pub fn parse_study(
         None => return Err(reader.rejected()),
     };
     let files = DataFiles::default();
-    let base = resolve::open(Document::read(&case_text, &case_name, &[])?, &files)?;
+    let base = resolve::open(Document::read(&case_text, &case_name, (&[]).into())?, &files)?;
     let plan = reader.plan(&base, points);
     let Some(plan) = plan else {
         return Err(reader.rejected());
