@@ -41,7 +41,8 @@
 //! says which.
 //!
 //! Equations are cited as `theory.md (n)`; they are in `docs/theory.md` of the repository, and what they were
-//! checked against is in `docs/validation.md`.
+//! checked against is in `docs/validation.md`. `docs/glossary.md` explains the words, and `CONTRIBUTING.md` shows
+//! how to add a drag law, a measure, a key, a reader or a case.
 
 // Units stand in brackets, [m/s], which rustdoc takes for links that lead nowhere.
 #![allow(rustdoc::broken_intra_doc_links)]
