@@ -44,20 +44,18 @@ impl Drag {
         let layer = |of| curve(2.0 * PI, of, 0.25 * d * re_per_velocity / l);
         let (along, across) = (self.along, self.across);
         ElementDrag {
-            along: match along {
-                FrictionLaw::Matsui { .. } | FrictionLaw::MajumdarShambaugh => {
+            along: match along.form() {
+                friction::Form::Power(exponent) => {
                     let coefficient = along.coefficient(re_per_velocity, 1.0);
-                    power(PI * pressure_area * coefficient, 1.0 - friction::MATSUI)
+                    power(PI * pressure_area * coefficient, 1.0 - exponent)
                 }
-                FrictionLaw::Sakiadis => layer(Curve::Moving),
-                FrictionLaw::GlauertLighthill => layer(Curve::Held),
+                friction::Form::Layer(of) => layer(of),
             },
-            across: match across {
-                NormalLaw::JuShambaugh => {
-                    let (_, b, _, _) = normal::JU_SHAMBAUGH;
-                    power(pressure_area * across.coefficient(re_per_velocity, d), 1.0 - b)
+            across: match across.form() {
+                normal::Form::Power { exponent, coefficient } => {
+                    power(pressure_area * coefficient(re_per_velocity, d), 1.0 - exponent)
                 }
-                NormalLaw::MarheinekeWegener => curve(1.0, Curve::Normal, re_per_velocity),
+                normal::Form::Curve { .. } => curve(1.0, Curve::Across(across), re_per_velocity),
             },
         }
     }

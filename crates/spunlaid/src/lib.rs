@@ -41,6 +41,9 @@
 //!
 //! Equations are cited as `theory.md (n)`. They are in `docs/theory.md` of the repository; `docs/validation.md`
 //! describes the checks.
+//!
+//! `docs/glossary.md` explains the words, and `CONTRIBUTING.md` shows how to add a drag law, a measure, a key, a
+//! reader or a case.
 
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
 #![allow(rustdoc::broken_intra_doc_links)]

@@ -196,7 +196,11 @@ fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
         let [from, to] = [effect.from, effect.to].map(|value| factor.pretty(value));
         RankingRow {
             name: name_of_key(factor.key),
-            range: if factor.names.len() > 2 { "largest difference".to_owned() } else { format!("{from} to {to}") },
+            range: if factor.names.len() > 2 {
+                "largest difference".to_owned()
+            } else {
+                format!("{from} to {to}")
+            },
             cells: SHOWN
                 .iter()
                 .map(|(measure, _, unit)| cell(rankings, *measure, effect.factor, *unit))
@@ -222,9 +226,10 @@ fn cell(rankings: &[Ranking], measure: usize, factor: usize, unit: f64) -> Cell 
 fn explained(rankings: &[Ranking]) -> Vec<String> {
     let of = |(measure, ..): &(usize, &str, f64)| {
         let ranking = rankings.iter().find(|ranking| ranking.measure == *measure);
-        ranking
-            .filter(|ranking| ranking.explained.is_finite())
-            .map_or_else(|| "–".to_owned(), |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())))
+        ranking.filter(|ranking| ranking.explained.is_finite()).map_or_else(
+            || "–".to_owned(),
+            |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())),
+        )
     };
     SHOWN.iter().map(of).collect()
 }

@@ -1,77 +1,85 @@
-//! Tables of the drag laws that are not a power of the velocity.
+//! Drag laws that are no power of the velocity, as tables for the kernel.
 
 use super::boundary_layer::BoundaryLayer;
-use super::normal::{PIECES, resistance};
+use super::normal::{Form, NormalLaw};
 use crate::lanes::{Lanes, Register, Wide, exp2};
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
-/// A law as a positive function `g(s)` of one positive number [-]: the ratio of drag to velocity.
+/// A law as a positive function `g(s)` of one positive number [-]: the drag by the velocity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Curve {
     /// `1/α` over `s = V a²/(νx)`; moving through air at rest.                theory.md (43)
     Moving,
     /// `1/α` over `s = V a²/(νx)`; held in a stream.                          theory.md (43)
     Held,
-    /// `w c_n(w)` over the Reynolds number `s = w` of Marheineke & Wegener.   theory.md (44)
-    Normal,
+    /// `½ s C_n(s)` over the Reynolds number `s` of a law across the fibre.   theory.md (45)
+    Across(NormalLaw),
 }
 
 impl Curve {
-    /// Whether `s` decreases with the distance from the root.
+    /// Whether `s` goes down with the distance from the root.
     pub(super) const fn fades(self) -> bool {
         matches!(self, Self::Moving | Self::Held)
     }
 
-    /// `g(s)` itself. The table agrees with it to 1e-6.
+    /// `g(s)` itself, which the table follows to 1e-6.
     pub fn exact(self, s: f64) -> f64 {
         match self {
             Self::Moving => 1.0 / BoundaryLayer::Moving.thickness(1.0 / s),
             Self::Held => 1.0 / BoundaryLayer::Held.thickness(1.0 / s),
-            Self::Normal => resistance(s),
+            Self::Across(law) => match law.form() {
+                Form::Curve { resistance, .. } => resistance(s),
+                Form::Power { coefficient, .. } => 0.5 * s * coefficient(s, 1.0),
+            },
         }
     }
 
     pub(super) fn table(self) -> &'static Table {
         static MOVING: LazyLock<Table> = LazyLock::new(|| Table::of(Curve::Moving));
         static HELD: LazyLock<Table> = LazyLock::new(|| Table::of(Curve::Held));
-        static NORMAL: LazyLock<Table> = LazyLock::new(|| Table::of(Curve::Normal));
+        static ACROSS: [OnceLock<Table>; NormalLaw::ALL.len()] =
+            [const { OnceLock::new() }; NormalLaw::ALL.len()];
         match self {
             Self::Moving => &MOVING,
             Self::Held => &HELD,
-            Self::Normal => &NORMAL,
+            Self::Across(law) => ACROSS[law as usize].get_or_init(|| Table::of(self)),
         }
     }
 }
 
-/// `log2 g` as a function of `q = log2 s²`: cubics from values and slopes at their ends, each about one unit of
-/// `q` long. Outside the table, a straight line continues it, which is a power of the velocity.
+/// `log2 g` as a function of `q = log2 s²`: cubics of about a unit of `q` each from values and slopes at their
+/// ends, and a straight line, a power of the velocity, beyond.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
-    /// Coefficients by powers of the distance from the cubic's lower end, in units of a cubic.
+    /// By powers of the distance from the cubic's lower end, in cubics.
     cubics: [[f64; 4]; CUBICS + 2],
-    /// Number of cubics for one unit of `q`.
+    /// Cubics to a unit of `q`.
     per_unit: f64,
-    /// Index at `q = 0`; it may be a fraction.
+    /// Index of the cubic that begins where `q = 0`, a fraction if need be.
     zero: f64,
 }
 
 /// Number of cubics: `s` from 2^-32 to 2^32.
 const CUBICS: usize = 128;
-/// Limit of `q`, so that its power stays finite.
+/// `q` is taken no further than this: its power stays finite.
 const FURTHEST: f64 = 1000.0;
 
 impl Table {
     fn of(curve: Curve) -> Self {
         let middle = CUBICS as f64 / 2.0 + 1.0;
-        let (per_unit, zero) = match curve {
-            Curve::Moving | Curve::Held => (1.0, middle),
-            Curve::Normal => {
-                // The cubics end at the ends of the pieces of the law.
-                let [from, to] = [PIECES.0, PIECES.1].map(|s| 2.0 * libm::log2(s));
-                let per_unit = (to - from).round() / (to - from);
-                (per_unit, (middle + per_unit * from).round() - per_unit * from)
-            }
+        let joins = match curve {
+            Curve::Across(law) => match law.form() {
+                Form::Curve { joins, .. } => joins,
+                Form::Power { .. } => None,
+            },
+            Curve::Moving | Curve::Held => None,
         };
+        let (per_unit, zero) = joins.map_or((1.0, middle), |(from, to)| {
+            // Cubics end where the pieces of the law do.
+            let [from, to] = [from, to].map(|s| 2.0 * libm::log2(s));
+            let per_unit = (to - from).round() / (to - from);
+            (per_unit, (middle + per_unit * from).round() - per_unit * from)
+        });
         let log_g = |place: f64| libm::log2(curve.exact(libm::exp2(0.5 * (place - zero) / per_unit)));
         let end = |place: f64| {
             const STEP: f64 = 1.0 / 4096.0;
@@ -89,14 +97,14 @@ impl Table {
         Self { cubics, per_unit, zero }
     }
 
-    /// `g` of eight fibres from `q`. NaN gives a finite number.
+    /// `g` of eight fibres from `q`; NaN gives some finite number.
     #[inline(always)]
     pub(super) fn at<S: Register>(&self, q: Wide<S>) -> Wide<S> {
         let q = q.max(Wide::splat(-FURTHEST));
         let q = Wide::select_less(q, Wide::splat(FURTHEST), q, Wide::splat(FURTHEST));
         let place = q.mul_add(Wide::splat(self.per_unit), Wide::splat(self.zero));
         let (mut start, mut coefficients) = (Lanes::ZERO, [Lanes::ZERO; 4]);
-        // No closures here, because they would not be compiled for the instruction set.
+        // No closures here: they would not be compiled for the instruction set.
         for (i, place) in place.store().0.iter().enumerate() {
             let cubic = (*place as usize).min(CUBICS + 1);
             start.0[i] = cubic as f64;
@@ -115,12 +123,15 @@ impl Table {
 
 #[cfg(test)]
 mod tests {
-    use super::{Curve, FURTHEST};
+    use super::{Curve, FURTHEST, Form, NormalLaw};
     use crate::lanes::{Lanes, Plain, Register, Wide};
 
     /// Ends of the tables.
     const REACH: f64 = 63.0;
-    const CURVES: [Curve; 3] = [Curve::Moving, Curve::Held, Curve::Normal];
+    fn curves() -> impl Iterator<Item = Curve> {
+        let across = NormalLaw::ALL.into_iter().filter(|law| matches!(law.form(), Form::Curve { .. }));
+        [Curve::Moving, Curve::Held].into_iter().chain(across.map(Curve::Across))
+    }
 
     fn at(curve: Curve, q: f64) -> f64 {
         Register::store(curve.table().at::<Plain>(Wide::splat(q)).0).0[0]
@@ -129,7 +140,7 @@ mod tests {
     #[test]
     fn analytic_table_follows_the_law() {
         // A cubic between values and slopes is off by g⁗/384 at most, g⁗ < 1e-4 in these laws; 2^x is to 7.5e-8.
-        for curve in CURVES {
+        for curve in curves() {
             for i in 0..=(2.0 * REACH * 37.0) as i32 {
                 let q = f64::from(i) / 37.0 - REACH;
                 let s = libm::exp2(0.5 * q);
@@ -141,7 +152,7 @@ mod tests {
 
     #[test]
     fn analytic_powers_beyond_the_table() {
-        for curve in CURVES {
+        for curve in curves() {
             for sign in [1.0, -1.0] {
                 let [a, b, c] = [1.0, 2.0, 3.0].map(|k| at(curve, sign * (REACH + 100.0 * k)));
                 assert!((b * b / (a * c) - 1.0).abs() < 1e-6, "{curve:?}: {a} {b} {c}");
@@ -159,7 +170,7 @@ mod tests {
 
     #[test]
     fn identical_lane_by_lane() {
-        for curve in CURVES {
+        for curve in curves() {
             let q = Lanes::from_fn(|i| 7.3 * i as f64 - 30.0);
             let all = Register::store(curve.table().at::<Plain>(Wide::load(&q)).0);
             assert_eq!(all, Lanes::from_fn(|i| at(curve, q.0[i])));

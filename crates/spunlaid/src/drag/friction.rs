@@ -1,6 +1,7 @@
 //! Drag laws along the fibre.
 
 use super::boundary_layer::BoundaryLayer;
+use super::curve::Curve;
 
 /// Drag law along the fibre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,9 +20,18 @@ pub enum FrictionLaw {
 }
 
 /// Exponent of the Reynolds number in Matsui's form.
-pub(super) const MATSUI: f64 = 0.61;
+const MATSUI: f64 = 0.61;
 /// `β` of [`FrictionLaw::MajumdarShambaugh`] [-].
 const MAJUMDAR_SHAMBAUGH: f64 = 0.78;
+
+/// How the kernel computes a law.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Form {
+    /// As a power of the velocity: `p` in `C_f ∝ Re^-p`, between 0 and 1 [-].
+    Power(f64),
+    /// From the table of a boundary layer.
+    Layer(Curve),
+}
 
 impl FrictionLaw {
     /// Every law, Matsui's with the factor that the paper takes.
@@ -43,6 +53,14 @@ impl FrictionLaw {
         match self {
             Self::Matsui { factor } => Some(factor),
             Self::MajumdarShambaugh | Self::Sakiadis | Self::GlauertLighthill => None,
+        }
+    }
+
+    pub(super) const fn form(self) -> Form {
+        match self {
+            Self::Matsui { .. } | Self::MajumdarShambaugh => Form::Power(MATSUI),
+            Self::Sakiadis => Form::Layer(Curve::Moving),
+            Self::GlauertLighthill => Form::Layer(Curve::Held),
         }
     }
 

@@ -60,7 +60,7 @@ pub struct Key {
 
 /// Every key, in the order of a case file.
 pub fn all() -> &'static [Key] {
-    &table::KEYS
+    table::KEYS
 }
 
 /// The key with this full name, `air.velocity`.

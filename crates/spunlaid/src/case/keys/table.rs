@@ -84,7 +84,7 @@ macro_rules! steps {
     };
 }
 
-pub(super) static KEYS: [Key; 40] = [
+pub(super) static KEYS: &[Key] = &[
     quantity("fibre.length", Dimension::Length, Positive, number!(fibre.length))
         .required("1 m")
         .meaning("Length of the fibre, from its root to its free end.")
@@ -393,7 +393,7 @@ pub(super) static KEYS: [Key; 40] = [
         },
     )
     .value("matsui")
-    .meaning("Law of the friction along the fibre: Matsui's with a factor, Majumdar and Shambaugh's, or the laminar ones of Sakiadis or of Glauert and Lighthill.")
+    .meaning("Law of the friction along the fibre. Source and range of each law: docs/theory.md.")
     .in_flight(),
     choose(
         "drag.across",
@@ -401,7 +401,7 @@ pub(super) static KEYS: [Key; 40] = [
         choice!(drag.across, NormalLaw::ALL),
     )
     .value("ju-shambaugh")
-    .meaning("Law of the drag across the fibre: Ju and Shambaugh's, fitted to 13–390 µm, or Marheineke and Wegener's, valid for any diameter.")
+    .meaning("Law of the drag across the fibre. Source and range of each law: docs/theory.md.")
     .in_flight(),
     quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative, Access {
         get: |case| case.drag.along.factor().map(Value::Number),
