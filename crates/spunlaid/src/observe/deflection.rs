@@ -55,7 +55,8 @@ impl Observer for Deflection {
     fn see(&mut self, seen: &Seen<'_>) {
         if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
             for (lane, distances) in self.0.iter_mut().enumerate() {
-                distances.push(end.y.0[lane].hypot(end.z.0[lane]));
+                let (y, z) = (end.y.0[lane], end.z.0[lane]);
+                distances.push((y * y + z * z).sqrt());
             }
         }
     }

@@ -54,7 +54,8 @@ impl Observer for Residence {
 fn radius(places: &[(f64, f64)]) -> f64 {
     let n = places.len() as f64;
     let (y, z) = places.iter().fold((0.0, 0.0), |sum, place| (sum.0 + place.0 / n, sum.1 + place.1 / n));
-    let distances: Vec<f64> = places.iter().map(|place| (place.0 - y).hypot(place.1 - z)).collect();
+    let distances: Vec<f64> =
+        places.iter().map(|place| ((place.0 - y).powi(2) + (place.1 - z).powi(2)).sqrt()).collect();
     quantile(&distances, SHARE)
 }
 

@@ -49,8 +49,8 @@ const fn measure(
 /// y and z of the free ends at the recorded instants after the spin-up [m].
 #[derive(Debug)]
 struct EndPositions {
-    interval: f64,
-    segment: usize,
+    /// The method, before any record: made once for all fibres.
+    welch: Welch,
     end: [[Vec<f64>; 2]; WIDTH],
 }
 
@@ -59,7 +59,8 @@ impl EndPositions {
         let run = &case.run;
         let samples = (run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1)) as usize + 1;
         let segment = Welch::segment_length(samples);
-        Self { interval: run.output_interval(), segment, end: Default::default() }
+        let welch = Welch::new(run.output_interval(), segment, Window::Hann, 0.5);
+        Self { welch, end: Default::default() }
     }
 }
 
@@ -75,7 +76,7 @@ impl Observer for EndPositions {
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
         let density = |record: &Vec<f64>| {
-            let mut welch = Welch::new(self.interval, self.segment, Window::Hann, 0.5);
+            let mut welch = self.welch.clone();
             welch.add(record, None);
             let (frequency, density) = welch.finish().points().unzip();
             Value::Curve(frequency, density)
