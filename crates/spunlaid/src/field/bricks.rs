@@ -127,10 +127,10 @@ impl Bricks {
             let index =
                 [0, 1, 2].map(|axis| ((place.corner[axis] - self.low[axis]) / self.size).round() as usize);
             let index = index[0] + self.count[0] * (index[1] + self.count[1] * index[2]);
-            if let Some(brick) = bricks.get(index) {
-                if let Some(around) = self.look(brick, &mut place, None, &mut sample) {
-                    return around;
-                }
+            if let Some(brick) = bricks.get(index)
+                && let Some(around) = self.look(brick, &mut place, None, &mut sample)
+            {
+                return around;
             }
         }
         let (values, inside) = sample(at);

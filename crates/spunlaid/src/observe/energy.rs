@@ -89,9 +89,12 @@ const WORK: &str = "the paper’s work check: difference between the work of all
      only whether the steps are short against the motion";
 const BALANCE: &str = "error of the full energy balance, as a share of the air’s work; median over time. It would reveal a wrong force";
 
-const ERRORS: &[(fn(&Sample) -> f64, bool)] =
+/// An error of a sample [%], and whether it is drawn over time.
+type ErrorOf = (fn(&Sample) -> f64, bool);
+
+const ERRORS: &[ErrorOf] =
     &[(Sample::work_error_percent, true), (Sample::balance_error_percent, true)];
-const TAKEN: &[(fn(&Sample) -> f64, bool)] = &[(Sample::tension_dissipation_percent, false)];
+const TAKEN: &[ErrorOf] = &[(Sample::tension_dissipation_percent, false)];
 
 const FIGURE: Figure = Figure {
     name: "energy_error",
@@ -155,7 +158,7 @@ const fn series(
 #[derive(Debug)]
 struct Errors {
     /// Which errors, and whether each is drawn over time.
-    of: &'static [(fn(&Sample) -> f64, bool)],
+    of: &'static [ErrorOf],
     times: Vec<f64>,
     /// By lane and error [%].
     percent: [[Vec<f64>; 2]; WIDTH],

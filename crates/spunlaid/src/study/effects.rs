@@ -416,6 +416,8 @@ struct Solution {
 
 /// One number for each measure.
 type Each = [f64; MEASURES.len()];
+/// A factor, two of its values, and the weights of the fit that give the change of a result from one to the other.
+type Contrast = (usize, f64, f64, Vec<f64>);
 
 /// Deviations of a point's replicates from their mean, scaled so that the sum of their squares is the variance of the
 /// mean; by replicate.
@@ -512,7 +514,8 @@ impl Solution {
             let noise = if replicated { of_noise[m] } else { 0.0 };
             let unfitted =
                 if replicated && !study.design.draws() { 0.0 } else { (left[m] - noise).max(0.0) / free };
-            let effect = |((factor, from, to, weights), sum): (&(usize, f64, f64, Vec<f64>), &(f64, f64))| {
+            let effect = |(contrast, sum): (&Contrast, &(f64, f64))| {
+                let (factor, from, to, weights) = contrast;
                 let (noise, degrees) = match (replicated, study.common_phases) {
                     (false, _) => (0.0, f64::INFINITY),
                     (true, true) => {
