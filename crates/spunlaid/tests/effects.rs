@@ -182,7 +182,10 @@ fn saturated_and_collinear_designs_are_refused_with_the_reason() {
     assert!(said.contains("3 points cannot rank 2 keys") && said.contains("at least 4 points"), "{said}");
     let paired = "design = 'paired'\n[vary]\nair.velocity = ['5 m/s', '10 m/s', '15 m/s', '20 m/s']\n";
     let said = refusal(&format!("{paired}air.turbulence_intensity = [0.1, 0.2, 0.3, 0.4]"));
-    assert!(said.contains("air.velocity and air.turbulence_intensity vary together (correlation 1.00)"), "{said}");
+    assert!(
+        said.contains("air.velocity and air.turbulence_intensity vary together (correlation 1.00)"),
+        "{said}"
+    );
     // Almost together is refused as well.
     let said = refusal(&format!("{paired}air.turbulence_intensity = [0.1, 0.2, 0.3, 0.41]"));
     assert!(said.contains("vary together"), "{said}");

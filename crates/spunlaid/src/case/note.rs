@@ -45,6 +45,12 @@ pub enum Remark {
         /// Longest stable step [s].
         limit: f64,
     },
+    /// A standard error is judged from few replicates.
+    #[error(
+        "is too few to trust a standard error, so the study often stops before its results are as exact as asked; write 6 \
+         or more"
+    )]
+    FewReplicates,
     /// A tolerance without a step to choose.
     #[error("has no effect, since run.time_step is given; strike out one of the two")]
     ToleranceUnused,
@@ -119,6 +125,7 @@ impl Remark {
                 | Self::EddiesSkipped { .. }
                 | Self::Field(_)
                 | Self::LeavesFlow
+                | Self::FewReplicates
                 | Self::ElementsStubby { .. }
         )
     }

@@ -274,7 +274,13 @@ mod tests {
     use super::*;
 
     fn factor(levels: Levels) -> Factor {
-        Factor { key: "air.velocity", dimension: Dimension::Velocity, whole: false, names: Vec::new(), levels }
+        Factor {
+            key: "air.velocity",
+            dimension: Dimension::Velocity,
+            whole: false,
+            names: Vec::new(),
+            levels,
+        }
     }
 
     fn range(from: f64, to: f64, steps: u64, spacing: Spacing) -> Factor {

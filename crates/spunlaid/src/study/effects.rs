@@ -153,7 +153,13 @@ pub fn rankings(study: &Study, journal: &mut Journal) -> Result<Rankings, Error>
             [one] if study.design != Design::OneAtATime => one.coefficients[measure][0],
             _ => f64::NAN,
         };
-        Ranking { measure, middle, explained: explained(&fits, &solved, measure), effects, terms: terms.collect() }
+        Ranking {
+            measure,
+            middle,
+            explained: explained(&fits, &solved, measure),
+            effects,
+            terms: terms.collect(),
+        }
     };
     let applies = |measure: &usize| {
         solved.iter().all(|solution| solution.coefficients[*measure].iter().all(|b| b.is_finite()))
@@ -249,7 +255,8 @@ impl<'a> Fit<'a> {
     fn new(study: &'a Study, points: Vec<usize>, factors: &[usize]) -> Result<Self, Refusal> {
         let (mut terms, mut of) = (Vec::new(), Vec::new());
         for &factor in factors {
-            let mut levels: Vec<f64> = points.iter().map(|point| study.points[*point].values[factor]).collect();
+            let mut levels: Vec<f64> =
+                points.iter().map(|point| study.points[*point].values[factor]).collect();
             levels.sort_by(f64::total_cmp);
             levels.dedup();
             let (Some(&least), Some(&last)) = (levels.first(), levels.last()) else {
@@ -282,8 +289,11 @@ impl<'a> Fit<'a> {
 
     /// The same fit with squares and products, as far as there are enough points: two for each unknown.
     fn with_curvature(self) -> Self {
-        let lines: Vec<usize> =
-            self.terms.iter().filter_map(|term| if let Term::Line(j) = term { Some(*j) } else { None }).collect();
+        let lines: Vec<usize> = self
+            .terms
+            .iter()
+            .filter_map(|term| if let Term::Line(j) = term { Some(*j) } else { None })
+            .collect();
         let squares = lines.iter().map(|&j| Term::Square(j));
         let products = lines.iter().enumerate().flat_map(|(i, &j)| {
             lines.iter().skip(i + 1).map(move |&k| Term::Product(j, k)).collect::<Vec<_>>()
@@ -347,7 +357,9 @@ impl<'a> Fit<'a> {
         let others = (1..self.size()).filter(|k| *k != column);
         let nearest = others.max_by(|a, b| correlation(*a).abs().total_cmp(&correlation(*b).abs()));
         let key = |column: usize| match self.terms[column.max(1) - 1] {
-            Term::Line(j) | Term::Square(j) | Term::Product(j, _) | Term::Name(j, ..) => self.study.factors[j].key,
+            Term::Line(j) | Term::Square(j) | Term::Product(j, _) | Term::Name(j, ..) => {
+                self.study.factors[j].key
+            }
         };
         match nearest.filter(|k| correlation(*k).abs() > 0.9) {
             Some(other) => {
@@ -498,7 +510,8 @@ impl Solution {
             let free = points - size as f64;
             // What the terms do not describe, beyond the noise of the means.
             let noise = if replicated { of_noise[m] } else { 0.0 };
-            let unfitted = if replicated && !study.design.draws() { 0.0 } else { (left[m] - noise).max(0.0) / free };
+            let unfitted =
+                if replicated && !study.design.draws() { 0.0 } else { (left[m] - noise).max(0.0) / free };
             let effect = |((factor, from, to, weights), sum): (&(usize, f64, f64, Vec<f64>), &(f64, f64))| {
                 let (noise, degrees) = match (replicated, study.common_phases) {
                     (false, _) => (0.0, f64::INFINITY),
@@ -508,7 +521,8 @@ impl Solution {
                     }
                     (true, false) => (sum.0, sum.0 * sum.0 / sum.1),
                 };
-                let unfitted = if unfitted == 0.0 { 0.0 } else { unfitted * dot(weights, &fit.solve(weights)) };
+                let unfitted =
+                    if unfitted == 0.0 { 0.0 } else { unfitted * dot(weights, &fit.solve(weights)) };
                 let (change, variance) = (dot(weights, &coefficients[m]), noise + unfitted);
                 let over = |part: f64, degrees: f64| if part == 0.0 { 0.0 } else { part * part / degrees };
                 let degrees = variance * variance / (over(noise, degrees) + over(unfitted, free));

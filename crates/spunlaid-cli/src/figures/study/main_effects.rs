@@ -47,8 +47,7 @@ pub(super) fn of(
     } else {
         "the mean of every point, as it is: the study cannot separate the contributions of the other factors."
     };
-    let caption =
-        format!("{} over {}: {how} {BARS}", group.figure.title, name_of_key(varied.key));
+    let caption = format!("{} over {}: {how} {BARS}", group.figure.title, name_of_key(varied.key));
     Figure::of(&chart, caption)
 }
 

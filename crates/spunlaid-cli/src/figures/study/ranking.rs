@@ -70,7 +70,8 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
         let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
         svg.text((left - 12.0, y - 2.0), label_of_key(of.key), name);
         let place = Along::new(of);
-        let compared = shown.first().and_then(|of| of.0.effects.iter().find(|effect| effect.factor == *factor));
+        let compared =
+            shown.first().and_then(|of| of.0.effects.iter().find(|effect| effect.factor == *factor));
         let range = match (of.names.len(), compared) {
             (0, Some(effect)) => {
                 format!("{} {}", range(place.place(effect.from), place.place(effect.to)), place.unit)

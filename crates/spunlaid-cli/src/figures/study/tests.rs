@@ -45,7 +45,13 @@ fn rankings(study: &Study) -> Vec<Ranking> {
         half_width: (factor > 0).then_some(0.006),
     };
     let effects: Vec<Effect> = (0..study.factors.len()).map(effect).collect();
-    let ranking = |measure| Ranking { measure, middle: 0.1, explained: 0.9, effects: effects.clone(), terms: Vec::new() };
+    let ranking = |measure| Ranking {
+        measure,
+        middle: 0.1,
+        explained: 0.9,
+        effects: effects.clone(),
+        terms: Vec::new(),
+    };
     (0..MEASURES.len()).map(ranking).collect()
 }
 
