@@ -7,7 +7,7 @@
 //! One eddy of 10 m/s, 10 % turbulence and 100 Hz for 10 s at 1 kHz, u and v to a millimetre a second. What
 //! `spunlaid analyse` finds in it is known beforehand: these values, and by the first zero of the
 //! autocorrelation an integral time of Si(π)/(2π f) = 2.95 ms.
-#![allow(clippy::print_stderr)]
+#![allow(clippy::expect_used, clippy::print_stderr)]
 
 use spunlaid::air::{Air, StreamKey, Wind};
 use spunlaid::lanes::Isa;

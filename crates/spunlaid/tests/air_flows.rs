@@ -1,5 +1,5 @@
 //! Air that varies in space, compared with flows in closed form.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::expect_used, clippy::unwrap_used)]
 
 use spunlaid::air::{Air, Axis, Eddies, Flow, FromFile, FromFlow, PlacedField, Profile, StreamKey};
 use spunlaid::air::{Surroundings, Wind};

@@ -1,5 +1,5 @@
 //! Turbulence beyond the paper's: spectra by name and from tables, convected eddies, and fluctuations from a record.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::expect_used, clippy::unwrap_used)]
 
 mod common;
 

@@ -1,6 +1,8 @@
 //! The drag laws: against measured cylinders, against the equations of the boundary layer, and as the kernel
 //! has them.
 
+#![allow(clippy::expect_used)]
+
 mod common;
 
 use common::*;

@@ -1,5 +1,7 @@
 //! Each element feels the velocity of its own eddy, on meshes finer than, as fine as and coarser than the eddies.
 
+#![allow(clippy::expect_used)]
+
 mod common;
 
 use common::reference::{ReferenceDrag, forces};

@@ -1,6 +1,8 @@
 //! The kernel's forces against the plain scalar model, against the energy, and against the laws of
 //! mechanics.
 
+#![allow(clippy::expect_used)]
+
 mod common;
 
 use common::reference::{ReferenceDrag, elastic_energy, forces};

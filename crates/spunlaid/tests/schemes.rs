@@ -1,5 +1,7 @@
 //! Order of convergence of the schemes, energy ledgers, and bits that never change.
 
+#![allow(clippy::expect_used)]
+
 mod common;
 
 use common::*;

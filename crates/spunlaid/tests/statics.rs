@@ -3,6 +3,8 @@
 //! The discrete clamped chain is second order in the element length, so two meshes extrapolate (Richardson)
 //! to fourth order, and what is left is bounded by the difference of the two meshes.
 
+#![allow(clippy::expect_used)]
+
 mod common;
 
 use common::*;

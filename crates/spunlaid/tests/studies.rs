@@ -311,3 +311,20 @@ fn remarks_are_merged_over_points() {
         "{notes:?}"
     );
 }
+
+#[test]
+fn few_replicates_before_a_stop_are_warned_of() {
+    let notes = |at_least: u64| {
+        let text = format!(
+            "case = 'c'\ndesign = 'grid'\n[replicates]\nat_least = {at_least}\nuntil = {{ amplitude_y = '5 %' }}\n\
+             [vary]\nair.velocity = ['5 m/s', '10 m/s']\n"
+        );
+        study(&text).notes.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert!(notes(6).is_empty(), "{:?}", notes(6));
+    let few = notes(5);
+    assert!(
+        few.len() == 1 && few[0].starts_with("study.toml: replicates.at_least = 5 is too few"),
+        "{few:?}"
+    );
+}

@@ -1,6 +1,8 @@
 //! The synthesised turbulence, compared with the sum of cosines that it represents and with the statistics that it must
 //! have.
 
+#![allow(clippy::expect_used)]
+
 mod common;
 
 use common::*;

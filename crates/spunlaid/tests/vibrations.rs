@@ -1,6 +1,8 @@
 //! Small vibrations in a vacuum: the flight's frequency against the discrete chain's own, to the time
 //! step's error, and the discrete chain's against the continuous formulas.
 
+#![allow(clippy::expect_used)]
+
 mod common;
 
 use common::modes::{frequency_of, vibrations};

@@ -4,21 +4,26 @@ use super::words::count;
 use crate::figures::name_of_key;
 use crate::numbers::{THIN, number, plus_minus};
 use askama::Template;
-use spunlaid::study::{Design, Effect, PointResults, Ranking, Study};
+use spunlaid::study::{Design, Effect, MEASURES, PointResults, Ranking, Study};
 use spunlaid_charts::Figure;
 
 /// Largest number of points that are listed.
 const LISTED: usize = 500;
 
-/// The listed results: index into the measures, head of the column, factor from SI units.
-const SHOWN: [(usize, &str, f64); 6] = [
-    (0, "Amplitude in y (mm)", 1e3),
-    (1, "Amplitude in z (mm)", 1e3),
-    (2, "Frequency in y (Hz)", 1.0),
-    (3, "Frequency in z (Hz)", 1.0),
-    (4, "Mean x (mm)", 1e3),
-    (7, "Largest strain (%)", 1e2),
+/// The listed results: name of the measure, head of the column, factor from SI units.
+const SHOWN: [(&str, &str, f64); 6] = [
+    ("amplitude_y", "Amplitude in y (mm)", 1e3),
+    ("amplitude_z", "Amplitude in z (mm)", 1e3),
+    ("frequency_y", "Frequency in y (Hz)", 1.0),
+    ("frequency_z", "Frequency in z (Hz)", 1.0),
+    ("mean_x", "Mean x (mm)", 1e3),
+    ("max_strain", "Largest strain (%)", 1e2),
 ];
+
+/// Index of a measure; all names above exist.
+fn measure_index(name: &str) -> usize {
+    MEASURES.iter().position(|measure| measure.name == name).unwrap_or(0)
+}
 
 /// Content of the report.
 #[derive(Clone, Copy, Debug)]
@@ -176,7 +181,8 @@ fn rows(study: &Study, results: &[PointResults]) -> Vec<Row> {
     let row = |(index, point): (usize, &PointResults)| {
         let values = study.points[index].values.iter().zip(study.inputs());
         let inputs = values.map(|(value, (_, dimension))| dimension.pretty(*value));
-        let results = SHOWN.map(|(measure, _, factor)| {
+        let results = SHOWN.map(|(name, _, factor)| {
+            let measure = measure_index(name);
             plus_minus(
                 point.mean[measure] * factor,
                 point.standard_error[measure].map(|error| error * factor),
@@ -203,7 +209,7 @@ fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
             },
             cells: SHOWN
                 .iter()
-                .map(|(measure, _, unit)| cell(rankings, *measure, effect.factor, *unit))
+                .map(|(name, _, unit)| cell(rankings, measure_index(name), effect.factor, *unit))
                 .collect(),
         }
     };
@@ -224,8 +230,8 @@ fn cell(rankings: &[Ranking], measure: usize, factor: usize, unit: f64) -> Cell 
 }
 
 fn explained(rankings: &[Ranking]) -> Vec<String> {
-    let of = |(measure, ..): &(usize, &str, f64)| {
-        let ranking = rankings.iter().find(|ranking| ranking.measure == *measure);
+    let of = |(name, ..): &(&str, &str, f64)| {
+        let ranking = rankings.iter().find(|ranking| ranking.measure == measure_index(name));
         ranking.filter(|ranking| ranking.explained.is_finite()).map_or_else(
             || "–".to_owned(),
             |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())),

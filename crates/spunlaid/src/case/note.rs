@@ -45,6 +45,12 @@ pub enum Remark {
         /// Longest stable step [s].
         limit: f64,
     },
+    /// A standard error is judged from few replicates.
+    #[error(
+        "is too few to trust a standard error, so the study often stops before its results are as exact as asked; write 6 \
+         or more"
+    )]
+    FewReplicates,
     /// An error tolerance although the time step is given.
     #[error("has no effect because run.time_step is given; remove one of the two")]
     ToleranceUnused,
@@ -156,6 +162,7 @@ impl Remark {
                 | Self::RootOutside { .. }
                 | Self::NotAlong { .. }
                 | Self::FieldSize { .. }
+                | Self::FewReplicates
                 | Self::ElementsStubby { .. }
         )
     }

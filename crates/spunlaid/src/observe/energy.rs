@@ -92,8 +92,7 @@ const BALANCE: &str = "error of the full energy balance, as a share of the airâ€
 /// An error of a sample [%], and whether it is drawn over time.
 type ErrorOf = (fn(&Sample) -> f64, bool);
 
-const ERRORS: &[ErrorOf] =
-    &[(Sample::work_error_percent, true), (Sample::balance_error_percent, true)];
+const ERRORS: &[ErrorOf] = &[(Sample::work_error_percent, true), (Sample::balance_error_percent, true)];
 const TAKEN: &[ErrorOf] = &[(Sample::tension_dissipation_percent, false)];
 
 const FIGURE: Figure = Figure {

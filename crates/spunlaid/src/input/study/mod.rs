@@ -13,9 +13,10 @@ pub use points::StudyNote;
 use super::data::DataFiles;
 use super::document::Document;
 use super::{file, resolve};
+use crate::case::Remark;
 use crate::case::keys::{self, Key};
-use crate::error::{Error, FileKind};
-use crate::study::Study;
+use crate::error::{Error, FileKind, Finding, Place};
+use crate::study::{Replicates, Study};
 use crate::units::Dimension;
 use std::path::{Path, PathBuf};
 
@@ -23,6 +24,8 @@ use std::path::{Path, PathBuf};
 pub const MOST_POINTS_UNASKED: u64 = 10_000;
 /// Largest number of points of a study.
 const MOST_POINTS: u64 = 10_000_000;
+/// Fewest replicates from which a standard error is a good guide to when to stop.
+const FEWEST_REPLICATES: u64 = 6;
 /// Largest number of fibres of a study.
 const MOST_FIBRES: u64 = 4_000_000_000;
 
@@ -80,7 +83,14 @@ pub fn parse_study(
         return Err(reader.rejected());
     };
     let resolver = points::Resolver { study: name, files: &files, base: &base, plan: &plan };
-    let (resolved, notes) = resolver.points()?;
+    let (resolved, mut notes) = resolver.points()?;
+    let Replicates { at_least, until, .. } = &plan.replicates;
+    if !until.is_empty() && *at_least < FEWEST_REPLICATES {
+        let place = Place::File { file: name.to_owned(), line: None, column: None };
+        let (key, value) = ("replicates.at_least".to_owned(), Some(at_least.to_string()));
+        let note = Finding { place, key, value, what: Remark::FewReplicates };
+        notes.push(StudyNote { note, points: resolved.len() as u64, all: true });
+    }
     let study = plan.study(resolved);
     let text = write::write_study(&study);
     Ok(StudyFile { study, notes, case_path: PathBuf::from(&case_name), case_text, text })
