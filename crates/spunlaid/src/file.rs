@@ -1,4 +1,4 @@
-//! Files as bytes, each read once.
+//! Reads a file into memory and says why it cannot be read.
 
 use crate::error::{FileError, FileFault, FileKind};
 use std::fs::File;
@@ -8,7 +8,7 @@ use std::path::Path;
 /// Opens a file.
 ///
 /// # Errors
-/// When it is not there, is a folder or may not be read.
+/// When the file does not exist, is a folder or may not be read.
 pub(crate) fn open(path: &Path, kind: FileKind) -> Result<File, FileError> {
     let failed = |source| unreadable(&source, path, kind);
     let file = File::open(path).map_err(failed)?;
@@ -18,27 +18,27 @@ pub(crate) fn open(path: &Path, kind: FileKind) -> Result<File, FileError> {
     Ok(file)
 }
 
-/// Reads a file; never more than `most` bytes into memory.
+/// Reads a file of at most `most` bytes into memory.
 ///
 /// # Errors
-/// As [`open`], and when it is larger.
+/// The errors of [`open`], and when the file is larger.
 pub(crate) fn read(path: &Path, kind: FileKind, most: u64) -> Result<Vec<u8>, FileError> {
     let file = open(path, kind)?;
     let failed = |source| unreadable(&source, path, kind);
-    // A device or pipe tells no size, or zero.
-    let told = file.metadata().map_err(failed)?.len();
+    // A device or a pipe has no size or reports zero, so that the bytes read are counted too.
+    let stated = file.metadata().map_err(failed)?.len();
     let mut bytes = Vec::new();
-    if told <= most {
-        bytes.reserve_exact(usize::try_from(told).unwrap_or_default());
+    if stated <= most {
+        bytes.reserve_exact(usize::try_from(stated).unwrap_or_default());
         file.take(most.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
     }
-    if told.max(bytes.len() as u64) > most {
+    if stated.max(bytes.len() as u64) > most {
         return Err(FileError::from(FileFault::TooLarge { kind, most }).path(path));
     }
     Ok(bytes)
 }
 
-/// Why the system does not let a file be read.
+/// The reason why the system cannot read a file.
 pub(crate) fn unreadable(source: &io::Error, path: &Path, kind: FileKind) -> FileError {
     let fault = match source.kind() {
         ErrorKind::NotFound => FileFault::NotThere(kind),

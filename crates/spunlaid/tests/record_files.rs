@@ -271,6 +271,33 @@ fn rejects_what_is_no_file() {
     assert!(at(Path::new("src")).ends_with("is a folder; name the velocity record in it"));
 }
 
+#[test]
+fn a_record_of_the_fluctuation_needs_the_mean_velocity_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut state = 1u64;
+    let rows: String = (0..4000)
+        .map(|i| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            format!("{},{}\n", i, (state >> 32) as f64 / f64::from(u32::MAX) - 0.5)
+        })
+        .collect();
+    std::fs::write(folder.path().join("u.csv"), format!("time_ms,u_m_s\n{rows}")).unwrap();
+    let case = |velocity: &str| {
+        let text = format!(
+            "version = 1\n[fibre]\nlength = \"1 m\"\ndiameter = \"50 um\"\ndensity = \"950 kg/m3\"\n\
+             youngs_modulus = \"2 GPa\"\n[air]\nrecord = \"u.csv\"\n{velocity}[run]\nduration = \"10 ms\"\n"
+        );
+        let path = folder.path().join("case.toml");
+        std::fs::write(&path, text).unwrap();
+        spunlaid::input::read_case(&path, &[])
+    };
+    let (told, _) = case("velocity = \"10 m/s\"\n").unwrap();
+    // A uniform distribution of width 1 has the rms 1/√12; T_I is half the sampling interval, from its trapezia.
+    assert!((told.air.turbulence_intensity / (0.1 / 12f64.sqrt()) - 1.0).abs() < 0.03);
+    assert!((0.0045..0.0065).contains(&told.air.length_scale), "{}", told.air.length_scale);
+    assert!(case("").is_err());
+}
+
 type Column<'a> = (&'a str, Physical, Repetition);
 
 /// A Parquet file of these columns, each written by a function of the group it goes into.

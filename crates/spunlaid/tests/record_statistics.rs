@@ -249,8 +249,27 @@ fn faults_of_a_record_are_pointed_out() {
     assert!(humming.iter().any(|w| matches!(w, Warning::Periodic { .. })), "{humming:?}");
     let short = told(steady[..1500].to_vec());
     assert!(short.iter().any(|w| matches!(w, Warning::TooShort { .. })), "{short:?}");
+    let spiked = told(made(&|t, u| if t == 0.5 { 1e4 } else { u }));
+    let outlier = spiked.iter().find_map(|w| match w {
+        Warning::Outlier { row, value, samples, .. } => Some((*row, *value, *samples)),
+        _ => None,
+    });
+    assert_eq!(outlier, Some((steady.len() / 2 + 1, 1e4, 1)), "{spiked:?}");
     let wild = told(made(&|_, u| u - 8.0));
     assert!(wild.iter().any(|w| matches!(w, Warning::Turbulent { .. })), "{wild:?}");
+}
+
+#[test]
+fn short_records_have_no_tones() {
+    for seed in 0..200 {
+        let of = of(in_wind(autoregression(seed, 8.0, 62.5)), TAU / 8.0);
+        assert_eq!(of.samples, 500);
+        assert!(
+            !of.warnings.iter().any(|w| matches!(w, Warning::Periodic { .. })),
+            "{seed}: {:?}",
+            of.warnings
+        );
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! `spunlaid analyse`: make the air of a case from a velocity record.
+//! `spunlaid analyse` makes the air of a case from a velocity record.
 
 use crate::args::Analyse;
 use crate::failure::Failure;
@@ -34,7 +34,7 @@ pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What the record is called: the name of its file.
+/// Name of the record: that of its file.
 fn name(path: &Path) -> String {
     path.file_stem().map_or_else(|| "record".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
@@ -64,21 +64,20 @@ fn settings(analyse: &Analyse) -> Settings {
     }
 }
 
-/// What was done to the record while it was read.
+/// Notes about the reading of the record.
 fn remarks(record: &Record) -> Vec<String> {
     let r = &record.reading;
     let mut remarks = Vec::new();
     if r.filled > 0 {
         let skipped = if r.skipped > 0 {
-            format!(", {} of them rows that the times skip", r.skipped)
+            format!(", {} of them in rows that are missing by the times", r.skipped)
         } else {
             String::new()
         };
-        remarks.push(format!("{} missing samples were filled in along straight lines{skipped}", r.filled));
+        remarks.push(format!("{} missing samples were interpolated linearly{skipped}", r.filled));
     }
     if r.cut_off > 0 {
-        remarks
-            .push(format!("{} rows with samples missing were cut off at the start and the end", r.cut_off));
+        remarks.push(format!("{} incomplete rows at the start and the end were dropped", r.cut_off));
     }
     if !r.unused.is_empty() {
         remarks.push(format!("not used: {}", r.unused.join(", ")));

@@ -1,4 +1,4 @@
-//! A made-up record for tests.
+//! A synthetic record for tests.
 
 use spunlaid::record::{Analysis, Record, Samples, Settings, analyse};
 

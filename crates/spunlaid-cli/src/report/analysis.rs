@@ -1,4 +1,4 @@
-//! `report.html` of the analysis of a velocity record.
+//! Writes `report.html` of the analysis of a velocity record.
 
 use super::words::{count, time};
 use crate::numbers::{THIN, plus_minus, significant};
@@ -8,21 +8,21 @@ use spunlaid::record::{Analysis, Interval, Record};
 use spunlaid::units::Dimension;
 use spunlaid_charts::Figure;
 
-/// Everything the report shows.
+/// Input of the report.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AnalysisReport<'a> {
-    /// What the record is called: the name of its file.
+    /// Name of the record: that of its file.
     pub(crate) name: &'a str,
     pub(crate) record: &'a Record,
     pub(crate) analysis: &'a Analysis,
     pub(crate) figures: &'a [Figure],
-    /// What was done to the record while it was read.
+    /// Notes about the reading of the record.
     pub(crate) remarks: &'a [String],
     /// The [air] of a case.
     pub(crate) air: &'a str,
 }
 
-/// What `assets/analysis.html` is filled with; everything is escaped there but what is marked safe.
+/// Values of the template `assets/analysis.html`. It escapes everything that is not marked as safe.
 #[derive(Template)]
 #[template(path = "analysis.html")]
 struct Page<'a> {
@@ -42,7 +42,7 @@ struct Page<'a> {
     study_style: &'static str,
 }
 
-/// The report as one HTML file.
+/// Makes the report as one HTML file.
 pub(crate) fn analysis_html(input: &AnalysisReport<'_>) -> String {
     let of = input.analysis;
     let (air_rows, components) = results(of);
@@ -66,14 +66,14 @@ pub(crate) fn analysis_html(input: &AnalysisReport<'_>) -> String {
     page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
 }
 
-/// `10.02 ± 0.04 m/s`, half the interval behind the sign.
+/// `10.02 ± 0.04 m/s`; half the width of the interval follows the sign.
 fn around(of: &Interval, factor: f64, unit: &str) -> String {
     format!("{}{THIN}{unit}", plus_minus(of.value * factor, Some(half_width(of) * factor)))
 }
 
 fn headline(of: &Analysis) -> String {
     format!(
-        "Air at {} with {} of turbulence, in eddies of {}.",
+        "The air flows at {} with a turbulence intensity of {} and a length scale of {}.",
         around(&of.mean_velocity, 1.0, "m/s"),
         around(&of.turbulence_intensity, 100.0, "%"),
         around(&of.length_scale, 1e3, "mm"),
@@ -83,7 +83,7 @@ fn headline(of: &Analysis) -> String {
 fn summary(record: &Record, of: &Analysis) -> String {
     let names: Vec<&str> = of.components.iter().map(|c| c.name.as_str()).collect();
     format!(
-        "From {}: {} of {} at {} over {}, {} integral times. Behind each ± and in each table: 95{THIN}% confidence \
+        "From {}: {} of {} at {} over {}, {} integral times. After each ± and in each table are 95{THIN}% confidence \
          intervals.",
         record.file,
         count(of.samples as u64, "sample"),
@@ -97,9 +97,8 @@ fn summary(record: &Record, of: &Analysis) -> String {
 fn durations(of: &Analysis) -> String {
     let long = |interval: &Interval| time(of.duration_for(interval, 0.05));
     format!(
-        "Intervals shrink with the square root of the length of the record. For ±{THIN}5{THIN}% of the value this flow \
-         would have to be measured for {} to know its turbulence intensity, {} its integral time and length scale, {} \
-         its cut-off.",
+        "Intervals shrink with the square root of the length of the record. An interval of ±{THIN}5{THIN}% needs a record of \
+         {} for the turbulence intensity, {} for the integral time and the length scale, and {} for the cut-off.",
         long(&of.turbulence_intensity),
         long(&of.integral_time),
         long(&of.cutoff_frequency),
@@ -123,16 +122,16 @@ fn methods(of: &Analysis) -> Vec<(&'static str, String)> {
         ),
         (
             "Autocorrelation",
-            "Mean product of fluctuations a lag apart, divided by the number of pairs at that lag (the unbiased estimate), \
-             over the variance."
+            "The mean product of two fluctuations one lag apart, over the variance. The sum is divided by the number of pairs \
+             at that lag (the unbiased estimate)."
                 .to_owned(),
         ),
         (
             "Integral time",
             format!(
-                "The autocorrelation of {} by the trapezoidal rule, {}: here a lag of {}. First zero, 1/e or a fixed lag \
-                 can be chosen with --integral. An autocorrelation that turns negative loses by its first zero what comes \
-                 after: of a flat spectrum the integral to the first zero is 18{THIN}% too long.",
+                "The autocorrelation of {} is integrated by the trapezoidal rule {}, here a lag of {}. The option --integral \
+                 chooses the first zero, 1/e or a fixed lag. An integral to the first zero leaves out negative values \
+                 after it: for a flat spectrum it is 18{THIN}% too long.",
                 along.name,
                 of.integral.words(),
                 time(along.autocorrelation.limit)
@@ -152,17 +151,24 @@ fn methods(of: &Analysis) -> Vec<(&'static str, String)> {
         (
             "Plateau and cut-off",
             format!(
-                "The mean density up to {}, an eighth of the cut-off unless given with --flat-until. The cut-off is the \
-                 variance over this plateau: a spectrum flat up to there and empty beyond holds the same energy at the same \
-                 low-frequency level. Since spectra have begun to fall a little by an eighth of the cut-off, the plateau is \
-                 one to two per cent low and the cut-off as much high.",
-                hertz(flat.until)
+                "The mean density up to {}. The cut-off is the variance over this plateau: a flat spectrum that ends at \
+                 the cut-off has the same variance and the same plateau. {}",
+                hertz(flat.until),
+                if flat.from < spectrum.step {
+                    "The record is too short for segments, so that the mean is that of the Fourier components of the \
+                     whole record, at least ten if they lie below a third of the cut-off; it is corrected by half of \
+                     what the spectra of an exponential correlation and of von Kármán have fallen there."
+                } else {
+                    "The mean ends at an eighth of the cut-off unless --flat-until gives another frequency. There most \
+                     spectra have begun to fall, which makes the plateau one to two per cent too low and the cut-off as \
+                     much too high."
+                }
             ),
         ),
         (
             "Length scale",
-            "Integral time times mean velocity: Taylor’s hypothesis that the turbulence is carried past the probe faster \
-             than it changes."
+            "Integral time times mean velocity, by Taylor’s hypothesis: the flow carries the turbulence past the probe \
+             faster than the turbulence changes."
                 .to_owned(),
         ),
     ]

@@ -1,4 +1,4 @@
-//! The statistics of a record, with their confidence intervals.
+//! Computes the statistics of a record with their confidence intervals.
 
 use super::correlation::{lagged_products, pairs};
 use super::flat::FlatPart;
@@ -7,44 +7,50 @@ use super::moments::Powers;
 use super::warning::{BLOCK_TIMES, BLOCKS, warnings};
 use super::{Autocorrelation, IntegralRule, Moments, Record, Samples, Trend, Warning};
 use crate::error::{FileError, RecordFault};
-use crate::statistics::{Spectrum, Welch, Window};
+use crate::statistics::{Spectrum, Welch, Window, student_t_95};
 use std::ops::Range;
 
-/// Fewest samples of a component.
+/// Least number of samples.
 pub(super) const LEAST_SAMPLES: usize = 64;
-/// How far beyond the first zero, in parts of its lag, the integral is taken for its interval; so chosen that
-/// the standard error is the scatter between records of exponential correlation, 1000 to 4000 integral times long.
-const BEYOND_ZERO: f64 = 1.3;
-/// Most lags of an autocorrelation.
+/// Limit of the integral for the jackknife over the first zero: for an autocorrelation that crosses zero steeply, as
+/// that of the flat spectrum, and for one that approaches it slowly, as an exponential. With these the standard error
+/// is the scatter between records.
+const BEYOND_ZERO: (f64, f64) = (1.1, 1.3);
+/// First zero over integral time of the two.
+const ZERO_OVER_TIME: (f64, f64) = (1.8, 2.4);
+/// Increase of the intervals of skewness and flatness for a skewness of 1; with it 90 % or more hold the known value
+/// for lognormal signals of skewness 0.6 to 2, 100 to 1000 integral times long.
+const WIDER_BY_SKEWNESS: f64 = 0.5;
+/// Largest number of lags of an autocorrelation.
 const MOST_LAGS: usize = 1 << 18;
-/// Largest number that can be raised to its fourth power and summed [m/s].
+/// Largest velocity whose fourth power can be summed [m/s].
 const LARGEST: f64 = 1e70;
-/// Longest segment of a spectrum.
+/// Largest number of samples in a segment of the spectrum.
 const LONGEST_SEGMENT: usize = 1 << 18;
-/// Cut-offs in a step of frequency, for the flat part to hold several steps.
+/// Cut-off over the step of frequency, so that the flat part holds several steps.
 const SEGMENT_CUTOFFS: f64 = 80.0;
 
-/// How a record is to be analysed.
+/// How to analyse a record.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Settings {
-    /// Up to which lag the autocorrelation is integrated.
+    /// Rule for the largest lag of the integral of the autocorrelation.
     pub integral: IntegralRule,
-    /// How the spectrum is taken.
+    /// How to compute the spectrum.
     pub spectrum: SpectrumSettings,
-    /// Where the flat part of the spectrum ends [Hz]; by default at an eighth of the cut-off.
+    /// End of the flat part of the spectrum [Hz]; an eighth of the cut-off by default.
     pub flat_until: Option<f64>,
-    /// Mean velocity along the flow, in place of the record's own [m/s].
+    /// Mean velocity along the flow [m/s]; it replaces the mean of the record.
     pub mean_velocity: Option<f64>,
 }
 
-/// How a spectrum is to be taken.
+/// How to compute a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpectrumSettings {
-    /// Window.
+    /// Window of a segment.
     pub window: Window,
     /// Share of a segment that the next one has in common with it, 0 to 0.9.
     pub overlap: f64,
-    /// Samples in a segment, a power of two; chosen by the integral time where it is left open.
+    /// Number of samples in a segment, a power of two; by default it follows from the integral time.
     pub segment: Option<usize>,
 }
 
@@ -54,39 +60,39 @@ impl Default for SpectrumSettings {
     }
 }
 
-/// What a record says about the air; intervals are of 95 %.
+/// The results of an analysis; intervals have a confidence of 95 %.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// Samples of a component.
+    /// Number of samples of a component.
     pub samples: usize,
-    /// Between samples [s].
+    /// Time between samples [s].
     pub interval: f64,
-    /// [s]
+    /// Duration of the record [s].
     pub duration: f64,
     /// Mean of the component along the flow, `Ū` [m/s].
     pub mean_velocity: Interval,
     /// `Tu = u/|Ū|` [-], `u²` the mean of the components' variances.
     pub turbulence_intensity: Interval,
-    /// Of the component along the flow, `T_I` [s].
+    /// Integral time `T_I` of the component along the flow [s].
     pub integral_time: Interval,
-    /// By Taylor's hypothesis, `L = T_I |Ū|` [m].
+    /// Length scale by Taylor's hypothesis, `L = T_I |Ū|` [m].
     pub length_scale: Interval,
-    /// Of the flat spectrum with the same variance and plateau, of the component along the flow [Hz].
+    /// Cut-off frequency of the flat spectrum with the variance and plateau of the component along the flow [Hz].
     pub cutoff_frequency: Interval,
-    /// Each component on its own, that along the flow first.
+    /// Results of each component; the first is along the mean flow.
     pub components: Vec<Component>,
     /// Rule of the integral time.
     pub integral: IntegralRule,
-    /// Blocks that were left out in turn for the intervals.
+    /// Number of blocks of the jackknife.
     pub blocks: usize,
-    /// What the reader should know.
+    /// Warnings about the record and the results.
     pub warnings: Vec<Warning>,
 }
 
-/// What a record says about a component.
+/// The results of one component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Component {
-    /// What the file calls it.
+    /// Its name in the file.
     pub name: String,
     /// [m/s]
     pub mean: Interval,
@@ -98,29 +104,29 @@ pub struct Component {
     pub flatness: Interval,
     /// [s]
     pub integral_time: Interval,
-    /// Autocorrelation, to a few times the limit of the integral.
+    /// Autocorrelation up to a few times the limit of the integral.
     pub autocorrelation: Autocorrelation,
     /// Spectrum.
     pub spectrum: Spectrum,
-    /// Its flat part, and the cut-off.
+    /// Flat part of the spectrum, and cut-off.
     pub flat: FlatPart,
-    /// Of the mean.
+    /// Trend of the mean.
     pub mean_trend: Trend,
-    /// Of the rms.
+    /// Trend of the rms.
     pub rms_trend: Trend,
     /// Smallest and largest sample [m/s].
     pub range: (f64, f64),
 }
 
 impl Component {
-    /// How long a block should last for blocks to be independent [s].
+    /// Length of a block for which blocks are independent [s].
     pub(super) fn block_time(&self) -> f64 {
         block_time(self.integral_time.value, &self.autocorrelation)
     }
 }
 
 impl Analysis {
-    /// How long to measure for a 95 % interval of ± a share of the value, of a result of this record [s].
+    /// Duration for which the 95 % interval of a result would be ± `share` of its value [s].
     pub fn duration_for(&self, result: &Interval, share: f64) -> f64 {
         self.duration * (result.relative() / share) * (result.relative() / share)
     }
@@ -129,7 +135,7 @@ impl Analysis {
 /// Analyses a record.
 ///
 /// # Errors
-/// When nothing can be said: too few samples, no fluctuation, no mean flow, settings the record does not bear.
+/// When the record has too few samples, no fluctuation or no mean flow, or is too short for the settings.
 pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, FileError> {
     let (samples, interval) = (record.samples(), record.interval);
     check(record, settings)?;
@@ -148,10 +154,11 @@ pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, FileErr
         (0..count).map(|b| b * samples / count..(b + 1) * samples / count).collect();
     let longest = rough.iter().map(|(time, _)| *time).fold(0.0, f64::max);
     let segment = segment(record, longest / interval, settings)?;
+    let short = wanted_segment(longest / interval) > longest_segment(record) / 4;
 
     let summed: Vec<Blocks> = (record.components.iter().zip(&rough))
         .map(|(component, (_, of))| {
-            // As far as any of the estimates with a block left out may reach, and a figure.
+            // Enough lags for the estimates with a block left out, and for a figure.
             let most = (4.0 * of.limit / interval) as usize + 16;
             Blocks::of(&component.values, &blocks, most.min(longest_lag(samples)))
         })
@@ -159,7 +166,9 @@ pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, FileErr
     let estimates: Vec<Estimates> =
         (summed.iter()).map(|sums| Estimates::of(sums, count, interval, settings.integral)).collect();
     let components: Vec<Component> = (record.components.iter().zip(&estimates).zip(&summed))
-        .map(|((samples, estimates), sums)| component(samples, record, estimates, sums, segment, settings))
+        .map(|((samples, estimates), sums)| {
+            component(samples, record, estimates, sums, (segment, short), settings)
+        })
         .collect();
     let together = together(&estimates, settings.mean_velocity);
     let mean_velocity = settings.mean_velocity.map_or(components[0].mean, Interval::exactly);
@@ -234,7 +243,7 @@ fn longest_lag(samples: usize) -> usize {
     (samples / 4).min(MOST_LAGS)
 }
 
-/// Lags that hold the limit of the integral.
+/// Number of lags that reach the limit of the integral.
 fn lags(values: &[f64], interval: f64, rule: IntegralRule) -> usize {
     let most = longest_lag(values.len());
     if let IntegralRule::Fixed(lag) = rule {
@@ -251,15 +260,14 @@ fn lags(values: &[f64], interval: f64, rule: IntegralRule) -> usize {
     lags
 }
 
-/// How long a block should last for blocks to be independent [s].
+/// Length of a block for which blocks are independent [s].
 fn block_time(integral_time: f64, autocorrelation: &Autocorrelation) -> f64 {
     (BLOCK_TIMES * integral_time).max(8.0 * autocorrelation.limit)
 }
 
-/// Samples in a segment of the spectrum.
+/// Number of samples in a segment of the spectrum.
 fn segment(record: &Record, integral_time: f64, settings: &Settings) -> Result<usize, FileError> {
-    // A power of two that the record holds: the highest one there is.
-    let most = (1 << record.samples().ilog2()).min(LONGEST_SEGMENT);
+    let most = longest_segment(record);
     if let Some(asked) = settings.spectrum.segment {
         if !asked.is_power_of_two() || !(8..=most).contains(&asked) {
             let advice = asked.clamp(8, most).next_power_of_two().min(most);
@@ -267,12 +275,24 @@ fn segment(record: &Record, integral_time: f64, settings: &Settings) -> Result<u
         }
         return Ok(asked);
     }
-    let wanted = (4.0 * SEGMENT_CUTOFFS * integral_time).min(LONGEST_SEGMENT as f64) as usize;
-    // Seven or more half-overlapping ones.
-    Ok(wanted.max(16).next_power_of_two().min(most / 4))
+    // The record then holds at least seven segments that overlap by half.
+    Ok(wanted_segment(integral_time).min(most / 4))
 }
 
-/// Sums over blocks, from which any block can be left out.
+/// The largest power of two that the record holds.
+fn longest_segment(record: &Record) -> usize {
+    (1 << record.samples().ilog2()).min(LONGEST_SEGMENT)
+}
+
+/// Number of samples in a segment whose spectrum has several steps in the flat part.
+///
+/// * `integral_time` – in samples
+fn wanted_segment(integral_time: f64) -> usize {
+    let wanted = (4.0 * SEGMENT_CUTOFFS * integral_time).min(LONGEST_SEGMENT as f64) as usize;
+    wanted.max(16).next_power_of_two()
+}
+
+/// Sums over the blocks; any block can be left out of the total.
 struct Blocks {
     reference: f64,
     samples: usize,
@@ -284,7 +304,7 @@ struct Blocks {
 }
 
 impl Blocks {
-    /// All as one block.
+    /// The whole record as one block.
     fn whole(values: &[f64], lags: usize) -> Self {
         Self::of(values, std::slice::from_ref(&(0..values.len())), lags)
     }
@@ -307,13 +327,13 @@ impl Blocks {
         }
     }
 
-    /// With a block left out, or with all.
+    /// Of all blocks, or of all but one.
     fn moments(&self, without: Option<usize>) -> Moments {
         let left = without.map_or(self.all_powers, |b| self.all_powers.plus(&self.powers[b], -1.0));
         left.moments(self.reference)
     }
 
-    /// With a block left out, or with all.
+    /// Of all blocks, or of all but one.
     fn autocorrelation(&self, without: Option<usize>, interval: f64, rule: IntegralRule) -> Autocorrelation {
         let moments = self.moments(without);
         let offset = (moments.mean - self.reference) * (moments.mean - self.reference);
@@ -330,7 +350,7 @@ impl Blocks {
     }
 }
 
-/// Estimates from the whole record and with each block left out.
+/// Estimates from the whole record, and with each block left out.
 struct Estimates {
     moments: Moments,
     autocorrelation: Autocorrelation,
@@ -340,10 +360,14 @@ struct Estimates {
 impl Estimates {
     fn of(sums: &Blocks, blocks: usize, interval: f64, rule: IntegralRule) -> Self {
         let autocorrelation = sums.autocorrelation(None, interval, rule);
-        // With zeros of their own the estimates would jump, at the record's own the scatter of the zero
-        // would be left out.
+        // Each estimate to its own zero would jump, and all to the zero of the whole would leave out its scatter.
         let rule = match rule {
-            IntegralRule::FirstZero => IntegralRule::Fixed(BEYOND_ZERO * autocorrelation.limit),
+            IntegralRule::FirstZero => {
+                let ratio = autocorrelation.limit / autocorrelation.integral_time();
+                let slow = (ratio - ZERO_OVER_TIME.0) / (ZERO_OVER_TIME.1 - ZERO_OVER_TIME.0);
+                let beyond = BEYOND_ZERO.0 + (BEYOND_ZERO.1 - BEYOND_ZERO.0) * slow.clamp(0.0, 1.0);
+                IntegralRule::Fixed(beyond * autocorrelation.limit)
+            }
             other => other,
         };
         let left_out = (0..blocks)
@@ -354,6 +378,37 @@ impl Estimates {
     fn moment(&self, of: fn(&Moments) -> f64, positive: bool) -> Interval {
         let left_out: Vec<f64> = self.left_out.iter().map(|(moments, _)| of(moments)).collect();
         Interval::jackknife(of(&self.moments), &left_out, positive)
+    }
+
+    /// The interval is that of `asinh` of the skewness, whose error depends least on its value; without the bias
+    /// that the jackknife finds.
+    fn skewness(&self) -> Interval {
+        let value = self.moments.skewness;
+        let left_out: Vec<f64> = self.left_out.iter().map(|(m, _)| libm::asinh(m.skewness)).collect();
+        let blocks = left_out.len() as f64;
+        let mean = left_out.iter().sum::<f64>() / blocks;
+        let middle = blocks * libm::asinh(value) - (blocks - 1.0) * mean;
+        let half = self.half_width(&left_out);
+        let (low, high) = (libm::sinh(middle - half), libm::sinh(middle + half));
+        Interval { value, low: low.min(value), high: high.max(value) }
+    }
+
+    /// The interval is that of `−1/F²` of the flatness, whose error depends least on its value. It has no upper end
+    /// where the tails are long and the record is short; then the square of the value is taken.
+    fn flatness(&self) -> Interval {
+        let value = self.moments.flatness;
+        let inverse_square = |f: f64| -1.0 / (f * f);
+        let left_out: Vec<f64> = self.left_out.iter().map(|(m, _)| inverse_square(m.flatness)).collect();
+        let (middle, half) = (inverse_square(value), self.half_width(&left_out));
+        let end = |at: f64| if at < 0.0 { (-1.0 / at).sqrt() } else { f64::INFINITY };
+        Interval { value, low: end(middle - half), high: end(middle + half).min((value * value).max(value)) }
+    }
+
+    /// Half the interval of a transformed moment. The jackknife finds too small an error in skewed signals, because
+    /// few blocks hold their largest values.
+    fn half_width(&self, left_out: &[f64]) -> f64 {
+        let wider = 1.0 + WIDER_BY_SKEWNESS * self.moments.skewness.abs().min(2.0);
+        wider * student_t_95((left_out.len() as u64).saturating_sub(1)) * error(left_out)
     }
 
     fn integral_time(&self) -> Interval {
@@ -367,7 +422,7 @@ fn component(
     record: &Record,
     estimates: &Estimates,
     sums: &Blocks,
-    segment: usize,
+    (segment, short): (usize, bool),
     settings: &Settings,
 ) -> Component {
     let Moments { mean, rms, .. } = estimates.moments;
@@ -377,13 +432,13 @@ fn component(
     let spectrum = welch.finish();
     let integral_time = estimates.integral_time();
     let variances: Vec<f64> = estimates.left_out.iter().map(|(m, _)| 2.0 * libm::log(m.rms)).collect();
-    let flat = FlatPart::of(
-        &spectrum,
-        (rms * rms, error(&variances)),
-        settings.flat_until,
-        integral_time.value.abs().max(0.25 * record.interval),
-        record.duration(),
-    );
+    let variance = (rms * rms, error(&variances));
+    let time = integral_time.value.abs().max(0.25 * record.interval);
+    let flat = if short {
+        FlatPart::of_short(&samples.values, record.interval, (mean, variance), settings.flat_until, time)
+    } else {
+        FlatPart::of(&spectrum, variance, settings.flat_until, time, record.duration())
+    };
     let of_blocks = |of: fn(&Moments) -> f64| -> Vec<f64> {
         sums.powers.iter().map(|powers| of(&powers.moments(sums.reference))).collect()
     };
@@ -393,8 +448,8 @@ fn component(
         name: samples.name.clone(),
         mean: estimates.moment(|m| m.mean, false),
         rms: estimates.moment(|m| m.rms, true),
-        skewness: estimates.moment(|m| m.skewness, false),
-        flatness: estimates.moment(|m| m.flatness, true),
+        skewness: estimates.skewness(),
+        flatness: estimates.flatness(),
         integral_time,
         autocorrelation: estimates.autocorrelation.clone(),
         spectrum,
@@ -405,7 +460,7 @@ fn component(
     }
 }
 
-/// Turbulence intensity and length scale, which need the mean flow.
+/// Turbulence intensity and length scale; both need the mean velocity.
 fn together(estimates: &[Estimates], mean_velocity: Option<f64>) -> (Interval, Interval) {
     let of = |pick: &dyn Fn(&Estimates) -> (Moments, f64)| {
         let along = pick(&estimates[0]);

@@ -1,4 +1,4 @@
-//! Which column is the time, which are velocities, and in which units.
+//! Finds the column of time, the columns of velocity and their units.
 
 use super::Layout;
 use crate::error::{FileError, RecordFault};
@@ -17,17 +17,17 @@ const ALONG: [&str; 5] = ["u", "ux", "vx", "u1", "velocity"];
 /// A column to read.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Column {
-    /// Which one, from 0.
+    /// Index, from 0.
     pub(super) index: usize,
-    /// As the file has it.
+    /// The header in the file.
     pub(super) header: String,
-    /// Without the unit.
+    /// The header without the unit.
     pub(super) name: String,
-    /// SI units per unit of the file.
+    /// Factor from the unit of the file to SI.
     pub(super) factor: f64,
 }
 
-/// What the columns of a file are.
+/// The columns of a file by their use.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Roles {
     pub(super) time: Option<Column>,
@@ -35,9 +35,9 @@ pub(super) struct Roles {
     pub(super) unused: Vec<String>,
 }
 
-/// Finds out what the columns are.
+/// Finds the use of each column.
 ///
-/// * `named` – whether the names are the file's own
+/// * `named` – whether the file names its columns
 pub(super) fn roles(heads: &[Head], named: bool, layout: &Layout) -> Result<Roles, FileError> {
     if let Some(rate) = layout.rate.filter(|rate| !(rate.is_finite() && *rate > 0.0)) {
         return Err(RecordFault::Rate { rate }.into());
@@ -73,7 +73,7 @@ pub(super) fn roles(heads: &[Head], named: bool, layout: &Layout) -> Result<Role
         let name = if named { &heads[i].name } else { letter };
         components.push(column(i, name, Dimension::Velocity, &layout.velocity_unit)?);
     }
-    // With a rate given, the clock of the file is not asked.
+    // A given rate replaces the times of the file.
     let clock = time.filter(|_| layout.rate.is_none());
     let time = clock.map(|i| column(i, &heads[i].name, Dimension::Time, &layout.time_unit)).transpose()?;
     let is_used = |i: usize| chosen.contains(&i) || clock == Some(i);
@@ -81,7 +81,7 @@ pub(super) fn roles(heads: &[Head], named: bool, layout: &Layout) -> Result<Role
     Ok(Roles { time, components, unused })
 }
 
-/// Headers made fit for messages.
+/// Headers, shortened for messages.
 fn shown<'a>(heads: impl IntoIterator<Item = &'a Head>) -> Vec<String> {
     heads.into_iter().map(|head| excerpt(&head.text, 40)).collect()
 }
@@ -92,7 +92,7 @@ fn find_time(heads: &[Head], named: bool, layout: &Layout) -> Result<Option<usiz
     }
     let is_time = |head: &Head| TIMES.contains(&head.name.to_lowercase().as_str());
     let found = match heads.iter().position(is_time) {
-        // Without names the first is the time, unless a rate says that there is none.
+        // Without names the first column is the time, unless a rate is given.
         None if !named && layout.rate.is_none() && heads.len() > 1 => Some(0),
         found => found,
     };
@@ -110,7 +110,7 @@ fn find_velocities(heads: &[Head], named: bool, time: Option<usize>) -> Vec<usiz
     (0..heads.len()).filter(|&i| Some(i) != time && is_velocity(&heads[i])).collect()
 }
 
-/// A column by its header, its name without the unit, or its number.
+/// Finds a column by its header, its name without the unit, or its number.
 fn find(heads: &[Head], asked: &str) -> Result<usize, FileError> {
     let asked = asked.trim();
     let by = |same: &dyn Fn(&Head) -> bool| heads.iter().position(same);
@@ -120,7 +120,7 @@ fn find(heads: &[Head], asked: &str) -> Result<usize, FileError> {
         .ok_or_else(|| RecordFault::NoSuchColumn { asked: excerpt(asked, 40), found: shown(heads) }.into())
 }
 
-/// SI units in one of a column's, by its header or else as asked.
+/// The factor from the unit of a column to SI, by its header or as asked.
 fn factor(head: &Head, dimension: Dimension, asked: Option<&str>) -> Result<f64, FileError> {
     let example = if dimension == Dimension::Time { "time_s" } else { "u_m_s" };
     let Some(asked) = asked else { return head.factor(dimension, example) };

@@ -1,24 +1,24 @@
-//! Autocorrelation of the fluctuation and its integral.
+//! Computes the autocorrelation of the fluctuation and its integral.
 
 use crate::fft::{Complex, InverseTransform};
 use crate::lanes::{Lanes, WIDTH};
 use crate::units::{Dimension, QuantityFault};
 use std::ops::Range;
 
-/// Up to which lag the autocorrelation is integrated.
+/// Rule for the largest lag of the integral of the autocorrelation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum IntegralRule {
-    /// To its first zero: the usual choice, and the safest with a record of finite length.
+    /// The first zero: the usual choice, and the most robust one for a record of finite length.
     #[default]
     FirstZero,
-    /// To where it has fallen to 1/e: less scatter, but a tail is left out (37 % of an exponential).
+    /// The lag at which it has fallen to 1/e: less scatter, but the tail is left out (37 % of an exponential).
     EFold,
-    /// To a given lag [s].
+    /// A given lag [s].
     Fixed(f64),
 }
 
 impl IntegralRule {
-    /// Reads `first-zero`, `e-fold` or `fixed=50 ms`; nothing where it is none of them.
+    /// Reads `first-zero`, `e-fold` or `fixed=50 ms`; `None` for any other text.
     pub fn parse(text: &str) -> Option<Result<Self, QuantityFault>> {
         match text.split_once('=') {
             None if text == "first-zero" => Some(Ok(Self::FirstZero)),
@@ -37,7 +37,7 @@ impl IntegralRule {
         }
     }
 
-    /// The lag at which to stop, in samples and fractions; nothing where the end comes before.
+    /// The limit of the integral in samples; `None` if it is beyond the last lag.
     fn limit(self, coefficients: &[f64], interval: f64) -> Option<f64> {
         let falls_to = |level: f64| {
             let at = coefficients.iter().position(|c| *c <= level)?;
@@ -58,18 +58,18 @@ impl IntegralRule {
 /// The unbiased estimate: products at a lag are divided by the number of pairs there are.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Autocorrelation {
-    /// Between the lags [s].
+    /// Step of the lag [s].
     pub interval: f64,
-    /// From lag zero up.
+    /// Coefficients from lag zero.
     pub coefficients: Vec<f64>,
-    /// Lag up to which it is integrated [s].
+    /// Limit of the integral [s].
     pub limit: f64,
     /// Whether the rule's limit was found within a quarter of the record.
     pub limit_found: bool,
 }
 
 impl Autocorrelation {
-    /// From coefficients, with the limit of a rule.
+    /// Finds the limit of the integral by a rule.
     pub(super) fn new(coefficients: Vec<f64>, interval: f64, rule: IntegralRule) -> Self {
         let limit = rule.limit(&coefficients, interval);
         let end = coefficients.len().saturating_sub(1) as f64;
@@ -88,15 +88,15 @@ impl Autocorrelation {
     }
 }
 
-/// Sums of `d_i d_{i+k}` over the samples `i` of each block, for the lags `k` below `lags`; `d` is the
-/// difference from a reference and `i+k` may lie in a later block.
+/// Sums of `d_i d_{i+k}` over the samples `i` of each block for lags `k < lags`, `d` the difference from a reference;
+/// `i+k` may be in a later block.
 pub(super) fn lagged_products(
     values: &[f64],
     reference: f64,
     blocks: &[Range<usize>],
     lags: usize,
 ) -> Vec<Vec<f64>> {
-    // Pieces of `half` samples against twice as many, so that no lag below `half` wraps around.
+    // Pieces of `half` samples are correlated with twice as many, so that no lag below `half` wraps around.
     let half = lags.next_power_of_two().max(2);
     let size = 2 * half;
     let transform = InverseTransform::new(size);
@@ -132,7 +132,7 @@ pub(super) fn lagged_products(
     sums
 }
 
-/// Of the real and the imaginary part of eight signals, from the transform of both.
+/// Cross spectrum of the real and the imaginary part of eight signals, from the transform of both.
 fn cross_spectrum(data: &[Complex]) -> Vec<Complex> {
     let half = Lanes::splat(0.5);
     (0..data.len())
@@ -146,7 +146,7 @@ fn cross_spectrum(data: &[Complex]) -> Vec<Complex> {
         .collect()
 }
 
-/// Number of pairs at a lag whose first sample lies in a block of a record of so many samples.
+/// Number of pairs at a lag whose first sample is in a block; `samples` is the length of the record.
 pub(super) fn pairs(block: &Range<usize>, lag: usize, samples: usize) -> f64 {
     block.end.min(samples.saturating_sub(lag)).saturating_sub(block.start) as f64
 }

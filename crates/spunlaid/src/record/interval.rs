@@ -1,6 +1,6 @@
-//! 95 % confidence intervals: by leaving out blocks, and from a known number of independent values.
+//! Computes 95 % confidence intervals, by the block jackknife or from the number of independent values.
 
-use crate::statistics::student_t_95;
+use crate::statistics::{NORMAL_95, student_t_95};
 
 /// A value with its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,32 +15,40 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// A value that is known.
+    /// A value without error.
     pub const fn exactly(value: f64) -> Self {
         Self { value, low: value, high: value }
     }
 
-    /// Whether a value lies in it.
+    /// Whether the interval holds a value.
     pub fn holds(&self, value: f64) -> bool {
         self.low <= value && value <= self.high
     }
 
-    /// Half its width as a share of the value.
+    /// Half the width over the value.
     pub fn relative(&self) -> f64 {
         0.5 * (self.high - self.low) / self.value.abs()
     }
 
-    /// Of a positive quantity whose logarithm is normal with a standard error.
+    /// The interval of a positive quantity, given the standard error of its logarithm.
     pub(super) fn logarithmic(value: f64, error: f64, quantile: f64) -> Self {
         let factor = libm::exp(quantile * error);
         Self { value, low: value / factor, high: value * factor }
     }
 
+    /// The interval of a mean of independent squares about `value`; `error` is the standard error of its logarithm.
+    ///
+    /// The mean is distributed like a chi-square of `2/error²` degrees of freedom; `value` is the median estimate.
+    pub(super) fn of_squares(mean: f64, value: f64, error: f64) -> Self {
+        let share = |z: f64| chi_square(2.0 / (error * error), z);
+        Self { value, low: mean / share(NORMAL_95), high: mean / share(-NORMAL_95) }
+    }
+
     /// The block jackknife: `left_out` are the estimates with each block left out in turn.
     ///
     /// The standard error `s` follows from `s² = (B−1)/B Σ(θ_b − θ̄)²` (Künsch, Annals of Statistics 17, 1989);
-    /// the interval is Student's with `B−1` degrees of freedom, of the logarithm where all are positive and
-    /// `positive` is said.
+    /// the interval is Student's with `B−1` degrees of freedom, of the logarithm if `positive` and
+    /// all estimates are positive.
     pub(super) fn jackknife(value: f64, left_out: &[f64], positive: bool) -> Self {
         let quantile = student_t_95((left_out.len() as u64).saturating_sub(1));
         let in_logarithm = positive && value > 0.0 && left_out.iter().all(|x| *x > 0.0);
@@ -53,7 +61,17 @@ impl Interval {
     }
 }
 
-/// Standard error from estimates with each block left out.
+/// The chi-square distribution over its degrees of freedom, `z` standard deviations of a normal variable from its
+/// median.
+///
+/// Source: Wilson & Hilferty, Proceedings of the National Academy of Sciences 17, 1931.
+pub(super) fn chi_square(degrees: f64, z: f64) -> f64 {
+    let variance = 2.0 / (9.0 * degrees);
+    let root = (1.0 - variance + z * variance.sqrt()).max(0.1);
+    root * root * root
+}
+
+/// Standard error by the estimates with each block left out.
 pub(super) fn error(left_out: &[f64]) -> f64 {
     let blocks = left_out.len() as f64;
     let mean = left_out.iter().sum::<f64>() / blocks;
@@ -64,6 +82,14 @@ pub(super) fn error(left_out: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn published_quantiles_of_chi_square() {
+        // Abramowitz & Stegun, table 26.8: 20 degrees of freedom.
+        for (z, quantile) in [(-NORMAL_95, 9.59083), (0.0, 19.3374), (NORMAL_95, 34.1696)] {
+            assert!((20.0 * chi_square(20.0, z) / quantile - 1.0).abs() < 2e-3, "{z}");
+        }
+    }
 
     #[test]
     fn analytic_jackknife_of_a_mean_is_its_standard_error() {

@@ -1,24 +1,23 @@
-//! Velocity records, as a hot wire or a laser writes them, and what they say about the air.
+//! Velocity records of hot wires and lasers, and the statistics of the air in them.
 //!
 //! file (CSV, Parquet) → [`Record`] (evenly sampled, SI) → [`analyse`] → [`Analysis`]
 //!
-//! **In** goes the velocity at a point over time: a row for each sample, a column of time, and one to three columns of
-//! velocity. Units stand in the header: `time_ms`, `u [m/s]`. A [`Layout`] tells what a file does not: the sampling
-//! rate, units, which columns to take.
+//! **The input** is the velocity at a point over time: a row for each sample, a column of time, and one to three columns
+//! of velocity. The header gives the units: `time_ms`, `u [m/s]`. A [`Layout`] gives what the file does not: sampling
+//! rate, units, columns to use.
 //!
 //! | format | what is read |
 //! |---|---|
-//! | text | as [`crate::table`] describes; an empty line is a missing sample where there is no time |
+//! | text | as [`crate::table`] describes; without a column of time an empty line is a missing sample |
 //! | Parquet | plain columns of doubles, floats or integers, with nulls; uncompressed or Snappy |
 //!
-//! **Out** come, with 95 % confidence intervals: mean velocity [m/s], turbulence intensity [-], integral time [s],
+//! **The results**, with 95 % confidence intervals, are mean velocity [m/s], turbulence intensity [-], integral time [s],
 //! length scale [m] and cut-off frequency [Hz]; for each component also rms, skewness, flatness, spectrum
-//! [(m/s)²/Hz] and autocorrelation; and [`Warning`]s about what the numbers rest on. `docs/analyse.md` of the
-//! repository has the formulas.
+//! [(m/s)²/Hz] and autocorrelation; and [`Warning`]s. The formulas are in
+//! `docs/analyse.md` of the repository.
 //!
-//! **Limits.** Samples are evenly spaced to within 1 %; up to [`LONGEST_GAP`] missing samples in a row are put on a
-//! straight line between their neighbours. A record has 64 samples at least and [`MOST_NUMBERS`] numbers at most,
-//! which take 8 bytes each. Text is read line by line, Parquet as a whole.
+//! **Limits.** Samples are evenly spaced to within 1 %; up to [`LONGEST_GAP`] missing samples in a row are
+//! interpolated linearly. A record has at least 64 samples and at most [`MOST_NUMBERS`] numbers of 8 bytes. Text is read line by line, Parquet as a whole.
 //!
 //! ```
 //! use spunlaid::record::{Layout, Settings, analyse, parse_csv};
@@ -60,43 +59,45 @@ use crate::file;
 use std::io::Read;
 use std::path::Path;
 
-/// Most numbers of a record that are kept, over all components.
+/// Largest number of samples in a record, over all components.
 pub const MOST_NUMBERS: usize = 1 << 28;
-/// Samples in a row that are filled in where they are missing, unless told otherwise.
+/// Largest number of missing samples in a row that are interpolated, by default.
 pub const LONGEST_GAP: usize = 10;
 
-/// Velocity over time at a point, evenly sampled, in SI units.
+/// Velocity at a point over time, evenly sampled, in SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
-    /// What messages call it: the file, as given.
+    /// The path of the file as given; messages use it.
     pub file: String,
     /// Time between samples [s].
     pub interval: f64,
-    /// The components, that along the flow first.
+    /// The components; the first is along the mean flow.
     pub components: Vec<Samples>,
-    /// What was found and done while reading.
+    /// What the reader found and did.
     pub reading: Reading,
 }
 
 /// The samples of a component.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Samples {
-    /// What the file calls it, without the unit.
+    /// Its name in the file, without the unit.
     pub name: String,
     /// [m/s]
     pub values: Vec<f64>,
 }
 
-/// What was found and done while a record was read.
+/// What the reader of a record found and did.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// Missing samples that were filled in along a straight line, over all components.
+    /// Number of missing samples that were interpolated, over all components.
     pub filled: usize,
-    /// Rows with something missing that were cut off at the start and at the end.
+    /// Number of incomplete rows that were dropped at the start and at the end.
     pub cut_off: usize,
-    /// Rows the times skip, among those filled in.
+    /// Number of them at the start.
+    pub cut_off_start: usize,
+    /// Number of rows that are missing by the times; they were interpolated.
     pub skipped: usize,
-    /// Most that a step of time is off the usual one, as a share of it.
+    /// Largest deviation of a time step from the usual one, as a share of it.
     pub jitter: f64,
     /// Columns that were not used.
     pub unused: Vec<String>,
@@ -118,22 +119,22 @@ impl Record {
     }
 }
 
-/// How a file is to be read, where it does not say itself.
+/// How to read a file that does not say everything itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
-    /// Sampling rate [Hz]; then a column of time is not needed, and not used.
+    /// Sampling rate [Hz]; it replaces a column of time.
     pub rate: Option<f64>,
-    /// Unit of the time where the header has none: `ms`.
+    /// Unit of the time if the header has none: `ms`.
     pub time_unit: Option<String>,
-    /// Unit of the velocities where the header has none: `m/s`.
+    /// Unit of the velocities if the header has none: `m/s`.
     pub velocity_unit: Option<String>,
-    /// Columns that are velocities, by name or by number from 1, that along the flow first.
+    /// Columns of velocity, by name or by number from 1; the first is along the mean flow.
     pub columns: Vec<String>,
-    /// Column that is the time, by name or number.
+    /// Column of time, by name or number.
     pub time_column: Option<String>,
-    /// Lines at the start that are left out.
+    /// Number of lines to skip at the start.
     pub skip_lines: u64,
-    /// Most samples in a row that are filled in where they are missing.
+    /// Largest number of missing samples in a row that are interpolated.
     pub longest_gap: usize,
 }
 
@@ -151,10 +152,10 @@ impl Default for Layout {
     }
 }
 
-/// Reads a velocity record: Parquet if it begins like one, CSV otherwise.
+/// Reads a velocity record. A file that begins like Parquet is read as Parquet, any other as text.
 ///
 /// # Errors
-/// When the file cannot be read or is no evenly sampled velocity record; the message says where and why.
+/// When the file cannot be read or is not an evenly sampled velocity record; the message says where and why.
 pub fn read_record(path: &Path, layout: &Layout) -> Result<Record, FileError> {
     let name = path.display().to_string();
     let mut file = file::open(path, FileKind::Record)?;
@@ -168,10 +169,10 @@ pub fn read_record(path: &Path, layout: &Layout) -> Result<Record, FileError> {
     parse_parquet(start, &name, layout)
 }
 
-/// Reads a Parquet file held in memory; `name` is what messages call it.
+/// Reads a Parquet file held in memory; messages call it `name`.
 ///
 /// # Errors
-/// As [`read_record`].
+/// The errors of [`read_record`].
 pub fn parse_parquet(bytes: Vec<u8>, name: &str, layout: &Layout) -> Result<Record, FileError> {
     parquet::parse(bytes.into(), name, layout)
 }

@@ -1,4 +1,4 @@
-//! Moments of a component, over the whole record and with any block left out.
+//! Computes the moments of a component, over the whole record or with a block left out.
 
 /// Sums of powers of the difference from a reference.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,7 +29,7 @@ impl Powers {
         sum
     }
 
-    /// Moments about the mean; the reference is added to the mean.
+    /// Moments about the mean. `reference` is what the powers are about.
     pub(super) fn moments(&self, reference: f64) -> Moments {
         let [a, b, c, d] = self.sums.map(|sum| sum / self.count);
         let variance = (b - a * a).max(0.0);
@@ -47,18 +47,18 @@ impl Powers {
 /// Moments of a component.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
-    /// [m/s]
+    /// Mean [m/s].
     pub mean: f64,
     /// Root mean square of the fluctuation `u = √(⟨u'²⟩)`, the sum divided by the number of samples [m/s].
     pub rms: f64,
-    /// `⟨u'³⟩/u³` [-], 0 for a Gaussian.
+    /// Skewness `⟨u'³⟩/u³` [-], 0 for a Gaussian.
     pub skewness: f64,
-    /// `⟨u'⁴⟩/u⁴` [-], 3 for a Gaussian.
+    /// Flatness `⟨u'⁴⟩/u⁴` [-], 3 for a Gaussian.
     pub flatness: f64,
 }
 
 impl Moments {
-    /// Of these values.
+    /// The moments of a list of values.
     pub fn of(values: &[f64]) -> Self {
         let reference = values.iter().sum::<f64>() / values.len() as f64;
         Powers::of(values, reference).moments(reference)

@@ -1,4 +1,4 @@
-//! Records as Parquet: plain columns of doubles, floats or integers.
+//! Reads records in Parquet: plain columns of doubles, floats or integers.
 
 use super::columns::{Column, roles};
 use super::rows::Rows;
@@ -18,14 +18,14 @@ use parquet::file::serialized_reader::SerializedPageReader;
 use std::io::Read;
 use std::sync::Arc;
 
-/// What a Parquet file begins with.
+/// First bytes of a Parquet file.
 pub(super) const MAGIC: &[u8] = b"PAR1";
 /// Rows read at a time.
 const ROWS: usize = 1 << 13;
-/// Most that Snappy makes of a byte: a copy of 64 bytes takes three.
+/// Largest number of bytes that Snappy makes of one: a copy of 64 bytes takes three.
 const EXPANSION: u64 = 22;
 
-/// Reads a record; `name` is what messages call it.
+/// Reads a record; messages call it `name`.
 pub(super) fn parse(bytes: Bytes, name: &str, layout: &Layout) -> Result<Record, FileError> {
     let checksum = crc32fast::hash(&bytes);
     let mut record = read(bytes, layout).map_err(|error| error.file(name))?;
@@ -93,16 +93,16 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
     rows.finish()
 }
 
-/// A column of a row group, as it is read.
+/// A column of a row group while it is read.
 struct Values {
     reader: ColumnReader,
     nullable: bool,
-    /// What was read last, NaN where there is no value.
+    /// The numbers read last; NaN if a value is missing.
     numbers: Vec<f64>,
 }
 
 impl Values {
-    /// The column, or else what it holds instead of numbers.
+    /// Opens the column; the inner error says what it holds instead of numbers.
     fn open<S: ChunkReader + 'static>(
         source: &Arc<Guarded<S>>,
         metadata: &ParquetMetaData,
@@ -115,7 +115,7 @@ impl Values {
         if about.max_rep_level() > 0 || about.max_def_level() > 1 {
             return Ok(Err("nested values".to_owned()));
         }
-        // The decoder takes these for granted.
+        // The decoder does not check these.
         let places =
             [chunk.data_page_offset(), chunk.dictionary_page_offset().unwrap_or(0), chunk.compressed_size()];
         if places.iter().any(|place| *place < 0) {
@@ -136,7 +136,7 @@ impl Values {
         })
     }
 
-    /// Reads up to so many rows.
+    /// Reads up to `rows` rows.
     fn next(&mut self, rows: usize) -> Decoded<()> {
         let Self { reader, nullable, numbers } = self;
         numbers.clear();
@@ -155,7 +155,7 @@ impl Values {
         }
     }
 
-    /// The unit in the last place of a number of this column.
+    /// The unit of the last digit of a number of this column.
     fn last_place(&self, number: f64) -> f64 {
         match &self.reader {
             ColumnReader::DoubleColumnReader(_) => number.abs() * f64::EPSILON,
@@ -187,10 +187,10 @@ fn read_into<T: DataType>(
     Ok(())
 }
 
-/// Pages that the decoder can make something of.
+/// Checks the pages before they reach the decoder.
 struct Pages<S: ChunkReader> {
     pages: SerializedPageReader<S>,
-    /// Whether there was a dictionary.
+    /// Whether a dictionary has been read.
     dictionary: bool,
 }
 
@@ -229,8 +229,8 @@ fn missing(what: &str) -> ParquetError {
     ParquetError::EOF(format!("{what} is missing"))
 }
 
-/// A file whose pages do not promise more than they can hold: the decoder takes the memory that a page's
-/// header asks for before it looks at the page.
+/// Refuses pages that state an impossible size, because the decoder allocates the memory that a header states before
+/// it reads the page.
 struct Guarded<S>(S);
 
 impl<S: Length> Length for Guarded<S> {
@@ -250,7 +250,7 @@ impl<S: ChunkReader> ChunkReader for Guarded<S> {
         let (uncompressed, compressed) = page_sizes(&head).ok_or_else(|| missing("a page’s header"))?;
         if uncompressed > compressed.saturating_mul(EXPANSION).saturating_add(64) {
             return Err(ParquetError::General(format!(
-                "a page of {compressed} bytes promises {uncompressed}, more than Snappy can make of it"
+                "a page of {compressed} bytes states that it holds {uncompressed}, which is more than Snappy can compress into it"
             )));
         }
         Ok(std::io::Cursor::new(head).chain(source))
@@ -263,8 +263,8 @@ impl<S: ChunkReader> ChunkReader for Guarded<S> {
     }
 }
 
-/// Uncompressed and compressed size from the start of a page's header: three 32-bit fields of Thrift's
-/// compact form, numbers 1 to 3, each a byte 0x15 and a zigzag number.
+/// Reads the uncompressed and the compressed size from the start of a page's header. It begins with fields 1 to 3 in
+/// Thrift's compact form, each a byte 0x15 and a zigzag number of 32 bits.
 fn page_sizes(head: &[u8]) -> Option<(u64, u64)> {
     let mut bytes = head.iter().copied();
     let mut field = || {

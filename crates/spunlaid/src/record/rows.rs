@@ -1,35 +1,35 @@
-//! From rows, in their order, to an evenly sampled record: the clock is watched, gaps are filled in.
+//! Makes an evenly sampled record of rows: checks the times and fills gaps.
 
 use super::columns::Roles;
 use super::{Layout, MOST_NUMBERS, Reading, Record, Samples};
 use crate::error::{FileError, FileFault, FilePlace, RecordFault};
 
-/// Most that a step of time may be off the usual one, as a share of it.
+/// Largest deviation of a time step from the usual one, as a share of it.
 const JITTER: f64 = 0.01;
-/// And where the times are rounded as they are written.
+/// Largest deviation that the rounding of written times may explain, as a share of a step.
 const ROUNDING: f64 = 0.25;
 
-/// Takes in rows.
+/// Collects rows.
 pub(super) struct Rows {
     roles: Roles,
     longest_gap: usize,
     clock: Clock,
     values: Vec<Vec<f64>>,
-    /// Missing samples since the last one that is there, and whether there is one.
+    /// For each component the number of missing samples since the last valid one, and whether there was a valid one.
     missing: Vec<(usize, bool)>,
     reading: Reading,
 }
 
-/// What is known of the time.
+/// How the times of the rows are known.
 #[derive(Clone, Copy, Debug)]
 enum Clock {
-    /// Even, by the interval [s].
+    /// By a fixed interval [s].
     Even(f64),
-    /// As the file says.
+    /// By a column of the file.
     Watched {
-        /// The first time and its row, the last one and its row.
+        /// First time and its row, last time and its row.
         known: Option<((f64, usize), (f64, usize))>,
-        /// The unit in the last place of the times [s].
+        /// Unit of the last digit of the times [s].
         rounding: f64,
     },
 }
@@ -55,8 +55,8 @@ impl Rows {
 
     /// Adds a row.
     ///
-    /// * `time` – in the file's unit and the unit in its last place; NaN where it is missing
-    /// * `values` – in the file's units; NaN where one is missing
+    /// * `time` – time and unit of its last digit, in the unit of the file; NaN if it is missing
+    /// * `values` – in the units of the file; NaN if one is missing
     pub(super) fn push(
         &mut self,
         place: FilePlace,
@@ -96,7 +96,7 @@ impl Rows {
         Ok(())
     }
 
-    /// Holds the time against the clock; returns how many rows were skipped before this one.
+    /// Checks the time of a row; returns how many rows are missing before it.
     fn watch(&mut self, place: FilePlace, (time, unit): (f64, f64)) -> Result<usize, FileError> {
         let Clock::Watched { known, rounding } = self.clock else { return Ok(0) };
         let Some(column) = &self.roles.time else { return Ok(0) };
@@ -141,7 +141,7 @@ impl Rows {
         Ok(lost)
     }
 
-    /// The record.
+    /// Makes the record.
     pub(super) fn finish(mut self) -> Result<Record, FileError> {
         let rows = self.values.first().map_or(0, Vec::len);
         let whole = |i: &usize| self.values.iter().all(|v| v.get(*i).is_some_and(|x| !x.is_nan()));
@@ -159,6 +159,7 @@ impl Rows {
             }
         };
         self.reading.cut_off = rows - (end - first);
+        self.reading.cut_off_start = first;
         let mut components = Vec::new();
         for (mut values, column) in self.values.into_iter().zip(&self.roles.components) {
             values.truncate(end);
@@ -171,7 +172,7 @@ impl Rows {
     }
 }
 
-/// Puts straight lines where values are missing between two that are there; returns how many were.
+/// Interpolates missing values linearly; returns how many there were.
 fn fill(values: &mut [f64]) -> usize {
     let mut filled = 0;
     let mut last = 0;

@@ -1,4 +1,4 @@
-//! Records as text tables.
+//! Reads records from text tables.
 
 use super::columns::{Column, roles};
 use super::rows::Rows;
@@ -7,10 +7,10 @@ use crate::error::{FileError, FileKind};
 use crate::table::Table;
 use std::io::Read;
 
-/// Reads a record from text; `name` is what messages call it.
+/// Reads a record from text; messages call it `name`.
 ///
 /// # Errors
-/// When it is no evenly sampled velocity record; the message says where and why.
+/// When the text is not an evenly sampled velocity record; the message says where and why.
 pub fn parse_csv(source: impl Read, name: &str, layout: &Layout) -> Result<Record, FileError> {
     let mut source = Summed { source, sum: crc32fast::Hasher::new() };
     let mut record = read(&mut source, layout).map_err(|error| error.file(name))?;
@@ -27,7 +27,7 @@ fn read(source: impl Read, layout: &Layout) -> Result<Record, FileError> {
     let mut rows = Rows::new(roles, layout);
     let mut values = vec![f64::NAN; components.len()];
     while table.next_row()? {
-        // Where no clock tells, an empty line is a sample that is missing.
+        // Without a column of time an empty line is a missing sample.
         let missing = if time.is_none() { table.blank_lines() } else { 0 };
         for _ in 0..missing {
             rows.push(table.place(), (f64::NAN, f64::NAN), &[])?;
@@ -44,7 +44,7 @@ fn read(source: impl Read, layout: &Layout) -> Result<Record, FileError> {
     rows.finish()
 }
 
-/// Takes the checksum of what is read.
+/// Computes the checksum of what is read.
 struct Summed<R> {
     source: R,
     sum: crc32fast::Hasher,

@@ -1,10 +1,10 @@
-//! A line into cells, a cell into a number.
+//! Splits a line into cells and reads the number in a cell.
 
 use crate::error::FileFault;
 use crate::units::excerpt;
 use std::ops::Range;
 
-/// What stands between cells.
+/// What separates the cells of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Parting {
     Sign(u8),
@@ -12,7 +12,7 @@ pub(super) enum Parting {
 }
 
 impl Parting {
-    /// In the order in which they are tried.
+    /// All separators, in the order in which they are tried.
     const ALL: [Self; 4] = [Self::Sign(b'\t'), Self::Sign(b';'), Self::Sign(b','), Self::Blanks];
 
     fn occurs(self, text: &str) -> bool {
@@ -22,12 +22,12 @@ impl Parting {
         }
     }
 
-    /// How a line is parted by its looks.
+    /// The first separator that occurs in a line.
     pub(super) fn of(text: &str) -> Self {
         Self::ALL.into_iter().find(|parting| parting.occurs(text)).unwrap_or(Self::Blanks)
     }
 
-    /// How a row of numbers is parted; none of a line that is no such row.
+    /// The separator that makes a line a row of numbers; `None` where no separator does.
     pub(super) fn of_numbers(text: &str) -> Option<Self> {
         let mut cells = Vec::new();
         Self::ALL.into_iter().filter(|parting| parting.occurs(text)).find(|parting| {
@@ -37,10 +37,10 @@ impl Parting {
         })
     }
 
-    /// Finds the cells of a line, without quotation marks and blanks around them.
+    /// Finds the cells of a line. Blanks and quotation marks around a cell are left out.
     pub(super) fn split(self, text: &str, cells: &mut Vec<Range<usize>>) {
         cells.clear();
-        // A single quotation mark is no bracket.
+        // An odd number of quotation marks encloses nothing.
         let pairs = text.as_bytes().contains(&b'"') && text.matches('"').count().is_multiple_of(2);
         let (mut quoted, mut from) = (false, 0);
         let mut put = |from: usize, to: usize| {
@@ -96,9 +96,9 @@ pub(super) fn is_comment(text: &str) -> bool {
     text.starts_with(['#', '%']) || text.starts_with("//")
 }
 
-/// The number in a cell, NaN where it is missing.
+/// The number in a cell; NaN if it is missing.
 ///
-/// * `decimals` – the decimal sign of the cells before
+/// * `decimals` – decimal sign of the cells read so far
 pub(super) fn number(cell: &str, parting: Parting, decimals: &mut Option<u8>) -> Result<f64, FileFault> {
     let sign = cell.bytes().find(|byte| matches!(byte, b'.' | b','));
     let Some(sign) = sign.filter(|_| parting != Parting::Sign(b',')) else {
@@ -125,7 +125,7 @@ fn with_point(cell: &str, written: &str) -> Result<f64, FileFault> {
     }
 }
 
-/// The unit in the last place of a number as it is written.
+/// The unit of the last digit of a number as it is written.
 pub(super) fn last_place(cell: &str) -> f64 {
     let (mantissa, exponent) = cell.split_once(['e', 'E']).unwrap_or((cell, "0"));
     let decimals = mantissa.split_once(['.', ',']).map_or(0, |(_, decimals)| decimals.len() as i32);

@@ -3,19 +3,19 @@
 use crate::error::{FileError, FileFault};
 use crate::units::{Dimension, excerpt};
 
-/// The header of a column, taken apart.
+/// The header of a column, split into name and unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Head {
-    /// As the file has it.
+    /// The text in the file.
     pub text: String,
-    /// Without the unit.
+    /// The text without the unit.
     pub name: String,
-    /// As written.
+    /// The unit as written.
     pub unit: Option<String>,
 }
 
 impl Head {
-    /// `u_m_s`, `u [m/s]`, `u (m/s)`, `u/(m/s)` and `u m/s` into name and unit.
+    /// Splits `u_m_s`, `u [m/s]`, `u (m/s)`, `u/(m/s)` and `u m/s` into name and unit.
     pub fn new(text: &str) -> Self {
         let text = text.trim();
         let of = |name: &str, unit: Option<&str>| {
@@ -38,8 +38,8 @@ impl Head {
         of(text, None)
     }
 
-    /// The unit, if the name is one of these in small letters with `_` between words; else what follows the longest
-    /// of them that the header begins with.
+    /// Compares the header with names in small letters, with `_` between words. If one of them is the name, the result
+    /// is the unit; otherwise it is the text after the longest of them that the header begins with.
     pub(crate) fn named(&self, names: &[&str]) -> Option<Option<&str>> {
         let is = |text: &str| {
             let tidy = text.trim().trim_end_matches('_').to_lowercase().replace([' ', '-'], "_");
@@ -58,12 +58,12 @@ impl Head {
             .map(|(_, unit)| Some(&unit[1..]))
     }
 
-    /// SI units in one of this column's.
+    /// The factor from the unit of this column to SI.
     ///
-    /// * `example` – a header that would do
+    /// * `example` – a valid header, for the message
     ///
     /// # Errors
-    /// When it has no unit, or one of something else.
+    /// When the header has no unit, or a unit of another dimension.
     pub fn factor(&self, dimension: Dimension, example: &'static str) -> Result<f64, FileError> {
         let fault = match &self.unit {
             None => FileFault::NoUnit { dimension, example },
@@ -76,7 +76,7 @@ impl Head {
     }
 }
 
-/// Whether a text is a unit that columns are known to have.
+/// Whether a text is a unit of time, velocity, length or frequency.
 pub(super) fn is_unit(text: &str) -> bool {
     const DIMENSIONS: [Dimension; 4] =
         [Dimension::Time, Dimension::Velocity, Dimension::Length, Dimension::Frequency];
@@ -84,7 +84,8 @@ pub(super) fn is_unit(text: &str) -> bool {
     named && DIMENSIONS.into_iter().any(|dimension| scale(text, dimension).is_some())
 }
 
-/// SI units in one of this unit, however a header may spell it; none of what is no unit of this dimension.
+/// The factor from a unit to SI, in any of the spellings that headers use; `None` if the text is no unit of the
+/// dimension.
 pub fn scale(unit: &str, dimension: Dimension) -> Option<f64> {
     let unit = unit.trim().trim_matches(['[', ']', '(', ')']).trim();
     let spelt = match (dimension, unit) {

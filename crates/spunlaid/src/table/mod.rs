@@ -1,17 +1,17 @@
-//! Tables of numbers as text, as loggers, spreadsheets and CFD programs write them, read row by row.
+//! Reads text tables of numbers row by row, as loggers, spreadsheets and CFD programs write them.
 //!
-//! * **Cells** are parted by tabs, semicolons, commas or blanks; a cell may stand in quotation marks.
-//! * **Numbers** have a decimal point or, where commas do not part cells, a decimal comma. NaN, `null`, `n/a` and an
-//!   empty cell count as missing, and read as NaN. Infinity is a fault.
+//! * **Cells** are separated by tabs, semicolons, commas or blanks; a cell may have quotation marks around it.
+//! * **Numbers** have a decimal point or, where commas do not separate cells, a decimal comma. NaN, `null`, `n/a` and
+//!   an empty cell count as missing and are read as NaN. Infinity is an error.
 //! * **The header** is the line of names above the first row of numbers. A line of units may follow it, and so may
-//!   the fourth line of TOA5 files. Lines above the header are left out without being told. Units may also stand in
-//!   the names: `u_m_s`, `u [m/s]`, `u (m/s)`.
-//! * **Comments** begin with `#`, `%` or `//`. The header may be one, if it stands just above the numbers.
-//! * **Columns of text** do no harm until a number is asked of them.
-//! * **Encoding**: UTF-8, or else Latin-1.
+//!   the fourth line of TOA5 files. Lines above the header are recognised and skipped. Units may also be
+//!   part of the names: `u_m_s`, `u [m/s]`, `u (m/s)`.
+//! * **Comments** begin with `#`, `%` or `//`. A comment just above the numbers may be the header.
+//! * **Columns of text** are allowed; only reading a number from one is an error.
+//! * **Encoding** is UTF-8; a line that is not valid UTF-8 is read as Latin-1.
 //!
-//! Memory is bounded: a line may have [`LONGEST_LINE`] bytes, and [`LINES_AHEAD`] lines are looked at to find the
-//! header. Faults name line and column.
+//! Memory is bounded: a line has at most [`LONGEST_LINE`] bytes, and the header is looked for in the first
+//! [`LINES_AHEAD`] lines. Errors name the line and the column.
 //!
 //! ```
 //! use spunlaid::error::{FileError, FileKind};
@@ -47,10 +47,10 @@ use std::ops::Range;
 
 /// Longest line read [bytes].
 pub const LONGEST_LINE: usize = 1 << 16;
-/// Most lines among which the header and the first row are found.
+/// Number of lines in which the header and the first row are looked for.
 pub const LINES_AHEAD: usize = 100;
 
-/// A table that is read row by row.
+/// A text table that is read row by row.
 #[derive(Debug)]
 pub struct Table<R> {
     lines: Lines<R>,
@@ -59,7 +59,7 @@ pub struct Table<R> {
     named: bool,
     header: u64,
     parting: Parting,
-    /// Decimal sign of the numbers so far.
+    /// Decimal sign of the numbers read so far.
     decimals: Option<u8>,
     row: Line,
     cells: Vec<Range<usize>>,
@@ -68,11 +68,11 @@ pub struct Table<R> {
 impl<R: Read> Table<R> {
     /// Finds the header of a table and stops before its first row.
     ///
-    /// * `kind` – what the table is read for, as messages call it
-    /// * `skip` – lines at the start that are left out
+    /// * `kind` – what messages call the table
+    /// * `skip` – number of lines to skip at the start
     ///
     /// # Errors
-    /// When it cannot be read, is no text or has no rows of numbers.
+    /// When the source cannot be read, is not text or has no rows of numbers.
     pub fn open(source: R, kind: FileKind, skip: u64) -> Result<Self, FileError> {
         let source = BufReader::with_capacity(1 << 16, source);
         let mut lines = Lines { source, buffer: Vec::new(), number: 0, kind, skip };
@@ -106,25 +106,25 @@ impl<R: Read> Table<R> {
         })
     }
 
-    /// The columns; `column 1`, `column 2` … where the file names none.
+    /// The headers of the columns; `column 1`, `column 2` … if the file has no names.
     pub fn heads(&self) -> &[Head] {
         &self.heads
     }
 
-    /// Whether the columns have names of the file's own.
+    /// Whether the file names its columns.
     pub const fn named(&self) -> bool {
         self.named
     }
 
-    /// Where the names are.
+    /// The line of the names.
     pub(crate) const fn header(&self) -> FilePlace {
         FilePlace::Line(self.header)
     }
 
-    /// Goes on to the next row; `false` at the end.
+    /// Reads the next row; `false` at the end.
     ///
     /// # Errors
-    /// When the file cannot be read, or the row has cells missing or too many.
+    /// When the file cannot be read, or the row has too few or too many cells.
     pub fn next_row(&mut self) -> Result<bool, FileError> {
         let mut blank = 0;
         loop {
@@ -149,12 +149,12 @@ impl<R: Read> Table<R> {
         }
     }
 
-    /// Line of the row, from 1.
+    /// Line number of the row, from 1.
     pub const fn line(&self) -> u64 {
         self.row.number
     }
 
-    /// Where the row is.
+    /// The place of the row, for messages.
     pub(crate) const fn place(&self) -> FilePlace {
         FilePlace::Line(self.row.number)
     }
@@ -164,15 +164,15 @@ impl<R: Read> Table<R> {
         self.row.blank
     }
 
-    /// What stands in a column of the row; empty where there is no such column.
+    /// The text in a column of the row; empty if there is no such column.
     pub fn text(&self, column: usize) -> &str {
         self.cells.get(column).map_or("", |cell| &self.row.text[cell.clone()])
     }
 
-    /// The number in a column of the row; NaN where it is missing.
+    /// The number in a column of the row; NaN if it is missing.
     ///
     /// # Errors
-    /// When there is something else, or infinity.
+    /// When the cell holds text or infinity.
     pub fn number(&mut self, column: usize) -> Result<f64, FileError> {
         let mut decimals = self.decimals;
         let number = number(self.text(column), self.parting, &mut decimals);
@@ -180,12 +180,12 @@ impl<R: Read> Table<R> {
         number.map_err(|fault| self.blame(column, fault))
     }
 
-    /// The unit in the last place of the number in a column, as it is written: 1e-3 for `0,125`, 1e-5 for `1.25e-3`.
+    /// The unit of the last digit of the number in a column as it is written: 1e-3 for `0,125`, 1e-5 for `1.25e-3`.
     pub fn last_place(&self, column: usize) -> f64 {
         cells::last_place(self.text(column))
     }
 
-    /// A fault of a column in this row.
+    /// An error at a column of this row.
     pub(crate) fn blame(&self, column: usize, fault: impl Into<FileFault>) -> FileError {
         let name = self.heads.get(column).map_or("", |head| &head.text);
         FileError::from(fault.into()).at(self.place()).column(name)
@@ -195,7 +195,7 @@ impl<R: Read> Table<R> {
 /// A line that is not empty.
 #[derive(Clone, Debug, Default)]
 struct Line {
-    /// From 1.
+    /// Line number, from 1.
     number: u64,
     text: String,
     /// Empty lines above it.
@@ -212,7 +212,7 @@ struct Lines<R> {
 }
 
 impl<R: Read> Lines<R> {
-    /// Reads on to the next line that is not empty; `false` at the end.
+    /// Reads the next line that is not empty; `false` at the end.
     fn next(&mut self, line: &mut Line) -> Result<bool, FileError> {
         line.blank = 0;
         loop {
@@ -226,7 +226,7 @@ impl<R: Read> Lines<R> {
             if read == 0 {
                 return Ok(false);
             }
-            // UTF-16 begins with one of two marks; a zero is in no text.
+            // UTF-16 begins with one of two marks, and text never holds a zero byte.
             let marked = self.buffer.starts_with(&[0xff, 0xfe]) || self.buffer.starts_with(&[0xfe, 0xff]);
             if (number == 1 && marked) || self.buffer.contains(&0) {
                 return Err(refused(FileFault::NotText(self.kind)));
@@ -240,7 +240,7 @@ impl<R: Read> Lines<R> {
             line.text.clear();
             match std::str::from_utf8(&self.buffer) {
                 Ok(text) => line.text.push_str(text.trim_start_matches('\u{feff}').trim_end()),
-                // Latin-1, as older instruments write it.
+                // Older instruments write Latin-1.
                 Err(_) => line.text.extend(self.buffer.iter().map(|byte| char::from(*byte))),
             }
             if line.text.trim().is_empty() {

@@ -1,4 +1,4 @@
-//! Where the rows of a table begin, and which line names its columns.
+//! Finds the first row of a table and the line that names its columns.
 
 use super::Line;
 use super::cells::{Looks, Parting, is_comment};
@@ -18,14 +18,14 @@ pub(super) struct Start {
 
 /// Finds the first row and the names above it.
 pub(super) fn find(lines: &[Line]) -> Option<Start> {
-    // Lines with something in them that is no comment.
+    // Lines that are not comments.
     let content: Vec<usize> = (0..lines.len()).filter(|i| !is_comment(&lines[*i].text)).collect();
     let text = |i: usize| lines[content[i]].text.as_str();
     let (first, parting) = numbers(content.len(), text).or_else(|| mixed(content.len(), text))?;
     let cells = parting.cells(text(first));
     let fits =
         |names: &[String]| cells.get(names.len()..).is_some_and(|rest| rest.iter().all(|c| c.is_empty()));
-    // Without empty names at the end, unless there is something below them.
+    // Empty names at the end are dropped unless there is something below them.
     let names = |line: &str, parting| {
         let mut names = names(line, parting);
         let empty = |i: usize| cells.get(i).is_none_or(|cell| cell.is_empty());
@@ -41,7 +41,8 @@ pub(super) fn find(lines: &[Line]) -> Option<Start> {
     };
     let start =
         |row: usize, parting, names, header| Some(Start { row, parting, cells: cells.len(), names, header });
-    // The nearest line of as many words; what is between it and the first row is taken for rows.
+    // The header is the nearest line above with one word for each column. Lines between it and the first row count as
+    // rows.
     let header = (0..first).rev().find_map(|i| Some((i, names_in(text(i)).filter(|n| words(n, parting))?)));
     if let Some((i, mut names)) = header {
         let mut above = (0..i).rev().map_while(|i| names_in(text(i)).filter(|n| words(n, parting)));
@@ -66,7 +67,7 @@ pub(super) fn find(lines: &[Line]) -> Option<Start> {
         let names = names_in(comment.trim_start_matches(['#', '%', '/', ' '])).filter(|n| words(n, parting));
         return start(row, parting, names, row - 1);
     }
-    // A line of words all the same; below a single name a comma is a decimal one.
+    // The line above is the header all the same. Below a single name a comma is a decimal comma.
     let names = above.map(|text| names(text, Parting::of(text)));
     let parting = match &names {
         Some(names) if names.len() == 1 && cells.len() == 2 && parting == Parting::Sign(b',') => {
@@ -133,7 +134,7 @@ fn mixed<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, Pa
     longest.map(|(_, from, parting)| (from, parting))
 }
 
-/// The names in a line; with blanks between them, a unit goes with its name.
+/// The names in a line. Where blanks separate cells, a unit is joined to its name.
 fn names(line: &str, parting: Parting) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for cell in parting.cells(line) {
@@ -151,14 +152,14 @@ fn names(line: &str, parting: Parting) -> Vec<String> {
     names
 }
 
-/// Whether there are names, and none of them is a number.
+/// Whether a line has names and no numbers.
 fn words(names: &[String], parting: Parting) -> bool {
     !names.is_empty()
         && names.iter().all(|name| Looks::of(name, parting) != Looks::Number)
         && names.iter().any(|name| Looks::of(name, parting) == Looks::Text)
 }
 
-/// Whether a line says how values were taken, as the fourth of TOA5 does.
+/// Whether a line says how values were sampled, like the fourth line of a TOA5 file.
 fn notes(names: &[String]) -> bool {
     const NOTES: [&str; 9] = ["", "avg", "smp", "max", "min", "std", "tot", "wvc", "med"];
     names.iter().all(|name| NOTES.contains(&name.to_lowercase().as_str()))

@@ -1,4 +1,4 @@
-//! The figures of a velocity record.
+//! Draws the figures of a velocity record.
 
 mod spectrum;
 #[cfg(test)]
@@ -11,7 +11,7 @@ use spunlaid_charts::{
     palette::{BLUE, GREEN, VERMILION},
 };
 
-/// The figures of a record, in the order a reader wants them.
+/// The figures of a record in the order of the report.
 pub(crate) fn record_figures(record: &Record, of: &Analysis) -> Vec<Figure> {
     vec![
         time::history(record, of),
@@ -23,7 +23,7 @@ pub(crate) fn record_figures(record: &Record, of: &Analysis) -> Vec<Figure> {
 
 /// The line of a component: green along the flow, blue and vermilion across.
 fn series(name: &str, index: usize) -> Series {
-    // A name may hold the signs of the labels' mark-up.
+    // A name may hold the signs that mark up labels.
     let plain = name.replace(['*', '^', '_', '{', '}'], " ");
     Series::new(&format!("*{}*", plain.trim()), [GREEN, BLUE, VERMILION][index % 3]).width(1.2)
 }

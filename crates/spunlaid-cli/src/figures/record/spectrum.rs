@@ -1,4 +1,4 @@
-//! The spectrum of a record, with its flat part and the cut-off.
+//! Draws the spectrum of a record with its flat part and the cut-off.
 
 use super::series;
 use crate::numbers::significant;
@@ -23,7 +23,7 @@ pub(super) fn density(of: &Analysis) -> Figure {
         Axis::logarithmic("Power spectral density [(m/s)²/Hz]").decades(9),
     )
     .when_empty("no fluctuation")
-    .stretch(Series::new("taken as flat", ORANGE), spectrum.step, flat.until);
+    .stretch(Series::new("taken as flat", ORANGE), flat.from, flat.until);
     for (i, component) in of.components.iter().enumerate() {
         let points = thinned(&component.spectrum);
         if i == 0 {
@@ -45,13 +45,13 @@ pub(super) fn density(of: &Analysis) -> Figure {
     }
     let (level, cutoff) = (flat.density.value, flat.cutoff.value);
     let bottom = spectrum.density.iter().copied().filter(|p| *p > 0.0).fold(level, f64::min);
-    let model = [(spectrum.step, level), (cutoff, level), (cutoff, bottom)];
+    let model = [(flat.from, level), (cutoff, level), (cutoff, bottom)];
     let chart = chart.path(Series::new("flat, same plateau and variance", INK).dashed("6 4"), &model);
     let caption = format!(
-        "How the variance is spread over frequencies: Welch’s method with {} segments of {} samples, {} window, {} % \
-         overlap; shaded around the line its 95 % interval. Orange: the part whose mean is the plateau. Dashed: the flat \
-         spectrum that holds the same variance at the same plateau, which is what the simulation uses; it ends at the \
-         cut-off of {} Hz, where the real one has long begun to fall.",
+        "Power spectral density by Welch’s method with {} segments of {} samples, {} window, {} % overlap; the shaded \
+         band is its 95 % interval. The plateau is the mean over the orange range. The dashed line is the flat spectrum \
+         with the same variance and the same plateau, which the simulation uses; it ends at the cut-off of {} Hz, where \
+         the measured spectrum has already fallen.",
         spectrum.segments,
         spectrum.segment,
         spectrum.window.name(),
@@ -61,7 +61,7 @@ pub(super) fn density(of: &Analysis) -> Figure {
     Figure::of(&chart, caption)
 }
 
-/// Frequency, density, and how many frequencies they are the mean of.
+/// Mean frequency, mean density and number of frequencies of each point.
 fn thinned(spectrum: &Spectrum) -> Vec<(f64, f64, usize)> {
     let mut points = Vec::new();
     let mut from = 0;

@@ -1,11 +1,11 @@
-//! A record over time, its values, its memory.
+//! Draws the record over time, its histogram and its autocorrelation.
 
 use super::series;
 use crate::numbers::significant;
 use spunlaid::record::{Analysis, Record};
 use spunlaid_charts::{Axis, Chart, Figure, Series, palette::GREY};
 
-/// Points along a panel, two for each.
+/// Number of stretches along a panel; each has two points.
 const ACROSS: usize = 1000;
 /// Integral times in the close-up.
 const CLOSE_UP: f64 = 40.0;
@@ -44,8 +44,8 @@ pub(super) fn history(record: &Record, of: &Analysis) -> Figure {
         (first + close) as f64 * of.interval,
     );
     let caption = format!(
-        "Above the whole record, at each place its lowest and highest sample; below {} s from its middle, {} integral \
-         times. A steady flow looks the same everywhere above.",
+        "The upper panel shows the lowest and the highest sample along the whole record, the lower one {} s from its middle \
+         ({} integral times). The upper panel of a steady flow looks the same everywhere.",
         significant(close as f64 * of.interval, 2),
         significant(close as f64 * of.interval / of.integral_time.value, 2),
     );
@@ -53,7 +53,7 @@ pub(super) fn history(record: &Record, of: &Analysis) -> Figure {
     Figure::stacked(&whole.name, &whole.title, &[&whole, &part], caption)
 }
 
-/// The lowest and the highest sample of each of so many stretches, in their order.
+/// The lowest and the highest sample of each stretch, in order of time.
 fn extremes(values: &[f64], first: usize, interval: f64) -> Vec<(f64, f64)> {
     let each = values.len().div_ceil(ACROSS).max(1);
     let mut line = Vec::new();
@@ -69,7 +69,7 @@ fn extremes(values: &[f64], first: usize, interval: f64) -> Vec<(f64, f64)> {
     line
 }
 
-/// How often each velocity occurs, against the Gaussian.
+/// The distribution of the velocity and the Gaussian.
 pub(super) fn histogram(record: &Record, of: &Analysis) -> Figure {
     let single = of.components.len() == 1;
     let (x, y) = if single {
@@ -116,14 +116,14 @@ pub(super) fn histogram(record: &Record, of: &Analysis) -> Figure {
         }
     }
     let chart = chart.line(Series::reference("Gaussian of the same mean and rms"), &gaussian);
-    let caption = "How often each velocity occurs, in steps of an eighth of the rms, against the Gaussian with the same \
-                   mean and rms (dashed), which is what the simulated turbulence has. A peak at either end is \
-                   clipping."
+    let caption = "Probability density of the velocity in steps of an eighth of the rms. The dashed line is the Gaussian with \
+                   the same mean and rms, which the simulated turbulence has. A peak at either end means that the \
+                   instrument clips."
         .to_owned();
     Figure::of(&chart, caption)
 }
 
-/// The memory of the record, with the part that is integrated.
+/// The autocorrelation and the part that is integrated.
 pub(super) fn autocorrelation(of: &Analysis) -> Figure {
     let along = &of.components[0].autocorrelation;
     let limit = along.limit * 1e3;
@@ -153,10 +153,9 @@ pub(super) fn autocorrelation(of: &Analysis) -> Figure {
         .line(Series::reference("of the flat spectrum"), &flat)
         .vertical(Series::new("limit of the integral", GREY).dashed("2 3").width(1.2), limit);
     let caption = format!(
-        "How long the velocity remembers itself: the mean product of fluctuations a lag apart, over the variance; \
-         products are divided by the number of pairs there are. The shaded part, {}, makes the integral time of {} ms. \
-         Dashed: what the simulated turbulence with the flat spectrum has, sin(*ω*τ)/(*ω*τ); its integral over all lags \
-         is a quarter of the period of the cut-off.",
+        "Mean product of two fluctuations one lag apart, over the variance. The integral over the shaded part, {}, is \
+         the integral time of {} ms. The dashed line is the autocorrelation of the simulated turbulence with the flat \
+         spectrum, sin(*ω*τ)/(*ω*τ); its integral over all lags is a quarter of the period of the cut-off.",
         of.integral.words(),
         significant(of.integral_time.value * 1e3, 3),
     )

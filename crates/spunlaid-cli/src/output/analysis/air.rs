@@ -1,11 +1,11 @@
-//! `air.toml`: the [air] of a case as a record has it.
+//! Writes `air.toml`, the [air] of a case with the results of a record.
 
 use super::half_width;
 use crate::numbers::decimals;
 use spunlaid::record::{Analysis, Interval};
 use spunlaid::units::Dimension;
 
-/// The block, each value with its interval and where it comes from.
+/// The block; a comment after each value gives its interval and its origin.
 pub(crate) fn air_block(file: &str, of: &Analysis) -> String {
     let along = of.components.first().map_or("u", |c| c.name.as_str());
     let names: Vec<&str> = of.components.iter().map(|c| c.name.as_str()).collect();
@@ -48,8 +48,8 @@ pub(crate) fn air_block(file: &str, of: &Analysis) -> String {
     let sets =
         lines.iter().zip(&values).map(|((key, ..), v)| format!(" --set air.{key}={v}")).collect::<String>();
     let mut text = format!(
-        "# The air of {}, by spunlaid {} analyse; behind each value its 95 % confidence interval.\n\
-         # It takes the place of the [air] of a case. The same from the command line:\n\
+        "# The air of {}, by spunlaid {} analyse, with the 95 % confidence interval of each value.\n\
+         # It replaces the [air] of a case. The same on the command line:\n\
          #   spunlaid run my.toml{sets}\n\n[air]\n",
         one_line(file),
         env!("CARGO_PKG_VERSION"),
@@ -63,13 +63,13 @@ pub(crate) fn air_block(file: &str, of: &Analysis) -> String {
     text
 }
 
-/// As TOML has it.
+/// The value in TOML.
 fn value(_key: &str, interval: &Interval, dimension: Dimension) -> String {
     let text = pretty(dimension, interval, interval.value);
     if dimension == Dimension::Ratio { text } else { format!("\"{text}\"") }
 }
 
-/// To one digit more than the interval tells.
+/// Rounds to one digit more than the interval justifies.
 fn pretty(dimension: Dimension, interval: &Interval, value: f64) -> String {
     let leading = interval.value.abs().log10().floor();
     let digits = decimals(half_width(interval)).map_or(6.0, |decimals| f64::from(decimals) + leading + 2.0);

@@ -1,20 +1,20 @@
-//! `spectrum.csv` and `autocorrelation.csv`.
+//! Writes `spectrum.csv` and `autocorrelation.csv`.
 
 use spunlaid::record::{Analysis, Component};
 use std::fmt::Write;
 
-/// Density of each component over frequency.
+/// Spectral density of each component over frequency.
 pub(crate) fn spectrum_csv(of: &Analysis) -> String {
     let frequency = |i: usize| of.components.first().map_or(0.0, |c| c.spectrum.frequency(i));
     curves("frequency_hz", "_m2_s2_per_hz", of, frequency, |c| &c.spectrum.density)
 }
 
-/// Coefficient of each component over the lag.
+/// Autocorrelation coefficient of each component over the lag.
 pub(crate) fn autocorrelation_csv(of: &Analysis) -> String {
     curves("lag_s", "_coefficient", of, |i| i as f64 * of.interval, |c| &c.autocorrelation.coefficients)
 }
 
-/// A column of x and one for each component, as far as the shortest reaches.
+/// A column of x and one for each component, down to the end of the shortest curve.
 fn curves(
     head: &str,
     unit: &str,

@@ -1,4 +1,4 @@
-//! `analysis.json`: every result of an analysis.
+//! Writes `analysis.json` with every result of an analysis.
 
 use serde::Serialize;
 use spunlaid::record::{Analysis, Component, Interval, Record};
@@ -18,7 +18,7 @@ struct Json<'a> {
     length_scale_m: Interval,
     cutoff_frequency_hz: Interval,
     components: Vec<ComponentJson<'a>>,
-    /// How long to measure for intervals of ± 5 %.
+    /// Durations for intervals of ± 5 %.
     duration_for_5_percent_s: Durations,
     warnings: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! Files of the analysis of a record.
+//! Writes the files of an analysis.
 
 mod air;
 mod curves;
@@ -12,7 +12,7 @@ pub(crate) use table::{ResultRow, result_table, results};
 
 use spunlaid::record::Interval;
 
-/// Half the width of an interval, which is its error.
+/// Half the width of an interval: the error of the value.
 pub(crate) fn half_width(of: &Interval) -> f64 {
     0.5 * (of.high - of.low)
 }

@@ -1,4 +1,4 @@
-//! The results of an analysis in rows, for the terminal and the report.
+//! Makes the rows of the result tables for the terminal and the report.
 
 use super::half_width;
 use crate::numbers::{decimals, rounded, to_decimals};
@@ -6,7 +6,7 @@ use spunlaid::record::{Analysis, Interval, Record};
 use spunlaid::units::Dimension;
 use std::fmt::Write;
 
-/// A result with its interval and how it was come by.
+/// A result with its interval and how it was computed.
 pub(crate) struct ResultRow {
     pub(crate) name: String,
     pub(crate) value: String,
@@ -32,7 +32,7 @@ fn row(name: &str, of: &Interval, factor: f64, unit: &'static str, meaning: Stri
     }
 }
 
-/// What the model needs, then each component.
+/// The results for the [air] of a case, then those of each component.
 pub(crate) fn results(of: &Analysis) -> (Vec<ResultRow>, Vec<(String, Vec<ResultRow>)>) {
     let along = of.components.first().map_or("u", |c| c.name.as_str());
     let isotropic = if of.components.len() > 1 {

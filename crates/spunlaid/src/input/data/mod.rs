@@ -1,4 +1,4 @@
-//! Files that a case names: each read once, however many points of a study fly in it.
+//! Reads the data files that a case names, each of them once for all points of a study.
 
 mod profile;
 
@@ -25,7 +25,7 @@ pub(super) struct DataFiles {
     field_warnings: RefCell<BTreeMap<PathBuf, Vec<FieldWarning>>>,
 }
 
-/// A file's content, or why there is none; the text tells apart ways to read it.
+/// The content of each file, or the error; the text in the key tells different ways to read it apart.
 type Shelf<T> = RefCell<BTreeMap<(PathBuf, String), Result<FromFile<T>, FileError>>>;
 
 impl DataFiles {
@@ -45,7 +45,7 @@ impl DataFiles {
         })
     }
 
-    /// A CFD field, and what to know of it.
+    /// A CFD field, and warnings about it.
     pub(super) fn field(&self, path: &Path) -> Result<(FromFile<Field>, Vec<FieldWarning>), FileError> {
         let field = once(&self.fields, path, "", || {
             let bytes = file::read(path, FileKind::Field, u64::MAX)?;
@@ -58,7 +58,7 @@ impl DataFiles {
 
     /// A velocity record.
     ///
-    /// * `rate` – sampling rate [Hz], where the record has no column of time
+    /// * `rate` – sampling rate [Hz] of a record without a column of time
     pub(super) fn record(&self, path: &Path, rate: Option<f64>) -> Result<FromFile<Measured>, FileError> {
         once(&self.records, path, &format!("{rate:?}"), || {
             let layout = Layout { rate, ..Layout::default() };
@@ -69,11 +69,11 @@ impl DataFiles {
     }
 }
 
-/// The fluctuation of a record, and what the record says of the air.
+/// The fluctuation of a record, and the numbers of the air that it gives.
 fn measured(record: Record) -> Result<Measured, FileError> {
     let (analysis, with_mean) = match analyse(&record, &Settings::default()) {
         Err(FileError { fault: FileFault::Record(RecordFault::NoMean { .. }), .. }) => {
-            // Any mean will do for what does not rest on it.
+            // What does not depend on the mean velocity is the same for any value of it.
             (analyse(&record, &Settings { mean_velocity: Some(1.0), ..Settings::default() })?, false)
         }
         analysed => (analysed?, true),
@@ -89,7 +89,7 @@ fn measured(record: Record) -> Result<Measured, FileError> {
     Ok(Measured::new(record.interval, &components, analysis.integral_time.value, says))
 }
 
-/// What the file was found to hold before, or else what it holds now.
+/// The content kept from an earlier reading, or the content read now.
 fn once<T>(
     shelf: &Shelf<T>,
     path: &Path,

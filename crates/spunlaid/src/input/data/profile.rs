@@ -1,4 +1,4 @@
-//! Profiles of the air and spectra: small tables with units in their headers.
+//! Reads profiles of the air and spectra: small tables with units in their headers.
 
 use crate::air::{Profile, SpectrumTable};
 use crate::error::{FileError, FileFault, FileKind, ProfileFault};
@@ -8,7 +8,7 @@ use crate::units::{Dimension, excerpt};
 /// Fewest rows of a table.
 const LEAST_ROWS: usize = 2;
 
-/// A column that a table may have.
+/// A column that a table may or must have.
 struct Wanted {
     what: &'static str,
     names: &'static [&'static str],
@@ -25,8 +25,8 @@ enum Sign {
     Positive,
 }
 
-/// A profile of the air: `x_m, velocity_m_s, turbulence_intensity, length_scale_m, cutoff_frequency_hz`, the
-/// last three as far as known.
+/// Reads a profile of the air: `x_m, velocity_m_s, turbulence_intensity, length_scale_m, cutoff_frequency_hz`; the
+/// last three are optional.
 pub(super) fn profile(text: &[u8]) -> Result<Profile, FileError> {
     let column = |what, names, dimension, example, required, sign| Wanted {
         what,
@@ -76,7 +76,7 @@ pub(super) fn profile(text: &[u8]) -> Result<Profile, FileError> {
     Ok(Profile { x, velocity, turbulence_intensity, length_scale, cutoff_frequency })
 }
 
-/// A spectrum: `frequency_hz, energy`.
+/// Reads a spectrum: `frequency_hz, energy`.
 pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
     let wanted = [
         Wanted {
@@ -90,7 +90,7 @@ pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
         Wanted {
             what: "of energies",
             names: &["energy", "density", "psd", "e", "s"],
-            // In whatever unit: only the shape counts.
+            // Only the shape counts, so that any unit will do.
             dimension: Dimension::Ratio,
             example: "energy",
             required: true,
@@ -104,7 +104,7 @@ pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
     Ok(SpectrumTable { frequency, energy })
 }
 
-/// The wanted columns in SI units, the first in rising order; empty where one is not there.
+/// The wanted columns in SI units; an optional column that is not there is empty. The first column must rise.
 fn read<const N: usize>(
     text: &[u8],
     wanted: &[Wanted; N],
@@ -152,7 +152,7 @@ fn read<const N: usize>(
     Ok(values)
 }
 
-/// Index of the column and SI units in one of its own.
+/// Index of the column and the factor from its unit to SI.
 fn find(heads: &[Head], wanted: &Wanted) -> Result<Option<(usize, f64)>, FileError> {
     let named = heads.iter().enumerate();
     let matching: Vec<(usize, Option<&str>)> =
@@ -171,7 +171,7 @@ fn find(heads: &[Head], wanted: &Wanted) -> Result<Option<(usize, f64)>, FileErr
             return Err(ProfileFault::Twice { what: wanted.what, first, second }.into());
         }
     };
-    // Of an energy the unit does not matter.
+    // The unit of an energy does not matter.
     if wanted.names.contains(&"energy") || unit.is_none() && wanted.dimension == Dimension::Ratio {
         return Ok(Some((index, 1.0)));
     }
