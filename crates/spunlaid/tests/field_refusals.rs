@@ -60,11 +60,7 @@ fn rejects_meshes_with_place_and_way_out() {
             &ends.replace("16", "999"),
             "a.vtu: cell 2: has 64 entries in its list and needs 999; is the file complete?",
         ),
-        (
-            "0 1 4 3",
-            "0 1 4",
-            "a.vtu: cell 8: has 63 entries in its list and needs 64; is the file complete?",
-        ),
+        ("0 1 4 3", "0 1 4", "a.vtu: cell 8: has 63 entries in its list and needs 64; is the file complete?"),
         (
             "0 1 4 3",
             "0 1 4 x",
@@ -276,10 +272,7 @@ fn rejects_tables_with_place_and_way_out() {
             &format!("{head}1,2,3,4,5,6\n1,2,3,4,inf,6\n"),
             "a.vtu:3: column v: \"inf\" is not finite; leave the cell empty where a value is missing",
         ),
-        (
-            &format!("{head}1,2,3,4,5,6\n"),
-            "a.vtu: has 1 points; at least 9 are needed for interpolation",
-        ),
+        (&format!("{head}1,2,3,4,5,6\n"), "a.vtu: has 1 points; at least 9 are needed for interpolation"),
         (
             "FoamFile\n{\n}\n",
             "a.vtu: is a file of OpenFOAM’s own; convert the case with foamToVTK and name its internal.vtu",

@@ -207,10 +207,7 @@ fn rejects_what_is_no_field() {
     let said = |points: &[V], cells: &Cells, values: &Values| {
         Field::mesh(points, cells, values).unwrap_err().to_string()
     };
-    assert_eq!(
-        said(&points, &cells, &still(7)),
-        "velocity: has 7 values and needs 8; is the file complete?"
-    );
+    assert_eq!(said(&points, &cells, &still(7)), "velocity: has 7 values and needs 8; is the file complete?");
     let mut wrong = still(8);
     wrong.velocity[3].y = f64::NAN;
     assert_eq!(

@@ -98,7 +98,11 @@ fn rejects_values_with_the_way_out() {
             Value::from("20"),
             "air.velocity = \"20\" has no unit; write a velocity with its unit: m/s, cm/s, mm/s, km/h or m/min",
         ),
-        ("air.velocity", f64::NAN.into(), "air.velocity = NaN m/s is not a finite number; write a finite one"),
+        (
+            "air.velocity",
+            f64::NAN.into(),
+            "air.velocity = NaN m/s is not a finite number; write a finite one",
+        ),
         (
             "fibre.diameter",
             (-1.0).into(),

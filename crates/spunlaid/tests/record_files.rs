@@ -179,10 +179,7 @@ fn rejects_with_line_column_and_way_out() {
             &format!("{head}3,inf\n"),
             "a.csv:5: column u_m_s: \"inf\" is not finite; leave the cell empty where a value is missing",
         ),
-        (
-            &format!("{head}3\n"),
-            "a.csv:5: this row has 1 cells and needs 2; is the file cut off here?",
-        ),
+        (&format!("{head}3\n"), "a.csv:5: this row has 1 cells and needs 2; is the file cut off here?"),
         (
             &format!("{head}3,1,5\n"),
             "a.csv:5: this row has 3 cells and needs 2; are both decimals and cells separated by commas??",
