@@ -206,7 +206,7 @@ pub(crate) struct Run {
     /// No progress bar and no table; warnings and errors are still shown
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// Print summary.json instead of the table
+    /// Print summary.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
     /// Replace the results in the output folder
@@ -360,6 +360,9 @@ fn overlap(text: &str) -> Result<f64, String> {
 pub(crate) struct Check {
     #[command(flatten)]
     pub(crate) source: CaseSource,
+    /// Print the same as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

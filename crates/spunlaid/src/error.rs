@@ -190,6 +190,9 @@ pub enum Fault {
         /// The newest version known.
         known: u32,
     },
+    /// The file is a study.
+    #[error("belongs to a study, not to a case; `spunlaid sweep` flies a study")]
+    IsStudy,
     /// A required key is missing.
     #[error("is missing; add {line} to [{table}]")]
     Missing {

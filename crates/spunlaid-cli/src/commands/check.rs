@@ -1,10 +1,14 @@
-//! `spunlaid check`: what a case means, without flying it.
+//! `spunlaid check`: shows a case with all defaults, its mesh, limits and expected cost.
 
 use super::run::POSITIONS;
+use super::threads;
 use crate::args::Check;
 use crate::failure::Failure;
+use crate::output::summary::{InOrder, resolved};
 use crate::say;
-use spunlaid::case::{Case, RECORD_ON_DISK};
+use serde::Serialize;
+use serde_json::Value as Json;
+use spunlaid::case::{Case, Note, RECORD_ON_DISK, StepLimit};
 use spunlaid::ensemble::{KeepShapes, pace};
 use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
@@ -13,14 +17,62 @@ use spunlaid::units::Dimension;
 pub(crate) fn check(check: &Check) -> Result<(), Failure> {
     let (case, notes) = check.source.read(&[])?;
     notes.iter().for_each(say::note);
-    say::line("# the case, every default written out");
+    let expected = Expected::of(&case)?;
+    if check.json {
+        say::text(&json(&case, expected, notes.iter().map(Note::to_string).collect()));
+        return Ok(());
+    }
+    // All remarks are comments, so that the output is a case file.
+    say::line("# the case with every default");
     say::text(&write_case(&case));
     say::line("");
     mesh(&case);
     limits(&case);
-    cost(&case)?;
-    say::line(&format!("ready: spunlaid run {}", check.source.case.display()));
+    say::line(&format!(
+        "# to expect: {} on {} of {} threads, {:.0} MiB of memory, {} of results",
+        duration(expected.wall_s),
+        expected.threads,
+        threads(None),
+        expected.memory_bytes / f64::from(1 << 20),
+        size(expected.disk_bytes)
+    ));
+    say::line(&format!("# ready: spunlaid run {}", check.source.case.display()));
     Ok(())
+}
+
+/// The same as JSON.
+fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
+    #[derive(Serialize)]
+    struct Limit {
+        cause: &'static str,
+        limit_s: f64,
+    }
+    #[derive(Serialize)]
+    struct Checked {
+        schema_version: u32,
+        spunlaid_version: &'static str,
+        case: InOrder<InOrder<Json>>,
+        elements: usize,
+        eddies: usize,
+        steps: u64,
+        step_limits: Vec<Limit>,
+        expected: Expected,
+        notes: Vec<String>,
+    }
+    let limits = case.stable_step_limits().into_iter();
+    let checked = Checked {
+        schema_version: 1,
+        spunlaid_version: env!("CARGO_PKG_VERSION"),
+        case: resolved(case),
+        elements: case.fibre.elements,
+        eddies: case.eddies().count(),
+        steps: case.run.steps,
+        step_limits: limits.map(|StepLimit { cause, limit }| Limit { cause, limit_s: limit }).collect(),
+        expected,
+        notes,
+    };
+    // Serialising plain numbers and strings into memory cannot fail.
+    serde_json::to_string_pretty(&checked).unwrap_or_default() + "\n"
 }
 
 fn mesh(case: &Case) {
@@ -57,24 +109,36 @@ fn limits(case: &Case) {
     }
 }
 
-fn cost(case: &Case) -> Result<(), Failure> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let bundles = case.run.replicates.div_ceil(WIDTH as u64);
-    let busy = (threads as u64).min(bundles);
-    let memory = case.bundle_memory().total() * busy as f64 / f64::from(1 << 20);
-    // A bundle takes as long whether its lanes are full or not.
-    let rounds = bundles.div_ceil(busy) as f64;
-    let seconds = pace(case, Isa::detect())? * case.run.steps as f64 * rounds;
-    say::line(&format!(
-        "# to expect: {} on {busy} of {threads} threads, {:.0} MiB of memory, {} of results",
-        duration(seconds),
-        memory + case.air.field_memory() as f64 / f64::from(1 << 20) + 30.0,
-        size(on_disk(case))
-    ));
-    Ok(())
+/// What a run is expected to need.
+#[derive(Clone, Copy, Serialize)]
+struct Expected {
+    wall_s: f64,
+    threads: u64,
+    memory_bytes: f64,
+    disk_bytes: f64,
 }
 
-/// What the results take: tables, shapes as text, figures and report [bytes].
+impl Expected {
+    /// Measures the time of a few steps.
+    fn of(case: &Case) -> Result<Self, Failure> {
+        /// Memory of the program itself with its figures [bytes].
+        const PROGRAM: f64 = 30.0 * (1u64 << 20) as f64;
+        let bundles = case.run.replicates.div_ceil(WIDTH as u64);
+        let busy = (threads(None) as u64).min(bundles);
+        // A bundle takes as long whether its lanes are full or not.
+        let rounds = bundles.div_ceil(busy) as f64;
+        Ok(Self {
+            wall_s: pace(case, Isa::detect())? * case.run.steps as f64 * rounds,
+            threads: busy,
+            memory_bytes: case.bundle_memory().total() * busy as f64
+                + case.air.field_memory() as f64
+                + PROGRAM,
+            disk_bytes: on_disk(case),
+        })
+    }
+}
+
+/// Size of the results: tables, shapes as text, figures and report [bytes].
 fn on_disk(case: &Case) -> f64 {
     const POSITION: f64 = 90.0;
     const FIGURES_AND_REPORT: f64 = 1e6;
@@ -89,7 +153,7 @@ fn size(bytes: f64) -> String {
     if bytes < 1e9 { format!("{:.0} MB", bytes / 1e6) } else { format!("{:.1} GB", bytes / 1e9) }
 }
 
-/// A time to wait, in words.
+/// An expected time in words.
 fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "less than a second".to_owned(),

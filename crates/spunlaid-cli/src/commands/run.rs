@@ -29,9 +29,9 @@ pub(super) const POSITIONS: u64 = 4_000_000;
 pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     let (case, notes) = run.source.read(&overrides(run))?;
     notes.iter().for_each(say::note);
-    let folder = run.out.clone().unwrap_or_else(|| default_folder(run));
+    let folder = run.out.clone().or_else(|| (!run.json).then(|| default_folder(run)));
     let stop = stop_on_ctrl_c();
-    let staging = Staging::new(&folder, ENTRIES, run.force, stop)?;
+    let staging = folder.as_ref().map(|folder| Staging::new(folder, ENTRIES, run.force, stop)).transpose()?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing =
@@ -42,7 +42,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         case.run.steps * case.run.replicates,
         &format!("flying {}", plural(case.run.replicates, "fibre")),
         run.quiet,
-        || flights(&case, computing, &staging),
+        || flights(&case, computing, staging.as_ref()),
     )?;
     let performance = performance(&case, computing, started.elapsed().as_secs_f64());
 
@@ -52,10 +52,12 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         notes.push(outside);
     }
     let summary = Summary::new(&case, &results, performance, notes.clone()).to_json();
-    let name = case_name(run).to_string_lossy().into_owned();
-    let written = Written { name, case: &case, results: &results, notes, performance, summary: &summary };
-    written.to(&staging, computing)?;
-    staging.publish()?;
+    if let Some(staging) = staging {
+        let name = case_name(run).to_string_lossy().into_owned();
+        let written = Written { name, case: &case, results: &results, notes, performance, summary: &summary };
+        written.to(&staging, computing)?;
+        staging.publish()?;
+    }
 
     if run.json {
         say::text(&summary);
@@ -69,7 +71,9 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
             performance.instruction_set,
             plural(performance.threads as u64, "thread")
         ));
-        say::line(&format!("open {}", folder.join("report.html").display()));
+        if let Some(folder) = folder {
+            say::line(&format!("open {}", folder.join("report.html").display()));
+        }
     }
     Ok(())
 }
@@ -89,20 +93,22 @@ fn case_name(run: &Run) -> &OsStr {
     run.source.case.file_stem().unwrap_or("run".as_ref())
 }
 
-/// Flies all replicates. The tables are written during the flights.
-fn flights(case: &Case, computing: Computing<'_>, staging: &Staging<'_>) -> Result<Results, Failure> {
-    let mut end_node = Table::create(staging.place("end_node.parquet"), END_NODE)?;
-    let mut energy = Table::create(staging.place("energy.parquet"), ENERGY)?;
+/// Flies all replicates. If there is a results folder, the tables are written during the flights.
+fn flights(case: &Case, computing: Computing<'_>, staging: Option<&Staging<'_>>) -> Result<Results, Failure> {
+    let mut tables = Vec::new();
+    if let Some(staging) = staging {
+        for (name, columns) in [("end_node.parquet", END_NODE), ("energy.parquet", ENERGY)] {
+            tables.push(Table::create(staging.place(name), columns)?);
+        }
+    }
     let mut collector = Results::collector(KEPT);
-    let keep = Keep { curves: true, shapes: KeepShapes::within(case, POSITIONS) };
-    fly(case, keep, computing, |flight| {
-        end_node.add(&flight)?;
-        energy.add(&flight)?;
+    let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
+    fly(case, Keep { curves: true, shapes }, computing, |flight| {
+        tables.iter_mut().try_for_each(|table| table.add(&flight))?;
         collector.take(&flight);
         Ok::<(), Failure>(())
     })?;
-    end_node.finish()?;
-    energy.finish()?;
+    tables.into_iter().try_for_each(Table::finish)?;
     Ok(collector.finish())
 }
 

@@ -58,7 +58,7 @@ pub(crate) struct Performance {
 
 /// An object whose entries keep their order.
 #[derive(Debug)]
-struct InOrder<T>(Vec<(String, T)>);
+pub(crate) struct InOrder<T>(Vec<(String, T)>);
 
 impl<T: Serialize> Serialize for InOrder<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -113,7 +113,7 @@ fn summary_of(number: &Number) -> NumberSummary<'_> {
 
 /// The resolved case: every key, with its SI unit in the name. A key without a meaning for the case is null. If the
 /// flow is not uniform, the numbers are averages along the fibre.
-fn resolved(case: &Case) -> InOrder<InOrder<Json>> {
+pub(crate) fn resolved(case: &Case) -> InOrder<InOrder<Json>> {
     let table = |name: &'static str| {
         let entry = |key: &Key| {
             let unit = key.dimension().map(Dimension::suffix).unwrap_or_default();

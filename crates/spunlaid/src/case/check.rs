@@ -4,7 +4,7 @@ use super::keys::{self, finding};
 use super::memory::BUNDLE_MEMORY_LIMIT;
 use super::note::{Note, Remark};
 use super::{Case, StepLimit};
-use crate::air::{Flow, FromFile, Measured};
+use crate::air::{Flow, FromFile, Measured, SpectrumShape};
 use crate::chain::schemes::Scheme;
 use crate::drag::NormalLaw;
 use crate::error::{Fault, Finding, Place, Problem};
@@ -97,6 +97,24 @@ impl Case {
         let felt = there_is_air && self.air.rms() > 0.0;
         if felt && self.air.length_scale < l * (1.0 - 1e-9) {
             note("air.length_scale", self.air.length_scale, Remark::EddiesSkipped { element_length: l });
+        }
+        let (air, told) = (&self.air, self.air.from_flow);
+        let times = air.length_scale / fibre.length;
+        if felt && air.records.is_empty() {
+            if !told.turbulence_intensity && air.turbulence_intensity > 1.0 {
+                let value = air.turbulence_intensity;
+                note("air.turbulence_intensity", value, Remark::IntensityAboveOne { value });
+            }
+            if !told.length_scale && times > 2.0 {
+                note("air.length_scale", air.length_scale, Remark::EddiesLong { times });
+            }
+            let passing = air.velocity.abs() / air.length_scale;
+            if !told.cutoff_frequency
+                && air.spectrum == SpectrumShape::VonKarman
+                && air.cutoff_frequency < passing
+            {
+                note("air.cutoff_frequency", air.cutoff_frequency, Remark::CutoffLow { passing });
+            }
         }
         notes.extend(root_outside);
         notes.extend(self.field_notes());

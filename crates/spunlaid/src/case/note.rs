@@ -51,6 +51,20 @@ pub enum Remark {
          or more"
     )]
     FewReplicates,
+    /// A time step far below the one that the scheme needs.
+    #[error(
+        "is {} times shorter than the step that run.scheme = \"{scheme}\" needs ({}), so the run takes that much \
+         longer; leave the key out, or override it with the value auto",
+        Dimension::Ratio.pretty_to(*times, 2), Dimension::Time.pretty(*suggested)
+    )]
+    StepShort {
+        /// A suitable step [s].
+        suggested: f64,
+        /// How many times longer that is [-].
+        times: f64,
+        /// Name of the scheme.
+        scheme: &'static str,
+    },
     /// An error tolerance although the time step is given.
     #[error("has no effect because run.time_step is given; remove one of the two")]
     ToleranceUnused,
@@ -103,6 +117,34 @@ pub enum Remark {
     /// Something about a CFD field.
     #[error("{0}")]
     Field(FieldWarning),
+    /// A turbulence intensity above one.
+    #[error(
+        "means that the rms of the fluctuation is {} times the mean velocity; if {} % was meant, write \"{} %\"",
+        Dimension::Ratio.pretty(*value), Dimension::Ratio.pretty(*value), Dimension::Ratio.pretty(*value)
+    )]
+    IntensityAboveOne {
+        /// The turbulence intensity [-].
+        value: f64,
+    },
+    /// Eddies much longer than the fibre.
+    #[error(
+        "is {} times fibre.length, so that the same fluctuation acts on the whole fibre; check the unit",
+        Dimension::Ratio.pretty_to(*times, 2)
+    )]
+    EddiesLong {
+        /// Length of the eddies over that of the fibre [-].
+        times: f64,
+    },
+    /// A cut-off that removes most of von Kármán's spectrum.
+    #[error(
+        "is below velocity / length scale = {}, so that most of the energy of von Kármán's spectrum would lie above \
+         it and is moved below; choose a cut-off several times higher",
+        Dimension::Frequency.pretty(*passing)
+    )]
+    CutoffLow {
+        /// Mean velocity over length scale [Hz].
+        passing: f64,
+    },
     /// A fibre that reaches out of the region where the air is known.
     #[error(
         "reaches out of the region where the flow is known; outside it, the air at the nearest known point is used"
@@ -157,6 +199,9 @@ impl Remark {
             Self::OutsideFit { .. }
                 | Self::ReynoldsOutsideFit { .. }
                 | Self::EddiesSkipped { .. }
+                | Self::IntensityAboveOne { .. }
+                | Self::EddiesLong { .. }
+                | Self::CutoffLow { .. }
                 | Self::Field(_)
                 | Self::LeavesFlow
                 | Self::RootOutside { .. }

@@ -3,13 +3,15 @@
 use super::source::{Source, fit};
 use super::written::{Said, Written};
 use super::{FORMAT_VERSION, Overrides, values};
-use crate::case::keys::{self, Key};
+use crate::case::keys::{self, Key, TAYLOR};
 use crate::error::{Error, Fault, Finding, Place};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// The value of an override that removes a key, so that its default applies.
+const AUTO: &str = "auto";
 /// The only key above the tables.
 const VERSION: &str = "version";
 
@@ -44,7 +46,12 @@ impl<'a> Document<'a> {
         if !faults.is_empty() {
             return Err(Error::Rejected(faults.iter().map(|fault| document.source.syntax(fault)).collect()));
         }
-        document.take_root(root.into_inner());
+        let root = root.into_inner();
+        if let Some((key, _)) = root.iter().find(|(key, _)| matches!(&**key.get_ref(), "vary" | "design")) {
+            let (place, key) = (document.place(key.span().start), key.get_ref().to_string());
+            return Err(vec![Finding { place, key, value: None, what: Fault::IsStudy }].into());
+        }
+        document.take_root(root);
         for (key, value) in overrides.values {
             document.take_override(overrides.word, key.trim(), value);
         }
@@ -69,7 +76,10 @@ impl<'a> Document<'a> {
             }
             value => value,
         };
-        let read = values::read(&key.kind, &value, |named| self.beside(&place, named));
+        let read = match value.as_str() {
+            Some(name @ TAYLOR) if key.name == "air.cutoff_frequency" => Ok(name.into()),
+            _ => values::read(&key.kind, &value, |named| self.beside(&place, named)),
+        };
         let (value, fault) = match read {
             Ok(value) => (Some(value), None),
             Err(fault) => (None, Some(fault)),
@@ -115,8 +125,12 @@ impl<'a> Document<'a> {
         Entry { place, shown, value: value.into_inner() }
     }
 
-    /// Takes an override, which replaces the value in the file.
+    /// Takes an override, which replaces the value in the file. The value `auto` removes it.
     fn take_override(&mut self, word: &str, key: &str, text: &'a str) {
+        if let Some(key) = keys::find(key).filter(|_| text.trim().trim_matches('"') == AUTO) {
+            self.entries.remove(key.name);
+            return;
+        }
         let value = match DeValue::parse(text) {
             Ok(value) => value.into_inner(),
             Err(_) => DeValue::String(text.into()),

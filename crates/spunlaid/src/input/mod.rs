@@ -28,7 +28,8 @@ pub const LARGEST_FILE: u64 = 1 << 20;
 /// Values that replace values of a case file or add to them.
 #[derive(Clone, Copy, Debug)]
 pub struct Overrides<'a> {
-    /// Keys and values, `("air.velocity", "20 m/s")`. A value that is not TOML is taken as text.
+    /// Keys and values, `("air.velocity", "20 m/s")`. A value that is not TOML is taken as text. The value `auto`
+    /// removes a key of the file, so that its default applies.
     pub values: &'a [(String, String)],
     /// What messages write before the key. A program with an option for overrides gives its name.
     pub word: &'a str,

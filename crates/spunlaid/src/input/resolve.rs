@@ -13,6 +13,9 @@ use crate::field::FieldWarning;
 use crate::vec3::Vec3;
 use std::path::PathBuf;
 
+/// How many times longer a suitable step must be than the written one to be mentioned.
+const MUCH_LONGER: f64 = 50.0;
+
 /// A case in which every independent key is set. Keys that are counted in whole elements, steps and harmonics are
 /// still open.
 pub(super) struct Open {
@@ -35,6 +38,8 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
     let rank = |key: &&Key| match key.kind {
         Kind::File(_) => 0,
         Kind::Choice(_) => 1,
+        // It may follow from velocity and length scale.
+        _ if key.name == "air.cutoff_frequency" => 3,
         _ => 2,
     };
     let mut in_order: Vec<&Key> = keys::all().iter().collect();
@@ -45,7 +50,10 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                 // A key without a meaning for this case refuses its default, which is then not needed.
                 LeftOut::Value(text) if !key.counted => drop(key.set(&mut case, text)),
                 LeftOut::Required(_)
-                    if !is_told(&mut case.air, key.name) && !written.is_excused(key.name) =>
+                    if !is_told(&mut case.air, key.name)
+                        && !written.is_excused(key.name)
+                        && !(key.name == "fibre.diameter"
+                            && written.get("fibre.linear_density").is_some()) =>
                 {
                     let (table, line) = (key.table(), key.example());
                     let why = match &case.air.flow {
@@ -91,6 +99,11 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                 }
             }
             (Some(_), _) if key.counted => Ok(()),
+            (Some(_), _) if key.name == "fibre.linear_density" && written.get("fibre.diameter").is_some() => {
+                let (other, remedy) = ("fibre.diameter", "either gives the other; write one of the two");
+                Err(Fault::Excludes { other, remedy })
+            }
+            (Some(Value::Text(_)), Kind::Quantity(..)) => by_taylor(&mut case.air),
             (Some(value), _) => key.apply(&mut case, &value),
         };
         if let Err(fault) = set
@@ -109,6 +122,17 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
     } else {
         Err(sorted(written.problems).into())
     }
+}
+
+/// Sets the cut-off frequency by Taylor's hypothesis: eddies of length `L` that pass at velocity `U` make `U/(4 L)`.
+fn by_taylor(air: &mut Air) -> Result<(), Fault> {
+    if !air.is_uniform() || air.from_flow.length_scale {
+        let (needed, remedy) = ("air.velocity and air.length_scale", "write a frequency, or leave it out");
+        return Err(Fault::Needs { needed, remedy });
+    }
+    // NaN where either is missing, which has been reported.
+    air.cutoff_frequency = air.velocity.abs() / (4.0 * air.length_scale);
+    Ok(())
 }
 
 /// An empty case, whose keys are set one after another.
@@ -215,7 +239,10 @@ impl Open {
     /// The number of a key, as written or by default. None if it follows from other keys.
     pub(super) fn number(&self, key: &Key) -> Option<f64> {
         let number = match (self.written.get(key.name), key.left_out) {
-            (Some(said), _) => said.value.as_ref()?.number(),
+            (Some(said), _) => match said.value.as_ref()? {
+                Value::Text(_) => key.get(&self.case)?.number(),
+                value => value.number(),
+            },
             (None, LeftOut::Value(text)) if key.counted => key.kind.accept(text.into()).ok()?.number(),
             (None, _) if key.counted => None,
             (None, _) => key.get(&self.case)?.number(),
@@ -279,6 +306,13 @@ impl Open {
             chosen = Some((time_step, Remark::StepChosen { choice, limit }));
             time_step
         });
+        if let Some(step) = written_step {
+            let (suggested, _) = case.suggested_time_step(tolerance, duration);
+            if suggested >= MUCH_LONGER * step {
+                let scheme = case.run.scheme.name();
+                note("run.time_step", step, Remark::StepShort { suggested, times: suggested / step, scheme });
+            }
+        }
         if written_step.is_some() && written.get("run.error_tolerance").is_some() {
             note("run.error_tolerance", tolerance, Remark::ToleranceUnused);
         }

@@ -23,6 +23,8 @@ pub enum Dimension {
     Rate,
     /// [kg/m³]
     Density,
+    /// [kg/m]
+    LinearDensity,
     /// [Pa]
     Pressure,
     /// [m²/s]
@@ -34,13 +36,14 @@ pub enum Dimension {
 }
 
 /// Every dimension.
-const ALL: [Dimension; 10] = [
+const ALL: [Dimension; 11] = [
     Dimension::Length,
     Dimension::Velocity,
     Dimension::Time,
     Dimension::Frequency,
     Dimension::Rate,
     Dimension::Density,
+    Dimension::LinearDensity,
     Dimension::Pressure,
     Dimension::KinematicViscosity,
     Dimension::Acceleration,
@@ -138,6 +141,7 @@ impl Dimension {
             Self::Frequency => "a frequency",
             Self::Rate => "a rate",
             Self::Density => "a density",
+            Self::LinearDensity => "a linear density",
             Self::Pressure => "a pressure",
             Self::KinematicViscosity => "a kinematic viscosity",
             Self::Acceleration => "an acceleration",

@@ -56,6 +56,14 @@ const TIME: &[Unit] = &[
 const FREQUENCY: &[Unit] = &[unit("Hz", "Hz", Ten(0)), unit("kHz", "kHz", Ten(3))];
 const RATE: &[Unit] = &[unit("1/s", "1/s", Ten(0)), also("s⁻¹", "s-1", Ten(0))];
 const DENSITY: &[Unit] = &[unit("kg/m³", "kg/m3", Ten(0)), also("g/cm³", "g/cm3", Ten(3))];
+const LINEAR_DENSITY: &[Unit] = &[
+    unit("kg/m", "kg/m", Ten(0)),
+    also("g/m", "g/m", Ten(-3)),
+    unit("tex", "tex", Ten(-6)),
+    unit("dtex", "dtex", Ten(-7)),
+    // A denier is a gram per 9 km.
+    also("den", "den", Over(9e6)),
+];
 const PRESSURE: &[Unit] = &[
     unit("Pa", "Pa", Ten(0)),
     unit("kPa", "kPa", Ten(3)),
@@ -78,6 +86,7 @@ impl Dimension {
             Self::Frequency => FREQUENCY,
             Self::Rate => RATE,
             Self::Density => DENSITY,
+            Self::LinearDensity => LINEAR_DENSITY,
             Self::Pressure => PRESSURE,
             Self::KinematicViscosity => KINEMATIC_VISCOSITY,
             Self::Acceleration => ACCELERATION,

@@ -21,6 +21,9 @@ use crate::units::Dimension;
 /// The tables of a case file, in order.
 pub const TABLES: [&str; 4] = ["fibre", "air", "drag", "run"];
 
+/// The text that a case file may give as cut-off frequency: Taylor's hypothesis.
+pub(crate) const TAYLOR: &str = "taylor";
+
 /// What applies if a case leaves a key out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LeftOut {

@@ -11,6 +11,7 @@ use crate::fibre::Root;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 use Sign::{Any, NotNegative, Positive};
+use std::f64::consts::PI;
 
 /// How to get and set the value of a key in a case.
 struct Access {
@@ -102,6 +103,17 @@ pub(super) static KEYS: &[Key] = &[
         .label("Fibre density")
         .slider(800.0, 1500.0)
         .in_flight(),
+    quantity("fibre.linear_density", Dimension::LinearDensity, Positive, Access {
+        get: |_| None,
+        set: |case, value| {
+            case.fibre.diameter = (4.0 * number(value)? / (PI * case.fibre.density)).sqrt();
+            Ok(())
+        },
+    })
+    .follows("diameter and density give it")
+    .meaning("Mass per length of the fibre, which may be written instead of `fibre.diameter`; the diameter follows with the density.")
+    .label("Linear density")
+    .slider(1e-8, 2e-5),
     quantity("fibre.youngs_modulus", Dimension::Pressure, Positive, number!(fibre.youngs_modulus))
         .required("2 GPa")
         .meaning("Young's modulus of the polymer along the fibre. The fibre is elastic.")
@@ -261,7 +273,7 @@ pub(super) static KEYS: &[Key] = &[
     quantity("air.cutoff_frequency", Dimension::Frequency, Positive, of_air!(cutoff_frequency))
         .told(|case| case.air.from_flow.cutoff_frequency)
         .required("100 Hz")
-        .meaning("Highest frequency of the turbulence. A record, a spectrum, a profile or a field may give it instead.")
+        .meaning("Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). A record, a spectrum, a profile or a field may give it instead.")
         .label("Cut-off frequency *f*")
         .slider(10.0, 1000.0),
     quantity("air.density", Dimension::Density, NotNegative, number!(air.density))
