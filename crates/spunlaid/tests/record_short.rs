@@ -93,10 +93,13 @@ fn coverage(
     (100.0 * held as f64 / records.len() as f64, values[values.len() / 2])
 }
 
+/// Records of a kind: components by seed and number of samples.
+type Signals<'a> = &'a dyn Fn(u64, usize) -> Vec<Vec<f64>>;
+
 #[test]
 fn stat_short_records_hold_the_known_values() {
     let weights = von_karman_weights();
-    let kinds: [(&str, &dyn Fn(u64, usize) -> Vec<Vec<f64>>); 3] = [
+    let kinds: [(&str, Signals<'_>); 3] = [
         ("exponential", &|seed, samples| vec![exponential(seed, samples)]),
         ("von Kármán", &|seed, samples| vec![von_karman(&weights, seed, samples)]),
         ("three components", &|seed, samples| (0..3).map(|c| exponential(3 * seed + c, samples)).collect()),

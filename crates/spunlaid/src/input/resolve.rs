@@ -50,10 +50,9 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                 // A key without a meaning for this case refuses its default, which is then not needed.
                 LeftOut::Value(text) if !key.counted => drop(key.set(&mut case, text)),
                 LeftOut::Required(_)
-                    if !is_told(&mut case.air, key.name)
-                        && !written.is_excused(key.name)
-                        && !(key.name == "fibre.diameter"
-                            && written.get("fibre.linear_density").is_some()) =>
+                    if !(is_told(&mut case.air, key.name)
+                        || written.is_excused(key.name)
+                        || key.name == "fibre.diameter" && written.get("fibre.linear_density").is_some()) =>
                 {
                     let (table, line) = (key.table(), key.example());
                     let why = match &case.air.flow {
