@@ -18,9 +18,9 @@ const CELLS: usize = 4;
 const SIDE: usize = CELLS + 1;
 const POINTS: usize = SIDE * SIDE * SIDE;
 /// How often a brick is divided into eight at most.
-const DEEPEST: u32 = 4;
+const DEEPEST: u32 = 5;
 /// Largest error of a brick, as a share of the largest value in the undivided brick.
-const ERROR: f64 = 5e-4;
+const ERROR: f64 = 1e-3;
 /// Points between those of the lattice where the error is measured.
 const PROBES: usize = 24;
 /// Most memory that bricks take [bytes]. Bricks beyond it are made again at every look.
@@ -292,8 +292,8 @@ impl Values {
         (value, gradients)
     }
 
-    /// Half of the largest error that the lattice would have with every second point only: about its own error
-    /// where the field has kinks, and twice that where it is smooth.
+    /// A quarter of the largest error that the lattice would have with every second point only: about its own error
+    /// where the field is smooth.
     fn error_of_every_second(&self) -> f64 {
         let mut worst = 0.0_f64;
         for i in 0..POINTS {
@@ -309,6 +309,6 @@ impl Values {
             }
             worst = worst.max(difference(&mean, &self.at[i]));
         }
-        0.5 * worst
+        0.25 * worst
     }
 }
