@@ -140,7 +140,9 @@ fn a_disk_that_takes_no_more_leaves_nothing() {
 #[test]
 fn a_reader_that_has_enough_is_no_error() {
     let desk = Desk::new();
-    for arguments in ["check brief.toml", "run brief.toml --json", "completions bash", "run --help"] {
+    for arguments in
+        ["check brief.toml", "run brief.toml --json --out results/brief", "completions bash", "run --help"]
+    {
         let mut child = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
             .current_dir(desk.folder.path())
             .args(arguments.split_whitespace())

@@ -294,3 +294,46 @@ fn a_time_step_left_open_is_chosen_and_told() {
     let (_, notes) = parse_case(starter_case(), "both.toml", &both).unwrap();
     assert!(notes[0].to_string().contains("has no effect"), "{}", notes[0]);
 }
+
+/// The starter with overrides: the case and the texts of its notes.
+fn changed(set: &[(&str, &str)]) -> (Case, Vec<String>) {
+    let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let (case, notes) = parse_case(starter_case(), "starter.toml", &set).unwrap();
+    (case, notes.iter().map(ToString::to_string).collect())
+}
+
+#[test]
+fn auto_undoes_a_key() {
+    let scheme = ("run.scheme", "implicit-tension");
+    let (pinned, notes) = changed(&[scheme]);
+    assert_eq!(pinned.run.time_step, 1e-6);
+    assert!(notes[0].contains("is 200 times shorter than the step that run.scheme"), "{notes:?}");
+    let (free, notes) = changed(&[scheme, ("run.time_step", "auto")]);
+    assert_eq!(free.run.time_step, 2e-4);
+    assert!(!notes.iter().any(|note| note.contains("times shorter")), "{notes:?}");
+}
+
+#[test]
+fn linear_density_and_taylors_cutoff_give_what_they_stand_for() {
+    // 18.65 dtex of 950 kg/m³: d² = 4 · 18.65e-7/(π · 950).
+    let (case, _) = changed(&[("fibre.diameter", "auto"), ("fibre.linear_density", "18.65 dtex")]);
+    assert!((case.fibre.diameter / 4.9996e-5 - 1.0).abs() < 1e-4, "{}", case.fibre.diameter);
+    let (denier, _) = changed(&[("fibre.diameter", "auto"), ("fibre.linear_density", "16.785 den")]);
+    assert!((denier.fibre.diameter / case.fibre.diameter - 1.0).abs() < 1e-12);
+    // 20 m/s over four eddies of 50 mm.
+    let (case, _) = changed(&[("air.cutoff_frequency", "taylor"), ("air.velocity", "20 m/s")]);
+    assert_eq!(case.air.cutoff_frequency, 100.0);
+    assert_eq!(bits(&read_again(&case)), bits(&case));
+}
+
+#[test]
+fn warns_of_values_that_may_be_slips() {
+    for (key, value, part) in [
+        ("air.turbulence_intensity", "10", "if 10 % was meant, write \"10 %\""),
+        ("air.length_scale", "5 m", "is 5 times fibre.length"),
+        ("air.cutoff_frequency", "taylor", "is below velocity / length scale = 200 Hz"),
+    ] {
+        let (_, notes) = changed(&[("air.spectrum", "von-karman"), (key, value)]);
+        assert!(notes.iter().any(|note| note.contains(part)), "{key}: {notes:?}");
+    }
+}
