@@ -25,7 +25,7 @@ impl Figure {
         Self {
             name: chart.name.clone(),
             title: chart.title.clone(),
-            caption: caption.into(),
+            caption: unbroken(caption),
             svg: chart.svg(),
             table: table(&[chart]),
         }
@@ -36,11 +36,16 @@ impl Figure {
         Self {
             name: name.to_owned(),
             title: title.to_owned(),
-            caption: caption.into(),
+            caption: unbroken(caption),
             svg: draw::stacked(title, charts),
             table: table(charts),
         }
     }
+}
+
+/// The same text, but no line ends between a number and `%`.
+fn unbroken(text: impl Into<String>) -> String {
+    text.into().replace(" %", "\u{a0}%")
 }
 
 /// A row of a series: as many values as the series has columns, the rest unused.

@@ -13,7 +13,7 @@ pub struct Map {
     pub y: (f64, f64),
     /// Number of values in a row.
     pub columns: usize,
-    /// Row by row from the lowest y, along x; NaN where there is nothing.
+    /// Row by row from the lowest y, along x; NaN outside, which is drawn in grey.
     pub values: Vec<f64>,
     /// The lowest and the highest value that colours tell.
     pub range: (f64, f64),
@@ -23,8 +23,10 @@ pub struct Map {
 
 /// Room for the key [px].
 pub(crate) const KEY: f64 = 84.0;
-/// Colours that are told apart.
-const LEVELS: usize = 20;
+/// Shades; the eye does not see the step from one to the next.
+const LEVELS: usize = 64;
+/// Of places without a value: a grey, which no value has.
+const OUTSIDE: &str = "#c9c7c2";
 
 impl Map {
     /// The middle of each cell with its value: x, y, value.
@@ -44,25 +46,31 @@ impl Map {
         value.is_finite().then(|| ((share * LEVELS as f64) as usize).min(LEVELS - 1))
     }
 
-    /// Draws the rectangles, those of one colour in a row together; `at` places a point.
+    /// Draws the rectangles; `at` places a point. Those of one shade are one path.
     pub(crate) fn draw(&self, svg: &mut Svg, at: impl Fn((f64, f64)) -> (f64, f64)) {
-        let range = self.range;
-        let rows = self.values.len() / self.columns.max(1);
-        let x = |i: usize| self.x.0 + (self.x.1 - self.x.0) * i as f64 / self.columns as f64;
-        let y = |j: usize| self.y.0 + (self.y.1 - self.y.0) * j as f64 / rows as f64;
-        for (j, row) in self.values.chunks(self.columns.max(1)).enumerate() {
-            let levels: Vec<Option<usize>> = row.iter().map(|value| Self::level(*value, range)).collect();
+        let columns = self.columns.max(1);
+        let rows = self.values.len() / columns;
+        let place = |i: usize, j: usize| {
+            let share =
+                |ends: (f64, f64), k: usize, n: usize| ends.0 + (ends.1 - ends.0) * k as f64 / n as f64;
+            at((share(self.x, i, columns), share(self.y, j, rows)))
+        };
+        svg.rectangles(&[(place(0, 0), place(columns, rows))], OUTSIDE);
+        let mut shades: Vec<Vec<_>> = vec![Vec::new(); LEVELS];
+        for (j, row) in self.values.chunks(columns).enumerate() {
+            let levels: Vec<Option<usize>> =
+                row.iter().map(|value| Self::level(*value, self.range)).collect();
             let mut start = 0;
             for run in levels.chunk_by(|a, b| a == b) {
                 let end = start + run.len();
                 if let Some(level) = run[0] {
-                    let ((l, b), (r, t)) = (at((x(start), y(j))), at((x(end), y(j + 1))));
-                    // A little larger, so that no paper shines through between neighbours.
-                    let (r, t) = (r + 0.4, t - 0.4);
-                    svg.polygon(&[(l, b), (r, b), (r, t), (l, t)], &colour(level), 1.0, None);
+                    shades[level].push((place(start, j), place(end, j + 1)));
                 }
                 start = end;
             }
+        }
+        for (level, rectangles) in shades.iter().enumerate().filter(|(_, some)| !some.is_empty()) {
+            svg.rectangles(rectangles, &colour(level));
         }
     }
 
@@ -72,8 +80,8 @@ impl Map {
         let at = |share: f64| bottom - share * (bottom - top);
         let (l, r) = (left + 14.0, left + 28.0);
         for level in 0..LEVELS {
-            let (b, t) = (at(level as f64 / LEVELS as f64), at((level + 1) as f64 / LEVELS as f64) - 0.4);
-            svg.polygon(&[(l, b), (r, b), (r, t), (l, t)], &colour(level), 1.0, None);
+            let (b, t) = (at(level as f64 / LEVELS as f64), at((level + 1) as f64 / LEVELS as f64));
+            svg.rectangles(&[((l, b), (r, t))], &colour(level));
         }
         let stroke = Stroke::solid(INK, 0.9);
         svg.path(&[(l, bottom), (r, bottom), (r, top), (l, top), (l, bottom)], &stroke);
@@ -89,10 +97,10 @@ impl Map {
     }
 }
 
-/// From nearly white to dark blue, of even steps in lightness.
+/// From a light to a dark blue, in even steps of lightness.
 fn colour(level: usize) -> String {
     const STOPS: [[f64; 3]; 5] = [
-        [240.0, 246.0, 251.0],
+        [226.0, 238.0, 248.0],
         [189.0, 215.0, 236.0],
         [112.0, 169.0, 213.0],
         [45.0, 113.0, 177.0],
@@ -102,4 +110,37 @@ fn colour(level: usize) -> String {
     let below = (place as usize).min(STOPS.len() - 2);
     let mix = |i: usize| STOPS[below][i] + (place - below as f64) * (STOPS[below + 1][i] - STOPS[below][i]);
     format!("#{:02x}{:02x}{:02x}", mix(0) as u8, mix(1) as u8, mix(2) as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LEVELS, Map, OUTSIDE, colour};
+    use crate::svg::Svg;
+
+    #[test]
+    fn zero_and_outside_look_different() {
+        let values = vec![0.0, f64::NAN, 1.0, 1.0];
+        let map =
+            Map { x: (0.0, 1.0), y: (0.0, 1.0), columns: 2, values, range: (0.0, 1.0), label: "".into() };
+        let mut svg = Svg::new(100.0, 100.0, "");
+        map.draw(&mut svg, |(x, y)| (100.0 * x, 100.0 * (1.0 - y)));
+        let svg = svg.finish();
+        let shade = |fill: &str| svg.split("<path ").filter(|path| path.contains(fill)).collect::<String>();
+        // Below everything the grey of outside, then a quarter for zero and the upper half for one.
+        assert!(shade(OUTSIDE).contains("M0 100H100V0H0Z"), "{svg}");
+        assert!(shade(&colour(0)).contains("M0 100H50V50H0Z"), "{svg}");
+        assert!(shade(&colour(LEVELS - 1)).contains("M0 50H100V0H0Z"), "{svg}");
+    }
+
+    #[test]
+    fn neighbouring_shades_cannot_be_told_apart() {
+        let parts = |level| {
+            let text = colour(level);
+            [1, 3, 5].map(|i| i32::from_str_radix(&text[i..i + 2], 16).unwrap_or(-999))
+        };
+        for level in 1..LEVELS {
+            let steps = parts(level).into_iter().zip(parts(level - 1)).map(|(a, b)| (a - b).abs());
+            assert!(steps.max() <= Some(6), "{level}");
+        }
+    }
 }

@@ -95,6 +95,16 @@ impl Svg {
         let _ = writeln!(self.body, "<path d=\"{d}Z\" fill=\"{fill}\"{opacity}{stroke}/>");
     }
 
+    /// Filled rectangles of one colour, each from a corner to the opposite one, with sharp edges.
+    pub fn rectangles(&mut self, rectangles: &[((f64, f64), (f64, f64))], fill: &str) {
+        let _ = write!(self.body, "<path fill=\"{fill}\" shape-rendering=\"crispEdges\" d=\"");
+        for ((left, bottom), (right, top)) in rectangles {
+            let [l, b, r, t] = [left, bottom, right, top].map(|value| number(*value));
+            let _ = write!(self.body, "M{l} {b}H{r}V{t}H{l}Z");
+        }
+        self.body.push_str("\"/>\n");
+    }
+
     /// A circle.
     pub fn circle(&mut self, (x, y): (f64, f64), radius: f64, fill: &str, stroke: &Stroke<'_>) {
         if !all_finite(&[(x, y)]) {

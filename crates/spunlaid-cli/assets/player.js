@@ -117,7 +117,8 @@ class Player {
     return arrows;
   }
 
-  draw() {
+  /** Draws the present moment, with more captions below the usual ones. */
+  draw(captions = []) {
     const { frames, replicate, time } = this;
     const others = this.ghosts ? frames.replicates.map((_, r) => r).filter((r) => r !== replicate) : [];
     const scale = this.stretch === 1 ? "True to scale" : `Sideways stretched × ${this.stretch}`;
@@ -130,6 +131,7 @@ class Player {
         scale,
         `t = ${this.timeText()}, ${this.speedText()}`,
         `replicate ${frames.replicates[replicate]}${this.ghosts ? ", the others in grey" : ""}`,
+        ...captions,
       ],
       arrows: this.arrows(),
       held: frames.held,

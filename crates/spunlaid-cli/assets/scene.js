@@ -3,6 +3,12 @@
 const AXES = ["x", "y", "z"];
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, Arial, sans-serif";
 
+/** Colours of a picture that is saved. */
+const PAPER = {
+  ink: "#000000", muted: "#444444", rule: "#cccccc", stage: "#ffffff", fibre: "#000000",
+  trail: "#d55e00", ghost: "#999999", shadow: "#dddddd", air: "#0072b2",
+};
+
 /** Round numbers from low to high, about so many. */
 function roundTicks(low, high, count) {
   const rough = (high - low) / Math.max(count, 1);
@@ -33,6 +39,17 @@ class Scene {
     this.colours = Object.fromEntries(
       ["ink", "muted", "rule", "stage", "fibre", "trail", "ghost", "shadow", "air", "y", "z"].map((n) => [n, colour(n)]),
     );
+  }
+
+  /** Draws once at so many pixels across and in colours for paper; the canvas stays so until it is resized. */
+  onPaper(pixels, draw) {
+    const { fineness, colours } = this;
+    this.fineness = pixels / this.camera.width;
+    const [w, h] = [pixels, Math.round(this.camera.height * this.fineness)];
+    Object.assign(this.canvas, { width: w, height: h });
+    this.colours = { ...colours, ...PAPER };
+    draw();
+    Object.assign(this, { fineness, colours });
   }
 
   /** Makes the canvas as fine as the screen; says whether anything changed. */
@@ -302,10 +319,12 @@ class Scene {
 
   drawCaptions(captions) {
     const { context: c } = this;
+    // Beside the arrows there is less room on a phone.
+    const small = this.camera.width < 420;
     Object.assign(c, { textAlign: "left", textBaseline: "top" });
     captions.forEach((text, i) => {
       const y = 12 + 19 * i;
-      c.font = `${i === 0 ? "600 14px" : "13px"} ${FONT}`;
+      c.font = `${i === 0 ? "600 " : ""}${small ? 11.5 : 14 - Math.min(i, 1)}px ${FONT}`;
       // Readable on whatever is drawn behind.
       Object.assign(c, { globalAlpha: 0.8, fillStyle: this.colours.stage });
       c.fillRect(12, y - 2, c.measureText(text).width + 4, 18);

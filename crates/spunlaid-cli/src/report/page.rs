@@ -2,11 +2,12 @@
 
 use super::ReportInput;
 use super::frames;
-use super::table::{self, ReplicateRow, Row};
+use super::table::{self, Group, ReplicateRow};
 use super::words::{self, count};
 use crate::numbers::number;
 use askama::Template;
 use spunlaid::ensemble::Number;
+use spunlaid::observe::{DECLARED, Kind};
 use spunlaid_charts::Figure;
 
 /// Most replicates whose own values are listed.
@@ -15,7 +16,8 @@ const LISTED: usize = 1000;
 const STYLE: &str = include_str!("../../assets/report.css");
 
 /// The scripts, in one scope, in this order.
-const SCRIPTS: [&str; 5] = [
+const SCRIPTS: [&str; 6] = [
+    include_str!("../../assets/save.js"),
     include_str!("../../assets/frames.js"),
     include_str!("../../assets/camera.js"),
     include_str!("../../assets/scene.js"),
@@ -32,12 +34,13 @@ struct Page<'a> {
     summary: String,
     notes: &'a [String],
     frames: Option<frames::Frames>,
-    rows: Vec<Row>,
+    groups: Vec<Group>,
     replicates: u64,
     replicate_heads: Vec<String>,
     replicate_rows: Vec<ReplicateRow>,
     unlisted: usize,
-    figures: &'a [Figure],
+    /// Headings with the figures below them.
+    sections: Vec<(&'static str, Vec<&'a Figure>)>,
     work_error: String,
     balance_error: String,
     case_toml: &'a str,
@@ -45,6 +48,27 @@ struct Page<'a> {
     version: &'a str,
     style: &'a str,
     script: String,
+}
+
+/// The figures under headings, in the order of the headings.
+fn sections(figures: &[Figure]) -> Vec<(&'static str, Vec<&Figure>)> {
+    const HEADINGS: [&str; 4] = ["Motion of the free end", "Along the fibre", "Over time", "Air"];
+    let kind = |figure: &Figure| {
+        let mut measures = DECLARED.iter().flat_map(|declaration| declaration.measures);
+        measures.find(|measure| measure.figure.name == figure.name).map(|measure| measure.kind)
+    };
+    let heading = |figure: &Figure| match kind(figure) {
+        Some(Kind::Number | Kind::Spectrum) => HEADINGS[0],
+        Some(Kind::Profile) => HEADINGS[1],
+        Some(Kind::Series) => HEADINGS[2],
+        None if figure.name.starts_with("end_node") => HEADINGS[0],
+        None => HEADINGS[3],
+    };
+    let below = |title: &'static str| {
+        let figures: Vec<&Figure> = figures.iter().filter(|figure| heading(figure) == title).collect();
+        (title, figures)
+    };
+    HEADINGS.map(below).into_iter().filter(|(_, figures)| !figures.is_empty()).collect()
 }
 
 /// The page as HTML.
@@ -58,12 +82,12 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
         summary: words::case(input.case),
         notes: input.notes,
         frames: frames::pack(input.case, results),
-        rows: table::rows(results),
+        groups: table::groups(results),
         replicates: replicates as u64,
         replicate_heads: table::replicate_heads(results),
         replicate_rows: table::replicate_rows(results, LISTED),
         unlisted: replicates.saturating_sub(LISTED),
-        figures: input.figures,
+        sections: sections(input.figures),
         work_error: number(results.number("work_error").map_or(f64::NAN, Number::value)),
         balance_error: number(results.number("balance_error").map_or(f64::NAN, Number::value)),
         case_toml: input.case_toml,

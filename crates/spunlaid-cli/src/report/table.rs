@@ -1,13 +1,19 @@
 //! The rows of the results table.
 
-use super::words::estimate_text;
+use super::words::{estimate_text, unbroken};
 use crate::numbers::{number, signed};
 use spunlaid::ensemble::{Number, Results};
 use spunlaid::observe::Over;
 
+/// Results under a heading.
+pub(super) struct Group {
+    pub(super) title: String,
+    pub(super) rows: Vec<Row>,
+}
+
 /// A result with its unit.
 pub(super) struct Row {
-    pub(super) name: &'static str,
+    pub(super) name: String,
     pub(super) value: String,
     pub(super) unit: &'static str,
     /// Number of replicates it is taken over.
@@ -21,31 +27,42 @@ pub(super) struct ReplicateRow {
     pub(super) values: Vec<String>,
 }
 
-/// One row per number.
-pub(super) fn rows(results: &Results) -> Vec<Row> {
-    let of = |one: &Number| {
-        let (measure, factor) = (one.measure, one.measure.unit.per_si);
-        let (value, over) = match measure.over_replicates {
-            Over::Mean => (estimate_text(&one.estimate, factor), ""),
-            Over::Median => (number(one.value() * factor), "; median over the replicates"),
-            Over::Largest => (number(one.value() * factor), "; the largest of all replicates"),
-        };
-        let n = one.estimate.values.iter().filter(|value| value.is_finite()).count();
-        let over = if n > 1 { over } else { "" };
-        Row {
-            name: measure.label,
-            value,
-            unit: measure.unit.shown,
-            n,
-            meaning: format!("{}{over}", measure.meaning),
-        }
+/// A row for each number, under the headings of the measures.
+pub(super) fn groups(results: &Results) -> Vec<Group> {
+    let same = |a: &Number, b: &Number| a.measure.group == b.measure.group;
+    let of = |numbers: &[Number]| Group {
+        title: capitalised(numbers.first().map_or("", |one| one.measure.group.title)),
+        rows: numbers.iter().map(row).collect(),
     };
-    results.numbers.iter().map(of).collect()
+    results.numbers.chunk_by(same).map(of).collect()
+}
+
+fn row(one: &Number) -> Row {
+    let (measure, factor) = (one.measure, one.measure.unit.per_si);
+    let (value, over) = match measure.over_replicates {
+        Over::Mean => (estimate_text(&one.estimate, factor), ""),
+        Over::Median => (number(one.value() * factor), "; median over the replicates"),
+        Over::Largest => (number(one.value() * factor), "; the largest of all replicates"),
+    };
+    let n = one.estimate.values.iter().filter(|value| value.is_finite()).count();
+    let over = if n > 1 { over } else { "" };
+    Row {
+        name: unbroken(measure.label),
+        value,
+        unit: measure.unit.shown,
+        n,
+        meaning: unbroken(&format!("{}{over}", measure.meaning)),
+    }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
 /// Heads of the columns of [`replicate_rows`].
 pub(super) fn replicate_heads(results: &Results) -> Vec<String> {
-    let head = |one: &Number| format!("{} ({})", one.measure.label, one.measure.unit.shown);
+    let head = |one: &Number| unbroken(&format!("{} ({})", one.measure.label, one.measure.unit.shown));
     results.numbers.iter().map(head).collect()
 }
 

@@ -1,6 +1,6 @@
 //! Sentences, and numbers with their units.
 
-use crate::numbers::{THIN, number, plus_minus};
+use crate::numbers::{HARD, THIN, number, plus_minus};
 use spunlaid::air::EddyModel;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
@@ -16,6 +16,11 @@ pub(super) fn estimate_text(of: &Estimate, factor: f64) -> String {
 /// A number with its unit.
 pub(super) fn quantity(value: f64, unit: &str) -> String {
     format!("{}{THIN}{unit}", number(value))
+}
+
+/// The same text, but no line ends between a number and `%`.
+pub(super) fn unbroken(text: &str) -> String {
+    text.replace(" %", &format!("{HARD}%"))
 }
 
 /// A length in the unit that suits it.

@@ -49,7 +49,7 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
 }
 
 /// Columns and rows of a slice.
-const GRID: (usize, usize) = (140, 56);
+const GRID: (usize, usize) = (276, 112);
 
 /// A plane along the fibre, and the direction across the fibre in it.
 struct Plane {
@@ -117,8 +117,8 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
     });
     let charts: Vec<Chart> = charts.collect();
     let caption = format!(
-        "Speed of the mean flow in two planes through the root, of {}, and up to {} fibres as they were at the end. White: \
-         outside of the field.",
+        "Speed of the mean flow in two planes through the root, of {}, and up to {} fibres as they were at the end. Grey: \
+         outside the field.",
         placed.field.describe(),
         results.trajectories.len(),
     );
