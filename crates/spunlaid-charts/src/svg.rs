@@ -25,6 +25,9 @@ pub struct Svg {
 /// Families as wide as the embedded font (Arimo), so that SVG and PNG look alike.
 const FONTS: &str = "Arimo, Arial, Helvetica, 'Liberation Sans', sans-serif";
 
+/// A corner of a rectangle and the opposite one.
+pub type Rectangle = ((f64, f64), (f64, f64));
+
 impl Svg {
     /// An empty picture on white.
     ///
@@ -96,7 +99,7 @@ impl Svg {
     }
 
     /// Filled rectangles of one colour, each from a corner to the opposite one, with sharp edges.
-    pub fn rectangles(&mut self, rectangles: &[((f64, f64), (f64, f64))], fill: &str) {
+    pub fn rectangles(&mut self, rectangles: &[Rectangle], fill: &str) {
         let _ = write!(self.body, "<path fill=\"{fill}\" shape-rendering=\"crispEdges\" d=\"");
         for ((left, bottom), (right, top)) in rectangles {
             let [l, b, r, t] = [left, bottom, right, top].map(|value| number(*value));
