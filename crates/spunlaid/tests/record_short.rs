@@ -117,7 +117,8 @@ fn stat_short_records_hold_the_known_values() {
                 ("plateau", coverage(&records, |of| of.components[0].flat.density, 4.0 * TAU)),
             ] {
                 println!("{kind}, {times} integral times, {name}: {held:.1} % hold it, median {median:.3}");
-                if !(90.0..=98.5).contains(&held) {
+                // 91 to 97 % in thousands of records; with 300 that scatters by 1.5 %.
+                if !(88.0..=99.0).contains(&held) {
                     wrong.push(format!("{kind}, {times} integral times, {name}: {held:.1} %"));
                 }
             }
