@@ -304,7 +304,7 @@ fn a_fibre_that_leaves_the_flow_is_told_of() {
     case.air.flow = profile(Profile { x: vec![0.0, 0.5], velocity, ..Profile::default() });
     let notes = case.check().unwrap();
     assert_eq!(notes.len(), 1);
-    assert!(notes[0].to_string().contains("beyond what the flow of the case knows"), "{}", notes[0]);
+    assert!(notes[0].to_string().contains("out of the region where the flow is known"), "{}", notes[0]);
     // Ten of twenty elements hang below; a few less when the end rises.
     let outside = flights(&case)[0].number("share_outside_flow");
     assert!((0.45..=0.55).contains(&outside), "{outside}");

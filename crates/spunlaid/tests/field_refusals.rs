@@ -38,12 +38,12 @@ fn rejects_meshes_with_place_and_way_out() {
         (
             "0 1 4 3",
             "0 1 99 3",
-            "a.vtu: cell 1: names point 99, counted from 0, where there are 27; is the file complete?",
+            "a.vtu: cell 1: names point 99 (counted from 0), but there are 27 points; is the file complete?",
         ),
         (
             "0 1 4 3",
             "0 1 -4 3",
-            "a.vtu: cell 1: names point -4, counted from 0, where there are 27; is the file complete?",
+            "a.vtu: cell 1: names point -4 (counted from 0), but there are 27 points; is the file complete?",
         ),
         (
             types,
@@ -105,13 +105,13 @@ fn rejects_meshes_with_place_and_way_out() {
     flat.cells.iter_mut().for_each(|cell| *cell = (9, cell.1[..4].to_vec(), vec![]));
     assert_eq!(
         refused(&vtu(&[flat], ASCII)),
-        "a.vtu: has no cells with a volume, only 8 points, lines and faces; write the inside of the flow too, and a plane flow one cell thick or as a table of points"
+        "a.vtu: has no cells with a volume, only 8 points, lines and faces; write the interior of the flow as well, and a plane flow one cell thick or as a table of points"
     );
     let mut nan = mesh(Made::Hexahedra, 0.0);
     nan.point_data[2].2[4] = f64::NAN;
     assert_eq!(
         refused(&vtu(&[nan], ASCII)),
-        "a.vtu: point 5: NaN is no number between −1e30 and 1e30; mend the value, or leave out what has none"
+        "a.vtu: point 5: NaN is not a number between −1e30 and 1e30; correct the value, or leave out points without one"
     );
 }
 
@@ -131,7 +131,7 @@ fn rejects_grids_with_place_and_way_out() {
         ),
         (
             "0 1 0 1",
-            "a.vtu:4: WholeExtent: \"0 1 0 1\" was found instead of numbers parted by blanks; is the file complete, and is it the right one?",
+            "a.vtu:4: WholeExtent: \"0 1 0 1\" was found instead of numbers separated by blanks; is the file complete, and is it the right one?",
         ),
     ] {
         assert_eq!(refused(image.replace("0 1 0 1 0 1", extent).as_bytes()), said);
@@ -263,7 +263,7 @@ fn rejects_tables_with_place_and_way_out() {
         ),
         (
             &format!("{head}1,2,3,4,5,6\n1,2,3,4,5,6,7\n"),
-            "a.vtu:3: this row has 7 cells and needs 6; are both decimals and cells separated by commas??",
+            "a.vtu:3: this row has 7 cells and needs 6; are both decimals and cells separated by commas?",
         ),
         (
             &format!("{head}1,2,3,4,5,6\n1,2,x7,4,5,6\n"),

@@ -242,19 +242,19 @@ fn rejects_what_is_no_field() {
     wrong.velocity[3].y = f64::NAN;
     assert_eq!(
         said(&points, &cells, &wrong),
-        "point 4: NaN is no number between −1e30 and 1e30; mend the value, or leave out what has none"
+        "point 4: NaN is not a number between −1e30 and 1e30; correct the value, or leave out points without one"
     );
     let mut beyond = Cells::new();
     beyond.push(Shape::Tetrahedron, &[0, 1, 2, 8]).unwrap();
     assert_eq!(
         said(&points, &beyond, &still(8)),
-        "cell 1: names point 8, counted from 0, where there are 8; is the file complete?"
+        "cell 1: names point 8 (counted from 0), but there are 8 points; is the file complete?"
     );
     let mut flat = Cells::new();
     flat.push(Shape::Tetrahedron, &[0, 1, 2, 3]).unwrap();
     assert_eq!(
         said(&points, &flat, &still(8)),
-        "has no cells with a volume; write the inside of the flow too, and a plane flow one cell thick or as a table of points"
+        "has no cells with a volume; write the interior of the flow as well, and a plane flow one cell thick or as a table of points"
     );
     assert_eq!(
         Cells::new().push(Shape::Wedge, &[1, 2]).unwrap_err().to_string(),
@@ -264,7 +264,7 @@ fn rejects_what_is_no_field() {
     assert_eq!(said([vec![0.0, 1.0], vec![1.0, 1.0], vec![0.0]]), "y: goes from 1 to 1; it must increase");
     assert_eq!(
         said([vec![0.0, f64::INFINITY], vec![0.0, 1.0], vec![0.0]]),
-        "x: inf is no number between −1e30 and 1e30; mend the value, or leave out what has none"
+        "x: inf is not a number between −1e30 and 1e30; correct the value, or leave out points without one"
     );
     let few: Vec<V> = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(at).to_vec();
     assert_eq!(

@@ -114,8 +114,8 @@ fn rejects_values_with_the_way_out() {
         (
             "air.profile",
             "air.csv".into(),
-            "air.profile = \"air.csv\" is read from a file together with the case; write it in the case file and read that \
-             again",
+            "air.profile = \"air.csv\" is read from a file together with the case; write it in the case file and read the \
+             case again",
         ),
         (
             "air.speed_factor",

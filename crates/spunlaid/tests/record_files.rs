@@ -143,10 +143,7 @@ fn rejects_with_line_column_and_way_out() {
     for (text, said) in [
         ("", "a.csv: contains no rows of numbers; is it the right file?"),
         ("time_s,u_m_s\n", "a.csv: contains no rows of numbers; is it the right file?"),
-        (
-            "time_s,u_m_s\n0,1\n",
-            "a.csv: holds 1 samples; at least 64 are needed for statistics of turbulence",
-        ),
+        ("time_s,u_m_s\n0,1\n", "a.csv: has 1 samples; at least 64 are needed for statistics of turbulence"),
         (
             "time_s,p_Pa\n0,1\n",
             "a.csv: no column is a velocity, among time_s and p_Pa; name them like u_m_s, or say which columns are velocities, and in which unit",
@@ -182,7 +179,7 @@ fn rejects_with_line_column_and_way_out() {
         (&format!("{head}3\n"), "a.csv:5: this row has 1 cells and needs 2; is the file cut off here?"),
         (
             &format!("{head}3,1,5\n"),
-            "a.csv:5: this row has 3 cells and needs 2; are both decimals and cells separated by commas??",
+            "a.csv:5: this row has 3 cells and needs 2; are both decimals and cells separated by commas?",
         ),
         (
             &format!("{head}2,4\n"),
@@ -240,7 +237,10 @@ fn rejects_with_line_column_and_way_out() {
             layout(|l| l.columns = vec!["u".into(), "2".into()]),
             "a.csv: column u_m_s: is asked for twice; name each column once",
         ),
-        (layout(|l| l.rate = Some(0.0)), "a.csv: a sampling rate of 0 Hz is not one; give one above zero"),
+        (
+            layout(|l| l.rate = Some(0.0)),
+            "a.csv: a sampling rate of 0 Hz is not possible; give a rate above zero",
+        ),
     ] {
         assert_eq!(refused(head, &layout), said);
     }
@@ -270,63 +270,6 @@ fn rejects_what_is_no_file() {
     );
     assert!(at(Path::new("src")).ends_with("is a folder; name the velocity record in it"));
 }
-
-#[test]
-fn a_record_of_the_fluctuation_needs_the_mean_velocity_only() {
-    let folder = tempfile::tempdir().unwrap();
-    let mut state = 1u64;
-    let rows: String = (0..4000)
-        .map(|i| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            format!("{},{}\n", i, (state >> 32) as f64 / f64::from(u32::MAX) - 0.5)
-        })
-        .collect();
-    std::fs::write(folder.path().join("u.csv"), format!("time_ms,u_m_s\n{rows}")).unwrap();
-    let case = |velocity: &str| {
-        let text = format!(
-            "version = 1\n[fibre]\nlength = \"1 m\"\ndiameter = \"50 um\"\ndensity = \"950 kg/m3\"\n\
-             youngs_modulus = \"2 GPa\"\n[air]\nrecord = \"u.csv\"\n{velocity}[run]\nduration = \"10 ms\"\n"
-        );
-        let path = folder.path().join("case.toml");
-        std::fs::write(&path, text).unwrap();
-        spunlaid::input::read_case(&path, &[])
-    };
-    let (told, _) = case("velocity = \"10 m/s\"\n").unwrap();
-    // A uniform distribution of width 1 has the rms 1/√12; T_I is half the sampling interval, from its trapezia.
-    assert!((told.air.turbulence_intensity / (0.1 / 12f64.sqrt()) - 1.0).abs() < 0.03);
-    assert!((0.0045..0.0065).contains(&told.air.length_scale), "{}", told.air.length_scale);
-    assert!(case("").is_err());
-}
-
-type Column<'a> = (&'a str, Physical, Repetition);
-
-/// A Parquet file of these columns, each written by a function of the group it goes into.
-fn parquet(
-    columns: &[Column<'_>],
-    write: impl Fn(&mut SerializedFileWriter<Vec<u8>>),
-    compression: Compression,
-) -> Vec<u8> {
-    let fields = columns.iter().map(|(name, physical, repetition)| {
-        Arc::new(Type::primitive_type_builder(name, *physical).with_repetition(*repetition).build().unwrap())
-    });
-    let schema = Type::group_type_builder("record").with_fields(fields.collect()).build().unwrap();
-    let properties = WriterProperties::builder().set_compression(compression).build();
-    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties)).unwrap();
-    write(&mut writer);
-    writer.into_inner().unwrap()
-}
-
-fn column<T: DataType>(
-    group: &mut parquet::file::writer::SerializedRowGroupWriter<'_, Vec<u8>>,
-    values: &[T::T],
-    levels: Option<&[i16]>,
-) {
-    let mut column = group.next_column().unwrap().unwrap();
-    column.typed::<T>().write_batch(values, levels, None).unwrap();
-    column.close().unwrap();
-}
-
-const PLAIN: Repetition = Repetition::REQUIRED;
 
 #[test]
 fn a_million_samples_come_back_from_parquet() {
@@ -426,7 +369,7 @@ fn rejects_parquet_that_holds_no_record() {
         said(write(&[1.0, f64::INFINITY])),
         "a.parquet: row 2: column u_m_s: \"inf\" is not finite; leave the cell empty where a value is missing"
     );
-    assert!(said(write(&[])).contains("holds no rows"));
+    assert!(said(write(&[])).contains("contains no rows"));
     // Cut short, and with any byte turned over: refused or read, never more.
     let whole = write(&[3.0; 200]);
     for end in 0..whole.len() {

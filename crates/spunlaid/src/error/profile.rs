@@ -18,7 +18,7 @@ pub enum ProfileFault {
         found: Vec<String>,
     },
     /// Two columns hold the same quantity.
-    #[error("the columns \"{first}\" and \"{second}\" both hold {what}; keep one")]
+    #[error("the columns \"{first}\" and \"{second}\" both are columns {what}; keep one")]
     Twice {
         /// The quantity in them.
         what: &'static str,

@@ -427,15 +427,18 @@ mod tests {
     #[test]
     fn rejects_what_is_no_formula() {
         for (text, said) in [
-            ("", "cannot be read at \"the end\"; a number, a key or a parenthesis belongs there"),
-            ("1 +", "cannot be read at \"the end\"; a number, a key or a parenthesis belongs there"),
-            ("(1", "cannot be read at \"the end\"; a closing parenthesis belongs there"),
-            ("1 2", "cannot be read at \"2\"; an operator, + - * / or ^, belongs there"),
-            ("2 ^ 1 m", "has an exponent in m; an exponent is a plain number"),
-            ("air.velocity + 1 m", "adds m s^-1 and m; only like quantities can be added or subtracted"),
+            ("", "cannot be read at \"the end\"; a number, a key or a parenthesis is expected there"),
+            ("1 +", "cannot be read at \"the end\"; a number, a key or a parenthesis is expected there"),
+            ("(1", "cannot be read at \"the end\"; a closing parenthesis is expected there"),
+            ("1 2", "cannot be read at \"2\"; an operator, + - * / or ^, is expected there"),
+            ("2 ^ 1 m", "has an exponent in m; an exponent must be a plain number"),
+            (
+                "air.velocity + 1 m",
+                "adds m s^-1 and m; only quantities of the same unit can be added or subtracted",
+            ),
             (
                 "velocity",
-                "uses velocity, which is no key with a number; write the full name of one, like air.velocity",
+                "uses velocity, which is not a key with a number; write the full name of one, like air.velocity",
             ),
         ] {
             assert_eq!(value(text).unwrap_err().to_string(), said, "{text}");

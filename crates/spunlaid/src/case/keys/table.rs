@@ -386,7 +386,7 @@ pub(super) static KEYS: &[Key] = &[
         },
     })
     .follows("the smallest power of two, at least 128, for which the turbulence does not repeat within twice the run")
-    .meaning("Number of harmonics that the turbulence is summed from. It must be larger than cut-off frequency times duration.")
+    .meaning("Number of harmonics that the turbulence is summed from. The sum repeats after harmonics over cut-off frequency; before that, the wind passes to another sum.")
     .label("Number of harmonics")
     .varies()
     .counted(),
@@ -435,7 +435,7 @@ pub(super) static KEYS: &[Key] = &[
     .in_flight(),
     quantity("run.duration", Dimension::Time, Positive, steps!(steps, duration, 1))
         .required("1 s")
-        .meaning("Simulated time.")
+        .meaning("Time that is simulated, the spin-up included.")
         .label("Simulated time")
         .slider(0.1, 10.0)
         .counted(),
