@@ -161,7 +161,7 @@ fn the_summary_has_the_fields_that_are_promised() {
 #[test]
 fn json_is_the_summary_and_nothing_else() {
     let desk = Desk::new();
-    let said = success(&mut desk.spunlaid("run brief.toml --json"));
+    let said = success(&mut desk.spunlaid("run brief.toml --json --out results/brief"));
     assert_eq!(said.as_bytes(), desk.read("results/brief/summary.json"));
     serde_json::from_str::<Map<String, Value>>(&said).unwrap();
 }

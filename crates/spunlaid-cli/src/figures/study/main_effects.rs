@@ -4,8 +4,10 @@ use super::curves::BARS;
 use super::file_name;
 use super::quantity::{Along, Group, name_of_key};
 use spunlaid::study::{Factor, PointResults, Ranking, Study};
-use spunlaid_charts::{Chart, Figure, Series};
+use spunlaid_charts::{Chart, Figure, Series, even};
 
+/// Most points of a study that are drawn; the file of numbers has them all.
+const DRAWN: usize = 300;
 /// Points on the line of best fit.
 const FINE: usize = 40;
 
@@ -21,7 +23,7 @@ pub(super) fn of(
     let along = Along::new(varied);
     let title = format!("{} over {}", group.figure.title, name_of_key(varied.key));
     let mut chart = Chart::new(&file_name(group, varied.key), &title, along.axis.clone(), group.axis());
-    let mut is_adjusted = false;
+    let (mut is_adjusted, mut left_out) = (false, false);
     for (position, (measure, label)) in group.of.iter().enumerate() {
         let series = if position == 0 { Series::circles(label) } else { Series::triangles(label) };
         let ranking = rankings.iter().find(|ranking| ranking.measure == *measure);
@@ -39,7 +41,9 @@ pub(super) fn of(
             let fit = series.clone().unlabelled().named(&format!("{label} line of best fit"));
             chart = chart.line(fit.unmarked().dashed("2 4").width(1.2), &line);
         }
-        chart = chart.scatter(series, &spots);
+        let drawn: Vec<_> = even(spots.len(), DRAWN).iter().map(|&i| spots[i]).collect();
+        left_out |= drawn.len() < spots.len();
+        chart = chart.scatter(series.thinned_from(spots), &drawn);
     }
     let how = if is_adjusted {
         "the mean of every point, without the fitted contributions of the other factors. Dotted: the straight line of \
@@ -47,7 +51,9 @@ pub(super) fn of(
     } else {
         "the mean of every point, as it is: the study cannot separate the contributions of the other factors."
     };
-    let caption = format!("{} over {}: {how} {BARS}", group.figure.title, name_of_key(varied.key));
+    let drawn =
+        if left_out { format!(" {DRAWN} of {} points are drawn.", results.len()) } else { String::new() };
+    let caption = format!("{} over {}: {how} {BARS}{drawn}", group.figure.title, name_of_key(varied.key));
     Figure::of(&chart, caption)
 }
 
