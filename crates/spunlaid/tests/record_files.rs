@@ -271,6 +271,36 @@ fn rejects_what_is_no_file() {
     assert!(at(Path::new("src")).ends_with("is a folder; name the velocity record in it"));
 }
 
+type Column<'a> = (&'a str, Physical, Repetition);
+
+/// A Parquet file of these columns, each written by a function of the group it goes into.
+fn parquet(
+    columns: &[Column<'_>],
+    write: impl Fn(&mut SerializedFileWriter<Vec<u8>>),
+    compression: Compression,
+) -> Vec<u8> {
+    let fields = columns.iter().map(|(name, physical, repetition)| {
+        Arc::new(Type::primitive_type_builder(name, *physical).with_repetition(*repetition).build().unwrap())
+    });
+    let schema = Type::group_type_builder("record").with_fields(fields.collect()).build().unwrap();
+    let properties = WriterProperties::builder().set_compression(compression).build();
+    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties)).unwrap();
+    write(&mut writer);
+    writer.into_inner().unwrap()
+}
+
+fn column<T: DataType>(
+    group: &mut parquet::file::writer::SerializedRowGroupWriter<'_, Vec<u8>>,
+    values: &[T::T],
+    levels: Option<&[i16]>,
+) {
+    let mut column = group.next_column().unwrap().unwrap();
+    column.typed::<T>().write_batch(values, levels, None).unwrap();
+    column.close().unwrap();
+}
+
+const PLAIN: Repetition = Repetition::REQUIRED;
+
 #[test]
 fn a_million_samples_come_back_from_parquet() {
     let samples = 1_000_000;

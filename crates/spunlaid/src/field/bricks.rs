@@ -18,9 +18,9 @@ const CELLS: usize = 4;
 const SIDE: usize = CELLS + 1;
 const POINTS: usize = SIDE * SIDE * SIDE;
 /// How often a brick is divided into eight at most.
-const DEEPEST: u32 = 5;
+const DEEPEST: u32 = 6;
 /// Largest error of a brick, as a share of the largest value in the undivided brick.
-const ERROR: f64 = 1e-3;
+const ERROR: f64 = 1e-4;
 /// Points between those of the lattice where the error is measured.
 const PROBES: usize = 24;
 /// Most memory that bricks take [bytes]. Bricks beyond it are made again at every look.

@@ -242,7 +242,7 @@ impl Field {
     /// The air around a point, linear in space: its value and gradients at the point, and how far these may be used.
     ///
     /// It comes from lattices of values that are sampled once and kept for the life of the field. They are made as
-    /// fine as needed: within its reach the error is about a thousandth of the largest velocity near by. Where the
+    /// fine as needed: within its reach the error is about a ten-thousandth of the largest velocity near by. Where the
     /// field is too rough for that, it is [`Field::sample`] with a reach of zero.
     ///
     /// * `at` – [m]
