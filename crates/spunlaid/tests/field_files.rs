@@ -168,7 +168,7 @@ fn analytic_values_of_cells_are_the_mean_at_points() {
         let (field, warnings) = read(&bytes, "a.vtu");
         check(&field);
         let [of_cells, flat] = warnings.as_slice() else { panic!("{warnings:?}") };
-        assert!(of_cells.to_string().contains("U is given for cells"));
+        assert!(of_cells.to_string().contains("U is given at cells; each point gets the mean"));
         assert_eq!(flat, &FieldWarning::NotSolid { cells: 1 });
     }
     let data = [("U", 3, vec![1.0, 0.0, 0.0, 3.0, 0.0, 0.0])];
