@@ -1,6 +1,7 @@
 //! Changes in flight.
 
-use super::{Flight, surrounded};
+use super::Flight;
+use super::start::{check_strands, surrounded};
 use crate::case::Case;
 use crate::case::keys::{self, Value};
 use crate::chain::Strand;
@@ -41,7 +42,7 @@ impl Flight {
     fn fly_on_as(&mut self, cases: Vec<(Case, u64)>, key: &'static str) -> Result<(), Error> {
         let air = surrounded(&cases, self.isa)?;
         let strands: Vec<Strand> = cases.iter().map(|(case, _)| case.strand()).collect();
-        super::check_strands(&strands)?;
+        check_strands(&strands)?;
         if air.eddies != self.eddies || strands[0].fibre.elements != self.chain.elements() {
             let reason = "other elements would lie in other eddies";
             return Err(FlightFault::NotInFlight { key, reason }.into());

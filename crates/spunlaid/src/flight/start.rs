@@ -1,0 +1,185 @@
+//! Flights at their start: what may fly together, and how the fibres and the air around them begin.
+
+use super::{Common, EndNodeStatistics, Flight, Job, Start, Surrounded};
+use crate::air::{Surroundings, Wind};
+use crate::case::Case;
+use crate::chain::schemes::Scheme;
+use crate::chain::work::WorkDone;
+use crate::chain::{Chain, Strand};
+use crate::energy::Energy;
+use crate::error::{Error, FlightFault};
+use crate::lanes::{Isa, Lanes, WIDTH};
+use crate::vec3::Vec3;
+
+impl Flight {
+    /// Fibres at the start of their cases: straight and at rest, in moving air.
+    ///
+    /// # Errors
+    /// There is no job or there are more than eight, a case cannot be run ([`Case::check`]), or the cases cannot
+    /// fly together. Cases that fly together have the same number of elements, eddy of each element, times,
+    /// scheme, kinds of drag laws, cut-off frequency, number of harmonics and records; and either all or none of
+    /// them are damped.
+    pub fn new(jobs: &[Job<'_>], isa: Isa) -> Result<Self, Error> {
+        let first = jobs.first().ok_or(FlightFault::Empty)?;
+        for (lane, job) in jobs.iter().enumerate() {
+            // Replicates of one case usually share one reference.
+            if lane > 0 && std::ptr::eq(job.case, jobs[lane - 1].case) {
+                continue;
+            }
+            job.case.check().map_err(Error::Rejected)?;
+            if lane > 0 {
+                Common::of(first.case).check(&Common::of(job.case), lane)?;
+            }
+        }
+        let run = &first.case.run;
+        let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
+        let cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect::<Vec<_>>();
+        let air = surrounded(&cases, isa)?;
+        let mut flight = Self::assembled(isa, &strands, air, run.scheme, run.time_step)?;
+        (flight.cases, flight.spin_up) = (cases, run.spin_up_steps);
+        Ok(flight)
+    }
+
+    /// Straight fibres at rest in given air, to be advanced by steps of `h` [s].
+    ///
+    /// # Errors
+    /// There is no strand or there are more than eight, the strands have different numbers of elements or
+    /// different kinds of drag laws, the eddies or surroundings have another number of elements, the wind has
+    /// another number of eddies, or the step is not positive.
+    pub fn assembled(
+        isa: Isa,
+        strands: &[Strand],
+        air: impl Into<Surrounded>,
+        scheme: Scheme,
+        h: f64,
+    ) -> Result<Self, FlightFault> {
+        let Surrounded { eddies, wind, surroundings } = air.into();
+        check_strands(strands)?;
+        if !(h > 0.0 && h.is_finite()) {
+            return Err(FlightFault::Step { step: h });
+        }
+        let elements = strands[0].fibre.elements;
+        let around = surroundings.as_ref().map_or(elements, Surroundings::elements);
+        for (what, of, found, wanted) in [
+            ("air", "elements", eddies.of_element().len(), elements),
+            ("wind", "eddies", wind.eddies(), eddies.count()),
+            ("surrounding flow", "elements", around, elements),
+        ] {
+            if found != wanted {
+                return Err(FlightFault::Size { what, of, found, wanted });
+            }
+        }
+        let mut flight = Self {
+            isa,
+            cases: Vec::new(),
+            scheme,
+            damped: strands.iter().any(|s| s.damping != 0.0),
+            h,
+            start: Start::default(),
+            chain: Chain::straight(strands, scheme),
+            eddies,
+            wind,
+            surroundings,
+            work: WorkDone::default(),
+            steps_done: 0,
+            spin_up: 0,
+            end_node: EndNodeStatistics::default(),
+        };
+        // Clones made later share the first samples.
+        flight.wind.prepare();
+        flight.begin();
+        Ok(flight)
+    }
+
+    /// Sets positions and velocities of all nodes, and starts the clock and all statistics again.
+    ///
+    /// * `position`, `velocity` – of the `N+1` nodes [m, m/s]
+    ///
+    /// # Errors
+    /// The number of positions or velocities is not the number of nodes.
+    pub fn restart_from(
+        &mut self,
+        position: Vec<Vec3<Lanes>>,
+        velocity: Vec<Vec3<Lanes>>,
+    ) -> Result<(), FlightFault> {
+        let wanted = self.chain.position.len();
+        for found in [position.len(), velocity.len()] {
+            if found != wanted {
+                return Err(FlightFault::Size { what: "start", of: "nodes", found, wanted });
+            }
+        }
+        (self.chain.position, self.chain.velocity) = (position, velocity);
+        self.steps_done = 0;
+        self.work = WorkDone::default();
+        self.end_node = EndNodeStatistics::default();
+        self.begin();
+        Ok(())
+    }
+
+    /// Stores the start, and takes the first half kick of the staggered schemes.
+    fn begin(&mut self) {
+        let (position, velocity) = (self.chain.position.clone(), self.chain.velocity.clone());
+        let energy = Energy::held(self.isa, &self.chain, &position, &velocity, &position);
+        self.start = Start { position, velocity, energy };
+        self.start_staggered();
+        if let Some(surroundings) = &mut self.surroundings {
+            surroundings.forget();
+        }
+    }
+
+    /// Moves the velocities from time 0 to half a step before it, and chooses the earlier velocities so that the
+    /// first extrapolation gives the velocities at time 0.
+    fn start_staggered(&mut self) {
+        if !self.scheme.is_staggered() {
+            return;
+        }
+        let scheme = std::mem::replace(&mut self.scheme, Scheme::Leapfrog);
+        self.chain.settle_tensions();
+        let at_rest = self.chain.velocity.clone();
+        self.chain.earlier.clone_from(&at_rest);
+        self.run(1, (-0.5 * self.h, 0.0), false);
+        self.scheme = scheme;
+        self.steps_done = 0;
+        self.work = WorkDone::default();
+        self.end_node = EndNodeStatistics::default();
+        for (i, &v0) in at_rest.iter().enumerate() {
+            let v = self.chain.velocity[i];
+            self.chain.earlier[i] = v + (v - v0) * Lanes::splat(2.0);
+        }
+    }
+}
+
+/// The air of cases that can fly together.
+pub(super) fn surrounded(cases: &[(Case, u64)], isa: Isa) -> Result<Surrounded, FlightFault> {
+    let case = &cases[0].0;
+    let eddies = case.eddies();
+    let streams =
+        cases.iter().map(|(case, replicate)| Job { case, replicate: *replicate }.stream(&eddies)).collect();
+    // One step more than the run, because the energies at the last instant need one more step.
+    let wind = Wind::along(isa, streams, case.run.duration() + case.run.time_step)?;
+    let surroundings = case.surroundings(cases.iter().map(|(case, _)| case.air.clone()))?;
+    Ok(Surrounded { eddies, wind, surroundings })
+}
+
+/// Refuses strands that cannot fly together.
+pub(super) fn check_strands(strands: &[Strand]) -> Result<(), FlightFault> {
+    let Some(first) = strands.first() else {
+        return Err(FlightFault::Empty);
+    };
+    if strands.len() > WIDTH {
+        return Err(FlightFault::TooMany { fibres: strands.len(), most: WIDTH });
+    }
+    if first.fibre.elements == 0 {
+        return Err(FlightFault::Size { what: "fibre", of: "elements", found: 0, wanted: 1 });
+    }
+    for (lane, strand) in strands.iter().enumerate() {
+        let same = [
+            ("the number of elements", strand.fibre.elements == first.fibre.elements),
+            ("the kind of their drag laws", strand.drag.curves() == first.drag.curves()),
+        ];
+        if let Some((what, _)) = same.into_iter().find(|(_, same)| !same) {
+            return Err(FlightFault::Differ { what, lane });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,170 @@
+//! Steps of a flight, and what is seen of it between them.
+
+use super::{Flight, Snapshot};
+use crate::chain::force_pass::ElementBlock;
+use crate::chain::schemes::Scheme;
+use crate::chain::{explicit, implicit};
+use crate::energy::Energy;
+use crate::error::{Error, FlightFault};
+use crate::fibre::Root;
+use crate::lanes::{Lanes, Register, Task};
+
+/// Number of steps between two checks that all positions are finite.
+const STEPS_UNSEEN: u64 = 256;
+
+impl Flight {
+    /// Advances all fibres to a time [s], to the nearest whole step. There is no last time: the wind is made as
+    /// the time goes on.
+    ///
+    /// # Errors
+    /// A time that has passed, and a fibre that stops being finite; the flight is of no further use then.
+    pub fn step_to(&mut self, time: f64) -> Result<(), Error> {
+        let steps = (time / self.h).round();
+        // Beyond 2^53 steps a number of steps is no whole number any more.
+        if !(steps >= self.steps_done as f64 && steps < 9e15) {
+            return Err(FlightFault::TimePast { time, now: self.time() }.into());
+        }
+        let mut left = steps as u64 - self.steps_done;
+        while left > 0 {
+            let now = left.min(STEPS_UNSEEN);
+            self.advance(now);
+            left -= now;
+            if let Some(lost) = self.lost() {
+                return Err(lost);
+            }
+        }
+        Ok(())
+    }
+
+    /// Advances all fibres by a number of steps.
+    pub fn advance(&mut self, steps: u64) {
+        self.run(steps, (self.h, self.h), false);
+    }
+
+    /// Positions, velocities and energies now.
+    pub fn snapshot(&self) -> Snapshot {
+        self.clone().observe()
+    }
+
+    /// Positions, velocities and energies now. The flight advances by one step.
+    pub fn observe(&mut self) -> Snapshot {
+        let time = self.time();
+        let position = self.chain.position.clone();
+        let mut velocity = self.chain.velocity.clone();
+        let tension = self.chain.tension();
+        let (before, first) = (self.work, self.steps_done == 0);
+        self.run(1, (self.h, self.h), true);
+        if first {
+            velocity.clone_from(&self.start.velocity);
+        } else if self.scheme.is_staggered() {
+            for (v, after) in velocity.iter_mut().zip(&self.chain.velocity) {
+                *v = (*v + *after) * Lanes::splat(0.5);
+            }
+        }
+        let mut energy = Energy::held(self.isa, &self.chain, &position, &velocity, &self.start.position);
+        energy.enter_work(&self.start.energy, (&before, &self.work), self.scheme, self.h);
+        Snapshot { time, position, velocity, tension, energy }
+    }
+
+    /// The first fibre and node whose position is not finite, if there is one.
+    pub(crate) fn lost(&self) -> Option<Error> {
+        let position = &self.chain.position;
+        let lost = |lane: usize| position.iter().position(|p| !p.lane(lane).norm().is_finite());
+        let (lane, node) = (0..self.fibres()).find_map(|lane| Some((lane, lost(lane)?)))?;
+        let case = self.cases.get(lane);
+        // A held root becomes NaN only through the first element.
+        let held = case.is_some_and(|(case, _)| case.fibre.root != Root::Free);
+        Some(Error::NotFinite {
+            replicate: case.map_or(lane as u64, |(_, replicate)| *replicate) + 1,
+            node: node.max(usize::from(held)) + 1,
+            time: self.time(),
+            cause: case.map_or_else(
+                || "lower the time step".to_owned(),
+                |(case, _)| case.likely_cause_of_divergence(),
+            ),
+        })
+    }
+
+    pub(super) fn run(&mut self, steps: u64, kick_and_drift: (f64, f64), split: bool) {
+        let isa = self.isa;
+        // The very first step always stores the work separately, because the sums begin with it.
+        let first = steps.min(u64::from(self.steps_done == 0));
+        for (steps, split) in [(first, true), (steps - first, split)] {
+            if steps > 0 {
+                isa.run(Advance { flight: self, steps, kick_and_drift, split });
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn count_step<S: Register>(&mut self) {
+        if self.steps_done == 0 {
+            self.work.begin();
+        }
+        self.steps_done += 1;
+        if self.steps_done > self.spin_up {
+            self.end_node.see::<S>(&self.chain.position[self.chain.elements()]);
+        }
+    }
+}
+
+/// Advances a flight by a number of steps in its wind. This is a macro because a closure would not be inlined.
+macro_rules! in_wind {
+    ($steps:expr, $b:ident, |$wind:ident, $eddy:ident| $step:block) => {
+        for _ in 0..$steps {
+            let now = $b.wind.blow::<S>($b.steps_done as f64 * $b.h);
+            let $eddy = $b.eddies.of_element();
+            if let Some(surroundings) = &mut $b.surroundings {
+                let $wind = surroundings.around::<S>($b.steps_done, &$b.chain.position, now);
+                $step
+            } else {
+                let $wind = now;
+                $step
+            }
+            $b.count_step::<S>();
+        }
+    };
+}
+
+/// Steps of a flight. With `split`, the work of the velocities before each kick is stored separately.
+struct Advance<'a> {
+    flight: &'a mut Flight,
+    steps: u64,
+    kick_and_drift: (f64, f64),
+    split: bool,
+}
+
+impl Task for Advance<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<S: Register>(self) {
+        match self.flight.scheme {
+            Scheme::SemiImplicitEuler => self.steps::<S, false>(),
+            Scheme::Leapfrog => self.steps::<S, true>(),
+            Scheme::ImplicitTension => self.implicit_steps::<S>(),
+        }
+    }
+}
+
+impl Advance<'_> {
+    #[inline(always)]
+    fn steps<S: Register, const LEAPFROG: bool>(self) {
+        let (b, by) = (self.flight, self.kick_and_drift);
+        let how = (b.damped, self.split);
+        let mut block = ElementBlock::new();
+        in_wind!(self.steps, b, |wind, eddy| {
+            explicit::step::<S, LEAPFROG>(&mut b.chain, wind, eddy, by, how, &mut b.work, &mut block);
+        });
+    }
+
+    #[inline(always)]
+    fn implicit_steps<S: Register>(self) {
+        let b = self.flight;
+        let how = (b.damped, self.split);
+        let mut block = ElementBlock::new();
+        in_wind!(self.steps, b, |wind, eddy| {
+            implicit::step::<S>(&mut b.chain, wind, eddy, b.h, how, &mut b.work, &mut block);
+        });
+    }
+}
