@@ -6,6 +6,7 @@ mod common;
 
 use common::{Place, case};
 use std::fs;
+use std::process::Stdio;
 
 /// Largest memory of a sweep [KiB].
 struct Peak {
@@ -23,8 +24,10 @@ fn peak(points: u64, replicates: u64) -> Peak {
          'air.velocity' = {{ from = '5 m/s', to = '20 m/s' }}\n'fibre.diameter' = {{ from = '30 µm', to = '60 µm' }}\n"
     );
     let place = Place::new(&case, &study);
-    // On one thread: how many figures two threads draw at the same instant is left to chance.
-    let mut child = place.under_way("out", &["--threads", "1"]);
+    // The allocator gives back at once what is free, so that the peak is what is in use.
+    let mut sweep = place.sweep("out", &["--threads", "1"]);
+    sweep.env("MALLOC_ARENA_MAX", "1").env("MALLOC_MMAP_THRESHOLD_", "65536");
+    let mut child = sweep.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let out = place.path("out");
     let status = format!("/proc/{}/status", child.id());
     let (mut peak, mut landed) = (Peak { flying: 0, whole: 0 }, false);
