@@ -8,6 +8,8 @@
 //! To add a key, add a row to the table; then write the code that uses its value.
 
 mod nearest;
+#[macro_use]
+mod row;
 mod table;
 mod value;
 

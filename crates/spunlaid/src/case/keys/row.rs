@@ -1,0 +1,216 @@
+//! How a row of the table of keys is written.
+
+use super::value::{FileKind, Kind, Sign, Value};
+use super::{Key, LeftOut};
+use crate::air::{Flow, PlacedField};
+use crate::case::{Case, whole_parts};
+use crate::error::Fault;
+use crate::units::Dimension;
+use crate::vec3::Vec3;
+
+/// How to get and set the value of a key in a case.
+pub(super) struct Access {
+    pub(super) get: fn(&Case) -> Option<Value>,
+    pub(super) set: fn(&mut Case, &Value) -> Result<(), Fault>,
+}
+
+/// Access to a number of the case: `number!(fibre.diameter)`.
+macro_rules! number {
+    ($($field:ident).+) => {
+        Access {
+            get: |case| Some(Value::Number(case.$($field).+)),
+            set: |case, value| {
+                case.$($field).+ = number(value)?;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// Access to one of several named options: `choice!(fibre.root, Root::ALL)`.
+macro_rules! choice {
+    ($($field:ident).+, $all:expr) => {
+        Access {
+            get: |case| Some(case.$($field).+.name().into()),
+            set: |case, value| {
+                case.$($field).+ = named(value, &$all, |one| one.name())?;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// Access to a number of the air that the flow may give instead.
+macro_rules! of_air {
+    ($field:ident) => {
+        Access {
+            get: |case| Some(Value::Number(case.air.$field)),
+            set: |case, value| {
+                case.air.$field = number(value)?;
+                case.air.from_flow.$field = false;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// Access to a number that only matters for a CFD field.
+macro_rules! of_field {
+    ($field:ident) => {
+        Access {
+            get: |case| Some(Value::Number(placed(case)?.$field)),
+            set: |case, value| {
+                placed_mut(case)?.$field = number(value)?;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// Access to a time that is a whole number of steps.
+macro_rules! steps {
+    ($field:ident, $time:ident, $least:expr) => {
+        Access {
+            get: |case| (case.run.time_step > 0.0).then(|| Value::Number(case.run.$time())),
+            set: |case, value| {
+                case.run.$field = whole_parts(number(value)?, case.run.time_step).0.max($least);
+                Ok(())
+            },
+        }
+    };
+}
+
+pub(super) const fn key(name: &'static str, kind: Kind, access: Access) -> Key {
+    let Access { get, set } = access;
+    Key {
+        name,
+        kind,
+        left_out: LeftOut::Follows(""),
+        meaning: "",
+        label: name,
+        varies: false,
+        in_flight: false,
+        slider: None,
+        counted: false,
+        get,
+        set,
+        told: |_| false,
+    }
+}
+
+/// A quantity, which a study may vary.
+pub(super) const fn quantity(name: &'static str, dimension: Dimension, sign: Sign, access: Access) -> Key {
+    key(name, Kind::Quantity(dimension, sign), access).varies()
+}
+
+pub(super) const fn choose(name: &'static str, names: fn() -> Vec<&'static str>, access: Access) -> Key {
+    key(name, Kind::Choice(names), access)
+}
+
+pub(super) const fn file(name: &'static str, kind: FileKind, access: Access) -> Key {
+    key(name, Kind::File(kind), access)
+}
+
+impl Key {
+    pub(super) const fn required(self, example: &'static str) -> Self {
+        Self { left_out: LeftOut::Required(example), ..self }
+    }
+
+    pub(super) const fn value(self, value: &'static str) -> Self {
+        Self { left_out: LeftOut::Value(value), ..self }
+    }
+
+    pub(super) const fn follows(self, words: &'static str) -> Self {
+        Self { left_out: LeftOut::Follows(words), ..self }
+    }
+
+    pub(super) const fn meaning(self, meaning: &'static str) -> Self {
+        Self { meaning, ..self }
+    }
+
+    pub(super) const fn label(self, label: &'static str) -> Self {
+        Self { label, ..self }
+    }
+
+    pub(super) const fn slider(self, least: f64, greatest: f64) -> Self {
+        Self { slider: Some((least, greatest)), ..self }
+    }
+
+    pub(super) const fn varies(self) -> Self {
+        Self { varies: true, ..self }
+    }
+
+    pub(super) const fn fixed(self) -> Self {
+        Self { varies: false, ..self }
+    }
+
+    pub(super) const fn in_flight(self) -> Self {
+        Self { in_flight: true, ..self }
+    }
+
+    pub(super) const fn counted(self) -> Self {
+        Self { counted: true, ..self }
+    }
+
+    pub(super) const fn told(self, told: fn(&Case) -> bool) -> Self {
+        Self { told, ..self }
+    }
+}
+
+/// The fault of a value of the wrong kind. It only occurs if the caller has not checked the value.
+fn unfit(value: &Value, wanted: &str) -> Fault {
+    Fault::WrongType { found: value.what(), wanted: wanted.to_owned() }
+}
+
+pub(super) fn number(value: &Value) -> Result<f64, Fault> {
+    value.number().ok_or_else(|| unfit(value, "a number"))
+}
+
+pub(super) fn whole(value: &Value) -> Result<u64, Fault> {
+    match value {
+        Value::Whole(number) => Ok(*number),
+        _ => Err(unfit(value, "a whole number")),
+    }
+}
+
+pub(super) fn vector(value: &Value) -> Result<Vec3<f64>, Fault> {
+    match value {
+        Value::Vector(vector) => Ok(*vector),
+        _ => Err(unfit(value, "a vector")),
+    }
+}
+
+pub(super) fn named<T: Copy>(value: &Value, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, Fault> {
+    let found = match value {
+        Value::Text(text) => all.iter().copied().find(|one| name(*one) == text),
+        _ => None,
+    };
+    found.ok_or_else(|| unfit(value, "a name"))
+}
+
+pub(super) fn placed(case: &Case) -> Option<&PlacedField> {
+    match &case.air.flow {
+        Flow::Field(placed) => Some(placed),
+        _ => None,
+    }
+}
+
+pub(super) fn placed_mut(case: &mut Case) -> Result<&mut PlacedField, Fault> {
+    match &mut case.air.flow {
+        Flow::Field(placed) => Ok(placed),
+        _ => {
+            let remedy = "leave it out, or name the file of a CFD field";
+            Err(Fault::Needs { needed: "air.field", remedy })
+        }
+    }
+}
+
+/// Changes the time step. All times of the run stay the same; their numbers of steps change.
+pub(super) fn set_time_step(case: &mut Case, time_step: f64) {
+    let run = &mut case.run;
+    let steps = |time: f64| whole_parts(time, time_step).0;
+    let (duration, spin_up, output) = (run.duration(), run.spin_up(), run.output_interval());
+    (run.steps, run.spin_up_steps, run.output_steps) =
+        (steps(duration).max(1), steps(spin_up), steps(output).max(1));
+    run.time_step = time_step;
+}
