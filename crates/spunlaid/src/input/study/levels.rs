@@ -3,7 +3,7 @@
 use super::super::document::kind;
 use super::super::values::{integer, number};
 use super::dimension;
-use super::read::{Entry, Reader, in_order};
+use super::reader::{Entry, Reader, in_order};
 use crate::case::keys::{Key, Value, nearest_word};
 use crate::error::{Fault, StudyFault};
 use crate::study::{Design, Levels, Spacing};

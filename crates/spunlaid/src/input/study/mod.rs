@@ -3,8 +3,9 @@
 mod differences;
 mod levels;
 mod links;
+mod plan;
 mod points;
-mod read;
+mod reader;
 mod write;
 
 pub use differences::differences;
@@ -71,7 +72,7 @@ pub fn parse_study(
     points: Option<u64>,
     case: impl FnOnce(&str) -> Result<(String, String), Error>,
 ) -> Result<StudyFile, Error> {
-    let mut reader = read::Reader::new(text, name)?;
+    let mut reader = reader::Reader::new(text, name)?;
     let (case_text, case_name) = match reader.case() {
         Some(named) => case(&named)?,
         None => return Err(reader.rejected()),

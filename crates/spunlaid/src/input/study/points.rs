@@ -3,7 +3,7 @@
 use super::super::data::DataFiles;
 use super::super::resolve::{self, Open};
 use super::super::written::Said;
-use super::read::{Plan, of_base};
+use super::plan::{Plan, of_base};
 use super::{dimension, links, varied};
 use crate::case::keys::{self, Key, Value};
 use crate::case::{Note, Remark};

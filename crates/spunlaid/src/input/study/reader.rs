@@ -1,0 +1,162 @@
+//! The entries of a study file, each with its place, and the problems found in them.
+
+use super::super::document::{kind, table_named};
+use super::super::source::{Source, fit};
+use super::super::values::integer;
+use crate::case::keys::nearest_word;
+use crate::error::{Error, Fault, Finding, Place, Problem, StudyFault};
+use std::collections::BTreeMap;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+const KEYS: [&str; 9] =
+    ["version", "case", "design", "points", "replicates", "common_phases", "seed", "vary", "link"];
+
+/// A value with its place and its text in the file.
+pub(super) struct Entry<'a> {
+    pub(super) at: usize,
+    pub(super) place: Place,
+    pub(super) shown: Option<String>,
+    pub(super) value: DeValue<'a>,
+}
+
+/// Reads a study file and collects its problems.
+pub(super) struct Reader<'a> {
+    pub(super) source: Source<'a>,
+    pub(super) entries: BTreeMap<String, Entry<'a>>,
+    pub(super) problems: Vec<Problem>,
+    /// Keys that are missing only because they are misspelt.
+    excused: Vec<&'static str>,
+}
+
+impl<'a> Reader<'a> {
+    /// Splits the file into its entries.
+    ///
+    /// # Errors
+    /// When the text is not TOML.
+    pub(super) fn new(text: &'a str, name: &str) -> Result<Self, Error> {
+        let source = Source::new(text, name);
+        let (root, faults) = DeTable::parse_recoverable(text);
+        if !faults.is_empty() {
+            return Err(Error::Rejected(faults.iter().map(|fault| source.syntax(fault)).collect()));
+        }
+        let mut reader = Self { source, entries: BTreeMap::new(), problems: Vec::new(), excused: Vec::new() };
+        let mut tables = Vec::new();
+        for (key, value) in root.into_inner() {
+            let (at, name) = (key.span().start, key.into_inner());
+            let entry = reader.entry(at, value);
+            if KEYS.contains(&name.as_ref()) {
+                reader.entries.insert(name.into_owned(), entry);
+            } else {
+                if table_named(&name).is_some() {
+                    tables.push((entry, name.into_owned()));
+                    continue;
+                }
+                let advice = match nearest_word(&name, KEYS.into_iter()) {
+                    Some(key) => {
+                        reader.excused.push(key);
+                        format!("did you mean {key}?")
+                    }
+                    None => format!("the keys are {} and {}", KEYS[..8].join(", "), KEYS[8]),
+                };
+                reader.reject(&entry, &name, StudyFault::UnknownKey { advice });
+            }
+        }
+        tables.sort_by_key(|(entry, _)| entry.at);
+        if let Some((entry, name)) = tables.first() {
+            if !reader.entries.contains_key("case") {
+                // The file is a case, so all other problems would only repeat this one.
+                reader.problems.clear();
+                reader.excused.push("case");
+            }
+            reader.reject(entry, &format!("[{name}]"), StudyFault::TableOfCase);
+        }
+        Ok(reader)
+    }
+
+    pub(super) fn entry(&self, at: usize, value: Spanned<DeValue<'a>>) -> Entry<'a> {
+        let text = self.source.shown(value.span());
+        let is_headed = value.get_ref().is_table() && !text.starts_with('{');
+        let shown = Some(text).filter(|_| !is_headed);
+        Entry { at, place: self.source.place(at), shown, value: value.into_inner() }
+    }
+
+    pub(super) fn reject(&mut self, entry: &Entry<'_>, key: &str, fault: impl Into<Fault>) {
+        let (place, value) = (entry.place.clone(), entry.shown.clone());
+        self.problems.push(Finding { place, key: fit(key), value, what: fault.into() });
+    }
+
+    /// Notes a problem of the whole file.
+    pub(super) fn reject_whole(&mut self, key: &str, fault: StudyFault) {
+        if self.excused.contains(&key) && matches!(fault, StudyFault::Missing { .. }) {
+            return;
+        }
+        let place = self.source.whole();
+        self.problems.push(Finding { place, key: key.to_owned(), value: None, what: fault.into() });
+    }
+
+    pub(super) fn wrong_type(&mut self, entry: &Entry<'_>, key: &str, wanted: &str) {
+        let fault = Fault::WrongType { found: kind(&entry.value), wanted: wanted.to_owned() };
+        self.reject(entry, key, fault);
+    }
+
+    /// All problems, in the order of the file.
+    pub(super) fn rejected(self) -> Error {
+        let mut problems = self.problems;
+        problems.sort_by(|a, b| a.place.cmp(&b.place));
+        problems.into()
+    }
+
+    pub(super) fn whole(&mut self, key: &str, least: u64, most: u64) -> Option<u64> {
+        let entry = self.entries.remove(key)?;
+        self.whole_in(&entry, key, least, most)
+    }
+
+    pub(super) fn whole_in(&mut self, entry: &Entry<'_>, key: &str, least: u64, most: u64) -> Option<u64> {
+        match &entry.value {
+            DeValue::Integer(number) => match integer(number) {
+                Some(number) if (least..=most).contains(&number) => return Some(number),
+                _ => self.reject(entry, key, Fault::OutOfRange { least, most }),
+            },
+            _ => self.wrong_type(entry, key, "a whole number without quotes, like 10"),
+        }
+        None
+    }
+
+    pub(super) fn truth(&mut self, key: &str) -> Option<bool> {
+        let entry = self.entries.remove(key)?;
+        if let DeValue::Boolean(truth) = entry.value {
+            return Some(truth);
+        }
+        self.wrong_type(&entry, key, "true or false, without quotes");
+        None
+    }
+
+    /// The entries of a table in the order of the file; `air.velocity = …` and `"air.velocity" = …` are equal.
+    pub(super) fn flat(&mut self, table: DeTable<'a>) -> Vec<(String, Entry<'a>)> {
+        let mut flat = Vec::new();
+        for ((at, key), value) in in_order(table) {
+            let entry = self.entry(at, value);
+            match entry.value {
+                DeValue::Table(inner) if table_named(&key).is_some() => {
+                    for ((at, inner_key), value) in in_order(inner) {
+                        flat.push((format!("{key}.{inner_key}"), self.entry(at, value)));
+                    }
+                }
+                value => flat.push((key, Entry { value, ..entry })),
+            }
+        }
+        flat.sort_by_key(|(_, entry)| entry.at);
+        flat
+    }
+}
+
+/// Keys with their positions, and values of a table in the order of the file.
+pub(super) fn in_order<'a>(table: DeTable<'a>) -> Vec<((usize, String), Spanned<DeValue<'a>>)> {
+    let mut entries: Vec<_> = table
+        .into_iter()
+        .map(|(key, value)| ((key.span().start, key.into_inner().into_owned()), value))
+        .collect();
+    entries.sort_by_key(|((at, _), _)| *at);
+    entries
+}
