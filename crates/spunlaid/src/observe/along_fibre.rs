@@ -1,6 +1,6 @@
 //! Amplitude of each node of the fibre.
 
-use super::{Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Value, always};
+use super::{Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observer, Seen, Value, always};
 use crate::case::Case;
 use crate::flight::Flight;
 use crate::lanes::Lanes;
@@ -8,49 +8,40 @@ use crate::vec3::Vec3;
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        measure(
-            "amplitude_y_along_fibre",
-            "amplitude_y_along_fibre_m",
-            "Amplitude in y along the fibre",
-            "*y*",
-        ),
-        measure(
-            "amplitude_z_along_fibre",
-            "amplitude_z_along_fibre_m",
-            "Amplitude in z along the fibre",
-            "*z*",
-        ),
+        Measure {
+            name: "amplitude_y_along_fibre",
+            column: "amplitude_y_along_fibre_m",
+            label: "Amplitude in y along the fibre",
+            series: "*y*",
+            ..AMPLITUDE
+        },
+        Measure {
+            name: "amplitude_z_along_fibre",
+            column: "amplitude_z_along_fibre_m",
+            label: "Amplitude in z along the fibre",
+            series: "*z*",
+            ..AMPLITUDE
+        },
     ],
     applies: always,
     observer: |case| Box::new(Spread::of(case)),
 };
 
-const fn measure(
-    name: &'static str,
-    column: &'static str,
-    label: &'static str,
-    series: &'static str,
-) -> Measure {
-    Measure {
-        name,
-        column,
-        label,
-        meaning: "standard deviation over time of each node’s position, at the recorded instants",
-        unit: MILLIMETRES,
-        kind: Kind::Profile,
-        group: FIBRE,
-        over_replicates: Over::Mean,
-        figure: &Figure {
-            name: "amplitude_along_fibre",
-            title: "Amplitude along the fibre",
-            words: "amplitude along the fibre",
-            logarithmic: false,
-            from_zero: true,
-            caption: "Amplitude of each node: the standard deviation of its y and z over time.",
-        },
-        series,
-    }
-}
+const AMPLITUDE: Measure = Measure {
+    meaning: "standard deviation over time of each node’s position, at the recorded instants",
+    unit: MILLIMETRES,
+    kind: Kind::Profile,
+    group: FIBRE,
+    figure: &Figure {
+        name: "amplitude_along_fibre",
+        title: "Amplitude along the fibre",
+        words: "amplitude along the fibre",
+        logarithmic: false,
+        from_zero: true,
+        caption: "Amplitude of each node: the standard deviation of its y and z over time.",
+    },
+    ..Measure::NUMBER
+};
 
 /// Running mean and variance of every node at the recorded instants (Welford).
 #[derive(Debug)]

@@ -1,51 +1,46 @@
 //! Distance of the free end from the axis of the flow.
 
-use super::{Declaration, END_NODE, Figure, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Value, always};
+use super::{Declaration, Figure, MILLIMETRES, Measure, Observer, Seen, Value, always};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
 use crate::statistics::quantile;
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        measure(
-            "deflection_99",
-            "deflection_99_m",
-            "Deflection, 99 % of the time",
-            "distance from the axis through the root that the free end does not exceed at 99 % of the recorded instants",
-            "99 %",
-        ),
-        measure(
-            "largest_deflection",
-            "largest_deflection_m",
-            "Largest deflection",
-            "largest distance of the free end from the axis through the root at the recorded instants; it grows with the \
-             duration",
-            "largest",
-        ),
+        Measure {
+            name: "deflection_99",
+            column: "deflection_99_m",
+            label: "Deflection, 99 % of the time",
+            meaning: "distance from the axis through the root that the free end does not exceed at 99 % of the recorded instants",
+            series: "99 %",
+            ..DEFLECTION
+        },
+        Measure {
+            name: "largest_deflection",
+            column: "largest_deflection_m",
+            label: "Largest deflection",
+            meaning: "largest distance of the free end from the axis through the root at the recorded instants; it grows with the \
+                      duration",
+            series: "largest",
+            ..DEFLECTION
+        },
     ],
     applies: always,
     observer: |_| Box::new(Deflection::default()),
 };
 
-const FIGURE: Figure = Figure {
-    name: "deflection",
-    title: "Deflection of the free end",
-    words: "deflection",
-    logarithmic: false,
-    from_zero: true,
-    caption: "",
+const DEFLECTION: Measure = Measure {
+    unit: MILLIMETRES,
+    figure: &Figure {
+        name: "deflection",
+        title: "Deflection of the free end",
+        words: "deflection",
+        logarithmic: false,
+        from_zero: true,
+        caption: "",
+    },
+    ..Measure::NUMBER
 };
-
-const fn measure(
-    name: &'static str,
-    column: &'static str,
-    label: &'static str,
-    meaning: &'static str,
-    series: &'static str,
-) -> Measure {
-    let (unit, kind, group, figure) = (MILLIMETRES, Kind::Number, END_NODE, &FIGURE);
-    Measure { name, column, label, meaning, unit, kind, group, over_replicates: Over::Mean, figure, series }
-}
 
 /// Distances of the free ends from the axis at the recorded instants after the spin-up [m].
 #[derive(Debug, Default)]

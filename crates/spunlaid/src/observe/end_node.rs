@@ -1,47 +1,72 @@
 //! Amplitude, frequency and mean position of the free end, from every step after the spin-up.
 
-use super::{
-    Declaration, END_NODE, Figure, HERTZ, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Unit, Value,
-    always,
-};
+use super::{Declaration, Figure, HERTZ, MILLIMETRES, Measure, Observer, Seen, Value, always};
 use crate::case::Case;
 use crate::flight::Flight;
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        across("amplitude_y", "amplitude_y_m", "Amplitude in y", DEVIATION, &AMPLITUDE, MILLIMETRES, "*y*"),
-        across("amplitude_z", "amplitude_z_m", "Amplitude in z", DEVIATION, &AMPLITUDE, MILLIMETRES, "*z*"),
-        across("frequency_y", "frequency_y_hz", "Frequency in y", CROSSINGS, &FREQUENCY, HERTZ, "*y*"),
-        across("frequency_z", "frequency_z_hz", "Frequency in z", CROSSINGS, &FREQUENCY, HERTZ, "*z*"),
-        across("mean_x", "mean_x_m", "Mean position along the flow", MEAN_X, &POSITION, MILLIMETRES, "*x*"),
+        Measure {
+            name: "amplitude_y",
+            column: "amplitude_y_m",
+            label: "Amplitude in y",
+            series: "*y*",
+            ..AMPLITUDE
+        },
+        Measure {
+            name: "amplitude_z",
+            column: "amplitude_z_m",
+            label: "Amplitude in z",
+            series: "*z*",
+            ..AMPLITUDE
+        },
+        Measure {
+            name: "frequency_y",
+            column: "frequency_y_hz",
+            label: "Frequency in y",
+            series: "*y*",
+            ..FREQUENCY
+        },
+        Measure {
+            name: "frequency_z",
+            column: "frequency_z_hz",
+            label: "Frequency in z",
+            series: "*z*",
+            ..FREQUENCY
+        },
+        MEAN_X,
     ],
     applies: always,
     observer: |case| Box::new(EndNode::of(case)),
 };
 
-const DEVIATION: &str = "standard deviation over time of the free end’s position";
-const CROSSINGS: &str = "half the number of sign changes per second of the free end’s position";
-const MEAN_X: &str = "mean over time of the free end’s x; the smaller it is against the fibre’s length, the more the fibre is bent";
+const AMPLITUDE: Measure = Measure {
+    meaning: "standard deviation over time of the free end’s position",
+    unit: MILLIMETRES,
+    figure: &figure("amplitude", "Amplitude", "amplitude", true),
+    ..Measure::NUMBER
+};
 
-const AMPLITUDE: Figure = figure("amplitude", "Amplitude", "amplitude", true);
-const FREQUENCY: Figure = figure("frequency", "Frequency", "frequency", true);
-const POSITION: Figure = figure("mean_x", "Mean position along the flow", "mean position", false);
+const FREQUENCY: Measure = Measure {
+    meaning: "half the number of sign changes per second of the free end’s position",
+    unit: HERTZ,
+    figure: &figure("frequency", "Frequency", "frequency", true),
+    ..Measure::NUMBER
+};
+
+const MEAN_X: Measure = Measure {
+    name: "mean_x",
+    column: "mean_x_m",
+    label: "Mean position along the flow",
+    meaning: "mean over time of the free end’s x; the smaller it is against the fibre’s length, the more the fibre is bent",
+    unit: MILLIMETRES,
+    figure: &figure("mean_x", "Mean position along the flow", "mean position", false),
+    series: "*x*",
+    ..Measure::NUMBER
+};
 
 const fn figure(name: &'static str, title: &'static str, words: &'static str, from_zero: bool) -> Figure {
     Figure { name, title, words, logarithmic: false, from_zero, caption: "" }
-}
-
-const fn across(
-    name: &'static str,
-    column: &'static str,
-    label: &'static str,
-    meaning: &'static str,
-    figure: &'static Figure,
-    unit: Unit,
-    series: &'static str,
-) -> Measure {
-    let (kind, group, over_replicates) = (Kind::Number, END_NODE, Over::Mean);
-    Measure { name, column, label, meaning, unit, kind, group, over_replicates, figure, series }
 }
 
 /// The flight itself takes the statistics of the free ends at every step.

@@ -10,49 +10,54 @@ use crate::statistics::median;
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        number(
-            "work_error",
-            "work_error_percent",
-            "Work check, typical",
-            WORK,
-            Over::Median,
-            &FIGURE,
-            "work check",
-        ),
-        number(
-            "work_error_at_end",
-            "work_error_at_end_percent",
-            "Work check, at the end",
-            "the work check at the end of the flight",
-            Over::Mean,
-            &AT_END,
-            "work check",
-        ),
-        number(
-            "balance_error",
-            "balance_error_percent",
-            "Full balance, typical",
-            BALANCE,
-            Over::Median,
-            &FIGURE,
-            "energy balance",
-        ),
-        number(
-            "balance_error_at_end",
-            "balance_error_at_end_percent",
-            "Full balance, at the end",
-            "the full balance at the end of the flight",
-            Over::Mean,
-            &AT_END,
-            "energy balance",
-        ),
-        series("work_error_over_time", "work_error_over_time_percent", "Work check over time", "work check"),
-        series(
-            "balance_error_over_time",
-            "balance_error_over_time_percent",
-            "Full balance over time",
-            "energy balance",
-        ),
+        Measure {
+            name: "work_error",
+            column: "work_error_percent",
+            label: "Work check, typical",
+            meaning: "the paper’s work check: difference between the work of all forces and the kinetic energy; median over \
+                      time. It shows only whether the steps are short against the motion",
+            series: "work check",
+            ..TYPICAL
+        },
+        Measure {
+            name: "work_error_at_end",
+            column: "work_error_at_end_percent",
+            label: "Work check, at the end",
+            meaning: "the work check at the end of the flight",
+            series: "work check",
+            ..AT_END
+        },
+        Measure {
+            name: "balance_error",
+            column: "balance_error_percent",
+            label: "Full balance, typical",
+            meaning: "error of the full energy balance, as a share of the air’s work; median over time. It would reveal a \
+                      wrong force",
+            series: "energy balance",
+            ..TYPICAL
+        },
+        Measure {
+            name: "balance_error_at_end",
+            column: "balance_error_at_end_percent",
+            label: "Full balance, at the end",
+            meaning: "the full balance at the end of the flight",
+            series: "energy balance",
+            ..AT_END
+        },
+        Measure {
+            name: "work_error_over_time",
+            column: "work_error_over_time_percent",
+            label: "Work check over time",
+            series: "work check",
+            ..OVER_TIME
+        },
+        Measure {
+            name: "balance_error_over_time",
+            column: "balance_error_over_time_percent",
+            label: "Full balance over time",
+            series: "energy balance",
+            ..OVER_TIME
+        },
     ],
     applies: always,
     observer: |_| Box::new(Errors { of: ERRORS, times: Vec::new(), percent: Default::default() }),
@@ -61,39 +66,73 @@ pub(super) const DECLARATION: Declaration = Declaration {
 /// Energy that the scheme takes out of the motion.
 pub(super) const DISSIPATION: Declaration = Declaration {
     measures: &[
-        number(
-            "tension_dissipation",
-            "tension_dissipation_percent",
-            "Taken out by the scheme, typical",
-            "energy that the scheme has taken out of the motion by damping axial waves, as a share of the air’s work; median \
-             over time",
-            Over::Median,
-            &TAKEN_OUT,
-            "typical",
-        ),
-        number(
-            "tension_dissipation_at_end",
-            "tension_dissipation_at_end_percent",
-            "Taken out by the scheme, at the end",
-            "the same at the end of the flight",
-            Over::Mean,
-            &TAKEN_OUT,
-            "at the end",
-        ),
+        Measure {
+            name: "tension_dissipation",
+            column: "tension_dissipation_percent",
+            label: "Taken out by the scheme, typical",
+            meaning: "energy that the scheme has taken out of the motion by damping axial waves, as a share of the air’s \
+                      work; median over time",
+            over_replicates: Over::Median,
+            series: "typical",
+            ..TAKEN_OUT
+        },
+        Measure {
+            name: "tension_dissipation_at_end",
+            column: "tension_dissipation_at_end_percent",
+            label: "Taken out by the scheme, at the end",
+            meaning: "the same at the end of the flight",
+            series: "at the end",
+            ..TAKEN_OUT
+        },
     ],
     applies: |case| case.run.scheme == Scheme::ImplicitTension,
     observer: |_| Box::new(Errors { of: TAKEN, times: Vec::new(), percent: Default::default() }),
 };
-
-const WORK: &str = "the paper’s work check: difference between the work of all forces and the kinetic energy; median over time. It shows \
-     only whether the steps are short against the motion";
-const BALANCE: &str = "error of the full energy balance, as a share of the air’s work; median over time. It would reveal a wrong force";
 
 /// An error of a sample [%], and whether it is drawn over time.
 type ErrorOf = (fn(&Sample) -> f64, bool);
 
 const ERRORS: &[ErrorOf] = &[(Sample::work_error_percent, true), (Sample::balance_error_percent, true)];
 const TAKEN: &[ErrorOf] = &[(Sample::tension_dissipation_percent, false)];
+
+const TYPICAL: Measure = Measure { over_replicates: Over::Median, figure: &FIGURE, ..ERROR };
+
+const AT_END: Measure = Measure {
+    figure: &Figure {
+        name: "energy_error_at_end",
+        title: "Energy error at the end",
+        words: "energy error at the end",
+        ..FIGURE
+    },
+    ..ERROR
+};
+
+const OVER_TIME: Measure = Measure {
+    meaning: "the error at each recorded instant; not defined at rest",
+    kind: Kind::Series,
+    figure: &Figure {
+        name: "energy_errors",
+        title: "Energy errors over time",
+        words: "energy errors",
+        caption: "Errors of both energy checks over time, mean over the replicates. The shaded area reaches to the largest of any replicate.",
+        ..FIGURE
+    },
+    ..ERROR
+};
+
+const TAKEN_OUT: Measure = Measure {
+    figure: &Figure {
+        name: "tension_dissipation",
+        title: "Taken out by the scheme",
+        words: "dissipation of the scheme",
+        logarithmic: false,
+        from_zero: true,
+        caption: "",
+    },
+    ..ERROR
+};
+
+const ERROR: Measure = Measure { unit: OF_PERCENT, group: ENERGY, ..Measure::NUMBER };
 
 const FIGURE: Figure = Figure {
     name: "energy_error",
@@ -103,55 +142,6 @@ const FIGURE: Figure = Figure {
     from_zero: false,
     caption: "",
 };
-
-const AT_END: Figure = Figure {
-    name: "energy_error_at_end",
-    title: "Energy error at the end",
-    words: "energy error at the end",
-    ..FIGURE
-};
-
-const TAKEN_OUT: Figure = Figure {
-    name: "tension_dissipation",
-    title: "Taken out by the scheme",
-    words: "dissipation of the scheme",
-    logarithmic: false,
-    from_zero: true,
-    caption: "",
-};
-
-const OVER_TIME: Figure = Figure {
-    name: "energy_errors",
-    title: "Energy errors over time",
-    words: "energy errors",
-    logarithmic: true,
-    from_zero: false,
-    caption: "Errors of both energy checks over time, mean over the replicates. The shaded area reaches to the largest of any replicate.",
-};
-
-const fn number(
-    name: &'static str,
-    column: &'static str,
-    label: &'static str,
-    meaning: &'static str,
-    over_replicates: Over,
-    figure: &'static Figure,
-    series: &'static str,
-) -> Measure {
-    let (unit, kind, group) = (OF_PERCENT, Kind::Number, ENERGY);
-    Measure { name, column, label, meaning, unit, kind, group, over_replicates, figure, series }
-}
-
-const fn series(
-    name: &'static str,
-    column: &'static str,
-    label: &'static str,
-    series: &'static str,
-) -> Measure {
-    let meaning = "the error at each recorded instant; not defined at rest";
-    let (unit, kind, group, figure) = (OF_PERCENT, Kind::Series, ENERGY, &OVER_TIME);
-    Measure { name, column, label, meaning, unit, kind, group, over_replicates: Over::Mean, figure, series }
-}
 
 /// Errors at the recorded instants.
 #[derive(Debug)]

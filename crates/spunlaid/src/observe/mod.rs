@@ -75,6 +75,22 @@ pub struct Measure {
     pub series: &'static str,
 }
 
+impl Measure {
+    /// The mean over the replicates of a number that has no name yet.
+    const NUMBER: Self = Self {
+        name: "",
+        column: "",
+        label: "",
+        meaning: "",
+        unit: Unit { shown: "", per_si: 1.0 },
+        kind: Kind::Number,
+        group: END_NODE,
+        over_replicates: Over::Mean,
+        figure: &Figure { name: "", title: "", words: "", logarithmic: false, from_zero: true, caption: "" },
+        series: "",
+    };
+}
+
 /// A group of measures: a heading of tables, and a part of `summary.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Group {

@@ -1,28 +1,29 @@
 //! Tension at the root.
 
-use super::{Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observer, Over, Seen, Value};
+use super::{Declaration, FIBRE, Figure, MILLINEWTONS, Measure, Observer, Over, Seen, Value};
 use crate::fibre::Root;
 use crate::flight::Flight;
 use crate::lanes::Lanes;
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        measure(
-            "root_tension",
-            "root_tension_n",
-            "Tension at the root, mean",
-            "mean over time of the tension of the element at the root, at the recorded instants",
-            Over::Mean,
-            "mean",
-        ),
-        measure(
-            "peak_root_tension",
-            "peak_root_tension_n",
-            "Tension at the root, peak",
-            "largest tension of the element at the root at the recorded instants",
-            Over::Largest,
-            "peak",
-        ),
+        Measure {
+            name: "root_tension",
+            column: "root_tension_n",
+            label: "Tension at the root, mean",
+            meaning: "mean over time of the tension of the element at the root, at the recorded instants",
+            series: "mean",
+            ..TENSION
+        },
+        Measure {
+            name: "peak_root_tension",
+            column: "peak_root_tension_n",
+            label: "Tension at the root, peak",
+            meaning: "largest tension of the element at the root at the recorded instants",
+            over_replicates: Over::Largest,
+            series: "peak",
+            ..TENSION
+        },
     ],
     applies: |case| case.fibre.root != Root::Free,
     observer: |_| {
@@ -30,25 +31,19 @@ pub(super) const DECLARATION: Declaration = Declaration {
     },
 };
 
-const fn measure(
-    name: &'static str,
-    column: &'static str,
-    label: &'static str,
-    meaning: &'static str,
-    over_replicates: Over,
-    series: &'static str,
-) -> Measure {
-    let figure = &Figure {
+const TENSION: Measure = Measure {
+    unit: MILLINEWTONS,
+    group: FIBRE,
+    figure: &Figure {
         name: "root_tension",
         title: "Tension at the root",
         words: "tension at the root",
         logarithmic: false,
         from_zero: true,
         caption: "",
-    };
-    let (unit, kind, group) = (MILLINEWTONS, Kind::Number, FIBRE);
-    Measure { name, column, label, meaning, unit, kind, group, over_replicates, figure, series }
-}
+    },
+    ..Measure::NUMBER
+};
 
 /// Tension of the elements at the root after the spin-up [N].
 #[derive(Debug)]

@@ -1,8 +1,7 @@
 //! Power spectrum of the free end's motion.
 
 use super::{
-    Declaration, END_NODE, Figure, Kind, Measure, Observer, Over, SQUARE_MILLIMETRES_PER_HERTZ, Seen, Value,
-    always,
+    Declaration, Figure, Kind, Measure, Observer, SQUARE_MILLIMETRES_PER_HERTZ, Seen, Value, always,
 };
 use crate::case::Case;
 use crate::flight::Flight;
@@ -11,40 +10,40 @@ use crate::statistics::{Welch, Window};
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        measure("spectrum_y", "spectrum_y_m2_hz", "Spectrum of y", "*y*"),
-        measure("spectrum_z", "spectrum_z_m2_hz", "Spectrum of z", "*z*"),
+        Measure {
+            name: "spectrum_y",
+            column: "spectrum_y_m2_hz",
+            label: "Spectrum of y",
+            series: "*y*",
+            ..SPECTRUM
+        },
+        Measure {
+            name: "spectrum_z",
+            column: "spectrum_z_m2_hz",
+            label: "Spectrum of z",
+            series: "*z*",
+            ..SPECTRUM
+        },
     ],
     applies: always,
     observer: |case| Box::new(EndPositions::of(case)),
 };
 
-const fn measure(
-    name: &'static str,
-    column: &'static str,
-    label: &'static str,
-    series: &'static str,
-) -> Measure {
-    Measure {
-        name,
-        column,
-        label,
-        meaning: "one-sided power spectral density of the free end’s position at the recorded instants (Welch’s method)",
-        unit: SQUARE_MILLIMETRES_PER_HERTZ,
-        kind: Kind::Spectrum,
-        group: END_NODE,
-        over_replicates: Over::Mean,
-        figure: &Figure {
-            name: "motion_spectrum",
-            title: "Spectrum of the motion",
-            words: "spectrum of the motion",
-            logarithmic: true,
-            from_zero: false,
-            caption: "Power spectral density of the free end’s position, averaged over all replicates \
-                      (Welch’s method). The area under a curve is the square of the amplitude.",
-        },
-        series,
-    }
-}
+const SPECTRUM: Measure = Measure {
+    meaning: "one-sided power spectral density of the free end’s position at the recorded instants (Welch’s method)",
+    unit: SQUARE_MILLIMETRES_PER_HERTZ,
+    kind: Kind::Spectrum,
+    figure: &Figure {
+        name: "motion_spectrum",
+        title: "Spectrum of the motion",
+        words: "spectrum of the motion",
+        logarithmic: true,
+        from_zero: false,
+        caption: "Power spectral density of the free end’s position, averaged over all replicates \
+                  (Welch’s method). The area under a curve is the square of the amplitude.",
+    },
+    ..Measure::NUMBER
+};
 
 /// y and z of the free ends at the recorded instants after the spin-up [m].
 #[derive(Debug)]
