@@ -1,6 +1,10 @@
 //! Air that varies in space, compared with flows in closed form.
 #![allow(clippy::expect_used, clippy::unwrap_used)]
 
+#[path = "common/meshes.rs"]
+#[allow(dead_code)]
+mod meshes;
+
 use spunlaid::air::{Air, Axis, Eddies, Flow, FromFile, FromFlow, PlacedField, Profile, StreamKey};
 use spunlaid::air::{Surroundings, Wind};
 use spunlaid::case::Case;
@@ -313,13 +317,24 @@ fn a_fibre_that_leaves_the_flow_is_told_of() {
 /// The flight of a fibre in a field does not depend on its neighbours, the threads or the instruction set.
 #[test]
 fn identical_in_any_bundle_on_any_instruction_set() {
+    let (low, high) = (Vec3::new(-0.5, -0.5, -0.5), Vec3::new(0.9, 0.5, 0.5));
+    let flow = |p: Vec3<f64>| Vec3::new(10.0 - 3.0 * p.x, 4.0 * p.z, -4.0 * p.y);
+    let lattice = || field(low, high, flow, |p| (0.5 + 0.2 * p.x, 20.0 + 10.0 * p.x));
+    check_identical(|| placed(lattice(), Vec3::default(), Axis::ALL[0], 1.0));
+    // The fibre hangs on faces between cells.
+    let waves = |[x, y, z]: [f64; 3]| {
+        [10.0 + (6.0 * y).sin(), (5.0 * x).cos(), (4.0 * z * x).sin(), 0.5 + 0.2 * x, 20.0 + 10.0 * x]
+    };
+    let mesh = || meshes::field(&meshes::Block::cube(32, 0.0), meshes::Made::Hexahedra, waves);
+    check_identical(|| placed(mesh(), Vec3::new(0.0, 0.5, 0.5), Axis::ALL[0], 1.0));
+}
+
+/// * `flow` – made anew for each run, because a field keeps what is looked up in it
+fn check_identical(flow: impl Fn() -> Flow) {
     let mut case =
         table1(&[("run.time_step", "20 µs"), ("run.scheme", "leapfrog"), ("run.duration", "0.05 s")]);
     case.run.replicates = 11;
-    let (low, high) = (Vec3::new(-0.5, -0.5, -0.5), Vec3::new(0.9, 0.5, 0.5));
-    let flow = |p: Vec3<f64>| Vec3::new(10.0 - 3.0 * p.x, 4.0 * p.z, -4.0 * p.y);
-    let air = field(low, high, flow, |p| (0.5 + 0.2 * p.x, 20.0 + 10.0 * p.x));
-    case.air.flow = placed(air, Vec3::default(), Axis::ALL[0], 1.0);
+    case.air.flow = flow();
     case.air.from_flow = TOLD;
     case.air.settle(case.along());
     case.air.harmonics = case.air.default_harmonics(0.1);
@@ -333,6 +348,7 @@ fn identical_in_any_bundle_on_any_instruction_set() {
             let computing = Computing { threads, isa, stop: &stop, fibre_steps: &steps };
             let mut fewer = case.clone();
             fewer.run.replicates = 3;
+            fewer.air.flow = flow();
             let mut n = 0;
             fly::<Error>(&fewer, Keep::NUMBERS, computing, |flight| {
                 assert_eq!(bits(&flight), bits(&whole[n]), "{} {threads}", isa.name());

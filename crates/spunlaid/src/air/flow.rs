@@ -203,7 +203,16 @@ impl Air {
             let across = [0.671_043_606_703_789_2, 0.549_700_477_901_967_3];
             let [y, z] = across.map(|ratio| 0.2 * length * (share(i, ratio) - 0.5));
             let at = along * share(i, 0.819_172_513_396_164_5) + Vec3::new(0.0, y, z);
-            let Around { gradients, inside, .. } = self.around(at, &mut hint);
+            let Around { mut gradients, inside, reach, .. } = self.around(at, &mut hint);
+            if reach == 0.0 {
+                // The field is too rough for gradients, so the change over a short way is taken.
+                let h = 1e-4 * length;
+                gradients = [[h, 0.0, 0.0], [0.0, h, 0.0], [0.0, 0.0, h]].map(|[x, y, z]| {
+                    let by = Vec3::new(x, y, z);
+                    let [before, after] = [at - by, at + by].map(|at| self.around(at, &mut hint).value);
+                    std::array::from_fn(|i| (after[i] - before[i]) / (2.0 * h))
+                });
+            }
             let squares: f64 = gradients.iter().flat_map(|of| &of[..3]).map(|change| change * change).sum();
             if inside { squares.sqrt() } else { 0.0 }
         };

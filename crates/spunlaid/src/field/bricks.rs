@@ -7,6 +7,7 @@
 //! The content of a brick does not depend on who fills it, or when, so results are reproducible.
 
 use super::values::Quantities;
+use super::{Hint, Support};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -107,12 +108,8 @@ impl Bricks {
 
     /// The air around a point.
     ///
-    /// * `sample` – the field itself
-    pub(super) fn around(
-        &self,
-        at: [f64; 3],
-        mut sample: impl FnMut([f64; 3]) -> (Quantities, bool),
-    ) -> Around {
+    /// * `hint` – where the field itself is sampled
+    pub(super) fn around(&self, at: [f64; 3], hint: &mut Hint, field: &Support) -> Around {
         let within = (0..3).all(|axis| {
             let flat = self.low[axis] == self.high[axis];
             flat || self.low[axis] <= at[axis] && at[axis] <= self.high[axis]
@@ -128,12 +125,12 @@ impl Bricks {
                 [0, 1, 2].map(|axis| ((place.corner[axis] - self.low[axis]) / self.size).round() as usize);
             let index = index[0] + self.count[0] * (index[1] + self.count[1] * index[2]);
             if let Some(brick) = bricks.get(index)
-                && let Some(around) = self.look(brick, &mut place, None, &mut sample)
+                && let Some(around) = self.look(brick, &mut place, None, field)
             {
                 return around;
             }
         }
-        let (values, inside) = sample(at);
+        let (values, inside) = field.sample(at, hint);
         Around { value: brief(values), gradients: [[0.0; 4]; 3], reach: 0.0, inside }
     }
 
@@ -153,17 +150,17 @@ impl Bricks {
         brick: &OnceLock<Brick>,
         place: &mut Place,
         allowed: Option<f64>,
-        sample: &mut impl FnMut([f64; 3]) -> (Quantities, bool),
+        field: &Support,
     ) -> Option<Around> {
         let made;
         let brick = match brick.get() {
             Some(brick) => brick,
             None if self.memory() > MOST_MEMORY => {
-                made = self.make(place, allowed, sample);
+                made = self.make(place, allowed, field);
                 &made
             }
             None => brick.get_or_init(|| {
-                let brick = self.make(place, allowed, sample);
+                let brick = self.make(place, allowed, field);
                 let memory = match &brick {
                     Brick::Rough => 0,
                     Brick::Whole(_) => size_of::<Values>(),
@@ -175,7 +172,7 @@ impl Bricks {
         };
         match brick {
             Brick::Rough => None,
-            Brick::Whole(values) => Some(values.around(place)),
+            Brick::Whole(values) => Some(self.within(values.around(place), place)),
             Brick::Divided(parts) => {
                 let half = 0.5 * place.size;
                 let mut part = 0;
@@ -186,25 +183,34 @@ impl Bricks {
                     place.share[axis] = 2.0 * place.share[axis] - if upper { 1.0 } else { 0.0 };
                 }
                 (place.size, place.divisions) = (half, place.divisions + 1);
-                self.look(&parts.parts[part], place, Some(parts.allowed), sample)
+                self.look(&parts.parts[part], place, Some(parts.allowed), field)
             }
         }
     }
 
+    /// Limits the reach to the brick: it knows nothing of the field beyond its faces.
+    #[inline]
+    fn within(&self, around: Around, place: &Place) -> Around {
+        let mut reach = around.reach;
+        for axis in (0..3).filter(|axis| self.low[*axis] < self.high[*axis]) {
+            reach = reach.min(place.share[axis].min(1.0 - place.share[axis]) * place.size);
+        }
+        Around { reach, ..around }
+    }
+
     #[inline(never)]
-    fn make(
-        &self,
-        place: &Place,
-        allowed: Option<f64>,
-        sample: &mut impl FnMut([f64; 3]) -> (Quantities, bool),
-    ) -> Brick {
+    fn make(&self, place: &Place, allowed: Option<f64>, field: &Support) -> Brick {
         let flat = [0, 1, 2].map(|axis| self.low[axis] == self.high[axis]);
-        let mut at = |share: [f64; 3]| {
-            let point = [0, 1, 2].map(|axis| {
+        let to_point = |share: [f64; 3]| {
+            [0, 1, 2].map(|axis| {
                 let x = place.corner[axis] + share[axis] * place.size;
                 x.clamp(self.low[axis], self.high[axis])
-            });
-            let (values, inside) = sample(point);
+            })
+        };
+        // The brick's own hint, because its content must not depend on who asks for it.
+        let mut hint = Hint::default();
+        let mut at = |share: [f64; 3]| {
+            let (values, inside) = field.sample(to_point(share), &mut hint);
             (brief(values), inside)
         };
         let mut values = Values { at: [[0.0; 4]; POINTS], inside: true };
@@ -222,16 +228,29 @@ impl Bricks {
         values.inside = outside == 0;
         let largest = values.at.as_flattened().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let allowed = allowed.unwrap_or(ERROR * largest);
-        let error = values.error_of_every_second().max({
-            // Points at random, because a regular pattern could miss a regular flow.
-            let probe = |i: usize| {
-                let share = [0, 1, 2].map(|axis| (0.5 + (i + 1) as f64 * RATIOS[axis]).fract());
-                let (exact, inside) = at(share);
-                let found = values.between(share).0;
-                if inside == values.inside { difference(&exact, &found) } else { f64::INFINITY }
-            };
-            (0..PROBES).map(probe).fold(0.0, f64::max)
-        });
+        // Continued from points at random, because a regular pattern could miss a regular flow, to the corners of
+        // their reach.
+        let probe = |i: usize| {
+            let from = [0, 1, 2].map(|axis| (0.5 + (i + 1) as f64 * RATIOS[axis]).fract());
+            let to = [0, 1, 2].map(|axis| {
+                let reach = (0.5 / CELLS as f64).min(from[axis]).min(1.0 - from[axis]);
+                from[axis] + if i >> axis & 1 == 0 { reach } else { -reach }
+            });
+            let (exact, inside) = at(to);
+            let found = values.continued(from, to);
+            if inside == values.inside { difference(&exact, &found) } else { f64::INFINITY }
+        };
+        let mut error = (0..PROBES).map(probe).fold(values.error_of_every_second(), f64::max);
+        if error <= allowed {
+            // Between the points where it is given, the field has no peaks.
+            let (low, high) = (to_point([0.0; 3]), to_point([1.0; 3]));
+            field.points_in_box(low, high, |point, exact| {
+                let share = [0, 1, 2].map(|axis| (point[axis] - place.corner[axis]) / place.size);
+                if (0..3).all(|axis| flat[axis] || low[axis] <= point[axis] && point[axis] <= high[axis]) {
+                    error = error.max(difference(&brief(*exact), &values.between(share).0));
+                }
+            });
+        }
         if error <= allowed {
             return Brick::Whole(Box::new(values));
         }
@@ -263,6 +282,16 @@ impl Values {
             reach: 0.5 * spacing,
             inside: self.inside,
         }
+    }
+
+    /// The values at a place of the brick, continued linearly from another one.
+    fn continued(&self, from: [f64; 3], to: [f64; 3]) -> Brief {
+        let (mut value, gradients) = self.between(from);
+        for (axis, gradient) in gradients.iter().enumerate() {
+            let cells = (to[axis] - from[axis]) * CELLS as f64;
+            value.iter_mut().zip(gradient).for_each(|(value, change)| *value += cells * change);
+        }
+        value
     }
 
     /// The values linear in each coordinate, and their changes over a cell along x, y and z.

@@ -75,6 +75,22 @@ impl Lattice {
         ([0, 1, 2].map(|i| self.axes[i].at[0]), [0, 1, 2].map(|i| self.axes[i].at[self.axes[i].at.len() - 1]))
     }
 
+    /// Calls `with` for the points in a box, and where the planes through them meet its edges and faces.
+    pub(super) fn points_in_box(
+        &self,
+        low: [f64; 3],
+        high: [f64; 3],
+        mut with: impl FnMut([f64; 3], &Quantities),
+    ) {
+        let [x, y, z] = [0, 1, 2].map(|i| self.axes[i].between(low[i], high[i]));
+        for at in z.flat_map(|z| y.clone().map(move |y| (y, z))) {
+            for x in x.clone() {
+                let at = [x, at.0, at.1];
+                with(at, &self.sample(at).0);
+            }
+        }
+    }
+
     #[inline]
     pub(super) fn sample(&self, at: [f64; 3]) -> (Quantities, bool) {
         let [x, y, z] = [0, 1, 2].map(|i| self.axes[i].locate(at[i]));
@@ -123,6 +139,13 @@ impl Axis {
         let length = at[at.len() - 1] - at[0];
         let density = if length > 0.0 { (at.len() - 1) as f64 / length } else { 0.0 };
         Self { at, density }
+    }
+
+    /// Two coordinates, and those of the points between them.
+    fn between(&self, low: f64, high: f64) -> impl Iterator<Item = f64> + Clone {
+        let first = self.at.partition_point(|x| *x <= low);
+        let inner = self.at[first..].iter().copied().take_while(move |x| *x < high);
+        [low].into_iter().chain(inner).chain((low < high).then_some(high))
     }
 
     #[inline]

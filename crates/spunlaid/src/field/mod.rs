@@ -104,6 +104,15 @@ impl Support {
             Self::Points(points) => points.sample(at),
         }
     }
+
+    /// Calls `with` for the points in a box where the values may be extreme. Points beside it may be among them.
+    fn points_in_box(&self, low: [f64; 3], high: [f64; 3], with: impl FnMut([f64; 3], &Quantities)) {
+        match self {
+            Self::Lattice(lattice) => lattice.points_in_box(low, high, with),
+            Self::Mesh(mesh) => mesh.points_in_box(low, high, with),
+            Self::Points(points) => points.points_in_box(low, high, with),
+        }
+    }
 }
 
 /// The air at a point.
@@ -121,7 +130,8 @@ pub struct Local {
 
 /// Remembers where a point was found, so that the next one near by is found in a few steps.
 ///
-/// It saves time and does not change the result, even if it comes from another field.
+/// It saves time. It changes a result at most by rounding, where a point lies on the face between two cells, even if
+/// it comes from another field.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Hint(u32);
 
@@ -242,8 +252,9 @@ impl Field {
     /// The air around a point, linear in space: its value and gradients at the point, and how far these may be used.
     ///
     /// It comes from lattices of values that are sampled once and kept for the life of the field. They are made as
-    /// fine as needed: within its reach the error is about a ten-thousandth of the largest velocity near by. Where the
-    /// field is too rough for that, it is [`Field::sample`] with a reach of zero.
+    /// fine as needed: within its reach the error is estimated to be a ten-thousandth of the largest velocity near by.
+    /// Where the field is too rough for that, it is [`Field::sample`] with a reach of zero. The result does not depend
+    /// on what was looked up before, except for [`Field::sample`]'s hint.
     ///
     /// * `at` – [m]
     /// * `hint` – as of [`Field::sample`]
@@ -252,7 +263,7 @@ impl Field {
         if at.iter().any(|x| x.is_nan()) {
             return Around::default();
         }
-        self.bricks.around(at, |at| self.support.sample(at, hint))
+        self.bricks.around(at, hint, &self.support)
     }
 
     /// The kind of field and its size.

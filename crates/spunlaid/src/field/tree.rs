@@ -4,6 +4,7 @@
 //! built.
 
 use super::node::bounding_box;
+use std::ops::Range;
 
 /// A part of the list with no more points than this is searched point by point.
 const LEAF: usize = 16;
@@ -35,6 +36,33 @@ impl Tree {
     pub(super) fn nearest(&self, at: [f64; 3], found: &mut [(f64, u32)]) {
         found.fill((f64::INFINITY, u32::MAX));
         self.look(0, self.points.len(), at, found);
+    }
+
+    /// Calls `with` for the number of each point in a box.
+    pub(super) fn in_box(&self, low: [f64; 3], high: [f64; 3], with: &mut impl FnMut(u32)) {
+        self.look_in_box(0..self.points.len(), (&low, &high), with);
+    }
+
+    fn look_in_box(&self, part: Range<usize>, box_: (&[f64; 3], &[f64; 3]), with: &mut impl FnMut(u32)) {
+        let (low, high) = box_;
+        let mut check = |(point, number): &([f64; 3], u32)| {
+            if (0..3).all(|axis| low[axis] <= point[axis] && point[axis] <= high[axis]) {
+                with(*number);
+            }
+        };
+        if part.len() <= LEAF {
+            self.points[part].iter().for_each(check);
+            return;
+        }
+        let middle = part.start.midpoint(part.end);
+        let (axis, at) = (usize::from(self.axes[middle]), self.points[middle].0);
+        check(&self.points[middle]);
+        if low[axis] <= at[axis] {
+            self.look_in_box(part.start..middle, box_, with);
+        }
+        if high[axis] >= at[axis] {
+            self.look_in_box(middle + 1..part.end, box_, with);
+        }
     }
 
     fn look(&self, low: usize, high: usize, at: [f64; 3], found: &mut [(f64, u32)]) {

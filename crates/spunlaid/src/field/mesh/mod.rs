@@ -113,6 +113,22 @@ impl Mesh {
         self.bounds
     }
 
+    /// Calls `with` for the points of the cells whose boxes meet a box.
+    pub(super) fn points_in_box(
+        &self,
+        low: [f64; 3],
+        high: [f64; 3],
+        mut with: impl FnMut([f64; 3], &Quantities),
+    ) {
+        for cell in self.cells.locate_in_envelope_intersecting(AABB::from_corners(low, high)) {
+            for tetrahedron in &self.tetrahedra[cell.data[0] as usize..cell.data[1] as usize] {
+                for node in tetrahedron.nodes.map(|node| &self.nodes[node as usize]) {
+                    with(node.at, &node.values);
+                }
+            }
+        }
+    }
+
     pub(super) fn sample(&self, at: [f64; 3], hint: &mut Hint) -> (Quantities, bool) {
         let (low, high) = self.bounds;
         let within = (0..3).all(|axis| low[axis] <= at[axis] && at[axis] <= high[axis]);

@@ -85,6 +85,19 @@ impl Points {
         self.bounds
     }
 
+    /// Calls `with` for the points in a box.
+    pub(super) fn points_in_box(
+        &self,
+        low: [f64; 3],
+        high: [f64; 3],
+        mut with: impl FnMut([f64; 3], &Quantities),
+    ) {
+        self.tree.in_box(low, high, &mut |number| {
+            let node = &self.sites[number as usize].node;
+            with(node.at, &node.values);
+        });
+    }
+
     pub(super) fn sample(&self, at: [f64; 3]) -> (Quantities, bool) {
         let (low, high) = self.bounds;
         let at = [0, 1, 2].map(|axis| if self.plane[axis] { low[axis] } else { at[axis] });
