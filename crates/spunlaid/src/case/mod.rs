@@ -95,7 +95,7 @@ impl Case {
     /// Longest step of implicit tension at which the waves of the taut fibre stay stable [s].
     ///
     /// It is 1.5 times the time in which such a wave passes an element. Flights were seen to fail at twice this
-    /// step.                                                                   theory.md (32)
+    /// step.                                                                   theory.md (55)
     ///
     /// The tension is estimated at the root, from the fibre's weight and the friction of the mean flow at half
     /// the fibre's length.

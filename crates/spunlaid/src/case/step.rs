@@ -37,7 +37,7 @@ impl Case {
     ///
     /// The error was measured on the paper's Table 1 case against the converged path: `0.20 ω_c h` for
     /// semi-implicit Euler, `0.06 (ω_c h)²` for leapfrog and `0.12 (ω_c h)²` for implicit tension. `ω_c` is the
-    /// angular cut-off frequency.                                         theory.md (32)
+    /// angular cut-off frequency.                                         theory.md (55)
     ///
     /// * `duration` – simulated time [s]
     pub fn suggested_time_step(&self, tolerance: f64, duration: f64) -> (f64, StepChoice) {

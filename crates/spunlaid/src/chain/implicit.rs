@@ -6,7 +6,7 @@
 //! mass. The share is `½ s/(1+s)` with `s = h²λ/(ℓm)`: the square of the ratio of the step to the time that a
 //! wave of the string needs to pass the element. The share is close to zero for short steps, where plain
 //! leapfrog is better, and large enough for long steps. Each step solves two scalar tridiagonal systems along
-//! the chain.                                                                  theory.md (29)
+//! the chain.                                                             theory.md (51) to (54)
 //!
 //! 1. A force pass from the root computes the forces with the tensions of the last step, and eliminates the
 //!    system of the accelerations.

@@ -9,7 +9,7 @@ pub enum Scheme {
     /// theory.md (28)
     Leapfrog,
     /// Leapfrog with the tension that the elements will have at the end of the step. Axial waves do not limit
-    /// the step; the scheme damps them.                                       theory.md (29)
+    /// the step; the scheme damps them.                                  theory.md (51) to (54)
     ImplicitTension,
 }
 
