@@ -1,7 +1,7 @@
 //! The errors of the program, their messages and exit codes.
 
 use parquet::errors::ParquetError;
-use spunlaid::error::{Error, Fault, FileError, FileFault, JournalError, RecordFault, StudyFault};
+use spunlaid::error::{Error, Fault, FileError, FileFault, FileKind, JournalError, RecordFault, StudyFault};
 use std::fmt;
 use std::io;
 use std::panic::{self, AssertUnwindSafe};
@@ -187,20 +187,34 @@ impl fmt::Display for Failure {
     }
 }
 
-/// The options that help with an error of the library.
+/// The options and commands that help with an error of the library.
 fn options(error: &Error) -> &'static str {
     match error {
         Error::Journal(JournalError::InUse { .. }) => " (--out)",
         Error::Journal(JournalError::Foreign { .. } | JournalError::Format { .. }) => " (--out, --force)",
-        Error::Rejected(problems) => {
-            let by_number = problems.iter().any(|problem| {
-                matches!(
-                    problem.what,
-                    Fault::Study(StudyFault::TooManyPoints { .. } | StudyFault::OtherPoints { .. })
-                )
-            });
-            if by_number { " (--points)" } else { "" }
+        Error::Journal(JournalError::Unwritable { .. } | JournalError::Unsynced(_)) => {
+            " (repeat the command)"
         }
+        Error::File(error) => match error.fault {
+            FileFault::NotThere(FileKind::Case) => " (`spunlaid new` writes one)",
+            FileFault::NotThere(FileKind::Study) => " (`spunlaid help sweep` shows one)",
+            _ => "",
+        },
+        Error::Rejected(problems) => problems
+            .iter()
+            .map(|problem| of_problem(&problem.what))
+            .find(|text| !text.is_empty())
+            .unwrap_or(""),
+        _ => "",
+    }
+}
+
+/// The options and commands that help with a problem of a case or of a study.
+fn of_problem(fault: &Fault) -> &'static str {
+    match fault {
+        Fault::IsStudy => " (`spunlaid sweep`)",
+        Fault::Study(StudyFault::TableOfCase) => " (`spunlaid run`)",
+        Fault::Study(StudyFault::TooManyPoints { .. } | StudyFault::OtherPoints { .. }) => " (--points)",
         _ => "",
     }
 }

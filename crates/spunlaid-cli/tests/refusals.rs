@@ -65,7 +65,7 @@ fn rejects_files_that_are_no_case() {
     sparse.set_len(2 << 30).unwrap();
     fs::create_dir(desk.path("folder.toml")).unwrap();
     for (name, wanted) in [
-        ("nowhere.toml", "nowhere.toml: there is no such file; `spunlaid new` writes a case"),
+        ("nowhere.toml", "nowhere.toml: there is no such file; name a case file (`spunlaid new` writes one)"),
         ("folder.toml", "folder.toml: is a folder"),
         ("large.toml", "large.toml: is larger than"),
         ("binary.toml", "binary.toml:2: byte 0xff (number 3 of the file) is not UTF-8 text"),

@@ -191,7 +191,7 @@ pub enum Fault {
         known: u32,
     },
     /// The file is a study.
-    #[error("belongs to a study, not to a case; `spunlaid sweep` flies a study")]
+    #[error("belongs to a study, not to a case; read the file as a study")]
     IsStudy,
     /// A required key is missing.
     #[error("is missing; add {line} to [{table}]")]
@@ -203,7 +203,7 @@ pub enum Fault {
     },
     /// A required key is not there, and the field lacks what would tell it.
     #[error(
-        "is missing, and the field does not tell it: {why}; write these arrays too, or add {line} to [{table}]"
+        "is missing, and the field does not contain it: {why}; write these arrays too, or add {line} to [{table}]"
     )]
     MissingOfField {
         /// What the field lacks and what it has.
@@ -314,14 +314,14 @@ pub enum Fault {
     },
     /// A record that is too short for the flight of a fibre.
     #[error(
-        "is too short: the turbulence along one fibre needs {stretches} sections of {} that start 5 integral times apart, \
-         so a record of {}; shorten run.duration, lengthen air.length_scale or record for longer",
+        "is too short: the turbulence along one fibre needs {stretches} stretches of {} that start 5 integral times apart, \
+         which needs a record of {}; shorten run.duration, lengthen air.length_scale or record for longer",
         Dimension::Time.pretty(*duration), Dimension::Time.pretty_to(*wanted, 3)
     )]
     RecordTooShort {
-        /// Number of sections that one fibre needs.
+        /// Number of stretches that one fibre needs.
         stretches: u64,
-        /// Length of a section [s].
+        /// Length of a stretch [s].
         duration: f64,
         /// Length of a sufficient record [s].
         wanted: f64,

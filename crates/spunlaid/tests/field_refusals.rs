@@ -247,11 +247,11 @@ fn rejects_tables_with_place_and_way_out() {
         ),
         (
             "x,z,u,v,w\n1,2,3,4,5\n",
-            "a.vtu: no column is a coordinate along y, among x, z, u, v and w; name it like y_m",
+            "a.vtu: none of the columns is a coordinate along y (x, z, u, v and w); name it like y_m",
         ),
         (
             "x,y,z,p,T\n1,2,3,4,5\n",
-            "a.vtu: no array is a velocity, among x, y, z, p and T; name it U or velocity, with three components, or write u, v and w",
+            "a.vtu: none of the arrays is a velocity (x, y, z, p and T); name it U or velocity, with three components, or write u, v and w",
         ),
         (
             "x [inch],y,z,u,v,w\n1,2,3,4,5,6\n",

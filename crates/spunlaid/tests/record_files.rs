@@ -146,11 +146,11 @@ fn rejects_with_line_column_and_way_out() {
         ("time_s,u_m_s\n0,1\n", "a.csv: has 1 samples; at least 64 are needed for statistics of turbulence"),
         (
             "time_s,p_Pa\n0,1\n",
-            "a.csv: no column is a velocity, among time_s and p_Pa; name them like u_m_s, or say which columns are velocities, and in which unit",
+            "a.csv: none of the columns is a velocity (time_s and p_Pa); name them like u_m_s, or say which columns are velocities, and in which unit",
         ),
         (
             "u_m_s\n1\n2\n",
-            "a.csv: has no column of time, among u_m_s; name it like time_s, or give the sampling rate",
+            "a.csv: has no column of time (it has u_m_s); name it like time_s, or give the sampling rate",
         ),
         (
             "time,u_m_s\n0,1\n",
@@ -191,7 +191,7 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             &format!("{head}3.5,4\n"),
-            "a.csv:5: column time_s: a step of 1.5 s after steps of 1 s; samples must be evenly spaced to within 1 %. Resample the record, or give the sampling rate if the clock was even all the same",
+            "a.csv:5: column time_s: the time step changes from 1 s to 1.5 s; samples must be evenly spaced to within 1 %. Resample the record, or give the sampling rate if you know that the clock was even",
         ),
         (
             &format!("{head}1e12,4\n"),
@@ -225,7 +225,7 @@ fn rejects_with_line_column_and_way_out() {
     for (layout, said) in [
         (
             layout(|l| l.velocity_unit = Some("cm/s".into())),
-            "a.csv: column u_m_s: is in m_s by its header, and cm/s was asked for; give no unit, or correct the header",
+            "a.csv: column u_m_s: has the unit m_s in its header, but cm/s was given; give no unit, or correct the header",
         ),
         (
             layout(|l| l.velocity_unit = Some("furlong".into())),

@@ -66,7 +66,7 @@ fn rejects_what_is_no_readable_file() {
     assert!(matches!(fault(nowhere), FileFault::NotThere(FileKind::Case)));
     assert_eq!(
         refusal(nowhere, &[]).to_string(),
-        "no/such/case.toml: there is no such file; `spunlaid new` writes a case to start from"
+        "no/such/case.toml: there is no such file; name a case file"
     );
     assert!(matches!(fault(folder.path()), FileFault::IsFolder(FileKind::Case)));
     let below_a_file = folder.path().join("file/case.toml");

@@ -72,7 +72,8 @@ impl Air {
     /// * `length_scale` – of the eddies [m]
     /// * `cutoff_frequency` – [Hz]
     ///
-    /// Density and viscosity are those of air at 20 °C. The harmonics last for a flight of one second.
+    /// Density and viscosity are those of air at 20 °C. The number of harmonics is that for a flight of one
+    /// second.
     pub fn uniform(
         velocity: f64,
         turbulence_intensity: f64,

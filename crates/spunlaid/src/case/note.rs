@@ -152,7 +152,7 @@ pub enum Remark {
     LeavesFlow,
     /// A root outside of the field.
     #[error(
-        "is outside of the box around the field, {low} to {high}; the air of the nearest place of the field is taken there"
+        "is outside of the box around the field, {low} to {high}; the air at the nearest point of the field is used there"
     )]
     RootOutside {
         /// Lowest coordinates of the box.
@@ -162,7 +162,7 @@ pub enum Remark {
     },
     /// Air that hardly flows along the fibre, or against it.
     #[error(
-        "lets the air flow along the fibre with {} on average, where its speed is {}: {}; choose the direction in which the air leaves the spinneret",
+        "lets the air flow along the fibre with {} on average, although its speed is {}: {}; choose the direction in which the air leaves the spinneret",
         Dimension::Velocity.pretty_to(*along, 3), Dimension::Velocity.pretty_to(*speed, 3),
         if *along < 0.0 { "it blows from the end to the root" } else { "it blows across" }
     )]
@@ -174,7 +174,7 @@ pub enum Remark {
     },
     /// A field much larger or smaller than the fibre.
     #[error(
-        "makes the field {} long, where the fibre is {}; is it the unit in which the mesh was drawn?",
+        "makes the field {} long, while the fibre is {} long; check that this is the unit of the mesh",
         Dimension::Length.pretty_to(*field, 3), Dimension::Length.pretty(*fibre)
     )]
     FieldSize {

@@ -73,7 +73,7 @@ pub enum FieldFault {
     Empty,
     /// There is no array of velocity.
     #[error(
-        "no array is a velocity, among {}; name it U or velocity, with three components, or write u, v and w",
+        "none of the arrays is a velocity ({}); name it U or velocity, with three components, or write u, v and w",
         listed(found)
     )]
     NoVelocity {
@@ -81,7 +81,7 @@ pub enum FieldFault {
         found: Vec<String>,
     },
     /// A column of coordinates is missing.
-    #[error("no column is a coordinate along {axis}, among {}; name it like {axis}_m", listed(found))]
+    #[error("none of the columns is a coordinate along {axis} ({}); name it like {axis}_m", listed(found))]
     NoCoordinate {
         /// The axis.
         axis: char,

@@ -42,8 +42,8 @@ impl FileKind {
 
     fn not_there(self) -> String {
         match self {
-            Self::Case => "`spunlaid new` writes a case to start from".to_owned(),
-            Self::Study => "`spunlaid help sweep` shows what a study looks like".to_owned(),
+            Self::Case => "name a case file".to_owned(),
+            Self::Study => "name a study file".to_owned(),
             Self::Table => "a path in a case counts from the folder of the case file".to_owned(),
             Self::Record | Self::Field => format!("name a {}, {}", self.name(), self.formats()),
         }

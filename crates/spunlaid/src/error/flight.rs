@@ -15,12 +15,18 @@ pub enum FlightFault {
         /// Most that fly side by side.
         most: usize,
     },
+    /// A fibre without elements.
+    #[error("a fibre needs at least one element")]
+    NoElements,
+    /// A repeating wind of air with a record.
+    #[error("a repeating wind is made from harmonics; leave air.record out")]
+    RepeatingRecord,
     /// A wind without eddies.
     #[error("a wind needs at least one eddy")]
     NoEddies,
     /// A number of harmonics or a cut-off frequency that cannot be used.
     #[error(
-        "air.harmonics and air.cutoff_frequency must be positive, and there may be at most 2^30 harmonics, for turbulence to be made"
+        "turbulence cannot be made: air.harmonics must be from 1 to 2^30 and air.cutoff_frequency above zero"
     )]
     NoHarmonics,
     /// Cases that differ in something that must be equal.

@@ -8,7 +8,7 @@ use crate::units::shortest;
 #[non_exhaustive]
 pub enum ProfileFault {
     /// A required column is missing.
-    #[error("has no column {wanted}, among {}; name one like {example}", listed(found))]
+    #[error("has no column {wanted} (it has {}); name one like {example}", listed(found))]
     NoColumn {
         /// The quantity in it.
         wanted: &'static str,

@@ -23,7 +23,7 @@ pub enum RecordFault {
     },
     /// No column is a velocity.
     #[error(
-        "no column is a velocity, among {}; name them like u_m_s, or say which columns are velocities, and in which unit",
+        "none of the columns is a velocity ({}); name them like u_m_s, or say which columns are velocities, and in which unit",
         listed(found)
     )]
     NoVelocity {
@@ -37,7 +37,10 @@ pub enum RecordFault {
         found: Vec<String>,
     },
     /// There is neither a time column nor a sampling rate.
-    #[error("has no column of time, among {}; name it like time_s, or give the sampling rate", listed(found))]
+    #[error(
+        "has no column of time (it has {}); name it like time_s, or give the sampling rate",
+        listed(found)
+    )]
     NoTime {
         /// The columns in the file.
         found: Vec<String>,
@@ -54,7 +57,9 @@ pub enum RecordFault {
     #[error("is asked for twice; name each column once")]
     ColumnTwice,
     /// The unit in the header differs from the unit asked for.
-    #[error("is in {written} by its header, and {asked} was asked for; give no unit, or correct the header")]
+    #[error(
+        "has the unit {written} in its header, but {asked} was given; give no unit, or correct the header"
+    )]
     MixedUnits {
         /// As in the header.
         written: String,
@@ -80,9 +85,9 @@ pub enum RecordFault {
     },
     /// The samples are not evenly spaced.
     #[error(
-        "a step of {} after steps of {}; samples must be evenly spaced to within 1 %. Resample the record, or \
-         give the sampling rate if the clock was even all the same",
-        Dimension::Time.pretty(*step), Dimension::Time.pretty(*usual)
+        "the time step changes from {} to {}; samples must be evenly spaced to within 1 %. Resample the record, or \
+         give the sampling rate if you know that the clock was even",
+        Dimension::Time.pretty(*usual), Dimension::Time.pretty(*step)
     )]
     Uneven {
         /// [s]
@@ -110,7 +115,7 @@ pub enum RecordFault {
         least: usize,
     },
     /// The record has too many samples.
-    #[error("holds more than {most} numbers, which would take more than {} of memory; cut it in pieces", memory(*most as f64 * 8.0))]
+    #[error("holds more than {most} numbers, which would take more than {} of memory; cut it into pieces", memory(*most as f64 * 8.0))]
     TooManySamples {
         /// Most numbers that are kept.
         most: usize,
@@ -129,7 +134,7 @@ pub enum RecordFault {
     },
     /// The record contains the fluctuation only.
     #[error(
-        "the mean velocity is zero within its error ({} ± {} m/s); if the mean was taken off the record, give \
+        "the mean velocity is zero within its error ({} ± {} m/s); if the mean has been subtracted, give \
          the mean velocity", shortest(*mean), shortest(*error)
     )]
     NoMean {
@@ -151,7 +156,7 @@ pub enum RecordFault {
     },
     /// The segment length is not possible.
     #[error(
-        "a segment of {asked} samples: not a power of two from 8 to {most}, the samples of this record; try {advice}"
+        "a segment of {asked} samples is not possible; write a power of two from 8 to {most}, like {advice}"
     )]
     Segment {
         /// As asked.

@@ -21,7 +21,7 @@ pub enum StudyFault {
     },
     /// A table that belongs in a case file.
     #[error(
-        "is a table of a case file; a study names its case, as in case = \"table1.toml\". To fly a single case, use `spunlaid run`"
+        "is a table of a case file; a study names its case, as in case = \"table1.toml\". To fly a single case, name the case itself"
     )]
     TableOfCase,
     /// A study cannot vary or link this key.
@@ -181,7 +181,7 @@ pub enum JournalError {
     },
     /// Records cannot be appended.
     #[error(
-        "{}: cannot be written: {source}. All finished fibres are kept. Solve this problem, then repeat the command to continue",
+        "{}: cannot be written: {source}. All finished fibres are kept. Solve this problem, then continue the study",
         shown(path)
     )]
     Unwritable {
@@ -191,9 +191,7 @@ pub enum JournalError {
         source: std::io::Error,
     },
     /// The records cannot be flushed to the disk.
-    #[error(
-        "the journal cannot be saved to the disk: {0}. Solve this problem, then repeat the command to continue"
-    )]
+    #[error("the journal cannot be saved to the disk: {0}. Solve this problem, then continue the study")]
     Unsynced(std::io::Error),
 }
 

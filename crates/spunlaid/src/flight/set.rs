@@ -44,7 +44,7 @@ impl Flight {
         let strands: Vec<Strand> = cases.iter().map(|(case, _)| case.strand()).collect();
         check_strands(&strands)?;
         if air.eddies != self.eddies || strands[0].fibre.elements != self.chain.elements() {
-            let reason = "other elements would lie in other eddies";
+            let reason = "it would change which element lies in which eddy";
             return Err(FlightFault::NotInFlight { key, reason }.into());
         }
 

@@ -170,7 +170,7 @@ pub(super) fn check_strands(strands: &[Strand]) -> Result<(), FlightFault> {
         return Err(FlightFault::TooMany { fibres: strands.len(), most: WIDTH });
     }
     if first.fibre.elements == 0 {
-        return Err(FlightFault::Size { what: "fibre", of: "elements", found: 0, wanted: 1 });
+        return Err(FlightFault::NoElements);
     }
     for (lane, strand) in strands.iter().enumerate() {
         let same = [

@@ -23,7 +23,7 @@ use crate::error::FlightFault;
 use crate::lanes::{Isa, Lanes, Plain, Register, WIDTH, Wide};
 use crate::vec3::Vec3;
 
-/// Cells of a cubic per sample spacing of a synthesised signal. Of a record each spacing is one.
+/// Cubics per sample spacing of a synthesised signal. A record has one per spacing.
 const CELLS: u64 = 16;
 
 /// The wind along up to eight fibres, mean flow and fluctuation, as a function of time.
@@ -87,7 +87,7 @@ impl Wind {
     pub fn repeating(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, FlightFault> {
         check(&streams)?;
         if !streams[0].air.records.is_empty() {
-            return Err(FlightFault::Differ { what: "air.record", lane: 0 });
+            return Err(FlightFault::RepeatingRecord);
         }
         let windows = Windows::repeating(isa, streams, horizon);
         Ok(Self::of(windows.spacing(), means(windows.streams()), Signal::Synthesised(windows)))
