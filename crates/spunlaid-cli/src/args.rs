@@ -77,6 +77,7 @@ The results folder holds
   report.html          for the browser: the moving fibre, figures, table; works offline
   summary.json         every result with mean, standard error and the replicates' values
   case.toml            the case with every default; running it gives the same bits
+  case_files/          copies of the files that the case names
   end_node.parquet     the free end over time      energy.parquet   both energy ledgers over time
   shape.pvd, shape/    the fibre over time, for ParaView (open shape.pvd)
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
@@ -104,10 +105,11 @@ A study is a small text file beside the case it varies:
 If a sweep is interrupted, the same command continues it and gives the same bits. The results
 folder holds
   report.html          for the browser: the study, table, figures, ranking
-  results.csv          a row per point: inputs, then mean, standard error (_se) and n of every result
+  results.csv          a row per point: seed, inputs, n, lost, then mean and standard error (_se) of every result
   results.parquet      the same            replicates.parquet   a row per fibre
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
   study.toml, case.toml   the study as it was run; sweeping it again gives the same bits
+  case_files/          copies of the files that the case names
   journal              the results of every fibre; with it the study can be continued
 
 Examples:
@@ -178,6 +180,20 @@ impl CaseSource {
         let values: Vec<_> = self.set.iter().cloned().chain(more).collect();
         read_case(&self.case, Overrides { values: &values, word: "--set" })
     }
+
+    /// The same as arguments of a command line.
+    pub(crate) fn words(&self) -> String {
+        let set = self.set.iter().map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))));
+        quoted(&self.case.to_string_lossy()) + &set.collect::<String>()
+    }
+}
+
+/// A word of a command line, in quotes if the shell would not take it as one word. It stays in its line.
+fn quoted(word: &str) -> String {
+    if word.chars().all(|c| c.is_alphanumeric() || "-_./=:,+%".contains(c)) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace(char::is_control, "?").replace('\'', "'\\''"))
 }
 
 fn key_and_value(text: &str) -> Result<(String, String), String> {

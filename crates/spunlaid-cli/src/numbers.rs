@@ -15,7 +15,8 @@ const DECIMALS: i32 = 6;
 /// Most digits of a value.
 const DIGITS: i32 = 9;
 
-/// Decimals that show an error to two digits, less than none for zeros before the point; none of no error.
+/// Number of decimals that shows an error with two digits. Negative if zeros stand before the decimal point. `None`
+/// if there is no error.
 pub(crate) fn decimals(error: f64) -> Option<i32> {
     // The exponent is read after rounding: 0.0996 is 0.10.
     let known = error.is_finite() && error > 0.0;
@@ -23,7 +24,7 @@ pub(crate) fn decimals(error: f64) -> Option<i32> {
     Some(1 - exponent)
 }
 
-/// A value to so many decimals, less than none for zeros before the point; with few digits where these are too many.
+/// A value with this number of decimals (see [`decimals`]). If that would be too long, with six digits.
 pub(crate) fn to_decimals(value: f64, decimals: i32) -> String {
     let size = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
     if !value.is_finite() || !(-DECIMALS..=DECIMALS).contains(&decimals) || size as i32 + decimals >= DIGITS {
@@ -55,12 +56,12 @@ pub(crate) fn plus_minus(mean: f64, error: Option<f64>) -> String {
     }
 }
 
-/// A number to three digits, with a power of ten where it is far from one; a dash for none.
+/// A number to three digits, with a power of ten where it is far from one; a dash if it is not finite.
 pub(crate) fn number(value: f64) -> String {
     number_to(value, 3)
 }
 
-/// A number to so many digits, with a power of ten where it is far from one; a dash for none.
+/// A number to so many digits, with a power of ten where it is far from one; a dash if it is not finite.
 fn number_to(value: f64, digits: i32) -> String {
     if !value.is_finite() {
         return "–".to_owned();

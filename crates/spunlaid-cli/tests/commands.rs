@@ -16,9 +16,9 @@ fn check_prints_a_case_that_can_be_read_again() {
         "time step 20 µs, 500 steps; stable below",
         "34.46 µs",
         "axial waves",
-        "to expect: less than a second on 1 of ",
+        "expected: less than a second on 1 of ",
         "MiB of memory, 1 MB of results",
-        "ready: spunlaid run brief.toml",
+        "ready: spunlaid run brief.toml --set 'air.velocity=12 m/s'",
     ] {
         assert!(said.contains(part), "{part}\n{said}");
     }

@@ -70,7 +70,7 @@ fn remarks(record: &Record) -> Vec<String> {
     let mut remarks = Vec::new();
     if r.filled > 0 {
         let skipped = if r.skipped > 0 {
-            format!(", {} of them in rows that are missing by the times", r.skipped)
+            format!(", {} of them in rows that the file lacks", r.skipped)
         } else {
             String::new()
         };

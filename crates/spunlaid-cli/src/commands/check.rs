@@ -29,14 +29,14 @@ pub(crate) fn check(check: &Check) -> Result<(), Failure> {
     mesh(&case);
     limits(&case);
     say::line(&format!(
-        "# to expect: {} on {} of {} threads, {:.0} MiB of memory, {} of results",
+        "# expected: {} on {} of {} threads, {:.0} MiB of memory, {} of results",
         duration(expected.wall_s),
         expected.threads,
         threads(None),
         expected.memory_bytes / f64::from(1 << 20),
         size(expected.disk_bytes)
     ));
-    say::line(&format!("# ready: spunlaid run {}", check.source.case.display()));
+    say::line(&format!("# ready: spunlaid run {}", check.source.words()));
     Ok(())
 }
 
@@ -87,12 +87,17 @@ fn mesh(case: &Case) {
         Dimension::Length.pretty(case.air.length_scale)
     ));
     if case.air.rms() > 0.0 {
-        say::line(&format!(
-            "#   turbulence of {} rms from {} harmonics, repeats after {}",
-            Dimension::Velocity.pretty(case.air.rms()),
-            case.air.harmonics,
-            Dimension::Time.pretty(2.0 * case.air.repeat_time())
-        ));
+        let source = match case.air.records.len() {
+            0 => format!(
+                "from {} harmonics, with new phases every {}",
+                case.air.harmonics,
+                Dimension::Time.pretty(0.75 * case.air.repeat_time())
+            ),
+            1 => "from the record".to_owned(),
+            records => format!("from {records} records"),
+        };
+        let rms = Dimension::Velocity.pretty(case.air.rms());
+        say::line(&format!("#   turbulence of {rms} rms {source}"));
     }
 }
 

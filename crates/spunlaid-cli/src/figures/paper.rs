@@ -48,8 +48,8 @@ pub(crate) fn spectrum(points: &[SpectrumPoint]) -> Figure {
     Figure::of(
         &chart,
         "Figure 3. The spectrum of the synthesised velocity (Welch’s estimate over components, eddies and \
-         replicates) and the flat model it is made from: constant up to the cut-off, nothing above but what \
-         the estimate’s window leaks."
+         replicates) and the flat model it is made from: constant up to the cut-off and zero above. What is \
+         seen above the cut-off comes from the window of the estimate."
             .to_owned(),
     )
 }

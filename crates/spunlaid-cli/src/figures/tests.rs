@@ -79,7 +79,7 @@ fn the_numbers_of_the_energies_are_not_thinned() {
     let read = of("work check mean");
     assert_eq!(read.len(), 1001);
     assert!(read.iter().zip(&wanted).all(|(a, b)| a == b || b.is_nan() && a.is_nan()), "{read:?}");
-    assert_eq!(of("energy balance largest").len(), 1001);
+    assert_eq!(of("full balance largest").len(), 1001);
 }
 
 #[test]

@@ -83,8 +83,8 @@ fn headline(of: &Analysis) -> String {
 fn summary(record: &Record, of: &Analysis) -> String {
     let names: Vec<&str> = of.components.iter().map(|c| c.name.as_str()).collect();
     format!(
-        "From {}: {} of {} at {} over {}, {} integral times. After each ± and in each table are 95{THIN}% confidence \
-         intervals.",
+        "From {}: {} of {} at {} over {}, {} integral times. The values after ± and the ranges in the tables are \
+         95{THIN}% confidence intervals.",
         record.file,
         count(of.samples as u64, "sample"),
         names.join(", "),

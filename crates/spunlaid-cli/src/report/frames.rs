@@ -117,7 +117,8 @@ fn choose(shapes: &[Shape], nodes: usize, flights: usize, frequency: Option<f64>
     let coarsest = frequency.map(|f| 1.0 / (PER_SWING * f));
     if coarsest.is_some_and(|coarsest| interval > 4.0 * coarsest) {
         remarks.push(format!(
-            "Shapes were kept every {} only, too seldom to follow the swings: the picture jumps.",
+            "The shape of the fibre was kept only every {}, which is too seldom to follow the swings, so the \
+             animation jumps.",
             time(interval)
         ));
     }
@@ -129,13 +130,13 @@ fn choose(shapes: &[Shape], nodes: usize, flights: usize, frequency: Option<f64>
             let first = total - ((most - 1) * followed + 1);
             instants = (first..total).step_by(followed).collect();
             remarks.push(format!(
-                "The picture shows the last {} of {}.",
+                "The animation shows the last {} of {}.",
                 time(shapes[total - 1].time - shapes[first].time),
                 time(shapes[total - 1].time)
             ));
         } else {
             instants = even(total, most);
-            remarks.push(format!("{} of {} kept instants are shown.", instants.len(), total));
+            remarks.push(format!("The animation shows {} of {total} recorded shapes.", instants.len()));
         }
     }
     (Choice { instants, nodes: kept_nodes }, remarks)

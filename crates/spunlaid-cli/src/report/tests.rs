@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use spunlaid::case::Case;
 use spunlaid::ensemble::Results;
 
-/// Megabytes a page may have.
+/// Largest size of a page [bytes].
 const MOST: usize = 6_000_000;
 
 fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml: &str) -> String {
@@ -145,7 +145,7 @@ fn shows_a_stretch_of_a_run_too_long_to_follow() {
     let case = sample::case(200, 20_001, 1);
     let frames = super::frames::pack(&case, &sample::results(&case, 0.01)).expect("shapes were kept");
     assert!(
-        frames.remarks.iter().any(|r| r.starts_with("The picture shows the last ")),
+        frames.remarks.iter().any(|r| r.starts_with("The animation shows the last ")),
         "{:?}",
         frames.remarks
     );

@@ -84,7 +84,7 @@ pub(super) fn headline(case: &Case, results: &Results) -> String {
     }
 }
 
-/// What was simulated, in two sentences.
+/// What was simulated, in three sentences.
 pub(super) fn case(case: &Case) -> String {
     let (fibre, air, run) = (&case.fibre, &case.air, &case.run);
     let held = match fibre.root {
@@ -117,11 +117,11 @@ pub(super) fn case(case: &Case) -> String {
         Scheme::ImplicitTension => "leapfrog with implicit tension",
     };
     format!(
-        "A fibre of {} length and {} diameter, {held}, {medium}: {}, {}simulated for {} in {} of {} \
-         ({scheme}), the fibre cut into {}.",
+        "A fibre of {} length and {} diameter, {held}, moves {medium}. {} computed, {}for {} in {} of {} ({scheme}). The \
+         fibre is divided into {}.",
         length(fibre.length),
         length(fibre.diameter),
-        count(run.replicates, "replicate"),
+        count(run.replicates, "replicate") + if run.replicates == 1 { " was" } else { " were" },
         if run.replicates > 1 { "each " } else { "" },
         time(run.duration()),
         count(run.steps, "step"),

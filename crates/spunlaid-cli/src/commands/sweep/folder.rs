@@ -135,7 +135,7 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
 }
 
 /// Refuses a folder with results but without a journal. A study that was killed before its journal existed has
-/// left no more than its two description files.
+/// left no more than the files that describe it.
 fn holds_nothing_else(path: &Path) -> Result<(), Failure> {
     match MADE.iter().chain(OF_A_RUN).find(|name| path.join(name).exists()) {
         Some(found) => Err(Failure::HoldsResults { folder: path.to_owned(), found: (*found).to_owned() }),

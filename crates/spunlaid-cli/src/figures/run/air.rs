@@ -41,7 +41,7 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
     };
     let caption = format!(
         "The air where the straight fibre would lie: mean velocity along x, and the rms of each component of the turbulence \
-         about it. Eddies of {} length, nothing above {}.",
+         about it. The eddies are {} long, and the turbulence has no energy above {}.",
         between(|air| air.length_scale, MM, "mm"),
         between(|air| air.cutoff_frequency, 1.0, "Hz"),
     );

@@ -59,7 +59,7 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
     };
     let mut chart =
         Chart::new(declared.name, declared.title, along.in_column(&format!("{column}_{shown}")), value)
-            .when_empty("too few recorded instants, or nothing to compare with");
+            .when_empty("no values: too few recorded instants, or a fibre at rest");
     for (i, curve) in curves.iter().enumerate() {
         let places = scaled(curve, unit.per_si);
         chart = match first.kind {
@@ -125,7 +125,7 @@ fn series(chart: Chart, i: usize, curve: &Curve, places: &[Place], replicates: u
     let name = curve.measure.series;
     let several = replicates > 1 || each > 1;
     let label = if several { format!("{name}, mean") } else { name.to_owned() };
-    // After the colours of y and z, which these are not.
+    // Other colours than those of y and z.
     let column = if several { format!("{name} mean") } else { name.to_owned() };
     let line = styled(i + 2, &label).named(&column).width(1.2).thinned_from(all(|place| place.mean));
     let chart = chart.line(line, &mean);
@@ -136,7 +136,7 @@ fn series(chart: Chart, i: usize, curve: &Curve, places: &[Place], replicates: u
     chart.band(largest.thinned_from(all(|place| place.largest)), &band)
 }
 
-/// Where the free end crosses its axis as often as it does.
+/// A vertical line at the crossing frequency.
 fn with_crossings(chart: Chart, i: usize, series: &str, results: &Results) -> Chart {
     let axis = series.trim_matches('*');
     let frequency = results.estimate(&format!("frequency_{axis}")).mean;

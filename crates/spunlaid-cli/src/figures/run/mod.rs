@@ -26,7 +26,7 @@ pub(crate) fn run_figures(case: &Case, results: &Results, turbulence: &[Spectrum
     figures
 }
 
-/// Time of so many swings of the free end [s], where it swings at all.
+/// The time of this number of swings [s]; `None` if the free end does not swing.
 fn swings(results: &Results, count: f64) -> Option<f64> {
     let [y, z] = ["frequency_y", "frequency_z"].map(|name| results.estimate(name).mean);
     let fastest = y.max(z);

@@ -53,7 +53,10 @@ pub(super) fn end_node_history(case: &Case, results: &Results) -> Figure {
     let Some(last) = last else {
         return Figure::of(&chart, caption);
     };
-    caption.push_str(&format!(" Above the whole run, below its last {} s.", significant(last, 2)));
+    caption.push_str(&format!(
+        " The upper panel shows the whole run, the lower one its last {} s.",
+        significant(last, 2)
+    ));
     chart.x.label.clear();
     let mut part = history("end_node_history_part", end - last);
     for chart in [&mut chart, &mut part] {
@@ -84,7 +87,7 @@ pub(super) fn end_node_path(case: &Case, results: &Results) -> Figure {
     .scatter(Series::spots("first", INK), &spot(points.first()))
     .scatter(Series::spots("last", ORANGE), &spot(points.last()));
     let mut caption =
-        "The way of the free end across the mean flow in the first replicate, same scale in both \
+        "The path of the free end across the mean flow in the first replicate, with the same scale in both \
                        directions."
             .to_owned();
     if let (true, Some(start)) = (first > 0, drawn.first()) {

@@ -24,15 +24,16 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
         .zero_based(),
     )
     .line(Series::new("realised", GREEN), &realised);
-    let what = "What the simulated turbulence holds at each frequency, averaged over components, eddies and up to eight \
-                replicates";
+    let what =
+        "Spectrum of the simulated turbulence, averaged over components, eddies and up to eight replicates";
     let rms = if air.is_uniform() {
-        format!("rms {} m/s per component", significant(air.rms(), 3))
+        format!("the rms is {} m/s per component", significant(air.rms(), 3))
     } else {
-        "each eddy’s by its own variance".to_owned()
+        "the spectrum of each eddy is divided by its variance".to_owned()
     };
     if !air.records.is_empty() {
-        let caption = format!("{what}: stretches of the record as it was measured, {rms}.");
+        let caption =
+            format!("{what}. The turbulence consists of stretches of the record as it was measured; {rms}.");
         return Figure::of(&chart, caption);
     }
     let wanted: Vec<_> = match air.spectrum {
@@ -48,8 +49,8 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
         SpectrumShape::Measured(_) => "measured",
     };
     let caption = format!(
-        "{what}, against the {shape} spectrum asked for (dashed): {rms}, nothing above {} Hz. The lowest point and the flank \
-         at the cut-off are blurred by the analysis.",
+        "{what}, compared with the {shape} spectrum of the case (dashed); {rms}. There is no energy above {} Hz. The analysis \
+         blurs the lowest point and the edge at the cut-off.",
         significant(cutoff, 3),
     );
     Figure::of(&chart.line(Series::reference("wanted"), &wanted), caption)

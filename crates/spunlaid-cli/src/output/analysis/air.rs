@@ -41,14 +41,17 @@ pub(crate) fn air_block(file: &str, of: &Analysis) -> String {
             "cutoff_frequency",
             &of.cutoff_frequency,
             Dimension::Frequency,
-            format!("variance of {along} over the plateau of its spectrum: the flat spectrum with both"),
+            format!(
+                "variance of {along} over the plateau of its spectrum: here a flat spectrum with this variance and this \
+                 plateau would end"
+            ),
         ),
     ];
     let values: Vec<String> = lines.iter().map(|(key, interval, d, _)| value(key, interval, *d)).collect();
     let sets =
         lines.iter().zip(&values).map(|((key, ..), v)| format!(" --set air.{key}={v}")).collect::<String>();
     let mut text = format!(
-        "# The air of {}, by spunlaid {} analyse, with the 95 % confidence interval of each value.\n\
+        "# The air of {}, computed by spunlaid analyse (version {}), with the 95 % confidence interval of each value.\n\
          # It replaces the [air] of a case. The same on the command line:\n\
          #   spunlaid run my.toml{sets}\n\n[air]\n",
         one_line(file),

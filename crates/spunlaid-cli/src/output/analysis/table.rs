@@ -63,7 +63,8 @@ pub(crate) fn results(of: &Analysis) -> (Vec<ResultRow>, Vec<(String, Vec<Result
             1.0,
             "Hz",
             format!(
-                "variance of {along} over the plateau of its spectrum: where the flat spectrum with both ends"
+                "variance of {along} over the plateau of its spectrum: here a flat spectrum with this variance and this \
+                 plateau would end"
             ),
         ),
     ];
