@@ -48,7 +48,7 @@
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-// Each module imports only from the modules above it. tests/rooms.rs checks this and names the exceptions.
+// Each module imports only from the modules above it. tests/rooms.rs checks this.
 // Vector instructions are unsafe to call; nothing else in the workspace is.
 #[allow(unsafe_code)]
 pub mod lanes;

@@ -1,8 +1,8 @@
 //! What a flight costs on this machine, in nanoseconds per element and step of a fibre.
 //!
 //!     cargo bench -p spunlaid                       # all of it, two minutes
-//!     cargo bench -p spunlaid -- kernel threads     # parts: kernel, growth, wind, ensemble, threads,
-//!                                                   # accuracy
+//!     cargo bench -p spunlaid -- kernel threads     # parts: kernel, growth, wind, field, ensemble,
+//!                                                   # threads, accuracy
 //!
 //! Processor time, the least of many short repetitions taken in turn; absolute figures wander with the
 //! machine's clock, ratios within a run hold. What the figures were, and the least they could be, is in

@@ -22,7 +22,7 @@ const SYNTHESIS: f64 = 1200.0;
 pub struct BundleMemory {
     /// The chain.
     pub chain: f64,
-    /// The turbulence along it, over the run.
+    /// The samples of the turbulence that are kept.
     pub turbulence: f64,
     /// What making the turbulence takes besides.
     pub synthesis: f64,

@@ -15,7 +15,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             column: "work_error_percent",
             label: "Work check, typical",
             meaning: "the paper’s work check: difference between the work of all forces and the kinetic energy; median over \
-                      time. It shows only whether the steps are short against the motion",
+                      time, the spin-up included. It shows only whether the steps are short against the motion",
             series: "work check",
             ..TYPICAL
         },
@@ -31,9 +31,9 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "balance_error",
             column: "balance_error_percent",
             label: "Full balance, typical",
-            meaning: "error of the full energy balance, as a share of the air’s work; median over time. It would reveal a \
+            meaning: "error of the full energy balance, as a share of the air’s work; median over time, the spin-up included. It would reveal a \
                       wrong force",
-            series: "energy balance",
+            series: "full balance",
             ..TYPICAL
         },
         Measure {
@@ -41,7 +41,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             column: "balance_error_at_end_percent",
             label: "Full balance, at the end",
             meaning: "the full balance at the end of the flight",
-            series: "energy balance",
+            series: "full balance",
             ..AT_END
         },
         Measure {
@@ -55,7 +55,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "balance_error_over_time",
             column: "balance_error_over_time_percent",
             label: "Full balance over time",
-            series: "energy balance",
+            series: "full balance",
             ..OVER_TIME
         },
     ],
@@ -71,7 +71,7 @@ pub(super) const DISSIPATION: Declaration = Declaration {
             column: "tension_dissipation_percent",
             label: "Taken out by the scheme, typical",
             meaning: "energy that the scheme has taken out of the motion by damping axial waves, as a share of the air’s \
-                      work; median over time",
+                      work; median over time, the spin-up included",
             over_replicates: Over::Median,
             series: "typical",
             ..TAKEN_OUT
@@ -108,7 +108,7 @@ const AT_END: Measure = Measure {
 };
 
 const OVER_TIME: Measure = Measure {
-    meaning: "the error at each recorded instant; not defined at rest",
+    meaning: "the error at each recorded instant, the spin-up included; not defined at rest",
     kind: Kind::Series,
     figure: &Figure {
         name: "energy_errors",

@@ -8,7 +8,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         name: "share_outside_flow",
         column: "share_outside_flow",
         label: "Time outside the flow",
-        meaning: "share of the time that the elements spend outside the profile or the field; the simulation uses the air at the \
+        meaning: "share of the time that the elements spend outside the profile or the field, the spin-up included; the simulation uses the air at the \
                   nearest point there",
         unit: PERCENT,
         kind: Kind::Number,

@@ -114,7 +114,7 @@ pub(super) static KEYS: &[Key] = &[
         },
     })
     .follows("the same air everywhere")
-    .meaning("Table of the air along the fibre line: velocity over the distance from the root and, if it has such columns, turbulence."),
+    .meaning("Table of the air along the fibre: velocity over the distance from the root and, if it has such columns, turbulence."),
     file("air.field", FileKind::Field, Access {
         get: |case| Some(Content::Field(placed(case)?.field.clone()).into()),
         set: |case, value| {
@@ -315,8 +315,8 @@ pub(super) static KEYS: &[Key] = &[
             Ok(())
         },
     })
-    .follows("the smallest power of two, at least 128, for which the turbulence does not repeat within twice the run")
-    .meaning("Number of harmonics that the turbulence is summed from. The sum repeats after harmonics over cut-off frequency; before that, the wind passes to another sum.")
+    .follows("the smallest power of two, at least 128, that lasts for twice the run; for long runs 1024, or what lasts for 256 integral times")
+    .meaning("Number of cosine waves whose sum is the turbulence. A sum lasts for harmonics / cut-off frequency; before that, the wind changes over to a sum with other phases.")
     .label("Number of harmonics")
     .varies()
     .counted(),
@@ -427,8 +427,8 @@ pub(super) static KEYS: &[Key] = &[
     quantity("run.spin_up", Dimension::Time, NotNegative, steps!(spin_up_steps, spin_up, 0))
         .value("0 s")
         .meaning(
-            "Time at the start that the statistics leave out. The fibre starts straight and at rest, and its motion depends \
-             on this start for a fraction of a second.",
+            "Time at the start that the statistics of the motion leave out; the energy errors and the time outside the flow \
+             include it. The fibre starts straight and at rest, and its motion depends on this start for a fraction of a second.",
         )
         .label("Spin-up")
         .slider(0.0, 1.0)

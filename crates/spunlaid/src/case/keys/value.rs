@@ -29,7 +29,7 @@ pub enum Value {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Content {
-    /// Values down the line.
+    /// Values along the fibre.
     Profile(FromFile<Profile>),
     /// A CFD solution.
     Field(FromFile<Field>),
@@ -129,7 +129,7 @@ pub enum Sign {
 /// What a file contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
-    /// Values down the line.
+    /// Values along the fibre.
     Profile,
     /// A CFD solution.
     Field,
