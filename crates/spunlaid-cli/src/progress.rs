@@ -23,17 +23,49 @@ pub(crate) fn follow<T>(
         bar.set_style(style.progress_chars("=> "));
     }
     bar.set_message(label.to_owned());
+    follow_on(&bar, done, work)
+}
+
+/// Runs `work` while another thread sets the bar to `done`.
+fn follow_on<T>(bar: &ProgressBar, done: &AtomicU64, work: impl FnOnce() -> T) -> T {
     let finished = AtomicBool::new(false);
     std::thread::scope(|scope| {
-        scope.spawn(|| {
-            while !finished.load(Ordering::Relaxed) {
+        let shown = scope.spawn(|| {
+            while !finished.load(Ordering::Acquire) {
                 bar.set_position(done.load(Ordering::Relaxed));
                 std::thread::park_timeout(Duration::from_millis(50));
             }
         });
-        let outcome = work();
-        finished.store(true, Ordering::Relaxed);
-        bar.finish_and_clear();
-        outcome
+        let _end = OnDrop(|| {
+            finished.store(true, Ordering::Release);
+            shown.thread().unpark();
+            bar.finish_and_clear();
+        });
+        work()
     })
+}
+
+/// Ends the thread that shows a bar, also if the work panics. Otherwise the program would wait for the thread for ever.
+pub(crate) struct OnDrop<F: FnMut()>(pub(crate) F);
+
+impl<F: FnMut()> Drop for OnDrop<F> {
+    fn drop(&mut self) {
+        (self.0)();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
+    #[test]
+    fn a_panic_in_the_work_ends_the_bar() {
+        let done = AtomicU64::new(0);
+        let bar = || ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
+        let panicked =
+            catch_unwind(AssertUnwindSafe(|| follow_on(&bar(), &done, || panic!("as a test of it"))));
+        assert!(panicked.is_err());
+        assert_eq!(follow_on(&bar(), &done, || 7), 7);
+    }
 }

@@ -440,7 +440,8 @@ fn all_of(words: &[&str]) -> String {
     joined(words.iter().map(ToString::to_string).collect(), "and")
 }
 
-fn one_of(words: &[&str]) -> String {
+/// `"a", "b" or "c"`.
+pub(crate) fn one_of(words: &[&str]) -> String {
     joined(words.iter().map(|word| format!("\"{word}\"")).collect(), "or")
 }
 

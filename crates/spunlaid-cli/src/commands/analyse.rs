@@ -1,5 +1,6 @@
 //! `spunlaid analyse` makes the air of a case from a velocity record.
 
+use super::stem;
 use crate::args::Analyse;
 use crate::failure::Failure;
 use crate::figures::record_figures;
@@ -9,11 +10,10 @@ use crate::output::pictures;
 use crate::report::{AnalysisReport, analysis_html};
 use crate::say;
 use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
-use std::path::{Path, PathBuf};
 
 pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
-    let name = name(&analyse.record);
-    let folder = analyse.out.clone().unwrap_or_else(|| PathBuf::from("results").join(&name));
+    let name = stem(&analyse.record, "record");
+    let folder = super::folder(analyse.out.as_ref(), name);
     let staging = Staging::new(&folder, ENTRIES, analyse.force, super::interrupt::stop_on_ctrl_c())?;
     let record = read_record(&analyse.record, &layout(analyse))?;
     let of = spunlaid::record::analyse(&record, &settings(analyse))?;
@@ -22,7 +22,7 @@ pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
     of.warnings.iter().for_each(|warning| say::warning(&warning.to_string()));
 
     let json = analysis_json(&record, &of);
-    write(&staging, &name, &record, &of, &remarks, &json)?;
+    write(&staging, &name.to_string_lossy(), &record, &of, &remarks, &json)?;
     staging.publish()?;
     if analyse.json {
         say::text(&json);
@@ -32,11 +32,6 @@ pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
         say::line(&format!("open {}", folder.join("report.html").display()));
     }
     Ok(())
-}
-
-/// Name of the record: that of its file.
-fn name(path: &Path) -> String {
-    path.file_stem().map_or_else(|| "record".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
 fn layout(analyse: &Analyse) -> Layout {

@@ -4,6 +4,7 @@ use super::run::POSITIONS;
 use super::threads;
 use crate::args::Check;
 use crate::failure::Failure;
+use crate::output::json_text;
 use crate::output::summary::{InOrder, resolved};
 use crate::say;
 use serde::Serialize;
@@ -43,11 +44,6 @@ pub(crate) fn check(check: &Check) -> Result<(), Failure> {
 /// The same as JSON.
 fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
     #[derive(Serialize)]
-    struct Limit {
-        cause: &'static str,
-        limit_s: f64,
-    }
-    #[derive(Serialize)]
     struct Checked {
         schema_version: u32,
         spunlaid_version: &'static str,
@@ -55,24 +51,21 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
         elements: usize,
         eddies: usize,
         steps: u64,
-        step_limits: Vec<Limit>,
+        step_limits: Vec<StepLimit>,
         expected: Expected,
         notes: Vec<String>,
     }
-    let limits = case.stable_step_limits().into_iter();
-    let checked = Checked {
+    json_text(&Checked {
         schema_version: 1,
         spunlaid_version: env!("CARGO_PKG_VERSION"),
         case: resolved(case),
         elements: case.fibre.elements,
         eddies: case.eddies().count(),
         steps: case.run.steps,
-        step_limits: limits.map(|StepLimit { cause, limit }| Limit { cause, limit_s: limit }).collect(),
+        step_limits: case.stable_step_limits(),
         expected,
         notes,
-    };
-    // Serialising plain numbers and strings into memory cannot fail.
-    serde_json::to_string_pretty(&checked).unwrap_or_default() + "\n"
+    })
 }
 
 fn mesh(case: &Case) {

@@ -17,9 +17,22 @@ pub(crate) use run::run;
 pub(crate) use small::{completions, new};
 pub(crate) use sweep::sweep;
 
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
 /// The requested number of threads, or one for each core.
 fn threads(asked: Option<u16>) -> usize {
     asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
+}
+
+/// The name of a file without its extension.
+fn stem<'a>(file: &'a Path, otherwise: &'a str) -> &'a OsStr {
+    file.file_stem().unwrap_or(otherwise.as_ref())
+}
+
+/// The requested folder, or `results/NAME`.
+fn folder(asked: Option<&PathBuf>, name: impl AsRef<Path>) -> PathBuf {
+    asked.cloned().unwrap_or_else(|| Path::new("results").join(name))
 }
 
 /// `1 fibre`, `2 fibres`.

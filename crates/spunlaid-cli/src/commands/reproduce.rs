@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::figures::paper as draw;
 use crate::numbers::plus_minus;
 use crate::output::folder::{ENTRIES, Staging};
-use crate::output::pictures;
+use crate::output::{json_text, pictures};
 use crate::report::{PaperReport, paper_html};
 use crate::{progress, say};
 use serde::Serialize;
@@ -25,7 +25,6 @@ use spunlaid::paper::{
 };
 use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, results_of_point, run};
 use spunlaid_charts::Figure;
-use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 
@@ -41,7 +40,7 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     };
     let mut base = table1(scheme)?;
     base.run.replicates = asked.replicates;
-    let folder = asked.out.clone().unwrap_or_else(|| PathBuf::from("results").join("paper"));
+    let folder = super::folder(asked.out.as_ref(), "paper");
     let stop = stop_on_ctrl_c();
     let staging = Staging::new(&folder, ENTRIES, asked.force, stop)?;
     let flying = Flying::new(&base, &wanted)?;
@@ -283,20 +282,7 @@ fn summary(claims: &[Claim]) -> String {
     struct Summary<'a> {
         schema_version: u32,
         spunlaid_version: &'static str,
-        claims: Vec<Entry<'a>>,
+        claims: &'a [Claim],
     }
-    #[derive(Serialize)]
-    struct Entry<'a> {
-        figure: &'a str,
-        claim: &'a str,
-        evidence: &'a str,
-        verdict: &'static str,
-    }
-    let claims = claims
-        .iter()
-        .map(|c| Entry { figure: c.figure, claim: c.claim, evidence: &c.evidence, verdict: c.verdict.name() })
-        .collect();
-    let summary = Summary { schema_version: 1, spunlaid_version: env!("CARGO_PKG_VERSION"), claims };
-    // Serialising plain strings into memory cannot fail.
-    serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n"
+    json_text(&Summary { schema_version: 1, spunlaid_version: env!("CARGO_PKG_VERSION"), claims })
 }

@@ -1,7 +1,7 @@
 //! `spunlaid run`: flies a case and writes the results.
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, threads};
+use super::{plural, stem, threads};
 use crate::args::Run;
 use crate::failure::Failure;
 use crate::figures::run_figures;
@@ -16,8 +16,6 @@ use spunlaid::case::{Case, Note};
 use spunlaid::ensemble::{Computing, Keep, KeepShapes, Results, fly, turbulence_spectrum};
 use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
-use std::ffi::OsStr;
-use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
@@ -29,7 +27,8 @@ pub(super) const POSITIONS: u64 = 4_000_000;
 pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     let (case, notes) = run.source.read(&overrides(run))?;
     notes.iter().for_each(say::note);
-    let folder = run.out.clone().or_else(|| (!run.json).then(|| default_folder(run)));
+    let folder = (run.out.is_some() || !run.json)
+        .then(|| super::folder(run.out.as_ref(), stem(&run.source.case, "run")));
     let stop = stop_on_ctrl_c();
     let staging = folder.as_ref().map(|folder| Staging::new(folder, ENTRIES, run.force, stop)).transpose()?;
 
@@ -53,7 +52,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     }
     let summary = Summary::new(&case, &results, performance, notes.clone()).to_json();
     if let Some(staging) = staging {
-        let name = case_name(run).to_string_lossy().into_owned();
+        let name = stem(&run.source.case, "run").to_string_lossy().into_owned();
         let written = Written { name, case: &case, results: &results, notes, performance, summary: &summary };
         written.to(&staging, computing)?;
         staging.publish()?;
@@ -82,15 +81,6 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
 fn overrides(run: &Run) -> Vec<(&'static str, String)> {
     let own = [("run.replicates", run.replicates), ("run.seed", run.seed)];
     own.into_iter().filter_map(|(key, value)| Some((key, value?.to_string()))).collect()
-}
-
-/// `results/<name of the case>`.
-fn default_folder(run: &Run) -> PathBuf {
-    PathBuf::from("results").join(case_name(run))
-}
-
-fn case_name(run: &Run) -> &OsStr {
-    run.source.case.file_stem().unwrap_or("run".as_ref())
 }
 
 /// Flies all replicates. If there is a results folder, the tables are written during the flights.
@@ -169,12 +159,7 @@ impl Written<'_> {
             results: self.results,
             figures: &figures,
             notes: &self.notes,
-            performance: report::Performance {
-                wall_seconds: self.performance.wall_s,
-                threads: self.performance.threads,
-                nanoseconds_per_element_step: self.performance.ns_per_element_step,
-                instructions: self.performance.instruction_set,
-            },
+            performance: self.performance,
             version: env!("CARGO_PKG_VERSION"),
         });
         staging.write("case.toml", case_toml)?;

@@ -14,5 +14,5 @@ mod study;
 mod tests;
 
 pub(crate) use record::record_figures;
-pub(crate) use run::run_figures;
+pub(crate) use run::{run_figures, swing_frequency};
 pub(crate) use study::{name_of_key, study_figures};

@@ -11,3 +11,11 @@ pub(crate) mod study;
 pub(crate) mod summary;
 pub(crate) mod table;
 pub(crate) mod tables;
+
+use serde::Serialize;
+
+/// The text of a JSON file.
+pub(crate) fn json_text(of: &impl Serialize) -> String {
+    // Serialising plain numbers and strings into memory cannot fail.
+    serde_json::to_string_pretty(of).unwrap_or_default() + "\n"
+}

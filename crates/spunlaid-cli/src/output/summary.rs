@@ -92,10 +92,7 @@ impl<'a> Summary<'a> {
     }
 
     pub(crate) fn to_json(&self) -> String {
-        // Serialising plain numbers and strings into memory cannot fail.
-        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
-        text.push('\n');
-        text
+        super::json_text(self)
     }
 }
 

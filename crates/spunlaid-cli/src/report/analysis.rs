@@ -1,5 +1,6 @@
 //! Writes `report.html` of the analysis of a velocity record.
 
+use super::rendered;
 use super::words::{count, time};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::analysis::{ResultRow, half_width, results};
@@ -62,8 +63,7 @@ pub(crate) fn analysis_html(input: &AnalysisReport<'_>) -> String {
         style: include_str!("../../assets/report.css"),
         study_style: include_str!("../../assets/study.css"),
     };
-    // Writing to a string fails only where a value's own formatting does, and none here can.
-    page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
+    rendered(&page)
 }
 
 /// `10.02 ± 0.04 m/s`; half the width of the interval follows the sign.

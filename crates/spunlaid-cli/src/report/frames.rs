@@ -1,6 +1,7 @@
 //! The moving fibre as data of the page: instants, nodes and replicates chosen to fit, packed in 16 bits.
 
 use super::words::{count, time};
+use crate::figures::swing_frequency;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
@@ -96,13 +97,6 @@ pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
     };
     // Numbers and base64 only: nothing in it can end the script element it stands in.
     Some(Frames { json: serde_json::to_string(&data).ok()?, remarks })
-}
-
-/// The faster of the two crossing frequencies, where there is one [Hz].
-fn swing_frequency(results: &Results) -> Option<f64> {
-    let [y, z] = ["frequency_y", "frequency_z"].map(|name| results.estimate(name).mean);
-    let fastest = y.max(z);
-    (fastest.is_finite() && fastest > 0.0).then_some(fastest)
 }
 
 fn choose(shapes: &[Shape], nodes: usize, flights: usize, frequency: Option<f64>) -> (Choice, Vec<String>) {

@@ -18,6 +18,8 @@ pub(crate) use analysis::{AnalysisReport, analysis_html};
 pub(crate) use paper::{PaperReport, paper_html};
 pub(crate) use study::{StudyReport, study_html};
 
+use crate::output::summary::Performance;
+use askama::Template;
 use spunlaid::case::Case;
 use spunlaid::ensemble::Results;
 use spunlaid_charts::Figure;
@@ -38,25 +40,18 @@ pub(crate) struct ReportInput<'a> {
     /// Warnings and remarks for the reader.
     pub(crate) notes: &'a [String],
     /// What the run cost.
-    pub(crate) performance: Performance<'a>,
+    pub(crate) performance: Performance,
     /// Version of the program.
     pub(crate) version: &'a str,
-}
-
-/// What a run cost.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Performance<'a> {
-    /// Time on the clock [s].
-    pub(crate) wall_seconds: f64,
-    /// Number of threads.
-    pub(crate) threads: usize,
-    /// Time per element and step [ns].
-    pub(crate) nanoseconds_per_element_step: f64,
-    /// Instruction set, as in [`spunlaid::lanes::Isa::name`].
-    pub(crate) instructions: &'a str,
 }
 
 /// The report as one HTML file of less than 6 MB.
 pub(crate) fn html(input: &ReportInput<'_>) -> String {
     page::render(input)
+}
+
+/// A page as HTML.
+fn rendered(page: &impl Template) -> String {
+    // Writing to a string fails only where a value's own formatting does, and none here can.
+    page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
 }

@@ -1,9 +1,9 @@
 //! The page: the template filled in.
 
-use super::ReportInput;
 use super::frames;
 use super::table::{self, Group, ReplicateRow};
 use super::words::{self, count};
+use super::{ReportInput, rendered};
 use crate::numbers::number;
 use askama::Template;
 use spunlaid::ensemble::Number;
@@ -93,15 +93,14 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
         case_toml: input.case_toml,
         cost: format!(
             "computed in {} on {} with {} instructions, {} per element and step",
-            words::time(p.wall_seconds),
+            words::time(p.wall_s),
             count(p.threads as u64, "thread"),
-            p.instructions,
-            words::quantity(p.nanoseconds_per_element_step, "ns"),
+            p.instruction_set,
+            words::quantity(p.ns_per_element_step, "ns"),
         ),
         version: input.version,
         style: STYLE,
         script: format!("(() => {{\n\"use strict\";\n{}\n}})();", SCRIPTS.join("\n")),
     };
-    // Writing to a string fails only where a value's own formatting does, and none here can.
-    page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
+    rendered(&page)
 }

@@ -1,5 +1,6 @@
 //! The page of `spunlaid reproduce`: the paper's claims with evidence and verdict, its figures, its choices.
 
+use super::rendered;
 use askama::Template;
 use spunlaid::paper::{Claim, Verdict};
 use spunlaid_charts::Figure;
@@ -64,6 +65,5 @@ pub(crate) fn paper_html(input: &PaperReport<'_>) -> String {
         style: include_str!("../../assets/report.css"),
         paper_style: include_str!("../../assets/paper.css"),
     };
-    // Writing to a string fails only where a value's own formatting does, and none here can.
-    page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
+    rendered(&page)
 }

@@ -1,5 +1,6 @@
 //! `report.html` of a study: question, ranking, figures and points. It does not depend on the time of computation.
 
+use super::rendered;
 use super::words::count;
 use crate::figures::name_of_key;
 use crate::numbers::{THIN, number, plus_minus};
@@ -112,8 +113,7 @@ pub(crate) fn study_html(input: &StudyReport<'_>) -> String {
         style: include_str!("../../assets/report.css"),
         study_style: include_str!("../../assets/study.css"),
     };
-    // Formatting these values into a string cannot fail.
-    page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
+    rendered(&page)
 }
 
 fn question(study: &Study) -> String {

@@ -1,7 +1,8 @@
 //! The page holds what it should, safely and small.
 
-use super::{Performance, ReportInput, html};
+use super::{ReportInput, html};
 use crate::figures::{run_figures, sample};
+use crate::output::summary::Performance;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use spunlaid::case::Case;
@@ -20,10 +21,11 @@ fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml:
         figures: &figures,
         notes,
         performance: Performance {
-            wall_seconds: 1.0,
+            wall_s: 1.0,
             threads: 2,
-            nanoseconds_per_element_step: 5.4,
-            instructions: "AVX-512",
+            element_steps: 370_000_000,
+            ns_per_element_step: 5.4,
+            instruction_set: "AVX-512",
         },
         version: "0.1.0",
     })

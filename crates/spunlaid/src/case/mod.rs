@@ -74,10 +74,12 @@ impl Run {
 
 /// A limit on the time step and what sets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StepLimit {
     /// What sets the limit, for example `axial waves`.
     pub cause: &'static str,
     /// The longest stable step [s]; steps must stay below it.
+    #[cfg_attr(feature = "serde", serde(rename = "limit_s"))]
     pub limit: f64,
 }
 

@@ -57,10 +57,13 @@ impl Observer for Deflection {
     }
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
-        let distances = &self.0[lane];
-        let largest = distances.iter().copied().fold(f64::NAN, f64::max);
-        vec![Value::Number(quantile(distances, 0.99)), Value::Number(largest)]
+        known(&self.0[lane]).map(Value::Number).to_vec()
     }
+}
+
+/// The distance that is not exceeded at 99 % of the instants, and the largest one [m].
+fn known(distances: &[f64]) -> [f64; 2] {
+    [quantile(distances, 0.99), distances.iter().copied().fold(f64::NAN, f64::max)]
 }
 
 #[cfg(test)]
@@ -69,10 +72,10 @@ mod tests {
 
     #[test]
     fn analytic_quantile_and_largest_of_known_distances() {
-        let mut deflection = Deflection::default();
-        deflection.0[3] = (0..=1000).map(|i| f64::from(i) * 1e-3).collect();
-        let distances = &deflection.0[3];
-        assert!((quantile(distances, 0.99) - 0.99).abs() < 1e-12);
-        assert_eq!(distances.iter().copied().fold(f64::NAN, f64::max), 1.0);
+        let distances: Vec<f64> = (0..=1000).map(|i| f64::from(i) * 1e-3).collect();
+        let [most_of_the_time, largest] = known(&distances);
+        assert!((most_of_the_time - 0.99).abs() < 1e-12);
+        assert_eq!(largest, 1.0);
+        assert!(known(&[]).iter().all(|distance| distance.is_nan()));
     }
 }

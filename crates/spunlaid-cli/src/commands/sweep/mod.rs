@@ -5,7 +5,7 @@ mod progress;
 mod table;
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, threads};
+use super::{plural, stem, threads};
 use crate::args::Sweep;
 use crate::failure::Failure;
 use crate::figures::study_figures;
@@ -18,7 +18,6 @@ use spunlaid::error::Error;
 use spunlaid::input::{StudyFile, read_study, write_case};
 use spunlaid::lanes::Isa;
 use spunlaid::study::{Journal, Landing, Progress, Study, rankings, run};
-use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 
@@ -31,7 +30,7 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
         return print_point(&file.study, number);
     }
     file.notes.iter().for_each(say::study_note);
-    let path = sweep.out.clone().unwrap_or_else(|| PathBuf::from("results").join(name(sweep)));
+    let path = super::folder(sweep.out.as_ref(), stem(&sweep.study, "study"));
     let (folder, journal, found) = StudyFolder::open(&path, &file, sweep.force)?;
     report_found(sweep, &file.study, &found);
 
@@ -46,11 +45,6 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
         Failure::Library(Error::Interrupted) => Failure::Paused { done, of: file.study.most_fibres() },
         other => other,
     })
-}
-
-/// Name of the study: the name of its file.
-fn name(sweep: &Sweep) -> String {
-    sweep.study.file_stem().map_or_else(|| "study".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
 fn print_point(study: &Study, number: u64) -> Result<(), Failure> {
@@ -77,11 +71,7 @@ fn report_found(sweep: &Sweep, study: &Study, found: &folder::State) {
                 say::aside(&format!("continuing: {done} of {} already done", study.most_fibres()));
             }
             if found.damaged > 0 {
-                let records = if found.damaged == 1 {
-                    "1 record".to_owned()
-                } else {
-                    format!("{} records", found.damaged)
-                };
+                let records = plural(found.damaged, "record");
                 say::warning(&format!(
                     "the journal has damaged records ({records}); these fibres are flown again, all others are kept"
                 ));
@@ -136,7 +126,7 @@ fn write(
     let refusal = rankings.refusal.filter(|_| study.factors.len() > 1).map(|refusal| refusal.to_string());
     output::pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let report = study_html(&StudyReport {
-        name: &name(sweep),
+        name: &stem(&sweep.study, "study").to_string_lossy(),
         study,
         results: &results,
         rankings: &rankings.of_measures,

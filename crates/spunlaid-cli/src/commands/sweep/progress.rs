@@ -1,5 +1,6 @@
 //! Progress of a study: a bar on a terminal, or a line from time to time in a log file.
 
+use crate::progress::OnDrop;
 use crate::say;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use spunlaid::study::Progress;
@@ -44,7 +45,6 @@ pub(super) fn follow<T>(
                 }
             }
         });
-        // The other thread must end even if `work` panics.
         let _end = OnDrop(|| {
             finished.store(true, Ordering::Release);
             shown.thread().unpark();
@@ -52,14 +52,6 @@ pub(super) fn follow<T>(
         });
         work()
     })
-}
-
-struct OnDrop<F: FnMut()>(F);
-
-impl<F: FnMut()> Drop for OnDrop<F> {
-    fn drop(&mut self) {
-        (self.0)();
-    }
 }
 
 struct State {

@@ -28,7 +28,12 @@ pub(crate) fn run_figures(case: &Case, results: &Results, turbulence: &[Spectrum
 
 /// The time of this number of swings [s]; `None` if the free end does not swing.
 fn swings(results: &Results, count: f64) -> Option<f64> {
+    swing_frequency(results).map(|frequency| count / frequency)
+}
+
+/// The higher of the two crossing frequencies [Hz]; `None` if the free end does not swing.
+pub(crate) fn swing_frequency(results: &Results) -> Option<f64> {
     let [y, z] = ["frequency_y", "frequency_z"].map(|name| results.estimate(name).mean);
     let fastest = y.max(z);
-    (fastest.is_finite() && fastest > 0.0).then(|| count / fastest)
+    (fastest.is_finite() && fastest > 0.0).then_some(fastest)
 }

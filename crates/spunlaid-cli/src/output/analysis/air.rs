@@ -47,7 +47,7 @@ pub(crate) fn air_block(file: &str, of: &Analysis) -> String {
             ),
         ),
     ];
-    let values: Vec<String> = lines.iter().map(|(key, interval, d, _)| value(key, interval, *d)).collect();
+    let values: Vec<String> = lines.iter().map(|(_, interval, d, _)| value(interval, *d)).collect();
     let sets =
         lines.iter().zip(&values).map(|((key, ..), v)| format!(" --set air.{key}={v}")).collect::<String>();
     let mut text = format!(
@@ -67,7 +67,7 @@ pub(crate) fn air_block(file: &str, of: &Analysis) -> String {
 }
 
 /// The value in TOML.
-fn value(_key: &str, interval: &Interval, dimension: Dimension) -> String {
+fn value(interval: &Interval, dimension: Dimension) -> String {
     let text = pretty(dimension, interval, interval.value);
     if dimension == Dimension::Ratio { text } else { format!("\"{text}\"") }
 }

@@ -1,5 +1,6 @@
 //! Writes `analysis.json` with every result of an analysis.
 
+use crate::output::json_text;
 use serde::Serialize;
 use spunlaid::record::{Analysis, Component, Interval, Record};
 
@@ -118,10 +119,7 @@ pub(crate) fn analysis_json(record: &Record, of: &Analysis) -> String {
         },
         warnings: of.warnings.iter().map(ToString::to_string).collect(),
     };
-    // Serialising plain numbers and strings into memory cannot fail.
-    let mut text = serde_json::to_string_pretty(&json).unwrap_or_default();
-    text.push('\n');
-    text
+    json_text(&json)
 }
 
 fn component(of: &Component) -> ComponentJson<'_> {

@@ -194,9 +194,10 @@ impl Key {
             Kind::Whole(0, _) => "a whole number".to_owned(),
             Kind::Whole(least, most) if most > 1 << 50 => format!("a whole number from {least} up"),
             Kind::Whole(least, most) => format!("a whole number from {least} to {most}"),
-            Kind::Choice(_) | Kind::File(FileKind::Spectrum) => {
-                let names = self.kind.names();
-                names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ")
+            Kind::Choice(_) => self.kind.wanted(),
+            Kind::File(FileKind::Spectrum) => {
+                let names = self.kind.names().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
+                format!("{} or the path of a file", names.join(", "))
             }
             Kind::Direction => "three numbers, like [1.0, 0.0, 0.0]".to_owned(),
             Kind::Point => "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned(),

@@ -1,7 +1,7 @@
 //! The kinds of values that keys take, and what each kind allows.
 
 use crate::air::{FromFile, Measured, Profile, SpectrumTable};
-use crate::error::Fault;
+use crate::error::{Fault, one_of};
 use crate::field::Field;
 use crate::units::{Dimension, Wanted, shortest};
 use crate::vec3::Vec3;
@@ -214,7 +214,7 @@ impl Kind {
     pub fn names(&self) -> Vec<&'static str> {
         match self {
             Self::Choice(names) => names(),
-            Self::File(FileKind::Spectrum) => SPECTRA.into_iter().chain(["spectrum.csv"]).collect(),
+            Self::File(FileKind::Spectrum) => SPECTRA.to_vec(),
             _ => Vec::new(),
         }
     }
@@ -224,10 +224,7 @@ impl Kind {
         match self {
             Self::Quantity(dimension, _) => Wanted(*dimension).to_string(),
             Self::Whole(..) => "a whole number without quotes, like 10".to_owned(),
-            Self::Choice(_) => {
-                let quoted: Vec<String> = self.names().iter().map(|name| format!("\"{name}\"")).collect();
-                quoted.join(" or ")
-            }
+            Self::Choice(_) => one_of(&self.names()),
             Self::Direction => "three plain numbers, like [1.0, 0.0, 0.0]".to_owned(),
             Self::Point => "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned(),
             Self::File(FileKind::Records) => {
