@@ -177,7 +177,7 @@ fn quiet_says_nothing() {
 fn identical_whatever_the_threads() {
     let desk = Desk::new();
     for threads in [1, 2, 4] {
-        // More than the lanes of two bundles hold.
+        // More than the lanes of two flights hold.
         let arguments = format!("run brief.toml --replicates 19 --threads {threads} --out t{threads}");
         success(&mut desk.spunlaid(&arguments));
     }

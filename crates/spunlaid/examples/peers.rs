@@ -17,7 +17,7 @@ mod flights;
 mod measure;
 
 use common::*;
-use flights::{Difference, bundle_of_flights, compare, table1};
+use flights::{Difference, compare, table1, trajectories_of};
 use measure::{Trial, in_rounds, processor_time};
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::case::Case;
@@ -121,7 +121,7 @@ fn path() -> String {
 }
 
 fn converged() -> Vec<Trajectory> {
-    bundle_of_flights(&second(Scheme::Leapfrog, 2e-6))
+    trajectories_of(&second(Scheme::Leapfrog, 2e-6))
 }
 
 fn second(scheme: Scheme, h: f64) -> Case {
@@ -140,17 +140,17 @@ fn measure() {
         let start = Flight::assembled(Isa::detect(), &strands, (eddies, turbulence), scheme, h)
             .expect("fibres that agree");
         trials.push(Trial::new((steps * 20) as f64, move || {
-            let mut bundle = start.clone();
-            processor_time(|| bundle.advance(steps))
+            let mut flight = start.clone();
+            processor_time(|| flight.advance(steps))
         }));
         trials.push(Trial::new(WIDTH as f64, move || {
-            processor_time(|| drop(black_box(bundle_of_flights(case))))
+            processor_time(|| drop(black_box(trajectories_of(case))))
         }));
     }
     in_rounds(&mut trials, 0.5);
     let exact = converged();
     for (case, times) in cases.iter().zip(trials.chunks(2)) {
-        let Difference { path, amplitude } = compare(&bundle_of_flights(case), &exact);
+        let Difference { path, amplitude } = compare(&trajectories_of(case), &exact);
         let row = |fibres: usize| {
             let share = 1.0 / fibres as f64;
             println!(
@@ -158,7 +158,7 @@ fn measure() {
                 case.run.scheme.name(),
                 case.run.time_step,
                 times[0].each() * share * 1e9,
-                // One fibre takes its bundle's time; what is kept of the others counts little.
+                // One fibre takes its flight's time; what is kept of the others counts little.
                 times[1].each() * WIDTH as f64 * share,
             );
         };

@@ -400,11 +400,11 @@ pub enum Fault {
     },
     /// More recorded instants than are allowed.
     #[error(
-        "records {records:.1e} instants over all replicates, more than {most:e}; lengthen it or lower run.replicates"
+        "records {instants:.1e} instants over all replicates, more than {most:e}; lengthen it or lower run.replicates"
     )]
-    TooManyRecords {
+    TooManyInstants {
         /// Recorded instants times replicates.
-        records: f64,
+        instants: f64,
         /// The largest allowed.
         most: f64,
     },

@@ -125,9 +125,9 @@ fn analytic_elements_feel_the_velocity_at_their_centres() {
     let surroundings = Surroundings::new(vec![calm], n, 5).expect("one air");
     let strand = case.strand();
     let air = Surrounded { surroundings: Some(surroundings), ..Surrounded::from((&eddies, &turbulence)) };
-    let mut bundle = Flight::assembled(Isa::detect(), &[strand], air, Scheme::SemiImplicitEuler, h)
+    let mut flight = Flight::assembled(Isa::detect(), &[strand], air, Scheme::SemiImplicitEuler, h)
         .expect("fibres that agree");
-    bundle.advance(1);
+    flight.advance(1);
 
     let drag = |j: usize| {
         let v = shear(Vec3::new((j as f64 + 0.5) / n as f64, 0.0, 0.0));
@@ -139,7 +139,7 @@ fn analytic_elements_feel_the_velocity_at_their_centres() {
     for i in 1..n {
         let force = (drag(i - 1) + drag(i)) * 0.5;
         let wanted = force * (h / case.fibre.node_mass(i));
-        let got = bundle.chain().velocity[i].lane(0);
+        let got = flight.chain().velocity[i].lane(0);
         // The powers are good to 1e-7.
         assert!((got - wanted).norm() < 1e-7 * wanted.norm(), "node {i}: {got:?} {wanted:?}");
     }
@@ -163,12 +163,12 @@ fn order_the_air_between_looks_is_of_second_order() {
         let surroundings =
             Surroundings::new(vec![calm.clone()], case.fibre.elements, every).expect("one air");
         let air = Surrounded { surroundings: Some(surroundings), ..Surrounded::from((&eddies, &turbulence)) };
-        let mut bundle = Flight::assembled(Isa::detect(), &[case.strand()], air, Scheme::Leapfrog, 1e-5)
+        let mut flight = Flight::assembled(Isa::detect(), &[case.strand()], air, Scheme::Leapfrog, 1e-5)
             .expect("fibres that agree");
         let mut path = Vec::new();
         for _ in 0..100 {
-            bundle.advance(100);
-            path.push(bundle.chain().position[20].lane(0));
+            flight.advance(100);
+            path.push(flight.chain().position[20].lane(0));
         }
         path
     };
@@ -316,7 +316,7 @@ fn a_fibre_that_leaves_the_flow_is_told_of() {
 
 /// The flight of a fibre in a field does not depend on its neighbours, the threads or the instruction set.
 #[test]
-fn identical_in_any_bundle_on_any_instruction_set() {
+fn identical_in_any_flight_on_any_instruction_set() {
     let (low, high) = (Vec3::new(-0.5, -0.5, -0.5), Vec3::new(0.9, 0.5, 0.5));
     let flow = |p: Vec3<f64>| Vec3::new(10.0 - 3.0 * p.x, 4.0 * p.z, -4.0 * p.y);
     let lattice = || field(low, high, flow, |p| (0.5 + 0.2 * p.x, 20.0 + 10.0 * p.x));

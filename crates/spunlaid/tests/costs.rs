@@ -147,7 +147,7 @@ fn frozen_harmonics_and_samples_of_the_turbulence() {
 }
 
 #[test]
-fn frozen_memory_of_a_bundle() {
+fn frozen_memory_of_a_flight() {
     for (scheme, bytes_per_node) in
         [(Scheme::SemiImplicitEuler, 964), (Scheme::Leapfrog, 964), (Scheme::ImplicitTension, 1988)]
     {
@@ -178,11 +178,11 @@ fn steps_ask_for_no_memory() {
         let stream = [(case.air.clone(), StreamKey { seed: 1, replicate: 0 })];
         let turbulence = Wind::uniform(Isa::detect(), &stream, 20, 0.1).expect("fibres that agree");
         let strands: [Strand; 1] = [case.strand()];
-        let mut bundle = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), scheme, h)
+        let mut flight = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), scheme, h)
             .expect("fibres that agree");
         // As much for one step as for a hundred: none for a step itself.
-        bundle.advance(1);
-        let [one, hundred] = [1, 100].map(|steps| memory_of(|| bundle.advance(steps)).1);
+        flight.advance(1);
+        let [one, hundred] = [1, 100].map(|steps| memory_of(|| flight.advance(steps)).1);
         assert_eq!((one.blocks, one.kept), (hundred.blocks, hundred.kept), "{}", scheme.name());
     }
 }

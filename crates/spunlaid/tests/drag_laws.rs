@@ -226,11 +226,11 @@ fn analytic_terminal_velocity_across_by_marheineke_and_wegener() {
         let h = 1e-5 * diameter / 10e-6;
         let steps = (30.0 * low / 9.81 / h) as u64;
         let (eddies, turbulence) = steady_air(0.0, 8, 100.0);
-        let mut bundle =
+        let mut flight =
             Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
                 .expect("fibres that agree");
-        bundle.advance(steps);
-        for v in &bundle.chain().velocity {
+        flight.advance(steps);
+        for v in &flight.chain().velocity {
             let v = v.lane(0);
             assert!((v - X * low).norm() < 1e-6 * low, "{diameter}: {v:?}, expected {low} m/s");
         }
@@ -268,10 +268,10 @@ fn identical_alone_or_in_company_on_any_instruction_set() {
                 .map(|i| strand(drag, Root::Pinned, 7e-6 * f64::from(i), V::new(0.6, 0.0, 0.8)))
                 .collect();
             let fly = |isa: Isa, strands: &[Strand]| {
-                let mut bundle = Flight::assembled(isa, strands, (&eddies, &turbulence), scheme, 1e-7)
+                let mut flight = Flight::assembled(isa, strands, (&eddies, &turbulence), scheme, 1e-7)
                     .expect("fibres that agree");
-                bundle.advance(40);
-                let nodes = bundle.chain().position.clone();
+                flight.advance(40);
+                let nodes = flight.chain().position.clone();
                 (0..strands.len())
                     .map(|lane| nodes.iter().map(|p| p.lane(lane)).collect())
                     .collect::<Vec<Vec<V>>>()

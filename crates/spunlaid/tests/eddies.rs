@@ -37,13 +37,13 @@ fn analytic_every_element_feels_its_own_eddy() {
 
         let h = 1e-6;
         let scheme = Scheme::SemiImplicitEuler;
-        let mut bundle = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), scheme, h)
+        let mut flight = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), scheme, h)
             .expect("fibres that agree");
-        bundle.advance(1);
+        flight.advance(1);
         // The axial stiffness times the rounding of positions.
         let rounding = fibre.axial_stiffness() * 4.0 * f64::EPSILON;
         for (i, &f) in expected.iter().enumerate() {
-            let found = bundle.chain().velocity[i].lane(0) * (fibre.node_mass(i) / h);
+            let found = flight.chain().velocity[i].lane(0) * (fibre.node_mass(i) / h);
             // The kernel's powers are good to 1e-7.
             let bound = 1e-7 * f.norm() + rounding;
             assert!((found - f).norm() < bound, "eddies of {length_scale} m, node {i}: {found:?}, not {f:?}");

@@ -183,11 +183,11 @@ fn analytic_terminal_velocity_is_reached_by_falling() {
         let h = 2e-5;
         let steps = (40.0 * expected / 9.81 / h) as u64;
         let (eddies, turbulence) = steady_air(0.0, strand.fibre.elements, 100.0);
-        let mut bundle =
+        let mut flight =
             Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
                 .expect("fibres that agree");
-        bundle.advance(steps);
-        for v in &bundle.chain().velocity {
+        flight.advance(steps);
+        for v in &flight.chain().velocity {
             let v = v.lane(0);
             assert!(
                 (v - X * expected).norm() < 1e-6 * expected,

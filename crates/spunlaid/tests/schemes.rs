@@ -28,13 +28,13 @@ fn flown(isa: Isa, scheme: Scheme, damping: f64, h: f64, duration: f64) -> (Snap
         (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed: 4, replicate })).collect();
     let turbulence = Wind::uniform(isa, &streams, eddies.count(), duration + h).expect("fibres that agree");
     let strands = [table1_strand(damping); WIDTH];
-    let mut bundle =
+    let mut flight =
         Flight::assembled(isa, &strands, (&eddies, &turbulence), scheme, h).expect("fibres that agree");
     let steps = (duration / h).round() as u64;
-    bundle.advance(steps);
+    flight.advance(steps);
     let amplitude =
-        (0..WIDTH).map(|i| bundle.end_node().motion(i, duration).amplitude_y).sum::<f64>() / WIDTH as f64;
-    (bundle.snapshot(), amplitude)
+        (0..WIDTH).map(|i| flight.end_node().motion(i, duration).amplitude_y).sum::<f64>() / WIDTH as f64;
+    (flight.snapshot(), amplitude)
 }
 
 fn end_positions(snapshot: &Snapshot) -> Vec<V> {
@@ -135,12 +135,12 @@ fn path_and_amplitude(case: &Case, h: f64, duration: f64) -> (Vec<V>, f64) {
     let turbulence =
         Wind::uniform(Isa::detect(), &streams, eddies.count(), duration + h).expect("fibres that agree");
     let strands = [case.strand(); WIDTH];
-    let mut bundle = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), case.run.scheme, h)
+    let mut flight = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), case.run.scheme, h)
         .expect("fibres that agree");
     let mut path = Vec::new();
     for _ in 0..(duration / 1e-3).round() as usize {
-        bundle.advance((1e-3 / h).round() as u64);
-        let end = bundle.chain().position[20];
+        flight.advance((1e-3 / h).round() as u64);
+        let end = flight.chain().position[20];
         path.extend((0..WIDTH).map(|i| V { x: 0.0, ..end.lane(i) }));
     }
     let squares: f64 = path.iter().map(|p| p.dot(*p)).sum();
@@ -162,10 +162,10 @@ fn invariant_implicit_tension_is_stable_far_beyond_the_axial_limit() {
     let turbulence =
         Wind::uniform(Isa::detect(), &streams, eddies.count(), duration + 1e-3).expect("fibres that agree");
     let end = |scheme, h: f64| {
-        let mut bundle = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), scheme, h)
+        let mut flight = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), scheme, h)
             .expect("fibres that agree");
-        bundle.advance((duration / h).round() as u64);
-        let snapshot = bundle.snapshot();
+        flight.advance((duration / h).round() as u64);
+        let snapshot = flight.snapshot();
         (snapshot.position[fibre.elements].lane(0), snapshot.energy.strain.0[0])
     };
     let (converged, strain) = end(Scheme::Leapfrog, 0.5e-6);
@@ -257,7 +257,7 @@ fn identical_where_the_fibre_folds() {
     let fly = |isa: Isa, turns: &[f64]| {
         let strands = vec![strand; turns.len()];
         let scheme = Scheme::SemiImplicitEuler;
-        let mut bundle = Flight::assembled(isa, &strands, (&eddies, &turbulence), scheme, 1e-5)
+        let mut flight = Flight::assembled(isa, &strands, (&eddies, &turbulence), scheme, 1e-5)
             .expect("fibres that agree");
         let mut position = in_all_lanes(&folded(turns[0]));
         for (lane, &turn) in turns.iter().enumerate() {
@@ -265,9 +265,9 @@ fn identical_where_the_fibre_folds() {
                 p.set_lane(lane, q);
             }
         }
-        bundle.restart_from(position, in_all_lanes(&[V::default(); 21])).expect("as many as nodes");
-        bundle.advance(20);
-        let nodes = bundle.chain().position.clone();
+        flight.restart_from(position, in_all_lanes(&[V::default(); 21])).expect("as many as nodes");
+        flight.advance(20);
+        let nodes = flight.chain().position.clone();
         (0..turns.len()).map(|lane| nodes.iter().map(|p| p.lane(lane)).collect()).collect::<Vec<Vec<V>>>()
     };
     let together = fly(Isa::Baseline, &turns);
@@ -287,9 +287,9 @@ fn analytic_no_work_done_at_the_start() {
         let turbulence =
             Wind::uniform(Isa::detect(), &streams, eddies.count(), 1.0).expect("fibres that agree");
         let strand = table1_strand(3.0);
-        let bundle = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), scheme, 1e-5)
+        let flight = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), scheme, 1e-5)
             .expect("fibres that agree");
-        let e = bundle.snapshot().energy;
+        let e = flight.snapshot().energy;
         for (name, value) in [
             ("kinetic", e.kinetic),
             ("work", e.work),

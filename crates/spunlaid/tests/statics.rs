@@ -43,17 +43,17 @@ fn at_rest(elements: usize, tip_load: [f64; WIDTH], gravity: [f64; WIDTH]) -> Ve
     let h = 0.6 * fibre.axial_step_limit().min(fibre.bending_step_limit());
     let duration = 25.0 / w1;
     let (eddies, turbulence) = steady_air(0.0, elements, duration);
-    let mut bundle =
+    let mut flight =
         Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
             .expect("fibres that agree");
     // The tip load as a kick of the tip's momentum before every step.
     let kick =
         Vec3::new(Lanes(tip_load), Lanes::ZERO, Lanes::ZERO) * Lanes::splat(h / fibre.node_mass(elements));
     for _ in 0..(duration / h) as u64 {
-        bundle.push(elements, kick);
-        bundle.advance(1);
+        flight.push(elements, kick);
+        flight.advance(1);
     }
-    let tip = bundle.chain().position[elements];
+    let tip = flight.chain().position[elements];
     (0..WIDTH).map(|i| (tip.x.0[i], 1.0 - tip.y.0[i])).collect()
 }
 

@@ -29,7 +29,7 @@ fn flown_frequencies(
 ) -> Vec<f64> {
     let strand = in_vacuum(fibre, gravity);
     let (eddies, turbulence) = steady_air(0.0, fibre.elements, duration);
-    let mut bundle = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
+    let mut flight = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
         .expect("fibres that agree");
     let scaled: Vec<Vec<f64>> = modes
         .iter()
@@ -46,14 +46,14 @@ fn flown_frequencies(
             p.set_lane(lane, moved);
         }
     }
-    bundle.restart_from(position, vec![Vec3::ZERO; start.len()]).expect("as many as nodes");
+    flight.restart_from(position, vec![Vec3::ZERO; start.len()]).expect("as many as nodes");
     let stride = 4;
     let mut traces = vec![Vec::new(); scaled.len()];
     for _ in 0..(duration / h) as usize / stride {
-        bundle.advance(stride as u64);
+        flight.advance(stride as u64);
         for (lane, (trace, mode)) in traces.iter_mut().zip(&scaled).enumerate() {
             let on_mode = |i: usize| {
-                let off = bundle.chain().position[i].lane(lane) - start[i];
+                let off = flight.chain().position[i].lane(lane) - start[i];
                 off.dot(axis) * mode[i] * fibre.node_mass(i)
             };
             trace.push((1..start.len()).map(on_mode).sum());
@@ -232,17 +232,17 @@ fn analytic_taut_string() {
         let exact = w / (2.0 * PI);
         let duration = 12.0 / exact;
         let (eddies, turbulence) = steady_air(0.0, n, duration);
-        let mut bundle =
+        let mut flight =
             Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
                 .expect("fibres that agree");
         let shape = |i: usize| (mode as f64 * PI * i as f64 / n as f64).sin();
         let start: Vec<V> = (0..=n).map(|i| stretched[i] + Y * (1e-5 * shape(i))).collect();
-        bundle.restart_from(in_all_lanes(&start), vec![Vec3::ZERO; n + 1]).expect("as many as nodes");
+        flight.restart_from(in_all_lanes(&start), vec![Vec3::ZERO; n + 1]).expect("as many as nodes");
         let mut trace = Vec::new();
         for _ in 0..(duration / h) as usize {
-            bundle.advance(1);
-            bundle.hold(n, Vec3::splat(stretched[n]));
-            trace.push((1..n).map(|i| bundle.chain().position[i].lane(0).y * shape(i)).sum());
+            flight.advance(1);
+            flight.hold(n, Vec3::splat(stretched[n]));
+            trace.push((1..n).map(|i| flight.chain().position[i].lane(0).y * shape(i)).sum());
         }
         let flown = frequency_of(&trace, h);
         let leapfrog = (0.5 * w * h).asin() / (PI * h);

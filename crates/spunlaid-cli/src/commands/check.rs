@@ -9,7 +9,7 @@ use crate::output::summary::{InOrder, resolved};
 use crate::say;
 use serde::Serialize;
 use serde_json::Value as Json;
-use spunlaid::case::{Case, Note, RECORD_ON_DISK, StepLimit};
+use spunlaid::case::{Case, INSTANT_ON_DISK, Note, StepLimit};
 use spunlaid::ensemble::{KeepShapes, pace};
 use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
@@ -121,14 +121,14 @@ impl Expected {
     fn of(case: &Case) -> Result<Self, Failure> {
         /// Memory of the program itself with its figures [bytes].
         const PROGRAM: f64 = 30.0 * (1u64 << 20) as f64;
-        let bundles = case.run.replicates.div_ceil(WIDTH as u64);
-        let busy = (threads(None) as u64).min(bundles);
-        // A bundle takes as long whether its lanes are full or not.
-        let rounds = bundles.div_ceil(busy) as f64;
+        let flights = case.run.replicates.div_ceil(WIDTH as u64);
+        let busy = (threads(None) as u64).min(flights);
+        // A flight takes as long whether its lanes are full or not.
+        let rounds = flights.div_ceil(busy) as f64;
         Ok(Self {
             wall_s: pace(case, Isa::detect())? * case.run.steps as f64 * rounds,
             threads: busy,
-            memory_bytes: case.bundle_memory().total() * busy as f64
+            memory_bytes: case.flight_memory().total() * busy as f64
                 + case.air.field_memory() as f64
                 + PROGRAM,
             disk_bytes: on_disk(case),
@@ -144,7 +144,7 @@ fn on_disk(case: &Case) -> f64 {
     let instants = (run.steps / run.output_steps + 1) as f64;
     let kept = KeepShapes::within(case, POSITIONS);
     let positions = instants / kept.every as f64 * kept.replicates as f64 * (case.fibre.elements + 1) as f64;
-    instants * run.replicates as f64 * RECORD_ON_DISK + positions * POSITION + FIGURES_AND_REPORT
+    instants * run.replicates as f64 * INSTANT_ON_DISK + positions * POSITION + FIGURES_AND_REPORT
 }
 
 fn size(bytes: f64) -> String {

@@ -186,8 +186,8 @@ impl Flying {
             let shapes = KeepShapes { replicates: 1, every: case.run.steps / case.run.output_steps };
             let keep = Keep { curves: true, shapes };
             let mut collector = Results::collector(1);
-            fly(case, keep, computing, |flight| {
-                collector.take(&flight);
+            fly(case, keep, computing, |trajectory| {
+                collector.take(&trajectory);
                 Ok::<(), Failure>(())
             })?;
             steps.push((case.run.time_step, collector.finish()));

@@ -93,9 +93,9 @@ fn flights(case: &Case, computing: Computing<'_>, staging: Option<&Staging<'_>>)
     }
     let mut collector = Results::collector(KEPT);
     let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
-    fly(case, Keep { curves: true, shapes }, computing, |flight| {
-        tables.iter_mut().try_for_each(|table| table.add(&flight))?;
-        collector.take(&flight);
+    fly(case, Keep { curves: true, shapes }, computing, |trajectory| {
+        tables.iter_mut().try_for_each(|table| table.add(&trajectory))?;
+        collector.take(&trajectory);
         Ok::<(), Failure>(())
     })?;
     tables.into_iter().try_for_each(Table::finish)?;
@@ -147,8 +147,8 @@ impl Written<'_> {
         let figures = run_figures(self.case, self.results, &turbulence);
         // Writing a thousand small files waits for the disk, so the figures are drawn at the same time.
         std::thread::scope(|scope| {
-            let (flights, rest_length) = (&self.results.trajectories, self.case.fibre.rest_length());
-            let shapes = scope.spawn(move || paraview::write(staging, flights, rest_length));
+            let (trajectories, rest_length) = (&self.results.trajectories, self.case.fibre.rest_length());
+            let shapes = scope.spawn(move || paraview::write(staging, trajectories, rest_length));
             pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
             shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })?;

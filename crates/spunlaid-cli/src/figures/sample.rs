@@ -42,12 +42,12 @@ pub(crate) fn results(case: &Case, amplitude: f64) -> Results {
     let nodes = case.fibre.elements + 1;
     let mut collector = Results::collector(8);
     for replicate in 0..case.run.replicates {
-        collector.take(&flight(case, nodes, replicate, amplitude));
+        collector.take(&trajectory(case, nodes, replicate, amplitude));
     }
     collector.finish()
 }
 
-fn flight(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Trajectory {
+fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Trajectory {
     let position = |time: f64, node: usize| {
         let along = node as f64 / (nodes - 1) as f64;
         let phase = 107.0 * time + replicate as f64;

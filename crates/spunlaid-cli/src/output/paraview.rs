@@ -10,9 +10,13 @@ const MOST_INSTANTS: usize = 500;
 
 /// Writes the kept shapes, evenly thinned to at most [`MOST_INSTANTS`]. Each instant is a VTK PolyData file with one
 /// line for each replicate; a collection file gives their times.
-pub(crate) fn write(staging: &Staging<'_>, flights: &[Trajectory], rest_length: f64) -> Result<(), Failure> {
-    let flights: Vec<&Trajectory> = flights.iter().filter(|f| !f.shapes.is_empty()).collect();
-    let Some(first) = flights.first() else { return Ok(()) };
+pub(crate) fn write(
+    staging: &Staging<'_>,
+    trajectories: &[Trajectory],
+    rest_length: f64,
+) -> Result<(), Failure> {
+    let trajectories: Vec<&Trajectory> = trajectories.iter().filter(|t| !t.shapes.is_empty()).collect();
+    let Some(first) = trajectories.first() else { return Ok(()) };
     let mut collection = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
     );
@@ -20,24 +24,24 @@ pub(crate) fn write(staging: &Staging<'_>, flights: &[Trajectory], rest_length: 
     let digits = first.shapes.len().div_ceil(every).to_string().len();
     for (number, (k, shape)) in first.shapes.iter().enumerate().step_by(every).enumerate() {
         let name = format!("shape/fibre_{number:0digits$}.vtp");
-        staging.write(&name, poly_data(&flights, k, rest_length))?;
+        staging.write(&name, poly_data(&trajectories, k, rest_length))?;
         let _ = writeln!(collection, "<DataSet timestep=\"{:?}\" part=\"0\" file=\"{name}\"/>", shape.time);
     }
     collection.push_str("</Collection>\n</VTKFile>\n");
     staging.write("shape.pvd", collection)
 }
 
-/// VTK XML PolyData of all flights at instant `k`: points [m], replicate and distance from the root [m].
-fn poly_data(flights: &[&Trajectory], k: usize, rest_length: f64) -> String {
-    let nodes = flights[0].shapes[k].position.len();
-    let count = flights.len() * nodes;
+/// VTK XML PolyData of all trajectories at instant `k`: points [m], replicate and distance from the root [m].
+fn poly_data(trajectories: &[&Trajectory], k: usize, rest_length: f64) -> String {
+    let nodes = trajectories[0].shapes[k].position.len();
+    let count = trajectories.len() * nodes;
     let mut points = String::with_capacity(count * 48);
     let (mut replicate, mut distance) = (String::new(), String::new());
     let (mut connectivity, mut offsets) = (String::new(), String::new());
-    for (line, flight) in flights.iter().enumerate() {
-        for (i, p) in flight.shapes[k].position.iter().enumerate() {
+    for (line, trajectory) in trajectories.iter().enumerate() {
+        for (i, p) in trajectory.shapes[k].position.iter().enumerate() {
             let _ = writeln!(points, "{:e} {:e} {:e}", p.x, p.y, p.z);
-            let _ = write!(replicate, "{} ", flight.replicate + 1);
+            let _ = write!(replicate, "{} ", trajectory.replicate + 1);
             let _ = write!(distance, "{:e} ", i as f64 * rest_length);
             let _ = write!(connectivity, "{} ", line * nodes + i);
         }
@@ -56,6 +60,6 @@ fn poly_data(flights: &[&Trajectory], k: usize, rest_length: f64) -> String {
          <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n{connectivity}\n</DataArray>\n\
          <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n{offsets}\n</DataArray>\n\
          </Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n",
-        flights.len()
+        trajectories.len()
     )
 }

@@ -1,4 +1,4 @@
-//! The Parquet tables of a run, which are written flight by flight.
+//! The Parquet tables of a run, which are written trajectory by trajectory.
 
 use super::parquet::{self, Holds, Parquet};
 use crate::failure::Failure;
@@ -46,10 +46,10 @@ impl Table {
         Ok(Self { writer: Parquet::create(place, &all, ROWS)?, columns })
     }
 
-    /// Adds a flight.
-    pub(crate) fn add(&mut self, flight: &Trajectory) -> Result<(), Failure> {
-        let samples = &flight.samples;
-        self.writer.extend_whole(0, std::iter::repeat_n(flight.replicate as i64 + 1, samples.len()));
+    /// Adds a trajectory.
+    pub(crate) fn add(&mut self, trajectory: &Trajectory) -> Result<(), Failure> {
+        let samples = &trajectory.samples;
+        self.writer.extend_whole(0, std::iter::repeat_n(trajectory.replicate as i64 + 1, samples.len()));
         for (index, (_, of)) in self.columns.iter().enumerate() {
             self.writer.extend(index + 1, samples.iter().map(of));
         }

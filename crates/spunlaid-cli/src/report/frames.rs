@@ -63,13 +63,13 @@ pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
     let seen: Vec<&Trajectory> =
         results.trajectories.iter().filter(|f| !f.shapes.is_empty()).take(8).collect();
     let shapes: &[Shape] = &seen.first()?.shapes;
-    let same = |f: &&&Trajectory| f.shapes.len() == shapes.len();
-    let flights: Vec<&Trajectory> = seen.iter().filter(same).copied().collect();
+    let same = |t: &&&Trajectory| t.shapes.len() == shapes.len();
+    let trajectories: Vec<&Trajectory> = seen.iter().filter(same).copied().collect();
     let nodes = shapes.first()?.position.len();
     let frequency = swing_frequency(results);
-    let (choice, remarks) = choose(shapes, nodes, flights.len(), frequency);
+    let (choice, remarks) = choose(shapes, nodes, trajectories.len(), frequency);
     let chosen = || {
-        flights.iter().flat_map(|f| choice.instants.iter().map(|&i| &f.shapes[i])).flat_map(|shape| {
+        trajectories.iter().flat_map(|t| choice.instants.iter().map(|&i| &t.shapes[i])).flat_map(|shape| {
             choice.nodes.iter().map(|&n| shape.position.get(n).copied().unwrap_or_default())
         })
     };
@@ -83,7 +83,7 @@ pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
         }
     }
     let data = Data {
-        replicates: flights.iter().map(|f| f.replicate + 1).collect(),
+        replicates: trajectories.iter().map(|t| t.replicate + 1).collect(),
         nodes: choice.nodes.len(),
         times: choice.instants.iter().map(|&i| shapes[i].time).collect(),
         origin_mm: origin.map(|v| v * 1e3),
@@ -99,13 +99,18 @@ pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
     Some(Frames { json: serde_json::to_string(&data).ok()?, remarks })
 }
 
-fn choose(shapes: &[Shape], nodes: usize, flights: usize, frequency: Option<f64>) -> (Choice, Vec<String>) {
+fn choose(
+    shapes: &[Shape],
+    nodes: usize,
+    trajectories: usize,
+    frequency: Option<f64>,
+) -> (Choice, Vec<String>) {
     let mut remarks = Vec::new();
     let kept_nodes = even(nodes, NODES);
     if kept_nodes.len() < nodes {
         remarks.push(format!("{} of {} are drawn.", kept_nodes.len(), count(nodes as u64, "node")));
     }
-    let most = (POSITIONS / (kept_nodes.len() * flights)).clamp(2, INSTANTS);
+    let most = (POSITIONS / (kept_nodes.len() * trajectories)).clamp(2, INSTANTS);
     let total = shapes.len();
     let interval = if total > 1 { shapes[1].time - shapes[0].time } else { 0.0 };
     let coarsest = frequency.map(|f| 1.0 / (PER_SWING * f));

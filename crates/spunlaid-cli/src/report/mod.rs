@@ -33,7 +33,7 @@ pub(crate) struct ReportInput<'a> {
     pub(crate) case: &'a Case,
     /// The resolved case as a case file.
     pub(crate) case_toml: &'a str,
-    /// The results, with the flights that are to be seen moving.
+    /// The results, with the trajectories that are to be seen moving.
     pub(crate) results: &'a Results,
     /// The figures, see [`crate::figures::run_figures`].
     pub(crate) figures: &'a [Figure],

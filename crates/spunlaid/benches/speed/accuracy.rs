@@ -1,6 +1,6 @@
 //! What longer steps cost in accuracy: paths against converged ones, energy that is lost.
 
-use crate::flights::{bundle_of_flights, compare, table1};
+use crate::flights::{compare, table1, trajectories_of};
 use crate::title;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
@@ -11,7 +11,7 @@ use spunlaid::lanes::WIDTH;
 pub fn of_steps() {
     title("accuracy: 8 fibres of Table 1, one second, against leapfrog at 2 µs");
     let of = |scheme, h| table1(scheme, h, 1.0, WIDTH as u64);
-    let exact = bundle_of_flights(&of(Scheme::Leapfrog, 2e-6));
+    let exact = trajectories_of(&of(Scheme::Leapfrog, 2e-6));
     header();
     for (scheme, h) in [
         (Scheme::SemiImplicitEuler, 1e-6),
@@ -42,7 +42,7 @@ pub fn of_steps() {
     };
     limits(Scheme::Leapfrog);
     limits(Scheme::ImplicitTension);
-    let exact = bundle_of_flights(&of(Scheme::Leapfrog, 5e-7));
+    let exact = trajectories_of(&of(Scheme::Leapfrog, 5e-7));
     header();
     for h in [1e-6, 5e-6, 1e-5, 2e-5, 2.5e-5, 4e-5] {
         show(&of(Scheme::ImplicitTension, h), &exact);
@@ -57,7 +57,7 @@ fn header() {
 }
 
 fn show(case: &Case, exact: &[Trajectory]) {
-    let flights = bundle_of_flights(case);
+    let flights = trajectories_of(case);
     let found = compare(&flights, exact);
     let last = |of: &dyn Fn(&Trajectory) -> f64| flights.iter().map(of).sum::<f64>() / flights.len() as f64;
     let air = last(&|flight| flight.samples.last().map_or(0.0, |s| s.air_work.abs()));

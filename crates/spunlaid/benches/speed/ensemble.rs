@@ -1,6 +1,6 @@
 //! Whole ensembles: turbulence, flight, records and statistics.
 
-use crate::flights::{bundle_of_flights, table1};
+use crate::flights::{table1, trajectories_of};
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
 use cpu_time::ProcessTime;
@@ -54,8 +54,8 @@ pub fn costs() {
     // Flown on one thread here, so that its processor time is all there is.
     let mut trials: Vec<Trial<'_>> = Vec::new();
     for case in &cases {
-        trials.push(Trial::new(WIDTH as f64, || processor_time(|| drop(black_box(bundle_of_flights(case))))));
-        let flights = bundle_of_flights(case);
+        trials.push(Trial::new(WIDTH as f64, || processor_time(|| drop(black_box(trajectories_of(case))))));
+        let flights = trajectories_of(case);
         trials.push(Trial::new(WIDTH as f64, move || {
             let mut collector = Results::collector(0);
             let time = processor_time(|| flights.iter().for_each(|flight| collector.take(flight)));

@@ -1,4 +1,4 @@
-//! The kernel: steps of a bundle of eight fibres, wind and ledger included, turbulence made beforehand.
+//! The kernel: steps of a flight of eight fibres, wind and ledger included, turbulence made beforehand.
 
 use crate::common::*;
 use crate::measure::{Trial, in_rounds, processor_time};
@@ -58,8 +58,8 @@ impl Setup {
         start.advance(2);
         let amount = (self.steps * self.strand.fibre.elements as u64 * WIDTH as u64) as f64;
         Trial::new(amount, move || {
-            let mut bundle = start.clone();
-            processor_time(|| bundle.advance(self.steps))
+            let mut flight = start.clone();
+            processor_time(|| flight.advance(self.steps))
         })
     }
 }

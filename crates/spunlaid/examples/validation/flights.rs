@@ -55,12 +55,12 @@ fn flown(scheme: Scheme, h: f64, duration: f64) -> (Snapshot, Snapshot) {
         .expect("fibres that agree");
     let drag = paper_drag().of_element(&fibre, air.density, air.kinematic_viscosity);
     let strands = [Strand { fibre, drag, gravity: 9.81, damping: 0.0 }; WIDTH];
-    let mut bundle = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), scheme, h)
+    let mut flight = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), scheme, h)
         .expect("fibres that agree");
-    bundle.advance((duration / h).round() as u64);
-    let now = bundle.snapshot();
-    bundle.advance(1);
-    (now, bundle.snapshot())
+    flight.advance((duration / h).round() as u64);
+    let now = flight.snapshot();
+    flight.advance(1);
+    (now, flight.snapshot())
 }
 
 pub fn orders() {

@@ -61,11 +61,11 @@ pub fn terminal_velocity() {
         };
         let h = 2e-5;
         let (eddies, turbulence) = steady_air(0.0, strand.fibre.elements, 100.0);
-        let mut bundle =
+        let mut flight =
             Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
                 .expect("fibres that agree");
-        bundle.advance((40.0 * expected / 9.81 / h) as u64);
-        let found = bundle.chain().velocity[5].lane(0).x;
+        flight.advance((40.0 * expected / 9.81 / h) as u64);
+        let found = flight.chain().velocity[5].lane(0).x;
         println!(
             "  {name}: {found:.6} m/s, from the law {expected:.6}, off by {:.1e}",
             found / expected - 1.0
@@ -95,15 +95,15 @@ fn at_rest(elements: usize, load: [f64; WIDTH], gravity: [f64; WIDTH]) -> Vec<(f
     let h = 0.6 * fibre.axial_step_limit().min(fibre.bending_step_limit());
     let duration = 25.0 / w1;
     let (eddies, turbulence) = steady_air(0.0, elements, duration);
-    let mut bundle =
+    let mut flight =
         Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
             .expect("fibres that agree");
     let kick = Vec3::new(Lanes(load), Lanes::ZERO, Lanes::ZERO) * Lanes::splat(h / fibre.node_mass(elements));
     for _ in 0..(duration / h) as u64 {
-        bundle.push(elements, kick);
-        bundle.advance(1);
+        flight.push(elements, kick);
+        flight.advance(1);
     }
-    let tip = bundle.chain().position[elements];
+    let tip = flight.chain().position[elements];
     (0..WIDTH).map(|i| (tip.x.0[i], 1.0 - tip.y.0[i])).collect()
 }
 
@@ -165,7 +165,7 @@ fn flown(
 ) -> Vec<f64> {
     let strand = in_vacuum(fibre, gravity);
     let (eddies, turbulence) = steady_air(0.0, fibre.elements, duration);
-    let mut bundle = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
+    let mut flight = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
         .expect("fibres that agree");
     let mut position = in_all_lanes(start);
     for (lane, mode) in modes.iter().enumerate() {
@@ -175,14 +175,14 @@ fn flown(
             p.set_lane(lane, moved);
         }
     }
-    bundle.restart_from(position, vec![Vec3::ZERO; start.len()]).expect("as many as nodes");
+    flight.restart_from(position, vec![Vec3::ZERO; start.len()]).expect("as many as nodes");
     let stride = 4;
     let mut traces = vec![Vec::new(); modes.len()];
     for _ in 0..(duration / h) as usize / stride {
-        bundle.advance(stride as u64);
+        flight.advance(stride as u64);
         for (lane, (trace, mode)) in traces.iter_mut().zip(modes).enumerate() {
             let on_mode = |i: usize| {
-                (bundle.chain().position[i].lane(lane) - start[i]).dot(axis)
+                (flight.chain().position[i].lane(lane) - start[i]).dot(axis)
                     * mode[i - 1]
                     * fibre.node_mass(i)
             };
@@ -309,17 +309,17 @@ pub fn taut_string() {
         let duration = 12.0 * 2.0 * PI / w;
         let (eddies, turbulence) = steady_air(0.0, n, duration);
         let strand = in_vacuum(fibre, 0.0);
-        let mut bundle =
+        let mut flight =
             Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
                 .expect("fibres that agree");
         let shape = |i: usize| (mode as f64 * PI * i as f64 / n as f64).sin();
         let start: Vec<V> = (0..=n).map(|i| stretched[i] + Y * (1e-5 * shape(i))).collect();
-        bundle.restart_from(in_all_lanes(&start), vec![Vec3::ZERO; n + 1]).expect("as many as nodes");
+        flight.restart_from(in_all_lanes(&start), vec![Vec3::ZERO; n + 1]).expect("as many as nodes");
         let mut trace = Vec::new();
         for _ in 0..(duration / h) as usize {
-            bundle.advance(1);
-            bundle.hold(n, Vec3::splat(stretched[n]));
-            trace.push((1..n).map(|i| bundle.chain().position[i].lane(0).y * shape(i)).sum());
+            flight.advance(1);
+            flight.hold(n, Vec3::splat(stretched[n]));
+            trace.push((1..n).map(|i| flight.chain().position[i].lane(0).y * shape(i)).sum());
         }
         let expected = (0.5 * w * h).asin() / (PI * h);
         println!("  mode {mode}: {:.1e}", frequency_of(&trace, h) / expected - 1.0);

@@ -1,7 +1,7 @@
 //! The conditions that a case must meet before it can be run.
 
 use super::keys::{self, finding};
-use super::memory::BUNDLE_MEMORY_LIMIT;
+use super::memory::FLIGHT_MEMORY_LIMIT;
 use super::note::{Note, Remark};
 use super::{Case, StepLimit};
 use crate::air::{Flow, FromFile, Measured, SpectrumShape};
@@ -17,10 +17,10 @@ pub const MOST_STEPS: u64 = 1_000_000_000_000;
 /// Largest number of replicates. Each takes half a kilobyte of memory for its values in the summary.
 pub const MOST_REPLICATES: u64 = 10_000_000;
 /// Largest number of recorded instants over all replicates. They are written to disk during the run, so they take
-/// no memory. Each takes [`RECORD_ON_DISK`], which makes 150 GB in all.
-pub const MOST_RECORDS: f64 = 1e9;
+/// no memory. Each takes [`INSTANT_ON_DISK`], which makes 150 GB in all.
+pub const MOST_INSTANTS: f64 = 1e9;
 /// Size of a recorded instant in the tables of a run [bytes].
-pub const RECORD_ON_DISK: f64 = 150.0;
+pub const INSTANT_ON_DISK: f64 = 150.0;
 
 impl Case {
     /// Checks everything that must hold for the case to be run.
@@ -264,14 +264,14 @@ impl Check<'_> {
     }
 
     fn memory(&mut self) {
-        let (case, memory) = (self.case, self.case.bundle_memory());
-        let (bytes, most) = (memory.total(), BUNDLE_MEMORY_LIMIT);
+        let (case, memory) = (self.case, self.case.flight_memory());
+        let (bytes, most) = (memory.total(), FLIGHT_MEMORY_LIMIT);
         if bytes <= most {
             return;
         }
         let fault = |what, remedy| Fault::TooMuchMemory { bytes, most, what, remedy };
         let (air, largest) =
-            (&case.air, memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.records));
+            (&case.air, memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.instants));
         let chosen = air.default_harmonics(case.run.duration());
         if largest == memory.chain {
             let fault = fault("the chain", "choose a longer one");
@@ -279,7 +279,7 @@ impl Check<'_> {
         } else if largest == memory.turbulence {
             let fault = fault("the turbulence", "choose a longer one, or shorten run.duration");
             self.blame("air.length_scale", air.length_scale, fault);
-        } else if largest == memory.records {
+        } else if largest == memory.instants {
             let fault = fault("the recorded instants", "choose a longer one");
             self.blame("run.output_interval", case.run.output_interval(), fault);
         } else if air.harmonics == chosen {
@@ -314,9 +314,9 @@ impl Check<'_> {
         if run.output_steps > run.steps {
             self.blame("run.output_interval", run.output_interval(), Fault::IntervalTooLong { duration });
         }
-        let records = (run.steps / run.output_steps + 1) as f64 * run.replicates as f64;
-        if !told("run.output_interval") && records > MOST_RECORDS {
-            let fault = Fault::TooManyRecords { records, most: MOST_RECORDS };
+        let instants = (run.steps / run.output_steps + 1) as f64 * run.replicates as f64;
+        if !told("run.output_interval") && instants > MOST_INSTANTS {
+            let fault = Fault::TooManyInstants { instants, most: MOST_INSTANTS };
             self.blame("run.output_interval", run.output_interval(), fault);
         }
     }

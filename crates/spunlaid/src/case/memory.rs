@@ -3,23 +3,23 @@
 use super::Case;
 use crate::air::{EddyModel, Wind};
 
-/// Most memory a bundle of eight fibres may take [bytes].
-pub const BUNDLE_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
+/// Most memory a flight of eight fibres may take [bytes].
+pub const FLIGHT_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
 
 /// Vectors of eight fibres that the chain, its copies for a look ahead and its start keep per node.
 const VECTORS_PER_NODE: f64 = 10.0;
 /// Bytes of such a vector.
 const VECTOR: f64 = 192.0;
 /// Bytes of the end nodes and energies of eight fibres at a recorded instant.
-const RECORD: f64 = 8.0 * 14.0 * 8.0;
+const INSTANT: f64 = 8.0 * 14.0 * 8.0;
 /// Bytes of the air around an element of eight fibres in a flow that is not uniform.
 const SURROUNDINGS: f64 = 2000.0;
 /// Bytes of scratch space that the synthesis of turbulence takes per harmonic.
 const SYNTHESIS: f64 = 1200.0;
 
-/// Memory of a bundle of eight fibres of a case [bytes].
+/// Memory of a flight of eight fibres of a case [bytes].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BundleMemory {
+pub struct FlightMemory {
     /// The chain.
     pub chain: f64,
     /// The samples of the turbulence that are kept.
@@ -27,19 +27,19 @@ pub struct BundleMemory {
     /// What making the turbulence takes besides.
     pub synthesis: f64,
     /// What is recorded of the eight fibres until they have landed.
-    pub records: f64,
+    pub instants: f64,
 }
 
-impl BundleMemory {
+impl FlightMemory {
     /// All together [bytes].
     pub fn total(&self) -> f64 {
-        self.chain + self.turbulence + self.synthesis + self.records
+        self.chain + self.turbulence + self.synthesis + self.instants
     }
 }
 
 impl Case {
-    /// Estimate of the memory of a bundle of eight fibres [bytes].
-    pub fn bundle_memory(&self) -> BundleMemory {
+    /// Estimate of the memory of a flight of eight fibres [bytes].
+    pub fn flight_memory(&self) -> FlightMemory {
         let (air, elements) = (&self.air, self.fibre.elements as f64);
         let eddies = match air.eddies {
             EddyModel::Convected { .. } => elements,
@@ -48,15 +48,15 @@ impl Case {
         };
         let harmonics = air.harmonics as f64;
         let synthesis = if air.records.is_empty() { SYNTHESIS * 2.0 * harmonics } else { 0.0 };
-        let turbulence = if synthesis <= BUNDLE_MEMORY_LIMIT {
+        let turbulence = if synthesis <= FLIGHT_MEMORY_LIMIT {
             Wind::memory(air, 1, self.run.duration()) * eddies
         } else {
             0.0
         };
-        let instants = (self.run.steps / self.run.output_steps.max(1) + 1) as f64;
+        let number_of_instants = (self.run.steps / self.run.output_steps.max(1) + 1) as f64;
         let surroundings = if air.is_uniform() { 0.0 } else { elements * SURROUNDINGS };
-        let (chain, records) = ((elements + 1.0) * VECTORS_PER_NODE * VECTOR, instants * RECORD);
+        let (chain, instants) = ((elements + 1.0) * VECTORS_PER_NODE * VECTOR, number_of_instants * INSTANT);
         let chain = chain + surroundings;
-        BundleMemory { chain, turbulence, synthesis, records }
+        FlightMemory { chain, turbulence, synthesis, instants }
     }
 }

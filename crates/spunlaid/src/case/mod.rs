@@ -6,8 +6,8 @@ mod memory;
 mod note;
 mod step;
 
-pub use check::{MOST_RECORDS, MOST_REPLICATES, MOST_STEPS, RECORD_ON_DISK};
-pub use memory::{BUNDLE_MEMORY_LIMIT, BundleMemory};
+pub use check::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_STEPS};
+pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
 pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
 

@@ -1,4 +1,4 @@
-//! Ensembles: replicates packed eight to a bundle, bundles shared out to threads.
+//! Ensembles: replicates packed eight to a flight, flights shared out to threads.
 
 mod order;
 mod results;
@@ -30,10 +30,10 @@ pub struct Computing<'a> {
     pub fibre_steps: &'a AtomicU64,
 }
 
-/// Flies the replicates of a case and hands each flight over, in the order of the replicates.
+/// Flies the replicates of a case and hands each trajectory over, in the order of the replicates.
 ///
 /// * `keep` – whether curves are measured, and which fibres are kept whole over time
-/// * `take` – receives the flights; an error it returns ends the ensemble
+/// * `take` – receives the trajectories; an error it returns ends the ensemble
 ///
 /// # Errors
 /// A fibre that stops being finite, a stop from elsewhere, and what `take` returns.
@@ -43,16 +43,16 @@ pub fn fly<E: From<Error>>(
     computing: Computing<'_>,
     mut take: impl FnMut(Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
-    let bundles = case.run.replicates.div_ceil(WIDTH as u64);
+    let flights = case.run.replicates.div_ceil(WIDTH as u64);
     in_order(
-        bundles as usize,
+        flights as usize,
         computing.threads,
-        |bundle| {
-            let first = bundle as u64 * WIDTH as u64;
+        |flight| {
+            let first = flight as u64 * WIDTH as u64;
             let last = case.run.replicates.min(first + WIDTH as u64);
             let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
             fly_together(&jobs, keep, computing)
         },
-        |flights| flights?.into_iter().try_for_each(&mut take),
+        |trajectories| trajectories?.into_iter().try_for_each(&mut take),
     )
 }

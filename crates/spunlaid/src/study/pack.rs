@@ -94,12 +94,12 @@ pub fn fly_batches<E: From<Error>>(
     computing: Computing<'_>,
     mut take: impl FnMut(usize, Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
-    let flown = |flights: Vec<(usize, Trajectory)>, lost: Vec<Lost>| match lost.into_iter().next() {
+    let flown = |trajectories: Vec<(usize, Trajectory)>, lost: Vec<Lost>| match lost.into_iter().next() {
         Some((.., error)) => Err(error),
-        None => Ok(flights),
+        None => Ok(trajectories),
     };
-    fly_and_land(points, batches, keep, computing, flown, |flights| {
-        flights.into_iter().try_for_each(|(point, flight)| take(point, flight))
+    fly_and_land(points, batches, keep, computing, flown, |trajectories| {
+        trajectories.into_iter().try_for_each(|(point, trajectory)| take(point, trajectory))
     })
 }
 
@@ -123,18 +123,20 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     let work = |flight: usize| {
         let jobs = packing.jobs(flight);
         match fly(&jobs) {
-            Ok(flights) => land(jobs.iter().map(|job| job.0).zip(flights).collect(), Vec::new()),
+            Ok(trajectories) => land(jobs.iter().map(|job| job.0).zip(trajectories).collect(), Vec::new()),
             Err(Error::NotFinite { .. }) => {
                 // Each fibre flies again alone, with the same bits, to find those that are lost.
-                let (mut flights, mut lost) = (Vec::new(), Vec::new());
+                let (mut trajectories, mut lost) = (Vec::new(), Vec::new());
                 for &(point, replicate) in &jobs {
                     match fly(&[(point, replicate)]) {
-                        Ok(flight) => flights.extend(flight.into_iter().map(|flight| (point, flight))),
+                        Ok(flown) => {
+                            trajectories.extend(flown.into_iter().map(|trajectory| (point, trajectory)))
+                        }
                         Err(error @ Error::NotFinite { .. }) => lost.push((point, replicate, error)),
                         Err(error) => return Err(error),
                     }
                 }
-                land(flights, lost)
+                land(trajectories, lost)
             }
             Err(error) => Err(error),
         }

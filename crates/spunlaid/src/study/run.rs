@@ -127,8 +127,8 @@ fn fly_missing(
     if batches.is_empty() {
         return Ok(());
     }
-    let land = |flights: Vec<(usize, Trajectory)>, lost: Vec<Lost>| {
-        let records = records(flights, lost);
+    let land = |trajectories: Vec<(usize, Trajectory)>, lost: Vec<Lost>| {
+        let records = records(trajectories, lost);
         lock(journal).add(&records)?;
         lacking.landed(&records, progress);
         Ok(())
@@ -238,11 +238,11 @@ impl Lacking {
     }
 }
 
-fn records(flights: Vec<(usize, Trajectory)>, lost: Vec<Lost>) -> Vec<Record> {
-    let measured = flights.into_iter().map(|(point, flight)| Record {
+fn records(trajectories: Vec<(usize, Trajectory)>, lost: Vec<Lost>) -> Vec<Record> {
+    let measured = trajectories.into_iter().map(|(point, trajectory)| Record {
         point: point as u64,
-        replicate: flight.replicate,
-        landing: Landing::Measured(measured(&flight)),
+        replicate: trajectory.replicate,
+        landing: Landing::Measured(measured(&trajectory)),
     });
     let lost = lost.into_iter().filter_map(|(point, replicate, error)| match error {
         Error::NotFinite { node, time, .. } => {

@@ -1,4 +1,4 @@
-//! What the tests share: still air, a bundle to start from, a plain scalar force model.
+//! What the tests share: still air, a flight to start from, a plain scalar force model.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 pub mod modes;
@@ -71,12 +71,12 @@ pub fn in_all_lanes(vectors: &[V]) -> Vec<Vec3<Lanes>> {
 pub fn kernel_forces(strand: &Strand, air_velocity: f64, position: &[V], velocity: &[V]) -> Vec<V> {
     let h = 1e-3;
     let (eddies, turbulence) = steady_air(air_velocity, strand.fibre.elements, 2.0 * h);
-    let mut bundle =
+    let mut flight =
         Flight::assembled(Isa::detect(), &[*strand], (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
             .expect("fibres that agree");
-    bundle.restart_from(in_all_lanes(position), in_all_lanes(velocity)).expect("as many as nodes");
-    bundle.advance(1);
-    let after = &bundle.chain().velocity;
+    flight.restart_from(in_all_lanes(position), in_all_lanes(velocity)).expect("as many as nodes");
+    flight.advance(1);
+    let after = &flight.chain().velocity;
     (0..position.len()).map(|i| (after[i].lane(0) - velocity[i]) * (strand.fibre.node_mass(i) / h)).collect()
 }
 

@@ -16,7 +16,7 @@ const PATH: (f64, usize) = (40.0, 20_000);
 
 /// What is recorded of the first replicate.
 fn recorded(results: &Results) -> &[Sample] {
-    results.trajectories.first().map_or(&[][..], |flight| &flight.samples)
+    results.trajectories.first().map_or(&[][..], |trajectory| &trajectory.samples)
 }
 
 /// The free end's y and z over time; of a long run the whole, and its last swings below.

@@ -154,7 +154,7 @@ impl Wind {
         self.eddies
     }
 
-    /// Memory of the samples that a bundle of eight fibres keeps [bytes].
+    /// Memory of the samples that a flight of eight fibres keeps [bytes].
     pub fn memory(air: &Air, eddies: usize, horizon: f64) -> f64 {
         if air.records.is_empty() { Windows::memory(air, eddies, horizon) } else { Stretches::memory(eddies) }
     }
