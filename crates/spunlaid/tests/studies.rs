@@ -1,6 +1,10 @@
 //! Studies: points equal single runs, bits do not depend on packing, replicates by need, effects of synthetic models.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "common/studies.rs"]
+mod short;
+
+use short::SHORT;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Computing, Keep, Results, Trajectory, fly};
 use spunlaid::error::Error;
@@ -14,26 +18,8 @@ use spunlaid::study::{
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// Table 1 of the paper, 10 ms of it in steps of 20 µs.
-const SHORT: &str = "version = 1
-[fibre]
-length = '1 m'
-diameter = '50 µm'
-density = '950 kg/m³'
-youngs_modulus = '2 GPa'
-element_length = '50 mm'
-[air]
-velocity = '10 m/s'
-turbulence_intensity = 0.1
-length_scale = '50 mm'
-cutoff_frequency = '100 Hz'
-[run]
-duration = '10 ms'
-time_step = '20 µs'
-";
-
 fn study(text: &str) -> StudyFile {
-    parse_study(text, "study.toml", None, |_| Ok((SHORT.to_owned(), "case.toml".to_owned()))).unwrap()
+    short::study(SHORT, text)
 }
 
 fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> Computing<'a> {
