@@ -8,6 +8,10 @@
 //! effect_j = 2 b_j
 //! ```
 //!
+//! A factor of words has a term for each of its words but one, and an effect for each of its words but one: the mean of
+//! the result with this word minus the mean with the word of reference, which is the first word of the list, or the
+//! word of the base case in a one-at-a-time design. No word is chosen for its result, so each interval holds by itself.
+//!
 //! | design | fit |
 //! |---|---|
 //! | one-at-a-time | one line for each factor, through its own points and the base case only |
@@ -57,14 +61,21 @@ pub struct Ranking {
 pub struct Effect {
     /// Index of the factor.
     pub factor: usize,
-    /// The value that the change starts from. For a factor with more than two names, the name with the least result.
+    /// The value that the change starts from: the least value, or the word of reference.
     pub from: f64,
-    /// The value that the change leads to. For a factor with more than two names, the name with the greatest result.
+    /// The value that the change leads to: the greatest value, or another word. There is an effect for each of them.
     pub to: f64,
     /// Change of the result.
     pub change: f64,
     /// Half the width of its 95 % confidence interval; `None` if neither replicates nor residuals tell it.
     pub half_width: Option<f64>,
+}
+
+impl Effect {
+    /// Whether it is the effect of the same change of the same factor, on another result.
+    pub fn is_like(&self, other: &Self) -> bool {
+        (self.factor, self.from, self.to) == (other.factor, other.from, other.to)
+    }
 }
 
 /// Why the factors of a study are not ranked.
@@ -142,8 +153,8 @@ pub fn rankings(study: &Study, journal: &mut Journal) -> Result<Rankings, Error>
     }
     let ranking = |measure: usize| {
         let mut effects = Vec::new();
-        for (fit, solution) in fits.iter().zip(&solved) {
-            effects.extend(solution.effects(fit, measure));
+        for solution in &solved {
+            effects.extend_from_slice(&solution.effects[measure]);
         }
         effects.sort_by(|a, b| b.change.abs().total_cmp(&a.change.abs()));
         let terms = fits.iter().zip(&solved).flat_map(|(fit, solution)| {
@@ -188,8 +199,8 @@ pub enum Term {
     Square(usize),
     /// `x_j x_k`.
     Product(usize, usize),
-    /// 1 where a named factor has the first name, −1 where it has the second, otherwise 0.
-    Name(usize, f64, f64),
+    /// 1 where a factor of words has the first word, −1 where it has the second, the word of reference; otherwise 0.
+    Word(usize, f64, f64),
 }
 
 impl Term {
@@ -198,18 +209,20 @@ impl Term {
             Self::Line(j) => place(j),
             Self::Square(j) => place(j) * place(j) - 1.0 / 3.0,
             Self::Product(j, k) => place(j) * place(k),
-            Self::Name(j, this, last) => f64::from(values[j] == this) - f64::from(values[j] == last),
+            Self::Word(j, this, reference) => {
+                f64::from(values[j] == this) - f64::from(values[j] == reference)
+            }
         }
     }
 
     /// Whether it belongs to this factor alone.
     fn is_of(self, factor: usize) -> bool {
-        matches!(self, Self::Line(j) | Self::Square(j) | Self::Name(j, ..) if j == factor)
+        matches!(self, Self::Line(j) | Self::Square(j) | Self::Word(j, ..) if j == factor)
     }
 
     /// Whether it is part of the main effects.
     fn is_main(self) -> bool {
-        matches!(self, Self::Line(_) | Self::Name(..))
+        matches!(self, Self::Line(_) | Self::Word(..))
     }
 }
 
@@ -217,7 +230,7 @@ impl Term {
 struct Fit<'a> {
     study: &'a Study,
     points: Vec<usize>,
-    /// Factors whose effects it tells, with their least and greatest values.
+    /// Factors whose effects it tells, with their least and greatest values; words are in no order.
     factors: Vec<(usize, (f64, f64))>,
     terms: Vec<Term>,
     /// `(XᵀX)⁻¹`; the first row and column belong to the constant.
@@ -265,13 +278,20 @@ impl<'a> Fit<'a> {
             if least == last {
                 return Err(Refusal::OneValue { key: study.factors[factor].key });
             }
-            if study.factors[factor].names.is_empty() {
+            let alone = study.design == Design::OneAtATime;
+            if study.factors[factor].words.is_empty() {
                 terms.push(Term::Line(factor));
-                let alone = study.design == Design::OneAtATime;
                 of.push((factor, if alone { (least, last) } else { study.factors[factor].ends() }));
             } else {
-                let others = &levels[..levels.len() - 1];
-                terms.extend(others.iter().map(|&level| Term::Name(factor, level, last)));
+                // The order of the list. A word of the base case that the list does not name comes first.
+                let mut words = study.factors[factor].levels();
+                if alone {
+                    let base = study.points[0].values[factor];
+                    words.retain(|word| *word != base);
+                    words.insert(0, base);
+                }
+                words.retain(|word| levels.contains(word));
+                terms.extend(words[1..].iter().map(|&word| Term::Word(factor, word, words[0])));
                 of.push((factor, (least, last)));
             }
         }
@@ -357,7 +377,7 @@ impl<'a> Fit<'a> {
         let others = (1..self.size()).filter(|k| *k != column);
         let nearest = others.max_by(|a, b| correlation(*a).abs().total_cmp(&correlation(*b).abs()));
         let key = |column: usize| match self.terms[column.max(1) - 1] {
-            Term::Line(j) | Term::Square(j) | Term::Product(j, _) | Term::Name(j, ..) => {
+            Term::Line(j) | Term::Square(j) | Term::Product(j, _) | Term::Word(j, ..) => {
                 self.study.factors[j].key
             }
         };
@@ -374,34 +394,27 @@ impl<'a> Fit<'a> {
         self.inverse.iter().map(|row| dot(row, xy)).collect()
     }
 
-    /// Contrasts of the coefficients that are the main effects: factor, from, to, weights.
-    fn contrasts(&self, coefficients: &[f64]) -> Vec<(usize, f64, f64, Vec<f64>)> {
-        let contrast = |&(factor, (least, greatest)): &(usize, (f64, f64))| {
+    /// Contrasts of the coefficients that are the main effects.
+    fn contrasts(&self) -> Vec<Contrast> {
+        let contrast = |(column, term): (usize, &Term)| {
             let mut weights = vec![0.0; self.size()];
-            let mut names: Vec<(f64, Vec<f64>)> = Vec::new();
-            let mut last = (greatest, vec![0.0; self.size()]);
-            for (column, term) in (1..).zip(&self.terms) {
-                match *term {
-                    Term::Line(j) if j == factor => weights[column] = 2.0,
-                    Term::Name(j, this, _) if j == factor => {
-                        let mut of_name = vec![0.0; self.size()];
-                        (of_name[column], last.1[column]) = (1.0, -1.0);
-                        names.push((this, of_name));
-                    }
-                    _ => {}
+            weights[column] = 2.0;
+            match *term {
+                Term::Line(j) => {
+                    let (least, greatest) = self.factors.iter().find(|of| of.0 == j)?.1;
+                    Some((j, least, greatest, weights))
                 }
+                Term::Word(j, this, reference) => {
+                    // The result with the word of reference is the mean over the words minus all their coefficients.
+                    let same = |other: &Term| matches!(other, Term::Word(k, ..) if *k == j);
+                    let others = (1..).zip(&self.terms).filter(|(at, other)| *at != column && same(other));
+                    others.for_each(|(at, _)| weights[at] = 1.0);
+                    Some((j, reference, this, weights))
+                }
+                Term::Square(_) | Term::Product(..) => None,
             }
-            if names.is_empty() {
-                return (factor, least, greatest, weights);
-            }
-            names.push(last);
-            if names.len() > 2 {
-                names.sort_by(|a, b| dot(&a.1, coefficients).total_cmp(&dot(&b.1, coefficients)));
-            }
-            let (from, to) = (&names[0], &names[names.len() - 1]);
-            (factor, from.0, to.0, to.1.iter().zip(&from.1).map(|(b, a)| b - a).collect())
         };
-        self.factors.iter().map(contrast).collect()
+        (1..).zip(&self.terms).filter_map(contrast).collect()
     }
 }
 
@@ -466,9 +479,8 @@ impl Solution {
             of_replicates.iter().map(|sums| sums.iter().map(|xy| fit.solve(xy)).collect()).collect();
 
         // Variance of each contrast from the replicates, and what goes into its degrees of freedom.
-        let contrasts: Vec<_> = coefficients.iter().map(|b| fit.contrasts(b)).collect();
-        let mut variances: Vec<Vec<(f64, f64)>> =
-            contrasts.iter().map(|of| vec![(0.0, 0.0); of.len()]).collect();
+        let contrasts = fit.contrasts();
+        let mut variances: Vec<Vec<(f64, f64)>> = vec![vec![(0.0, 0.0); contrasts.len()]; MEASURES.len()];
         let (mut left, mut of_noise) = ([0.0; MEASURES.len()], [0.0; MEASURES.len()]);
         let mut sums = vec![(0.0, 0.0, 0.0, 0.0); MEASURES.len()];
         let points = fit.points.len() as f64;
@@ -491,7 +503,7 @@ impl Solution {
                 if !study.common_phases {
                     let variance = results.standard_error[m].map_or(0.0, |error| error * error);
                     of_noise[m] += variance * (1.0 - leverage);
-                    for ((.., weights), sum) in contrasts[m].iter().zip(&mut variances[m]) {
+                    for ((.., weights), sum) in contrasts.iter().zip(&mut variances[m]) {
                         let part = dot(weights, &fit.solve(&row)).powi(2) * variance;
                         sum.0 += part;
                         sum.1 += part * part / (results.n as f64 - 1.0).max(1.0);
@@ -536,15 +548,10 @@ impl Solution {
                 };
                 Effect { factor: *factor, from: *from, to: *to, change, half_width }
             };
-            contrasts[m].iter().zip(&variances[m]).map(effect).collect()
+            contrasts.iter().zip(&variances[m]).map(effect).collect()
         });
         let squares = sums.iter().map(|(a, aa, b, bb)| (aa - a * a / points, bb - b * b / points));
         Ok(Ok(Self { effects: effects.collect(), squares: squares.collect(), coefficients }))
-    }
-
-    fn effects(&self, fit: &Fit<'_>, measure: usize) -> impl Iterator<Item = Effect> {
-        debug_assert_eq!(self.effects[measure].len(), fit.factors.len());
-        self.effects[measure].iter().copied()
     }
 }
 
