@@ -73,6 +73,9 @@ fn table(charts: &[&Chart]) -> Table {
     // What a series is in comes before how sure it is.
     heads.sort_by_key(|head| [ERROR, LOWER, UPPER].contains(&head.as_str()));
     let mut table = Table::new(heads.iter().cloned());
+    for axis in charts.iter().flat_map(|chart| [&chart.x, &chart.y]) {
+        table = table.with_words(&axis.column(), &axis.words);
+    }
     for (name, columns, rows) in named() {
         let places: Vec<_> =
             columns.iter().map(|column| heads.iter().position(|head| head == column)).collect();
@@ -134,6 +137,15 @@ mod tests {
             Figure::stacked("s", "", &[&above, &below], "").table.csv(),
             "series,time_s,y_mm,z_mm,lower,upper,error\nmean,0,1,,,,\nrange,0,,,0.5,1.5,\nspot,2,,3,,,0.25\n"
         );
+    }
+
+    #[test]
+    fn words_stand_in_the_table() {
+        let chart = Chart::new("c", "", Axis::of_words("Law", ["one", "two"]), Axis::linear("*y* (mm)"))
+            .scatter(Series::new("*y*", "red"), &[(0.1, 1.0, None), (0.9, 2.0, None)]);
+        let figure = Figure::of(&chart, "");
+        assert_eq!(figure.table.csv(), "series,law,y_mm\ny,one,1\ny,two,2\n");
+        assert!(figure.svg.contains(">one</text>") && figure.svg.contains(">two</text>"), "{}", figure.svg);
     }
 
     #[test]

@@ -31,6 +31,8 @@ pub struct Axis {
     pub steady: bool,
     /// Name of the column in the figure's table, unit included; `None`: it follows from the label.
     pub column: Option<String>,
+    /// The words of an axis of words: each has its place at its number, 0 for the first.
+    pub words: Vec<String>,
 }
 
 impl Axis {
@@ -46,7 +48,13 @@ impl Axis {
             decades: 12,
             steady: false,
             column: None,
+            words: Vec::new(),
         }
+    }
+
+    /// An axis of words, evenly spaced; the word nearest to a value is the one meant.
+    pub fn of_words<W: Into<String>>(label: &str, words: impl IntoIterator<Item = W>) -> Self {
+        Self { words: words.into_iter().map(Into::into).collect(), ..Self::linear(label) }
     }
 
     /// A logarithmic axis; values of zero and below do not show.
@@ -120,6 +128,9 @@ pub struct Scale {
 impl Scale {
     /// The scale that shows `values`, with about `count` ticks.
     pub fn fit(axis: &Axis, values: impl Iterator<Item = f64>, count: usize) -> Self {
+        if !axis.words.is_empty() {
+            return Self::of_words(&axis.words);
+        }
         let values: Vec<f64> =
             values.chain(axis.include.iter().copied()).filter(|&v| axis.shows(v)).collect();
         let (mut lo, mut hi) =
@@ -133,6 +144,17 @@ impl Scale {
             Spacing::Logarithmic => logarithmic_ends(axis, lo, hi),
         };
         Self::between(axis.spacing, ends, count)
+    }
+
+    fn of_words(words: &[String]) -> Self {
+        let tick = |(i, word): (usize, &String)| Tick { value: i as f64, label: Some(word.clone()) };
+        let ends = (-0.5, words.len() as f64 - 0.5);
+        Self {
+            spacing: Spacing::Linear,
+            ends,
+            ticks: words.iter().enumerate().map(tick).collect(),
+            exponent: 0,
+        }
     }
 
     /// The scale with these ends.
@@ -303,6 +325,13 @@ mod tests {
 
     fn labels(scale: &Scale) -> Vec<String> {
         scale.ticks.iter().filter_map(|t| t.label.clone()).collect()
+    }
+
+    #[test]
+    fn words_lie_at_their_numbers() {
+        let scale = Scale::fit(&Axis::of_words("Law", ["one", "two", "three"]), std::iter::empty(), 2);
+        assert_eq!(labels(&scale), ["one", "two", "three"]);
+        assert!((scale.place(1.0) - 0.5).abs() < 1e-12 && scale.holds(2.3) && !scale.holds(3.0));
     }
 
     #[test]

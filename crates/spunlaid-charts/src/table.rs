@@ -7,6 +7,8 @@ use crate::svg::{plain, upright};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     heads: Vec<String>,
+    /// The words of the columns that hold words: the number of the column, and the words that its values count.
+    words: Vec<(usize, Vec<String>)>,
     /// Names of series with their values: row by row one for each head, NaN where there is none.
     series: Vec<(String, Vec<f64>)>,
 }
@@ -16,7 +18,15 @@ impl Table {
     ///
     /// * `heads` – names of the columns after `series`, each with its unit: `time_s`
     pub fn new<H: Into<String>>(heads: impl IntoIterator<Item = H>) -> Self {
-        Self { heads: heads.into_iter().map(Into::into).collect(), series: Vec::new() }
+        Self { heads: heads.into_iter().map(Into::into).collect(), words: Vec::new(), series: Vec::new() }
+    }
+
+    /// The same table, where a column holds words: a value near 0 stands for the first of them.
+    pub fn with_words(mut self, head: &str, words: &[String]) -> Self {
+        if let Some(column) = self.heads.iter().position(|one| one == head).filter(|_| !words.is_empty()) {
+            self.words.push((column, words.to_vec()));
+        }
+        self
     }
 
     /// Adds a series; rows that are shorter than the heads end with missing values.
@@ -39,11 +49,21 @@ impl Table {
         let _ = writer.write_record(std::iter::once("series").chain(self.heads.iter().map(String::as_str)));
         for (name, values) in &self.series {
             for row in values.chunks(self.heads.len().max(1)) {
-                let cells = row.iter().map(|value| shortest(*value));
+                let cells = row.iter().enumerate().map(|(column, value)| self.cell(column, *value));
                 let _ = writer.write_record(std::iter::once(name.clone()).chain(cells));
             }
         }
         writer.into_inner().map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
+    }
+}
+
+impl Table {
+    fn cell(&self, column: usize, value: f64) -> String {
+        let words = self.words.iter().find(|(of, _)| *of == column).map(|(_, words)| words);
+        match words.and_then(|words| words.get(value.round() as usize)).filter(|_| value.is_finite()) {
+            Some(word) => word.clone(),
+            None => shortest(value),
+        }
     }
 }
 

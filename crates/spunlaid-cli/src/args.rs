@@ -96,9 +96,10 @@ A study is a small text file beside the case it varies:
                              #   [replicates] at_most = 100, until = { amplitude_y = \"3 %\" }
   # common_phases = true     # the same random phases of turbulence at all points
   # seed = 1
-  [vary]                     # any key of a case with a number as value
+  [vary]                     # any key of a case with a number or one of a few words as value
   \"air.velocity\"   = [\"5 m/s\", \"10 m/s\", \"20 m/s\"]
   \"fibre.diameter\" = { from = \"20 um\", to = \"200 um\", steps = 4, spacing = \"log\" }
+  \"drag.along\"     = [\"matsui\", \"sakiadis\"]
   [link]                     # keys that follow from others
   \"air.cutoff_frequency\" = \"air.velocity / (4 * air.length_scale)\"    # or just \"taylor\"
 

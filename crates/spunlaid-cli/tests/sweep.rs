@@ -4,6 +4,8 @@
 mod common;
 
 use common::{Place, assert_same, case, contents, results, said};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::RowAccessor;
 use std::fs;
 
 const STUDY: &str = "case = 'case.toml'
@@ -288,4 +290,58 @@ fn rejects_bad_studies_before_anything_is_written() {
     let place = Place::new(&case(0.02), &STUDY.replace("'20 m/s'", "'20 m'"));
     assert!(place.refused("out", &[]).contains("study.toml:5: air.velocity = '20 m' is a length"));
     assert!(!place.path("out").exists());
+}
+
+#[test]
+fn words_are_words_in_every_result() {
+    let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'air.velocity' = ['5 m/s', '10 m/s']\n\
+                 'drag.along' = ['sakiadis', 'matsui']\n'air.spectrum' = ['flat', 'von-karman']\n";
+    let place = Place::new(&case(0.02), study);
+    let output = said(&place.swept("out", &[]));
+    assert!(output.contains("  sakiadis  von-karman  "), "{output}");
+    let rows = csv(&place, "out");
+    assert_eq!(rows[0][2..5], ["air.velocity_m_s", "drag.along", "air.spectrum"]);
+    let words: Vec<[&str; 2]> = rows[1..].iter().map(|row| [row[3].as_str(), row[4].as_str()]).collect();
+    assert_eq!(
+        words[..4],
+        [["sakiadis", "flat"], ["sakiadis", "von-karman"], ["matsui", "flat"], ["matsui", "von-karman"]]
+    );
+    let file = fs::File::open(place.path("out/results.parquet")).unwrap();
+    let reader = SerializedFileReader::new(file).unwrap();
+    let of_parquet: Vec<[String; 2]> = reader
+        .get_row_iter(None)
+        .unwrap()
+        .map(|row| [3, 4].map(|column| row.as_ref().unwrap().get_string(column).unwrap().clone()))
+        .collect();
+    assert_eq!(of_parquet, words);
+    let figure = |name: &str| fs::read_to_string(place.path("out/figures").join(name)).unwrap();
+    let numbers = figure("amplitude_over_drag_along.csv");
+    assert!(
+        numbers.contains("law_of_the_friction_along_the_fibre,") && numbers.contains("y,sakiadis,"),
+        "{numbers}"
+    );
+    assert!(figure("amplitude_over_drag_along.svg").contains(">matsui</text>"));
+    let ranking = figure("amplitude_ranking.csv");
+    assert!(ranking.contains("y over drag.along: matsui instead of sakiadis,"), "{ranking}");
+    let report = fs::read_to_string(place.path("out/report.html")).unwrap();
+    assert!(report.contains("matsui instead of sakiadis") && report.contains("<td>von-karman</td>"));
+    // The study as it was written out gives the same bits.
+    let again = place.spunlaid(&["sweep", "out/study.toml", "--out", "again"]).output().unwrap();
+    assert!(again.status.success(), "{}", said(&again));
+    assert_eq!(csv(&place, "again"), rows);
+}
+
+#[test]
+fn words_of_two_factors_are_told_apart_by_the_legend() {
+    let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'drag.along' = ['sakiadis', 'matsui']\n\
+                 'drag.across' = ['ju-shambaugh', 'marheineke-wegener']\n";
+    let place = Place::new(&case(0.02), study);
+    place.swept("out", &[]);
+    let name = "out/figures/amplitude_over_drag_across";
+    let picture = fs::read_to_string(place.path(&format!("{name}.svg"))).unwrap();
+    for word in ["sakiadis", "matsui", "ju-shambaugh", "marheineke-wegener"] {
+        assert!(picture.contains(&format!(">{word}</text>")), "{word}: {picture}");
+    }
+    let numbers = fs::read_to_string(place.path(&format!("{name}.csv"))).unwrap();
+    assert!(numbers.contains("y at sakiadis,ju-shambaugh,"), "{numbers}");
 }

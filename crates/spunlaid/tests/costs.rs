@@ -10,7 +10,7 @@ mod common;
 
 use common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::case::{Case, Run};
+use spunlaid::case::Case;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{Computing, Job, Keep, Results, Trajectory, fly_together};
@@ -19,6 +19,7 @@ use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::study::MEASURES;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
+use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The system's allocator, which counts what each thread asks of it.
@@ -70,21 +71,6 @@ fn memory_of<T>(work: impl FnOnce() -> T) -> (T, Memory) {
     (result, memory)
 }
 
-fn table1(scheme: Scheme, time_step: f64, duration: f64) -> Case {
-    let run = Run {
-        time_step,
-        steps: (duration / time_step).round() as u64,
-        spin_up_steps: 0,
-        output_steps: (1e-3 / time_step).round() as u64,
-        replicates: WIDTH as u64,
-        seed: 1,
-        scheme,
-        gravity: 9.81,
-        damping: 0.0,
-    };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
-}
-
 fn flights(case: &Case) -> (Vec<Trajectory>, u64) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing = Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps };
@@ -100,7 +86,7 @@ fn frozen_steps_and_records_of_a_flight() {
         (Scheme::Leapfrog, 2e-5, 1_000),
         (Scheme::ImplicitTension, 2e-4, 100),
     ] {
-        let (flights, fibre_steps) = flights(&table1(scheme, h, 0.02));
+        let (flights, fibre_steps) = flights(&table1(scheme, h, 0.02, WIDTH as u64));
         assert_eq!(fibre_steps, steps * WIDTH as u64, "{}", scheme.name());
         for flight in &flights {
             // Every millisecond, the start included.
@@ -111,24 +97,31 @@ fn frozen_steps_and_records_of_a_flight() {
 }
 
 #[test]
-fn frozen_longest_steps_of_each_scheme() {
+fn analytic_longest_steps_of_each_scheme() {
     // What a study may use at most: a tighter limit makes it dearer by as much.
-    let limit = |scheme, diameter: f64, element: f64| {
-        let mut case = table1(scheme, 1e-6, 1.0);
-        case.fibre.diameter = diameter;
-        case.fibre.elements = (1.0 / element).round() as usize;
-        let limits = case.step_limits();
-        limits.iter().map(|l| l.limit).fold(f64::INFINITY, f64::min)
-    };
-    for (scheme, diameter, element, microseconds) in [
-        (Scheme::SemiImplicitEuler, 50e-6, 0.05, 34.46),
-        (Scheme::Leapfrog, 50e-6, 0.05, 34.46),
-        (Scheme::ImplicitTension, 50e-6, 0.05, 3199.95),
-        (Scheme::Leapfrog, 18e-6, 0.001, 0.6892),
-        (Scheme::ImplicitTension, 18e-6, 0.001, 28.3236),
+    for (scheme, diameter, element) in [
+        (Scheme::SemiImplicitEuler, 50e-6, 0.05),
+        (Scheme::Leapfrog, 50e-6, 0.05),
+        (Scheme::ImplicitTension, 50e-6, 0.05),
+        (Scheme::Leapfrog, 18e-6, 0.001),
+        (Scheme::ImplicitTension, 18e-6, 0.001),
     ] {
-        let found = limit(scheme, diameter, element) * 1e6;
-        assert!((found / microseconds - 1.0).abs() < 1e-3, "{} {found} µs", scheme.name());
+        let mut case = table1(scheme, 1e-6, 1.0, 1);
+        case.fibre.diameter = diameter;
+        case.fibre.elements = (1.0_f64 / element).round() as usize;
+        let limits = case.step_limits();
+        let found = limits.iter().map(|l| l.limit).fold(f64::INFINITY, f64::min);
+        // Table 1: 2 GPa, 950 kg/m³, 1 m, air of 1.204 kg/m³ and 1.51e-5 m²/s at 10 m/s, β = 0.9. An axial wave
+        // passes an element in l/√(E/ρ). Implicit tension is bound by 1.5 times the time of a wave of the taut
+        // string, l/√(T/ρA), with the weight and the friction ½ρ_a U² πdL β Re^−0.61 as tension.
+        let speed = if scheme == Scheme::ImplicitTension {
+            let friction =
+                0.5 * 1.204 * 100.0 * PI * diameter * 0.9 * (10.0 * diameter / 1.51e-5).powf(-0.61);
+            (9.81 + friction / (950.0 * 0.25 * PI * diameter * diameter)).sqrt() / 1.5
+        } else {
+            (2e9_f64 / 950.0).sqrt()
+        };
+        assert!((found * speed / element - 1.0).abs() < 1e-6, "{} {found} s", scheme.name());
     }
 }
 
@@ -173,7 +166,7 @@ fn steps_ask_for_no_memory() {
     for (scheme, h) in
         [(Scheme::SemiImplicitEuler, 1e-5), (Scheme::Leapfrog, 1e-5), (Scheme::ImplicitTension, 2e-4)]
     {
-        let case = table1(scheme, h, 0.1);
+        let case = table1(scheme, h, 0.1, WIDTH as u64);
         let eddies = Eddies::along(1.0, 20, 0.05);
         let stream = [(case.air.clone(), StreamKey { seed: 1, replicate: 0 })];
         let turbulence = Wind::uniform(Isa::detect(), &stream, 20, 0.1).expect("fibres that agree");
@@ -196,7 +189,7 @@ fn bytes_of(flight: &Trajectory) -> i64 {
 fn memory_of_flights_is_what_they_keep_and_their_turbulence() {
     let (scheme, h) = (Scheme::ImplicitTension, 2e-4);
     let flown = |duration| {
-        let case = table1(scheme, h, duration);
+        let case = table1(scheme, h, duration, WIDTH as u64);
         let ((flights, _), memory) = memory_of(|| flights(&case));
         let turbulence = Wind::memory(&case.air, 20, duration);
         (flights, memory, turbulence as i64)
@@ -219,7 +212,7 @@ fn memory_of_flights_is_what_they_keep_and_their_turbulence() {
 #[test]
 fn statistics_keep_a_few_numbers_of_each_flight_however_long() {
     let [short, long] = [0.2, 2.0].map(|duration| {
-        let case = table1(Scheme::ImplicitTension, 2e-4, duration);
+        let case = table1(Scheme::ImplicitTension, 2e-4, duration, WIDTH as u64);
         let (flights, _) = flights(&case);
         let mut collector = Results::collector(0);
         collector.take(&flights[0]);
@@ -237,7 +230,7 @@ fn statistics_keep_a_few_numbers_of_each_flight_however_long() {
 
 #[test]
 fn memory_of_a_flight_does_not_grow_with_its_time() {
-    let case = table1(Scheme::ImplicitTension, 5e-4, 1.0);
+    let case = table1(Scheme::ImplicitTension, 5e-4, 1.0, WIDTH as u64);
     let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case: &case, replicate }).collect();
     let mut flight = Flight::new(&jobs, Isa::detect()).expect("the case flies");
     // 256 harmonics of 100 Hz: windows follow one another every 1.92 s.

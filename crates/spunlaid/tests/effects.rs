@@ -1,31 +1,20 @@
 //! Main effects of synthetic models: how often the 95 % intervals hold the true effect, and which designs are refused.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "common/studies.rs"]
+mod studies;
+
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::input::parse_study;
 use spunlaid::study::{Journal, Landing, MEASURES, Record, Study, rankings};
 
-/// Table 1 of the paper; it is never flown here.
-const CASE: &str = "version = 1
-[fibre]
-length = '1 m'
-diameter = '50 µm'
-density = '950 kg/m³'
-youngs_modulus = '2 GPa'
-element_length = '50 mm'
-[air]
-velocity = '10 m/s'
-turbulence_intensity = 0.15
-length_scale = '50 mm'
-cutoff_frequency = '100 Hz'
-[run]
-duration = '10 ms'
-time_step = '20 µs'
-";
-
+/// The case is never flown; its intensity is in the middle of the range that the studies vary.
 fn study(text: &str) -> Study {
-    parse_study(text, "study.toml", None, |_| Ok((CASE.to_owned(), "case.toml".to_owned()))).unwrap().study
+    studies::study(
+        &studies::SHORT.replace("turbulence_intensity = 0.1\n", "turbulence_intensity = 0.15\n"),
+        text,
+    )
+    .study
 }
 
 /// A study of three keys; the middle of the diameters is their geometric mean.
@@ -83,10 +72,13 @@ const STRAIGHT: Model = |x| 5.0 + 3.0 * x[0] - x[1];
 const BENT: Model = |x| 5.0 + 3.0 * x[0] - x[1] + 2.0 * x[0] * x[0] - 3.0 * x[1] * x[1];
 const MIXED: Model = |x| BENT(x) + 1.5 * x[0] * x[1];
 
+/// Studies of each kind.
+const TRIALS: u64 = 300;
+
 /// Fraction of intervals that hold the true effects 6, −2 and 0, their mean half-width, and the scatter of the effects.
 fn coverage(design: &str, replicates: u64, model: Model, noise: Noise) -> (f64, f64, f64) {
     let (mut inside, mut all, mut widths, mut errors) = (0, 0, 0.0, 0.0);
-    for trial in 0..300 {
+    for trial in 0..TRIALS {
         let study = three_keys(design, replicates, trial);
         let mut journal = flown(&study, replicates, model, noise, trial);
         // A hypercube of few points may be refused for a correlation by chance.
@@ -99,7 +91,10 @@ fn coverage(design: &str, replicates: u64, model: Model, noise: Noise) -> (f64, 
             errors += error * error;
         }
     }
+    // Three effects each; at most a tenth may be refused, and none of a design that is not drawn.
+    let least = if design.contains("points") { 0.9 } else { 1.0 } * 3.0 * TRIALS as f64;
     let all = f64::from(all);
+    assert!(all >= least, "{design:?}: {all} effects");
     (f64::from(inside) / all, widths / all, (errors / all).sqrt())
 }
 
@@ -126,6 +121,7 @@ fn stat_intervals_hold_the_truth_as_often_as_they_say() {
             "{design:?} {replicates} replicates: {share:.3} within ± {width:.3}, scatter {scatter:.3}"
         );
         println!("{line}");
+        // Four standard errors of 900 intervals, √(0.95 × 0.05/900) each.
         if !(0.92..=0.98).contains(&share) {
             wrong.push(line);
         }
@@ -216,4 +212,103 @@ fn the_differences_of_a_smallest_design_are_ranked_without_a_share() {
     let effect = ranking.effects.iter().find(|effect| effect.factor == 0).unwrap();
     assert!((effect.change - wanted).abs() < 1e-12);
     assert_eq!((effect.from, effect.to), (10.0, 15.0));
+}
+
+/// Means of three words and the slope over the velocity, and the true effects: of the second and the third word against
+/// the first, and of the velocity.
+const WORDS: ([f64; 3], f64, [f64; 3]) = ([5.0, 7.0, 4.0], 3.0, [2.0, -1.0, 6.0]);
+
+fn words(design: &str, replicates: u64, seed: u64) -> Study {
+    let range = if design.contains("points") { "" } else { ", steps = 3" };
+    study(&format!(
+        "case = 'case.toml'\n{design}\nreplicates = {replicates}\nseed = {seed}\n[vary]\n\
+         'drag.along' = ['matsui', 'sakiadis', 'glauert-lighthill']\n\
+         'air.velocity' = {{ from = '5 m/s', to = '15 m/s'{range} }}\n"
+    ))
+}
+
+/// The effects, in the order of [`WORDS`], with their intervals, and the adjusted share that is explained.
+fn effects_of_words(
+    design: &str,
+    replicates: u64,
+    noise: Noise,
+    seed: u64,
+) -> (Vec<(f64, Option<f64>)>, f64) {
+    let study = words(design, replicates, seed);
+    let [matsui, sakiadis, glauert] = ["matsui", "sakiadis", "glauert-lighthill"]
+        .map(|word| study.factors[0].words.iter().position(|one| *one == word).unwrap() as f64);
+    let mut normal = Normal(ChaCha8Rng::seed_from_u64(seed));
+    let common: Vec<f64> = (0..replicates).map(|_| normal.next()).collect();
+    let mut journal = Journal::in_memory(study.points.len());
+    for (index, point) in study.points.iter().enumerate() {
+        let word = [matsui, sakiadis, glauert].iter().position(|word| *word == point.values[0]).unwrap();
+        let y = WORDS.0[word] + WORDS.1 * study.factors[1].place(point.values[1]);
+        for (replicate, all) in (0..).zip(&common) {
+            let y = y + noise.fibre * normal.next() + noise.replicate * all;
+            let landing = Landing::Measured([y; MEASURES.len()]);
+            journal.add(&[Record { point: index as u64, replicate, landing }]).unwrap();
+        }
+    }
+    let rankings = rankings(&study, &mut journal).unwrap();
+    let ranking = &rankings.of_measures[0];
+    assert_eq!(ranking.effects.len(), 3, "{design}");
+    let of = |from: f64, to: f64| {
+        let effect = ranking.effects.iter().find(|effect| (effect.from, effect.to) == (from, to)).unwrap();
+        (effect.change, effect.half_width)
+    };
+    (vec![of(matsui, sakiadis), of(matsui, glauert), of(5.0, 15.0)], ranking.explained)
+}
+
+#[test]
+fn analytic_effects_of_words_are_differences_from_the_first() {
+    let none = Noise { fibre: 0.0, replicate: 0.0, slopes: 0.0 };
+    for design in [
+        "design = 'grid'",
+        "design = 'one-at-a-time'",
+        "design = 'latin-hypercube'\npoints = 20",
+        "design = 'sobol'\npoints = 16",
+    ] {
+        let (effects, explained) = effects_of_words(design, 4, none, 1);
+        for ((change, half), wanted) in effects.iter().zip(WORDS.2) {
+            assert!((change - wanted).abs() < 1e-9 && half.unwrap() < 1e-9, "{design}: {change} {half:?}");
+        }
+        assert!((explained - 1.0).abs() < 1e-9, "{design}: {explained}");
+    }
+}
+
+#[test]
+fn stat_intervals_of_words_hold_the_truth_as_often_as_they_say() {
+    let mut wrong = Vec::new();
+    for (design, replicates, noise) in [
+        ("design = 'grid'", 6, COMMON),
+        ("design = 'grid'\ncommon_phases = false", 6, ALONE),
+        ("design = 'one-at-a-time'", 6, COMMON),
+        ("design = 'one-at-a-time'\ncommon_phases = false", 6, ALONE),
+        ("design = 'latin-hypercube'\npoints = 24", 6, COMMON),
+        ("design = 'latin-hypercube'\npoints = 40", 1, ALONE),
+    ] {
+        let (mut inside, mut all) = (0, 0.0);
+        for trial in 0..300 {
+            let (effects, _) = effects_of_words(design, replicates, noise, trial);
+            for ((change, half), wanted) in effects.iter().zip(WORDS.2) {
+                inside += u32::from((change - wanted).abs() <= half.unwrap());
+                all += 1.0;
+            }
+        }
+        let share = f64::from(inside) / all;
+        println!("{design:?} {replicates} replicates: {share:.3}");
+        if !(0.92..=0.98).contains(&share) {
+            wrong.push(format!("{design:?} {replicates} replicates: {share:.3}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn words_that_vary_with_another_key_are_refused_with_the_reason() {
+    let paired = "design = 'paired'\n[vary]\ndrag.along = ['matsui', 'matsui', 'sakiadis', 'sakiadis']\n";
+    let said = refusal(&format!(
+        "{paired}drag.across = ['ju-shambaugh', 'ju-shambaugh', 'marheineke-wegener', 'marheineke-wegener']"
+    ));
+    assert!(said.contains("drag.along and drag.across vary together"), "{said}");
 }

@@ -5,7 +5,7 @@
 mod common;
 
 use common::*;
-use spunlaid::case::{Case, Run};
+use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{Computing, Keep, Number, Results, Trajectory, fly};
 use spunlaid::error::Error;
@@ -13,23 +13,9 @@ use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
+/// By the paper's scheme.
 fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
-    Case {
-        fibre: table1_fibre(),
-        air: table1_air(),
-        drag: paper_drag(),
-        run: Run {
-            time_step,
-            steps: (duration / time_step).round() as u64,
-            spin_up_steps: 0,
-            output_steps: (1e-3 / time_step).round() as u64,
-            replicates,
-            seed: 1,
-            scheme: Scheme::SemiImplicitEuler,
-            gravity: 9.81,
-            damping: 0.0,
-        },
-    }
+    common::table1(Scheme::SemiImplicitEuler, time_step, duration, replicates)
 }
 
 fn flights(case: &Case, threads: usize) -> Vec<Trajectory> {

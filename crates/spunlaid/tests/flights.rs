@@ -3,27 +3,15 @@
 
 mod common;
 
-use common::*;
-use spunlaid::case::{Case, Run};
+use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::error::{Error, FlightFault};
 use spunlaid::flight::{Flight, Job};
 use spunlaid::lanes::Isa;
 
-/// Table 1 in steps of 20 µs.
+/// In steps of 20 µs.
 fn table1() -> Case {
-    let run = Run {
-        time_step: 2e-5,
-        steps: 1000,
-        spin_up_steps: 0,
-        output_steps: 50,
-        replicates: 10,
-        seed: 1,
-        scheme: Scheme::SemiImplicitEuler,
-        gravity: 9.81,
-        damping: 0.0,
-    };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
+    common::table1(Scheme::SemiImplicitEuler, 2e-5, 0.02, 10)
 }
 
 #[test]
@@ -67,27 +55,33 @@ fn identical_in_however_many_strides_it_is_stepped() {
     assert_eq!(whole.time(), 4.0);
 }
 
+/// Error of the energy balance after several changes in flight, as a share of the air's work: rms of eight fibres.
+fn imbalance_after_changes(scheme: Scheme, time_step: f64) -> f64 {
+    let case = common::table1(scheme, time_step, 0.06, 8);
+    let jobs = [0, 1, 2, 3, 4, 5, 6, 7].map(|replicate| Job { case: &case, replicate });
+    let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
+    flight.step_to(0.02).unwrap();
+    flight.set("run.gravity", "5 m/s²").unwrap();
+    flight.step_to(0.03).unwrap();
+    flight.set("fibre.youngs_modulus", 1e9).unwrap();
+    flight.set("air.velocity", "20 m/s").unwrap();
+    flight.step_to(0.04).unwrap();
+    flight.set("fibre.diameter", "55 µm").unwrap();
+    flight.step_to(0.06).unwrap();
+    let energy = flight.snapshot().energy;
+    let error = |lane: usize| energy.imbalance().0[lane] / energy.drag_work.0[lane];
+    ((0..8).map(|lane| error(lane).powi(2)).sum::<f64>() / 8.0).sqrt()
+}
+
+/// What is left of the balance comes from the step and vanishes with it: an energy that is lost at a change would stay.
+/// The forces jump at a change, which makes every scheme of first order there.
 #[test]
-fn energy_balance_closes_across_changes() {
+fn order_of_the_energy_balance_across_changes() {
     for scheme in Scheme::ALL {
-        let mut case = table1();
-        case.run.scheme = scheme;
-        case.run.time_step = 2e-6;
-        let jobs = [0, 1].map(|replicate| Job { case: &case, replicate });
-        let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
-        flight.step_to(0.02).unwrap();
-        flight.set("run.gravity", "5 m/s²").unwrap();
-        flight.step_to(0.03).unwrap();
-        flight.set("fibre.youngs_modulus", 1e9).unwrap();
-        flight.set("air.velocity", "20 m/s").unwrap();
-        flight.step_to(0.04).unwrap();
-        flight.set("fibre.diameter", "55 µm").unwrap();
-        flight.step_to(0.06).unwrap();
-        let energy = flight.snapshot().energy;
-        for lane in 0..2 {
-            let error = energy.imbalance().0[lane] / energy.drag_work.0[lane];
-            assert!(error.abs() < 1e-3, "{}: {error:e}", scheme.name());
-        }
+        let [coarse, fine] = [8e-6, 2e-6].map(|time_step| imbalance_after_changes(scheme, time_step));
+        let order = (coarse / fine).log2() / 2.0;
+        assert!(fine < 1e-3, "{}: {fine:e}", scheme.name());
+        assert!(order > 0.65, "{}: order {order}, {coarse:e} {fine:e}", scheme.name());
     }
 }
 

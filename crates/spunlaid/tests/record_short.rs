@@ -1,28 +1,20 @@
 //! How often the 95 % intervals of short records hold the known value.
 #![allow(clippy::unwrap_used)]
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::record::{Analysis, Record, Samples, Settings, analyse};
-use std::f64::consts::PI;
+#[path = "common/normal.rs"]
+mod normal;
 
-/// Records of each kind and length.
-const SEEDS: u64 = 300;
+use normal::normal;
+use spunlaid::record::{Analysis, Record, Samples, Settings, analyse};
+
+/// Records of each kind and length: the share of them that holds a value scatters by 0.6 to 0.9 %.
+const SEEDS: u64 = 1200;
 /// Integral time [s].
 const TAU: f64 = 5e-3;
 /// Samples in an integral time.
 const PER_TIME: f64 = 8.0;
 /// Lengths of the records in integral times.
 const LENGTHS: [f64; 4] = [100.0, 150.0, 250.0, 400.0];
-
-/// Standard normal numbers by Box and Muller.
-fn normal(seed: u64) -> impl FnMut() -> f64 {
-    let mut stream = ChaCha8Rng::seed_from_u64(seed);
-    move || {
-        let mut uniform = || ((stream.next_u64() >> 11) as f64 + 0.5) * 2f64.powi(-53);
-        (-2.0 * uniform().ln()).sqrt() * (2.0 * PI * uniform()).cos()
-    }
-}
 
 /// Variance 1 and correlation `e^{−t/T_I}`: a first-order autoregression.
 fn exponential(seed: u64, samples: usize) -> Vec<f64> {
@@ -117,8 +109,7 @@ fn stat_short_records_hold_the_known_values() {
                 ("plateau", coverage(&records, |of| of.components[0].flat.density, 4.0 * TAU)),
             ] {
                 println!("{kind}, {times} integral times, {name}: {held:.1} % hold it, median {median:.3}");
-                // 91 to 97 % in thousands of records; with 300 that scatters by 1.5 %.
-                if !(88.0..=99.0).contains(&held) {
+                if !(90.0..=98.0).contains(&held) {
                     wrong.push(format!("{kind}, {times} integral times, {name}: {held:.1} %"));
                 }
             }
@@ -143,7 +134,7 @@ fn stat_moments_of_a_skewed_record() {
             ("flatness", coverage(&records, |of| of.components[0].flatness, flatness)),
         ] {
             println!("lognormal, {times} integral times, {name}: {held:.1} % hold it, median {median:.3}");
-            assert!((88.0..=98.5).contains(&held), "{times} integral times, {name}: {held:.1} %");
+            assert!((90.0..=98.0).contains(&held), "{times} integral times, {name}: {held:.1} %");
         }
     }
 }

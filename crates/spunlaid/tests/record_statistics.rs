@@ -1,8 +1,10 @@
 //! What a record is said to hold, against records that are known to hold it.
 #![allow(clippy::expect_used, clippy::unwrap_used)]
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+#[path = "common/normal.rs"]
+mod normal;
+
+use normal::normal;
 use spunlaid::air::{Air, StreamKey, Wind};
 use spunlaid::lanes::Isa;
 use spunlaid::record::{
@@ -10,15 +12,6 @@ use spunlaid::record::{
 };
 use spunlaid::statistics::Window;
 use std::f64::consts::PI;
-
-/// Standard normal numbers by Box and Muller, keyed.
-fn normal(seed: u64) -> impl FnMut() -> f64 {
-    let mut stream = ChaCha8Rng::seed_from_u64(seed);
-    move || {
-        let mut uniform = || ((stream.next_u64() >> 11) as f64 + 0.5) * 2f64.powi(-53);
-        (-2.0 * uniform().ln()).sqrt() * (2.0 * PI * uniform()).cos()
-    }
-}
 
 fn record(interval: f64, components: Vec<Vec<f64>>) -> Record {
     let components = (["u", "v", "w"].iter().zip(components))

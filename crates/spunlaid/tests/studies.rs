@@ -1,6 +1,10 @@
 //! Studies: points equal single runs, bits do not depend on packing, replicates by need, effects of synthetic models.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "common/studies.rs"]
+mod short;
+
+use short::SHORT;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Computing, Keep, Results, Trajectory, fly};
 use spunlaid::error::Error;
@@ -14,26 +18,8 @@ use spunlaid::study::{
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// Table 1 of the paper, 10 ms of it in steps of 20 µs.
-const SHORT: &str = "version = 1
-[fibre]
-length = '1 m'
-diameter = '50 µm'
-density = '950 kg/m³'
-youngs_modulus = '2 GPa'
-element_length = '50 mm'
-[air]
-velocity = '10 m/s'
-turbulence_intensity = 0.1
-length_scale = '50 mm'
-cutoff_frequency = '100 Hz'
-[run]
-duration = '10 ms'
-time_step = '20 µs'
-";
-
 fn study(text: &str) -> StudyFile {
-    parse_study(text, "study.toml", None, |_| Ok((SHORT.to_owned(), "case.toml".to_owned()))).unwrap()
+    short::study(SHORT, text)
 }
 
 fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> Computing<'a> {
@@ -326,5 +312,89 @@ fn few_replicates_before_a_stop_are_warned_of() {
     assert!(
         few.len() == 1 && few[0].starts_with("study.toml: replicates.at_least = 5 is too few"),
         "{few:?}"
+    );
+}
+
+/// Every kind of word that a study may vary, with numbers beside them.
+const WORDS: &str = "case = 'case.toml'
+design = 'one-at-a-time'
+replicates = 3
+[vary]
+'drag.along' = ['matsui', 'sakiadis', 'glauert-lighthill']
+'drag.across' = ['ju-shambaugh', 'marheineke-wegener']
+'air.spectrum' = ['flat', 'von-karman']
+'air.eddies' = ['independent', 'convected']
+'fibre.root' = ['clamped', 'free']
+'run.scheme' = ['leapfrog', 'implicit-tension']
+'air.velocity' = ['5 m/s', '20 m/s']
+";
+
+#[test]
+fn identical_to_single_runs_where_words_vary() {
+    let study = study(WORDS).study;
+    // The base case, and every value that differs from its own.
+    assert_eq!(study.points.len(), 1 + 2 + 1 + 1 + 1 + 2 + 2 + 2);
+    let mut journal = flown(&study, 2);
+    let mut different = std::collections::BTreeSet::new();
+    for (index, point) in study.points.iter().enumerate() {
+        let (case, _) = parse_case(&write_case(&point.case), "point.toml", &[]).unwrap();
+        assert_eq!(case, point.case);
+        let records = journal.records(index, 99).unwrap();
+        assert_eq!(records.len(), 3);
+        for (flight, record) in single(&case).iter().zip(&records) {
+            assert_eq!(record.landing, Landing::Measured(measured(flight)), "point {index}");
+        }
+        different.insert(format!("{:?}", records[0].landing));
+    }
+    assert_eq!(different.len(), study.points.len(), "every word changes the flight");
+}
+
+#[test]
+fn identical_to_single_runs_where_elements_of_equal_number_differ_in_length() {
+    let text = "case = 'c'\ndesign = 'paired'\nreplicates = 2\n[vary]\nfibre.length = ['1 m', '2 m']\n\
+                fibre.element_length = ['50 mm', '100 mm']\nair.length_scale = ['50 mm', '100 mm']\n";
+    let study = study(text).study;
+    let mut journal = flown(&study, 1);
+    for (index, point) in study.points.iter().enumerate() {
+        let records = journal.records(index, 9).unwrap();
+        let landings: Vec<Landing> = records.iter().map(|record| record.landing).collect();
+        let alone: Vec<Landing> =
+            single(&point.case).iter().map(|flight| Landing::Measured(measured(flight))).collect();
+        assert_eq!(landings, alone, "point {index}");
+    }
+}
+
+#[test]
+fn words_may_be_drawn_and_are_written_out_again() {
+    for design in ["latin-hypercube", "sobol"] {
+        let text = format!(
+            "case = 'case.toml'\ndesign = '{design}'\npoints = 16\n[vary]\n'drag.along' = ['sakiadis', 'matsui']\n\
+             'air.velocity' = {{ from = '5 m/s', to = '20 m/s' }}\n"
+        );
+        let (first, again) = (study(&text), study(&study(&text).text));
+        assert_eq!(first.study.points, again.study.points);
+        assert!(first.text.contains("\"drag.along\" = [\"sakiadis\", \"matsui\"]"), "{}", first.text);
+        let laws: Vec<&str> = first.study.points.iter().map(|point| point.case.drag.along.name()).collect();
+        assert_eq!(laws.iter().filter(|law| **law == "matsui").count(), 8, "{laws:?}");
+        for (point, law) in first.study.points.iter().zip(laws) {
+            assert_eq!(first.study.inputs().next().unwrap().word(point.values[0]), Some(law));
+        }
+    }
+}
+
+#[test]
+fn keys_of_another_word_are_left_out_where_they_mean_nothing() {
+    let case = format!("{SHORT}[drag]\nfriction_coefficient = 0.5\n");
+    let text = "case = 'c'\ndesign = 'grid'\n[vary]\ndrag.along = ['matsui', 'sakiadis']\n";
+    let file = parse_study(text, "study.toml", None, |_| Ok((case, "case.toml".to_owned()))).unwrap();
+    let factors: Vec<Option<f64>> =
+        file.study.points.iter().map(|point| point.case.drag.along.factor()).collect();
+    assert_eq!(factors, [Some(0.5), None]);
+    let notes: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        notes,
+        [
+            "study.toml: point 2 (drag.along = \"sakiadis\"): drag.friction_coefficient = 0.5 is left out, because it needs drag.along = \"matsui\""
+        ]
     );
 }

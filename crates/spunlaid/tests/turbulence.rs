@@ -144,6 +144,13 @@ fn stat_phases_are_uniform_between_replicates() {
     }
 }
 
+/// A mean over half-overlapping Hann segments is one, but for its scatter: each scatters by as much as its mean, and
+/// neighbours correlate by 1/6 (Welch 1967), so the variance of the mean of K is (1 + 2/36)/K.
+fn assert_flat(ratio: f64, segments: usize, frequency: f64) {
+    let error = 4.0 * (1.056 / segments as f64).sqrt();
+    assert!((ratio - 1.0).abs() < error, "{frequency} Hz: {ratio} of what is wanted, ± {error}");
+}
+
 #[test]
 fn stat_spectrum_is_flat_to_the_cutoff_and_nothing_above() {
     let air = Air { harmonics: 1024, ..table1_air() };
@@ -158,9 +165,7 @@ fn stat_spectrum_is_flat_to_the_cutoff_and_nothing_above() {
     for (f, density) in spectrum.finish().points() {
         // The Hann window reaches two of its steps of 1.56 Hz to either side.
         if f > 4.0 && f < 96.0 {
-            // Each segment's density scatters by as much as its mean; overlapping ones count for about half.
-            let error = 4.0 / (0.5 * segments as f64).sqrt();
-            assert!((density / wanted - 1.0).abs() < error, "{f} Hz: {} of {wanted}", density);
+            assert_flat(density / wanted, segments, f);
         } else if f > 110.0 {
             // What the Hann window lets through from k steps off: ∫ (2/3) sin²/(π²δ²(δ²−1)²) dδ from k on,
             // and the interpolation's images, 1e-7 of the rms.
@@ -289,49 +294,67 @@ fn stat_variance_is_the_same_at_every_instant_of_the_windows() {
         }
     }
     for (k, [n, first, second, fourth]) in sums.into_iter().enumerate() {
-        // A sum of 16 cosines has a fourth moment of 3 − 1.5/16, of less where it is two half ones; four standard
-        // errors of each.
+        // Two sums of 16 cosines with the weights cos and sin of the fade (theory.md (50)) have a fourth moment of
+        // 3 − 1.5 (cos⁴ + sin⁴)/16; four standard errors of each.
+        let into = ((k as f64 - 4.0) / 24.0).clamp(0.0, 0.25) / 0.25;
+        let (sin, cos) = (0.5 * PI * into).sin_cos();
+        let expected = 3.0 - 1.5 * (cos.powi(4) + sin.powi(4)) / 16.0;
         assert!((first / n).abs() < 4.0 / n.sqrt(), "instant {k}: mean {}", first / n);
         assert!((second / n - 1.0).abs() < 4.0 * (2.0 / n).sqrt(), "instant {k}: variance {}", second / n);
-        assert!((fourth / n - 2.93).abs() < 0.07 + 4.0 * (96.0 / n).sqrt(), "instant {k}: {}", fourth / n);
+        assert!(
+            (fourth / n - expected).abs() < 4.0 * (96.0 / n).sqrt(),
+            "instant {k}: {}, not {expected}",
+            fourth / n
+        );
     }
 }
 
 #[test]
 fn stat_autocorrelation_holds_across_the_joints_of_windows() {
     let air = short_windows();
-    let (repeat, hop) = (air.repeat_time(), 0.75 * air.repeat_time());
-    let cutoff = 2.0 * PI * air.cutoff_frequency;
+    let (repeat, fade, hop) = (air.repeat_time(), 0.25 * air.repeat_time(), 0.75 * air.repeat_time());
+    // The weight of window k, theory.md (50).
+    let weight = |k: usize, t: f64| {
+        let since = t - k as f64 * hop;
+        let part = |since: f64| 0.5 * PI * (since / fade).clamp(0.0, 1.0);
+        if (0.0..repeat).contains(&since) { part(since).sin() * part(since - hop).cos() } else { 0.0 }
+    };
+    // Correlation of a sum of 16 cosines.
+    let within = |lag: f64| {
+        let turned = |n: usize| 2.0 * PI * (n as f64 + 0.5) / repeat * lag;
+        (0..16).map(|n| turned(n).cos()).sum::<f64>() / 16.0
+    };
     let lags = [1.3e-3, 5e-3, 9e-3, 20e-3, 0.75 * repeat, repeat, 2.0 * hop, 2.0 * repeat];
-    // Pairs of instants with the joint between them, before it and after it.
-    let mut sums = [(0.0, 0.0); 8];
-    for seed in 0..60 {
-        let mut wind =
-            Wind::uniform(Isa::detect(), &streams(&air, seed), EDDIES, 0.0).expect("fibres that agree");
-        for place in [0.2, 0.5, 0.8] {
-            for ((n, sum), lag) in sums.iter_mut().zip(lags) {
-                let start = 3.0 * hop + 0.25 * repeat * place - 0.5 * lag.min(0.1 * repeat);
-                let [first, then] = [start, start + lag].map(|t| wind.at(t));
+    let places = [0.2, 0.5, 0.8];
+    for lag in lags {
+        // Pairs of instants with the joint between them, before it and after it.
+        let pairs = places.map(|place| {
+            let start = 3.0 * hop + fade * place - 0.5 * lag.min(0.1 * repeat);
+            (start, start + lag)
+        });
+        let (mut n, mut sum) = (0.0, 0.0);
+        for seed in 0..60 {
+            let mut wind =
+                Wind::uniform(Isa::detect(), &streams(&air, seed), EDDIES, 0.0).expect("fibres that agree");
+            for (start, end) in pairs {
+                let [first, then] = [start, end].map(|t| wind.at(t));
                 for (a, b) in first.iter().zip(&then) {
                     for lane in 0..WIDTH {
                         let (a, b) = (a.lane(lane), b.lane(lane));
-                        *sum += (a.y * b.y + a.z * b.z) / (2.0 * air.rms().powi(2));
-                        *n += 1.0;
+                        sum += (a.y * b.y + a.z * b.z) / (2.0 * air.rms().powi(2));
+                        n += 1.0;
                     }
                 }
             }
         }
-    }
-    for ((n, sum), lag) in sums.into_iter().zip(lags) {
-        // In the fade the products lose the cosine of the angle that it turns by in the lag: theory.md (50).
-        let angle = 0.5 * PI * lag / (0.25 * repeat);
-        let faded = if angle < 0.5 * PI { angle.cos() } else { 0.0 };
-        let (sinc, lost) = ((cutoff * lag).sin() / (cutoff * lag), 1.0 - faded);
-        let found = sum / n;
+        let of_pair = |(start, end): (f64, f64)| {
+            (0..12).map(|k| weight(k, start) * weight(k, end)).sum::<f64>() * within(lag)
+        };
+        let (found, expected) = (sum / n, pairs.map(of_pair).iter().sum::<f64>() / places.len() as f64);
         // Products of two normal variables scatter by one, or √2 where they are the same; three places of one
-        // signal count as one.
-        let bound = 4.0 * (3.0_f64 / n).sqrt() * (1.0 + sinc * sinc).sqrt() / 2f64.sqrt() + lost * sinc.abs();
-        assert!((found - sinc).abs() < bound, "lag {lag} s: {found}, expected {sinc} within {bound}");
+        // signal count as one, and y and z as two.
+        let bound = 4.0 * (3.0_f64 / n).sqrt() * ((1.0 + expected * expected) / 2.0).sqrt();
+        assert!((found - expected).abs() < bound, "lag {lag} s: {found}, expected {expected} within {bound}");
     }
 }
 
@@ -350,13 +373,22 @@ fn stat_spectrum_of_many_windows_is_flat_to_the_cutoff_and_nothing_above() {
     let wanted = air.rms().powi(2) / air.cutoff_frequency;
     for (f, density) in spectrum.finish().points() {
         if f > 4.0 && f < 96.0 {
-            let error = 4.0 / (0.5 * segments as f64).sqrt();
-            assert!((density / wanted - 1.0).abs() < error, "{f} Hz: {} of {wanted}", density);
+            assert_flat(density / wanted, segments, f);
         } else if f > 110.0 {
-            // A fade over 0.32 s widens a line as the analysis does, whose window is twice as long: what it
-            // lets through falls as the third power of the distance.
-            let k = (f - air.cutoff_frequency) * segment as f64 * interval;
-            assert!(density < 0.5 * wanted / (k - 1.0).powi(3), "{f} Hz: {density:e}, {k} steps off");
+            // A window has two corners where the fade begins or ends with the slope s = π/2F, so its transform is at
+            // most 2s/ω². All lines up to the cut-off at a distance of Δ or more add up to ∫ 4s²/(hop ω⁴) df from Δ
+            // on. The Hann window of the analysis reaches two steps; sampling mirrors what lies above its half.
+            let (fade, hop) = (0.25 * air.repeat_time(), 0.75 * air.repeat_time());
+            let step = 1.0 / (segment as f64 * interval);
+            let corners = |off: f64| 1.0 / (48.0 * PI * PI * fade * fade * hop * (off - 2.0 * step).powi(3));
+            let (off, image) = (f - air.cutoff_frequency, 1.0 / interval - f - air.cutoff_frequency);
+            let hann = 2.0 / (15.0 * PI * PI * (off / step - 1.0).powi(5));
+            let leak = corners(off) + corners(image) + hann + 1e-12;
+            assert!(
+                density < leak * wanted,
+                "{f} Hz: {:e} of {wanted:e}, at most {leak:e}",
+                density / wanted
+            );
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Writes Parquet tables in groups of rows.
 
 use crate::failure::Failure;
-use parquet::basic::{Compression, Encoding, Repetition, Type as PhysicalType};
-use parquet::data_type::{DoubleType, Int64Type};
+use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as PhysicalType};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
@@ -25,6 +25,8 @@ pub(super) struct Column {
 pub(super) enum Holds {
     /// Whole numbers.
     Whole,
+    /// Words.
+    Text,
     /// Numbers, which may be NaN.
     Number,
     /// Finite numbers; other values are missing.
@@ -46,6 +48,7 @@ pub(super) struct Parquet {
 /// The values of a column since the last group of rows.
 enum Gathered {
     Whole(Vec<i64>),
+    Text(Vec<ByteArray>),
     Number(Vec<f64>),
     /// The known values, and for each row 1 if its value is known.
     Optional(Vec<f64>, Vec<i16>),
@@ -64,11 +67,13 @@ impl Parquet {
         let field = |column: &Column| {
             let (physical, repetition) = match column.holds {
                 Holds::Whole => (PhysicalType::INT64, Repetition::REQUIRED),
+                Holds::Text => (PhysicalType::BYTE_ARRAY, Repetition::REQUIRED),
                 Holds::Number => (PhysicalType::DOUBLE, Repetition::REQUIRED),
                 Holds::Optional => (PhysicalType::DOUBLE, Repetition::OPTIONAL),
             };
             let field = Type::primitive_type_builder(&column.name, physical);
-            field.with_repetition(repetition).build().map(Arc::new)
+            let logical = (column.holds == Holds::Text).then_some(LogicalType::String);
+            field.with_repetition(repetition).with_logical_type(logical).build().map(Arc::new)
         };
         let fields = columns.iter().map(field).collect::<Result<Vec<_>, _>>();
         let writer = fields
@@ -85,6 +90,7 @@ impl Parquet {
             .map_err(|error| Failure::table(&path, error))?;
         let empty = |column: &Column| match column.holds {
             Holds::Whole => Gathered::Whole(Vec::new()),
+            Holds::Text => Gathered::Text(Vec::new()),
             Holds::Number => Gathered::Number(Vec::new()),
             Holds::Optional => Gathered::Optional(Vec::new(), Vec::new()),
         };
@@ -99,6 +105,13 @@ impl Parquet {
         }
     }
 
+    /// Adds a word to a column of words.
+    pub(super) fn push_text(&mut self, column: usize, word: &str) {
+        if let Some(Gathered::Text(gathered)) = self.columns.get_mut(column) {
+            gathered.push(word.into());
+        }
+    }
+
     /// Adds values to a column of numbers.
     pub(super) fn extend(&mut self, column: usize, values: impl IntoIterator<Item = f64>) {
         match self.columns.get_mut(column) {
@@ -109,7 +122,7 @@ impl Parquet {
                     known.push(i16::from(value.is_finite()));
                 }
             }
-            Some(Gathered::Whole(_)) | None => {}
+            Some(Gathered::Whole(_) | Gathered::Text(_)) | None => {}
         }
     }
 
@@ -134,6 +147,7 @@ impl Parquet {
         for gathered in &mut self.columns {
             match gathered {
                 Gathered::Whole(values) => values.clear(),
+                Gathered::Text(values) => values.clear(),
                 Gathered::Number(values) => values.clear(),
                 Gathered::Optional(values, known) => {
                     values.clear();
@@ -151,6 +165,7 @@ impl Parquet {
             let Some(mut column) = group.next_column()? else { break };
             match gathered {
                 Gathered::Whole(values) => column.typed::<Int64Type>().write_batch(values, None, None)?,
+                Gathered::Text(values) => column.typed::<ByteArrayType>().write_batch(values, None, None)?,
                 Gathered::Number(values) => column.typed::<DoubleType>().write_batch(values, None, None)?,
                 Gathered::Optional(values, known) => {
                     column.typed::<DoubleType>().write_batch(values, Some(known), None)?

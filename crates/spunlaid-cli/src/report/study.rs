@@ -173,14 +173,14 @@ fn phases(study: &Study) -> &'static str {
 }
 
 fn heads(study: &Study) -> Vec<String> {
-    let inputs = study.inputs().map(|(key, _)| key.to_owned());
+    let inputs = study.inputs().map(|input| input.key.to_owned());
     inputs.chain(SHOWN.map(|(_, head, _)| head.to_owned())).chain(["n".to_owned()]).collect()
 }
 
 fn rows(study: &Study, results: &[PointResults]) -> Vec<Row> {
     let row = |(index, point): (usize, &PointResults)| {
         let values = study.points[index].values.iter().zip(study.inputs());
-        let inputs = values.map(|(value, (_, dimension))| dimension.pretty(*value));
+        let inputs = values.map(|(value, input)| input.pretty(*value));
         let results = SHOWN.map(|(name, _, factor)| {
             let measure = measure_index(name);
             plus_minus(
@@ -199,17 +199,17 @@ fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
     };
     let row = |effect: &Effect| {
         let factor = &study.factors[effect.factor];
-        let [from, to] = [effect.from, effect.to].map(|value| factor.pretty(value));
+        let [from, to] = [effect.from, effect.to].map(|value| factor.input().pretty(value));
         RankingRow {
             name: name_of_key(factor.key),
-            range: if factor.names.len() > 2 {
-                "largest difference".to_owned()
-            } else {
+            range: if factor.words.is_empty() {
                 format!("{from} to {to}")
+            } else {
+                format!("{to} instead of {from}")
             },
             cells: SHOWN
                 .iter()
-                .map(|(name, _, unit)| cell(rankings, measure_index(name), effect.factor, *unit))
+                .map(|(name, _, unit)| cell(rankings, measure_index(name), effect, *unit))
                 .collect(),
         }
     };
@@ -217,9 +217,9 @@ fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
     first.effects.iter().map(row).collect()
 }
 
-fn cell(rankings: &[Ranking], measure: usize, factor: usize, unit: f64) -> Cell {
+fn cell(rankings: &[Ranking], measure: usize, of: &Effect, unit: f64) -> Cell {
     let ranking = rankings.iter().find(|ranking| ranking.measure == measure);
-    let effect = ranking.and_then(|ranking| ranking.effects.iter().find(|effect| effect.factor == factor));
+    let effect = ranking.and_then(|ranking| ranking.effects.iter().find(|effect| effect.is_like(of)));
     effect.map_or_else(
         || Cell { text: "–".to_owned(), faint: true },
         |effect| {

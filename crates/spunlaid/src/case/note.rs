@@ -51,6 +51,12 @@ pub enum Remark {
          or more"
     )]
     FewReplicates,
+    /// A key of a study's case that has no meaning at some of its points.
+    #[error("is left out, because it needs {needed}")]
+    Unneeded {
+        /// What it needs.
+        needed: &'static str,
+    },
     /// A time step far below the one that the scheme needs.
     #[error(
         "is {} times shorter than the step that run.scheme = \"{scheme}\" needs ({}), so the run takes that much \

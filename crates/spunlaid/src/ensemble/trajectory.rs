@@ -83,7 +83,8 @@ impl KeepShapes {
     }
 }
 
-/// Computes one to eight jobs side by side to the end of their cases.
+/// Computes one to eight jobs side by side to the end of their cases. The measures are those that apply to the case of
+/// the first job, with its rest length of the elements.
 ///
 /// # Errors
 /// The jobs cannot fly together ([`Flight::new`]), a position stops being finite, or another thread stops it.

@@ -33,6 +33,15 @@ pub enum StudyFault {
     /// The key is both varied and linked.
     #[error("is both varied and linked; keep one")]
     Twice,
+    /// A range of a key that takes words.
+    #[error("takes words, which have no range; list them, as in [{}]", quoted(words))]
+    WordsInRange {
+        /// The words that it takes.
+        words: Vec<&'static str>,
+    },
+    /// A link to a key that takes words.
+    #[error("takes words, and a formula gives a number; list the words under [vary]")]
+    WordsLinked,
     /// The list of values is empty.
     #[error("has no values; list some, as in [\"5 m/s\", \"10 m/s\"], or write {{ from, to, steps }}")]
     NoValues,
@@ -134,6 +143,11 @@ pub enum StudyFault {
         /// The largest number of replicates.
         most: u64,
     },
+}
+
+/// Two words in quotes.
+fn quoted(words: &[&str]) -> String {
+    words.iter().take(2).map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ")
 }
 
 /// What is wrong with a journal, the file that holds the records of a study.

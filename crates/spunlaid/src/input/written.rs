@@ -43,6 +43,11 @@ impl Written {
         self.values.insert(key.name, said);
     }
 
+    /// Takes a value out, as if it had not been written.
+    pub(super) fn remove(&mut self, key: &str) -> Option<Said> {
+        self.values.remove(key)
+    }
+
     /// The number of a key, if it is written.
     pub(super) fn number(&self, key: &str) -> Option<f64> {
         self.get(key)?.value.as_ref()?.number()

@@ -228,6 +228,13 @@ impl Observers {
         Self(declared.map(|declared| (declared, (declared.observer)(case))).collect())
     }
 
+    /// What the observers take from a case besides what all fibres of a flight have in common: which measures apply,
+    /// and the bits of the elements' rest length. Fibres that differ in it must be observed apart.
+    pub(crate) fn setting(case: &Case) -> (Vec<bool>, u64) {
+        let applies = DECLARED.iter().map(|declared| (declared.applies)(case)).collect();
+        (applies, case.fibre.rest_length().to_bits())
+    }
+
     /// Passes a recorded instant to all observers.
     pub fn see(&mut self, seen: &Seen<'_>) {
         self.0.iter_mut().for_each(|(_, observer)| observer.see(seen));

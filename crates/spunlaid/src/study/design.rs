@@ -1,7 +1,7 @@
 //! Designs: how the values of the factors are combined into points.
 
 use super::sobol::{MOST_DIMENSIONS, Sobol};
-use super::{Use, stream};
+use super::{Input, Use, stream};
 use crate::units::Dimension;
 use rand_chacha::rand_core::Rng;
 
@@ -14,8 +14,8 @@ pub struct Factor {
     pub dimension: Dimension,
     /// Whether it takes whole numbers only.
     pub whole: bool,
-    /// The names of a key that takes names; its values are then indices into them. Empty for numbers.
-    pub names: Vec<&'static str>,
+    /// The words of a key that takes words; its values are then indices into them. Empty for numbers.
+    pub words: Vec<&'static str>,
     /// The values it takes.
     pub levels: Levels,
 }
@@ -217,12 +217,20 @@ impl Factor {
         }
     }
 
-    /// A value for people: a quantity with its unit, or a name.
-    pub fn pretty(&self, value: f64) -> String {
-        match self.names.get(value as usize) {
-            Some(name) => (*name).to_owned(),
-            None => self.dimension.pretty(value),
+    /// Its key with dimension and words.
+    pub fn input(&self) -> Input<'_> {
+        Input { key: self.key, dimension: self.dimension, words: &self.words }
+    }
+
+    /// Its values without repetitions, in the order of the file.
+    pub fn levels(&self) -> Vec<f64> {
+        let mut levels = Vec::new();
+        for value in self.values() {
+            if !levels.contains(&value) {
+                levels.push(value);
+            }
         }
+        levels
     }
 
     /// How its values are spaced.
@@ -278,7 +286,7 @@ mod tests {
             key: "air.velocity",
             dimension: Dimension::Velocity,
             whole: false,
-            names: Vec::new(),
+            words: Vec::new(),
             levels,
         }
     }

@@ -60,10 +60,42 @@ pub struct Link {
     pub expression: Expression,
 }
 
+/// A key of the case that differs between points: a factor, or the target of a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Input<'a> {
+    /// Full key, `air.velocity`.
+    pub key: &'static str,
+    /// Physical dimension of its values.
+    pub dimension: Dimension,
+    /// The words of a key that takes words; its values are then indices into them. Empty for numbers.
+    pub words: &'a [&'static str],
+}
+
+impl Input<'_> {
+    /// The word that a value stands for; none for numbers.
+    pub fn word(&self, value: f64) -> Option<&'static str> {
+        self.words.get(value as usize).copied()
+    }
+
+    /// A value for people: a quantity with its unit, or a word.
+    pub fn pretty(&self, value: f64) -> String {
+        self.word(value).map_or_else(|| self.dimension.pretty(value), str::to_owned)
+    }
+
+    /// Name of its column in a table: the key and the SI unit of a quantity.
+    pub fn column(&self) -> String {
+        if self.words.is_empty() {
+            format!("{}{}", self.key, self.dimension.suffix())
+        } else {
+            self.key.to_owned()
+        }
+    }
+}
+
 /// A point of a study: a complete case with its seed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Values of the factors, then of the links, in SI units.
+    /// Values of the factors, then of the links: numbers in SI units, words as indices into those of the factor.
     pub values: Vec<f64>,
     /// The case, with the point's seed and the largest number of replicates that may be flown.
     pub case: Case,
@@ -109,10 +141,10 @@ impl Study {
         }
     }
 
-    /// Keys and dimensions of the points' values, in the same order.
-    pub fn inputs(&self) -> impl Iterator<Item = (&'static str, Dimension)> {
-        let factors = self.factors.iter().map(|factor| (factor.key, factor.dimension));
-        factors.chain(self.links.iter().map(|link| (link.key, link.dimension)))
+    /// The keys of the points' values, in the same order.
+    pub fn inputs(&self) -> impl Iterator<Item = Input<'_>> {
+        let linked = |link: &Link| Input { key: link.key, dimension: link.dimension, words: &[] };
+        self.factors.iter().map(Factor::input).chain(self.links.iter().map(linked))
     }
 
     /// Largest number of fibres that may be flown.

@@ -5,6 +5,7 @@ pub mod modes;
 pub mod reference;
 
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
+use spunlaid::case::{Case, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
@@ -42,6 +43,22 @@ pub fn table1_air() -> Air {
 
 pub fn paper_drag() -> Drag {
     Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh }
+}
+
+/// Table 1 of the paper, seed 1 and no spin-up, recorded every millisecond.
+pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) -> Case {
+    let run = Run {
+        time_step,
+        steps: (duration / time_step).round() as u64,
+        spin_up_steps: 0,
+        output_steps: (1e-3 / time_step).round() as u64,
+        replicates,
+        seed: 1,
+        scheme,
+        gravity: 9.81,
+        damping: 0.0,
+    };
+    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
 }
 
 /// A fibre in a vacuum.

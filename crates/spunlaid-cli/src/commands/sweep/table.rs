@@ -14,7 +14,7 @@ const SHOWN: [(usize, &str, f64); 4] =
 pub(super) fn results(study: &Study, results: &[PointResults]) -> String {
     let mut rows: Vec<Vec<String>> = Vec::new();
     let mut heads = vec!["point".to_owned()];
-    heads.extend(study.inputs().map(|(key, _)| key.rsplit('.').next().unwrap_or(key).to_owned()));
+    heads.extend(study.inputs().map(|of| of.key.rsplit('.').next().unwrap_or(of.key).to_owned()));
     heads
         .extend(SHOWN.map(|(_, head, factor)| format!("{head} {}", if factor == 1.0 { "Hz" } else { "mm" })));
     heads.push("n".to_owned());
@@ -22,7 +22,7 @@ pub(super) fn results(study: &Study, results: &[PointResults]) -> String {
     for (index, point) in results.iter().enumerate().take(LISTED) {
         let mut row = vec![(index + 1).to_string()];
         let values = study.points[index].values.iter().zip(study.inputs());
-        row.extend(values.map(|(value, (_, dimension))| dimension.pretty(*value)));
+        row.extend(values.map(|(value, input)| input.pretty(*value)));
         for (measure, _, factor) in SHOWN {
             let error = point.standard_error[measure].map(|error| error * factor);
             row.push(plus_minus(point.mean[measure] * factor, error));

@@ -59,13 +59,15 @@ fn over(
     points: &[usize],
     words: &str,
 ) -> Figure {
-    let along = Along::new(&study.factors[factor]);
+    let along = Along::of(study, factor);
     let title = format!("{} {}", group.figure.title, words.split(',').next().unwrap_or(words));
     let name = file_name(group, study.factors[factor].key);
     let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
     for (position, (measure, _)) in group.of.iter().enumerate() {
-        let spots = spots(study, results, group, *measure, (factor, &along), points);
-        chart = drawn(chart, series(group, position), &spots);
+        let aside = along.aside(position, group.of.len());
+        let spots = spots(study, results, group, *measure, (factor, &along, aside), points);
+        let series = series(group, position);
+        chart = if along.is_joined() { drawn(chart, series, &spots) } else { chart.scatter(series, &spots) };
     }
     let caption = format!("{} {words}, means over the replicates. {BARS}", group.figure.title);
     Figure::of(&chart, caption)
@@ -80,18 +82,26 @@ pub(super) fn family(
     family: usize,
 ) -> Figure {
     let (of, key) = (&study.factors[family], study.factors[along].key);
-    let place = Along::new(&study.factors[along]);
+    let place = Along::of(study, along);
     let title = format!("{} over {} and {}", group.figure.title, name_of_key(key), name_of_key(of.key));
     let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
-    for ((level, colour), dash) in of.values().into_iter().zip(COLOURS).zip(DASHES) {
+    let levels = of.levels();
+    for (index, ((level, colour), dash)) in levels.iter().copied().zip(COLOURS).zip(DASHES).enumerate() {
         let points: Vec<usize> =
             (0..results.len()).filter(|point| study.points[*point].values[family] == level).collect();
         for (position, (measure, called)) in group.of.iter().enumerate() {
             let marker = if position == 0 { Marker::Circle } else { Marker::Triangle };
-            let label = of.pretty(level);
+            let label = of.input().pretty(level);
             let series = Series { marker: Some(marker), dash, ..Series::new(&label, colour) }
                 .named(&format!("{called} at {label}"));
-            let spots = spots(study, results, group, *measure, (along, &place), &points);
+            let series_count = levels.len() * group.of.len();
+            let aside = place.aside(index * group.of.len() + position, series_count);
+            let spots = spots(study, results, group, *measure, (along, &place, aside), &points);
+            if !place.is_joined() {
+                let series = if position == 0 { series } else { series.unlabelled() };
+                chart = chart.scatter(series, &spots);
+                continue;
+            }
             let line: Vec<(f64, f64)> = spots.iter().map(|(x, y, _)| (*x, *y)).collect();
             // The legend shows the line of the first result; the table has the points with their errors.
             let joined = series.clone().drawn_only().unmarked().width(1.6);
@@ -105,8 +115,9 @@ pub(super) fn family(
         }
         _ => String::new(),
     };
+    let told = if place.is_joined() { "a colour and a dash" } else { "a colour" };
     let caption = format!(
-        "{} over {}, a colour and a dash for each value of the {}, means over the replicates.{signs} {BARS}",
+        "{} over {}, {told} for each value of the {}, means over the replicates.{signs} {BARS}",
         group.figure.title,
         name_of_key(key),
         name_of_key(of.key),
@@ -119,12 +130,12 @@ fn spots(
     results: &[PointResults],
     group: &Group,
     measure: usize,
-    (factor, along): (usize, &Along),
+    (factor, along, aside): (usize, &Along, f64),
     points: &[usize],
 ) -> Vec<Spot> {
     let spot = |point: &usize| {
         let (value, error) = group.value(&results[*point], measure);
-        (along.place(study.points[*point].values[factor]), value, error)
+        (along.place(study.points[*point].values[factor]) + aside, value, error)
     };
     let mut spots: Vec<Spot> = points.iter().map(spot).collect();
     spots.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -61,7 +61,7 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
         }
     }
     let text = |anchor| Text { size: 13.0, colour: INK, anchor, upright: true };
-    let [of_up, of_along] = [0, 1].map(|i| Along::new(&study.factors[i]));
+    let [of_up, of_along] = [0, 1].map(|i| Along::of(study, i));
     for j in some(along.len()) {
         let x = left + (j as f64 + 0.5) * w;
         svg.text((x, bottom + 18.0), &significant(of_along.place(along[j]), 3), text(Anchor::Middle));

@@ -20,7 +20,7 @@ pub(super) fn of(
     factor: usize,
 ) -> Figure {
     let varied = &study.factors[factor];
-    let along = Along::new(varied);
+    let along = Along::of(study, factor);
     let title = format!("{} over {}", group.figure.title, name_of_key(varied.key));
     let mut chart = Chart::new(&file_name(group, varied.key), &title, along.axis.clone(), group.axis());
     let (mut is_adjusted, mut left_out) = (false, false);
@@ -31,7 +31,8 @@ pub(super) fn of(
             let (mean, error) = group.value(of, *measure);
             let adjusted = ranking.map(|ranking| ranking.adjusted(study, index, factor, of.mean[*measure]));
             let value = adjusted.map_or(mean, |value| value * group.unit.per_si);
-            (along.place(study.points[index].values[factor]), value, error)
+            let aside = along.aside(position, group.of.len());
+            (along.place(study.points[index].values[factor]) + aside, value, error)
         };
         let spots: Vec<_> = results.iter().enumerate().map(spot).collect();
         is_adjusted |= ranking.is_some();
@@ -45,9 +46,11 @@ pub(super) fn of(
         left_out |= drawn.len() < spots.len();
         chart = chart.scatter(series.thinned_from(spots), &drawn);
     }
-    let how = if is_adjusted {
+    let how = if is_adjusted && along.is_joined() {
         "the mean of every point, without the fitted contributions of the other factors. Dotted: the straight line of \
          the main effect."
+    } else if is_adjusted {
+        "the mean of every point, without the fitted contributions of the other factors."
     } else {
         "the mean of every point, as it is: the study cannot separate the contributions of the other factors."
     };
@@ -61,7 +64,7 @@ pub(super) fn of(
 fn line(factor: &Factor, rankings: &[Ranking], measure: usize, index: usize) -> Option<Vec<(f64, f64)>> {
     let ranking = rankings.iter().find(|ranking| ranking.measure == measure)?;
     let effect = ranking.effects.iter().find(|effect| effect.factor == index)?;
-    if !factor.names.is_empty() {
+    if !factor.words.is_empty() {
         return None;
     }
     let (least, greatest) = factor.ends();

@@ -29,8 +29,9 @@ pub(crate) fn study_figures(study: &Study, results: &[PointResults], rankings: &
         }
         (Design::Grid, 2) => {
             let counts = [0, 1].map(|i| study.factors[i].values().len());
-            // The factor with more values is on the axis.
-            let (along, family) = if counts[0] > counts[1] { (0, 1) } else { (1, 0) };
+            // Numbers are on the axis rather than words, and the factor with more values rather than the other.
+            let rank = |i: usize| (study.factors[i].words.is_empty(), counts[i]);
+            let (along, family) = if rank(0) > rank(1) { (0, 1) } else { (1, 0) };
             for group in &groups {
                 if counts[family] <= FAMILY {
                     figures.push(curves::family(study, results, group, along, family));

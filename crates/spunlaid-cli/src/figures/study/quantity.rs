@@ -3,7 +3,7 @@
 use spunlaid::case::keys;
 use spunlaid::observe::{self, Unit};
 use spunlaid::study;
-use spunlaid::study::{Factor, MEASURES, PointResults};
+use spunlaid::study::{Design, Factor, MEASURES, PointResults, Study};
 use spunlaid::units::Dimension;
 use spunlaid_charts::Axis;
 
@@ -86,10 +86,22 @@ pub(super) struct Along {
     /// Converts SI units to the units of the axis.
     scale: f64,
     pub(super) unit: &'static str,
+    /// The values of a factor of words, in the order of the axis.
+    words: Vec<f64>,
 }
 
 impl Along {
-    pub(super) fn new(factor: &Factor) -> Self {
+    /// * `base` – a word that comes before those of the factor
+    pub(super) fn new(factor: &Factor, base: Option<f64>) -> Self {
+        let mut words = if factor.words.is_empty() { Vec::new() } else { factor.levels() };
+        if let Some(base) = base.filter(|base| !words.is_empty() && !words.contains(base)) {
+            words.insert(0, base);
+        }
+        if !words.is_empty() {
+            let names = words.iter().map(|word| factor.input().pretty(*word));
+            let axis = Axis::of_words(label_of_key(factor.key), names);
+            return Self { axis, scale: 1.0, unit: "", words };
+        }
         let (least, greatest) = factor.ends();
         let (scale, unit) = handy(factor.dimension, greatest.abs().max(least.abs()));
         let name = label_of_key(factor.key);
@@ -100,11 +112,27 @@ impl Along {
         } else {
             Axis::linear(&label)
         };
-        Self { axis, scale, unit }
+        Self { axis, scale, unit, words }
+    }
+
+    /// The axis of a factor of a study.
+    pub(super) fn of(study: &Study, factor: usize) -> Self {
+        let base = study.points.first().filter(|_| study.design == Design::OneAtATime);
+        Self::new(&study.factors[factor], base.map(|point| point.values[factor]))
     }
 
     pub(super) fn place(&self, value: f64) -> f64 {
-        value * self.scale
+        self.words.iter().position(|word| *word == value).map_or(value * self.scale, |place| place as f64)
+    }
+
+    /// Whether the values have an order and a distance, so that a line may join them.
+    pub(super) fn is_joined(&self) -> bool {
+        self.words.is_empty()
+    }
+
+    /// How far the points of one of several series stand aside, so that those of a word do not hide each other.
+    pub(super) fn aside(&self, series: usize, of: usize) -> f64 {
+        if self.is_joined() { 0.0 } else { 0.5 * ((series as f64 + 0.5) / of as f64 - 0.5) }
     }
 }
 

@@ -15,6 +15,17 @@ const TOP: f64 = 40.0;
 const SIZE: f64 = 14.0;
 const SMALL: f64 = 12.0;
 
+/// What is compared: `5 to 30 m/s`, `sakiadis instead of matsui`.
+fn change_of(study: &Study, effect: &Effect) -> String {
+    let factor = &study.factors[effect.factor];
+    let [from, to] = [effect.from, effect.to];
+    if factor.words.is_empty() {
+        let place = Along::new(factor, None);
+        return format!("{} {}", range(place.place(from), place.place(to)), place.unit).trim_end().to_owned();
+    }
+    format!("{} instead of {}", factor.input().pretty(to), factor.input().pretty(from))
+}
+
 /// The effects of all factors on a group of results.
 pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     let of_measure = |measure: usize| rankings.iter().find(|ranking| ranking.measure == measure);
@@ -24,25 +35,26 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
             Some((of_measure(*measure)?, marker, colour, *label))
         })
         .collect();
-    let order: Vec<usize> = shown
-        .first()
-        .map_or_else(Vec::new, |first| first.0.effects.iter().map(|effect| effect.factor).collect());
+    let order: &[Effect] = shown.first().map_or(&[], |first| &first.0.effects);
     let ends = |effect: &Effect| {
         let half = effect.half_width.unwrap_or(0.0);
         [effect.change - half, effect.change + half].map(|end| end * group.unit.per_si)
     };
-    let label = format!(
-        "Change of {} from the least to the greatest value ({})",
-        group.figure.words, group.unit.shown
-    );
+    let with_words = study.factors.iter().any(|factor| !factor.words.is_empty());
+    // With words, the change is told below each factor.
+    let change = if with_words { "" } else { " from the least to the greatest value" };
+    let label = format!("Change of {}{change} ({})", group.figure.words, group.unit.shown);
     let all = shown.iter().flat_map(|shown| shown.0.effects.iter().flat_map(ends)).chain([0.0]);
     let scale = Scale::fit(&Axis::linear(&label), all, 7);
 
     let height = TOP + ROW * order.len() as f64 + 58.0;
     let title = format!("Effects on the {}", group.figure.words);
     let mut svg = Svg::new(WIDTH, height, &title);
-    let names = order.iter().map(|factor| width(label_of_key(study.factors[*factor].key), SIZE));
-    let left = names.fold(120.0, f64::max).min(250.0) + 24.0;
+    let names = order.iter().flat_map(|effect| {
+        let name = width(label_of_key(study.factors[effect.factor].key), SIZE);
+        [name, width(&change_of(study, effect), SMALL)]
+    });
+    let left = names.fold(120.0, f64::max).min(280.0) + 24.0;
     let (right, bottom) = (WIDTH - 20.0, height - 58.0);
     let along = |value: f64| left + scale.place(value) * (right - left);
 
@@ -64,25 +76,14 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
         svg.text((key + 20.0, 22.5), label, style);
         key += 60.0;
     }
-    for (row, factor) in order.iter().enumerate() {
+    for (row, of) in order.iter().enumerate() {
         let y = TOP + ROW * (row as f64 + 0.5);
-        let of = &study.factors[*factor];
         let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
-        svg.text((left - 12.0, y - 2.0), label_of_key(of.key), name);
-        let place = Along::new(of);
-        let compared =
-            shown.first().and_then(|of| of.0.effects.iter().find(|effect| effect.factor == *factor));
-        let range = match (of.names.len(), compared) {
-            (0, Some(effect)) => {
-                format!("{} {}", range(place.place(effect.from), place.place(effect.to)), place.unit)
-            }
-            (2, Some(effect)) => format!("{} to {}", of.pretty(effect.from), of.pretty(effect.to)),
-            _ => "largest difference".to_owned(),
-        };
+        svg.text((left - 12.0, y - 2.0), label_of_key(study.factors[of.factor].key), name);
         let style = Text { size: SMALL, colour: GREY, anchor: Anchor::End, upright: true };
-        svg.text((left - 12.0, y + 14.0), range.trim_end(), style);
+        svg.text((left - 12.0, y + 14.0), &change_of(study, of), style);
         for (index, (ranking, marker, colour, _)) in shown.iter().enumerate() {
-            let Some(effect) = ranking.effects.iter().find(|effect| effect.factor == *factor) else {
+            let Some(effect) = ranking.effects.iter().find(|effect| effect.is_like(of)) else {
                 continue;
             };
             let y = if shown.len() == 1 { y } else { y - 8.0 + 16.0 * index as f64 };
@@ -110,9 +111,14 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
             explained.join(" and ")
         )
     };
+    let of_words = if with_words {
+        " For a factor of words it is the change of the mean from one word to another."
+    } else {
+        ""
+    };
     let caption = format!(
         "Change of the {} from the least to the greatest value of each factor, on the straight line that fits the points \
-         best while the other factors stay constant. The bars are 95 % confidence intervals; if a bar crosses zero, there \
+         best while the other factors stay constant.{of_words} The bars are 95 % confidence intervals; if a bar crosses zero, there \
          may be no effect.{explained}",
         group.figure.words,
     );
@@ -121,7 +127,13 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     for (ranking, .., label) in &shown {
         for effect in &ranking.effects {
             let half = effect.half_width.unwrap_or(f64::NAN) * group.unit.per_si;
-            let series = format!("{} over {}", label.replace('*', ""), study.factors[effect.factor].key);
+            let factor = &study.factors[effect.factor];
+            let words = if factor.words.is_empty() {
+                String::new()
+            } else {
+                format!(": {}", change_of(study, effect))
+            };
+            let series = format!("{} over {}{words}", label.replace('*', ""), factor.key);
             table.add(&series, [[effect.change * group.unit.per_si, half]]);
         }
     }

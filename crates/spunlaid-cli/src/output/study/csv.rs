@@ -26,6 +26,7 @@ impl Csv {
         self.line(row.iter().map(|value| match value {
             Value::Whole(value) => value.to_string(),
             Value::Number(value) => shortest(*value),
+            Value::Word(word) => (*word).to_owned(),
         }))
     }
 

@@ -48,7 +48,7 @@ pub(crate) fn write(
 fn point_row(study: &Study, index: usize, results: &PointResults) -> Vec<Value> {
     let point = &study.points[index];
     let mut row = vec![Value::Whole(index as i64 + 1), Value::Whole(point.case.run.seed as i64)];
-    row.extend(point.values.iter().map(|value| Value::Number(*value)));
+    row.extend(columns::values(study, index));
     row.extend([Value::Whole(results.n as i64), Value::Whole(results.lost as i64)]);
     for (mean, error) in results.mean.iter().zip(&results.standard_error) {
         row.extend([Value::Number(*mean), Value::Number(error.unwrap_or(f64::NAN))]);
@@ -63,7 +63,7 @@ fn fibre_row(study: &Study, index: usize, record: &Record) -> Vec<Value> {
         Value::Whole(record.replicate as i64 + 1),
         Value::Whole(point.case.run.seed as i64),
     ];
-    row.extend(point.values.iter().map(|value| Value::Number(*value)));
+    row.extend(columns::values(study, index));
     match record.landing {
         Landing::Measured(measured) => row.extend(measured.iter().map(|value| Value::Number(*value))),
         Landing::Lost { .. } => row.extend([Value::Number(f64::NAN); MEASURES.len()]),
@@ -76,6 +76,7 @@ fn add(table: &mut Parquet, row: &[Value]) -> Result<(), Failure> {
         match value {
             Value::Whole(value) => table.extend_whole(column, [*value]),
             Value::Number(value) => table.extend(column, [*value]),
+            Value::Word(word) => table.push_text(column, word),
         }
     }
     table.flush_when_full()

@@ -103,8 +103,9 @@ pub(super) const fn quantity(name: &'static str, dimension: Dimension, sign: Sig
     key(name, Kind::Quantity(dimension, sign), access).varies()
 }
 
+/// One of a few words, which a study may vary.
 pub(super) const fn choose(name: &'static str, names: fn() -> Vec<&'static str>, access: Access) -> Key {
-    key(name, Kind::Choice(names), access)
+    key(name, Kind::Choice(names), access).varies()
 }
 
 pub(super) const fn file(name: &'static str, kind: FileKind, access: Access) -> Key {

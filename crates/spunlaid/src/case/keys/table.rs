@@ -70,7 +70,8 @@ pub(super) static KEYS: &[Key] = &[
         .value("pinned")
         .meaning(
             "How the root is held: `pinned` can turn, `clamped` keeps its direction, `free` is not held.",
-        ),
+        )
+        .label("Root"),
     key("fibre.direction", Kind::Direction, Access {
         get: |case| Some(case.fibre.direction.into()),
         set: |case, value| {
@@ -153,7 +154,8 @@ pub(super) static KEYS: &[Key] = &[
     .meaning(
         "Direction in the field that is the fibre's x, the direction of gravity. Write `-z` if the CFD model points down \
          along −z.",
-    ),
+    )
+    .label("Direction of the fibre in the field"),
     quantity("air.field_unit", Dimension::Length, Positive, of_field!(unit))
         .value("1 m")
         .meaning(
@@ -239,7 +241,9 @@ pub(super) static KEYS: &[Key] = &[
         },
     })
     .value("flat")
-    .meaning("Shape of the turbulence spectrum: `flat` up to the cut-off frequency, von Kármán's, or a measured one from a CSV file."),
+    .meaning("Shape of the turbulence spectrum: `flat` up to the cut-off frequency, von Kármán's, or a measured one from a CSV file.")
+    .label("Shape of the spectrum")
+    .varies(),
     file("air.record", FileKind::Records, Access {
         get: |case| {
             let records = &case.air.records;
@@ -287,7 +291,8 @@ pub(super) static KEYS: &[Key] = &[
         },
     })
     .value("independent")
-    .meaning("How the turbulence is correlated along the fibre: independent eddies side by side, or a pattern that the mean flow carries along."),
+    .meaning("How the turbulence is correlated along the fibre: independent eddies side by side, or a pattern that the mean flow carries along.")
+    .label("Eddies"),
     quantity("air.decay_time", Dimension::Time, Positive, Access {
         get: |case| match case.air.eddies {
             EddyModel::Convected { decay_time } if decay_time.is_finite() => Some(Value::Number(decay_time)),
@@ -336,6 +341,7 @@ pub(super) static KEYS: &[Key] = &[
     )
     .value("matsui")
     .meaning("Law of the friction along the fibre. Source and range of each law: docs/theory.md.")
+    .label("Law of the friction along the fibre")
     .in_flight(),
     choose(
         "drag.across",
@@ -344,6 +350,7 @@ pub(super) static KEYS: &[Key] = &[
     )
     .value("ju-shambaugh")
     .meaning("Law of the drag across the fibre. Source and range of each law: docs/theory.md.")
+    .label("Law of the drag across the fibre")
     .in_flight(),
     quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative, Access {
         get: |case| case.drag.along.factor().map(Value::Number),
@@ -417,7 +424,8 @@ pub(super) static KEYS: &[Key] = &[
     .meaning("Seed of the random phases. Another seed gives other turbulence; the same seed gives the same results to the last bit."),
     choose("run.scheme", || Scheme::ALL.map(Scheme::name).to_vec(), choice!(run.scheme, Scheme::ALL))
         .value("semi-implicit-euler")
-        .meaning("Time integration: the paper's scheme has first order, `leapfrog` has second order, `implicit-tension` allows long steps."),
+        .meaning("Time integration: the paper's scheme has first order, `leapfrog` has second order, `implicit-tension` allows long steps.")
+        .label("Scheme"),
     quantity("run.gravity", Dimension::Acceleration, Any, number!(run.gravity))
         .value("9.81 m/s²")
         .meaning("Acceleration of gravity, along x.")

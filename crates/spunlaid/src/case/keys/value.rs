@@ -210,13 +210,19 @@ impl Kind {
         }
     }
 
-    /// The names that the key takes, if any.
-    pub fn names(&self) -> Vec<&'static str> {
+    /// The words that the key takes, if any.
+    pub fn words(&self) -> Vec<&'static str> {
         match self {
             Self::Choice(names) => names(),
             Self::File(FileKind::Spectrum) => SPECTRA.to_vec(),
             _ => Vec::new(),
         }
+    }
+
+    /// The words that the key takes, with an example of a file if it also takes one.
+    pub fn names(&self) -> Vec<&'static str> {
+        let file = matches!(self, Self::File(FileKind::Spectrum)).then_some("spectrum.csv");
+        self.words().into_iter().chain(file).collect()
     }
 
     /// In words, what to write.

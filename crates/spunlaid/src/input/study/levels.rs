@@ -35,6 +35,10 @@ impl<'a> Reader<'a> {
                 }
                 sound.then_some(Levels::List(values))
             }
+            DeValue::Table(_) if !varied.kind.words().is_empty() => {
+                self.reject(&entry, varied.name, StudyFault::WordsInRange { words: varied.kind.words() });
+                None
+            }
             DeValue::Table(_) => self.range(varied, entry, design),
             _ => {
                 let wanted =
@@ -47,7 +51,18 @@ impl<'a> Reader<'a> {
     }
 
     fn value(&mut self, varied: &Key, key: &str, entry: &Entry<'_>) -> Option<f64> {
+        let words = varied.kind.words();
         let read = match &entry.value {
+            DeValue::String(word) if !words.is_empty() => {
+                words.iter().position(|one| one == word).map(|i| i as f64).ok_or_else(|| {
+                    let nearest = nearest_word(word, words.iter().copied()).map(|near| format!("\"{near}\""));
+                    Fault::NotOneOf { nearest, allowed: words }
+                })
+            }
+            value if !words.is_empty() => {
+                let wanted = format!("one of the words {}", words.join(", "));
+                Err(Fault::WrongType { found: kind(value), wanted })
+            }
             value if !varied.is_whole() => number(dimension(varied), value)
                 .and_then(|value| varied.kind.fault(&Value::Number(value)).map_or(Ok(value), Err)),
             DeValue::Integer(number) => match integer(number) {

@@ -1,8 +1,8 @@
 //! Links: keys that follow from other keys by a formula.
 
 use super::super::resolve::Open;
-use super::{advice, dimension, varied};
-use crate::case::keys::Key;
+use super::{advice, dimension, numeric};
+use crate::case::keys::{self, Key};
 use crate::error::StudyFault;
 use crate::study::Link;
 use crate::units::{Expression, ExpressionFault, Powers};
@@ -20,12 +20,16 @@ pub(super) fn read(key: &Key, text: &str) -> Result<Link, StudyFault> {
     let named = READY_MADE.iter().find(|(name, of, _)| *name == text && *of == key.name);
     let expression = Expression::parse(named.map_or(text, |(.., formula)| formula))?;
     for name in expression.names() {
-        if varied(name).is_none() {
-            return Err(ExpressionFault::UnknownName { name: name.to_owned(), advice: advice(name) }.into());
+        if numeric(name).is_none() {
+            let advice = match keys::find(name) {
+                Some(_) => "a formula needs keys whose value is a number".to_owned(),
+                None => advice(name),
+            };
+            return Err(ExpressionFault::UnknownName { name: name.to_owned(), advice }.into());
         }
     }
     // Units do not depend on values, so any value serves for this check.
-    let (_, found) = expression.value(&|name| Some((1.0, Powers::of(dimension(varied(name)?)))))?;
+    let (_, found) = expression.value(&|name| Some((1.0, Powers::of(dimension(numeric(name)?)))))?;
     let wanted = Powers::of(dimension(key));
     if !found.agree(wanted) {
         let name = dimension(key).name();
@@ -75,7 +79,7 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, StudyFault)> {
 /// The first key in a link's formula that has no value: neither varied nor linked nor written in the case.
 pub(super) fn unwritten<'a>(link: &'a Link, set: &[&str], base: &Open) -> Option<&'a str> {
     let has_value =
-        |name: &str| set.contains(&name) || varied(name).is_some_and(|key| base.number(key).is_some());
+        |name: &str| set.contains(&name) || numeric(name).is_some_and(|key| base.number(key).is_some());
     link.expression.names().into_iter().find(|name| !has_value(name))
 }
 
@@ -89,10 +93,10 @@ pub(super) fn values(links: &[Link], order: &[usize], known: &dyn Fn(&str) -> Op
         let of = |name: &str| {
             let linked = links.iter().position(|link| link.key == name);
             let value = linked.map_or_else(|| known(name), |other| values[other])?;
-            Some((value, Powers::of(dimension(varied(name)?))))
+            Some((value, Powers::of(dimension(numeric(name)?))))
         };
         let value = links[i].expression.value(&of).map_or(f64::NAN, |(value, _)| value);
-        let whole = varied(links[i].key).is_some_and(Key::is_whole);
+        let whole = numeric(links[i].key).is_some_and(Key::is_whole);
         values[i] = Some(if whole { value.round() } else { value });
     }
     values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()

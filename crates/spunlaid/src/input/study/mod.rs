@@ -15,7 +15,7 @@ use super::data::DataFiles;
 use super::document::Document;
 use super::{file, resolve};
 use crate::case::Remark;
-use crate::case::keys::{self, Key};
+use crate::case::keys::{self, Key, Value};
 use crate::error::{Error, FileKind, Finding, Place};
 use crate::study::{Replicates, Study};
 use crate::units::Dimension;
@@ -102,14 +102,31 @@ fn varied(name: &str) -> Option<&'static Key> {
     keys::find(name).filter(|key| key.varies)
 }
 
+/// The key with this name, if a study may vary it and its values are numbers, as formulas need.
+fn numeric(name: &str) -> Option<&'static Key> {
+    varied(name).filter(|key| key.kind.words().is_empty())
+}
+
+/// The value of a key as a number: of a word, its place among the words of the key.
+fn level(key: &Key, value: &Value) -> Option<f64> {
+    match value {
+        Value::Text(word) => key.kind.words().iter().position(|one| one == word).map(|i| i as f64),
+        value => value.number(),
+    }
+}
+
 /// Physical dimension of a key's values.
 fn dimension(key: &Key) -> Dimension {
     key.dimension().unwrap_or(Dimension::Ratio)
 }
 
-/// A number in the form of a case file, without rounding.
+/// A value in the form of a study file, without rounding.
 fn exact(key: &Key, value: f64) -> String {
-    if key.is_whole() { format!("{value:.0}") } else { dimension(key).exact(value) }
+    match key.kind.words().get(value as usize) {
+        Some(word) => format!("\"{word}\""),
+        None if key.is_whole() => format!("{value:.0}"),
+        None => format!("\"{}\"", dimension(key).exact(value)),
+    }
 }
 
 /// Advice for a name that a study cannot vary.
@@ -120,10 +137,10 @@ fn advice(name: &str) -> String {
         _ => {}
     }
     if keys::find(name).is_some() {
-        return "take a key whose value is a number".to_owned();
+        return "take a key whose value is a number or one of a few words".to_owned();
     }
     match keys::nearest(name) {
         Some(key) if key.varies => format!("did you mean {}?", key.name),
-        _ => "write the full name of a key of the case whose value is a number, like air.velocity".to_owned(),
+        _ => "write the full name of a key of the case, like air.velocity".to_owned(),
     }
 }

@@ -4,7 +4,7 @@ use super::super::FORMAT_VERSION;
 use super::super::resolve::Open;
 use super::super::values::integer;
 use super::reader::{Entry, Reader, in_order};
-use super::{MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, dimension, links, varied};
+use super::{MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, dimension, level, links, numeric, varied};
 use crate::case::keys::{Key, nearest_word};
 use crate::error::{Fault, Finding, StudyFault};
 use crate::study::{Design, Factor, Link, MEASURES, Point, Replicates, Study};
@@ -223,6 +223,10 @@ impl<'a> Reader<'a> {
             let Some(linked) = self.varied(&entry, &key) else {
                 continue;
             };
+            if numeric(linked.name).is_none() {
+                self.reject(&entry, &key, StudyFault::WordsLinked);
+                continue;
+            }
             if factors.iter().any(|factor| factor.key == linked.name) {
                 self.reject(&entry, &key, StudyFault::Twice);
                 continue;
@@ -301,7 +305,13 @@ impl<'a> Reader<'a> {
             }
             if let Some(levels) = self.levels(varied, entry, design) {
                 let (dimension, whole) = (dimension(varied), varied.is_whole());
-                factors.push(Factor { key: varied.name, dimension, whole, names: Vec::new(), levels });
+                factors.push(Factor {
+                    key: varied.name,
+                    dimension,
+                    whole,
+                    words: varied.kind.words(),
+                    levels,
+                });
             }
         }
         factors
@@ -369,5 +379,7 @@ impl<'a> Reader<'a> {
 
 /// The value of a factor in the base case; NaN if it has none.
 pub(super) fn of_base(base: &Open, factor: &Factor) -> f64 {
-    varied(factor.key).and_then(|key| base.number(key)).unwrap_or(f64::NAN)
+    let value =
+        |key| if factor.words.is_empty() { base.number(key) } else { level(key, &key.get(&base.case)?) };
+    varied(factor.key).and_then(value).unwrap_or(f64::NAN)
 }

@@ -2,9 +2,9 @@
 
 use super::super::data::DataFiles;
 use super::super::resolve::{self, Open};
-use super::super::written::Said;
+use super::super::written::{Said, Written};
 use super::plan::{Plan, of_base};
-use super::{dimension, links, varied};
+use super::{dimension, links, numeric, varied};
 use crate::case::keys::{self, Key, Value};
 use crate::case::{Note, Remark};
 use crate::error::{Error, Fault, Place, Problem};
@@ -71,13 +71,16 @@ impl Resolver<'_> {
         let Plan { factors, links, order, replicates, seed, common_phases, .. } = self.plan;
         let known = |name: &str| match factors.iter().position(|factor| factor.key == name) {
             Some(i) => values.get(i).copied(),
-            None => self.base.number(varied(name)?),
+            None => self.base.number(numeric(name)?),
         };
         let linked = links::values(links, order, &known);
         values.extend(linked);
         let names = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
         let set: Vec<(&'static Key, f64)> = names.filter_map(varied).zip(values.iter().copied()).collect();
-        let pretty = |(key, value): &(&'static Key, f64)| dimension(key).pretty(*value);
+        let pretty = |(key, value): &(&'static Key, f64)| match value_of(key, *value) {
+            Ok(value) => key.kind.pretty(&value),
+            Err(_) => dimension(key).pretty(*value),
+        };
         let all: Vec<String> = set.iter().map(|one| format!("{} = {}", one.0.name, pretty(one))).collect();
         let (study, number, all) = (self.study.to_owned(), index + 1, all.join(", "));
         let at = Place::Point { study, number, values: all };
@@ -85,7 +88,7 @@ impl Resolver<'_> {
         for one in &set {
             let (key, value) = *one;
             let said = |value| Said { place: at.clone(), shown: Some(pretty(one)), value: Some(value) };
-            match number_of(key, value) {
+            match value_of(key, value) {
                 Ok(value) => written.set(key, said(value)),
                 Err(what) => faults.push(Problem {
                     place: at.clone(),
@@ -105,8 +108,12 @@ impl Resolver<'_> {
                 written.set(key, Said { place: at.clone(), shown, value });
             }
         }
-        match resolve::open(written, self.files).and_then(Open::resolve) {
-            Ok((case, notes)) => Ok((Point { values, case }, notes)),
+        let (opened, unneeded) = self.open(written, &set);
+        match opened.and_then(Open::resolve) {
+            Ok((case, mut notes)) => {
+                notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
+                Ok((Point { values, case }, notes))
+            }
             Err(Error::Rejected(mut problems)) => {
                 problems.iter_mut().for_each(|problem| problem.place = at.clone());
                 Err(problems.into())
@@ -116,8 +123,42 @@ impl Resolver<'_> {
     }
 }
 
-/// A number as the value of a key.
-fn number_of(key: &Key, value: f64) -> Result<Value, Fault> {
+impl Resolver<'_> {
+    /// Sets the written values. A word that varies may leave keys of the base case without a meaning, as
+    /// another drag law does with the coefficient of the first; these are left out, each with a remark.
+    fn open(&self, written: Written, set: &[(&'static Key, f64)]) -> (Result<Open, Error>, Vec<Note>) {
+        let opened = resolve::open(written.clone(), self.files);
+        let is_unneeded = |problem: &&Problem| {
+            matches!(problem.what, Fault::Needs { .. }) && set.iter().all(|(key, _)| key.name != problem.key)
+        };
+        let unneeded: Vec<Note> = match &opened {
+            Err(Error::Rejected(problems)) if self.plan.factors.iter().any(|of| !of.words.is_empty()) => {
+                let note = |problem: &Problem| match problem.what {
+                    Fault::Needs { needed, .. } => {
+                        let (place, key, value) =
+                            (problem.place.clone(), problem.key.clone(), problem.value.clone());
+                        Some(Note { place, key, value, what: Remark::Unneeded { needed } })
+                    }
+                    _ => None,
+                };
+                problems.iter().filter(is_unneeded).filter_map(note).collect()
+            }
+            _ => Vec::new(),
+        };
+        if unneeded.is_empty() {
+            return (opened, unneeded);
+        }
+        let mut fewer = written;
+        unneeded.iter().for_each(|note| drop(fewer.remove(&note.key)));
+        (resolve::open(fewer, self.files), unneeded)
+    }
+}
+
+/// A number as the value of a key: a quantity, a whole number, or the place of a word among the words of the key.
+fn value_of(key: &Key, value: f64) -> Result<Value, Fault> {
+    if let Some(word) = key.kind.words().get(value as usize) {
+        return Ok((*word).into());
+    }
     if !key.is_whole() {
         return key.kind.accept(Value::Number(value));
     }

@@ -33,10 +33,7 @@ pub(super) fn write_study(study: &Study) -> String {
     }
     text.push_str("\n[vary]\n");
     for factor in &study.factors {
-        let exact = |value: f64| match varied(factor.key) {
-            Some(key) if key.is_whole() => exact(key, value),
-            _ => format!("\"{}\"", factor.dimension.exact(value)),
-        };
+        let exact = |value: f64| varied(factor.key).map_or_else(String::new, |key| exact(key, value));
         let _ = match &factor.levels {
             Levels::List(values) => {
                 let values: Vec<String> = values.iter().map(|value| exact(*value)).collect();

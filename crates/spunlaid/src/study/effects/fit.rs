@@ -16,8 +16,8 @@ pub enum Term {
     Square(usize),
     /// `x_j x_k`.
     Product(usize, usize),
-    /// 1 where a named factor has the first name, −1 where it has the second, otherwise 0.
-    Name(usize, f64, f64),
+    /// 1 where a factor of words has the first word, −1 where it has the second, the word of reference; otherwise 0.
+    Word(usize, f64, f64),
 }
 
 impl Term {
@@ -26,18 +26,20 @@ impl Term {
             Self::Line(j) => place(j),
             Self::Square(j) => place(j) * place(j) - 1.0 / 3.0,
             Self::Product(j, k) => place(j) * place(k),
-            Self::Name(j, this, last) => f64::from(values[j] == this) - f64::from(values[j] == last),
+            Self::Word(j, this, reference) => {
+                f64::from(values[j] == this) - f64::from(values[j] == reference)
+            }
         }
     }
 
     /// Whether it belongs to this factor alone.
     pub(super) fn is_of(self, factor: usize) -> bool {
-        matches!(self, Self::Line(j) | Self::Square(j) | Self::Name(j, ..) if j == factor)
+        matches!(self, Self::Line(j) | Self::Square(j) | Self::Word(j, ..) if j == factor)
     }
 
     /// Whether it is part of the main effects.
     pub(super) fn is_main(self) -> bool {
-        matches!(self, Self::Line(_) | Self::Name(..))
+        matches!(self, Self::Line(_) | Self::Word(..))
     }
 }
 
@@ -45,7 +47,7 @@ impl Term {
 pub(super) struct Fit<'a> {
     pub(super) study: &'a Study,
     pub(super) points: Vec<usize>,
-    /// Factors whose effects it tells, with their least and greatest values.
+    /// Factors whose effects it tells, with their least and greatest values; words are in no order.
     factors: Vec<(usize, (f64, f64))>,
     pub(super) terms: Vec<Term>,
     /// `(XᵀX)⁻¹`; the first row and column belong to the constant.
@@ -97,13 +99,20 @@ impl<'a> Fit<'a> {
             if least == last {
                 return Err(Refusal::OneValue { key: study.factors[factor].key });
             }
-            if study.factors[factor].names.is_empty() {
+            let alone = study.design == Design::OneAtATime;
+            if study.factors[factor].words.is_empty() {
                 terms.push(Term::Line(factor));
-                let alone = study.design == Design::OneAtATime;
                 of.push((factor, if alone { (least, last) } else { study.factors[factor].ends() }));
             } else {
-                let others = &levels[..levels.len() - 1];
-                terms.extend(others.iter().map(|&level| Term::Name(factor, level, last)));
+                // The order of the list. A word of the base case that the list does not name comes first.
+                let mut words = study.factors[factor].levels();
+                if alone {
+                    let base = study.points[0].values[factor];
+                    words.retain(|word| *word != base);
+                    words.insert(0, base);
+                }
+                words.retain(|word| levels.contains(word));
+                terms.extend(words[1..].iter().map(|&word| Term::Word(factor, word, words[0])));
                 of.push((factor, (least, last)));
             }
         }
@@ -189,7 +198,7 @@ impl<'a> Fit<'a> {
         let others = (1..self.size()).filter(|k| *k != column);
         let nearest = others.max_by(|a, b| correlation(*a).abs().total_cmp(&correlation(*b).abs()));
         let key = |column: usize| match self.terms[column.max(1) - 1] {
-            Term::Line(j) | Term::Square(j) | Term::Product(j, _) | Term::Name(j, ..) => {
+            Term::Line(j) | Term::Square(j) | Term::Product(j, _) | Term::Word(j, ..) => {
                 self.study.factors[j].key
             }
         };
@@ -206,33 +215,26 @@ impl<'a> Fit<'a> {
         self.inverse.iter().map(|row| dot(row, xy)).collect()
     }
 
-    /// Contrasts of the coefficients that are the main effects: factor, from, to, weights.
-    pub(super) fn contrasts(&self, coefficients: &[f64]) -> Vec<Contrast> {
-        let contrast = |&(factor, (least, greatest)): &(usize, (f64, f64))| {
+    /// Contrasts of the coefficients that are the main effects.
+    pub(super) fn contrasts(&self) -> Vec<Contrast> {
+        let contrast = |(column, term): (usize, &Term)| {
             let mut weights = vec![0.0; self.size()];
-            let mut names: Vec<(f64, Vec<f64>)> = Vec::new();
-            let mut last = (greatest, vec![0.0; self.size()]);
-            for (column, term) in (1..).zip(&self.terms) {
-                match *term {
-                    Term::Line(j) if j == factor => weights[column] = 2.0,
-                    Term::Name(j, this, _) if j == factor => {
-                        let mut of_name = vec![0.0; self.size()];
-                        (of_name[column], last.1[column]) = (1.0, -1.0);
-                        names.push((this, of_name));
-                    }
-                    _ => {}
+            weights[column] = 2.0;
+            match *term {
+                Term::Line(j) => {
+                    let (least, greatest) = self.factors.iter().find(|of| of.0 == j)?.1;
+                    Some((j, least, greatest, weights))
                 }
+                Term::Word(j, this, reference) => {
+                    // The result with the word of reference is the mean over the words minus all their coefficients.
+                    let same = |other: &Term| matches!(other, Term::Word(k, ..) if *k == j);
+                    let others = (1..).zip(&self.terms).filter(|(at, other)| *at != column && same(other));
+                    others.for_each(|(at, _)| weights[at] = 1.0);
+                    Some((j, reference, this, weights))
+                }
+                Term::Square(_) | Term::Product(..) => None,
             }
-            if names.is_empty() {
-                return (factor, least, greatest, weights);
-            }
-            names.push(last);
-            if names.len() > 2 {
-                names.sort_by(|a, b| dot(&a.1, coefficients).total_cmp(&dot(&b.1, coefficients)));
-            }
-            let (from, to) = (&names[0], &names[names.len() - 1]);
-            (factor, from.0, to.0, to.1.iter().zip(&from.1).map(|(b, a)| b - a).collect())
         };
-        self.factors.iter().map(contrast).collect()
+        (1..).zip(&self.terms).filter_map(contrast).collect()
     }
 }

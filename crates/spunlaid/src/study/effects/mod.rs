@@ -8,6 +8,10 @@
 //! effect_j = 2 b_j
 //! ```
 //!
+//! A factor of words has a term for each of its words but one, and an effect for each of its words but one: the mean of
+//! the result with this word minus the mean with the word of reference, which is the first word of the list, or the
+//! word of the base case in a one-at-a-time design. No word is chosen for its result, so each interval holds by itself.
+//!
 //! | design | fit |
 //! |---|---|
 //! | one-at-a-time | one line for each factor, through its own points and the base case only |
@@ -65,14 +69,21 @@ pub struct Ranking {
 pub struct Effect {
     /// Index of the factor.
     pub factor: usize,
-    /// The value that the change starts from. For a factor with more than two names, the name with the least result.
+    /// The value that the change starts from: the least value, or the word of reference.
     pub from: f64,
-    /// The value that the change leads to. For a factor with more than two names, the name with the greatest result.
+    /// The value that the change leads to: the greatest value, or another word. There is an effect for each of them.
     pub to: f64,
     /// Change of the result.
     pub change: f64,
     /// Half the width of its 95 % confidence interval; `None` if neither replicates nor residuals tell it.
     pub half_width: Option<f64>,
+}
+
+impl Effect {
+    /// Whether it is the effect of the same change of the same factor, on another result.
+    pub fn is_like(&self, other: &Self) -> bool {
+        (self.factor, self.from, self.to) == (other.factor, other.from, other.to)
+    }
 }
 
 /// The rankings of all measures, or the reason why there are none.

@@ -28,10 +28,10 @@ impl Solution {
             Ok(fitted) => fitted,
             Err(refusal) => return Ok(Err(refusal)),
         };
-        let contrasts: Vec<_> = fitted.coefficients.iter().map(|b| fit.contrasts(b)).collect();
+        let contrasts = fit.contrasts();
         let rest = Rest::read(fit, journal, &fitted, &contrasts)?;
         let effects = (0..MEASURES.len()).map(|m| {
-            let of_contrasts = contrasts[m].iter().zip(&rest[m].contrasts);
+            let of_contrasts = contrasts.iter().zip(&rest[m].contrasts);
             of_contrasts.map(|(contrast, noise)| fitted.effect(fit, m, &rest[m], contrast, *noise)).collect()
         });
         let points = fit.points.len() as f64;
@@ -177,11 +177,10 @@ impl Rest {
         fit: &Fit<'_>,
         journal: &mut Journal,
         fitted: &Fitted,
-        contrasts: &[Vec<Contrast>],
+        contrasts: &[Contrast],
     ) -> Result<Vec<Self>, Error> {
-        let none =
-            |of: &Vec<Contrast>| Self { contrasts: vec![Variance::default(); of.len()], ..Self::default() };
-        let mut rest: Vec<Self> = contrasts.iter().map(none).collect();
+        let none = Self { contrasts: vec![Variance::default(); contrasts.len()], ..Self::default() };
+        let mut rest = vec![none; MEASURES.len()];
         for &point in &fit.points {
             let (row, results) = (fit.row(point), results_of_point(journal, point)?);
             let solved = fit.solve(&row);
@@ -196,7 +195,7 @@ impl Rest {
                 if !fit.study.common_phases {
                     let value = results.standard_error[m].map_or(0.0, |error| error * error);
                     rest.noise += value * (1.0 - leverage);
-                    for ((.., weights), sum) in contrasts[m].iter().zip(&mut rest.contrasts) {
+                    for ((.., weights), sum) in contrasts.iter().zip(&mut rest.contrasts) {
                         let value = dot(weights, &solved).powi(2) * value;
                         *sum = sum.and(Variance { value, degrees: (results.n as f64 - 1.0).max(1.0) });
                     }
