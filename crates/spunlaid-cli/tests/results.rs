@@ -141,7 +141,7 @@ fn the_summary_has_the_fields_that_are_promised() {
         assert!(energy[ledger]["median"].as_f64().unwrap() < 10.0);
     }
     let fibre = &summary["fibre"];
-    assert_eq!(keys(fibre), sorted("max_strain root_tension_n peak_root_tension_n"));
+    assert_eq!(keys(fibre), sorted("strain_99 max_strain root_tension_n peak_root_tension_n"));
     let strains: Vec<f64> =
         fibre["max_strain"]["values"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
     assert_eq!(fibre["max_strain"]["largest"].as_f64(), strains.iter().copied().reduce(f64::max));

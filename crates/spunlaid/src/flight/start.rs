@@ -84,6 +84,7 @@ impl Flight {
             steps_done: 0,
             spin_up: 0,
             end_node: EndNodeStatistics::default(),
+            root_strain: Lanes::ZERO,
         };
         // Clones made later share the first samples.
         flight.wind.prepare();
@@ -112,6 +113,7 @@ impl Flight {
         self.steps_done = 0;
         self.work = WorkDone::default();
         self.end_node = EndNodeStatistics::default();
+        self.root_strain = Lanes::ZERO;
         self.begin();
         Ok(())
     }
@@ -142,6 +144,7 @@ impl Flight {
         self.steps_done = 0;
         self.work = WorkDone::default();
         self.end_node = EndNodeStatistics::default();
+        self.root_strain = Lanes::ZERO;
         for (i, &v0) in at_rest.iter().enumerate() {
             let v = self.chain.velocity[i];
             self.chain.earlier[i] = v + (v - v0) * Lanes::splat(2.0);

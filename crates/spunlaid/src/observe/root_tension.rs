@@ -19,7 +19,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             "peak_root_tension",
             "peak_root_tension_n",
             "Tension at the root, peak",
-            "largest tension of the element at the root at the recorded instants",
+            "largest tension of the element at the root at the recorded instants. As with the largest strain, implicit tension \
+             makes it lower",
             Over::Largest,
             "peak",
         ),
