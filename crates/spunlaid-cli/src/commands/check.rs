@@ -9,7 +9,7 @@ use crate::say;
 use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::case::{Case, Note, RECORD_ON_DISK, StepLimit};
-use spunlaid::ensemble::{KeepShapes, pace};
+use spunlaid::ensemble::{KeepShapes, StepCheckPlan, pace};
 use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::units::Dimension;
@@ -125,8 +125,9 @@ impl Expected {
         const PROGRAM: f64 = 30.0 * (1u64 << 20) as f64;
         let bundles = case.run.replicates.div_ceil(WIDTH as u64);
         let busy = (threads(None) as u64).min(bundles);
-        // A bundle takes as long whether its lanes are full or not.
-        let rounds = bundles.div_ceil(busy) as f64;
+        // A bundle takes as long whether its lanes are full or not. The step check is one more, of its own length.
+        let again = StepCheckPlan::of(case).map_or(0.0, |plan| plan.share_of_run) * bundles as f64;
+        let rounds = (bundles.div_ceil(busy) as f64).max((bundles as f64 + again) / busy as f64);
         Ok(Self {
             wall_s: pace(case, Isa::detect())? * case.run.steps as f64 * rounds,
             threads: busy,

@@ -19,7 +19,7 @@ pub(crate) use paper::{PaperReport, paper_html};
 pub(crate) use study::{StudyReport, study_html};
 
 use spunlaid::case::Case;
-use spunlaid::ensemble::Results;
+use spunlaid::ensemble::{Results, StepCheck};
 use spunlaid_charts::Figure;
 
 /// Everything the report shows.
@@ -33,6 +33,8 @@ pub(crate) struct ReportInput<'a> {
     pub(crate) case_toml: &'a str,
     /// The results, with the flights that are to be seen moving.
     pub(crate) results: &'a Results,
+    /// What half the time step changes, if it was computed.
+    pub(crate) step_check: Option<&'a StepCheck>,
     /// The figures, see [`crate::figures::run_figures`].
     pub(crate) figures: &'a [Figure],
     /// Warnings and remarks for the reader.

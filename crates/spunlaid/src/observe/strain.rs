@@ -10,7 +10,7 @@ use crate::statistics::quantile;
 pub(super) const USUAL: Declaration = Declaration {
     measures: &[measure(
         "strain_99",
-        "Strain at the root, 99 % of the time",
+        "Strain, 99 % of the time",
         "strain of the element at the root that is not exceeded for 99 % of the time after the spin-up. It is averaged \
          over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over the output interval if \
          that is longer. It hardly depends on the time step; compare it with the strain that the polymer can take",
