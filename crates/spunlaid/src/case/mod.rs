@@ -146,6 +146,12 @@ impl Case {
         speed * self.fibre.diameter / self.air.kinematic_viscosity
     }
 
+    /// Time until which the air of a run has to last [s]. It is one step more than the run, because the energies at
+    /// the last instant need one more step.
+    pub(crate) fn air_horizon(&self) -> f64 {
+        self.run.duration() + self.run.time_step
+    }
+
     /// The turbulence of each eddy.
     pub fn turbulence_along(&self, eddies: &Eddies) -> Vec<EddyTurbulence> {
         self.air.turbulence_along(self.along(), self.fibre.elements, eddies)
