@@ -196,7 +196,7 @@ impl Key {
             Kind::Whole(least, most) => format!("a whole number from {least} to {most}"),
             Kind::Choice(_) => self.kind.wanted(),
             Kind::File(FileKind::Spectrum) => {
-                let names = self.kind.names().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
+                let names = self.kind.words().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
                 format!("{} or the path of a file", names.join(", "))
             }
             Kind::Direction => "three numbers, like [1.0, 0.0, 0.0]".to_owned(),
