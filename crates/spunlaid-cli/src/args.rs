@@ -107,6 +107,7 @@ If a sweep is interrupted, the same command continues it and gives the same bits
 folder holds
   report.html          for the browser: the study, table, figures, ranking
   results.csv          a row per point: seed, inputs, n, lost, then mean and standard error (_se) of every result
+  results.json         the same with the ranking
   results.parquet      the same            replicates.parquet   a row per fibre
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
   study.toml, case.toml   the study as it was run; sweeping it again gives the same bits
@@ -115,6 +116,7 @@ folder holds
 
 Examples:
   spunlaid sweep cases/studies/velocity.toml
+  spunlaid sweep cases/studies/velocity.toml --replicates 16       adds replicates to the same
   spunlaid sweep my_study.toml --print-point 7 > point7.toml && spunlaid run point7.toml";
 
 const REPRODUCE_HELP: &str = "\
@@ -248,6 +250,15 @@ pub(crate) struct Sweep {
     /// Start again; deletes the study in the output folder
     #[arg(long)]
     pub(crate) force: bool,
+    /// Set a key of the case for all points, as run.duration="2 s"; can be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Fibres at each point, in place of the study's; with more than before, a finished study goes on
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) replicates: Option<u64>,
+    /// Print results.json instead of the table
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Confirm the number of points; needed above 10000 points
     #[arg(long, value_name = "N")]
     pub(crate) points: Option<u64>,

@@ -34,6 +34,8 @@ pub(crate) enum Failure {
     OtherStudy { folder: PathBuf, differences: Vec<String> },
     /// The output folder holds a study of another version.
     OtherVersion { folder: PathBuf, version: String },
+    /// The output folder holds a study with more replicates.
+    FewerReplicates { folder: PathBuf, held: u64, asked: u64 },
     /// The paper has no such figure.
     NoSuchFigure { name: String, known: String },
     /// No key has this word.
@@ -76,6 +78,7 @@ impl Failure {
             | Self::Exists { .. }
             | Self::OtherStudy { .. }
             | Self::OtherVersion { .. }
+            | Self::FewerReplicates { .. }
             | Self::NoSuchFigure { .. }
             | Self::NoSuchKey { .. }
             | Self::NoSuchPoint { .. } => 1,
@@ -167,6 +170,12 @@ impl fmt::Display for Failure {
                  folder with --out, or start again with --force",
                 folder.display(),
                 env!("CARGO_PKG_VERSION")
+            ),
+            Self::FewerReplicates { folder, held, asked } => write!(
+                f,
+                "{}: holds {held} replicates of a point, more than the {asked} of this study; ask for {held} or more, as in \
+                 --replicates {held}, name another folder with --out, or start again with --force",
+                folder.display()
             ),
             Self::NoSuchPoint { point, points } => {
                 write!(f, "--print-point {point}: the study has {points} points, counted from 1")
@@ -283,6 +292,7 @@ mod tests {
             Failure::Exists { path: path() },
             Failure::OtherStudy { folder: path(), differences: Vec::new() },
             Failure::OtherVersion { folder: path(), version: "0".to_owned() },
+            Failure::FewerReplicates { folder: path(), held: 8, asked: 4 },
             Failure::NoSuchFigure { name: "12".to_owned(), known: "2".to_owned() },
             Failure::NoSuchPoint { point: 3, points: 2 },
             Error::Flight(FlightFault::Empty).into(),

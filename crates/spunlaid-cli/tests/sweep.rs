@@ -135,7 +135,7 @@ fn identical_to_single_runs_of_its_points() {
                 for (key, cell) in
                     [("mean", &rows[number][column]), ("standard_error", &rows[number][column + 1])]
                 {
-                    assert_eq!(of_run(&summary, name, key), cell.parse().unwrap(), "{name} {key}");
+                    assert_eq!(of_run(&summary, name, key), cell.parse::<f64>().unwrap(), "{name} {key}");
                 }
             }
         }
@@ -171,9 +171,9 @@ fn its_results_folder_is_a_study() {
 fn rejects_another_study_in_the_same_folder_showing_what_differs() {
     let place = place();
     place.swept("out", &[]);
-    fs::write(place.path("study.toml"), STUDY.replace("replicates = 3", "replicates = 4")).unwrap();
+    fs::write(place.path("study.toml"), STUDY.replace("replicates = 3", "common_phases = false")).unwrap();
     let refusal = place.refused("out", &[]);
-    assert!(refusal.contains("study.toml: replicates was 3, is 4"), "{refusal}");
+    assert!(refusal.contains("study.toml: common_phases was true, is false"), "{refusal}");
     fs::write(place.path("study.toml"), STUDY.replace("'20 m/s'", "'25 m/s'")).unwrap();
     let refusal = place.refused("out", &[]);
     assert!(
@@ -226,7 +226,7 @@ fn damage_to_the_journal_is_told_and_made_good() {
     place.swept("out", &["--force"]);
     assert_same(&before, &results(&place.path("out")));
     // Without results it is a study that was killed at its start.
-    for name in ["results.csv", "results.parquet", "replicates.parquet", "report.html"] {
+    for name in ["results.csv", "results.json", "results.parquet", "replicates.parquet", "report.html"] {
         fs::remove_file(place.path("out").join(name)).unwrap();
     }
     fs::remove_dir_all(place.path("out").join("figures")).unwrap();
@@ -246,7 +246,7 @@ fn rejects_the_journals_of_others() {
     let version = format!("version={}", env!("CARGO_PKG_VERSION"));
     for (header, told) in [
         (header.replace(&version, "version=0.0.1"), "spunlaid 0.0.1"),
-        (header.replace("format=2", "format=77"), "format 77"),
+        (header.replace("format=3", "format=77"), "format 77"),
         (header.replace("spunlaid-journal", "something-else"), "is not the journal of a study"),
     ] {
         let mut other = header.into_bytes();
@@ -344,4 +344,94 @@ fn words_of_two_factors_are_told_apart_by_the_legend() {
     }
     let numbers = fs::read_to_string(place.path(&format!("{name}.csv"))).unwrap();
     assert!(numbers.contains("y at sakiadis,ju-shambaugh,"), "{numbers}");
+}
+
+#[test]
+fn identical_when_replicates_are_added_to_a_finished_study() {
+    let place = place();
+    place.swept("grown", &["--replicates", "3"]);
+    let output = said(&place.swept("grown", &["--replicates", "11"]));
+    assert!(output.contains("continuing: 18 fibres of 66 already done"), "{output}");
+    place.swept("once", &["--replicates", "11"]);
+    assert_same(&results(&place.path("grown")), &results(&place.path("once")));
+    assert!(fs::read_to_string(place.path("grown/study.toml")).unwrap().contains("replicates = 11"));
+    let refusal = place.refused("grown", &[]);
+    assert!(
+        refusal.contains("holds 11 replicates of a point, more than the 3")
+            && refusal.contains("--replicates 11"),
+        "{refusal}"
+    );
+    // A study by need goes on to more at most, but not to another rule.
+    let by_need = |at_most: u64, share: &str| {
+        let rule =
+            format!("[replicates]\nat_least = 2\nat_most = {at_most}\nuntil = {{ amplitude_y = '{share}' }}");
+        fs::write(place.path("study.toml"), format!("{}{rule}\n", STUDY.replace("replicates = 3\n", "")))
+            .unwrap();
+    };
+    by_need(4, "5 %");
+    place.swept("need", &[]);
+    by_need(9, "5 %");
+    place.swept("need", &[]);
+    place.swept("need_once", &[]);
+    assert_same(&results(&place.path("need")), &results(&place.path("need_once")));
+    by_need(9, "4 %");
+    assert!(
+        place.refused("need", &[]).contains("study.toml: replicates.until.amplitude_y was 0.05, is 0.04")
+    );
+}
+
+#[test]
+fn keys_set_for_all_points_are_kept_with_the_study() {
+    let place = place();
+    let set = ["--set", "run.duration=30 ms", "--set", "drag.along=sakiadis"];
+    place.swept("out", &set);
+    let written = fs::read_to_string(place.path("out/study.toml")).unwrap();
+    assert!(
+        written.contains("[set]\n\"run.duration\" = \"30 ms\"\n\"drag.along\" = \"sakiadis\"\n"),
+        "{written}"
+    );
+    let again = place.spunlaid(&["sweep", "out/study.toml", "--out", "again"]).output().unwrap();
+    assert!(again.status.success(), "{}", said(&again));
+    assert_same(&results(&place.path("out")), &results(&place.path("again")));
+    // The same numbers as with the values in the case.
+    let changed = case(0.03) + "[drag]\nalong = 'sakiadis'\n";
+    fs::write(place.path("case.toml"), changed).unwrap();
+    place.swept("changed", &[]);
+    assert_eq!(csv(&place, "out"), csv(&place, "changed"));
+    let refusal = place.refused("no", &["--set", "air.velocity=3 m/s"]);
+    assert!(refusal.contains("air.velocity is set to one value for all points, and varied"), "{refusal}");
+    let refusal = place.refused("no", &["--set", "run.duration=3 m"]);
+    assert!(refusal.contains("--set run.duration = \"3 m\" is a length"), "{refusal}");
+    let refusal = place.refused("no", &["--set", "air.record=probe.csv"]);
+    assert!(refusal.contains("names a file, which a study takes from its case"), "{refusal}");
+    let refusal = place.refused("no", &["--set", "run.seed=3"]);
+    assert!(refusal.contains("write seed = 1 in the study file"), "{refusal}");
+}
+
+#[test]
+fn json_holds_what_the_table_holds() {
+    let place = place();
+    let output = place.swept("out", &["--json"]);
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(output.stdout, fs::read(place.path("out/results.json")).unwrap());
+    let rows = csv(&place, "out");
+    for (point, row) in json["points"].as_array().unwrap().iter().zip(&rows[1..]) {
+        let inputs = &point["inputs"];
+        for (head, cell) in rows[0].iter().zip(row) {
+            let value = match head.strip_suffix("_se") {
+                Some(of) => &point["results"][of]["standard_error"],
+                None if inputs.get(head).is_some() => &inputs[head],
+                None if point.get(head).is_some() => &point[head],
+                None => &point["results"][head]["mean"],
+            };
+            // The reader of JSON rounds the last digit.
+            let same = match (value.as_f64(), cell.parse::<f64>().ok()) {
+                (Some(a), Some(b)) => (a - b).abs() <= 2.0 * f64::EPSILON * b.abs(),
+                (a, b) => a == b,
+            };
+            assert!(same, "{head}: {value} {cell}");
+        }
+    }
+    let effect = &json["ranking"]["amplitude_y_m"]["effects"][0];
+    assert_eq!((effect["factor"].as_str(), effect["from"].as_f64()), (Some("air.velocity"), Some(5.0)));
 }

@@ -73,7 +73,7 @@ pub(crate) struct Performance {
 
 /// An object whose entries keep their order.
 #[derive(Debug)]
-pub(crate) struct InOrder<T>(Vec<(String, T)>);
+pub(crate) struct InOrder<T>(pub(crate) Vec<(String, T)>);
 
 impl<T: Serialize> Serialize for InOrder<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -42,6 +42,20 @@ pub enum StudyFault {
     /// A link to a key that takes words.
     #[error("takes words, and a formula gives a number; list the words under [vary]")]
     WordsLinked,
+    /// A file for all points.
+    #[error("names a file, which a study takes from its case; write it there")]
+    FileSet,
+    /// The key is both set and varied or linked.
+    #[error("is set to one value for all points, and varied or linked as well; keep one")]
+    SetTwice,
+    /// A number of replicates out of range.
+    #[error("= {asked} are asked for; ask for 1 to {most}")]
+    Replicates {
+        /// Number asked for.
+        asked: u64,
+        /// The largest number.
+        most: u64,
+    },
     /// The list of values is empty.
     #[error("has no values; list some, as in [\"5 m/s\", \"10 m/s\"], or write {{ from, to, steps }}")]
     NoValues,

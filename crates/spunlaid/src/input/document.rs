@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The value of an override that removes a key, so that its default applies.
-const AUTO: &str = "auto";
+pub(super) const AUTO: &str = "auto";
 /// The only key above the tables.
 const VERSION: &str = "version";
 
@@ -37,7 +37,7 @@ impl<'a> Document<'a> {
     ///
     /// # Errors
     /// If the text is not TOML, or if its format is newer than this library.
-    pub(super) fn read(text: &'a str, name: &str, overrides: Overrides<'a>) -> Result<Written, Error> {
+    pub(super) fn read(text: &'a str, name: &str, overrides: &[Overrides<'a>]) -> Result<Written, Error> {
         let source = Source::new(text, name);
         let written = Written::new(source.whole());
         let mut document =
@@ -52,8 +52,8 @@ impl<'a> Document<'a> {
             return Err(vec![Finding { place, key, value: None, what: Fault::IsStudy }].into());
         }
         document.take_root(root);
-        for (key, value) in overrides.values {
-            document.take_override(overrides.word, key.trim(), value);
+        for Overrides { values, word } in overrides {
+            values.iter().for_each(|(key, value)| document.take_override(word, key.trim(), value));
         }
         // A newer format may mean other things, so this check comes first.
         document.version.take().map_or(Ok(()), check_version)?;

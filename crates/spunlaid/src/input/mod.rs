@@ -13,7 +13,10 @@ mod values;
 mod write;
 mod written;
 
-pub use study::{MOST_POINTS_UNASKED, StudyFile, StudyNote, differences, parse_study, read_study};
+pub use study::{
+    MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
+    read_changed_study, read_study,
+};
 pub use write::write_case;
 
 use crate::case::{Case, Note};
@@ -86,7 +89,7 @@ fn parse_with(
     name: &str,
     overrides: Overrides<'_>,
 ) -> Result<(Case, Vec<Note>), Error> {
-    resolve::open(document::Document::read(text, name, overrides)?, files)?.resolve()
+    resolve::open(document::Document::read(text, name, &[overrides])?, files)?.resolve()
 }
 
 /// A commented case file to start from: Table 1 of the paper, with every optional key and its default.

@@ -28,6 +28,11 @@ impl<'a> Source<'a> {
         Place::File { file: self.name.clone(), line: Some(self.position(byte).0), column: None }
     }
 
+    /// The text of a value, as it is.
+    pub(super) fn exact(&self, span: Range<usize>) -> &'a str {
+        self.text.get(span).unwrap_or_default()
+    }
+
     /// The text of a value, on one line and shortened.
     pub(super) fn shown(&self, span: Range<usize>) -> String {
         fit(self.text.get(span).unwrap_or_default())

@@ -54,7 +54,12 @@ fn listed(paths: &[&Path]) -> String {
 
 /// A path as a TOML string.
 fn text(path: &Path) -> String {
-    let escaped = path.to_string_lossy().chars().fold(String::new(), |mut text, c| {
+    quoted(&path.to_string_lossy())
+}
+
+/// A text as a TOML string.
+pub(super) fn quoted(text: &str) -> String {
+    let escaped = text.chars().fold(String::new(), |mut text, c| {
         match c {
             '"' | '\\' => text.extend(['\\', c]),
             c if c.is_control() => text.push_str(&format!("\\u{:04X}", u32::from(c))),

@@ -16,7 +16,7 @@ use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 const MAGIC: &str = "spunlaid-journal";
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 /// Longest header [bytes].
 const LONGEST_HEADER: usize = 200;
 /// Length of a record [bytes].
@@ -213,6 +213,11 @@ impl Journal {
     /// Number of recorded replicates of a point.
     pub fn held(&self, point: usize) -> u64 {
         self.slots.get(point).map_or(0, |of| of.iter().filter(|slot| **slot != 0).count() as u64)
+    }
+
+    /// One more than the largest replicate that has a record, of any point.
+    pub fn most_held(&self) -> u64 {
+        self.slots.iter().map(|of| of.len() as u64).max().unwrap_or(0)
     }
 
     /// Whether a fibre has a record.

@@ -176,14 +176,19 @@ fn stream(seed: u64, purpose: Use, index: u64) -> ChaCha8Rng {
 }
 
 impl Study {
-    /// A checksum over all that the records of a study depend on: every point's whole case, and how often each
-    /// is flown.
+    /// A checksum over all that the records of a study depend on: every point's whole case, and the rule for more
+    /// replicates. How many are flown at most is left out, so that a finished study can be given more.
     pub fn identity(&self) -> u32 {
         let mut sum = crc32fast::Hasher::new();
         // Text represents every number exactly.
         let Self { factors, links, design, seed, common_phases, replicates, points } = self;
-        sum.update(format!("{factors:?}{links:?}{design:?}{seed}{common_phases}{replicates:?}").as_bytes());
-        points.iter().for_each(|point| sum.update(format!("{point:?}").as_bytes()));
+        let rule = (!replicates.until.is_empty()).then_some((replicates.at_least, &replicates.until));
+        sum.update(format!("{factors:?}{links:?}{design:?}{seed}{common_phases}{rule:?}").as_bytes());
+        for point in points {
+            let mut point = point.clone();
+            point.case.run.replicates = 0;
+            sum.update(format!("{point:?}").as_bytes());
+        }
         MEASURES.iter().for_each(|measure| sum.update(measure.column.as_bytes()));
         sum.finalize()
     }

@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::output::beside::{self, CASE_FILES};
 use crate::output::folder::Staging;
 use crate::output::leftovers;
+use spunlaid::case::MOST_REPLICATES;
 use spunlaid::error::{Error, JournalError};
 use spunlaid::input::{StudyFile, differences};
 use spunlaid::study::{Found, Header, Journal};
@@ -17,7 +18,8 @@ const CASE: &str = "case.toml";
 /// Files that describe the study.
 const DESCRIPTION: &[&str] = &[CASE_FILES, CASE, STUDY];
 /// Files that are made from the journal.
-const MADE: &[&str] = &["results.csv", "results.parquet", "replicates.parquet", "figures", "report.html"];
+const MADE: &[&str] =
+    &["results.csv", "results.json", "results.parquet", "replicates.parquet", "figures", "report.html"];
 /// Files that only `spunlaid run` writes.
 const OF_A_RUN: &[&str] = &["summary.json", "end_node.parquet", "energy.parquet"];
 
@@ -76,9 +78,15 @@ impl StudyFolder {
             Some(found) if found != wanted => return Err(folder.other(file)),
             Some(_) => {
                 let points = file.study.points.len();
-                let found = journal.go_on(points, file.study.replicates.at_most).map_err(Error::from)?;
-                // These files follow from the study, so they are restored if someone has removed them.
-                if !folder.path.join(STUDY).exists() || !folder.path.join(CASE).exists() {
+                let found = journal.go_on(points, MOST_REPLICATES).map_err(Error::from)?;
+                let (held, asked) = (journal.most_held(), file.study.replicates.at_most);
+                if held > asked {
+                    return Err(Failure::FewerReplicates { folder: folder.path, held, asked });
+                }
+                // These files follow from the study, so they are restored if someone has removed them. They are
+                // renewed for more replicates.
+                let was = fs::read_to_string(folder.path.join(STUDY)).unwrap_or_default();
+                if was != file.text || !folder.path.join(CASE).exists() {
                     folder.describe(file)?;
                 }
                 State::Begun(found)

@@ -15,7 +15,7 @@ use crate::say;
 use folder::StudyFolder;
 use spunlaid::ensemble::Computing;
 use spunlaid::error::Error;
-use spunlaid::input::{StudyFile, read_study, write_case};
+use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, write_case};
 use spunlaid::lanes::Isa;
 use spunlaid::study::{Journal, Landing, Progress, Study, rankings, run};
 use std::sync::atomic::AtomicU64;
@@ -25,7 +25,9 @@ use std::sync::{Mutex, PoisonError};
 const LOST_LISTED: usize = 10;
 
 pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
-    let file = read_study(&sweep.study, sweep.points)?;
+    let (points, replicates) = (sweep.points, sweep.replicates);
+    let set = Overrides { values: &sweep.set, word: "--set" };
+    let file = read_changed_study(&sweep.study, &StudyChanges { points, replicates, set })?;
     if let Some(number) = sweep.print_point {
         return print_point(&file.study, number);
     }
@@ -123,6 +125,8 @@ fn write(
     let results = output::study::write(&staging, study, journal)?;
     let rankings = rankings(study, journal)?;
     let figures = study_figures(study, &results, &rankings.of_measures);
+    let json = output::study::json(study, &results, &rankings);
+    staging.write("results.json", json.as_bytes())?;
     let refusal = rankings.refusal.filter(|_| study.factors.len() > 1).map(|refusal| refusal.to_string());
     output::pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let report = study_html(&StudyReport {
@@ -140,7 +144,9 @@ fn write(
     staging.write("report.html", report)?;
     staging.publish()?;
     let flown: u64 = results.iter().map(|point| point.n + point.lost).sum();
-    if !sweep.quiet {
+    if sweep.json {
+        say::text(&json);
+    } else if !sweep.quiet {
         say::text(&table::results(study, &results));
         if let Some(refusal) = &refusal {
             say::line(&format!("the keys are not ranked: {refusal}"));

@@ -2,6 +2,9 @@
 
 mod columns;
 mod csv;
+mod json;
+
+pub(crate) use json::json;
 
 use self::columns::Value;
 use super::folder::Staging;

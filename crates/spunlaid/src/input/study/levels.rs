@@ -79,11 +79,10 @@ impl<'a> Reader<'a> {
 
     fn range(&mut self, varied: &Key, entry: Entry<'a>, design: Design) -> Option<Levels> {
         const KEYS: [&str; 4] = ["from", "to", "steps", "spacing"];
-        let Entry { at, place, shown, value } = entry;
-        let DeValue::Table(table) = value else {
+        let mut whole = entry;
+        let DeValue::Table(table) = std::mem::replace(&mut whole.value, DeValue::Boolean(true)) else {
             return None;
         };
-        let mut whole = Entry { at, place, shown, value: DeValue::Boolean(true) };
         let (mut ends, mut steps, mut spacing, mut sound) = ([None; 2], None, Spacing::Linear, true);
         for ((at, name), value) in in_order(table) {
             let (key, entry) = (format!("{}.{name}", varied.name), self.entry(at, value));

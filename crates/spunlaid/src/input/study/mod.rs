@@ -13,7 +13,7 @@ pub use points::StudyNote;
 
 use super::data::DataFiles;
 use super::document::Document;
-use super::{file, resolve};
+use super::{Overrides, file, resolve};
 use crate::case::Remark;
 use crate::case::keys::{self, Key, Value};
 use crate::error::{Error, FileKind, Finding, Place};
@@ -45,6 +45,28 @@ pub struct StudyFile {
     pub text: String,
 }
 
+/// What is asked of a study besides its file.
+#[derive(Clone, Copy, Debug)]
+pub struct StudyChanges<'a> {
+    /// The number of points requested; required above [`MOST_POINTS_UNASKED`].
+    pub points: Option<u64>,
+    /// Number of replicates of every point, in place of that of the file.
+    pub replicates: Option<u64>,
+    /// Keys that are the same at all points, in place of those of the file's table `[set]` and of its case.
+    pub set: Overrides<'a>,
+}
+
+impl StudyChanges<'_> {
+    fn sets(&self, key: &str) -> bool {
+        self.set.values.iter().any(|(other, _)| other.trim() == key)
+    }
+
+    /// No changes, with this number of points requested.
+    pub const fn points(points: Option<u64>) -> Self {
+        Self { points, replicates: None, set: Overrides { values: &[], word: "override" } }
+    }
+}
+
 /// Reads a study file and the case it names, and resolves and checks every point.
 ///
 /// * `points` – the number of points requested; required above [`MOST_POINTS_UNASKED`]
@@ -52,9 +74,17 @@ pub struct StudyFile {
 /// # Errors
 /// When a file cannot be read, and when the study or any of its points is wrong; the error lists all problems.
 pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Error> {
+    read_changed_study(path, &StudyChanges::points(points))
+}
+
+/// [`read_study`] with changes.
+///
+/// # Errors
+/// As [`read_study`].
+pub fn read_changed_study(path: &Path, changes: &StudyChanges<'_>) -> Result<StudyFile, Error> {
     let text = file::read(path, FileKind::Study)?;
     let beside = |case: &str| path.parent().map_or_else(|| PathBuf::from(case), |folder| folder.join(case));
-    parse_study(&text, &path.display().to_string(), points, |case| {
+    parse_changed_study(&text, &path.display().to_string(), changes, |case| {
         let case = beside(case);
         Ok((file::read(&case, FileKind::Case)?, case.display().to_string()))
     })
@@ -72,14 +102,34 @@ pub fn parse_study(
     points: Option<u64>,
     case: impl FnOnce(&str) -> Result<(String, String), Error>,
 ) -> Result<StudyFile, Error> {
+    parse_changed_study(text, name, &StudyChanges::points(points), case)
+}
+
+/// [`parse_study`] with changes.
+///
+/// # Errors
+/// As [`read_study`].
+pub fn parse_changed_study(
+    text: &str,
+    name: &str,
+    changes: &StudyChanges<'_>,
+    case: impl FnOnce(&str) -> Result<(String, String), Error>,
+) -> Result<StudyFile, Error> {
     let mut reader = reader::Reader::new(text, name)?;
     let (case_text, case_name) = match reader.case() {
         Some(named) => case(&named)?,
         None => return Err(reader.rejected()),
     };
     let files = DataFiles::default();
-    let base = resolve::open(Document::read(&case_text, &case_name, (&[]).into())?, &files)?;
-    let plan = reader.plan(&base, points);
+    let set = reader.set(changes.set);
+    if reader.has_problems() {
+        return Err(reader.rejected());
+    }
+    let word = format!("{name}: [set]");
+    let of_file: Vec<_> = set.iter().filter(|(key, _)| !changes.sets(key)).cloned().collect();
+    let overrides = [Overrides { values: &of_file, word: &word }, changes.set];
+    let base = resolve::open(Document::read(&case_text, &case_name, &overrides)?, &files)?;
+    let plan = reader.plan(&base, &set, changes);
     let Some(plan) = plan else {
         return Err(reader.rejected());
     };
@@ -93,7 +143,7 @@ pub fn parse_study(
         notes.push(StudyNote { note, points: resolved.len() as u64, all: true });
     }
     let study = plan.study(resolved);
-    let text = write::write_study(&study);
+    let text = write::write_study(&study, &set);
     Ok(StudyFile { study, notes, case_path: PathBuf::from(&case_name), case_text, text })
 }
 

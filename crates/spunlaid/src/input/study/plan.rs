@@ -1,15 +1,23 @@
 //! The plan of a study: its file, checked as far as it can be before its points are made.
 
-use super::super::FORMAT_VERSION;
+use super::super::document::AUTO;
 use super::super::resolve::Open;
+use super::super::source::fit;
 use super::super::values::integer;
+use super::super::write::quoted;
+use super::super::{FORMAT_VERSION, Overrides};
 use super::reader::{Entry, Reader, in_order};
-use super::{MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, dimension, level, links, numeric, varied};
-use crate::case::keys::{Key, nearest_word};
-use crate::error::{Fault, Finding, StudyFault};
+use super::{
+    MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, StudyChanges, dimension, level, links, numeric, varied,
+};
+use crate::case::keys::{self, Key, Kind, nearest_word};
+use crate::error::{Fault, Finding, Place, StudyFault};
 use crate::study::{Design, Factor, Link, MEASURES, Point, Replicates, Study};
 use crate::units::Dimension;
 use toml::de::DeValue;
+
+/// Largest number of replicates of a point.
+const MOST_REPLICATES: u64 = 1_000_000;
 
 /// A study before its points are made.
 pub(super) struct Plan {
@@ -63,15 +71,79 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The keys that are the same at all points, with their values as text: those of the file, and then those asked for
+    /// from outside, which replace them.
+    pub(super) fn set(&mut self, asked: Overrides<'_>) -> Vec<(String, String)> {
+        let mut set: Vec<(String, String)> = Vec::new();
+        if let Some(entry) = self.entries.remove("set") {
+            let DeValue::Table(table) = entry.value else {
+                self.wrong_type(&entry, "set", "a table, [set]");
+                return set;
+            };
+            for (key, entry) in self.flat(table) {
+                self.check_set(&key, &entry);
+                set.push((key, entry.text.to_owned()));
+            }
+        }
+        for (key, text) in asked.values {
+            let key = key.trim().to_owned();
+            // What is not TOML is a text.
+            let value = DeValue::parse(text).map_or(DeValue::String(text.into()), |value| value.into_inner());
+            let place = Place::Override(asked.word.to_owned());
+            let entry = Entry { at: 0, place, shown: Some(fit(text)), text, value };
+            self.check_set(&key, &entry);
+            let written = if DeValue::parse(text).is_ok() { text.clone() } else { quoted(text) };
+            set.retain(|(other, _)| *other != key);
+            set.push((key, written));
+        }
+        set
+    }
+
+    /// Refuses to set what a study takes from elsewhere.
+    fn check_set(&mut self, name: &str, entry: &Entry<'_>) {
+        let Some(key) = keys::find(name) else {
+            return;
+        };
+        if matches!(key.name, "run.replicates" | "run.seed") {
+            self.reject(entry, name, StudyFault::NotVaried { advice: super::advice(name) });
+        }
+        let is_word = |word: &str| word == AUTO || key.kind.words().contains(&word);
+        if matches!(key.kind, Kind::File(_)) && !entry.value.as_str().is_some_and(is_word) {
+            self.reject(entry, name, StudyFault::FileSet);
+        }
+    }
+
+    /// Refuses keys that are both set and varied or linked.
+    fn check_once(&mut self, set: &[(String, String)], factors: &[Factor], links: &[Link]) {
+        let varied = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
+        for key in varied.filter(|key| set.iter().any(|(set, _)| set == key)) {
+            self.reject_whole(key, StudyFault::SetTwice);
+        }
+    }
+
     /// The plan; `None` if the file has problems.
-    pub(super) fn plan(&mut self, base: &Open, asked: Option<u64>) -> Option<Plan> {
+    ///
+    /// * `set` – the keys that are the same at all points
+    pub(super) fn plan(
+        &mut self,
+        base: &Open,
+        set: &[(String, String)],
+        changes: &StudyChanges<'_>,
+    ) -> Option<Plan> {
         let design_entry = self.entries.remove("design");
         let design = self.design(design_entry.as_ref());
         let seed = self.whole("seed", 0, u64::MAX).unwrap_or(base.case.run.seed);
         let common_phases = self.truth("common_phases").unwrap_or(true);
-        let replicates = self.replicates(base);
+        let mut replicates = self.replicates(base);
+        if let Some(asked) = changes.replicates {
+            if !(1..=MOST_REPLICATES).contains(&asked) {
+                self.reject_whole("replicates", StudyFault::Replicates { asked, most: MOST_REPLICATES });
+            }
+            replicates = Replicates::fixed(asked);
+        }
         let factors = self.factors(design);
         let links = self.links(&factors, base);
+        self.check_once(set, &factors, &links);
         if !self.problems.is_empty() {
             return None;
         }
@@ -80,7 +152,7 @@ impl<'a> Reader<'a> {
             self.combination(design_entry, design, &factors, base);
         }
         if self.problems.is_empty() {
-            self.size(design_entry.as_ref(), design, &factors, base, asked, &replicates);
+            self.size(design_entry.as_ref(), design, &factors, base, changes.points, &replicates);
         }
         self.problems.is_empty().then_some(Plan {
             factors,
@@ -143,7 +215,7 @@ impl<'a> Reader<'a> {
     }
 
     fn replicates(&mut self, base: &Open) -> Replicates {
-        const MOST: u64 = 1_000_000;
+        const MOST: u64 = MOST_REPLICATES;
         const KEYS: [&str; 3] = ["at_least", "at_most", "until"];
         let Some(entry) = self.entries.remove("replicates") else {
             return Replicates::fixed(base.case.run.replicates);

@@ -9,14 +9,16 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-const KEYS: [&str; 9] =
-    ["version", "case", "design", "points", "replicates", "common_phases", "seed", "vary", "link"];
+const KEYS: [&str; 10] =
+    ["version", "case", "design", "points", "replicates", "common_phases", "seed", "set", "vary", "link"];
 
 /// A value with its place and its text in the file.
 pub(super) struct Entry<'a> {
     pub(super) at: usize,
     pub(super) place: Place,
     pub(super) shown: Option<String>,
+    /// Its whole text.
+    pub(super) text: &'a str,
     pub(super) value: DeValue<'a>,
 }
 
@@ -57,7 +59,7 @@ impl<'a> Reader<'a> {
                         reader.excused.push(key);
                         format!("did you mean {key}?")
                     }
-                    None => format!("the keys are {} and {}", KEYS[..8].join(", "), KEYS[8]),
+                    None => format!("the keys are {} and {}", KEYS[..9].join(", "), KEYS[9]),
                 };
                 reader.reject(&entry, &name, StudyFault::UnknownKey { advice });
             }
@@ -75,10 +77,11 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn entry(&self, at: usize, value: Spanned<DeValue<'a>>) -> Entry<'a> {
-        let text = self.source.shown(value.span());
-        let is_headed = value.get_ref().is_table() && !text.starts_with('{');
-        let shown = Some(text).filter(|_| !is_headed);
-        Entry { at, place: self.source.place(at), shown, value: value.into_inner() }
+        let shown = self.source.shown(value.span());
+        let is_headed = value.get_ref().is_table() && !shown.starts_with('{');
+        let shown = Some(shown).filter(|_| !is_headed);
+        let text = self.source.exact(value.span());
+        Entry { at, place: self.source.place(at), shown, text, value: value.into_inner() }
     }
 
     pub(super) fn reject(&mut self, entry: &Entry<'_>, key: &str, fault: impl Into<Fault>) {
@@ -98,6 +101,11 @@ impl<'a> Reader<'a> {
     pub(super) fn wrong_type(&mut self, entry: &Entry<'_>, key: &str, wanted: &str) {
         let fault = Fault::WrongType { found: kind(&entry.value), wanted: wanted.to_owned() };
         self.reject(entry, key, fault);
+    }
+
+    /// Whether a problem has been noted.
+    pub(super) fn has_problems(&self) -> bool {
+        !self.problems.is_empty()
     }
 
     /// All problems, in the order of the file.

@@ -9,7 +9,9 @@ use std::fmt::Write;
 /// Writes a study as TOML; it names the case `case.toml`, in the same folder.
 ///
 /// Reading the text with the same case gives exactly the same points.
-pub(super) fn write_study(study: &Study) -> String {
+///
+/// * `set` – the keys that are the same at all points, with their values as TOML
+pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
     let mut text = format!("version = {FORMAT_VERSION}\ncase = \"case.toml\"\n");
     // Writing to a text cannot fail.
     let _ = writeln!(text, "design = \"{}\"", study.design.name());
@@ -29,6 +31,12 @@ pub(super) fn write_study(study: &Study) -> String {
         text.push_str("\n[replicates.until]\n");
         for (measure, fraction) in &replicates.until {
             let _ = writeln!(text, "{} = {}", MEASURES[*measure].name, shortest(*fraction));
+        }
+    }
+    if !set.is_empty() {
+        text.push_str("\n[set]\n");
+        for (key, value) in set {
+            let _ = writeln!(text, "\"{key}\" = {value}");
         }
     }
     text.push_str("\n[vary]\n");

@@ -135,7 +135,7 @@ fn rejects_other_files_and_other_formats() {
     assert!(matches!(said(b"shopping list\n"), JournalError::Foreign { .. }));
     assert!(matches!(said(b"shopping list"), JournalError::Foreign { .. }));
     assert!(matches!(said(&[0xff; 500]), JournalError::Foreign { .. }));
-    assert!(matches!(said(b"spunlaid-journal format=2 study=zz version=1\n"), JournalError::Foreign { .. }));
+    assert!(matches!(said(b"spunlaid-journal format=3 study=zz version=1\n"), JournalError::Foreign { .. }));
     let format = said(b"spunlaid-journal format=9 version=9.9.9 study=00000000\n");
-    assert!(format.to_string().contains("format 9, but this spunlaid reads format 2"), "{format}");
+    assert!(format.to_string().contains("format 9, but this spunlaid reads format 3"), "{format}");
 }
