@@ -1,12 +1,26 @@
-//! Text as outlines of the embedded font, so that a picture needs no other font and no text layout.
+//! The embedded font: the widths of texts, and texts as outlines, so that a picture needs no other font and no text layout.
 
 use resvg::usvg::roxmltree::{Document, Node};
 use std::fmt::Write;
+use std::sync::LazyLock;
 use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 const REGULAR: &[u8] = include_bytes!("../assets/fonts/Arimo-Regular.ttf");
 const ITALIC: &[u8] = include_bytes!("../assets/fonts/Arimo-Italic.ttf");
+
+static FONTS: LazyLock<[Option<Font<'static>>; 2]> =
+    LazyLock::new(|| [REGULAR, ITALIC].map(|font| Face::parse(font, 0).ok().map(Font::new)));
+
+fn font(italic: bool) -> Option<&'static Font<'static>> {
+    FONTS[usize::from(italic)].as_ref()
+}
+
+/// Width of a piece of text [px].
+pub(crate) fn width(text: &str, italic: bool, size: f64) -> f64 {
+    font(italic)
+        .map_or(0.0, |font| font.glyphs(text).map(|(_, advance)| advance).sum::<f64>() * font.scale(size))
+}
 
 /// The SVG with each text replaced by a path. It knows what [`Svg`](crate::svg::Svg) writes: texts with one position,
 /// and pieces in them with a size, a style and a shift of the line.
@@ -15,12 +29,11 @@ const ITALIC: &[u8] = include_bytes!("../assets/fonts/Arimo-Italic.ttf");
 /// A string that is not XML.
 pub(crate) fn outlined(svg: &str) -> Result<String, resvg::usvg::roxmltree::Error> {
     let document = Document::parse(svg)?;
-    let mut faces = [REGULAR, ITALIC].map(|font| Face::parse(font, 0).ok().map(Font::new));
     let mut outlined = String::with_capacity(2 * svg.len());
     let mut done = 0;
     for text in document.descendants().filter(|node| node.has_tag_name((SVG, "text"))) {
         outlined.push_str(&svg[done..text.range().start]);
-        path(&mut outlined, text, &mut faces);
+        path(&mut outlined, text);
         done = text.range().end;
     }
     outlined.push_str(&svg[done..]);
@@ -29,7 +42,7 @@ pub(crate) fn outlined(svg: &str) -> Result<String, resvg::usvg::roxmltree::Erro
 
 const SVG: &str = "http://www.w3.org/2000/svg";
 
-fn path(svg: &mut String, text: Node<'_, '_>, faces: &mut [Option<Font<'_>>; 2]) {
+fn path(svg: &mut String, text: Node<'_, '_>) {
     let number = |node: Node<'_, '_>, name| -> Option<f64> { node.attribute(name)?.parse().ok() };
     let size = number(text, "font-size").unwrap_or(16.0);
     let (x, y) = (number(text, "x").unwrap_or(0.0), number(text, "y").unwrap_or(0.0));
@@ -39,7 +52,7 @@ fn path(svg: &mut String, text: Node<'_, '_>, faces: &mut [Option<Font<'_>>; 2])
         let of_span = |name| number(span?, name);
         pen.y += of_span("dy").unwrap_or(0.0);
         let italic = span.is_some_and(|span| span.attribute("font-style") == Some("italic"));
-        if let Some(font) = &mut faces[usize::from(italic)] {
+        if let Some(font) = font(italic) {
             font.write(piece.text().unwrap_or_default(), of_span("font-size").unwrap_or(size), &mut pen);
         }
     }
@@ -79,18 +92,29 @@ impl<'a> Font<'a> {
         Self { face, pairs }
     }
 
+    /// Pixels per unit of the font.
+    fn scale(&self, size: f64) -> f64 {
+        size / f64::from(self.face.units_per_em())
+    }
+
+    /// The glyphs of a text, each with its distance to the next one [units of the font].
+    fn glyphs(&self, text: &str) -> impl Iterator<Item = (GlyphId, f64)> {
+        // The first glyph of a font shows that a character is missing.
+        let glyph = |c| self.face.glyph_index(c).unwrap_or(GlyphId(0));
+        let next = text.chars().skip(1).map(move |c| Some(glyph(c))).chain([None]);
+        text.chars().map(glyph).zip(next).map(|(glyph, next)| {
+            let closer = next.map_or(0, |next| self.closer(glyph, next));
+            let advance = self.face.glyph_hor_advance(glyph).unwrap_or(0);
+            (glyph, f64::from(advance) + f64::from(closer))
+        })
+    }
+
     /// Draws a piece of text and moves the pen behind it.
-    fn write(&mut self, text: &str, size: f64, pen: &mut Pen) {
-        pen.scale = size / f64::from(self.face.units_per_em());
-        let mut before = None;
-        for c in text.chars() {
-            // The first glyph of a font shows that a character is missing.
-            let glyph = self.face.glyph_index(c).unwrap_or(GlyphId(0));
-            if let Some(before) = before.replace(glyph) {
-                pen.x += f64::from(self.closer(before, glyph)) * pen.scale;
-            }
+    fn write(&self, text: &str, size: f64, pen: &mut Pen) {
+        pen.scale = self.scale(size);
+        for (glyph, advance) in self.glyphs(text) {
             self.face.outline_glyph(glyph, pen);
-            pen.x += f64::from(self.face.glyph_hor_advance(glyph).unwrap_or(0)) * pen.scale;
+            pen.x += advance * pen.scale;
         }
     }
 

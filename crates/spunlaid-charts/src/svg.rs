@@ -1,5 +1,6 @@
 //! Writing SVG: numbers, escaping, text with italics and superscripts.
 
+use crate::glyphs;
 use crate::palette::{Marker, PAPER};
 use std::fmt::Write;
 
@@ -150,8 +151,11 @@ impl Svg {
         let turn = if style.upright { String::new() } else { format!(" transform=\"rotate(-90 {x} {y})\"") };
         let _ = writeln!(
             self.body,
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\" fill=\"{}\"{turn}>{}</text>",
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\" textLength=\"{}\" \
+             lengthAdjust=\"spacingAndGlyphs\" fill=\"{}\"{turn}>{}</text>",
             number(style.size),
+            // Another font is fitted to the width that the layout counts on.
+            number(width(text, style.size)),
             style.colour,
             spans(text, style.size)
         );
@@ -281,6 +285,9 @@ pub(crate) fn upright(text: &str) -> String {
     pieces(text).into_iter().filter(upright).map(|(_, piece)| piece).collect()
 }
 
+/// Size of raised and lowered text, as a share of the text beside it.
+const SMALL: f64 = 0.72;
+
 fn spans(text: &str, size: f64) -> String {
     let mut svg = String::new();
     // How far the baseline has been moved, to be undone by the next piece.
@@ -299,7 +306,7 @@ fn spans(text: &str, size: f64) -> String {
         match setting {
             Setting::Italic => attributes.push_str(" font-style=\"italic\""),
             Setting::Raised | Setting::Lowered => {
-                let _ = write!(attributes, " font-size=\"{}\"", number(0.72 * size));
+                let _ = write!(attributes, " font-size=\"{}\"", number(SMALL * size));
             }
             Setting::Upright => {}
         }
@@ -313,22 +320,14 @@ fn spans(text: &str, size: f64) -> String {
     svg
 }
 
-/// Width of a label [px], near enough to place it.
+/// Width of a label [px].
 pub fn width(text: &str, size: f64) -> f64 {
-    let em = |c: char| match c {
-        'i' | 'j' | 'l' | '\'' | '|' => 0.22,
-        '.' | ',' | ' ' | '/' | 't' | 'f' | 'I' | ':' | ';' | '!' | '\u{a0}' => 0.28,
-        '(' | ')' | '[' | ']' | 'r' | '-' => 0.33,
-        'm' | 'M' | 'W' => 0.84,
-        '−' | '+' | '×' | '±' | '=' => 0.58,
-        'w' | 'A'..='Z' => 0.7,
-        _ => 0.556,
+    let of = |(setting, piece): &(Setting, String)| match setting {
+        Setting::Upright => glyphs::width(piece, false, size),
+        Setting::Italic => glyphs::width(piece, true, size),
+        Setting::Raised | Setting::Lowered => glyphs::width(piece, false, SMALL * size),
     };
-    let of = |(setting, piece): &(Setting, String)| {
-        let scale = if matches!(setting, Setting::Raised | Setting::Lowered) { 0.72 } else { 1.0 };
-        piece.chars().map(em).sum::<f64>() * scale
-    };
-    pieces(text).iter().map(of).sum::<f64>() * size
+    pieces(text).iter().map(of).sum()
 }
 
 #[cfg(test)]
