@@ -88,7 +88,9 @@ impl Case {
             note("fibre.diameter", fibre.diameter, remark);
         }
         let reynolds = self.usual_reynolds_across();
-        if across == NormalLaw::JuShambaugh && there_is_air && reynolds > 0.0 {
+        // Outside of the diameters that it was fitted to, the case is warned of the law anyway.
+        let fitted = across.fitted_diameters().is_some_and(|fitted| fitted.contains(&fibre.diameter));
+        if across == NormalLaw::JuShambaugh && fitted && there_is_air && reynolds > 0.0 {
             let measured = NormalLaw::MarheinekeWegener;
             let drag = |law: NormalLaw| law.coefficient(reynolds, fibre.diameter);
             let share = drag(across) / drag(measured);
