@@ -44,6 +44,7 @@ mod chart;
 mod decimate;
 mod draw;
 mod figure;
+mod glyphs;
 mod legend;
 mod map;
 mod numbers;

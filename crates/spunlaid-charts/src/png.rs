@@ -1,13 +1,10 @@
 //! From SVG to PNG, with the embedded fonts: the same on every machine.
 
+use crate::glyphs::outlined;
 use resvg::{tiny_skia, usvg};
-use std::sync::Arc;
 
 /// Pixels of the PNG per pixel of the SVG.
 const SCALE: f32 = 2.0;
-
-const REGULAR: &[u8] = include_bytes!("../assets/fonts/Arimo-Regular.ttf");
-const ITALIC: &[u8] = include_bytes!("../assets/fonts/Arimo-Italic.ttf");
 
 /// A figure that could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -28,18 +25,8 @@ pub enum PngError {
 /// # Errors
 /// A string that is not an SVG picture or has no size.
 pub fn png(svg: &str) -> Result<Vec<u8>, PngError> {
-    let mut fonts = usvg::fontdb::Database::new();
-    fonts.load_font_data(REGULAR.to_vec());
-    fonts.load_font_data(ITALIC.to_vec());
-    // The last resort for a family that is not there is the generic serif one.
-    fonts.set_sans_serif_family("Arimo");
-    fonts.set_serif_family("Arimo");
-    let options = usvg::Options {
-        fontdb: Arc::new(fonts),
-        font_family: "Arimo".to_owned(),
-        ..usvg::Options::default()
-    };
-    let tree = usvg::Tree::from_str(svg, &options)?;
+    let svg = outlined(svg).map_err(usvg::Error::ParsingFailed)?;
+    let tree = usvg::Tree::from_str(&svg, &usvg::Options::default())?;
     let pixels = |length: f32| (length * SCALE).round() as u32;
     let (width, height) = (pixels(tree.size().width()), pixels(tree.size().height()));
     let mut pixmap = tiny_skia::Pixmap::new(width, height).ok_or(PngError::Size(width, height))?;

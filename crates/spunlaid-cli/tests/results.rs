@@ -105,7 +105,7 @@ fn the_summary_has_the_fields_that_are_promised() {
     let desk = Desk::new();
     success(&mut desk.spunlaid("run brief.toml --out r"));
     let summary = desk.summary("r");
-    let top = "schema_version spunlaid_version case elements steps replicates end_node energy fibre performance notes";
+    let top = "schema_version spunlaid_version case elements steps replicates end_node energy fibre step_check performance notes";
     let sorted = |words: &str| {
         let mut words: Vec<String> = words.split_whitespace().map(ToOwned::to_owned).collect();
         words.sort();
@@ -141,10 +141,12 @@ fn the_summary_has_the_fields_that_are_promised() {
         assert!(energy[ledger]["median"].as_f64().unwrap() < 10.0);
     }
     let fibre = &summary["fibre"];
-    assert_eq!(keys(fibre), sorted("max_strain root_tension_n peak_root_tension_n"));
+    assert_eq!(keys(fibre), sorted("strain_99 max_strain root_tension_n peak_root_tension_n"));
     let strains: Vec<f64> =
         fibre["max_strain"]["values"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
     assert_eq!(fibre["max_strain"]["largest"].as_f64(), strains.iter().copied().reduce(f64::max));
+    // Ten instants are too few to compare half the step.
+    assert!(summary["step_check"].is_null());
     let performance = &summary["performance"];
     let fields = "wall_s threads element_steps ns_per_element_step instruction_set";
     assert_eq!(keys(performance), sorted(fields));
@@ -156,6 +158,31 @@ fn the_summary_has_the_fields_that_are_promised() {
     assert_eq!(case["air"]["velocity_m_s"], 10.0);
     assert_eq!(case["drag"]["friction_coefficient"], 0.9);
     assert_eq!(case["run"]["seed"], 7);
+}
+
+#[test]
+fn the_step_is_compared_with_half_of_it() {
+    let desk = Desk::new();
+    for (scheme, explicit) in [("leapfrog", true), ("implicit-tension", false)] {
+        let scheme = format!("run.scheme={scheme}");
+        let said =
+            success(&mut desk.with("run brief.toml --out r --force", &["run.duration=50 ms", &scheme]));
+        let summary = desk.summary("r");
+        let check = &summary["step_check"];
+        assert_eq!(keys(check), ["amplitude_difference", "duration_s", "path_difference", "share_of_run"]);
+        assert_eq!(check["duration_s"].as_f64(), Some(0.05));
+        let path = &check["path_difference"];
+        assert_eq!(path["values"].as_array().unwrap().len(), 3);
+        assert!(path["mean"].as_f64().unwrap() > 0.0 && path["mean"].as_f64().unwrap() < 0.01);
+        let report = String::from_utf8(desk.read("r/report.html")).unwrap();
+        for text in [&said, &report] {
+            assert!(text.contains("3 replicates over the first 0.05 s"), "{text}");
+            assert!(text.contains("ull balance") || text.contains("nergy balance"), "{text}");
+            // The work check is for the explicit schemes.
+            assert_eq!(text.contains("Work check"), explicit, "{text}");
+        }
+        assert_eq!(summary["energy"]["work_error_percent"].is_object(), explicit);
+    }
 }
 
 #[test]
@@ -179,7 +206,7 @@ fn identical_whatever_the_threads() {
     for threads in [1, 2, 4] {
         // More than the lanes of two flights hold.
         let arguments = format!("run brief.toml --replicates 19 --threads {threads} --out t{threads}");
-        success(&mut desk.spunlaid(&arguments));
+        success(&mut desk.with(&arguments, &["run.duration=30 ms"]));
     }
     assert_identical(&desk, "t1", "t2");
     assert_identical(&desk, "t1", "t4");

@@ -93,6 +93,11 @@ impl Fibre {
         }
     }
 
+    /// Period of the slowest axial wave of a fibre whose root is held, `4L √(ρ_f/E)` [s]. theory.md (56)
+    pub fn axial_period(&self) -> f64 {
+        4.0 * self.length * (self.density / self.youngs_modulus).sqrt()
+    }
+
     /// Longest stable explicit step for axial waves, `l √(ρ_f/E)` [s].    theory.md (30)
     pub fn axial_step_limit(&self) -> f64 {
         self.rest_length() * (self.density / self.youngs_modulus).sqrt()

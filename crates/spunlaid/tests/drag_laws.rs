@@ -97,6 +97,59 @@ fn frozen_deviation_from_cylinders_in_fast_flow() {
 }
 
 #[test]
+fn published_drag_across_cotton_fibres() {
+    let numbers = |line: &str| line.split(',').filter_map(|n| n.parse().ok()).collect::<Vec<f64>>();
+    let fits: Vec<[f64; 4]> = include_str!("published/cotton_fibres.csv")
+        .lines()
+        .filter_map(|line| numbers(line).try_into().ok())
+        .collect();
+    assert_eq!(fits.len(), 2);
+    // The uncertainty of the data.
+    const MEASURED: f64 = 0.2;
+    for [from, to, factor, exponent] in fits {
+        for i in 0..=20 {
+            let re = from * (to / from).powf(f64::from(i) / 20.0);
+            let expected = factor * re.powf(-exponent);
+            let off = NormalLaw::MarheinekeWegener.coefficient(re, 12e-6) / expected - 1.0;
+            if re <= 2.0 {
+                assert!(off.abs() < MEASURED, "Re = {re}: off by {off}");
+            } else {
+                // The fit falls off faster than the drag of Wieselsberger's cylinders, which is 24 % above it at 3.18,
+                // and which the law follows to its bias of 6 % and the reading of 6 %.
+                let cylinders =
+                    4.87 * (3.18 / re).powf((13.2f64 / 4.87).ln() / (3.18f64 / 0.728).ln()) / expected;
+                assert!(off > -MEASURED && off < 1.12 * cylinders - 1.0, "Re = {re}: off by {off}");
+            }
+            // The other law is two to ten times too low for these fibres of 9 to 16 µm: a case is warned of it.
+            for diameter in [9e-6, 15e-6, 16e-6] {
+                let share = NormalLaw::JuShambaugh.coefficient(re, diameter) / expected;
+                assert!(share > 0.10 && share < 0.55, "Re = {re}, {diameter} m: {share}");
+            }
+        }
+    }
+}
+
+#[test]
+fn published_friction_of_towed_cylinders() {
+    // FEDSM2002-1123: cylinders of 0.89 mm, 30 to 150 m long, towed in sea water at 2.4 to 17.4 m/s; the drag was two
+    // to three times that of a flat plate of their length, 0.455/(log₁₀ Re_L)^2.58 (Schlichting).
+    const SEA_WATER: f64 = 1.05e-6;
+    let plate = |re: f64| 0.455 / re.log10().powf(2.58);
+    let measured = |speed: f64| {
+        let of = |length: f64| plate(speed * length / SEA_WATER);
+        (2.0 * of(150.0), 3.0 * of(30.0))
+    };
+    let re = |speed: f64| speed * 0.89e-3 / SEA_WATER;
+    let law = |factor, speed| FrictionLaw::Matsui { factor }.coefficient(re(speed), 1.0);
+    // At 2,000 the three factors of the literature, 0.37 to 0.9, span the measurements; at 15,000 all are below them.
+    let (low, high) = measured(2.4);
+    assert!(law(0.37, 2.4) < low * 1.05 && law(0.9, 2.4) > high, "{low} to {high}");
+    let (low, high) = measured(17.4);
+    assert!(law(0.9, 17.4) < low && law(0.9, 17.4) > 0.4 * high, "{low} to {high}, {}", law(0.9, 17.4));
+    assert!(law(0.37, 17.4) < 0.5 * low, "{low}, {}", law(0.37, 17.4));
+}
+
+#[test]
 fn published_friction_coefficients_worked_out_by_hand() {
     // β Re^-0.61 with the three factors of the literature: 10^-0.61 = 0.245471, 300^-0.61 = 0.0308287.
     for (law, factor) in [

@@ -7,10 +7,14 @@ mod common;
 use common::*;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, Keep, Number, Results, Trajectory, fly};
+use spunlaid::ensemble::{
+    Computing, Keep, Number, Results, StepCheck, StepCheckPlan, Trajectory, fly, fly_and_check_step,
+};
 use spunlaid::error::Error;
+use spunlaid::input::read_case;
 use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// By the paper's scheme.
@@ -178,4 +182,122 @@ fn rejects_a_flight_that_is_no_longer_finite() {
     let done: Result<(), Error> = fly(&case, Keep::NUMBERS, computing, |_| Ok(()));
     let message = done.expect_err("must blow up").to_string();
     assert!(message.contains("no longer finite") && message.contains("lower run.time_step"), "{message}");
+}
+
+/// The trajectories of a case, and what half the step changes.
+fn checked(
+    case: &Case,
+    threads: usize,
+    isa: Isa,
+    stop: bool,
+) -> Result<(Vec<Trajectory>, Option<StepCheck>), Error> {
+    let (stop, fibre_steps) = (AtomicBool::new(stop), AtomicU64::new(0));
+    let computing = Computing { threads, isa, stop: &stop, fibre_steps: &fibre_steps };
+    let (plan, mut flown) = (StepCheckPlan::of(case), Vec::new());
+    let check = fly_and_check_step(case, plan, Keep::NUMBERS, computing, |trajectory| {
+        flown.push(trajectory);
+        Ok::<(), Error>(())
+    })?;
+    let again = plan.map_or(0, |plan| plan.fibre_steps());
+    assert_eq!(fibre_steps.into_inner(), case.run.steps * case.run.replicates + again);
+    Ok((flown, check))
+}
+
+#[test]
+fn invariant_the_step_check_tells_the_error_of_the_step() {
+    let run = |scheme, h| {
+        let mut case = table1(h, 0.5, 8);
+        case.run.scheme = scheme;
+        checked(&case, 1, Isa::detect(), false).expect("the case flies")
+    };
+    let paths = |flown: &[Trajectory], instants: usize| -> Vec<Vec<V>> {
+        let across = |s: &spunlaid::observe::Sample| V { x: 0.0, ..s.end };
+        flown.iter().map(|fibre| fibre.samples[1..=instants].iter().map(across).collect()).collect()
+    };
+    let (converged, _) = run(Scheme::Leapfrog, 2e-6);
+    for (scheme, h) in [
+        (Scheme::SemiImplicitEuler, 2e-5),
+        (Scheme::Leapfrog, 2e-5),
+        (Scheme::ImplicitTension, 1e-4),
+        (Scheme::ImplicitTension, 5e-4),
+    ] {
+        let (flown, check) = run(scheme, h);
+        let check = check.expect("500 instants");
+        let instants = (check.duration / 1e-3).round() as usize;
+        // Mean over the replicates of the distance to the converged path, as a share of the amplitude.
+        let off = |fibre: &[V], exact: &[V]| {
+            let count = exact.len() as f64;
+            let mean = exact.iter().fold(V::default(), |sum, &p| sum + p) * (1.0 / count);
+            let squares = |terms: Vec<V>| terms.iter().map(|p| p.dot(*p)).sum::<f64>();
+            let error = squares(fibre.iter().zip(exact).map(|(&a, &b)| a - b).collect());
+            (error / squares(exact.iter().map(|&p| p - mean).collect())).sqrt()
+        };
+        let (own, exact) = (paths(&flown, instants), paths(&converged, instants));
+        let error = own.iter().zip(&exact).map(|(own, exact)| off(own, exact)).sum::<f64>() / 8.0;
+        // To half the step, an error of first order changes by a half of itself, one of second order by three quarters.
+        // The axial waves of the start die out under implicit tension at a rate that grows with less than the step:
+        // what is told is that the error is at most 2.5 times the difference.
+        let share = check.path.mean / error;
+        assert!((0.4..0.85).contains(&share), "{} at {h} s: {share} of {error}", scheme.name());
+        assert!(check.amplitude.mean.abs() < check.path.mean, "{} at {h} s", scheme.name());
+    }
+}
+
+#[test]
+fn identical_air_at_half_the_step_from_every_source() {
+    // In other turbulence the paths would differ by 1.4 amplitudes; stretches of a record and looks at a field
+    // depend on the run's times. A tenth of the step that the program would choose leaves next to nothing.
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    for (name, step) in [
+        ("record", "20 us"),
+        ("convected", "20 us"),
+        ("openfoam_diffuser", "10 us"),
+        ("measured_spectrum", "20 us"),
+    ] {
+        let changes = [("run.time_step", step), ("run.duration", "0.25 s"), ("run.replicates", "3")];
+        let changes = changes.map(|(key, value)| (key.to_owned(), value.to_owned()));
+        let (case, _) = read_case(&cases.join(format!("{name}.toml")), &changes).expect("the case is there");
+        let (_, check) = checked(&case, 2, Isa::detect(), false).expect("the case flies");
+        let path = check.expect("25 instants and more").path;
+        assert_eq!(path.values.len(), 3);
+        assert!(path.values.iter().all(|&path| path < 2e-3), "{name}: {:?}", path.values);
+    }
+}
+
+#[test]
+fn identical_step_checks_for_any_number_of_threads_and_any_instruction_set() {
+    let case = table1(2e-5, 0.1, 11);
+    let (expected, check) = checked(&case, 1, Isa::Baseline, false).expect("the case flies");
+    let check = format!("{:?}", check.expect("100 instants"));
+    for (a, b) in expected.iter().zip(&flights(&case, 1)) {
+        assert_same(a, b);
+    }
+    for isa in Isa::available() {
+        for threads in [1, 2, 5] {
+            let (found, again) = checked(&case, threads, isa, false).expect("the case flies");
+            assert_eq!(format!("{:?}", again.expect("as before")), check, "{} {threads}", isa.name());
+            expected.iter().zip(&found).for_each(|(a, b)| assert_same(a, b));
+        }
+    }
+    assert!(matches!(checked(&case, 2, Isa::detect(), true), Err(Error::Interrupted)));
+}
+
+#[test]
+fn step_checks_take_a_tenth_of_long_runs_and_leave_out_what_is_too_short_or_still() {
+    // One flight of 20 million steps times elements, and ten such flights.
+    for (replicates, seconds) in [(1, 0.05), (8, 0.05), (73, 0.5), (800, 1.0)] {
+        let plan = StepCheckPlan::of(&table1(1e-6, 1.0, replicates)).expect("long enough");
+        assert_eq!(plan.replicates, replicates.min(8));
+        // Eight fibres at most, two steps for one.
+        assert_eq!(plan.fibre_steps(), (2e6 * seconds) as u64 * plan.replicates);
+        assert!(plan.share_of_run <= 0.1 && (replicates == 800 || plan.share_of_run > 0.099));
+    }
+    // All of a run that takes no time anyway.
+    let plan = StepCheckPlan::of(&table1(1e-4, 0.5, 8)).expect("500 instants");
+    assert_eq!((plan.fibre_steps(), plan.share_of_run), (2 * 5000 * 8, 2.0));
+    assert!(StepCheckPlan::of(&table1(1e-4, 0.019, 8)).is_none());
+    let mut still = table1(1e-4, 0.1, 2);
+    (still.run.scheme, still.air.turbulence_intensity) = (Scheme::ImplicitTension, 0.0);
+    assert!(StepCheckPlan::of(&still).is_some());
+    assert!(checked(&still, 1, Isa::detect(), false).expect("the case flies").1.is_none());
 }

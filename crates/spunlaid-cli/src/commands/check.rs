@@ -10,7 +10,7 @@ use crate::say;
 use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::case::{Case, INSTANT_ON_DISK, Note, StepLimit};
-use spunlaid::ensemble::{KeepShapes, pace};
+use spunlaid::ensemble::{KeepShapes, StepCheckPlan, pace};
 use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::units::Dimension;
@@ -123,8 +123,9 @@ impl Expected {
         const PROGRAM: f64 = 30.0 * (1u64 << 20) as f64;
         let flights = case.run.replicates.div_ceil(WIDTH as u64);
         let busy = (threads(None) as u64).min(flights);
-        // A flight takes as long whether its lanes are full or not.
-        let rounds = flights.div_ceil(busy) as f64;
+        // A flight takes as long whether its lanes are full or not. The step check is one more, of its own length.
+        let again = StepCheckPlan::of(case).map_or(0.0, |plan| plan.share_of_run) * flights as f64;
+        let rounds = (flights.div_ceil(busy) as f64).max((flights as f64 + again) / busy as f64);
         Ok(Self {
             wall_s: pace(case, Isa::detect())? * case.run.steps as f64 * rounds,
             threads: busy,

@@ -13,7 +13,9 @@ use crate::output::{beside, paraview, pictures, table};
 use crate::report::{self, ReportInput};
 use crate::{progress, say};
 use spunlaid::case::{Case, Note};
-use spunlaid::ensemble::{Computing, Keep, KeepShapes, Results, fly, turbulence_spectrum};
+use spunlaid::ensemble::{
+    Computing, Keep, KeepShapes, Results, StepCheck, StepCheckPlan, fly_and_check_step, turbulence_spectrum,
+};
 use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
 use std::sync::atomic::AtomicU64;
@@ -36,24 +38,34 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     let computing =
         Computing { threads: threads(run.threads), isa: Isa::detect(), stop, fibre_steps: &fibre_steps };
     let started = Instant::now();
-    let results = progress::follow(
+    let plan = StepCheckPlan::of(&case);
+    let again = plan.map_or(0, |plan| plan.fibre_steps());
+    let (results, check) = progress::follow(
         &fibre_steps,
-        case.run.steps * case.run.replicates,
+        case.run.steps * case.run.replicates + again,
         &format!("flying {}", plural(case.run.replicates, "fibre")),
         run.quiet,
-        || flights(&case, computing, staging.as_ref()),
+        || flights(&case, plan, computing, staging.as_ref()),
     )?;
-    let performance = performance(&case, computing, started.elapsed().as_secs_f64());
+    let performance = performance(&case, plan, computing, started.elapsed().as_secs_f64());
 
     let mut notes: Vec<String> = notes.iter().map(Note::to_string).collect();
     if let Some(outside) = outside(&results) {
         say::warning(&outside);
         notes.push(outside);
     }
-    let summary = Summary::new(&case, &results, performance, notes.clone()).to_json();
+    let summary = Summary::new(&case, &results, check.as_ref(), performance, notes.clone()).to_json();
     if let Some(staging) = staging {
         let name = stem(&run.source.case, "run").to_string_lossy().into_owned();
-        let written = Written { name, case: &case, results: &results, notes, performance, summary: &summary };
+        let written = Written {
+            name,
+            case: &case,
+            results: &results,
+            check: check.as_ref(),
+            notes,
+            performance,
+            summary: &summary,
+        };
         written.to(&staging, computing)?;
         staging.publish()?;
     }
@@ -62,6 +74,9 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         say::text(&summary);
     } else if !run.quiet {
         say::text(&table::results(&case, &results));
+        if let Some(check) = &check {
+            say::text(&table::step_check(check, &results));
+        }
         let seconds = performance.wall_s;
         say::line(&format!(
             "\n{} in {seconds:.2} s, {:.1} ns per element and step and thread ({}, {})",
@@ -84,7 +99,12 @@ fn overrides(run: &Run) -> Vec<(&'static str, String)> {
 }
 
 /// Flies all replicates. If there is a results folder, the tables are written during the flights.
-fn flights(case: &Case, computing: Computing<'_>, staging: Option<&Staging<'_>>) -> Result<Results, Failure> {
+fn flights(
+    case: &Case,
+    plan: Option<StepCheckPlan>,
+    computing: Computing<'_>,
+    staging: Option<&Staging<'_>>,
+) -> Result<(Results, Option<StepCheck>), Failure> {
     let mut tables = Vec::new();
     if let Some(staging) = staging {
         for (name, columns) in [("end_node.parquet", END_NODE), ("energy.parquet", ENERGY)] {
@@ -93,13 +113,13 @@ fn flights(case: &Case, computing: Computing<'_>, staging: Option<&Staging<'_>>)
     }
     let mut collector = Results::collector(KEPT);
     let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
-    fly(case, Keep { curves: true, shapes }, computing, |trajectory| {
+    let check = fly_and_check_step(case, plan, Keep { curves: true, shapes }, computing, |trajectory| {
         tables.iter_mut().try_for_each(|table| table.add(&trajectory))?;
         collector.take(&trajectory);
         Ok::<(), Failure>(())
     })?;
     tables.into_iter().try_for_each(Table::finish)?;
-    Ok(collector.finish())
+    Ok((collector.finish(), check))
 }
 
 /// A warning about fibres that leave the region where the flow is known.
@@ -117,9 +137,16 @@ fn outside(results: &Results) -> Option<String> {
     ))
 }
 
-fn performance(case: &Case, computing: Computing<'_>, wall_s: f64) -> Performance {
-    let threads = computing.threads.min(case.run.replicates.div_ceil(WIDTH as u64) as usize);
-    let element_steps = case.fibre.elements as u64 * case.run.steps * case.run.replicates;
+fn performance(
+    case: &Case,
+    plan: Option<StepCheckPlan>,
+    computing: Computing<'_>,
+    wall_s: f64,
+) -> Performance {
+    let flights = case.run.replicates.div_ceil(WIDTH as u64) as usize + usize::from(plan.is_some());
+    let threads = computing.threads.min(flights);
+    let again = plan.map_or(0, |plan| plan.fibre_steps());
+    let element_steps = case.fibre.elements as u64 * (case.run.steps * case.run.replicates + again);
     Performance {
         wall_s,
         threads,
@@ -134,6 +161,7 @@ struct Written<'a> {
     name: String,
     case: &'a Case,
     results: &'a Results,
+    check: Option<&'a StepCheck>,
     notes: Vec<String>,
     performance: Performance,
     summary: &'a str,
@@ -157,6 +185,7 @@ impl Written<'_> {
             case: self.case,
             case_toml: &case_toml,
             results: self.results,
+            step_check: self.check,
             figures: &figures,
             notes: &self.notes,
             performance: self.performance,

@@ -8,12 +8,22 @@ use spunlaid_charts::{
 use std::fs;
 
 const CYLINDERS: &str = include_str!("../../../spunlaid/tests/published/cylinders.csv");
+const COTTON: &str = include_str!("../../../spunlaid/tests/published/cotton_fibres.csv");
 
 /// A law over Reynolds numbers between powers of ten.
 fn law(decades: (f64, f64), of: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     let steps = 120;
     let re = |i: i32| 10f64.powf(decades.0 + (decades.1 - decades.0) * f64::from(i) / f64::from(steps));
     (0..=steps).map(|i| (re(i), of(re(i)))).collect()
+}
+
+/// The two fits to the drag of cotton fibres, each over its Reynolds numbers.
+fn cotton() -> Vec<Vec<(f64, f64)>> {
+    let numbers = |line: &str| line.split(',').filter_map(|n| n.parse().ok()).collect::<Vec<f64>>();
+    let fits: Vec<Vec<f64>> = COTTON.lines().map(numbers).filter(|fit| fit.len() == 4).collect();
+    assert_eq!(fits.len(), 2);
+    let fit = |f: &Vec<f64>| law((f[0].log10(), f[1].log10()), |re| f[2] * re.powf(-f[3]));
+    fits.iter().map(fit).collect()
 }
 
 fn across() -> Chart {
@@ -36,6 +46,8 @@ fn across() -> Chart {
         let fitted = law((-1.5, 3.0), |re| NormalLaw::JuShambaugh.coefficient(re, diameter));
         chart = chart.line(Series::new(&label, colour).dashed("7 3"), &fitted);
     }
+    let cotton: Vec<(f64, f64)> = cotton().into_iter().flatten().collect();
+    chart = chart.line(Series::new("single cotton fibres, 9 to 16 µm", VERMILION), &cotton);
     chart.scatter(Series::spots("cylinders, Wieselsberger", INK), &measured)
 }
 

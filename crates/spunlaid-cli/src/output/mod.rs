@@ -7,6 +7,7 @@ pub(crate) mod leftovers;
 pub(crate) mod paraview;
 mod parquet;
 pub(crate) mod pictures;
+pub(crate) mod step_check;
 pub(crate) mod study;
 pub(crate) mod summary;
 pub(crate) mod table;

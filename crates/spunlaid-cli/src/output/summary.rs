@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 use serde_json::Value as Json;
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Content, Key, Value};
-use spunlaid::ensemble::{Number, Results};
+use spunlaid::ensemble::{Number, Results, StepCheck};
 use spunlaid::observe::Over;
 use spunlaid::statistics::Estimate;
 use spunlaid::units::Dimension;
@@ -25,8 +25,23 @@ pub(crate) struct Summary<'a> {
     /// `end_node`, `fibre`, `energy`: the measures by group.
     #[serde(flatten)]
     measures: BTreeMap<&'static str, GroupSummary<'a>>,
+    /// Null if the run is too short for it, or if the fibres do not move across the flow.
+    step_check: Option<StepCheckSummary<'a>>,
     performance: Performance,
     notes: Vec<String>,
+}
+
+/// Change of the free end's motion from half the time step to the step of the run, in the same turbulence.
+#[derive(Debug, Serialize)]
+struct StepCheckSummary<'a> {
+    /// Time from the start over which both are compared.
+    duration_s: f64,
+    /// Computing time as a share of the run, counted in steps.
+    share_of_run: f64,
+    /// Rms distance between the two paths, divided by the amplitude.
+    path_difference: NumberSummary<'a>,
+    /// Relative change of the amplitude.
+    amplitude_difference: NumberSummary<'a>,
 }
 
 /// A result over the replicates: mean, standard error and the values of the replicates. Some results also have a
@@ -70,6 +85,7 @@ impl<'a> Summary<'a> {
     pub(crate) fn new(
         case: &Case,
         results: &'a Results,
+        check: Option<&'a StepCheck>,
         performance: Performance,
         notes: Vec<String>,
     ) -> Self {
@@ -86,6 +102,12 @@ impl<'a> Summary<'a> {
             steps: case.run.steps,
             replicates: case.run.replicates,
             measures,
+            step_check: check.map(|check| StepCheckSummary {
+                duration_s: check.duration,
+                share_of_run: check.share_of_run,
+                path_difference: of_mean(&check.path),
+                amplitude_difference: of_mean(&check.amplitude),
+            }),
             performance,
             notes,
         }
@@ -97,15 +119,13 @@ impl<'a> Summary<'a> {
 }
 
 fn summary_of(number: &Number) -> NumberSummary<'_> {
-    let Estimate { mean, standard_error, values } = &number.estimate;
     let over = |over| (number.measure.over_replicates == over).then(|| number.value());
-    NumberSummary {
-        median: over(Over::Median),
-        largest: over(Over::Largest),
-        mean: *mean,
-        standard_error: *standard_error,
-        values,
-    }
+    NumberSummary { median: over(Over::Median), largest: over(Over::Largest), ..of_mean(&number.estimate) }
+}
+
+fn of_mean(estimate: &Estimate) -> NumberSummary<'_> {
+    let Estimate { mean, standard_error, values } = estimate;
+    NumberSummary { median: None, largest: None, mean: *mean, standard_error: *standard_error, values }
 }
 
 /// The resolved case: every key, with its SI unit in the name. A key without a meaning for the case is null. If the

@@ -1,8 +1,9 @@
 //! The table of results on the terminal.
 
+use super::step_check::StepCheckWords;
 use crate::numbers::{number, rounded};
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Number, Results};
+use spunlaid::ensemble::{Number, Results, StepCheck};
 use spunlaid::observe::{Group, Over};
 use std::fmt::Write;
 
@@ -22,6 +23,15 @@ pub(crate) fn results(case: &Case, results: &Results) -> String {
         let _ = writeln!(text, "{} {}{}", row, measure.unit.shown, remark(measure.over_replicates, n));
     }
     text
+}
+
+/// What half the time step changes.
+pub(crate) fn step_check(check: &StepCheck, results: &Results) -> String {
+    let StepCheckWords { path, amplitude, extent, advice } = StepCheckWords::of(check, results);
+    format!(
+        "time step, compared with half of it in the same turbulence\n  Path of the free end differs by {path} of its amplitude\n  \
+         Amplitude differs by {amplitude}\n  Compared: {extent}\n  {advice}\n"
+    )
 }
 
 /// The mean and its error, aligned at the sign ±. A median or a largest value has no error.

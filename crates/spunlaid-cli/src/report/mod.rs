@@ -21,7 +21,7 @@ pub(crate) use study::{StudyReport, study_html};
 use crate::output::summary::Performance;
 use askama::Template;
 use spunlaid::case::Case;
-use spunlaid::ensemble::Results;
+use spunlaid::ensemble::{Results, StepCheck};
 use spunlaid_charts::Figure;
 
 /// Everything the report shows.
@@ -35,6 +35,8 @@ pub(crate) struct ReportInput<'a> {
     pub(crate) case_toml: &'a str,
     /// The results, with the trajectories that are to be seen moving.
     pub(crate) results: &'a Results,
+    /// What half the time step changes, if it was computed.
+    pub(crate) step_check: Option<&'a StepCheck>,
     /// The figures, see [`crate::figures::run_figures`].
     pub(crate) figures: &'a [Figure],
     /// Warnings and remarks for the reader.

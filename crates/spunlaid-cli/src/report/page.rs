@@ -5,6 +5,7 @@ use super::table::{self, Group, ReplicateRow};
 use super::words::{self, count};
 use super::{ReportInput, rendered};
 use crate::numbers::number;
+use crate::output::step_check::StepCheckWords;
 use askama::Template;
 use spunlaid::ensemble::Number;
 use spunlaid::observe::{DECLARED, Kind};
@@ -41,8 +42,10 @@ struct Page<'a> {
     unlisted: usize,
     /// Headings with the figures below them.
     sections: Vec<(&'static str, Vec<&'a Figure>)>,
-    work_error: String,
     balance_error: String,
+    /// Of explicit schemes.
+    work_error: Option<String>,
+    step_check: Option<StepCheckWords>,
     case_toml: &'a str,
     cost: String,
     version: &'a str,
@@ -88,8 +91,9 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
         replicate_rows: table::replicate_rows(results, LISTED),
         unlisted: replicates.saturating_sub(LISTED),
         sections: sections(input.figures),
-        work_error: number(results.number("work_error").map_or(f64::NAN, Number::value)),
         balance_error: number(results.number("balance_error").map_or(f64::NAN, Number::value)),
+        work_error: results.number("work_error").map(|error| number(error.value())),
+        step_check: input.step_check.map(|check| StepCheckWords::of(check, results)),
         case_toml: input.case_toml,
         cost: format!(
             "computed in {} on {} with {} instructions, {} per element and step",

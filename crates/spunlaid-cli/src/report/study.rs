@@ -18,7 +18,7 @@ const SHOWN: [(&str, &str, f64); 6] = [
     ("frequency_y", "Frequency in y (Hz)", 1.0),
     ("frequency_z", "Frequency in z (Hz)", 1.0),
     ("mean_x", "Mean x (mm)", 1e3),
-    ("max_strain", "Largest strain (%)", 1e2),
+    ("strain_99", "Strain, 99 % of the time (%)", 1e2),
 ];
 
 /// Index of a measure; all names above exist.

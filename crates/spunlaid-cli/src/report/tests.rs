@@ -18,6 +18,7 @@ fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml:
         case,
         case_toml,
         results,
+        step_check: None,
         figures: &figures,
         notes,
         performance: Performance {

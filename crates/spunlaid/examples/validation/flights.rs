@@ -142,7 +142,7 @@ pub fn table1() {
             r.number("work_error").map_or(f64::NAN, Number::value),
             r.estimate("balance_error_at_end").mean,
             r.number("balance_error").map_or(f64::NAN, Number::value),
-            r.number("max_strain").map_or(f64::NAN, Number::value)
+            r.estimate("strain_99").mean
         );
     }
 }

@@ -22,6 +22,9 @@ pub const MOST_INSTANTS: f64 = 1e9;
 /// Size of a recorded instant in the tables of a run [bytes].
 pub const INSTANT_ON_DISK: f64 = 150.0;
 
+/// Share of the measured drag across a fibre below which a case is warned [-].
+const LOW_DRAG: f64 = 0.5;
+
 impl Case {
     /// Checks everything that must hold for the case to be run.
     ///
@@ -83,6 +86,17 @@ impl Case {
             let (law, to) = (across.name(), *fitted.end());
             let remark = Remark::ReynoldsOutsideFit { law, reynolds: self.reynolds_across(), to };
             note("fibre.diameter", fibre.diameter, remark);
+        }
+        let reynolds = self.usual_reynolds_across();
+        if across == NormalLaw::JuShambaugh && there_is_air && reynolds > 0.0 {
+            let measured = NormalLaw::MarheinekeWegener;
+            let drag = |law: NormalLaw| law.coefficient(reynolds, fibre.diameter);
+            let share = drag(across) / drag(measured);
+            if share < LOW_DRAG {
+                let (law, instead) = (across.name(), measured.name());
+                let remark = Remark::DragTooLow { law, reynolds, share, instead };
+                note("fibre.diameter", fibre.diameter, remark);
+            }
         }
         if fibre.diameter > l {
             note("fibre.diameter", fibre.diameter, Remark::ElementsStubby { element_length: l });

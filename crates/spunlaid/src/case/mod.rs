@@ -141,9 +141,24 @@ impl Case {
     /// Largest Reynolds number across the fibre to expect [-]. The velocity is the larger of two: the mean flow's
     /// component across the fibre at the start, and three times the rms of the fluctuation.
     pub fn reynolds_across(&self) -> f64 {
+        self.reynolds_across_at(3.0)
+    }
+
+    /// Usual Reynolds number across the fibre [-], likewise with one time the rms of the fluctuation.
+    pub fn usual_reynolds_across(&self) -> f64 {
+        self.reynolds_across_at(1.0)
+    }
+
+    fn reynolds_across_at(&self, times_rms: f64) -> f64 {
         let sine = self.fibre.direction.y.hypot(self.fibre.direction.z);
-        let speed = (self.air.velocity.abs() * sine).max(3.0 * self.air.rms());
+        let speed = (self.air.velocity.abs() * sine).max(times_rms * self.air.rms());
         speed * self.fibre.diameter / self.air.kinematic_viscosity
+    }
+
+    /// Time until which the air of a run has to last [s]. It is one step more than the run, because the energies at
+    /// the last instant need one more step.
+    pub(crate) fn air_horizon(&self) -> f64 {
+        self.run.duration() + self.run.time_step
     }
 
     /// The turbulence of each eddy.

@@ -110,6 +110,22 @@ pub enum Remark {
         /// Largest fitted [-].
         to: f64,
     },
+    /// Reynolds numbers at which a drag law is far below the measured drag.
+    #[error(
+        "has Reynolds numbers of about {} across the fibre. There drag.across = \"{law}\" gives only {} times the drag that was \
+         measured on fine fibres and cylinders; \"{instead}\" agrees with these measurements",
+        Dimension::Ratio.pretty_to(*reynolds, 2), Dimension::Ratio.pretty_to(*share, 2)
+    )]
+    DragTooLow {
+        /// Name of the law.
+        law: &'static str,
+        /// Usual Reynolds number [-].
+        reynolds: f64,
+        /// Drag of this law divided by that of the other one [-].
+        share: f64,
+        /// A law that agrees with the measurements.
+        instead: &'static str,
+    },
     /// Elements longer than eddies.
     #[error(
         "is shorter than the elements ({}): each element only feels the eddy at its centre. Shorten fibre.element_length so \
@@ -204,6 +220,7 @@ impl Remark {
             self,
             Self::OutsideFit { .. }
                 | Self::ReynoldsOutsideFit { .. }
+                | Self::DragTooLow { .. }
                 | Self::EddiesSkipped { .. }
                 | Self::IntensityAboveOne { .. }
                 | Self::EddiesLong { .. }

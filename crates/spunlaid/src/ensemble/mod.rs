@@ -2,6 +2,7 @@
 
 mod order;
 mod results;
+mod step_check;
 mod trajectory;
 mod turbulence;
 
@@ -9,6 +10,7 @@ pub use crate::flight::Job;
 pub use crate::observe::Sample;
 pub use order::in_order;
 pub use results::{Collector, Curve, Number, Place, Results};
+pub use step_check::{StepCheck, StepCheckPlan};
 pub use trajectory::{Keep, KeepShapes, Shape, Trajectory, fly_together, pace};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 
@@ -30,29 +32,87 @@ pub struct Computing<'a> {
     pub fibre_steps: &'a AtomicU64,
 }
 
-/// Flies the replicates of a case and hands each trajectory over, in the order of the replicates.
+/// Computes the replicates of a case and passes on each trajectory, in the order of the replicates.
 ///
-/// * `keep` – whether curves are measured, and which fibres are kept whole over time
-/// * `take` – receives the trajectories; an error it returns ends the ensemble
+/// * `keep` – whether curves are measured, and which shapes are stored
+/// * `take` – receives the trajectories; an error that it returns ends the ensemble
 ///
 /// # Errors
-/// A fibre that stops being finite, a stop from elsewhere, and what `take` returns.
+/// A position stops being finite, another thread stops the ensemble, or `take` returns an error.
 pub fn fly<E: From<Error>>(
     case: &Case,
     keep: Keep,
     computing: Computing<'_>,
     mut take: impl FnMut(Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
-    let flights = case.run.replicates.div_ceil(WIDTH as u64);
     in_order(
-        flights as usize,
+        flights(case),
         computing.threads,
-        |flight| {
-            let first = flight as u64 * WIDTH as u64;
-            let last = case.run.replicates.min(first + WIDTH as u64);
-            let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
-            fly_together(&jobs, keep, computing)
-        },
+        |index| fly_one(case, index, keep, computing),
         |trajectories| trajectories?.into_iter().try_for_each(&mut take),
     )
+}
+
+/// [`fly`], and computes what half the time step changes. The check is one more flight beside the others; `plan` is
+/// that of the case.
+///
+/// Returns `None` without a plan, and if the fibres do not move across the flow.
+///
+/// # Errors
+/// Those of [`fly`].
+pub fn fly_and_check_step<E: From<Error>>(
+    case: &Case,
+    plan: Option<StepCheckPlan>,
+    keep: Keep,
+    computing: Computing<'_>,
+    mut take: impl FnMut(Trajectory) -> Result<(), E>,
+) -> Result<Option<StepCheck>, E> {
+    enum Landed {
+        Flight(Vec<Trajectory>),
+        HalfStep(Vec<step_check::Path>),
+    }
+    let flights = flights(case);
+    let (mut own, mut half) = (Vec::new(), Vec::new());
+    in_order(
+        flights + usize::from(plan.is_some()),
+        computing.threads,
+        |index| match plan {
+            Some(plan) if index == flights => plan.fly(case, computing).map(Landed::HalfStep),
+            _ => fly_one(case, index, keep, computing).map(Landed::Flight),
+        },
+        |landed| {
+            match landed? {
+                Landed::HalfStep(paths) => half = paths,
+                Landed::Flight(trajectories) => {
+                    for trajectory in trajectories {
+                        own.extend(
+                            plan.filter(|plan| trajectory.replicate < plan.replicates)
+                                .map(|plan| plan.path(&trajectory)),
+                        );
+                        take(trajectory)?;
+                    }
+                }
+            }
+            Ok::<(), E>(())
+        },
+    )?;
+    Ok(plan.and_then(|plan| plan.compare(case, &own, &half)))
+}
+
+/// Number of flights of a case.
+fn flights(case: &Case) -> usize {
+    case.run.replicates.div_ceil(WIDTH as u64) as usize
+}
+
+/// Computes one flight of a case.
+fn fly_one(
+    case: &Case,
+    index: usize,
+    keep: Keep,
+    computing: Computing<'_>,
+) -> Result<Vec<Trajectory>, Error> {
+    let first = index as u64 * WIDTH as u64;
+    let last = case.run.replicates.min(first + WIDTH as u64);
+    let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
+    fly_together(&jobs, keep, computing)
 }

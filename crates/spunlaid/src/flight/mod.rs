@@ -81,6 +81,8 @@ pub struct Flight {
     /// Number of steps at the start that the end-node statistics leave out.
     spin_up: u64,
     end_node: EndNodeStatistics,
+    /// Sum over all steps of the strain of the element at the root [-].
+    root_strain: Lanes,
 }
 
 /// State of the fibres at the start.
@@ -102,6 +104,9 @@ pub struct Snapshot {
     pub velocity: Vec<Vec3<Lanes>>,
     /// Tension of the `N` elements, negative in compression [N].
     pub tension: Vec<Lanes>,
+    /// Strain of the element at the root, integrated over time since the start [s]. The difference between two
+    /// instants, divided by the time between them, is the mean strain, whatever happened between them.
+    pub root_strain_integral: Lanes,
     /// Energies and work done.
     pub energy: Energy,
 }

@@ -40,7 +40,7 @@ impl Flight {
     }
 
     fn fly_on_as(&mut self, cases: Vec<(Case, u64)>, key: &'static str) -> Result<(), Error> {
-        let air = surrounded(&cases, self.isa)?;
+        let air = surrounded(&cases, self.isa, cases[0].0.air_horizon())?;
         let strands: Vec<Strand> = cases.iter().map(|(case, _)| case.strand()).collect();
         check_strands(&strands)?;
         if air.eddies != self.eddies || strands[0].fibre.elements != self.chain.elements() {

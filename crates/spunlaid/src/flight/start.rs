@@ -21,6 +21,12 @@ impl Flight {
     /// them are damped.
     pub fn new(jobs: &[Job<'_>], isa: Isa) -> Result<Self, Error> {
         let first = jobs.first().ok_or(FlightFault::Empty)?;
+        Self::in_air_until(jobs, isa, first.case.air_horizon())
+    }
+
+    /// As [`Flight::new`], in air that is made to last until a given time [s].
+    pub(crate) fn in_air_until(jobs: &[Job<'_>], isa: Isa, horizon: f64) -> Result<Self, Error> {
+        let first = jobs.first().ok_or(FlightFault::Empty)?;
         for (lane, job) in jobs.iter().enumerate() {
             // Replicates of one case usually share one reference.
             if lane > 0 && std::ptr::eq(job.case, jobs[lane - 1].case) {
@@ -34,7 +40,7 @@ impl Flight {
         let run = &first.case.run;
         let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
         let cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect::<Vec<_>>();
-        let air = surrounded(&cases, isa)?;
+        let air = surrounded(&cases, isa, horizon)?;
         let mut flight = Self::assembled(isa, &strands, air, run.scheme, run.time_step)?;
         (flight.cases, flight.spin_up) = (cases, run.spin_up_steps);
         Ok(flight)
@@ -84,6 +90,7 @@ impl Flight {
             steps_done: 0,
             spin_up: 0,
             end_node: EndNodeStatistics::default(),
+            root_strain: Lanes::ZERO,
         };
         // Clones made later share the first samples.
         flight.wind.prepare();
@@ -112,6 +119,7 @@ impl Flight {
         self.steps_done = 0;
         self.work = WorkDone::default();
         self.end_node = EndNodeStatistics::default();
+        self.root_strain = Lanes::ZERO;
         self.begin();
         Ok(())
     }
@@ -142,6 +150,7 @@ impl Flight {
         self.steps_done = 0;
         self.work = WorkDone::default();
         self.end_node = EndNodeStatistics::default();
+        self.root_strain = Lanes::ZERO;
         for (i, &v0) in at_rest.iter().enumerate() {
             let v = self.chain.velocity[i];
             self.chain.earlier[i] = v + (v - v0) * Lanes::splat(2.0);
@@ -150,13 +159,12 @@ impl Flight {
 }
 
 /// The air of cases that can fly together.
-pub(super) fn surrounded(cases: &[(Case, u64)], isa: Isa) -> Result<Surrounded, FlightFault> {
+pub(super) fn surrounded(cases: &[(Case, u64)], isa: Isa, horizon: f64) -> Result<Surrounded, FlightFault> {
     let case = &cases[0].0;
     let eddies = case.eddies();
     let streams =
         cases.iter().map(|(case, replicate)| Job { case, replicate: *replicate }.stream(&eddies)).collect();
-    // One step more than the run, because the energies at the last instant need one more step.
-    let wind = Wind::along(isa, streams, case.run.duration() + case.run.time_step)?;
+    let wind = Wind::along(isa, streams, horizon)?;
     let surroundings = case.surroundings(cases.iter().map(|(case, _)| case.air.clone()))?;
     Ok(Surrounded { eddies, wind, surroundings })
 }

@@ -7,7 +7,8 @@ use crate::chain::{explicit, implicit};
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
 use crate::fibre::Root;
-use crate::lanes::{Lanes, Register, Task};
+use crate::lanes::{Lanes, Register, Task, Wide};
+use crate::vec3::Vec3;
 
 /// Number of steps between two checks that all positions are finite.
 const STEPS_UNSEEN: u64 = 256;
@@ -52,6 +53,7 @@ impl Flight {
         let position = self.chain.position.clone();
         let mut velocity = self.chain.velocity.clone();
         let tension = self.chain.tension();
+        let root_strain_integral = self.root_strain * Lanes::splat(self.h);
         let (before, first) = (self.work, self.steps_done == 0);
         self.run(1, (self.h, self.h), true);
         if first {
@@ -63,7 +65,7 @@ impl Flight {
         }
         let mut energy = Energy::held(self.isa, &self.chain, &position, &velocity, &self.start.position);
         energy.enter_work(&self.start.energy, (&before, &self.work), self.scheme, self.h);
-        Snapshot { time, position, velocity, tension, energy }
+        Snapshot { time, position, velocity, tension, root_strain_integral, energy }
     }
 
     /// The first fibre and node whose position is not finite, if there is one.
@@ -105,6 +107,10 @@ impl Flight {
         if self.steps_done > self.spin_up {
             self.end_node.see::<S>(&self.chain.position[self.chain.elements()]);
         }
+        let element = Vec3::load(&self.chain.position[1]) - Vec3::load(&self.chain.position[0]);
+        let strain = element.dot(element).sqrt().over(Wide::<S>::load(&self.chain.constants.rest_length))
+            - Wide::splat(1.0);
+        self.root_strain = (Wide::load(&self.root_strain) + strain).store();
     }
 }
 

@@ -33,9 +33,11 @@ pub const DECLARED: &[&Declaration] = &[
     &curvature::DECLARATION,
     &spectrum::DECLARATION,
     &root_tension::DECLARATION,
-    &strain::DECLARATION,
+    &strain::USUAL,
+    &strain::LARGEST,
     &flow::DECLARATION,
-    &energy::DECLARATION,
+    &energy::WORK,
+    &energy::BALANCE,
     &energy::DISSIPATION,
 ];
 
@@ -105,7 +107,7 @@ pub const END_NODE: Group = Group { name: "end_node", title: "free end of the fi
 /// The fibre as a whole.
 pub const FIBRE: Group = Group { name: "fibre", title: "fibre" };
 /// The energy checks.
-pub const ENERGY: Group = Group { name: "energy", title: "energy errors" };
+pub const ENERGY: Group = Group { name: "energy", title: "energy" };
 
 /// A unit to show values in.
 #[derive(Clone, Copy, Debug, PartialEq)]

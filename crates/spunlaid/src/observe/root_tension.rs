@@ -19,7 +19,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "peak_root_tension",
             column: "peak_root_tension_n",
             label: "Tension at the root, peak",
-            meaning: "largest tension of the element at the root at the recorded instants",
+            meaning: "largest tension of the element at the root at the recorded instants. As with the largest strain, \
+                      implicit tension makes it lower",
             over_replicates: Over::Largest,
             series: "peak",
             ..TENSION

@@ -349,7 +349,10 @@ pub(super) static KEYS: &[Key] = &[
         choice!(drag.across, NormalLaw::ALL),
     )
     .value("ju-shambaugh")
-    .meaning("Law of the drag across the fibre. Source and range of each law: docs/theory.md.")
+    .meaning(
+        "Law of the drag across the fibre. \"marheineke-wegener\" agrees with measurements from fine fibres to thick cylinders; \
+         \"ju-shambaugh\" is the paper's. Source and range of each law: docs/theory.md.",
+    )
     .label("Law of the drag across the fibre")
     .in_flight(),
     quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative, Access {
