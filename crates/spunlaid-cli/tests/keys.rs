@@ -24,7 +24,10 @@ fn the_page_of_keys_is_up_to_date() {
 fn keys_are_explained_by_a_word_in_their_name_or_meaning() {
     let desk = Desk::new();
     let one = success(&mut desk.spunlaid("keys run.spin_up"));
-    assert!(one.starts_with("run.spin_up\n    Time at the start that the statistics leave out."), "{one}");
+    assert!(
+        one.starts_with("run.spin_up\n    Time at the start that the statistics of the motion leave out;"),
+        "{one}"
+    );
     assert!(one.contains("    takes      a time, zero or above; in s, ms, µs, ns or min\n"), "{one}");
     assert!(one.contains("    default    0 s\n"), "{one}");
     let by_meaning = success(&mut desk.spunlaid("keys SPINNERET"));

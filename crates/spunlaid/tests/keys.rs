@@ -110,7 +110,7 @@ fn rejects_values_with_the_way_out() {
         ),
         ("fibre.root", "clampd".into(), "fibre.root = \"clampd\" is unknown; did you mean \"clamped\"?"),
         ("run.seed", 1.5.into(), "run.seed = 1.5 is a number; write a whole number without quotes, like 10"),
-        ("fibre.root", 1.0.into(), "fibre.root = 1 is a number; write \"pinned\" or \"clamped\" or \"free\""),
+        ("fibre.root", 1.0.into(), "fibre.root = 1 is a number; write \"pinned\", \"clamped\" or \"free\""),
         (
             "air.profile",
             "air.csv".into(),

@@ -288,8 +288,8 @@ fn rejects_what_says_nothing() {
         spectrum: SpectrumSettings { segment: Some(segment), ..SpectrumSettings::default() },
         ..plain
     };
-    assert!(refused(in_wind(noise.clone()), &odd(100)).ends_with("try 128"));
-    assert!(refused(in_wind(noise.clone()), &odd(1 << 40)).ends_with("try 512"));
+    assert!(refused(in_wind(noise.clone()), &odd(100)).ends_with("like 128"));
+    assert!(refused(in_wind(noise.clone()), &odd(1 << 40)).ends_with("like 512"));
     // With the mean given, a record of the fluctuation will do.
     let given = Settings { mean_velocity: Some(10.0), ..plain };
     let of = analyse(&record(1e-3, vec![noise]), &given).unwrap();
