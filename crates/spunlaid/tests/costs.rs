@@ -81,6 +81,7 @@ fn table1(scheme: Scheme, time_step: f64, duration: f64) -> Case {
         scheme,
         gravity: 9.81,
         damping: 0.0,
+        shapes: None,
     };
     Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
 }

@@ -28,6 +28,7 @@ fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
             scheme: Scheme::SemiImplicitEuler,
             gravity: 9.81,
             damping: 0.0,
+            shapes: None,
         },
     }
 }

@@ -23,6 +23,8 @@ use std::time::Instant;
 
 /// Number of replicates whose shapes are kept for the report and ParaView.
 const KEPT: usize = WIDTH;
+/// Fewest shapes in a period of the free end that follow its motion.
+const PER_PERIOD: f64 = 8.0;
 /// Number of node positions kept for the report and ParaView. Each takes 24 bytes.
 pub(super) const POSITIONS: u64 = 4_000_000;
 
@@ -50,6 +52,10 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     if let Some(outside) = outside(&results) {
         say::warning(&outside);
         notes.push(outside);
+    }
+    if let Some(coarse) = coarse_shapes(&case, &results) {
+        say::remark(false, &coarse);
+        notes.push(coarse);
     }
     let summary = Summary::new(&case, &results, performance, notes.clone()).to_json();
     if let Some(staging) = staging {
@@ -127,6 +133,37 @@ fn outside(results: &Results) -> Option<String> {
     ))
 }
 
+/// A note about shapes for ParaView that are too far apart in time to follow the free end.
+fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
+    let shapes = &results.trajectories.first()?.shapes;
+    let [first, second, ..] = shapes.as_slice() else {
+        return None;
+    };
+    let thinned = paraview::thinned(case, shapes.len());
+    let interval = (second.time - first.time) * thinned as f64;
+    let frequency = ["frequency_y", "frequency_z"].map(|name| results.estimate(name).mean);
+    let frequency = frequency[0].max(frequency[1]);
+    let each = 1.0 / (frequency * interval);
+    // A frequency from a crossing or two is no frequency.
+    let is_known = frequency * (case.run.duration() - case.run.spin_up()) > 2.0;
+    (is_known && each < PER_PERIOD).then(|| {
+        let wanted = (case.run.duration() * frequency * PER_PERIOD).ceil() + 1.0;
+        let longest = 1.0 / (frequency * PER_PERIOD);
+        let finer = if case.run.output_interval() > longest {
+            format!(" and run.output_interval = \"{} ms\" or less", significant(longest * 1e3, 1))
+        } else {
+            String::new()
+        };
+        format!(
+            "the shapes for ParaView are {} ms apart, {} in a period of the free end ({} Hz): too few to follow it; write \
+             run.shapes = {wanted}{finer}",
+            significant(interval * 1e3, 3),
+            significant(each, 2),
+            significant(frequency, 3)
+        )
+    })
+}
+
 fn performance(case: &Case, computing: Computing<'_>, wall_s: f64) -> Performance {
     let threads = computing.threads.min(case.run.replicates.div_ceil(WIDTH as u64) as usize);
     let element_steps = case.fibre.elements as u64 * case.run.steps * case.run.replicates;
@@ -157,8 +194,8 @@ impl Written<'_> {
         let figures = run_figures(self.case, self.results, &turbulence);
         // Writing a thousand small files waits for the disk, so the figures are drawn at the same time.
         std::thread::scope(|scope| {
-            let (flights, rest_length) = (&self.results.trajectories, self.case.fibre.rest_length());
-            let shapes = scope.spawn(move || paraview::write(staging, flights, rest_length));
+            let (case, flights) = (self.case, &self.results.trajectories);
+            let shapes = scope.spawn(move || paraview::write(staging, case, flights));
             pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
             shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })?;
