@@ -29,7 +29,7 @@ use super::run::results_of_point;
 use super::{Design, PointResults, Study};
 use crate::error::Error;
 use crate::observe::MEASURES;
-use crate::statistics::student_t_95;
+use crate::statistics::student_t_95_at;
 
 /// Main effects of a study.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -544,7 +544,7 @@ impl Solution {
                 let half_width = match (replicated || free > 0.0, variance == 0.0) {
                     (false, _) => None,
                     (true, true) => Some(0.0),
-                    (true, false) => Some(student_t(degrees) * variance.sqrt()),
+                    (true, false) => Some(student_t_95_at(degrees) * variance.sqrt()),
                 };
                 Effect { factor: *factor, from: *from, to: *to, change, half_width }
             };
@@ -568,15 +568,6 @@ fn explained(fits: &[Fit<'_>], solved: &[Solution], measure: usize) -> f64 {
     }
     let explained = 1.0 - (from_lines / free) / (from_mean / all);
     if free > 0.0 && from_mean > 0.0 { explained.max(0.0) } else { f64::NAN }
-}
-
-/// Student's t for a number of degrees of freedom that need not be whole, linear in its reciprocal.
-fn student_t(degrees: f64) -> f64 {
-    let degrees = if degrees.is_nan() { 1.0 } else { degrees.clamp(1.0, 1e9) };
-    let below = degrees.floor();
-    let share = (1.0 / below - 1.0 / degrees) / (1.0 / below - 1.0 / (below + 1.0));
-    let [a, b] = [below, below + 1.0].map(|degrees| student_t_95(degrees as u64));
-    a + share * (b - a)
 }
 
 fn add(sums: &mut [f64], factor: f64, row: &[f64]) {
