@@ -53,16 +53,15 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         say::warning(&outside);
         notes.push(outside);
     }
-    if let Some(coarse) = coarse_shapes(&case, &results) {
-        say::remark(false, &coarse);
-        notes.push(coarse);
-    }
+    let coarse = coarse_shapes(&case, &results);
+    notes.extend(coarse.clone());
     let summary = Summary::new(&case, &results, performance, notes.clone()).to_json();
     if let Some(staging) = staging {
         let name = case_name(run).to_string_lossy().into_owned();
         let written = Written { name, case: &case, results: &results, notes, performance, summary: &summary };
         written.to(&staging, computing)?;
         staging.publish()?;
+        coarse.iter().for_each(|coarse| say::remark(false, coarse));
     }
 
     if run.json {
@@ -150,7 +149,10 @@ fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
         let wanted = (case.run.duration() * frequency * PER_PERIOD).ceil() + 1.0;
         let longest = 1.0 / (frequency * PER_PERIOD);
         let finer = if case.run.output_interval() > longest {
-            format!(" and run.output_interval = \"{} ms\" or less", significant(longest * 1e3, 1))
+            // Rounded down to one digit.
+            let power = 10f64.powf((longest * 1e3).log10().floor());
+            let rounded = (longest * 1e3 / power).floor() * power;
+            format!(" and run.output_interval = \"{} ms\" or less", significant(rounded, 1))
         } else {
             String::new()
         };
