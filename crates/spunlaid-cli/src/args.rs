@@ -26,6 +26,7 @@ Examples:
   spunlaid run my.toml                              fly it; then open results/my/report.html
   spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
   spunlaid sweep my_study.toml                      fly it with many values of some keys
+  spunlaid compare results/my results/faster        say what differs between two runs
   spunlaid analyse wire.csv                         make the air of a case from a velocity record
 
 A case is a small text file that describes fibre, air and run. Quantities have a unit:
@@ -49,6 +50,9 @@ pub(crate) enum Command {
     /// Make the air of a case from a measured velocity record: mean, intensity, scales, spectrum
     #[command(after_help = ANALYSE_HELP)]
     Analyse(Analyse),
+    /// Compare the results of runs: differences, whether they are beyond chance, curves in one picture
+    #[command(after_help = COMPARE_HELP)]
+    Compare(Compare),
     /// Show a case with all defaults, its mesh, limits and expected cost, without flying it
     #[command(after_help = CHECK_HELP)]
     Check(Check),
@@ -157,6 +161,19 @@ The integral time is the integral of the autocorrelation up to
 Examples:
   spunlaid analyse cases/records/probe.csv
   spunlaid analyse wire.csv --rate \"20 kHz\" --velocity-unit m/s --integral e-fold --out results/wire";
+
+const COMPARE_HELP: &str = "\
+Every run is compared with the first. Runs with the same seed and the same eddies are compared
+replicate by replicate, which shows small differences; others by Welch's t.
+
+The results folder holds
+  report.html       for the browser: a table for each pair, and the curves in one picture each
+  comparison.json   every measure with both means, the difference and its error
+  figures/          the figures as SVG and PNG, and their numbers as CSV
+
+Examples:
+  spunlaid compare results/table1 results/faster
+  spunlaid compare results/a results/b results/c --out results/three --json";
 
 const CHECK_HELP: &str = "\
 Prints the case with every default, the mesh, the limits of the time step, and the expected time,
@@ -382,6 +399,25 @@ fn window(text: &str) -> Result<Window, String> {
 fn overlap(text: &str) -> Result<f64, String> {
     let share = text.parse().ok().filter(|share| (0.0..=0.9).contains(share));
     share.ok_or_else(|| "write a number from 0 to 0.9, like 0.5".to_owned())
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Compare {
+    /// Results folders of runs, the one to compare with first
+    #[arg(value_name = "RUN", value_hint = ValueHint::DirPath, num_args = 2.., required = true)]
+    pub(crate) runs: Vec<PathBuf>,
+    /// Folder for the report [default: results/<name>_against_<name>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// No table; warnings and errors are still shown
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Print comparison.json instead of the table; without --out, write no files
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace the comparison in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, Args)]

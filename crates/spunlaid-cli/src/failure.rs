@@ -36,6 +36,10 @@ pub(crate) enum Failure {
     OtherVersion { folder: PathBuf, version: String },
     /// The output folder holds a study with more replicates.
     FewerReplicates { folder: PathBuf, held: u64, asked: u64 },
+    /// A folder does not hold the results of a run.
+    NotARun { folder: PathBuf, reason: String },
+    /// More runs than a picture can show.
+    TooManyRuns { runs: usize, most: usize },
     /// The paper has no such figure.
     NoSuchFigure { name: String, known: String },
     /// No key has this word.
@@ -79,6 +83,8 @@ impl Failure {
             | Self::OtherStudy { .. }
             | Self::OtherVersion { .. }
             | Self::FewerReplicates { .. }
+            | Self::NotARun { .. }
+            | Self::TooManyRuns { .. }
             | Self::NoSuchFigure { .. }
             | Self::NoSuchKey { .. }
             | Self::NoSuchPoint { .. } => 1,
@@ -171,6 +177,14 @@ impl fmt::Display for Failure {
                 folder.display(),
                 env!("CARGO_PKG_VERSION")
             ),
+            Self::NotARun { folder, reason } => write!(
+                f,
+                "{}: does not hold the results of a run: {reason}; name folders that `spunlaid run` has written",
+                folder.display()
+            ),
+            Self::TooManyRuns { runs, most } => {
+                write!(f, "{runs} runs are named, and at most {most} are compared at a time; name fewer")
+            }
             Self::FewerReplicates { folder, held, asked } => write!(
                 f,
                 "{}: holds {held} replicates of a point, more than the {asked} of this study; ask for {held} or more, as in \

@@ -30,6 +30,7 @@ fn main() -> ExitCode {
         Command::Sweep(sweep) => commands::sweep(&sweep),
         Command::Reproduce(asked) => commands::reproduce(&asked),
         Command::Analyse(analyse) => commands::analyse(&analyse),
+        Command::Compare(compare) => commands::compare(&compare),
         Command::Check(check) => commands::check(&check),
         Command::Keys(keys) => commands::keys(&keys),
         Command::New(new) => commands::new(&new),

@@ -43,7 +43,7 @@ pub(crate) fn warning(text: &str) {
     remark(true, &text);
 }
 
-fn remark(is_warning: bool, what: &impl Display) {
+pub(crate) fn remark(is_warning: bool, what: &impl Display) {
     let (style, word) = if is_warning { (WARNING, "warning") } else { (NOTE, "note") };
     aside(&format!("{style}{word}:{style:#} {what}"));
 }

@@ -3,7 +3,7 @@
 
 mod desk;
 
-use desk::{Desk, ENTRIES, assert_identical, names, success};
+use desk::{Desk, ENTRIES, assert_identical, names, refusal, success};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::{Map, Value, json};
@@ -299,4 +299,39 @@ fn names_may_be_long_and_odd() {
     assert_eq!(desk.entries(folder), names(&ENTRIES));
     let report = String::from_utf8(desk.read(&format!("{folder}/report.html"))).unwrap();
     assert!(report.contains("Faser „5 µm“ &#38; &#60;b") && !report.contains("<b>ß"));
+}
+
+#[test]
+fn as_many_shapes_are_kept_as_the_case_says() {
+    let desk = Desk::new();
+    // 501 recorded instants: every 101st, every, none.
+    let often = ["run.output_interval=20 us", "run.duration=10 ms"];
+    for (asked, kept) in [("5", 5), ("20000", 501), ("0", 0)] {
+        let shapes = format!("run.shapes={asked}");
+        let said = success(
+            &mut desk.with(&format!("run brief.toml --out of{asked}"), &[often[0], often[1], &shapes]),
+        );
+        assert!(!said.contains("too few to follow"), "{said}");
+        let files = if kept == 0 { 0 } else { desk.entries(&format!("of{asked}/shape")).len() };
+        assert_eq!(files, kept, "{asked}");
+        assert_eq!(desk.path(&format!("of{asked}/shape")).exists(), kept > 0);
+        assert_eq!(
+            desk.summary(&format!("of{asked}"))["case"]["run"]["shapes"],
+            json!(asked.parse::<u64>().unwrap())
+        );
+    }
+    // Ten shapes over many periods of the end.
+    let long = ["run.duration=300 ms", "run.shapes=10"];
+    let output = desk.with("run brief.toml --out long", &long).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        said.contains("the shapes for ParaView are 31 ms apart") && said.contains("run.shapes = "),
+        "{said}"
+    );
+    let notes = desk.summary("long")["notes"].to_string();
+    assert!(notes.contains("too few to follow it"), "{notes}");
+    assert!(
+        refusal(&mut desk.with("run brief.toml --out no", &["run.shapes=20001"]), 1)
+            .contains("from 0 to 20000")
+    );
 }

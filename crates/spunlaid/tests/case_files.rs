@@ -102,6 +102,7 @@ fn table_1_is_read_in_si_units() {
             scheme: Scheme::SemiImplicitEuler,
             gravity: 9.81,
             damping: 0.0,
+            shapes: None,
         },
     };
     assert_eq!(bits(&case), bits(&meant));
@@ -252,6 +253,7 @@ prop_compose! {
         let output_steps = 1 + (output * (steps - 1) as f64) as u64;
         let run = Run {
             time_step: 1.0, steps, spin_up_steps, output_steps, replicates, seed, scheme, gravity, damping,
+            shapes: leapfrog.then_some(seed % 20_001),
         };
         let drag = Drag { along, across };
         let mut case = Case { fibre, air, drag, run };

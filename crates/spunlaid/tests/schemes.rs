@@ -125,6 +125,7 @@ fn table1(scheme: Scheme) -> Case {
         scheme,
         gravity: 9.81,
         damping: 0.0,
+        shapes: None,
     };
     Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
 }

@@ -2,6 +2,7 @@
 
 mod analyse;
 mod check;
+mod compare;
 mod interrupt;
 mod keys;
 mod reproduce;
@@ -11,6 +12,7 @@ mod sweep;
 
 pub(crate) use analyse::analyse;
 pub(crate) use check::check;
+pub(crate) use compare::compare;
 pub(crate) use keys::keys;
 pub(crate) use reproduce::reproduce;
 pub(crate) use run::run;

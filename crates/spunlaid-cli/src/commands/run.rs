@@ -23,6 +23,8 @@ use std::time::Instant;
 
 /// Number of replicates whose shapes are kept for the report and ParaView.
 const KEPT: usize = WIDTH;
+/// Fewest shapes in a period of the free end that follow its motion.
+const PER_PERIOD: f64 = 8.0;
 /// Number of node positions kept for the report and ParaView. Each takes 24 bytes.
 pub(super) const POSITIONS: u64 = 4_000_000;
 
@@ -54,6 +56,8 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         say::warning(&outside);
         notes.push(outside);
     }
+    let coarse = coarse_shapes(&case, &results);
+    notes.extend(coarse.clone());
     let summary = Summary::new(&case, &results, check.as_ref(), performance, notes.clone()).to_json();
     if let Some(staging) = staging {
         let name = stem(&run.source.case, "run").to_string_lossy().into_owned();
@@ -68,6 +72,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         };
         written.to(&staging, computing)?;
         staging.publish()?;
+        coarse.iter().for_each(|coarse| say::remark(false, coarse));
     }
 
     if run.json {
@@ -137,6 +142,40 @@ fn outside(results: &Results) -> Option<String> {
     ))
 }
 
+/// A note about shapes for ParaView that are too far apart in time to follow the free end.
+fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
+    let shapes = &results.trajectories.first()?.shapes;
+    let [first, second, ..] = shapes.as_slice() else {
+        return None;
+    };
+    let thinned = paraview::thinned(case, shapes.len());
+    let interval = (second.time - first.time) * thinned as f64;
+    let frequency = ["frequency_y", "frequency_z"].map(|name| results.estimate(name).mean);
+    let frequency = frequency[0].max(frequency[1]);
+    let each = 1.0 / (frequency * interval);
+    // A frequency from a crossing or two is no frequency.
+    let is_known = frequency * (case.run.duration() - case.run.spin_up()) > 2.0;
+    (is_known && each < PER_PERIOD).then(|| {
+        let wanted = (case.run.duration() * frequency * PER_PERIOD).ceil() + 1.0;
+        let longest = 1.0 / (frequency * PER_PERIOD);
+        let finer = if case.run.output_interval() > longest {
+            // Rounded down to one digit.
+            let power = 10f64.powf((longest * 1e3).log10().floor());
+            let rounded = (longest * 1e3 / power).floor() * power;
+            format!(" and run.output_interval = \"{} ms\" or less", significant(rounded, 1))
+        } else {
+            String::new()
+        };
+        format!(
+            "the shapes for ParaView are {} ms apart, {} in a period of the free end ({} Hz): too few to follow it; write \
+             run.shapes = {wanted}{finer}",
+            significant(interval * 1e3, 3),
+            significant(each, 2),
+            significant(frequency, 3)
+        )
+    })
+}
+
 fn performance(
     case: &Case,
     plan: Option<StepCheckPlan>,
@@ -175,8 +214,8 @@ impl Written<'_> {
         let figures = run_figures(self.case, self.results, &turbulence);
         // Writing a thousand small files waits for the disk, so the figures are drawn at the same time.
         std::thread::scope(|scope| {
-            let (trajectories, rest_length) = (&self.results.trajectories, self.case.fibre.rest_length());
-            let shapes = scope.spawn(move || paraview::write(staging, trajectories, rest_length));
+            let (case, trajectories) = (self.case, &self.results.trajectories);
+            let shapes = scope.spawn(move || paraview::write(staging, case, trajectories));
             pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
             shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })?;

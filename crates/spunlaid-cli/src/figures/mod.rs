@@ -1,5 +1,6 @@
 //! The figures of a run, a study, a record and the paper, drawn with `spunlaid-charts`.
 
+mod compare;
 #[cfg(test)]
 mod drag_laws;
 pub(crate) mod paper;
@@ -13,6 +14,7 @@ mod study;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use compare::{Curves, MOST as MOST_COMPARED, Row, overlaid_figures};
 pub(crate) use record::record_figures;
 pub(crate) use run::{run_figures, swing_frequency};
 pub(crate) use study::{name_of_key, study_figures};

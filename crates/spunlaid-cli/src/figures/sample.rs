@@ -33,6 +33,7 @@ pub(crate) fn case(elements: usize, instants: usize, replicates: u64) -> Case {
             scheme: Scheme::SemiImplicitEuler,
             gravity: 9.81,
             damping: 0.0,
+            shapes: None,
         },
     }
 }

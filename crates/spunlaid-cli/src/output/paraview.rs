@@ -2,25 +2,28 @@
 
 use super::folder::Staging;
 use crate::failure::Failure;
+use spunlaid::case::Case;
 use spunlaid::ensemble::Trajectory;
 use std::fmt::Write;
 
-/// Largest number of instants in a series. Each instant is a file.
+/// Largest number of instants in a series if the case does not say how many. Each instant is a file.
 const MOST_INSTANTS: usize = 500;
 
-/// Writes the kept shapes, evenly thinned to at most [`MOST_INSTANTS`]. Each instant is a VTK PolyData file with one
+/// One of this number of kept shapes is written.
+pub(crate) fn thinned(case: &Case, shapes: usize) -> usize {
+    if case.run.shapes.is_some() { 1 } else { shapes.div_ceil(MOST_INSTANTS).max(1) }
+}
+
+/// Writes the kept shapes, [`thinned`]. Each instant is a VTK PolyData file with one
 /// line for each replicate; a collection file gives their times.
-pub(crate) fn write(
-    staging: &Staging<'_>,
-    trajectories: &[Trajectory],
-    rest_length: f64,
-) -> Result<(), Failure> {
+pub(crate) fn write(staging: &Staging<'_>, case: &Case, trajectories: &[Trajectory]) -> Result<(), Failure> {
+    let rest_length = case.fibre.rest_length();
     let trajectories: Vec<&Trajectory> = trajectories.iter().filter(|t| !t.shapes.is_empty()).collect();
     let Some(first) = trajectories.first() else { return Ok(()) };
     let mut collection = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
     );
-    let every = first.shapes.len().div_ceil(MOST_INSTANTS).max(1);
+    let every = thinned(case, first.shapes.len());
     let digits = first.shapes.len().div_ceil(every).to_string().len();
     for (number, (k, shape)) in first.shapes.iter().enumerate().step_by(every).enumerate() {
         let name = format!("shape/fibre_{number:0digits$}.vtp");

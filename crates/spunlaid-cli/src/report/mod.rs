@@ -5,6 +5,7 @@
 //! ```
 
 mod analysis;
+mod comparison;
 mod frames;
 mod page;
 mod paper;
@@ -15,6 +16,7 @@ mod tests;
 mod words;
 
 pub(crate) use analysis::{AnalysisReport, analysis_html};
+pub(crate) use comparison::{ComparisonReport, comparison_html};
 pub(crate) use paper::{PaperReport, paper_html};
 pub(crate) use study::{StudyReport, study_html};
 

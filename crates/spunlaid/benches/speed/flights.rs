@@ -20,6 +20,7 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
         scheme,
         gravity: 9.81,
         damping: 0.0,
+        shapes: None,
     };
     Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
 }

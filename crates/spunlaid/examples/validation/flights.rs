@@ -28,6 +28,7 @@ fn case(h: f64, replicates: u64) -> Case {
         scheme: Scheme::SemiImplicitEuler,
         gravity: 9.81,
         damping: 0.0,
+        shapes: None,
     };
     Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
 }

@@ -6,7 +6,7 @@ mod memory;
 mod note;
 mod step;
 
-pub use check::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_STEPS};
+pub use check::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
 pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
@@ -53,6 +53,8 @@ pub struct Run {
     pub gravity: f64,
     /// Mass-proportional damping [1/s].
     pub damping: f64,
+    /// Number of shapes of a fibre that are kept for pictures; `None`: as many as fit into their memory.
+    pub shapes: Option<u64>,
 }
 
 impl Run {

@@ -73,10 +73,20 @@ impl KeepShapes {
     pub const NONE: Self = Self { replicates: 0, every: 1 };
 
     /// As many shapes as fit into `positions` node positions, of one to eight replicates. If they do not fit, the
-    /// number of replicates is reduced first, then the number of instants.
+    /// number of replicates is reduced first, then the number of instants. A case that says how many shapes are kept
+    /// ([`Run::shapes`](crate::case::Run)) has at least one replicate with so many.
     pub fn within(case: &Case, positions: u64) -> Self {
         let nodes = case.fibre.elements as u64 + 1;
         let instants = case.run.steps / case.run.output_steps + 1;
+        if let Some(asked) = case.run.shapes {
+            if asked == 0 {
+                return Self::NONE;
+            }
+            let every = instants.div_ceil(asked);
+            let one = nodes.saturating_mul(instants.div_ceil(every));
+            let replicates = (positions / one).clamp(1, WIDTH as u64).min(case.run.replicates);
+            return Self { replicates, every };
+        }
         let one = nodes.saturating_mul(instants);
         let replicates = (positions / one).clamp(1, WIDTH as u64).min(case.run.replicates);
         Self { replicates, every: one.div_ceil(positions).max(1) }

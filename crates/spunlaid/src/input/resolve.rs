@@ -159,6 +159,7 @@ fn blank() -> Case {
             scheme: Scheme::SemiImplicitEuler,
             gravity: nan,
             damping: nan,
+            shapes: None,
         },
     }
 }

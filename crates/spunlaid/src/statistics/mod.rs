@@ -1,7 +1,9 @@
 //! Statistics over replicates and over time.
 
+mod difference;
 mod spectrum;
 
+pub use difference::{Difference, student_t_95_at};
 pub use spectrum::{Spectrum, Welch, Window};
 
 /// A result over the replicates of an ensemble.

@@ -31,6 +31,7 @@ pub(crate) fn table1() -> Case {
             scheme: Scheme::SemiImplicitEuler,
             gravity: 9.81,
             damping: 0.0,
+            shapes: None,
         },
     }
 }

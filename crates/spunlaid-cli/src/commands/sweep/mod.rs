@@ -18,6 +18,7 @@ use spunlaid::error::Error;
 use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, write_case};
 use spunlaid::lanes::Isa;
 use spunlaid::study::{Journal, Landing, Progress, Study, rankings, run};
+use std::fs;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 
@@ -125,8 +126,7 @@ fn write(
     let results = output::study::write(&staging, study, journal)?;
     let rankings = rankings(study, journal)?;
     let figures = study_figures(study, &results, &rankings.of_measures);
-    let json = output::study::json(study, &results, &rankings);
-    staging.write("results.json", json.as_bytes())?;
+    output::study::write_json(&staging, study, &results, &rankings)?;
     let refusal = rankings.refusal.filter(|_| study.factors.len() > 1).map(|refusal| refusal.to_string());
     output::pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let report = study_html(&StudyReport {
@@ -145,7 +145,8 @@ fn write(
     staging.publish()?;
     let flown: u64 = results.iter().map(|point| point.n + point.lost).sum();
     if sweep.json {
-        say::text(&json);
+        let path = folder.path().join("results.json");
+        say::text(&fs::read_to_string(&path).map_err(Failure::unwritable(&path))?);
     } else if !sweep.quiet {
         say::text(&table::results(study, &results));
         if let Some(refusal) = &refusal {

@@ -2,7 +2,7 @@
 
 use crate::numbers::significant;
 use spunlaid::ensemble::{Curve, Place, Results};
-use spunlaid::observe::{self, Kind};
+use spunlaid::observe::{self, Kind, Measure};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series, even,
     palette::{GREEN, PURPLE},
@@ -33,35 +33,12 @@ pub(super) fn figures(results: &Results) -> Vec<Figure> {
 /// A figure of the curves that are declared for it.
 fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figure {
     let first = curves[0].measure;
-    let Some((column, over, unit)) = first.kind.over() else {
-        return Figure::of(
-            &Chart::new(declared.name, declared.title, Axis::linear(""), Axis::linear("")),
-            String::new(),
-        );
-    };
-    let label = format!("{over} ({})", unit.shown);
-    let along = if first.kind == Kind::Spectrum { Axis::logarithmic(&label) } else { Axis::linear(&label) };
-    let along = match first.kind {
-        Kind::Profile => along.including(0.0),
-        Kind::Series => along.tight().including(0.0),
-        Kind::Number | Kind::Spectrum => along.tight(),
-    };
-    // The numbers beside a figure are in the units of its axes.
-    let column = column.rsplit_once('_').map_or(column, |(name, _)| name);
-    let shown = unit.shown.to_lowercase();
-    let value =
-        format!("{} ({})", if curves.len() == 1 { first.label } else { declared.title }, first.unit.shown);
-    let value = match (declared.logarithmic, first.kind) {
-        (true, Kind::Spectrum) => Axis::logarithmic(&value).decades(9),
-        (true, _) => Axis::logarithmic(&value).steady(),
-        (false, _) if declared.from_zero => Axis::linear(&value).zero_based(),
-        (false, _) => Axis::linear(&value),
-    };
-    let mut chart =
-        Chart::new(declared.name, declared.title, along.in_column(&format!("{column}_{shown}")), value)
-            .when_empty("no values: too few recorded instants, or a fibre at rest");
+    let (along, value) = axes(first, curves.len() == 1);
+    let unit = first.kind.over().map_or(1.0, |(.., unit)| unit.per_si);
+    let mut chart = Chart::new(declared.name, declared.title, along, value)
+        .when_empty("no values: too few recorded instants, or nothing to compare with");
     for (i, curve) in curves.iter().enumerate() {
-        let places = scaled(curve, unit.per_si);
+        let places = scaled(curve, unit);
         chart = match first.kind {
             Kind::Profile => profile(chart, i, curve, &places),
             Kind::Series => series(chart, i, curve, &places, results.replicates()),
@@ -75,6 +52,34 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
         }
     }
     Figure::of(&chart, caption(declared, first.kind, &scaled(curves[0], 1.0), results.replicates()))
+}
+
+/// The axes of a curve: along and up.
+///
+/// * `alone` – whether it is the only curve of its figure
+pub(crate) fn axes(first: &Measure, alone: bool) -> (Axis, Axis) {
+    let declared = first.figure;
+    let Some((column, over, unit)) = first.kind.over() else {
+        return (Axis::linear(""), Axis::linear(""));
+    };
+    let label = format!("{over} ({})", unit.shown);
+    let along = if first.kind == Kind::Spectrum { Axis::logarithmic(&label) } else { Axis::linear(&label) };
+    let along = match first.kind {
+        Kind::Profile => along.including(0.0),
+        Kind::Series => along.tight().including(0.0),
+        Kind::Number | Kind::Spectrum => along.tight(),
+    };
+    // The numbers beside a figure are in the units of its axes.
+    let column = column.rsplit_once('_').map_or(column, |(name, _)| name);
+    let shown = unit.shown.to_lowercase();
+    let value = format!("{} ({})", if alone { first.label } else { declared.title }, first.unit.shown);
+    let value = match (declared.logarithmic, first.kind) {
+        (true, Kind::Spectrum) => Axis::logarithmic(&value).decades(9),
+        (true, _) => Axis::logarithmic(&value).steady(),
+        (false, _) if declared.from_zero => Axis::linear(&value).zero_based(),
+        (false, _) => Axis::linear(&value),
+    };
+    (along.in_column(&format!("{column}_{shown}")), value)
 }
 
 /// Series in colours and marks that stay apart in grey too.

@@ -1,7 +1,7 @@
 //! The figures of a run.
 
 mod air;
-mod measured;
+pub(super) mod measured;
 mod motion;
 mod spectra;
 

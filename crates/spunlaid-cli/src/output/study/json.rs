@@ -1,26 +1,17 @@
 //! `results.json`: the points with their results, and the ranking.
 
+use super::super::folder::Staging;
 use super::super::summary::InOrder;
 use super::columns::{Value, values};
+use crate::failure::Failure;
 use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::study::{Effect, MEASURES, PointResults, Ranking, Rankings, Study};
+use std::fs::File;
+use std::io::{BufWriter, Write};
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
-
-#[derive(Serialize)]
-struct Document {
-    schema_version: u32,
-    spunlaid_version: &'static str,
-    design: &'static str,
-    common_phases: bool,
-    points: Vec<Point>,
-    /// By the columns of the results; empty if the factors cannot be ranked.
-    ranking: InOrder<RankingOf>,
-    /// Why the factors cannot be ranked.
-    refusal: Option<String>,
-}
 
 #[derive(Serialize)]
 struct Point {
@@ -55,27 +46,47 @@ struct EffectOf {
     half_width: Option<f64>,
 }
 
-/// The study as JSON, numbers in SI units.
-pub(crate) fn json(study: &Study, results: &[PointResults], rankings: &Rankings) -> String {
-    let points = results.iter().enumerate().map(|(index, of)| point(study, index, of)).collect();
+/// Writes `results.json`, numbers in SI units, a line per point. It is written as it is made, so that memory does not
+/// grow with the number of points.
+pub(crate) fn write_json(
+    staging: &Staging<'_>,
+    study: &Study,
+    results: &[PointResults],
+    rankings: &Rankings,
+) -> Result<(), Failure> {
+    let (now, later) = staging.place("results.json");
+    let file = File::create(now).map_err(Failure::unwritable(&later))?;
+    let mut out = BufWriter::new(file);
+    let written = document(&mut out, study, results, rankings).and_then(|()| out.flush());
+    written.map_err(Failure::unwritable(&later))
+}
+
+fn document(
+    out: &mut impl Write,
+    study: &Study,
+    results: &[PointResults],
+    rankings: &Rankings,
+) -> std::io::Result<()> {
     let ranking = |of: &Ranking| {
         let explained = Some(of.explained).filter(|share| share.is_finite());
         let effects = of.effects.iter().map(|effect| effect_of(study, effect)).collect();
         (MEASURES[of.measure].column.to_owned(), RankingOf { explained, effects })
     };
-    let document = Document {
-        schema_version: SCHEMA_VERSION,
-        spunlaid_version: env!("CARGO_PKG_VERSION"),
-        design: study.design.name(),
-        common_phases: study.common_phases,
-        points,
-        ranking: InOrder(rankings.of_measures.iter().map(ranking).collect()),
-        refusal: rankings.refusal.as_ref().map(ToString::to_string),
-    };
-    // Serialising plain numbers and strings into memory cannot fail.
-    let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
-    text.push('\n');
-    text
+    // By the columns of the results; empty if the factors cannot be ranked.
+    let ranking = InOrder(rankings.of_measures.iter().map(ranking).collect());
+    let refusal = rankings.refusal.as_ref().map(ToString::to_string);
+    let (version, design, common) = (env!("CARGO_PKG_VERSION"), study.design.name(), study.common_phases);
+    writeln!(out, "{{\n\"schema_version\": {SCHEMA_VERSION},\n\"spunlaid_version\": \"{version}\",")?;
+    write!(out, "\"design\": \"{design}\",\n\"common_phases\": {common},\n\"points\": [")?;
+    for (index, of) in results.iter().enumerate() {
+        out.write_all(if index == 0 { b"\n" } else { b",\n" })?;
+        serde_json::to_writer(&mut *out, &point(study, index, of))?;
+    }
+    out.write_all(b"\n],\n\"ranking\": ")?;
+    serde_json::to_writer(&mut *out, &ranking)?;
+    out.write_all(b",\n\"refusal\": ")?;
+    serde_json::to_writer(&mut *out, &refusal)?;
+    out.write_all(b"\n}\n")
 }
 
 fn point(study: &Study, index: usize, of: &PointResults) -> Point {

@@ -4,7 +4,7 @@ mod columns;
 mod csv;
 mod json;
 
-pub(crate) use json::json;
+pub(crate) use json::write_json;
 
 use self::columns::Value;
 use super::folder::Staging;

@@ -6,7 +6,7 @@ use super::row::{
 };
 use super::value::{Content, FileKind, Kind, SPECTRA, Sign, Value};
 use crate::air::{Axis, EddyModel, Flow, LENGTH_CONSTANT, PlacedField, SpectrumShape, TIME_CONSTANT};
-use crate::case::{MOST_REPLICATES, whole_parts};
+use crate::case::{MOST_REPLICATES, MOST_SHAPES, whole_parts};
 use crate::chain::schemes::Scheme;
 use crate::drag::{FrictionLaw, NormalLaw};
 use crate::error::Fault;
@@ -450,6 +450,18 @@ pub(super) static KEYS: &[Key] = &[
         .label("Output interval")
         .slider(1e-4, 1e-2)
         .counted(),
+    key("run.shapes", Kind::Whole(0, MOST_SHAPES), Access {
+        get: |case| case.run.shapes.map(Value::Whole),
+        set: |case, value| {
+            case.run.shapes = Some(whole(value)?);
+            Ok(())
+        },
+    })
+    .follows("every recorded instant as far as they fit into 96 MB, of which 500 go to ParaView")
+    .meaning(
+        "Number of shapes of a fibre that are kept for the moving picture and for ParaView, evenly over the run, at most \
+         one for each recorded instant. Eight in each period of the end's motion follow it. `0` keeps none.",
+    ),
     quantity("run.damping", Dimension::Rate, NotNegative, number!(run.damping))
         .value("0 1/s")
         .meaning("Rate at which the velocity of every node decays, in addition to the drag of the air.")

@@ -5,7 +5,7 @@ use super::linear::{add, dot};
 use super::{Effect, Refusal};
 use crate::error::Error;
 use crate::observe::MEASURES;
-use crate::statistics::student_t_95;
+use crate::statistics::student_t_95_at;
 use crate::study::PointResults;
 use crate::study::journal::Journal;
 use crate::study::measures::Record;
@@ -146,7 +146,7 @@ impl Fitted {
         let half_width = match (self.replicated || free > 0.0, all.value == 0.0) {
             (false, _) => None,
             (true, true) => Some(0.0),
-            (true, false) => Some(student_t(all.degrees) * all.value.sqrt()),
+            (true, false) => Some(student_t_95_at(all.degrees) * all.value.sqrt()),
         };
         Effect {
             factor: *factor,
@@ -247,13 +247,4 @@ impl Variance {
         let value = self.value + other.value;
         Self { value, degrees: value * value / (part(self) + part(other)) }
     }
-}
-
-/// Student's t for a number of degrees of freedom that need not be whole, linear in its reciprocal.
-fn student_t(degrees: f64) -> f64 {
-    let degrees = if degrees.is_nan() { 1.0 } else { degrees.clamp(1.0, 1e9) };
-    let below = degrees.floor();
-    let share = (1.0 / below - 1.0 / degrees) / (1.0 / below - 1.0 / (below + 1.0));
-    let [a, b] = [below, below + 1.0].map(|degrees| student_t_95(degrees as u64));
-    a + share * (b - a)
 }

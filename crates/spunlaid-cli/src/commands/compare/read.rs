@@ -1,0 +1,82 @@
+//! Reads the results folders of runs.
+
+use crate::failure::Failure;
+use crate::figures::{Curves, Row};
+use serde_json::Value as Json;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const SUMMARY: &str = "summary.json";
+
+/// The results of a run.
+#[derive(Clone, Debug)]
+pub(super) struct Run {
+    pub(super) curves: Curves,
+    summary: Json,
+}
+
+impl Run {
+    pub(super) fn read(folder: &Path, name: String) -> Result<Self, Failure> {
+        let not_a_run = |reason: String| Failure::NotARun { folder: folder.to_owned(), reason };
+        if !folder.is_dir() {
+            return Err(not_a_run("there is no such folder".to_owned()));
+        }
+        if folder.join("results.csv").exists() || folder.join("analysis.json").exists() {
+            return Err(not_a_run("it holds a study or an analysis, and runs are compared".to_owned()));
+        }
+        let path = folder.join(SUMMARY);
+        let text = fs::read_to_string(&path).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
+        let summary: Json =
+            serde_json::from_str(&text).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
+        if summary.get("end_node").is_none() {
+            return Err(not_a_run(format!("{SUMMARY} is not that of a run")));
+        }
+        Ok(Self { curves: Curves { name, of: curves(&folder.join("figures")) }, summary })
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.curves.name
+    }
+
+    pub(super) fn replicates(&self) -> u64 {
+        self.summary["replicates"].as_u64().unwrap_or(0)
+    }
+
+    /// A value by its path in `summary.json`.
+    pub(super) fn at(&self, path: &str) -> Option<&Json> {
+        self.summary.pointer(path)
+    }
+
+    /// The values of the replicates of a measure; NaN where there is none.
+    pub(super) fn values(&self, group: &str, column: &str) -> Option<Vec<f64>> {
+        let values = self.summary[group][column]["values"].as_array()?;
+        Some(values.iter().map(|value| value.as_f64().unwrap_or(f64::NAN)).collect())
+    }
+}
+
+/// The curves of the figures, as far as they can be read: a figure that is not there is not compared.
+fn curves(folder: &Path) -> BTreeMap<String, Vec<Row>> {
+    let files = fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
+    let of = |path: PathBuf| {
+        let name = path.file_stem()?.to_str()?.to_owned();
+        (path.extension()? == "csv").then(|| Some((name, rows(&path)?)))?
+    };
+    files.filter_map(of).collect()
+}
+
+/// The rows of a table of numbers beside a figure: series, place, value and, if there is one, the error.
+fn rows(path: &Path) -> Option<Vec<Row>> {
+    let mut reader = csv::Reader::from_path(path).ok()?;
+    let error = reader.headers().ok()?.iter().position(|head| head == "error");
+    let row = |record: csv::StringRecord| {
+        let number = |column: usize| record.get(column)?.parse::<f64>().ok();
+        Some(Row {
+            series: record.get(0)?.to_owned(),
+            at: number(1)?,
+            value: number(2).unwrap_or(f64::NAN),
+            error: error.and_then(number),
+        })
+    };
+    reader.records().map(|record| record.ok().and_then(row)).collect()
+}

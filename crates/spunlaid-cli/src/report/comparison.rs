@@ -1,0 +1,68 @@
+//! `report.html` of a comparison: a table for each pair of runs, and their curves in one picture each.
+
+use crate::output::comparison::{Compared, Comparison};
+use askama::Template;
+use spunlaid_charts::Figure;
+
+/// Content of the report.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ComparisonReport<'a> {
+    pub(crate) comparisons: &'a [Comparison],
+    pub(crate) figures: &'a [Figure],
+    /// Version of the program.
+    pub(crate) version: &'a str,
+}
+
+/// Content of `assets/comparison.html`, which escapes everything that is not marked safe.
+#[derive(Template)]
+#[template(path = "comparison.html")]
+struct Page<'a> {
+    title: String,
+    tables: Vec<Table<'a>>,
+    figures: &'a [Figure],
+    version: &'a str,
+    style: &'static str,
+    study_style: &'static str,
+}
+
+struct Table<'a> {
+    of: &'a Comparison,
+    rows: Vec<Row>,
+    beyond: usize,
+    all: usize,
+}
+
+struct Row {
+    name: &'static str,
+    unit: &'static str,
+    cells: [String; 4],
+    /// Whether the difference is within chance.
+    faint: bool,
+}
+
+/// The report as one HTML file.
+pub(crate) fn comparison_html(input: &ComparisonReport<'_>) -> String {
+    let row = |of: &Compared| Row {
+        name: of.measure.label,
+        unit: of.measure.unit.shown,
+        cells: of.cells(),
+        faint: !of.difference.is_some_and(|difference| difference.is_beyond_chance()),
+    };
+    let table = |of: &'_ Comparison| of.measures.iter().map(row).collect();
+    let tables = input.comparisons.iter().map(|of| {
+        let (beyond, all) = of.beyond_chance();
+        Table { of, rows: table(of), beyond, all }
+    });
+    let first = input.comparisons.first().map_or("", |of| of.against.as_str());
+    let others: Vec<&str> = input.comparisons.iter().map(|of| of.run.as_str()).collect();
+    let page = Page {
+        title: format!("{} against {first}", others.join(", ")),
+        tables: tables.collect(),
+        figures: input.figures,
+        version: input.version,
+        style: include_str!("../../assets/report.css"),
+        study_style: include_str!("../../assets/study.css"),
+    };
+    // Formatting these values into a string cannot fail.
+    page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
+}
