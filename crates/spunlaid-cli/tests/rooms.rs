@@ -16,8 +16,8 @@ const PROGRAM: &[&[&str]] = &[
 ];
 
 const CHARTS: &[&[&str]] = &[
-    &["decimate", "numbers", "palette", "png"],
-    &["svg"],
+    &["decimate", "glyphs", "numbers", "palette"],
+    &["png", "svg"],
     &["table", "map"],
     &["scale"],
     &["chart"],

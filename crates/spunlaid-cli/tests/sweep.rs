@@ -394,7 +394,7 @@ fn keys_set_for_all_points_are_kept_with_the_study() {
     assert!(again.status.success(), "{}", said(&again));
     assert_same(&results(&place.path("out")), &results(&place.path("again")));
     // The same numbers as with the values in the case.
-    let changed = case(0.03) + "[drag]\nalong = 'sakiadis'\n";
+    let changed = case(0.03).replace("[drag]\n", "[drag]\nalong = 'sakiadis'\n");
     fs::write(place.path("case.toml"), changed).unwrap();
     place.swept("changed", &[]);
     assert_eq!(csv(&place, "out"), csv(&place, "changed"));
