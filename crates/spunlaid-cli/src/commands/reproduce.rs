@@ -5,8 +5,8 @@ use super::{plural, threads};
 use crate::args::{Reproduce, SchemeName};
 use crate::failure::Failure;
 use crate::figures::paper as draw;
-use crate::numbers::plus_minus;
 use crate::output::folder::{ENTRIES, Staging};
+use crate::output::study::shown;
 use crate::output::{json_text, pictures};
 use crate::report::{PaperReport, paper_html};
 use crate::{progress, say};
@@ -266,11 +266,8 @@ impl Flown {
     /// Table 1 with each choice: amplitudes [mm] and frequencies [Hz] with their errors.
     fn choices(&self) -> Vec<(String, Vec<String>)> {
         let cells = |point: usize| {
-            let results = &self.points[point];
-            let cell = |i: usize, factor: f64| {
-                plus_minus(results.mean[i] * factor, results.standard_error[i].map(|error| error * factor))
-            };
-            vec![cell(0, 1e3), cell(1, 1e3), cell(2, 1.0), cell(3, 1.0)]
+            let shown = |name| shown::cell(&self.points[point], name);
+            ["amplitude_y", "amplitude_z", "frequency_y", "frequency_z"].map(shown).to_vec()
         };
         self.flying.choices.iter().map(|&(name, point)| (name.to_owned(), cells(point))).collect()
     }

@@ -3,28 +3,17 @@
 use super::rendered;
 use super::words::count;
 use crate::figures::name_of_key;
-use crate::numbers::{THIN, number, plus_minus};
+use crate::numbers::{THIN, number};
+use crate::output::study::shown;
 use askama::Template;
-use spunlaid::study::{Design, Effect, MEASURES, PointResults, Ranking, Study};
+use spunlaid::study::{Design, Effect, PointResults, Ranking, Study, measure};
 use spunlaid_charts::Figure;
 
 /// Largest number of points that are listed.
 const LISTED: usize = 500;
 
-/// The listed results: name of the measure, head of the column, factor from SI units.
-const SHOWN: [(&str, &str, f64); 6] = [
-    ("amplitude_y", "Amplitude in y (mm)", 1e3),
-    ("amplitude_z", "Amplitude in z (mm)", 1e3),
-    ("frequency_y", "Frequency in y (Hz)", 1.0),
-    ("frequency_z", "Frequency in z (Hz)", 1.0),
-    ("mean_x", "Mean x (mm)", 1e3),
-    ("strain_99", "Strain, 99 % of the time (%)", 1e2),
-];
-
-/// Index of a measure; all names above exist.
-fn measure_index(name: &str) -> usize {
-    MEASURES.iter().position(|measure| measure.name == name).unwrap_or(0)
-}
+/// Measures that are listed.
+const SHOWN: [&str; 6] = ["amplitude_y", "amplitude_z", "frequency_y", "frequency_z", "mean_x", "strain_99"];
 
 /// Content of the report.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +46,7 @@ struct Page<'a> {
     summary: String,
     phases: &'static str,
     notes: &'a [String],
-    ranking_heads: Vec<&'static str>,
+    ranking_heads: Vec<String>,
     rankings: Vec<RankingRow>,
     refusal: Option<&'a str>,
     explained: Vec<String>,
@@ -99,7 +88,7 @@ pub(crate) fn study_html(input: &StudyReport<'_>) -> String {
         summary: summary(study, input.results),
         phases: phases(study),
         notes: input.notes,
-        ranking_heads: SHOWN.map(|(_, head, _)| head).to_vec(),
+        ranking_heads: SHOWN.map(shown::head).to_vec(),
         rankings: ranking_rows(study, shown),
         refusal: input.refusal,
         explained: explained(shown),
@@ -174,20 +163,14 @@ fn phases(study: &Study) -> &'static str {
 
 fn heads(study: &Study) -> Vec<String> {
     let inputs = study.inputs().map(|input| input.key.to_owned());
-    inputs.chain(SHOWN.map(|(_, head, _)| head.to_owned())).chain(["n".to_owned()]).collect()
+    inputs.chain(SHOWN.map(shown::head)).chain(["n".to_owned()]).collect()
 }
 
 fn rows(study: &Study, results: &[PointResults]) -> Vec<Row> {
     let row = |(index, point): (usize, &PointResults)| {
         let values = study.points[index].values.iter().zip(study.inputs());
         let inputs = values.map(|(value, input)| input.pretty(*value));
-        let results = SHOWN.map(|(name, _, factor)| {
-            let measure = measure_index(name);
-            plus_minus(
-                point.mean[measure] * factor,
-                point.standard_error[measure].map(|error| error * factor),
-            )
-        });
+        let results = SHOWN.map(|name| shown::cell(point, name));
         Row { number: index + 1, cells: inputs.chain(results).chain([point.n.to_string()]).collect() }
     };
     results.iter().enumerate().take(LISTED).map(row).collect()
@@ -207,32 +190,33 @@ fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
             } else {
                 format!("{to} instead of {from}")
             },
-            cells: SHOWN
-                .iter()
-                .map(|(name, _, unit)| cell(rankings, measure_index(name), effect, *unit))
-                .collect(),
+            cells: SHOWN.iter().map(|name| cell(rankings, name, effect)).collect(),
         }
     };
     // The rows have the order of the effects on the amplitude.
     first.effects.iter().map(row).collect()
 }
 
-fn cell(rankings: &[Ranking], measure: usize, of: &Effect, unit: f64) -> Cell {
-    let ranking = rankings.iter().find(|ranking| ranking.measure == measure);
+fn ranking_of<'a>(rankings: &'a [Ranking], name: &str) -> Option<&'a Ranking> {
+    let (index, _) = measure(name)?;
+    rankings.iter().find(|ranking| ranking.measure == index)
+}
+
+fn cell(rankings: &[Ranking], name: &str, of: &Effect) -> Cell {
+    let ranking = ranking_of(rankings, name);
     let effect = ranking.and_then(|ranking| ranking.effects.iter().find(|effect| effect.is_like(of)));
     effect.map_or_else(
         || Cell { text: "–".to_owned(), faint: true },
         |effect| {
             let faint = effect.half_width.is_none_or(|half| half.is_nan() || half >= effect.change.abs());
-            Cell { text: plus_minus(effect.change * unit, effect.half_width.map(|half| half * unit)), faint }
+            Cell { text: shown::in_unit(name, effect.change, effect.half_width), faint }
         },
     )
 }
 
 fn explained(rankings: &[Ranking]) -> Vec<String> {
-    let of = |(name, ..): &(&str, &str, f64)| {
-        let ranking = rankings.iter().find(|ranking| ranking.measure == measure_index(name));
-        ranking.filter(|ranking| ranking.explained.is_finite()).map_or_else(
+    let of = |name: &&str| {
+        ranking_of(rankings, name).filter(|ranking| ranking.explained.is_finite()).map_or_else(
             || "–".to_owned(),
             |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())),
         )

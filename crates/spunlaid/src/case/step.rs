@@ -1,6 +1,6 @@
 //! The choice of the time step where the case does not give one.
 
-use super::Case;
+use super::{Case, whole_parts};
 use crate::chain::schemes::Scheme;
 use std::f64::consts::PI;
 
@@ -30,6 +30,17 @@ impl StepChoice {
 }
 
 impl Case {
+    /// Changes the time step [s]. All times of the run stay the same if they are whole steps; their numbers of steps
+    /// change.
+    pub fn set_time_step(&mut self, time_step: f64) {
+        let run = &mut self.run;
+        let steps = |time: f64| whole_parts(time, time_step).0;
+        let (duration, spin_up, output) = (run.duration(), run.spin_up(), run.output_interval());
+        (run.steps, run.spin_up_steps, run.output_steps) =
+            (steps(duration).max(1), steps(spin_up), steps(output).max(1));
+        run.time_step = time_step;
+    }
+
     /// A suitable time step [s]: 1, 2 or 5 times a power of ten.
     ///
     /// The step keeps the error of the free end's path below `tolerance` times its amplitude, and it is at most half

@@ -67,9 +67,6 @@ impl Common {
                 self.steps_between_looks == other.steps_between_looks,
             ),
         ];
-        match same.into_iter().find(|(_, same)| !same) {
-            Some((what, _)) => Err(FlightFault::Differ { what, lane }),
-            None => Ok(()),
-        }
+        FlightFault::unless_same(lane, &same)
     }
 }

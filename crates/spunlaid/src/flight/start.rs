@@ -185,9 +185,7 @@ pub(super) fn check_strands(strands: &[Strand]) -> Result<(), FlightFault> {
             ("the number of elements", strand.fibre.elements == first.fibre.elements),
             ("the kind of their drag laws", strand.drag.curves() == first.drag.curves()),
         ];
-        if let Some((what, _)) = same.into_iter().find(|(_, same)| !same) {
-            return Err(FlightFault::Differ { what, lane });
-        }
+        FlightFault::unless_same(lane, &same)?;
     }
     Ok(())
 }

@@ -119,11 +119,8 @@ pub fn table1(scheme: Scheme) -> Result<Case, Error> {
 
 /// The case with another scheme and time step [s]. The recorded times stay the same if they are whole steps.
 pub fn in_scheme(mut case: Case, scheme: Scheme, time_step: f64) -> Case {
-    let (duration, interval) = (case.run.duration(), case.run.output_interval());
     case.run.scheme = scheme;
-    case.run.time_step = time_step;
-    case.run.steps = (duration / time_step).round().max(1.0) as u64;
-    case.run.output_steps = (interval / time_step).round().max(1.0) as u64;
+    case.set_time_step(time_step);
     case
 }
 
@@ -172,8 +169,13 @@ pub struct TrendPoint {
 impl TrendPoint {
     /// Takes the values from the results of a study's point.
     pub fn of(value: f64, results: &PointResults) -> Self {
-        let of = |i: usize| (results.mean[i], results.standard_error[i]);
-        Self { value, amplitude: [of(0), of(1)], frequency: [of(2), of(3)], n: results.n }
+        let of = |name| results.of(name).unwrap_or((f64::NAN, None));
+        Self {
+            value,
+            amplitude: ["amplitude_y", "amplitude_z"].map(of),
+            frequency: ["frequency_y", "frequency_z"].map(of),
+            n: results.n,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The results of a trajectory that a study keeps.
 
 use crate::ensemble::Trajectory;
-use crate::observe::{MEASURES, NUMBERS};
+use crate::observe::{MEASURES, Measure, NUMBERS};
 
 /// The numbers measured on one fibre, in the order of [`MEASURES`], in SI units and percent. NaN means that a
 /// measure does not apply to the case.
@@ -55,6 +55,11 @@ impl Landing {
             Self::Lost { .. } => None,
         }
     }
+}
+
+/// A measure with its index into the [`MEASURES`]. None without a measure of this name.
+pub fn measure(name: &str) -> Option<(usize, &'static Measure)> {
+    MEASURES.into_iter().enumerate().find(|(_, measure)| measure.name == name)
 }
 
 /// The numbers of a trajectory.

@@ -21,7 +21,7 @@ pub use crate::observe::MEASURES;
 pub use design::{Design, Factor, Levels, Spacing};
 pub use effects::{Effect, Ranking, Rankings, Refusal, Term, rankings};
 pub use journal::{Found, Header, Journal};
-pub use measures::{Landing, Measured, Record, measured};
+pub use measures::{Landing, Measured, Record, measure, measured};
 pub use pack::{Batch, fly_batches};
 pub use run::{PointResults, Progress, results_of_point, run};
 

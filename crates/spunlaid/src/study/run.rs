@@ -1,7 +1,7 @@
 //! Flies the missing fibres of a study, and computes the statistics of its points.
 
 use super::journal::Journal;
-use super::measures::{Landing, Record, measured};
+use super::measures::{Landing, Record, measure, measured};
 use super::pack::{Batch, Lost, fly_and_land};
 use super::{Replicates, Study};
 use crate::ensemble::{Computing, Keep, Trajectory};
@@ -39,6 +39,13 @@ pub struct PointResults {
     pub mean: [f64; MEASURES.len()],
     /// Standard error of each mean; `None` from a single fibre.
     pub standard_error: [Option<f64>; MEASURES.len()],
+}
+
+impl PointResults {
+    /// Mean and standard error of a measure. None without a measure of this name.
+    pub fn of(&self, name: &str) -> Option<(f64, Option<f64>)> {
+        measure(name).map(|(index, _)| (self.mean[index], self.standard_error[index]))
+    }
 }
 
 /// Flies the fibres that the journal does not hold yet.

@@ -1,32 +1,27 @@
 //! The table of a study on the terminal.
 
-use crate::numbers::plus_minus;
+use crate::output::study::shown;
 use spunlaid::study::{PointResults, Study};
 use std::fmt::Write;
 
 /// Largest number of points that are listed.
 const LISTED: usize = 24;
-/// Results that are shown: index into the measures, head, factor from SI.
-const SHOWN: [(usize, &str, f64); 4] =
-    [(0, "amplitude y", 1e3), (1, "amplitude z", 1e3), (2, "frequency y", 1.0), (3, "frequency z", 1.0)];
+/// Measures that are shown.
+const SHOWN: [&str; 4] = ["amplitude_y", "amplitude_z", "frequency_y", "frequency_z"];
 
 /// A line per point: the values that vary, then mean ± standard error of the results.
 pub(super) fn results(study: &Study, results: &[PointResults]) -> String {
     let mut rows: Vec<Vec<String>> = Vec::new();
     let mut heads = vec!["point".to_owned()];
     heads.extend(study.inputs().map(|of| of.key.rsplit('.').next().unwrap_or(of.key).to_owned()));
-    heads
-        .extend(SHOWN.map(|(_, head, factor)| format!("{head} {}", if factor == 1.0 { "Hz" } else { "mm" })));
+    heads.extend(SHOWN.map(shown::head));
     heads.push("n".to_owned());
     rows.push(heads);
     for (index, point) in results.iter().enumerate().take(LISTED) {
         let mut row = vec![(index + 1).to_string()];
         let values = study.points[index].values.iter().zip(study.inputs());
         row.extend(values.map(|(value, input)| input.pretty(*value)));
-        for (measure, _, factor) in SHOWN {
-            let error = point.standard_error[measure].map(|error| error * factor);
-            row.push(plus_minus(point.mean[measure] * factor, error));
-        }
+        row.extend(SHOWN.map(|name| shown::cell(point, name)));
         row.push(point.n.to_string());
         rows.push(row);
     }

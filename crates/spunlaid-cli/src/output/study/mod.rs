@@ -3,6 +3,7 @@
 mod columns;
 mod csv;
 mod json;
+pub(crate) mod shown;
 
 pub(crate) use json::write_json;
 

@@ -263,9 +263,7 @@ fn check(streams: &[Stream]) -> Result<(), FlightFault> {
             ("air.harmonics", stream.air.harmonics == first.air.harmonics),
             ("air.record", checksums(stream) == checksums(first)),
         ];
-        if let Some((what, _)) = same.into_iter().find(|(_, same)| !same) {
-            return Err(FlightFault::Differ { what, lane });
-        }
+        FlightFault::unless_same(lane, &same)?;
     }
     Ok(())
 }

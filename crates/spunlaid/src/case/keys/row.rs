@@ -3,7 +3,7 @@
 use super::value::{FileKind, Kind, Sign, Value};
 use super::{Key, LeftOut};
 use crate::air::{Flow, PlacedField};
-use crate::case::{Case, whole_parts};
+use crate::case::Case;
 use crate::error::Fault;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
@@ -204,14 +204,4 @@ pub(super) fn placed_mut(case: &mut Case) -> Result<&mut PlacedField, Fault> {
             Err(Fault::Needs { needed: "air.field", remedy })
         }
     }
-}
-
-/// Changes the time step. All times of the run stay the same; their numbers of steps change.
-pub(super) fn set_time_step(case: &mut Case, time_step: f64) {
-    let run = &mut case.run;
-    let steps = |time: f64| whole_parts(time, time_step).0;
-    let (duration, spin_up, output) = (run.duration(), run.spin_up(), run.output_interval());
-    (run.steps, run.spin_up_steps, run.output_steps) =
-        (steps(duration).max(1), steps(spin_up), steps(output).max(1));
-    run.time_step = time_step;
 }

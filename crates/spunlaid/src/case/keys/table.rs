@@ -1,9 +1,7 @@
 //! The table of keys: one row for each, in the order of a case file.
 
 use super::Key;
-use super::row::{
-    Access, choose, file, key, named, number, placed, placed_mut, quantity, set_time_step, vector, whole,
-};
+use super::row::{Access, choose, file, key, named, number, placed, placed_mut, quantity, vector, whole};
 use super::value::{Content, FileKind, Kind, SPECTRA, Sign, Value};
 use crate::air::{Axis, EddyModel, Flow, LENGTH_CONSTANT, PlacedField, SpectrumShape, TIME_CONSTANT};
 use crate::case::{MOST_REPLICATES, MOST_SHAPES, whole_parts};
@@ -382,7 +380,7 @@ pub(super) static KEYS: &[Key] = &[
     quantity("run.time_step", Dimension::Time, Positive, Access {
         get: |case| Some(Value::Number(case.run.time_step)),
         set: |case, value| {
-            set_time_step(case, number(value)?);
+            case.set_time_step(number(value)?);
             Ok(())
         },
     })
@@ -395,7 +393,7 @@ pub(super) static KEYS: &[Key] = &[
         get: |_| None,
         set: |case, value| {
             let (time_step, _) = case.suggested_time_step(number(value)?, case.run.duration());
-            set_time_step(case, time_step);
+            case.set_time_step(time_step);
             Ok(())
         },
     })
