@@ -67,8 +67,11 @@ fn identical_after_getting_and_setting() {
         again.air.from_flow = case.air.from_flow;
         assert_eq!(format!("{again:?}"), format!("{case:?}"), "{}", path.display());
     }
-    let never: Vec<_> = keys::all().iter().map(|key| key.name).filter(|name| !seen.contains(name)).collect();
-    assert!(never.len() < 5, "{never:?}");
+    let mut never: Vec<_> =
+        keys::all().iter().map(|key| key.name).filter(|name| !seen.contains(name)).collect();
+    // A case has what these two stand for.
+    never.retain(|name| !["fibre.linear_density", "air.temperature"].contains(name));
+    assert!(never.len() < 4, "{never:?}");
 }
 
 #[test]

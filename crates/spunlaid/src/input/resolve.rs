@@ -98,12 +98,11 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                 }
             }
             (Some(_), _) if key.counted => Ok(()),
-            (Some(_), _) if key.name == "fibre.linear_density" && written.get("fibre.diameter").is_some() => {
-                let (other, remedy) = ("fibre.diameter", "either gives the other; write one of the two");
-                Err(Fault::Excludes { other, remedy })
-            }
             (Some(Value::Text(_)), Kind::Quantity(..)) => by_taylor(&mut case.air),
-            (Some(value), _) => key.apply(&mut case, &value),
+            (Some(value), _) => match rival(key.name, &written) {
+                Some((other, remedy)) => Err(Fault::Excludes { other, remedy }),
+                None => key.apply(&mut case, &value),
+            },
         };
         if let Err(fault) = set
             && !written.is_excused(key.name)
@@ -121,6 +120,19 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
     } else {
         Err(sorted(written.problems).into())
     }
+}
+
+/// A written key that says the same as this one in other words, and the way out.
+fn rival(key: &str, written: &Written) -> Option<(&'static str, &'static str)> {
+    let (others, remedy): (&[&'static str], _) = match key {
+        "fibre.linear_density" => (&["fibre.diameter"], "either gives the other; write one of the two"),
+        "air.temperature" => (
+            &["air.density", "air.kinematic_viscosity"],
+            "the temperature gives density and viscosity; leave it out, or leave out both of these",
+        ),
+        _ => return None,
+    };
+    Some((others.iter().find(|other| written.get(other).is_some())?, remedy))
 }
 
 /// Sets the cut-off frequency by Taylor's hypothesis: eddies of length `L` that pass at velocity `U` make `U/(4 L)`.

@@ -5,7 +5,10 @@ use super::row::{
     Access, choose, file, key, named, number, placed, placed_mut, quantity, set_time_step, vector, whole,
 };
 use super::value::{Content, FileKind, Kind, SPECTRA, Sign, Value};
-use crate::air::{Axis, EddyModel, Flow, LENGTH_CONSTANT, PlacedField, SpectrumShape, TIME_CONSTANT};
+use crate::air::{
+    Axis, EddyModel, Flow, LENGTH_CONSTANT, PlacedField, SUTHERLAND_RANGE, SpectrumShape, TIME_CONSTANT,
+    density_at, kinematic_viscosity_at,
+};
 use crate::case::{MOST_REPLICATES, MOST_SHAPES, whole_parts};
 use crate::chain::schemes::Scheme;
 use crate::drag::{FrictionLaw, NormalLaw};
@@ -225,6 +228,26 @@ pub(super) static KEYS: &[Key] = &[
     .label("Kinematic viscosity *ν*")
     .slider(1e-5, 6e-5)
     .in_flight(),
+    quantity("air.temperature", Dimension::Temperature, Any, Access {
+        get: |_| None,
+        set: |case, value| {
+            let temperature = number(value)?;
+            if !SUTHERLAND_RANGE.contains(&temperature) {
+                let (least, most) = (*SUTHERLAND_RANGE.start(), *SUTHERLAND_RANGE.end());
+                return Err(Fault::Temperature { least, most });
+            }
+            case.air.density = density_at(temperature);
+            case.air.kinematic_viscosity = kinematic_viscosity_at(temperature);
+            Ok(())
+        },
+    })
+    .follows("density and viscosity as they are written, or at 20 °C")
+    .meaning(
+        "Temperature of the air, from 170 to 1900 K, which may be written instead of `air.density` and \
+         `air.kinematic_viscosity`; both follow for dry air at 101325 Pa.",
+    )
+    .label("Air temperature")
+    .slider(253.15, 373.15),
     file("air.spectrum", FileKind::Spectrum, Access {
         get: |case| match &case.air.spectrum {
             SpectrumShape::Measured(table) => Some(Content::Spectrum(table.clone()).into()),
