@@ -145,6 +145,57 @@ fn identical_in_pieces() {
     }
 }
 
+/// A plane image or rectilinear grid of 5 by 3 points, as a whole or in pieces of these columns of points.
+fn plane(image: bool, pieces: &[[usize; 2]]) -> String {
+    // Steps whose multiples are rounded.
+    let at = |i: usize| 0.3 + 0.1 * i as f64;
+    let of = |[from, to]: [usize; 2]| {
+        let axes = [(from..=to).map(at).collect(), vec![0.0, 0.7, 1.4], vec![0.0]];
+        let points: Vec<[f64; 3]> =
+            axes[1].iter().flat_map(|y| axes[0].iter().map(move |x| [*x, *y, 0.0])).collect();
+        let data = values(&points);
+        let size = [to - from + 1, 3, 1];
+        let bytes = if image {
+            vti(size, [0.3, 0.0, 0.0], [0.1, 0.7, 1.0], [&data, &[]], ASCII)
+        } else {
+            vtr(&axes, [&data, &[]], ASCII)
+        };
+        let text = String::from_utf8(bytes).unwrap();
+        let extent = format!("Piece Extent=\"{from} {to} 0 2 0 0\"");
+        text.replace(&format!("Piece Extent=\"0 {} 0 2 0 0\"", to - from), &extent)
+    };
+    let whole = of([0, 4]);
+    let (head, rest) = whole.split_once("<Piece").unwrap();
+    let (_, tail) = rest.split_once("</Piece>").unwrap();
+    let body = |columns: &[usize; 2]| {
+        let text = of(*columns);
+        let (_, rest) = text.split_once("<Piece").unwrap();
+        format!("<Piece{}</Piece>", rest.split_once("</Piece>").unwrap().0)
+    };
+    format!("{head}{}{tail}", pieces.iter().map(body).collect::<String>())
+}
+
+#[test]
+fn identical_plane_flows_in_pieces_without_gaps() {
+    for image in [true, false] {
+        let (one, _) = read(plane(image, &[[0, 4]]).as_bytes(), "a.vti");
+        assert_eq!(one.describe(), Description::Lattice { points: [5, 3, 1] });
+        for pieces in [&[[0, 2], [2, 4]][..], &[[3, 4], [0, 1], [1, 3]], &[[0, 3], [1, 4]]] {
+            let (many, warnings) = read(plane(image, pieces).as_bytes(), "a.vti");
+            assert!(warnings.is_empty(), "{warnings:?}");
+            assert_eq!(many.describe(), one.describe());
+            assert_eq!(samples(&many), samples(&one), "{pieces:?}");
+        }
+        // Between the second and the fourth column of points is no cell.
+        let refused = Field::parse(plane(image, &[[0, 1], [3, 4]]).as_bytes(), "a.vti");
+        let said = refused.map(|_| ()).unwrap_err().to_string();
+        assert!(
+            said.starts_with("a.vti: has no cells with a volume, only 4 points, lines and faces"),
+            "{said}"
+        );
+    }
+}
+
 #[test]
 fn analytic_values_of_cells_are_the_mean_at_points() {
     // Two cubes side by side with 1 and 3 m/s: 2 m/s between them.
