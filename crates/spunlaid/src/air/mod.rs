@@ -23,7 +23,7 @@ pub use eddies::{Eddies, EddyModel};
 pub use eddy_turbulence::EddyTurbulence;
 pub use flow::{Flow, FromFlow, LocalAir};
 pub use from_file::FromFile;
-pub use measured::{APART, Measured, Said};
+pub use measured::{APART, Measured, RecordLayout, Said};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};

@@ -2,7 +2,7 @@
 
 use super::data::DataFiles;
 use super::written::{Said, Written, sorted};
-use crate::air::{Air, Flow, PlacedField, SpectrumShape};
+use crate::air::{Air, Flow, PlacedField, RecordLayout, SpectrumShape};
 use crate::case::keys::{self, Content, FileKind, Key, Kind, LeftOut, Value};
 use crate::case::{Case, MOST_STEPS, Note, Remark, Run, whole_parts};
 use crate::chain::schemes::Scheme;
@@ -80,7 +80,7 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                 Err(Fault::Excludes { other, remedy })
             }
             (Some(Value::Paths(paths)), Kind::File(kind)) => {
-                match load(files, kind, &paths, written.number("air.record_rate")) {
+                match load(files, kind, &paths, &layout(&written)) {
                     Ok((content, warnings)) => {
                         notes.extend(warnings.into_iter().map(|warning| Note {
                             place: place.clone(),
@@ -184,18 +184,31 @@ const fn missed_with(kind: FileKind) -> &'static str {
     }
 }
 
+/// What the case says of the files of its records.
+fn layout(written: &Written) -> RecordLayout {
+    RecordLayout {
+        rate: written.number("air.record_rate"),
+        skip: match written.get("air.record_skip").and_then(|said| said.value.as_ref()) {
+            Some(Value::Whole(lines)) => Some(*lines),
+            _ => None,
+        },
+        columns: written.text("air.record_columns"),
+        velocity_unit: written.text("air.record_velocity_unit"),
+    }
+}
+
 fn load(
     files: &DataFiles,
     kind: FileKind,
     paths: &[PathBuf],
-    rate: Option<f64>,
+    layout: &RecordLayout,
 ) -> Result<(Content, Vec<FieldWarning>), FileError> {
     let path = paths.first().cloned().unwrap_or_default();
     let content = match kind {
         FileKind::Profile => Content::Profile(files.profile(&path)?),
         FileKind::Spectrum => Content::Spectrum(files.spectrum(&path)?),
         FileKind::Records => {
-            let records: Result<_, _> = paths.iter().map(|path| files.record(path, rate)).collect();
+            let records: Result<_, _> = paths.iter().map(|path| files.record(path, layout)).collect();
             Content::Records(records?)
         }
         FileKind::Field => {
