@@ -285,6 +285,17 @@ pub enum Fault {
     /// A file named in the case cannot be used.
     #[error("cannot be used: {0}")]
     File(Box<FileError>),
+    /// A temperature for which the viscosity of air is not known.
+    #[error(
+        "is not between {least} and {most} K, where the formula of the air's viscosity holds; correct the temperature \
+         or its unit, or write air.density and air.kinematic_viscosity instead"
+    )]
+    Temperature {
+        /// Lowest temperature [K].
+        least: f64,
+        /// Highest temperature [K].
+        most: f64,
+    },
     /// A number that the flow gives already.
     #[error(
         "has no effect because {flow} gives the velocity; leave it out, and scale the flow with air.speed_factor"

@@ -8,6 +8,7 @@ use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::fibre::{Fibre, Root};
 use spunlaid::input::{parse_case, read_case, starter_case, write_case};
+use spunlaid::record::{Layout, Settings, analyse, read_record};
 use spunlaid::vec3::Vec3;
 use std::fs;
 use std::path::Path;
@@ -349,6 +350,63 @@ fn linear_density_and_taylors_cutoff_give_what_they_stand_for() {
     let (case, _) = changed(&[("air.cutoff_frequency", "taylor"), ("air.velocity", "20 m/s")]);
     assert_eq!(case.air.cutoff_frequency, 100.0);
     assert_eq!(bits(&read_again(&case)), bits(&case));
+}
+
+#[test]
+fn published_air_at_a_temperature() {
+    // Çengel, Heat and Mass Transfer, Table A-15: 1.059 kg/m³ and 1.896e-5 m²/s at 60 °C. Its viscosities differ by up
+    // to 1 % from those of other tables.
+    let (case, _) = changed(&[("air.temperature", "60 °C")]);
+    assert!((case.air.density / 1.059 - 1.0).abs() < 1e-3, "{}", case.air.density);
+    assert!((case.air.kinematic_viscosity / 1.896e-5 - 1.0).abs() < 0.01, "{}", case.air.kinematic_viscosity);
+    let (kelvin, _) = changed(&[("air.temperature", "333.15 K")]);
+    assert_eq!(bits(&kelvin), bits(&case));
+    // The written case has density and viscosity.
+    assert_eq!(bits(&read_again(&case)), bits(&case));
+}
+
+#[test]
+fn identical_records_however_a_case_says_how_to_read_them() {
+    let folder = std::env::temp_dir().join(format!("spunlaid-record-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    // The columns of the probe behind two lines of numbers, without names that say what they are.
+    let probe = std::fs::read_to_string("../../cases/records/probe.csv").unwrap();
+    let rows: String = (probe.lines().skip(3))
+        .map(|row| {
+            let cells: Vec<&str> = row.split(',').collect();
+            format!("{},{}\n", cells[2], cells[1])
+        })
+        .collect();
+    let record = folder.join("logger.csv");
+    std::fs::write(&record, format!("1,2\n3,4\nacross,along\n{rows}")).unwrap();
+    let layout = Layout {
+        rate: Some(1000.0),
+        skip_lines: 2,
+        columns: vec!["along".to_owned(), "across".to_owned()],
+        velocity_unit: Some("km/h".to_owned()),
+        ..Layout::default()
+    };
+    let analysis = analyse(&read_record(&record, &layout).unwrap(), &Settings::default()).unwrap();
+    let auto = ["velocity", "turbulence_intensity", "length_scale", "cutoff_frequency"];
+    let mut set: Vec<(String, String)> = auto.map(|key| (format!("air.{key}"), "auto".to_owned())).to_vec();
+    set.extend(
+        [
+            ("record", record.to_str().unwrap()),
+            ("record_rate", "1 kHz"),
+            ("record_skip", "2"),
+            ("record_columns", "along, across"),
+            ("record_velocity_unit", "km/h"),
+        ]
+        .map(|(key, value)| (format!("air.{key}"), value.to_owned())),
+    );
+    let (case, _) = parse_case(starter_case(), "starter.toml", &set).unwrap();
+    assert_eq!(case.air.velocity, analysis.mean_velocity.value);
+    assert_eq!(case.air.length_scale, analysis.length_scale.value);
+    assert_eq!(case.air.records[0].components.len(), 2);
+    // 10 km/h: the probe has 10 m/s.
+    assert!((case.air.velocity * 3.6 / 10.0 - 1.0).abs() < 0.05, "{}", case.air.velocity);
+    assert_eq!(bits(&read_again(&case)), bits(&case));
+    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

@@ -145,6 +145,57 @@ fn identical_in_pieces() {
     }
 }
 
+/// A plane image or rectilinear grid of 5 by 3 points, as a whole or in pieces of these columns of points.
+fn plane(image: bool, pieces: &[[usize; 2]]) -> String {
+    // Steps whose multiples are rounded.
+    let at = |i: usize| 0.3 + 0.1 * i as f64;
+    let of = |[from, to]: [usize; 2]| {
+        let axes = [(from..=to).map(at).collect(), vec![0.0, 0.7, 1.4], vec![0.0]];
+        let points: Vec<[f64; 3]> =
+            axes[1].iter().flat_map(|y| axes[0].iter().map(move |x| [*x, *y, 0.0])).collect();
+        let data = values(&points);
+        let size = [to - from + 1, 3, 1];
+        let bytes = if image {
+            vti(size, [0.3, 0.0, 0.0], [0.1, 0.7, 1.0], [&data, &[]], ASCII)
+        } else {
+            vtr(&axes, [&data, &[]], ASCII)
+        };
+        let text = String::from_utf8(bytes).unwrap();
+        let extent = format!("Piece Extent=\"{from} {to} 0 2 0 0\"");
+        text.replace(&format!("Piece Extent=\"0 {} 0 2 0 0\"", to - from), &extent)
+    };
+    let whole = of([0, 4]);
+    let (head, rest) = whole.split_once("<Piece").unwrap();
+    let (_, tail) = rest.split_once("</Piece>").unwrap();
+    let body = |columns: &[usize; 2]| {
+        let text = of(*columns);
+        let (_, rest) = text.split_once("<Piece").unwrap();
+        format!("<Piece{}</Piece>", rest.split_once("</Piece>").unwrap().0)
+    };
+    format!("{head}{}{tail}", pieces.iter().map(body).collect::<String>())
+}
+
+#[test]
+fn identical_plane_flows_in_pieces_without_gaps() {
+    for image in [true, false] {
+        let (one, _) = read(plane(image, &[[0, 4]]).as_bytes(), "a.vti");
+        assert_eq!(one.describe(), Description::Lattice { points: [5, 3, 1] });
+        for pieces in [&[[0, 2], [2, 4]][..], &[[3, 4], [0, 1], [1, 3]], &[[0, 3], [1, 4]]] {
+            let (many, warnings) = read(plane(image, pieces).as_bytes(), "a.vti");
+            assert!(warnings.is_empty(), "{warnings:?}");
+            assert_eq!(many.describe(), one.describe());
+            assert_eq!(samples(&many), samples(&one), "{pieces:?}");
+        }
+        // Between the second and the fourth column of points is no cell.
+        let refused = Field::parse(plane(image, &[[0, 1], [3, 4]]).as_bytes(), "a.vti");
+        let said = refused.map(|_| ()).unwrap_err().to_string();
+        assert!(
+            said.starts_with("a.vti: has no cells with a volume, only 4 points, lines and faces"),
+            "{said}"
+        );
+    }
+}
+
 #[test]
 fn analytic_values_of_cells_are_the_mean_at_points() {
     // Two cubes side by side with 1 and 3 m/s: 2 m/s between them.
@@ -277,6 +328,31 @@ fn tables_of_many_programs_are_read() {
             rows("1;2;3;4;5", ",")
         ),
         format!("% x y z u v w k ep\n{}", rows("1;2;3;4;5", "   ")),
+        format!(
+            "% Model:              channel.mph\n% Version:            COMSOL 6.1.0.252\n% Date:               May 2 2024, 10:11\n% Dimension:          3\n% Nodes:              8\n% Expressions:        5\n% Description:        Velocity field, x-component, Velocity field, y-component, Velocity field, z-component, Turbulent kinetic energy, Turbulent dissipation rate\n% Length unit:        m\n% x                       y                        z                        u (m/s)                  v (m/s)                  w (m/s)                  k (m^2/s^2)              ep (m^2/s^3)\n{}",
+            rows("1;2;3;4;5", "                       ")
+        ),
+        format!(
+            "TITLE = \"channel, 2 by 2\"\nVARIABLES = \"X\", \"Y\", \"Z\", \"U [m/s]\", \"V [m/s]\", \"W [m/s]\", \"k\", \"epsilon\"\nZONE T=\"F=BLOCK\", I=2, J=2, K=2, DATAPACKING=POINT\n{}",
+            rows("1;2;3;4;5", " ")
+        ),
+        format!(
+            "# made by a solver\nvariables = \"x-coordinate\"\n\"y-coordinate\"\n\"z-coordinate\"\n\"x-velocity\"\n\"y-velocity\"\n\"z-velocity\"\n\"turb-kinetic-energy\"\n\"turb-diss-rate\"\nzone t=\"fluid\"\n n=8, e=1, f=fepoint, et=brick\n{}1 2 4 3 5 6 8 7\n",
+            rows("1;2;3;4;5", "\t")
+        ),
+        format!(
+            "VARIABLES = X Y Z U V W k omega\nZONE I=4, F=POINT\n{}ZONE I=4, F=POINT\n{}",
+            rows("1;2;3;4;13.888888888888889", ", ")
+                .lines()
+                .take(4)
+                .map(|row| format!("{row}\n"))
+                .collect::<String>(),
+            rows("1;2;3;4;13.888888888888889", ", ")
+                .lines()
+                .skip(4)
+                .map(|row| format!("{row}\n"))
+                .collect::<String>()
+        ),
         format!("x;y;z;u;v;w;k;epsilon;\r\n{}", rows("1,0;2,0;3,0;4,0;5,0;", ";")),
         format!("x\ty\tz\tu\tv\tw\ttke\tomega\n{}", rows("100e-2;2;3;4;13.888888888888889", "\t")),
         format!(
@@ -290,6 +366,10 @@ fn tables_of_many_programs_are_read() {
         assert_eq!(local.velocity, Vec3::new(1.0, 2.0, 3.0), "{text}");
         assert!((local.k - 4.0).abs() < 1e-12 && (local.epsilon - 5.0).abs() < 1e-12, "{text}: {local:?}");
     }
+    // COMSOL's unit of length.
+    let (field, _) =
+        read(b"% Length unit: mm\n% x y u (m/s) v (m/s)\n0 0 1 2\n10 0 1 2\n0 10 3 2\n10 10 3 2\n", "a.txt");
+    assert_eq!(field.bounds().1, Vec3::new(0.01, 0.01, 0.0));
     // A plane flow needs neither z nor w.
     let (field, _) = read(b"x,y,u,v\n0,0,1,2\n1,0,1,2\n0,1,3,2\n1,1,3,2\n", "a.csv");
     let local = field.sample(Vec3::new(0.5, 0.5, 9.0), &mut Hint::default());

@@ -273,6 +273,34 @@ fn rejects_tables_with_place_and_way_out() {
             &format!("{head}1,2,3,4,5,6\n1,2,3,4,inf,6\n"),
             "a.vtu:3: column v: \"inf\" is not finite; leave the cell empty where a value is missing",
         ),
+        (
+            "% Length unit: in\n% x y u v\n1 2 3 4\n",
+            "a.vtu:1: has the unit \"in\"; write the values in m, cm, mm or µm",
+        ),
+        (
+            "% x y z u (m/s) @ t=0 v (m/s) @ t=0 w (m/s) @ t=0\n1 2 3 4 5 6\n",
+            "a.vtu: has no line of names above its numbers; write one, like x_m,y_m,z_m,u_m_s,v_m_s,w_m_s",
+        ),
+        (
+            "TITLE=\"a\"\nVARIABLES=\"X\",\"Y\",\"U\",\"V\"\nZONE I=2, F=BLOCK\n1 2\n3 4\n1 1\n0 0\n",
+            "a.vtu:3: is a Tecplot file in blocks; write it with one row for each point, and DATAPACKING=POINT in the line ZONE",
+        ),
+        (
+            "VARIABLES=X,Y,U,V\nZONE I=2\n1 2 3 4\n3 4 5 6\n",
+            "a.vtu:2: is a Tecplot file that does not say whether its values are in points or in blocks; write it with one row for each point, and DATAPACKING=POINT in the line ZONE",
+        ),
+        (
+            "VARIABLES=X,Y,U,V\nZONE I=2, J=2, F=POINT\n1 2 3 4\n3 4 5 6\n",
+            "a.vtu:2: has 2 rows of points and needs 4; is the file complete?",
+        ),
+        (
+            "VARIABLES=X,Y,U,V\nZONE I=2, F=POINT\n1 2 3 4\n\n3 4 5\n",
+            "a.vtu:5: this row has 3 cells and needs 4; is the file cut off here?",
+        ),
+        (
+            "TITLE=\"a\"\nVARIABLES=\"X\",\"Y\",\"U\",\"V\"\n1 2 3 4\n",
+            "a.vtu:3: \"a number\" was found instead of the line ZONE; is the file complete, and is it the right one?",
+        ),
         (&format!("{head}1,2,3,4,5,6\n"), "a.vtu: has 1 points; at least 9 are needed for interpolation"),
         (
             "FoamFile\n{\n}\n",

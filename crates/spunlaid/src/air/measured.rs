@@ -12,10 +12,23 @@ pub struct Measured {
     pub components: Vec<Arc<[f64]>>,
     /// Integral time of the component along the flow [s].
     pub integral_time: f64,
-    /// The sampling rate, if the case gives it because the record does not contain it [Hz].
-    pub rate: Option<f64>,
+    /// What the case says of the file because the record does not.
+    pub layout: RecordLayout,
     /// What the record says about the air.
     pub says: Said,
+}
+
+/// What a case says of the file of a record because the file itself does not.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordLayout {
+    /// Sampling rate [Hz].
+    pub rate: Option<f64>,
+    /// Number of lines to skip at the start.
+    pub skip: Option<u64>,
+    /// Columns of velocity by name or number, with commas between them; the first is along the mean flow.
+    pub columns: Option<String>,
+    /// Unit of the velocities: `m/s`.
+    pub velocity_unit: Option<String>,
 }
 
 /// What a record says about the air. A record without its mean gives only the numbers that do not need it.
@@ -43,7 +56,13 @@ impl Measured {
         let rms = (fluctuations.iter().map(variance).sum::<f64>() / components.len() as f64).sqrt();
         let scale = if rms > 0.0 { 1.0 / rms } else { 0.0 };
         let components = fluctuations.iter().map(|values| values.iter().map(|v| v * scale).collect());
-        Self { interval, components: components.collect(), integral_time, rate: None, says }
+        Self {
+            interval,
+            components: components.collect(),
+            integral_time,
+            layout: RecordLayout::default(),
+            says,
+        }
     }
 
     /// Number of samples.

@@ -6,6 +6,7 @@
 //! EddyModel → how the signals are related along the fibre
 //! ```
 
+mod dry_air;
 mod eddies;
 mod eddy_turbulence;
 mod flow;
@@ -17,11 +18,12 @@ pub mod spectrum;
 mod surroundings;
 mod wind;
 
+pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
 pub use eddies::{Eddies, EddyModel};
 pub use eddy_turbulence::EddyTurbulence;
 pub use flow::{Flow, FromFlow, LocalAir};
 pub use from_file::FromFile;
-pub use measured::{APART, Measured, Said};
+pub use measured::{APART, Measured, RecordLayout, Said};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};

@@ -62,7 +62,6 @@ use crate::vec3::Vec3;
 use bricks::Bricks;
 use lattice::Lattice;
 use mesh::Mesh;
-use node::Node;
 use points::Points;
 use std::fmt;
 use values::Quantities;
@@ -191,16 +190,22 @@ impl Field {
     /// # Errors
     /// When points are too few, or values are too few, too many or not finite.
     pub fn points(points: &[Vec3<f64>], values: &Values) -> Result<(Self, Vec<FieldWarning>), FileError> {
-        let mut nodes = node::nodes(points, values.check(points.len())?)?;
-        let (place_of, merged) = node::merge(&mut nodes);
-        let firsts = nodes.into_iter().zip(0..).filter(|(_, i)| place_of[*i as usize] == *i);
-        let nodes: Vec<Node> = firsts.map(|(node, _)| node).collect();
+        let (nodes, warnings) = node::distinct(points, values)?;
         let support = match Lattice::of_points(&nodes) {
             Some(lattice) => Support::Lattice(lattice),
             None => Support::Points(Points::new(nodes)?),
         };
-        let merged = (merged > 0).then_some(FieldWarning::Merged { points: merged });
-        Ok((Self::of(support, values), merged.into_iter().collect()))
+        Ok((Self::of(support, values), warnings))
+    }
+
+    /// A lattice, of points in any order, or none if the points form no lattice.
+    fn lattice_of_points(
+        points: &[Vec3<f64>],
+        values: &Values,
+    ) -> Result<Option<(Self, Vec<FieldWarning>)>, FileError> {
+        let (nodes, warnings) = node::distinct(points, values)?;
+        let lattice = Lattice::of_points(&nodes);
+        Ok(lattice.map(|lattice| (Self::of(Support::Lattice(lattice), values), warnings)))
     }
 
     fn of(support: Support, values: &Values) -> Self {

@@ -1,7 +1,8 @@
 //! Points with the values of the air there.
 
 use super::mean;
-use super::values::{LARGEST, Quantities, in_range};
+use super::values::{LARGEST, Quantities, Values, in_range};
+use super::warning::FieldWarning;
 use crate::error::{FieldFault, FileError, FilePlace};
 use crate::vec3::Vec3;
 use std::cmp::Ordering;
@@ -27,6 +28,18 @@ pub(super) fn nodes(points: &[Vec3<f64>], values: Vec<Quantities>) -> Result<Vec
         }
     };
     points.iter().zip(values).enumerate().map(node).collect()
+}
+
+/// The points at different places, each with the mean of the values there, and a warning where they differ.
+pub(super) fn distinct(
+    points: &[Vec3<f64>],
+    values: &Values,
+) -> Result<(Vec<Node>, Vec<FieldWarning>), FileError> {
+    let mut nodes = nodes(points, values.check(points.len())?)?;
+    let (place_of, merged) = merge(&mut nodes);
+    let firsts = nodes.into_iter().zip(0..).filter(|(_, i)| place_of[*i as usize] == *i);
+    let warning = (merged > 0).then_some(FieldWarning::Merged { points: merged });
+    Ok((firsts.map(|(node, _)| node).collect(), warning.into_iter().collect()))
 }
 
 /// Merges points at the same place: the first of them gets the mean of their values.

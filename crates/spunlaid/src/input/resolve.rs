@@ -2,7 +2,7 @@
 
 use super::data::DataFiles;
 use super::written::{Said, Written, sorted};
-use crate::air::{Air, Flow, PlacedField, SpectrumShape};
+use crate::air::{Air, Flow, PlacedField, RecordLayout, SpectrumShape};
 use crate::case::keys::{self, Content, FileKind, Key, Kind, LeftOut, Value};
 use crate::case::{Case, MOST_STEPS, Note, Remark, Run, whole_parts};
 use crate::chain::schemes::Scheme;
@@ -80,7 +80,7 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                 Err(Fault::Excludes { other, remedy })
             }
             (Some(Value::Paths(paths)), Kind::File(kind)) => {
-                match load(files, kind, &paths, written.number("air.record_rate")) {
+                match load(files, kind, &paths, &layout(&written)) {
                     Ok((content, warnings)) => {
                         notes.extend(warnings.into_iter().map(|warning| Note {
                             place: place.clone(),
@@ -98,12 +98,11 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                 }
             }
             (Some(_), _) if key.counted => Ok(()),
-            (Some(_), _) if key.name == "fibre.linear_density" && written.get("fibre.diameter").is_some() => {
-                let (other, remedy) = ("fibre.diameter", "either gives the other; write one of the two");
-                Err(Fault::Excludes { other, remedy })
-            }
             (Some(Value::Text(_)), Kind::Quantity(..)) => by_taylor(&mut case.air),
-            (Some(value), _) => key.apply(&mut case, &value),
+            (Some(value), _) => match rival(key.name, &written) {
+                Some((other, remedy)) => Err(Fault::Excludes { other, remedy }),
+                None => key.apply(&mut case, &value),
+            },
         };
         if let Err(fault) = set
             && !written.is_excused(key.name)
@@ -121,6 +120,19 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
     } else {
         Err(sorted(written.problems).into())
     }
+}
+
+/// A written key that says the same as this one in other words, and the way out.
+fn rival(key: &str, written: &Written) -> Option<(&'static str, &'static str)> {
+    let (others, remedy): (&[&'static str], _) = match key {
+        "fibre.linear_density" => (&["fibre.diameter"], "either gives the other; write one of the two"),
+        "air.temperature" => (
+            &["air.density", "air.kinematic_viscosity"],
+            "the temperature gives density and viscosity; leave it out, or leave out both of these",
+        ),
+        _ => return None,
+    };
+    Some((others.iter().find(|other| written.get(other).is_some())?, remedy))
 }
 
 /// Sets the cut-off frequency by Taylor's hypothesis: eddies of length `L` that pass at velocity `U` make `U/(4 L)`.
@@ -172,18 +184,31 @@ const fn missed_with(kind: FileKind) -> &'static str {
     }
 }
 
+/// What the case says of the files of its records.
+fn layout(written: &Written) -> RecordLayout {
+    RecordLayout {
+        rate: written.number("air.record_rate"),
+        skip: match written.get("air.record_skip").and_then(|said| said.value.as_ref()) {
+            Some(Value::Whole(lines)) => Some(*lines),
+            _ => None,
+        },
+        columns: written.text("air.record_columns"),
+        velocity_unit: written.text("air.record_velocity_unit"),
+    }
+}
+
 fn load(
     files: &DataFiles,
     kind: FileKind,
     paths: &[PathBuf],
-    rate: Option<f64>,
+    layout: &RecordLayout,
 ) -> Result<(Content, Vec<FieldWarning>), FileError> {
     let path = paths.first().cloned().unwrap_or_default();
     let content = match kind {
         FileKind::Profile => Content::Profile(files.profile(&path)?),
         FileKind::Spectrum => Content::Spectrum(files.spectrum(&path)?),
         FileKind::Records => {
-            let records: Result<_, _> = paths.iter().map(|path| files.record(path, rate)).collect();
+            let records: Result<_, _> = paths.iter().map(|path| files.record(path, layout)).collect();
             Content::Records(records?)
         }
         FileKind::Field => {

@@ -18,7 +18,7 @@ pub(super) fn read(of: &Kind, value: &DeValue<'_>, beside: impl Fn(&str) -> Path
         (&Kind::Whole(least, most), DeValue::Integer(number)) => {
             Value::Whole(integer(number).ok_or(Fault::OutOfRange { least, most })?)
         }
-        (Kind::Choice(_), DeValue::String(text)) => Value::Text(text.to_string()),
+        (Kind::Choice(_) | Kind::Text(_), DeValue::String(text)) => Value::Text(text.to_string()),
         (Kind::Direction, value) => Value::Vector(vector(value)?),
         (Kind::Point, DeValue::Array(list)) => {
             let lengths: Result<Vec<f64>, Fault> =

@@ -35,7 +35,7 @@ fn written(case: &Case, key: &Key, value: Value) -> String {
         }
         (_, Value::Number(value)) => float(value),
         (_, Value::Whole(value)) => value.to_string(),
-        (_, Value::Text(name)) => format!("\"{name}\""),
+        (_, Value::Text(name)) => quoted(&name),
         (Kind::Point, Value::Vector(v)) => {
             let lengths = [v.x, v.y, v.z].map(|x| format!("\"{}\"", Dimension::Length.exact(x)));
             format!("[{}]", lengths.join(", "))

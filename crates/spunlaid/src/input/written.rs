@@ -53,6 +53,14 @@ impl Written {
         self.get(key)?.value.as_ref()?.number()
     }
 
+    /// The text of a key, if it is written.
+    pub(super) fn text(&self, key: &str) -> Option<String> {
+        match self.get(key)?.value.as_ref()? {
+            Value::Text(text) => Some(text.clone()),
+            _ => None,
+        }
+    }
+
     /// Suppresses messages about these missing keys. The name of a table ends in a dot.
     pub(super) fn excuse(&mut self, keys: impl Into<String>) {
         self.excused.push(keys.into());

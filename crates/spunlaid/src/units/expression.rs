@@ -14,7 +14,7 @@ const LONGEST: usize = 1000;
 /// Deepest nesting of parentheses and signs.
 const DEEPEST: usize = 50;
 
-/// The unit of a quantity as powers of metre, kilogram and second.
+/// The unit of a quantity as powers of metre, kilogram, second and kelvin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Powers {
     /// Power of the metre.
@@ -23,11 +23,13 @@ pub struct Powers {
     pub kilogram: f64,
     /// Power of the second.
     pub second: f64,
+    /// Power of the kelvin.
+    pub kelvin: f64,
 }
 
 impl Powers {
     const fn new(metre: f64, kilogram: f64, second: f64) -> Self {
-        Self { metre, kilogram, second }
+        Self { metre, kilogram, second, kelvin: 0.0 }
     }
 
     /// The powers of a dimension.
@@ -42,6 +44,7 @@ impl Powers {
             Dimension::Pressure => Self::new(-1.0, 1.0, -2.0),
             Dimension::KinematicViscosity => Self::new(2.0, 0.0, -1.0),
             Dimension::Acceleration => Self::new(1.0, 0.0, -2.0),
+            Dimension::Temperature => Self { kelvin: 1.0, ..Self::new(0.0, 0.0, 0.0) },
             Dimension::Ratio => Self::new(0.0, 0.0, 0.0),
         }
     }
@@ -49,26 +52,34 @@ impl Powers {
     /// Whether the two are equal apart from rounding.
     pub fn agree(self, other: Self) -> bool {
         let off = self.plus(other, -1.0);
-        [off.metre, off.kilogram, off.second].iter().all(|power| power.abs() < 1e-9)
+        [off.metre, off.kilogram, off.second, off.kelvin].iter().all(|power| power.abs() < 1e-9)
     }
 
     fn plus(self, other: Self, sign: f64) -> Self {
-        Self::new(
-            self.metre + sign * other.metre,
-            self.kilogram + sign * other.kilogram,
-            self.second + sign * other.second,
-        )
+        Self {
+            metre: self.metre + sign * other.metre,
+            kilogram: self.kilogram + sign * other.kilogram,
+            second: self.second + sign * other.second,
+            kelvin: self.kelvin + sign * other.kelvin,
+        }
     }
 
     fn times(self, factor: f64) -> Self {
-        Self::new(self.metre * factor, self.kilogram * factor, self.second * factor)
+        Self {
+            metre: self.metre * factor,
+            kilogram: self.kilogram * factor,
+            second: self.second * factor,
+            kelvin: self.kelvin * factor,
+        }
     }
 }
 
 impl fmt::Display for Powers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
-        for (unit, power) in [("kg", self.kilogram), ("m", self.metre), ("s", self.second)] {
+        for (unit, power) in
+            [("kg", self.kilogram), ("m", self.metre), ("s", self.second), ("K", self.kelvin)]
+        {
             if power == 1.0 {
                 parts.push(unit.to_owned());
             } else if power != 0.0 {

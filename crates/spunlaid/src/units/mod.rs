@@ -6,7 +6,7 @@ mod table;
 pub use expression::{Expression, ExpressionFault, Powers};
 
 use std::fmt;
-use table::Scale::{Over, Ten, Times};
+use table::Scale::{Above, Over, Ten, Times};
 
 /// The dimension of a quantity, which decides the units that it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,12 +31,14 @@ pub enum Dimension {
     KinematicViscosity,
     /// [m/s²]
     Acceleration,
+    /// [K]
+    Temperature,
     /// A plain number, or a percentage.
     Ratio,
 }
 
 /// Every dimension.
-const ALL: [Dimension; 11] = [
+const ALL: [Dimension; 12] = [
     Dimension::Length,
     Dimension::Velocity,
     Dimension::Time,
@@ -47,6 +49,7 @@ const ALL: [Dimension; 11] = [
     Dimension::Pressure,
     Dimension::KinematicViscosity,
     Dimension::Acceleration,
+    Dimension::Temperature,
     Dimension::Ratio,
 ];
 
@@ -145,6 +148,7 @@ impl Dimension {
             Self::Pressure => "a pressure",
             Self::KinematicViscosity => "a kinematic viscosity",
             Self::Acceleration => "an acceleration",
+            Self::Temperature => "a temperature",
             Self::Ratio => "a ratio",
         }
     }
@@ -205,6 +209,7 @@ impl Dimension {
             Ten(power) => shifted(number, power),
             Times(factor) => shifted(number, 0).map(|value| value * factor),
             Over(divisor) => shifted(number, 0).map(|value| value / divisor),
+            Above(zero) => shifted(number, 0).map(|value| value + zero),
         };
         match value {
             Some(value) if value.is_finite() => Ok(value),
@@ -232,7 +237,7 @@ impl Dimension {
             let mut sizes: Vec<(f64, &str)> = (self.units().iter().filter(|unit| unit.pretty))
                 .filter_map(|unit| match unit.scale {
                     Ten(power) => Some((10f64.powi(power), unit.shown)),
-                    Times(_) | Over(_) => None,
+                    Times(_) | Over(_) | Above(_) => None,
                 })
                 .collect();
             sizes.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -241,9 +246,13 @@ impl Dimension {
             let fits = sizes.iter().find(|(size, _)| rounded >= *size).or(smallest);
             best = fits.copied().unwrap_or(best);
         }
-        let number = value / best.0;
+        let zero = self.units().iter().find_map(|unit| match unit.scale {
+            Above(zero) if unit.pretty => Some((zero, unit.shown)),
+            _ => None,
+        });
+        let (number, unit) = zero.map_or((value / best.0, best.1), |(zero, unit)| (value - zero, unit));
         let digits: f64 = format!("{number:.decimals$e}").parse().unwrap_or(number);
-        with_unit(&shortest(digits), best.1)
+        with_unit(&shortest(digits), unit)
     }
 }
 

@@ -11,6 +11,8 @@ pub(super) enum Scale {
     Times(f64),
     /// The inverse: one SI unit is this number of these units.
     Over(f64),
+    /// Counted from a zero that is this number of SI units.
+    Above(f64),
 }
 
 /// A unit: its symbol, its spelling in plain ASCII without `^`, and its size.
@@ -30,7 +32,7 @@ const fn also(shown: &'static str, plain: &'static str, scale: Scale) -> Unit {
     Unit { shown, plain, scale, pretty: false }
 }
 
-use Scale::{Over, Ten, Times};
+use Scale::{Above, Over, Ten, Times};
 
 const LENGTH: &[Unit] = &[
     unit("m", "m", Ten(0)),
@@ -74,6 +76,7 @@ const PRESSURE: &[Unit] = &[
 const KINEMATIC_VISCOSITY: &[Unit] =
     &[unit("m²/s", "m2/s", Ten(0)), also("mm²/s", "mm2/s", Ten(-6)), also("cSt", "cSt", Ten(-6))];
 const ACCELERATION: &[Unit] = &[unit("m/s²", "m/s2", Ten(0))];
+const TEMPERATURE: &[Unit] = &[unit("K", "K", Ten(0)), unit("°C", "°C", Above(273.15))];
 const RATIO: &[Unit] = &[unit("", "", Ten(0)), also("%", "%", Ten(-2))];
 
 impl Dimension {
@@ -90,6 +93,7 @@ impl Dimension {
             Self::Pressure => PRESSURE,
             Self::KinematicViscosity => KINEMATIC_VISCOSITY,
             Self::Acceleration => ACCELERATION,
+            Self::Temperature => TEMPERATURE,
             Self::Ratio => RATIO,
         }
     }

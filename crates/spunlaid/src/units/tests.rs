@@ -29,6 +29,9 @@ fn identical_to_the_decimal_number_meant() {
         (Dimension::Rate, "3 1/s", 3.0),
         (Dimension::Rate, "3 s^-1", 3.0),
         (Dimension::Rate, "3 s⁻¹", 3.0),
+        (Dimension::Temperature, "293.15 K", 293.15),
+        (Dimension::Temperature, "20 °C", 293.15),
+        (Dimension::Temperature, "0°C", 273.15),
         (Dimension::Ratio, "10 %", 0.1),
         (Dimension::Ratio, "0.1", 0.1),
     ];
@@ -108,6 +111,8 @@ fn people_read_handy_units() {
         (Dimension::Pressure, -2e9, "-2 GPa"),
         (Dimension::Density, 1.204, "1.204 kg/m³"),
         (Dimension::KinematicViscosity, 1.51e-5, "1.51e-5 m²/s"),
+        (Dimension::Temperature, 293.15, "20 °C"),
+        (Dimension::Temperature, 260.5, "-12.65 °C"),
         (Dimension::Ratio, 1.0 / 3.0, "0.3333"),
         (Dimension::Length, f64::INFINITY, "inf m"),
     ] {

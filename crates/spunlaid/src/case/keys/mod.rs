@@ -194,7 +194,7 @@ impl Key {
             Kind::Whole(0, _) => "a whole number".to_owned(),
             Kind::Whole(least, most) if most > 1 << 50 => format!("a whole number from {least} up"),
             Kind::Whole(least, most) => format!("a whole number from {least} to {most}"),
-            Kind::Choice(_) => self.kind.wanted(),
+            Kind::Choice(_) | Kind::Text(_) => self.kind.wanted(),
             Kind::File(FileKind::Spectrum) => {
                 let names = self.kind.words().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
                 format!("{} or the path of a file", names.join(", "))

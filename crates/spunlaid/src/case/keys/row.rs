@@ -67,6 +67,24 @@ macro_rules! of_field {
     };
 }
 
+/// Access to what a case says of the file of a record: `of_record!(rate, Value::Number, number)`.
+macro_rules! of_record {
+    ($field:ident, $value:path, $read:ident) => {
+        Access {
+            get: |case| case.air.records.first()?.layout.clone().$field.map($value),
+            set: |case, value| {
+                let said = $read(value)?;
+                match case.air.records.first() {
+                    None => Err(Fault::Needs { needed: "air.record", remedy: "leave it out" }),
+                    // The records have been read with it.
+                    Some(record) if record.layout.$field == Some(said) => Ok(()),
+                    Some(_) => Err(Fault::ReadWithCase),
+                }
+            },
+        }
+    };
+}
+
 /// Access to a time that is a whole number of steps.
 macro_rules! steps {
     ($field:ident, $time:ident, $least:expr) => {
@@ -171,6 +189,13 @@ pub(super) fn whole(value: &Value) -> Result<u64, Fault> {
     match value {
         Value::Whole(number) => Ok(*number),
         _ => Err(unfit(value, "a whole number")),
+    }
+}
+
+pub(super) fn text(value: &Value) -> Result<String, Fault> {
+    match value {
+        Value::Text(text) => Ok(text.clone()),
+        _ => Err(unfit(value, "a text")),
     }
 }
 

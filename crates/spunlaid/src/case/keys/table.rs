@@ -1,9 +1,14 @@
 //! The table of keys: one row for each, in the order of a case file.
 
 use super::Key;
-use super::row::{Access, choose, file, key, named, number, placed, placed_mut, quantity, vector, whole};
+use super::row::{
+    Access, choose, file, key, named, number, placed, placed_mut, quantity, text, vector, whole,
+};
 use super::value::{Content, FileKind, Kind, SPECTRA, Sign, Value};
-use crate::air::{Axis, EddyModel, Flow, LENGTH_CONSTANT, PlacedField, SpectrumShape, TIME_CONSTANT};
+use crate::air::{
+    Axis, EddyModel, Flow, LENGTH_CONSTANT, PlacedField, SUTHERLAND_RANGE, SpectrumShape, TIME_CONSTANT,
+    density_at, kinematic_viscosity_at,
+};
 use crate::case::{MOST_REPLICATES, MOST_SHAPES, whole_parts};
 use crate::chain::schemes::Scheme;
 use crate::drag::{FrictionLaw, NormalLaw};
@@ -12,6 +17,9 @@ use crate::fibre::Root;
 use crate::units::Dimension;
 use Sign::{Any, NotNegative, Positive};
 use std::f64::consts::PI;
+
+/// Most lines that are skipped at the start of a record.
+const MOST_SKIPPED: u64 = 1_000_000;
 
 pub(super) static KEYS: &[Key] = &[
     quantity("fibre.length", Dimension::Length, Positive, number!(fibre.length))
@@ -223,6 +231,26 @@ pub(super) static KEYS: &[Key] = &[
     .label("Kinematic viscosity *ν*")
     .slider(1e-5, 6e-5)
     .in_flight(),
+    quantity("air.temperature", Dimension::Temperature, Any, Access {
+        get: |_| None,
+        set: |case, value| {
+            let temperature = number(value)?;
+            if !SUTHERLAND_RANGE.contains(&temperature) {
+                let (least, most) = (*SUTHERLAND_RANGE.start(), *SUTHERLAND_RANGE.end());
+                return Err(Fault::Temperature { least, most });
+            }
+            case.air.density = density_at(temperature);
+            case.air.kinematic_viscosity = kinematic_viscosity_at(temperature);
+            Ok(())
+        },
+    })
+    .follows("density and viscosity as they are written, or at 20 °C")
+    .meaning(
+        "Temperature of the air, from 170 to 1900 K, which may be written instead of `air.density` and \
+         `air.kinematic_viscosity`; both follow for dry air at 101325 Pa.",
+    )
+    .label("Air temperature")
+    .slider(253.15, 373.15),
     file("air.spectrum", FileKind::Spectrum, Access {
         get: |case| match &case.air.spectrum {
             SpectrumShape::Measured(table) => Some(Content::Spectrum(table.clone()).into()),
@@ -262,21 +290,19 @@ pub(super) static KEYS: &[Key] = &[
     })
     .follows("turbulence is made from harmonics")
     .meaning("Measured velocity record, as CSV or Parquet, whose fluctuation moves the fibre. A list gives one record for each eddy."),
-    quantity("air.record_rate", Dimension::Frequency, Positive, Access {
-        get: |case| case.air.records.first()?.rate.map(Value::Number),
-        set: |case, value| {
-            let rate = number(value)?;
-            match case.air.records.first() {
-                None => Err(Fault::Needs { needed: "air.record", remedy: "leave it out" }),
-                // The records have been read with it.
-                Some(record) if record.rate == Some(rate) => Ok(()),
-                Some(_) => Err(Fault::ReadWithCase),
-            }
-        },
-    })
-    .follows("the rate of the record's time column")
-    .meaning("Sampling rate of a record without a time column.")
-    .fixed(),
+    quantity("air.record_rate", Dimension::Frequency, Positive, of_record!(rate, Value::Number, number))
+        .follows("the rate of the record's time column")
+        .meaning("Sampling rate of a record without a time column.")
+        .fixed(),
+    key("air.record_skip", Kind::Whole(0, MOST_SKIPPED), of_record!(skip, Value::Whole, whole))
+        .follows("the header is found by itself")
+        .meaning("Number of lines to skip at the start of a record."),
+    key("air.record_columns", Kind::Text("u,v"), of_record!(columns, Value::Text, text))
+        .follows("the columns with the names or units of velocities")
+        .meaning("Columns of velocity of a record, by name or by number from 1, with commas between them; the first is along the mean flow."),
+    key("air.record_velocity_unit", Kind::Text("m/s"), of_record!(velocity_unit, Value::Text, text))
+        .follows("the unit in the header of the record")
+        .meaning("Unit of the velocities of a record whose header has none."),
     choose("air.eddies", || vec!["independent", "convected"], Access {
         get: |case| Some(case.air.eddies.name().into()),
         set: |case, value| {

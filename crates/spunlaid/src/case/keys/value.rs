@@ -148,6 +148,8 @@ pub enum Kind {
     Whole(u64, u64),
     /// One of several names.
     Choice(fn() -> Vec<&'static str>),
+    /// Any text, with an example.
+    Text(&'static str),
     /// A direction in space: a vector of any length except zero.
     Direction,
     /// A point in space.
@@ -205,6 +207,10 @@ impl Kind {
                 let nearest = super::nearest_word(text, names.iter().copied());
                 Some(Fault::NotOneOf { nearest: nearest.map(|name| format!("\"{name}\"")), allowed: names })
             }
+            (Self::Text(_), Value::Text(text)) => {
+                let found = "an empty text";
+                text.trim().is_empty().then(|| Fault::WrongType { found, wanted: self.wanted() })
+            }
             (Self::Point, Value::Vector(_)) | (Self::File(_), Value::Paths(_) | Value::Content(_)) => None,
             (_, value) => Some(Fault::WrongType { found: value.what(), wanted: self.wanted() }),
         }
@@ -231,6 +237,7 @@ impl Kind {
             Self::Quantity(dimension, _) => Wanted(*dimension).to_string(),
             Self::Whole(..) => "a whole number without quotes, like 10".to_owned(),
             Self::Choice(_) => one_of(&self.names()),
+            Self::Text(example) => format!("a text like \"{example}\""),
             Self::Direction => "three plain numbers, like [1.0, 0.0, 0.0]".to_owned(),
             Self::Point => "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned(),
             Self::File(FileKind::Records) => {
@@ -264,7 +271,7 @@ impl Kind {
                 other => Ok(other),
             },
             Self::Point => vector(Dimension::Length),
-            Self::Choice(_) => Ok(Value::Text(text.to_owned())),
+            Self::Choice(_) | Self::Text(_) => Ok(Value::Text(text.to_owned())),
             Self::File(FileKind::Spectrum) if !text.contains('.') => Ok(Value::Text(text.to_owned())),
             Self::File(_) => Ok(Value::Paths(vec![PathBuf::from(text)])),
         }

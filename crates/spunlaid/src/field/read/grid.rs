@@ -6,8 +6,8 @@ use crate::vec3::Vec3;
 
 /// How the points of a piece are arranged.
 pub(super) enum Grid {
-    /// A lattice with even steps, and its number of points along each axis.
-    Image { origin: [f64; 3], spacing: [f64; 3], size: [usize; 3] },
+    /// A lattice with even steps. Its points have the indices from `first` on, and index 0 is at the origin.
+    Image { origin: [f64; 3], spacing: [f64; 3], first: [f64; 3], size: [usize; 3] },
     /// A lattice with any steps.
     Lattice([Vec<f64>; 3]),
     /// A structured grid: three indices for each point, which may lie anywhere.
@@ -94,14 +94,21 @@ impl Grid {
     /// The axes of a lattice.
     pub(super) fn axes(&self) -> Option<[Vec<f64>; 3]> {
         match self {
-            Self::Image { origin, spacing, size } => Some(
-                [0, 1, 2]
-                    .map(|axis| (0..size[axis]).map(|i| origin[axis] + i as f64 * spacing[axis]).collect()),
-            ),
+            // A point that two pieces share must come out with the same bits in both.
+            Self::Image { origin, spacing, first, size } => Some([0, 1, 2].map(|axis| {
+                let at = |i: usize| origin[axis] + (first[axis] + i as f64) * spacing[axis];
+                (0..size[axis]).map(at).collect()
+            })),
             Self::Lattice(axes) => Some(axes.clone()),
             _ => None,
         }
     }
+}
+
+/// The points of a lattice, those along x first.
+pub(super) fn combinations([x, y, z]: &[Vec<f64>; 3]) -> impl Iterator<Item = Vec3<f64>> {
+    let row = move |y: f64, z: f64| x.iter().map(move |&x| Vec3::new(x, y, z));
+    z.iter().flat_map(move |&z| y.iter().flat_map(move |&y| row(y, z)))
 }
 
 /// The product, if that many points can be numbered.

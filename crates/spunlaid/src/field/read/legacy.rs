@@ -90,7 +90,7 @@ impl<'a> Scanner<'a> {
             }
         }
         let size = size.ok_or(FileFault::CutOff { wanted: "DIMENSIONS" })?;
-        Ok(Grid::Image { origin, spacing, size })
+        Ok(Grid::Image { origin, spacing, first: [0.0; 3], size })
     }
 
     fn rectilinear(&mut self, budget: &mut Budget) -> Result<Grid, FileError> {

@@ -10,6 +10,7 @@ mod legacy;
 mod names;
 mod piece;
 mod table;
+mod tecplot;
 mod unstructured;
 mod xml;
 
@@ -47,7 +48,7 @@ impl Field {
             }
             .into())
         } else {
-            table::read(start)
+            tecplot::as_table(start).and_then(|table| table::read(&table))
         };
         read.map_err(|error| error.file(name))
     }

@@ -70,6 +70,14 @@ impl Measure {
         }
     }
 
+    /// The value of a unit in SI units.
+    pub(super) fn factor(self, unit: &str) -> Result<f64, FileError> {
+        let known = self.units().iter().find(|(spelt, _)| *spelt == unit.replace('μ', "µ"));
+        known
+            .map(|(_, factor)| *factor)
+            .ok_or_else(|| FieldFault::WrongUnit { unit: excerpt(unit, 20), wanted: self.wanted() }.into())
+    }
+
     const fn wanted(self) -> &'static str {
         match self {
             Self::Length => "m, cm, mm or µm",

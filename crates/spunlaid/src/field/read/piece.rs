@@ -2,7 +2,7 @@
 
 use super::array::Array;
 use super::encoding::Budget;
-use super::grid::{Grid, vectors};
+use super::grid::{Grid, combinations, vectors};
 use super::names::{self, Measure, Name, Velocity};
 use crate::error::{FieldFault, FileError};
 use crate::field::values::C_MU;
@@ -60,6 +60,9 @@ fn joined(pieces: &mut [Piece<'_>], budget: &mut Budget) -> Result<(Field, Vec<F
             return Ok((Field::lattice(axes, values)?, warnings));
         }
     }
+    if let Some((field, more)) = lattice(pieces, &values)? {
+        return Ok((field, [warnings, more].concat()));
+    }
     let mut points = Vec::new();
     let mut cells = Cells::new();
     let mut all = Values::default();
@@ -74,12 +77,8 @@ fn joined(pieces: &mut [Piece<'_>], budget: &mut Budget) -> Result<(Field, Vec<F
                 higher_order += solid.higher_order;
             }
             grid => {
-                if let Some([x, y, z]) = &grid.axes() {
-                    let plane =
-                        |z: f64| y.iter().flat_map(move |&y| x.iter().map(move |&x| Vec3::new(x, y, z)));
-                    for &z in z {
-                        points.extend(plane(z));
-                    }
+                if let Some(axes) = &grid.axes() {
+                    points.extend(combinations(axes));
                 } else if let Grid::Structured { points: own, .. } = grid {
                     points.append(own);
                 }
@@ -109,6 +108,50 @@ fn joined(pieces: &mut [Piece<'_>], budget: &mut Budget) -> Result<(Field, Vec<F
     let (field, more) = Field::mesh(&points, &cells, &all)?;
     warnings.extend(more);
     Ok((field, warnings))
+}
+
+/// The lattice that pieces of one make together. None if some of them are none, or leave a gap.
+fn lattice(pieces: &[Piece<'_>], values: &[Values]) -> Result<Option<(Field, Vec<FieldWarning>)>, FileError> {
+    let Some(axes) = pieces.iter().map(|piece| piece.grid.axes()).collect::<Option<Vec<_>>>() else {
+        return Ok(None);
+    };
+    let points: Vec<Vec3<f64>> = axes.iter().flat_map(combinations).collect();
+    let mut all = Values::default();
+    values.iter().for_each(|values| all.append(values.clone()));
+    let lattice = Field::lattice_of_points(&points, &all)?;
+    Ok(lattice.filter(|_| is_filled(&axes, points.len())))
+}
+
+/// Whether the cells of the pieces fill the box around them.
+///
+/// * `points` – of all pieces
+fn is_filled(pieces: &[[Vec<f64>; 3]], points: usize) -> bool {
+    let levels = [0, 1, 2].map(|axis| {
+        let mut levels: Vec<f64> = pieces.iter().flat_map(|axes| axes[axis].iter().copied()).collect();
+        levels.sort_unstable_by(f64::total_cmp);
+        levels.dedup();
+        levels
+    });
+    // A lattice that is one point thick has cells all the same.
+    let [nx, ny, nz] = levels.each_ref().map(|levels| levels.len().saturating_sub(1).max(1));
+    let Some(cells) = nx.checked_mul(ny).and_then(|n| n.checked_mul(nz)).filter(|cells| *cells <= points)
+    else {
+        return false;
+    };
+    let mut filled = vec![false; cells];
+    for axes in pieces {
+        let [xs, ys, zs] = [0, 1, 2].map(|axis| {
+            let index = |at: &f64| levels[axis].partition_point(|level| level < at);
+            let (first, last) = (axes[axis].first().map_or(0, index), axes[axis].last().map_or(0, index));
+            first..if levels[axis].len() == 1 { 1 } else { last }
+        });
+        for z in zs {
+            for y in ys.clone() {
+                xs.clone().for_each(|x| filled[x + nx * (y + ny * z)] = true);
+            }
+        }
+    }
+    filled.into_iter().all(|filled| filled)
 }
 
 /// Reads the values of a piece.

@@ -3,7 +3,7 @@
 use super::array::{Array, Number, Source};
 use super::encoding::Budget;
 use super::grid::Grid;
-use super::names::{self, Found, Name};
+use super::names::{self, Found, Measure, Name};
 use super::piece::{Piece, assemble, lacks};
 use crate::error::{FieldFault, FileError, FileFault, FileKind, FilePlace};
 use crate::field::{Field, FieldWarning};
@@ -34,7 +34,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError
         }
         columns.iter_mut().zip(numbers).for_each(|(column, number)| column.push(number));
     }
-    let piece = piece(&names, &used, &columns, coordinates);
+    let unit = length_unit(bytes)?;
+    let in_metres = |found: Option<Found>| found.map(|(column, factor)| (column, factor * unit));
+    let piece = piece(&names, &used, &columns, coordinates.map(in_metres));
     let (mut field, mut warnings) = assemble(vec![piece], &mut Budget::new())?;
     // The piece has only the columns that are used.
     field.lacks = lacks(&names, &vec![1; names.len()]);
@@ -55,6 +57,21 @@ fn coordinates(names: &[Name]) -> Result<[Option<Found>; 3], FileError> {
             Err(FieldFault::NoCoordinate { axis, found }.into())
         }
     }
+}
+
+/// The value in metres of the unit of length that COMSOL writes above its tables, in a line `% Length unit: mm`. One
+/// metre if there is none.
+fn length_unit(bytes: &[u8]) -> Result<f64, FileError> {
+    let above = bytes.split(|byte| *byte == b'\n').take_while(|line| line.starts_with(b"%")).zip(1..);
+    for (line, number) in above {
+        let text = String::from_utf8_lossy(line);
+        if let Some((key, unit)) = text.trim_start_matches(['%', ' ']).split_once(':')
+            && key.trim().eq_ignore_ascii_case("length unit")
+        {
+            return Measure::Length.factor(unit.trim()).map_err(|error| error.at(FilePlace::Line(number)));
+        }
+    }
+    Ok(1.0)
 }
 
 fn piece<'a>(

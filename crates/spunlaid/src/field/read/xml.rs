@@ -166,7 +166,7 @@ impl<'a> File<'a> {
             let found = "an image whose axes are turned".to_owned();
             return Err(FieldFault::Format { found, advice: "resample it along x, y and z" }.into());
         }
-        Ok(Grid::Image { origin: [0, 1, 2].map(|i| origin[i] + first[i] * spacing[i]), spacing, size })
+        Ok(Grid::Image { origin, spacing, first, size })
     }
 
     fn points(

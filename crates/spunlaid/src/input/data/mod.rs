@@ -2,7 +2,7 @@
 
 mod profile;
 
-use crate::air::{FromFile, Measured, Profile, Said, SpectrumTable};
+use crate::air::{FromFile, Measured, Profile, RecordLayout, Said, SpectrumTable};
 use crate::error::{FileError, FileFault, FileKind, RecordFault};
 use crate::field::{Field, FieldWarning};
 use crate::file;
@@ -58,13 +58,20 @@ impl DataFiles {
 
     /// A velocity record.
     ///
-    /// * `rate` – sampling rate [Hz] of a record without a column of time
-    pub(super) fn record(&self, path: &Path, rate: Option<f64>) -> Result<FromFile<Measured>, FileError> {
-        once(&self.records, path, &format!("{rate:?}"), || {
-            let layout = Layout { rate, ..Layout::default() };
+    /// * `said` – what the case says of the file
+    pub(super) fn record(&self, path: &Path, said: &RecordLayout) -> Result<FromFile<Measured>, FileError> {
+        once(&self.records, path, &format!("{said:?}"), || {
+            let columns = said.columns.iter().flat_map(|columns| columns.split(','));
+            let layout = Layout {
+                rate: said.rate,
+                skip_lines: said.skip.unwrap_or(0),
+                columns: columns.map(|column| column.trim().to_owned()).collect(),
+                velocity_unit: said.velocity_unit.clone(),
+                ..Layout::default()
+            };
             let record = read_record(path, &layout)?;
             let checksum = record.reading.checksum;
-            Ok((Measured { rate, ..measured(record)? }, checksum))
+            Ok((Measured { layout: said.clone(), ..measured(record)? }, checksum))
         })
     }
 }
