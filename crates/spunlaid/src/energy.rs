@@ -1,7 +1,8 @@
 //! Energy of the chain, and the two checks of the work done on it.
 
-use crate::chain::Chain;
+use crate::chain::Constants;
 use crate::chain::forces::Element;
+use crate::chain::laying::Carried;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
 use crate::lanes::{Isa, Lanes, Register, Task, Wide, bend_ratio};
@@ -22,8 +23,14 @@ pub struct Energy {
     pub gravity_work: Lanes,
     /// Work of the drag.
     pub drag_work: Lanes,
-    /// Work of the damping, negative.
+    /// Work of damping and bending viscosity, negative.
     pub damping_work: Lanes,
+    /// Work of what drives the root of a fed fibre.
+    pub feed_work: Lanes,
+    /// Work of the belt, negative: it stops what lands.
+    pub belt_work: Lanes,
+    /// Energy that came with fed fibre, minus the energy that left with laid fibre.
+    pub carried: Lanes,
     /// Energy that the implicit tension has taken out of the motion and that the elements do not store.
     pub tension_dissipation: Lanes,
     /// Kinetic and potential energy at the start.
@@ -39,12 +46,12 @@ impl Energy {
     /// * `start` – positions at time 0, where the work of gravity is zero [m]
     pub(crate) fn held(
         isa: Isa,
-        chain: &Chain,
+        constants: &Constants,
         position: &[Vec3<Lanes>],
         velocity: &[Vec3<Lanes>],
         start: &[Vec3<Lanes>],
     ) -> Self {
-        isa.run(Held { chain, position, velocity, start })
+        isa.run(Held { constants, position, velocity, start })
     }
 
     /// Adds the work done since the start, at which the chain had the energy `initial`.
@@ -54,30 +61,37 @@ impl Energy {
         &mut self,
         initial: &Self,
         (before, after): (&WorkDone, &WorkDone),
+        carried: &Carried,
         scheme: Scheme,
         h: f64,
     ) {
         self.work = after.total.work(&before.total, h);
         self.drag_work = after.drag.work(&before.drag, h);
-        self.damping_work = after.damping.work(&before.damping, h);
+        self.damping_work = after.damping.work(&before.damping, h) - before.viscous;
         self.initial = initial.kinetic + initial.axial + initial.bending;
+        self.gravity_work = self.gravity_work + carried.gravity_work;
+        self.feed_work = after.feed.work(&before.feed, h);
+        // The belt has no work between two steps.
+        self.belt_work = before.belt.both * Lanes::splat(0.5 * h) + carried.impacts;
+        self.carried = carried.kinetic + carried.axial + carried.bending;
         if scheme == Scheme::ImplicitTension {
             let given_back = after.tension.work(&before.tension, h);
-            self.tension_dissipation = initial.axial - self.axial - given_back;
+            self.tension_dissipation = initial.axial + carried.axial - self.axial - given_back;
         }
     }
 
     /// Potential and kinetic energy plus the dissipation of the implicit tension, minus the work of gravity,
-    /// drag and damping [J]. It differs from zero by the error of the time integration only. theory.md (36)
+    /// drag, damping, feed and belt and the energy carried in with the fibre [J]. It differs from zero by the error of the time integration only. theory.md (36)
     pub fn imbalance(&self) -> Lanes {
         let held = self.kinetic + self.axial + self.bending + self.tension_dissipation;
-        held - self.initial - self.gravity_work - self.drag_work - self.damping_work
+        let given = self.initial + self.carried + self.feed_work + self.belt_work;
+        held - given - self.gravity_work - self.drag_work - self.damping_work
     }
 }
 
 /// Computes the energies that depend on positions and velocities.
 struct Held<'a> {
-    chain: &'a Chain,
+    constants: &'a Constants,
     position: &'a [Vec3<Lanes>],
     velocity: &'a [Vec3<Lanes>],
     start: &'a [Vec3<Lanes>],
@@ -88,14 +102,15 @@ impl Task for Held<'_> {
 
     #[inline(always)]
     fn call<S: Register>(self) -> Energy {
-        let c = &self.chain.constants;
-        let n = self.chain.elements();
+        let c = self.constants;
+        let nodes = self.position.len();
+        let frame = Wide::<S>::load(&c.frame);
         let (mut kinetic, mut gravity_work) = (Wide::<S>::zero(), Wide::<S>::zero());
         for (i, ((position, velocity), start)) in
             self.position.iter().zip(self.velocity).zip(self.start).enumerate()
         {
-            let node = c.node(i, n + 1);
-            let v = Vec3::load(velocity);
+            let node = c.node(i, nodes);
+            let v = Vec3::load(velocity).less_y(frame);
             kinetic = Wide::load(&node.mass).mul_add(v.dot(v), kinetic);
             let fallen = Wide::load(&position.x) - Wide::load(&start.x);
             gravity_work = Wide::load(&node.weight).mul_add(fallen, gravity_work);
@@ -104,14 +119,20 @@ impl Task for Held<'_> {
         let mut above = Vec3::load(&c.root_direction);
         let mut stiffness = Wide::load(&c.root_stiffness);
         let rest_length = Wide::load(&c.rest_length);
-        for pair in self.position.windows(2) {
+        for (j, pair) in self.position.windows(2).enumerate() {
             let element = Element::<S>::between(Vec3::load(&pair[0]), Vec3::load(&pair[1]));
-            let stretch = element.length - rest_length;
+            let mut stretch = element.length - rest_length;
+            if j > 0 && c.may_be_held(j, nodes) {
+                // Nodes that have left the chain have no mass, and their elements do not count.
+                let zero = Wide::zero();
+                let counts = |x| Wide::select_less(zero, Wide::load(&c.node(j, nodes).mass), x, zero);
+                (stretch, stiffness) = (counts(stretch), counts(stiffness));
+            }
             axial = (Wide::load(&c.axial_stiffness) * stretch).mul_add(stretch, axial);
             strain = stretch.over(rest_length).abs().max(strain);
             bending = stiffness.mul_add(angle_squared(above, element.tangent), bending);
             above = element.tangent;
-            stiffness = Wide::load(&c.bending_stiffness);
+            stiffness = Wide::load(if j == 0 { &c.second_stiffness } else { &c.bending_stiffness });
         }
         let half = Wide::splat(0.5);
         Energy {

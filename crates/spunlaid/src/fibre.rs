@@ -40,6 +40,8 @@ pub struct Fibre {
     pub density: f64,
     /// Young's modulus `E` [Pa].
     pub youngs_modulus: f64,
+    /// Time constant `τ` of the bending viscosity [s]: the moment is `EI (κ + τ dκ/dt)` (Kelvin and Voigt).
+    pub bending_viscosity_time: f64,
     /// Number of elements `N`; the chain has `N+1` nodes.
     pub elements: usize,
     /// How the first node is held.

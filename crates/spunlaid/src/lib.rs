@@ -52,6 +52,8 @@
 // Vector instructions are unsafe to call; nothing else in the workspace is.
 #[allow(unsafe_code)]
 pub mod lanes;
+pub mod laydown;
+pub mod nodes;
 pub mod vec3;
 
 mod fft;

@@ -81,6 +81,22 @@ impl<S: Simd> Vec3<Wide<S>> {
         self.x.mul_add(other.x, self.y.mul_add(other.y, self.z * other.z))
     }
 
+    /// Vector product.
+    #[inline(always)]
+    pub(crate) fn cross_wide(self, other: Self) -> Self {
+        Self::new(
+            self.z.neg_mul_add(other.y, self.y * other.z),
+            self.x.neg_mul_add(other.z, self.z * other.x),
+            self.y.neg_mul_add(other.x, self.x * other.y),
+        )
+    }
+
+    /// The vector with another y, less by `y`.
+    #[inline(always)]
+    pub(crate) fn less_y(self, y: Wide<S>) -> Self {
+        Self::new(self.x, self.y - y, self.z)
+    }
+
     /// Scalar product plus `sum`.
     #[inline(always)]
     pub(crate) fn dot_add(self, other: Self, sum: Wide<S>) -> Wide<S> {

@@ -87,6 +87,7 @@ fn table_1_is_read_in_si_units() {
             diameter: 5e-5,
             density: 950.0,
             youngs_modulus: 2e9,
+            bending_viscosity_time: 0.0,
             elements: 20,
             root: Root::Pinned,
             direction: Vec3::new(1.0, 0.0, 0.0),
@@ -223,7 +224,16 @@ prop_compose! {
         let direction = v * (1.0 / v.norm());
         let n = direction.norm();
         let direction = Vec3::new(direction.x / n, direction.y / n, direction.z / n);
-        Fibre { length, diameter, density, youngs_modulus, elements, root, direction }
+        Fibre {
+            length,
+            diameter,
+            density,
+            youngs_modulus,
+            bending_viscosity_time: 0.0,
+            elements,
+            root,
+            direction,
+        }
     }
 }
 
@@ -257,7 +267,7 @@ prop_compose! {
             shapes: leapfrog.then_some(seed % 20_001),
         };
         let drag = Drag { along, across };
-        let mut case = Case { fibre, air, drag, run };
+        let mut case = Case { fibre, air, drag, laydown: None, run };
         let limit = case.stable_step_limits().iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
         case.run.time_step = share * limit;
         case.air.harmonics = (case.air.cutoff_frequency * case.run.duration()) as usize + more_harmonics;

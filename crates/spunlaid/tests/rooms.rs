@@ -12,10 +12,10 @@ use std::path::Path;
 /// The rooms from left to right; those of one group stand side by side and may not import one another.
 const ROOMS: &[&[&str]] = &[
     &["lanes"],
-    &["vec3", "fft", "units"],
+    &["vec3", "fft", "nodes", "units"],
     &["error"],
     &["file", "table"],
-    &["fibre"],
+    &["fibre", "laydown"],
     &["field"],
     &["air", "drag"],
     &["chain"],

@@ -151,6 +151,7 @@ fn analytic_clamped_beam() {
         diameter: 1e-3,
         density: 1000.0,
         youngs_modulus: 1e9,
+        bending_viscosity_time: 0.0,
         elements: 24,
         root: Root::Clamped,
         direction: X,

@@ -17,6 +17,7 @@ pub(crate) fn case(elements: usize, instants: usize, replicates: u64) -> Case {
             diameter: 50e-6,
             density: 950.0,
             youngs_modulus: 2e9,
+            bending_viscosity_time: 0.0,
             elements,
             root: Root::Pinned,
             direction: Vec3::new(1.0, 0.0, 0.0),

@@ -15,6 +15,7 @@ mod measured;
 mod placed_field;
 mod profile;
 pub mod spectrum;
+mod stations;
 mod surroundings;
 mod wind;
 
@@ -27,7 +28,9 @@ pub use measured::{APART, Measured, RecordLayout, Said};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
-pub(crate) use surroundings::AirAtElements;
+pub(crate) use stations::time_between_looks;
+pub use stations::{StationGrid, Stations};
+pub(crate) use surroundings::{AirAtElements, InEddies};
 pub use surroundings::Surroundings;
 pub(crate) use wind::EddyVelocities;
 pub use wind::{Stream, StreamKey, Wind};

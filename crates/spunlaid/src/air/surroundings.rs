@@ -4,26 +4,45 @@ use super::{Air, EddyVelocities};
 use crate::error::FlightFault;
 use crate::field::{Around, Hint};
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
+use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
 /// The air velocity at one instant, element by element.
 pub(crate) trait AirAtElements<S: Register>: Copy {
-    /// The signal of an eddy, the same for all of its elements.
-    fn signal(&self, eddy: u32) -> Vec3<Wide<S>>;
+    /// What neighbouring elements share.
+    type Shared;
 
-    /// Velocity of the air at element `j` [m/s]; `signal` is that of its eddy.
-    fn at(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>>;
+    /// What element `j` shares with those after it.
+    fn enter(&self, j: usize) -> Self::Shared;
+
+    /// Velocity of the air at element `j` [m/s]. The elements come in order after the one that was entered.
+    fn at(&self, j: usize, shared: &mut Self::Shared) -> Vec3<Wide<S>>;
 }
 
-impl<S: Register> AirAtElements<S> for EddyVelocities<'_, S> {
+/// The wind of eddies, each of which several elements share.
+#[derive(Clone, Copy)]
+pub(crate) struct InEddies<'a, S: Register> {
+    pub(crate) now: EddyVelocities<'a, S>,
+    /// The eddy of each element.
+    pub(crate) of_element: &'a [u32],
+}
+
+impl<S: Register> AirAtElements<S> for InEddies<'_, S> {
+    type Shared = (u32, Vec3<Wide<S>>);
+
     #[inline(always)]
-    fn signal(&self, eddy: u32) -> Vec3<Wide<S>> {
-        self.velocity(eddy)
+    fn enter(&self, j: usize) -> Self::Shared {
+        let eddy = self.of_element[j];
+        (eddy, self.now.velocity(eddy))
     }
 
     #[inline(always)]
-    fn at(&self, _: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
-        signal
+    fn at(&self, j: usize, shared: &mut Self::Shared) -> Vec3<Wide<S>> {
+        let eddy = self.of_element[j];
+        if eddy != shared.0 {
+            *shared = (eddy, self.now.velocity(eddy));
+        }
+        shared.1
     }
 }
 
@@ -67,10 +86,10 @@ const UNKNOWN: Nearby = Nearby {
 #[derive(Clone, Debug)]
 pub struct Surroundings {
     airs: Vec<Air>,
-    places: Vec<Place>,
-    nearby: Vec<Nearby>,
+    places: Nodes<Place>,
+    nearby: Nodes<Nearby>,
     /// Where each fibre's element was found last.
-    hints: Vec<[Hint; WIDTH]>,
+    hints: Nodes<[Hint; WIDTH]>,
     /// Steps from one look to the next.
     every: u64,
     looked: bool,
@@ -94,9 +113,9 @@ impl Surroundings {
     }
 
     fn around_elements(airs: Vec<Air>, elements: usize, every: u64) -> Self {
-        let places = vec![Place::default(); elements];
-        let nearby = vec![UNKNOWN; elements];
-        let hints = vec![[Hint::default(); WIDTH]; elements];
+        let places = vec![Place::default(); elements].into();
+        let nearby = vec![UNKNOWN; elements].into();
+        let hints = vec![[Hint::default(); WIDTH]; elements].into();
         Self { airs, places, nearby, hints, every, looked: false, outside: Lanes::ZERO, looks: 0 }
     }
 
@@ -127,17 +146,35 @@ impl Surroundings {
         &'s mut self,
         step: u64,
         position: &[Vec3<Lanes>],
-        now: EddyVelocities<'s, S>,
+        wind: InEddies<'s, S>,
     ) -> LocalVelocities<'s, S> {
         let since = step % self.every;
         if since == 0 {
             self.look::<S>(position);
         }
-        LocalVelocities { now, places: &self.places, steps: Wide::splat(since as f64) }
+        LocalVelocities { wind, places: &self.places, steps: Wide::splat(since as f64) }
+    }
+
+    /// Mean velocity x, y, z and rms at an element at the last look [m/s].
+    #[inline(always)]
+    pub(super) fn value(&self, element: usize) -> &[Lanes; 4] {
+        &self.places[element].value
+    }
+
+    /// Follows a chain that has grown at its root and become shorter at its end to so many elements.
+    pub(super) fn follow(&mut self, elements: usize, born: bool) {
+        if born {
+            self.places.push_root(self.places[0]);
+            self.nearby.push_root(self.nearby[0]);
+            self.hints.push_root(self.hints[0]);
+        }
+        self.places.truncate(elements);
+        self.nearby.truncate(elements);
+        self.hints.truncate(elements);
     }
 
     #[inline(always)]
-    fn look<S: Register>(&mut self, position: &[Vec3<Lanes>]) {
+    pub(super) fn look<S: Register>(&mut self, position: &[Vec3<Lanes>]) {
         let half = Wide::<S>::splat(0.5);
         // The first look has none before it to extrapolate from.
         let per_step = Wide::splat(if self.looked { 1.0 / self.every as f64 } else { 0.0 });
@@ -187,23 +224,26 @@ impl Surroundings {
     }
 }
 
-/// A [`EddyVelocities`] of rms one and mean zero in the flow around the elements.
+/// Eddies of rms one and mean zero in the flow around the elements.
 #[derive(Clone, Copy)]
 pub(crate) struct LocalVelocities<'a, S: Register> {
-    now: EddyVelocities<'a, S>,
+    wind: InEddies<'a, S>,
     places: &'a [Place],
     /// Steps since the last look.
     steps: Wide<S>,
 }
 
 impl<S: Register> AirAtElements<S> for LocalVelocities<'_, S> {
+    type Shared = (u32, Vec3<Wide<S>>);
+
     #[inline(always)]
-    fn signal(&self, eddy: u32) -> Vec3<Wide<S>> {
-        self.now.velocity(eddy)
+    fn enter(&self, j: usize) -> Self::Shared {
+        self.wind.enter(j)
     }
 
     #[inline(always)]
-    fn at(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
+    fn at(&self, j: usize, shared: &mut Self::Shared) -> Vec3<Wide<S>> {
+        let signal = self.wind.at(j, shared);
         let Place { value, rise } = &self.places[j];
         // No closures here, because the compiler does not inline them.
         let rms = Wide::load(&rise[3]).mul_add(self.steps, Wide::load(&value[3]));

@@ -11,12 +11,13 @@ pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
 pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
 
-use crate::air::{Air, Eddies, EddyTurbulence, Surroundings};
+use crate::air::{Air, Eddies, EddyTurbulence, StationGrid, Surroundings, time_between_looks};
 use crate::chain::Strand;
 use crate::chain::schemes::Scheme;
 use crate::drag::Drag;
 use crate::error::FlightFault;
 use crate::fibre::Fibre;
+use crate::laydown::Laydown;
 use crate::vec3::Vec3;
 
 /// A fibre, the air it flies in and how the flight is computed.
@@ -28,6 +29,9 @@ pub struct Case {
     pub air: Air,
     /// The drag laws.
     pub drag: Drag,
+    /// Feed and belt of a fed fibre; `None` for a fibre of fixed length. The length of a fed fibre stands for the
+    /// distance to the belt.
+    pub laydown: Option<Laydown>,
     /// Time, integration and ensemble.
     pub run: Run,
 }
@@ -74,6 +78,13 @@ impl Run {
     }
 }
 
+/// Factor of the root of a fed fibre on the limit of the bending waves: its largest stiffness is sixteen times that of
+/// other nodes, the largest eigenvalue then 21 in place of 16.
+const FED_ROOT: f64 = 0.84;
+
+/// Elements of a fed fibre at its start.
+const FIRST_ELEMENTS: usize = 2;
+
 /// A limit on the time step and what sets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -89,11 +100,29 @@ impl Case {
     /// The limits on the time step of an undamped flight with this mesh and the case's scheme.
     pub fn step_limits(&self) -> Vec<StepLimit> {
         let axial = StepLimit { cause: "axial waves", limit: self.fibre.axial_step_limit() };
-        let bending = StepLimit { cause: "bending waves", limit: self.fibre.bending_step_limit() };
-        match self.run.scheme {
+        let bending = StepLimit { cause: "bending waves", limit: self.bending_step_limit() };
+        let mut limits = match self.run.scheme {
             Scheme::SemiImplicitEuler | Scheme::Leapfrog => vec![axial, bending],
             Scheme::ImplicitTension => vec![bending, self.string_step_limit()],
+        };
+        if let Some(laydown) = self.laydown {
+            // The step itself may be as long as this.
+            let limit = self.fibre.rest_length() / laydown.feed_speed * (1.0 + 1e-9);
+            limits.push(StepLimit { cause: "feed of one element in each step", limit });
         }
+        limits
+    }
+
+    /// Longest stable step for bending waves [s], with the stiff root of a fed fibre and the bending viscosity.
+    ///
+    /// The bending viscosity damps a wave of angular frequency `ω = 2/h₀` by `ω²τ`, so `(h/h₀)² + κ ω²τ h < 1`, `κ` as
+    /// of [`Case::stable_step_limits`].                                                 theory.md (62)
+    fn bending_step_limit(&self) -> f64 {
+        let stiff_root = if self.laydown.is_some() { FED_ROOT } else { 1.0 };
+        let alone = self.fibre.bending_step_limit() * stiff_root;
+        let share = if self.run.scheme.is_staggered() { 1.0 } else { 0.5 };
+        let half = 2.0 * share * self.fibre.bending_viscosity_time / alone;
+        alone / (half + half.hypot(1.0))
     }
 
     /// Longest step of implicit tension at which the waves of the taut fibre stay stable [s].
@@ -107,7 +136,8 @@ impl Case {
         let strand = self.strand();
         let elements = self.fibre.elements as f64;
         let weight = self.fibre.element_mass() * elements * self.run.gravity.abs();
-        let friction = strand.drag.along.force(self.air.velocity, 0.5 * elements) * elements;
+        let feed = self.laydown.map_or(0.0, |laydown| laydown.feed_speed);
+        let friction = strand.drag.along.force((self.air.velocity - feed).abs(), 0.5 * elements) * elements;
         let line_density = self.fibre.density * self.fibre.cross_section();
         let speed = ((weight + friction) / line_density).sqrt();
         StepLimit { cause: "waves of the taut string", limit: 1.5 * self.fibre.rest_length() / speed }
@@ -116,6 +146,11 @@ impl Case {
     /// Vector from the root to the free end of the straight fibre [m].
     pub fn along(&self) -> Vec3<f64> {
         self.fibre.direction * self.fibre.length
+    }
+
+    /// The stations of the air between inlet and belt; `None` for a fibre of fixed length.
+    pub fn stations(&self) -> Option<StationGrid> {
+        self.laydown.map(|laydown| self.air.stations(laydown.distance))
     }
 
     /// The eddies along the fibre.
@@ -136,7 +171,10 @@ impl Case {
 
     /// Steps from one look at the flow around the fibre to the next, see [`Air::time_between_looks`].
     pub fn steps_between_looks(&self) -> u64 {
-        let time = self.air.time_between_looks(self.along());
+        let time = match self.laydown {
+            Some(laydown) => time_between_looks(&self.air, laydown.feed_speed),
+            None => self.air.time_between_looks(self.along()),
+        };
         ((time / self.run.time_step) as u64).clamp(1, self.run.steps.max(1))
     }
 
@@ -171,11 +209,20 @@ impl Case {
     /// The fibre, its drag, gravity and damping, in the form that the chain uses.
     pub fn strand(&self) -> Strand {
         Strand {
-            fibre: self.fibre,
+            fibre: self.strand_at_start(),
             drag: self.drag.of_element(&self.fibre, self.air.density, self.air.kinematic_viscosity),
             gravity: self.run.gravity,
             damping: self.run.damping,
         }
+    }
+
+    /// The fibre as it starts: a fed one is two elements long.
+    fn strand_at_start(&self) -> Fibre {
+        let fibre = self.fibre;
+        if self.laydown.is_none() {
+            return fibre;
+        }
+        Fibre { length: fibre.rest_length() * FIRST_ELEMENTS as f64, elements: FIRST_ELEMENTS, ..fibre }
     }
 
     /// The likely reason why the positions of a fibre of this case become infinite or NaN.

@@ -2,8 +2,9 @@
 
 use super::force_pass::{ElementBlock, Integrator, force_pass};
 use super::forces::Element;
-use super::work::{WorkDone, WorkRegisters};
-use super::{Chain, Constants};
+use super::laying::Laying;
+use super::work::{Supports, WorkDone, WorkRegisters};
+use super::{Chain, Constants, Node};
 use crate::air::AirAtElements;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
@@ -12,24 +13,25 @@ use crate::vec3::Vec3;
 /// positions change by `drift` [s] times the velocity.
 ///
 /// * `wind` – the air at the time of the positions
-/// * `eddy` – index into the wind for each of the `N` elements
 /// * `work` – sums of the work to which the step adds
 /// * `damped` – whether there is any damping
 /// * `split` – whether to store separately the work that belongs to the velocities before the kick
 #[inline(always)]
-pub(crate) fn step<S: Register, const LEAPFROG: bool>(
+pub(crate) fn step<S: Register, const LEAPFROG: bool, const FED: bool>(
     chain: &mut Chain,
     wind: impl AirAtElements<S>,
-    eddy: &[u32],
     (kick, drift): (f64, f64),
     (damped, split): (bool, bool),
     work: &mut WorkDone,
     block: &mut ElementBlock<S>,
 ) {
     let elements = chain.elements();
-    let Chain { position, velocity, earlier, constants: c, .. } = chain;
-    let mut integrator = ExplicitIntegrator::<S, LEAPFROG> {
+    let Chain { position, velocity, earlier, constants: c, laying, .. } = chain;
+    let mut integrator = ExplicitIntegrator::<S, LEAPFROG, FED> {
         damped,
+        laying: if FED { laying.as_mut() } else { None },
+        step: drift,
+        supports: Supports::of(work),
         position: &mut position[..=elements],
         velocity: &mut velocity[..=elements],
         earlier: &mut earlier[..=elements],
@@ -37,14 +39,22 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool>(
         kick: Wide::splat(kick),
         drift: Wide::splat(drift),
         work: WorkRegisters::of(work, split),
+        dissipation: Wide::zero(),
     };
-    force_pass(&mut integrator, c, wind, eddy, block);
+    force_pass(&mut integrator, c, wind, elements, block);
+    let (supports, dissipation) = (integrator.supports, integrator.dissipation);
     integrator.work.put(work);
+    supports.put(work);
+    work.dissipate(dissipation, c, drift);
 }
 
 /// Moves each node as soon as its force is complete, and adds up the work.
-struct ExplicitIntegrator<'a, S: Register, const LEAPFROG: bool> {
+struct ExplicitIntegrator<'a, S: Register, const LEAPFROG: bool, const FED: bool> {
     damped: bool,
+    laying: Option<&'a mut Laying>,
+    /// The length of the drift [s].
+    step: f64,
+    supports: Supports,
     position: &'a mut [Vec3<Lanes>],
     velocity: &'a mut [Vec3<Lanes>],
     earlier: &'a mut [Vec3<Lanes>],
@@ -52,9 +62,13 @@ struct ExplicitIntegrator<'a, S: Register, const LEAPFROG: bool> {
     kick: Wide<S>,
     drift: Wide<S>,
     work: WorkRegisters<S>,
+    /// Power that the bending viscosity dissipates [W].
+    dissipation: Wide<S>,
 }
 
-impl<S: Register, const LEAPFROG: bool> Integrator<S> for ExplicitIntegrator<'_, S, LEAPFROG> {
+impl<S: Register, const LEAPFROG: bool, const FED: bool> Integrator<S>
+    for ExplicitIntegrator<'_, S, LEAPFROG, FED>
+{
     #[inline(always)]
     fn position(&self, i: usize) -> Vec3<Wide<S>> {
         Vec3::load(&self.position[i])
@@ -77,6 +91,11 @@ impl<S: Register, const LEAPFROG: bool> Integrator<S> for ExplicitIntegrator<'_,
     }
 
     #[inline(always)]
+    fn dissipated(&mut self, power: Wide<S>) {
+        self.dissipation = power;
+    }
+
+    #[inline(always)]
     fn node(&mut self, i: usize, force: Vec3<Wide<S>>, drag: Vec3<Wide<S>>) {
         let node = self.c.node(i, self.position.len());
         let before = Vec3::load(&self.velocity[i]);
@@ -88,13 +107,49 @@ impl<S: Register, const LEAPFROG: bool> Integrator<S> for ExplicitIntegrator<'_,
             force += slowed;
             damping = Some(slowed);
         }
-        let after = force.mul_add(self.kick * Wide::load(&node.inverse_mass), before);
-        self.work.add([force, drag], damping, before, after);
+        let mut after = force.mul_add(self.kick * Wide::load(&node.inverse_mass), before);
+        if FED {
+            after = self.supported(i, node, &mut force, before, after);
+            let frame = Wide::load(&self.c.frame);
+            self.work.add([force, drag], damping, before.less_y(frame), after.less_y(frame));
+        } else {
+            self.work.add([force, drag], damping, before, after);
+        }
         if LEAPFROG {
             self.earlier[i] = before.store();
         }
         self.velocity[i] = after.store();
         let position = Vec3::load(&self.position[i]);
         self.position[i] = after.mul_add(self.drift, position).store();
+    }
+}
+
+impl<S: Register, const LEAPFROG: bool, const FED: bool> ExplicitIntegrator<'_, S, LEAPFROG, FED> {
+    /// Lets a node land if it reaches the belt, and adds what holds it to the force on it. Returns its velocity.
+    #[inline(always)]
+    fn supported(
+        &mut self,
+        i: usize,
+        node: &Node,
+        force: &mut Vec3<Wide<S>>,
+        before: Vec3<Wide<S>>,
+        mut after: Vec3<Wide<S>>,
+    ) -> Vec3<Wide<S>> {
+        let mut free = Wide::load(&node.inverse_mass);
+        let mut held = self.c.may_be_held(i, self.position.len());
+        if let Some(laying) = &mut self.laying
+            && laying.reached(Wide::load(&self.position[i].x), after.x, self.drift)
+        {
+            let mut landing = after.store();
+            let others = laying.land(i, &self.position[i], &mut landing, self.step);
+            (after, free) = (Vec3::load(&landing), free * Wide::load(&others));
+            held = true;
+        }
+        if held {
+            let rate = Wide::load(&node.mass).over(self.kick);
+            let support = self.supports.add(i, free, (after - before) * rate - *force, [before, after], self.c);
+            *force += support;
+        }
+        after
     }
 }

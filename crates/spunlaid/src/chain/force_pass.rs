@@ -1,7 +1,7 @@
 //! One pass along eight chains that computes all forces on every node.
 
 use super::Constants;
-use super::forces::{Element, internal};
+use super::forces::{Element, couple, internal};
 use crate::air::AirAtElements;
 use crate::drag::{DragLanes, Split};
 use crate::lanes::{Register, Wide};
@@ -18,6 +18,9 @@ pub(crate) trait Integrator<S: Register> {
     /// Tension of element `j` [N], negative in compression.
     fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S>;
 
+    /// Takes the power that the bending viscosity dissipates [W].
+    fn dissipated(&mut self, power: Wide<S>);
+
     /// Takes the force on node `i` without gravity and damping, and the part of it that is drag [N].
     /// The pass does not need the node any more.
     fn node(&mut self, i: usize, force: Vec3<Wide<S>>, drag: Vec3<Wide<S>>);
@@ -25,7 +28,7 @@ pub(crate) trait Integrator<S: Register> {
 
 /// Computes the forces on eight chains in a wind.
 ///
-/// * `eddy` – index into the wind for each of the `N` elements
+/// * `count` – number `N` of elements
 ///
 /// The pass goes from the root to the free end in blocks of elements. For each block it computes first the
 /// geometry and the relative velocities, then the powers of the drag law, then all forces and their sums on
@@ -37,7 +40,7 @@ pub(crate) fn force_pass<S: Register, M: Integrator<S>, B: AirAtElements<S>>(
     integrator: &mut M,
     c: &Constants,
     wind: B,
-    eddy: &[u32],
+    count: usize,
     block: &mut ElementBlock<S>,
 ) {
     let mut above = Element {
@@ -45,12 +48,15 @@ pub(crate) fn force_pass<S: Register, M: Integrator<S>, B: AirAtElements<S>>(
         inverse_length: Wide::zero(),
         length: Wide::zero(),
     };
+    let viscosity = c.viscosity.as_ref();
+    let mut spin_above = Vec3::zero();
+    let mut dissipated = Wide::zero();
     // Sums so far on nodes j−1 and j: of all forces, and of the drag alone.
     let (mut force, mut force_above) = (Vec3::zero(), Vec3::zero());
     let (mut drag, mut drag_above) = (Vec3::zero(), Vec3::zero());
-    for (start, eddy) in (0..).step_by(BLOCK).zip(eddy.chunks(BLOCK)) {
-        let elements = &mut block.0[..eddy.len()];
-        kinematics(integrator, start, elements, wind, eddy);
+    for start in (0..count).step_by(BLOCK) {
+        let elements = &mut block.0[..BLOCK.min(count - start)];
+        kinematics(integrator, start, elements, wind, viscosity.is_some());
         if c.half_drag.is_powers() {
             for item in &mut *elements {
                 c.half_drag.raise(&mut item.split);
@@ -61,9 +67,22 @@ pub(crate) fn force_pass<S: Register, M: Integrator<S>, B: AirAtElements<S>>(
             }
         }
         for (j, item) in (start..).zip(&*elements) {
-            let stiffness = if j == 0 { &c.root_stiffness } else { &c.bending_stiffness };
+            let stiffness = match j {
+                0 => &c.root_stiffness,
+                1 => &c.second_stiffness,
+                _ => &c.bending_stiffness,
+            };
+            let stiffness = Wide::load(stiffness);
             let tension = integrator.tension(j, &item.element);
-            let (a, pull) = internal(&above, &item.element, Wide::load(stiffness), tension);
+            let (mut a, mut pull) = internal(&above, &item.element, stiffness, tension);
+            if let Some(time) = viscosity {
+                let turning = item.spin - spin_above;
+                let moment = turning * (stiffness * Wide::load(time));
+                let pair = couple(&above, &item.element, moment);
+                (a, pull) = (a + pair.0, pull + pair.1);
+                dissipated = moment.dot_add(turning, dissipated);
+                spin_above = item.spin;
+            }
             if j > 0 {
                 integrator.node(j - 1, force_above - a, drag_above);
             }
@@ -73,8 +92,11 @@ pub(crate) fn force_pass<S: Register, M: Integrator<S>, B: AirAtElements<S>>(
             above = item.element;
         }
     }
-    integrator.node(eddy.len() - 1, force_above, drag_above);
-    integrator.node(eddy.len(), force, drag);
+    integrator.node(count - 1, force_above, drag_above);
+    integrator.node(count, force, drag);
+    if viscosity.is_some() {
+        integrator.dissipated(dissipated);
+    }
 }
 
 /// Number of elements in a block.
@@ -84,6 +106,8 @@ const BLOCK: usize = 8;
 #[derive(Clone, Copy)]
 struct BlockElement<S: Register> {
     element: Element<S>,
+    /// Angular velocity `t × dt/dt` [1/s]; only with bending viscosity.
+    spin: Vec3<Wide<S>>,
     /// Intermediate values for half the element's drag.
     split: Split<S>,
 }
@@ -96,7 +120,7 @@ impl<S: Register> ElementBlock<S> {
     pub(crate) fn new() -> Self {
         let (vector, number) = (Vec3::zero(), Wide::zero());
         let element = Element { tangent: vector, inverse_length: number, length: number };
-        Self([BlockElement { element, split: Split::none() }; BLOCK])
+        Self([BlockElement { element, spin: vector, split: Split::none() }; BLOCK])
     }
 }
 
@@ -107,18 +131,18 @@ fn kinematics<S: Register>(
     start: usize,
     block: &mut [BlockElement<S>],
     wind: impl AirAtElements<S>,
-    eddy: &[u32],
+    viscous: bool,
 ) {
     let mut upper = (integrator.position(start), integrator.drag_velocity(start));
-    let (mut here, mut signal) = (eddy[0], wind.signal(eddy[0]));
-    for (j, (item, &eddy)) in (start + 1..).zip(block.iter_mut().zip(eddy)) {
+    let mut signal = wind.enter(start);
+    for (j, item) in (start + 1..).zip(block.iter_mut()) {
         let lower = (integrator.position(j), integrator.drag_velocity(j));
         item.element = Element::between(upper.0, lower.0);
-        if eddy != here {
-            (here, signal) = (eddy, wind.signal(eddy));
+        if viscous {
+            item.spin = item.element.tangent.cross_wide((lower.1 - upper.1) * item.element.inverse_length);
         }
         // Element `j−1` is above node `j`.
-        let air = wind.at(j - 1, signal);
+        let air = wind.at(j - 1, &mut signal);
         let relative = (upper.1 + lower.1).neg_mul_add(Wide::splat(0.5), air);
         item.split = DragLanes::split(relative, item.element.tangent);
         upper = lower;

@@ -55,3 +55,15 @@ pub(crate) fn internal<S: Register>(
     let b = turn.mul_add(push, lower.tangent * push.neg_mul_add(twice_x, tension));
     (a, b)
 }
+
+/// The forces `(a, b)` [N] of a moment [N·m] between two elements, as of [`internal`]: `a = M × t₀/ℓ₀`,
+/// `b = M × t₁/ℓ₁`.                                                             theory.md (62)
+#[inline(always)]
+pub(crate) fn couple<S: Register>(
+    upper: &Element<S>,
+    lower: &Element<S>,
+    moment: Vec3<Wide<S>>,
+) -> (Vec3<Wide<S>>, Vec3<Wide<S>>) {
+    let force = |element: &Element<S>| moment.cross_wide(element.tangent) * element.inverse_length;
+    (force(upper), force(lower))
+}

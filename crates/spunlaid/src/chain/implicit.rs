@@ -16,19 +16,21 @@
 
 use super::force_pass::{ElementBlock, Integrator, force_pass};
 use super::forces::Element;
-use super::work::{WorkDone, WorkRegisters};
+use super::work::{Supports, WorkDone, WorkRegisters};
 use super::{Chain, Constants};
 use crate::air::AirAtElements;
 use crate::lanes::{Lanes, Register, Wide};
+use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
 /// What the scheme stores besides positions and velocities.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tensions {
-    /// For each element: tension `λ` [N], and its tangent at the start of the step. There is one more entry
-    /// than elements; the last tangent is zero and ends the chain.
-    pub(crate) tension: Vec<Lanes>,
+    /// Of each element: tension `λ` [N].
+    pub(crate) tension: Nodes<Lanes>,
+    /// For each element: its direction at the start of the step, and its predicted direction at the end.
     tangent: Vec<Vec3<Lanes>>,
+    direction: Vec<Vec3<Lanes>>,
     /// For each node: force with the tensions of the last step, and the drag in it [N].
     force: Vec<Vec3<Lanes>>,
     drag: Vec<Vec3<Lanes>>,
@@ -41,25 +43,50 @@ pub(crate) struct Tensions {
 
 impl Tensions {
     pub(crate) fn new(elements: usize) -> Self {
-        let nodes = elements + 1;
-        Self {
-            tension: vec![Lanes::ZERO; nodes],
-            tangent: vec![Vec3::ZERO; nodes],
-            force: vec![Vec3::ZERO; nodes],
-            drag: vec![Vec3::ZERO; nodes],
-            acceleration: vec![Vec3::ZERO; nodes],
-            slope: vec![Lanes::ZERO; nodes],
-            correction: vec![Default::default(); elements],
+        let mut tensions = Self { tension: vec![Lanes::ZERO; elements].into(), ..Self::default() };
+        if elements > 0 {
+            tensions.make_room();
+        }
+        tensions
+    }
+
+    /// Makes room for as many elements as have a tension.
+    fn make_room(&mut self) {
+        let nodes = self.tension.len() + 1;
+        if self.force.len() < nodes {
+            // For some more, because the next element may be born soon.
+            let room = nodes + nodes / 4;
+            self.tangent.resize(room, Vec3::ZERO);
+            self.direction.resize(room, Vec3::ZERO);
+            self.force.resize(room, Vec3::ZERO);
+            self.drag.resize(room, Vec3::ZERO);
+            self.acceleration.resize(room, Vec3::ZERO);
+            self.slope.resize(room, Lanes::ZERO);
+            self.correction.resize(room, Default::default());
+        }
+    }
+
+    /// Adds an element at the root, unless the scheme does without tensions.
+    pub(crate) fn push_root(&mut self, tension: Lanes) {
+        if !self.tension.is_empty() {
+            self.tension.push_root(tension);
+            self.make_room();
+        }
+    }
+
+    /// Keeps so many elements from the root on.
+    pub(crate) fn truncate(&mut self, elements: usize) {
+        if !self.tension.is_empty() {
+            self.tension.truncate(elements);
         }
     }
 }
 
 /// Advances eight chains by one step of `h` [s]. The arguments are those of the explicit step.
 #[inline(always)]
-pub(crate) fn step<S: Register>(
+pub(crate) fn step<S: Register, const FED: bool>(
     chain: &mut Chain,
     wind: impl AirAtElements<S>,
-    eddy: &[u32],
     h: f64,
     (damped, split): (bool, bool),
     work: &mut WorkDone,
@@ -76,12 +103,18 @@ pub(crate) fn step<S: Register>(
         t: &mut chain.tensions,
         string: (Wide::zero(), Wide::zero()),
         above: (Vec3::zero(), Wide::zero()),
+        dissipation: Wide::zero(),
     };
-    force_pass(&mut predictor, c, wind, eddy, block);
-    predict_and_eliminate::<S>(&chain.position, &chain.velocity, c, h, &mut chain.tensions);
-    let mut sums = WorkRegisters::of(work, split);
-    correct_and_move::<S>(chain, h, damped, &mut sums);
-    sums.put(work);
+    force_pass(&mut predictor, c, wind, chain.position.len() - 1, block);
+    work.dissipate(predictor.dissipation, c, h);
+    predict_and_eliminate::<S, FED>(chain, h);
+    if FED {
+        chain.hold_landing();
+    }
+    let mut sums = (WorkRegisters::of(work, split), Supports::of(work));
+    correct_and_move::<S, FED>(chain, h, damped, &mut sums);
+    sums.0.put(work);
+    sums.1.put(work);
 }
 
 /// Stores the forces with the tensions of the last step, and eliminates `(M + K') a = F` from the root to the
@@ -99,6 +132,8 @@ struct Predictor<'a, S: Register> {
     string: (Wide<S>, Wide<S>),
     /// The row of the node above: its acceleration minus `.1` times that of the next node.
     above: (Vec3<Wide<S>>, Wide<S>),
+    /// Power that the bending viscosity dissipates [W].
+    dissipation: Wide<S>,
 }
 
 impl<S: Register> Integrator<S> for Predictor<'_, S> {
@@ -115,12 +150,19 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
 
     #[inline(always)]
     fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S> {
-        let tension = Wide::load(&self.t.tension[j]);
+        // Without the compression, the prediction does not fold elements that the correction has to unfold.
+        let tension = Wide::load(&self.t.tension[j]).max(Wide::zero());
+        self.t.tension[j] = tension.store();
         self.t.tangent[j] = element.tangent.store();
-        let s = self.rate * tension.max(Wide::zero()) * element.inverse_length;
+        let s = self.rate * tension * element.inverse_length;
         let share = (s * s).over(s + Wide::splat(1.0)) * Wide::splat(0.5);
         self.string.1 = share * Wide::load(&self.c.node.mass);
         tension
+    }
+
+    #[inline(always)]
+    fn dissipated(&mut self, power: Wide<S>) {
+        self.dissipation = power;
     }
 
     #[inline(always)]
@@ -156,86 +198,129 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
 /// From the free end to the root: replaces the accelerations by the predicted velocities, and eliminates the
 /// rows `(λ+δ)/k_a = ℓ_{k+1} − l`.
 ///
-/// Let `d` be the predicted edge, `d̂` its direction and `w = h²k_a/m` of a node. Row `j` is
-/// `−w_j d̂·t_{j−1} δ_{j−1} + (1 + (w_j + w_{j+1}) d̂·t_j) δ_j − w_{j+1} d̂·t_{j+1} δ_{j+1} =
-/// k_a (|d| − l) − λ`.
+/// Let `d` be the predicted edge, `d̂` its direction and `w = h²k_a/m` of a node. The correction acts along `d̂`, so row
+/// `j` is `−w_j d̂_j·d̂_{j−1} δ_{j−1} + (1 + w_j + w_{j+1}) δ_j − w_{j+1} d̂_j·d̂_{j+1} δ_{j+1} = k_a (|d| − l) − λ`. The
+/// matrix is symmetric and positive definite.
 #[inline(always)]
-fn predict_and_eliminate<S: Register>(
-    position: &[Vec3<Lanes>],
-    velocity: &[Vec3<Lanes>],
-    c: &Constants,
-    h: f64,
-    t: &mut Tensions,
-) {
-    let elements = position.len() - 1;
+fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Chain, h: f64) {
+    let Chain { position, velocity, constants: c, tensions: t, laying, .. } = chain;
+    let (position, velocity, c) = (&**position, &**velocity, &*c);
+    let nodes = position.len();
+    let elements = nodes - 1;
+    let step = h;
     let h = Wide::<S>::splat(h);
     let (stiffness, rest_length) = (Wide::load(&c.axial_stiffness), Wide::load(&c.rest_length));
     let scale = h * h * stiffness;
     let one = Wide::splat(1.0);
-    let mut acceleration = Vec3::load(&t.acceleration[elements]);
-    let predicted = acceleration.mul_add(h, Vec3::load(&velocity[elements]));
-    t.acceleration[elements] = predicted.store();
-    let mut lower = (Vec3::load(&position[elements]), predicted);
-    let mut weight_below = scale * Wide::load(&c.end.inverse_mass);
-    let (mut tangent_below, mut tangent) = (Vec3::zero(), Vec3::load(&t.tangent[elements - 1]));
+    let mut acceleration = Vec3::zero();
+    // The node below: where it is predicted, and its weight. Then the element below: its direction, and what it lacks.
+    let mut lower = (Vec3::zero(), Vec3::zero());
+    let mut weights = (Wide::zero(), Wide::zero());
+    let (mut below, mut here, mut wanted) = (Vec3::zero(), Vec3::zero(), Wide::zero());
     let (mut value, mut slope) = (Wide::zero(), Wide::zero());
-    for j in (0..elements).rev() {
-        acceleration = acceleration.mul_add(Wide::load(&t.slope[j]), Vec3::load(&t.acceleration[j]));
-        let predicted = acceleration.mul_add(h, Vec3::load(&velocity[j]));
-        t.acceleration[j] = predicted.store();
-        let upper = (Vec3::load(&position[j]), predicted);
-        let weight_above = scale * Wide::load(&c.node(j, elements + 1).inverse_mass);
-        let tangent_above = if j > 0 { Vec3::load(&t.tangent[j - 1]) } else { Vec3::zero() };
-
-        let edge = (lower.1 - upper.1).mul_add(h, lower.0 - upper.0);
-        let length = edge.dot(edge).sqrt();
-        let direction = edge * one.over(length);
-        let above = -(weight_above * direction.dot(tangent_above));
-        let here = (weight_above + weight_below).mul_add(direction.dot(tangent), one);
-        let below = -(weight_below * direction.dot(tangent_below));
-        let wanted = stiffness * (length - rest_length) - Wide::load(&t.tension[j]);
-        let pivot = one.over(below.neg_mul_add(slope, here));
-        value = below.neg_mul_add(value, wanted) * pivot;
-        slope = above * pivot;
-        t.correction[j] = (value.store(), slope.store());
-        (lower, weight_below) = (upper, weight_above);
-        (tangent_below, tangent) = (tangent, tangent_above);
+    for i in (0..nodes).rev() {
+        acceleration = acceleration.mul_add(Wide::load(&t.slope[i]), Vec3::load(&t.acceleration[i]));
+        let mut predicted = acceleration.mul_add(h, Vec3::load(&velocity[i]));
+        let mut free = Wide::load(&c.node(i, nodes).inverse_mass);
+        let at = Vec3::load(&position[i]);
+        if FED
+            && let Some(laying) = laying
+            && laying.reached(at.x, predicted.x, h)
+        {
+            let mut landing = predicted.store();
+            free = free * Wide::load(&laying.land(i, &position[i], &mut landing, step));
+            predicted = Vec3::load(&landing);
+        }
+        t.acceleration[i] = predicted.store();
+        let weight = scale * free;
+        if i < elements {
+            let edge = (lower.1 - predicted).mul_add(h, lower.0 - at);
+            let length = edge.dot(edge).sqrt();
+            let direction = edge * one.over(length);
+            t.direction[i] = direction.store();
+            // Row `i+1`, between the directions above and below it.
+            if i + 1 < elements {
+                let above = -(weights.0 * here.dot(direction));
+                (value, slope) = row(above, (weights, here, below), wanted, (value, slope));
+                t.correction[i + 1] = (value.store(), slope.store());
+            }
+            (below, here) = (here, direction);
+            wanted = stiffness * (length - rest_length) - Wide::load(&t.tension[i]);
+        }
+        weights = (weight, weights.0);
+        lower = (at, predicted);
     }
+    (value, slope) = row(Wide::zero(), (weights, here, below), wanted, (value, slope));
+    t.correction[0] = (value.store(), slope.store());
+}
+
+/// Eliminates a row.
+///
+/// * `above` – the entry left of the diagonal
+/// * the weights of the element's upper and lower node, its direction, and the direction of the element below
+/// * `wanted` – the right-hand side
+/// * `next` – value and slope of the row below
+#[inline(always)]
+fn row<S: Register>(
+    above: Wide<S>,
+    (weights, here, below): ((Wide<S>, Wide<S>), Vec3<Wide<S>>, Vec3<Wide<S>>),
+    wanted: Wide<S>,
+    next: (Wide<S>, Wide<S>),
+) -> (Wide<S>, Wide<S>) {
+    let one = Wide::splat(1.0);
+    let below = -(weights.1 * here.dot(below));
+    let pivot = one.over(below.neg_mul_add(next.1, one + (weights.0 + weights.1)));
+    (below.neg_mul_add(next.0, wanted) * pivot, above * pivot)
 }
 
 /// From the root to the free end: corrects the tensions and moves the nodes.
 #[inline(always)]
-fn correct_and_move<S: Register>(chain: &mut Chain, h: f64, damped: bool, sums: &mut WorkRegisters<S>) {
-    let elements = chain.elements();
-    let Chain { position, velocity, earlier, constants: c, tensions: t } = chain;
+fn correct_and_move<S: Register, const FED: bool>(
+    chain: &mut Chain,
+    h: f64,
+    damped: bool,
+    (sums, supports): &mut (WorkRegisters<S>, Supports),
+) {
+    let Chain { position, velocity, earlier, constants: c, tensions: t, .. } = chain;
+    let (position, velocity, earlier) = (&mut **position, &mut **velocity, &mut **earlier);
+    let nodes = position.len();
     let (rate, h) = (Wide::<S>::splat(1.0 / h), Wide::<S>::splat(h));
+    let frame = Wide::load(&c.frame);
     let mut correction = Wide::zero();
     // Forces of the element above: from the correction of its tension, and from its last tension.
     let (mut change_above, mut pull_above) = (Vec3::zero(), Vec3::zero());
-    for i in 0..=elements {
+    for i in 0..nodes {
         let (mut change, mut pull) = (Vec3::zero(), Vec3::zero());
-        if i < elements {
+        if i + 1 < nodes {
             let (value, slope) = &t.correction[i];
             correction = Wide::load(slope).neg_mul_add(correction, Wide::load(value));
             let tension = Wide::load(&t.tension[i]);
-            let tangent = Vec3::load(&t.tangent[i]);
-            (change, pull) = (tangent * correction, tangent * tension);
+            (change, pull) = (Vec3::load(&t.direction[i]) * correction, Vec3::load(&t.tangent[i]) * tension);
             t.tension[i] = (tension + correction).store();
         }
-        let node = c.node(i, elements + 1);
+        let node = c.node(i, nodes);
         let before = Vec3::load(&velocity[i]);
         let kick = h * Wide::load(&node.inverse_mass);
         let after = (change - change_above).mul_add(kick, Vec3::load(&t.acceleration[i]));
         // The force that moved the node. What the other forces do not explain is the tension.
         let force = (after - before) * (Wide::load(&node.mass) * rate);
-        let tension = force - Vec3::load(&t.force[i]) + (pull - pull_above);
+        let mut tension = force - Vec3::load(&t.force[i]) + (pull - pull_above);
         let mut damping = None;
         if damped {
             let v = (before - Vec3::load(&earlier[i])).mul_add(Wide::splat(0.5), before);
             damping = Some(v * -(Wide::load(&node.mass) * Wide::load(&c.damping)));
         }
-        sums.add([force, Vec3::load(&t.drag[i])], damping, before, after);
-        sums.add_tension(tension, before, after);
+        let mut seen = [before, after];
+        if FED {
+            if c.may_be_held(i, nodes) {
+                let unexplained = force - Vec3::load(&t.force[i]) - (change - change_above);
+                tension -= supports.add(i, Wide::load(&node.inverse_mass), unexplained, seen, c);
+            }
+            seen = [before.less_y(frame), after.less_y(frame)];
+        }
+        let [seen_before, seen_after] = seen;
+        sums.add([force, Vec3::load(&t.drag[i])], damping, seen_before, seen_after);
+        sums.add_tension(tension, seen_before, seen_after);
         earlier[i] = before.store();
         velocity[i] = after.store();
         position[i] = after.mul_add(h, Vec3::load(&position[i])).store();

@@ -4,13 +4,16 @@ pub(crate) mod explicit;
 pub(crate) mod force_pass;
 pub(crate) mod forces;
 pub(crate) mod implicit;
+pub(crate) mod laying;
 pub mod schemes;
 pub mod work;
 
+use self::laying::Laying;
 use self::schemes::Scheme;
 use crate::drag::{DragLanes, ElementDrag};
 use crate::fibre::{Fibre, Root};
 use crate::lanes::{Lanes, WIDTH};
+use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
 /// One fibre and what acts on it, without the wind: the content of a lane.
@@ -32,33 +35,41 @@ pub struct Strand {
 #[derive(Clone, Debug)]
 pub struct Chain {
     /// Positions of the nodes [m].
-    pub position: Vec<Vec3<Lanes>>,
+    pub position: Nodes<Vec3<Lanes>>,
     /// Velocities of the nodes [m/s]. Semi-implicit Euler has them at the time of the positions, the other
     /// schemes half a step earlier.
-    pub velocity: Vec<Vec3<Lanes>>,
+    pub velocity: Nodes<Vec3<Lanes>>,
     /// The velocities one step before [`Chain::velocity`]; the staggered schemes extrapolate from both.
-    pub(crate) earlier: Vec<Vec3<Lanes>>,
+    pub(crate) earlier: Nodes<Vec3<Lanes>>,
     /// Constants of the eight fibres.
     pub(crate) constants: Constants,
     /// What only the scheme with implicit tension needs.
     pub(crate) tensions: implicit::Tensions,
+    /// How it is fed and laid down; none for a fibre of fixed length.
+    pub(crate) laying: Option<Laying>,
 }
 
 /// The constants of eight fibres that a step needs.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Constants {
     /// The root. It does not move if it is held.
     pub(crate) root: Node,
     /// A node between two elements.
     pub(crate) node: Node,
-    /// The free end.
-    pub(crate) end: Node,
+    /// The nodes that differ from the others, from the end upwards: the free end, and those on the belt.
+    pub(crate) tail: Vec<Node>,
     pub(crate) rest_length: Lanes,
     pub(crate) axial_stiffness: Lanes,
     pub(crate) bending_stiffness: Lanes,
+    /// Of the root, and of the node below it.
     pub(crate) root_stiffness: Lanes,
+    pub(crate) second_stiffness: Lanes,
     pub(crate) root_direction: Vec3<Lanes>,
+    /// Time constant of the bending viscosity [s]; none if it is zero in all lanes.
+    pub(crate) viscosity: Option<Lanes>,
     pub(crate) damping: Lanes,
+    /// Speed of the belt along y, from which energies are seen [m/s]; zero without a belt.
+    pub(crate) frame: Lanes,
     /// Half an element's drag, which is the share of each of its two nodes.
     pub(crate) half_drag: DragLanes,
 }
@@ -92,13 +103,19 @@ impl Constants {
             root: node(0, &|s| s.fibre.root != Root::Free),
             // A chain of one element has no such node and does not use this.
             node: node(1, &|_| false),
-            end: node(elements, &|_| false),
+            tail: vec![node(elements, &|_| false)],
             rest_length: lanes(&|s| s.fibre.rest_length()),
             axial_stiffness: lanes(&|s| s.fibre.axial_stiffness()),
             bending_stiffness: lanes(&|s| s.fibre.rotational_stiffness()),
             root_stiffness: lanes(&|s| s.fibre.root_stiffness()),
+            second_stiffness: lanes(&|s| s.fibre.rotational_stiffness()),
             root_direction: direction,
+            viscosity: strands
+                .iter()
+                .any(|s| s.fibre.bending_viscosity_time != 0.0)
+                .then(|| lanes(&|s| s.fibre.bending_viscosity_time)),
             damping: lanes(&|s| s.damping),
+            frame: Lanes::ZERO,
             half_drag: DragLanes::pack(&std::array::from_fn::<_, WIDTH, _>(|i| pick(i).drag.half())),
         }
     }
@@ -108,11 +125,17 @@ impl Constants {
     pub(crate) fn node(&self, i: usize, nodes: usize) -> &Node {
         if i == 0 {
             &self.root
-        } else if i + 1 == nodes {
-            &self.end
-        } else {
+        } else if i + self.tail.len() < nodes {
             &self.node
+        } else {
+            &self.tail[nodes - 1 - i]
         }
+    }
+
+    /// Whether node `i` of `nodes` is one that the feed or the belt may hold.
+    #[inline(always)]
+    pub(crate) fn may_be_held(&self, i: usize, nodes: usize) -> bool {
+        i == 0 || i + self.tail.len() >= nodes
     }
 }
 
@@ -127,9 +150,10 @@ impl Chain {
         let position = (0..=elements).map(|i| direction * (rest_length * Lanes::splat(i as f64))).collect();
         Self {
             position,
-            velocity: vec![Vec3::ZERO; elements + 1],
-            earlier: vec![Vec3::ZERO; elements + 1],
+            velocity: vec![Vec3::ZERO; elements + 1].into(),
+            earlier: vec![Vec3::ZERO; elements + 1].into(),
             tensions: implicit::Tensions::new(if scheme == Scheme::ImplicitTension { elements } else { 0 }),
+            laying: None,
             constants,
         }
     }
@@ -140,7 +164,7 @@ impl Chain {
         let before = self.constants.axial_stiffness;
         self.constants = Constants::of(strands);
         let after = self.constants.axial_stiffness;
-        for tension in &mut self.tensions.tension {
+        for tension in self.tensions.tension.iter_mut() {
             *tension = Lanes::from_fn(|i| tension.0[i] * (after.0[i] / before.0[i]));
         }
     }
@@ -156,11 +180,8 @@ impl Chain {
     /// Tension of each element [N], negative in compression. Implicit tension gives the tension that the scheme
     /// has solved for, the explicit schemes give the tension of the stretch.
     pub fn tension(&self) -> Vec<Lanes> {
-        // The implicit scheme has one more entry than elements, the other schemes have one.
-        match self.tensions.tension.split_last() {
-            Some((_, solved)) if solved.len() == self.elements() => solved.to_vec(),
-            _ => self.tension_of_stretch().collect(),
-        }
+        let solved = &self.tensions.tension;
+        if solved.is_empty() { self.tension_of_stretch().collect() } else { solved.to_vec() }
     }
 
     fn tension_of_stretch(&self) -> impl Iterator<Item = Lanes> {
@@ -171,6 +192,27 @@ impl Chain {
                 c.axial_stiffness.0[i] * (length - c.rest_length.0[i])
             })
         })
+    }
+
+    /// Number of elements that have been fed so far.
+    pub(crate) fn fed(&self) -> u64 {
+        self.laying.as_ref().map_or(0, Laying::fed)
+    }
+
+    /// Number of nodes of the fibre in each lane. Nodes after them have been laid down.
+    pub(crate) fn nodes(&self) -> [usize; WIDTH] {
+        let all = self.position.len();
+        std::array::from_fn(|lane| self.laying.as_ref().map_or(all, |laying| laying.nodes(lane).min(all)))
+    }
+
+    /// Whether a node is held in a lane.
+    pub(crate) fn is_held(&self, node: usize, lane: usize) -> bool {
+        self.constants.node(node, self.position.len()).inverse_mass.0[lane] == 0.0
+    }
+
+    /// Where the nodes began [m]: at the start, or where they were fed.
+    pub(crate) fn origin<'a>(&'a self, start: &'a [Vec3<Lanes>]) -> &'a [Vec3<Lanes>] {
+        self.laying.as_ref().map_or(start, |laying| &laying.origin)
     }
 
     /// Number of elements `N`.

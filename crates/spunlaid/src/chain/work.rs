@@ -1,5 +1,6 @@
 //! WorkRegisters of the work done on the nodes.
 
+use super::Constants;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
@@ -33,12 +34,82 @@ pub struct WorkDone {
     pub damping: WorkSum,
     /// The tension; used by implicit tension only.
     pub tension: WorkSum,
+    /// Energy that the bending viscosity has dissipated [J].
+    pub viscous: Lanes,
+    /// What drives the root of a fed fibre.
+    pub feed: WorkSum,
+    /// The belt, at the touch-down.
+    pub belt: WorkSum,
+}
+
+/// Sums of the work of the forces that hold nodes of a fed fibre: what drives its root, and the belt.
+#[derive(Clone, Copy)]
+pub(crate) struct Supports {
+    feed: WorkSum,
+    belt: WorkSum,
+}
+
+impl Supports {
+    #[inline(always)]
+    pub(crate) fn of(work: &WorkDone) -> Self {
+        let anew = |sum: WorkSum| WorkSum { before: Lanes::ZERO, ..sum };
+        Self { feed: anew(work.feed), belt: anew(work.belt) }
+    }
+
+    /// Adds the work of the force that holds node `i` and returns it, zero in the lanes where the node is free.
+    ///
+    /// * `free` – above zero where it is free
+    /// * `force` – what holds it where it is not
+    /// * `velocities` – before and after the kick
+    #[inline(always)]
+    pub(crate) fn add<S: Register>(
+        &mut self,
+        i: usize,
+        free: Wide<S>,
+        force: Vec3<Wide<S>>,
+        velocities: [Vec3<Wide<S>>; 2],
+        c: &Constants,
+    ) -> Vec3<Wide<S>> {
+        let zero = Wide::zero();
+        let held = |force: Wide<S>| Wide::select_less(zero, free, zero, force);
+        let force = Vec3::new(held(force.x), held(force.y), held(force.z));
+        let frame = Wide::load(&c.frame);
+        let [before, after] = velocities.map(|v| v.less_y(frame));
+        let sum = if i == 0 { &mut self.feed } else { &mut self.belt };
+        sum.both = force.dot_add(before + after, Wide::load(&sum.both)).store();
+        // The belt's force is a blow at the touch-down, which counts from the end of its step on.
+        if i == 0 {
+            sum.before = force.dot(before).store();
+        }
+        force
+    }
+
+    #[inline(always)]
+    pub(crate) fn put(self, work: &mut WorkDone) {
+        (work.feed, work.belt) = (self.feed, self.belt);
+    }
 }
 
 impl WorkDone {
+    /// Adds the dissipation of the bending viscosity, if there is any, over a step of `h` [s].
+    #[inline(always)]
+    pub(crate) fn dissipate<S: Register>(&mut self, power: Wide<S>, c: &Constants, h: f64) {
+        if c.viscosity.is_some() {
+            self.viscous = power.mul_add(Wide::splat(h), Wide::load(&self.viscous)).store();
+        }
+    }
+
+
     /// Removes what the first step added for the time before the start. Called once, after that step.
     pub(crate) fn begin(&mut self) {
-        for power in [&mut self.total, &mut self.drag, &mut self.damping, &mut self.tension] {
+        for power in [
+            &mut self.total,
+            &mut self.drag,
+            &mut self.damping,
+            &mut self.tension,
+            &mut self.feed,
+            &mut self.belt,
+        ] {
             power.both = power.both - power.before;
             power.before = Lanes::ZERO;
         }

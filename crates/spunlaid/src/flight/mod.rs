@@ -32,9 +32,10 @@ mod steps;
 pub(crate) use common::Common;
 pub use end_node::{EndNodeMotion, EndNodeStatistics};
 
-use crate::air::{Eddies, Stream, StreamKey, Surroundings, Wind};
+use crate::air::{Eddies, Stations, Stream, StreamKey, Surroundings, Wind};
 use crate::case::Case;
 use crate::chain::Chain;
+pub use crate::chain::laying::LaidPoint;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
 use crate::energy::Energy;
@@ -51,10 +52,20 @@ pub struct Job<'a> {
 }
 
 impl Job<'_> {
+    /// A direction around the axis of its own [turns]; those of successive replicates spread evenly.
+    pub(crate) fn turn(&self) -> f64 {
+        const RATIOS: [f64; 2] = [0.618_033_988_749_894_9, 0.754_877_666_246_692_7];
+        (self.replicate as f64 * RATIOS[0] + (self.case.run.seed % 1_000_003) as f64 * RATIOS[1]).fract()
+    }
+
     /// The source of its turbulence.
     pub(crate) fn stream(&self, eddies: &Eddies) -> Stream {
         let key = StreamKey { seed: self.case.run.seed, replicate: self.replicate };
-        Stream { air: self.case.air.clone(), eddies: self.case.turbulence_along(eddies), key }
+        let eddies = match self.case.stations() {
+            Some(stations) => self.case.air.turbulence_at(&stations),
+            None => self.case.turbulence_along(eddies),
+        };
+        Stream { air: self.case.air.clone(), eddies, key }
     }
 }
 
@@ -76,6 +87,8 @@ pub struct Flight {
     wind: Wind,
     /// The flow around the fibres, if it is not uniform.
     surroundings: Option<Surroundings>,
+    /// The air along the way of fed fibres.
+    stations: Option<Stations>,
     work: WorkDone,
     steps_done: u64,
     /// Number of steps at the start that the end-node statistics leave out.
@@ -98,12 +111,14 @@ struct Start {
 pub struct Snapshot {
     /// Time since the start [s].
     pub time: f64,
-    /// Of the `N+1` nodes [m].
+    /// Of the `N+1` nodes [m]. Of a fed fibre, the nodes after the first [`Snapshot::nodes`] have left it.
     pub position: Vec<Vec3<Lanes>>,
     /// Of the `N+1` nodes, at the same instant [m/s].
     pub velocity: Vec<Vec3<Lanes>>,
     /// Tension of the `N` elements, negative in compression [N].
     pub tension: Vec<Lanes>,
+    /// Number of nodes of the fibre in each lane.
+    pub nodes: [usize; WIDTH],
     /// Strain of the element at the root, integrated over time since the start [s]. The difference between two
     /// instants, divided by the time between them, is the mean strain, whatever happened between them.
     pub root_strain_integral: Lanes,
@@ -120,11 +135,13 @@ pub struct Surrounded {
     pub wind: Wind,
     /// The flow around the fibres, if it is not uniform.
     pub surroundings: Option<Surroundings>,
+    /// The air along the way of fed fibres, instead of eddies and surroundings.
+    pub stations: Option<Stations>,
 }
 
 impl From<(&Eddies, &Wind)> for Surrounded {
     fn from((eddies, wind): (&Eddies, &Wind)) -> Self {
-        Self { eddies: eddies.clone(), wind: wind.clone(), surroundings: None }
+        Self { eddies: eddies.clone(), wind: wind.clone(), surroundings: None, stations: None }
     }
 }
 
@@ -145,6 +162,11 @@ impl Flight {
             self.chain.velocity[node] = Vec3::ZERO;
             self.chain.earlier[node] = Vec3::ZERO;
         }
+    }
+
+    /// Points that the fibre in a lane has laid on the belt since the last call, in the order in which they were fed.
+    pub fn take_laid(&mut self, lane: usize) -> Vec<LaidPoint> {
+        self.chain.laying.as_mut().map_or_else(Vec::new, |laying| std::mem::take(&mut laying.laid[lane]))
     }
 
     /// Number of fibres. The lanes after them repeat the first fibre.
@@ -186,6 +208,9 @@ impl Flight {
     /// Share of the time that the elements of the fibre in a lane have spent outside the given flow. `None` in
     /// uniform air.
     pub fn outside(&self, lane: usize) -> Option<f64> {
-        self.surroundings.as_ref().map(|surroundings| surroundings.outside(lane))
+        match &self.stations {
+            Some(stations) => stations.outside(lane),
+            None => self.surroundings.as_ref().map(|surroundings| surroundings.outside(lane)),
+        }
     }
 }

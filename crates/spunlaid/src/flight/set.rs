@@ -69,6 +69,6 @@ impl Flight {
     /// Energies of the chains from the velocities as the scheme stores them.
     fn held(&self) -> Energy {
         let Self { isa, chain, start, .. } = self;
-        Energy::held(*isa, chain, &chain.position, &chain.velocity, &start.position)
+        Energy::held(*isa, &chain.constants, &chain.position, &chain.velocity, chain.origin(&start.position))
     }
 }

@@ -1,14 +1,16 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
 use super::{Common, EndNodeStatistics, Flight, Job, Start, Surrounded};
-use crate::air::{Surroundings, Wind};
+use crate::air::{Stations, Surroundings, Wind};
 use crate::case::Case;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
 use crate::chain::{Chain, Strand};
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
+use crate::fibre::Root;
 use crate::lanes::{Isa, Lanes, WIDTH};
+use crate::laydown::Laydown;
 use crate::vec3::Vec3;
 
 impl Flight {
@@ -41,7 +43,12 @@ impl Flight {
         let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
         let cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect::<Vec<_>>();
         let air = surrounded(&cases, isa, horizon)?;
-        let mut flight = Self::assembled(isa, &strands, air, run.scheme, run.time_step)?;
+        let laid: Option<Vec<_>> =
+            jobs.iter().map(|job| Some((job.case.laydown?, job.case.fibre.root, job.turn()))).collect();
+        let mut flight = match laid {
+            Some(laid) => Self::fed(isa, &strands, &laid, air, run.scheme, run.time_step)?,
+            None => Self::assembled(isa, &strands, air, run.scheme, run.time_step)?,
+        };
         (flight.cases, flight.spin_up) = (cases, run.spin_up_steps);
         Ok(flight)
     }
@@ -59,21 +66,50 @@ impl Flight {
         scheme: Scheme,
         h: f64,
     ) -> Result<Self, FlightFault> {
-        let Surrounded { eddies, wind, surroundings } = air.into();
+        let air = air.into();
         check_strands(strands)?;
-        if !(h > 0.0 && h.is_finite()) {
-            return Err(FlightFault::Step { step: h });
-        }
         let elements = strands[0].fibre.elements;
-        let around = surroundings.as_ref().map_or(elements, Surroundings::elements);
+        let around = air.surroundings.as_ref().map_or(elements, Surroundings::elements);
         for (what, of, found, wanted) in [
-            ("air", "elements", eddies.of_element().len(), elements),
-            ("wind", "eddies", wind.eddies(), eddies.count()),
+            ("air", "elements", air.eddies.of_element().len(), elements),
             ("surrounding flow", "elements", around, elements),
         ] {
             if found != wanted {
                 return Err(FlightFault::Size { what, of, found, wanted });
             }
+        }
+        Self::with_chain(isa, Chain::straight(strands, scheme), strands, air, scheme, h)
+    }
+
+    /// Fibres that begin to be fed, in given air.
+    fn fed(
+        isa: Isa,
+        strands: &[Strand],
+        laid: &[(Laydown, Root, f64)],
+        air: Surrounded,
+        scheme: Scheme,
+        h: f64,
+    ) -> Result<Self, FlightFault> {
+        check_strands(strands)?;
+        let mut chain = Chain::straight(strands, scheme);
+        chain.feed(laid);
+        Self::with_chain(isa, chain, strands, air, scheme, h)
+    }
+
+    fn with_chain(
+        isa: Isa,
+        chain: Chain,
+        strands: &[Strand],
+        Surrounded { eddies, wind, surroundings, stations }: Surrounded,
+        scheme: Scheme,
+        h: f64,
+    ) -> Result<Self, FlightFault> {
+        if !(h > 0.0 && h.is_finite()) {
+            return Err(FlightFault::Step { step: h });
+        }
+        if wind.eddies() != eddies.count() {
+            let (what, of, found, wanted) = ("wind", "eddies", wind.eddies(), eddies.count());
+            return Err(FlightFault::Size { what, of, found, wanted });
         }
         let mut flight = Self {
             isa,
@@ -82,10 +118,11 @@ impl Flight {
             damped: strands.iter().any(|s| s.damping != 0.0),
             h,
             start: Start::default(),
-            chain: Chain::straight(strands, scheme),
+            chain,
             eddies,
             wind,
             surroundings,
+            stations,
             work: WorkDone::default(),
             steps_done: 0,
             spin_up: 0,
@@ -115,7 +152,7 @@ impl Flight {
                 return Err(FlightFault::Size { what: "start", of: "nodes", found, wanted });
             }
         }
-        (self.chain.position, self.chain.velocity) = (position, velocity);
+        (self.chain.position, self.chain.velocity) = (position.into(), velocity.into());
         self.steps_done = 0;
         self.work = WorkDone::default();
         self.end_node = EndNodeStatistics::default();
@@ -126,12 +163,15 @@ impl Flight {
 
     /// Stores the start, and takes the first half kick of the staggered schemes.
     fn begin(&mut self) {
-        let (position, velocity) = (self.chain.position.clone(), self.chain.velocity.clone());
-        let energy = Energy::held(self.isa, &self.chain, &position, &velocity, &position);
+        let (position, velocity) = (self.chain.position.to_vec(), self.chain.velocity.to_vec());
+        let energy = Energy::held(self.isa, &self.chain.constants, &position, &velocity, &position);
         self.start = Start { position, velocity, energy };
         self.start_staggered();
         if let Some(surroundings) = &mut self.surroundings {
             surroundings.forget();
+        }
+        if let Some(stations) = &mut self.stations {
+            stations.forget();
         }
     }
 
@@ -161,12 +201,24 @@ impl Flight {
 /// The air of cases that can fly together.
 pub(super) fn surrounded(cases: &[(Case, u64)], isa: Isa, horizon: f64) -> Result<Surrounded, FlightFault> {
     let case = &cases[0].0;
-    let eddies = case.eddies();
+    let airs = || cases.iter().map(|(case, _)| case.air.clone());
+    let stations = match case.stations() {
+        Some(grid) => {
+            let every = case.steps_between_looks();
+            Some((grid, Stations::new(airs().collect(), grid, case.strand().fibre.elements, every)?))
+        }
+        None => None,
+    };
+    let eddies = stations.as_ref().map_or_else(|| case.eddies(), |(grid, _)| grid.eddies());
     let streams =
         cases.iter().map(|(case, replicate)| Job { case, replicate: *replicate }.stream(&eddies)).collect();
-    let wind = Wind::along(isa, streams, horizon)?;
-    let surroundings = case.surroundings(cases.iter().map(|(case, _)| case.air.clone()))?;
-    Ok(Surrounded { eddies, wind, surroundings })
+    let mut wind = Wind::along(isa, streams, horizon)?;
+    if stations.is_some() {
+        wind = wind.coarse();
+        return Ok(Surrounded { eddies, wind, surroundings: None, stations: stations.map(|(_, s)| s) });
+    }
+    let surroundings = case.surroundings(airs())?;
+    Ok(Surrounded { eddies, wind, surroundings, stations: None })
 }
 
 /// Refuses strands that cannot fly together.

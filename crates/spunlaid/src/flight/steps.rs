@@ -1,13 +1,14 @@
 //! Steps of a flight, and what is seen of it between them.
 
 use super::{Flight, Snapshot};
+use crate::air::InEddies;
 use crate::chain::force_pass::ElementBlock;
 use crate::chain::schemes::Scheme;
 use crate::chain::{explicit, implicit};
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
 use crate::fibre::Root;
-use crate::lanes::{Lanes, Register, Task, Wide};
+use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::vec3::Vec3;
 
 /// Number of steps between two checks that all positions are finite.
@@ -50,22 +51,32 @@ impl Flight {
     /// Positions, velocities and energies now. The flight advances by one step.
     pub fn observe(&mut self) -> Snapshot {
         let time = self.time();
-        let position = self.chain.position.clone();
-        let mut velocity = self.chain.velocity.clone();
-        let tension = self.chain.tension();
+        let chain = &self.chain;
+        let (position, mut velocity) = (chain.position.to_vec(), chain.velocity.to_vec());
+        let tension = chain.tension();
+        // The step may add nodes and take others away.
+        let (constants, origin) = (chain.constants.clone(), chain.origin(&self.start.position).to_vec());
+        let (nodes, fed) = (chain.nodes(), chain.fed());
+        let carried = chain.laying.as_ref().map(|laying| laying.carried).unwrap_or_default();
         let root_strain_integral = self.root_strain * Lanes::splat(self.h);
         let (before, first) = (self.work, self.steps_done == 0);
         self.run(1, (self.h, self.h), true);
         if first {
             velocity.clone_from(&self.start.velocity);
         } else if self.scheme.is_staggered() {
-            for (v, after) in velocity.iter_mut().zip(&self.chain.velocity) {
-                *v = (*v + *after) * Lanes::splat(0.5);
+            let born = (self.chain.fed() - fed) as usize;
+            let after = self.chain.velocity.get(born..).unwrap_or_default();
+            for (i, (v, after)) in velocity.iter_mut().zip(after).enumerate() {
+                let mean = (*v + *after) * Lanes::splat(0.5);
+                // A node that lands in the step does not know of it yet.
+                let landed = |lane: usize| i > 0 && self.chain.is_held(i + born, lane);
+                (0..WIDTH).filter(|&lane| !landed(lane)).for_each(|lane| v.set_lane(lane, mean.lane(lane)));
             }
         }
-        let mut energy = Energy::held(self.isa, &self.chain, &position, &velocity, &self.start.position);
-        energy.enter_work(&self.start.energy, (&before, &self.work), self.scheme, self.h);
-        Snapshot { time, position, velocity, tension, root_strain_integral, energy }
+        let mut energy = Energy::held(self.isa, &constants, &position, &velocity, &origin);
+        let works = (&before, &self.work);
+        energy.enter_work(&self.start.energy, works, &carried, self.scheme, self.h);
+        Snapshot { time, position, velocity, tension, nodes, root_strain_integral, energy }
     }
 
     /// The first fibre and node whose position is not finite, if there is one.
@@ -98,13 +109,23 @@ impl Flight {
         }
     }
 
+    /// What a step changes besides the motion: fibre is fed and laid down.
+    #[inline(always)]
+    fn feed_and_lay(&mut self) {
+        if let Some(stations) = &mut self.stations {
+            let fed = self.chain.fed();
+            self.chain.feed_and_lay(self.steps_done, self.h);
+            stations.follow(self.chain.elements(), self.chain.fed() > fed);
+        }
+    }
+
     #[inline(always)]
     fn count_step<S: Register>(&mut self) {
         if self.steps_done == 0 {
             self.work.begin();
         }
         self.steps_done += 1;
-        if self.steps_done > self.spin_up {
+        if self.steps_done > self.spin_up && self.stations.is_none() {
             self.end_node.see::<S>(&self.chain.position[self.chain.elements()]);
         }
         let element = Vec3::load(&self.chain.position[1]) - Vec3::load(&self.chain.position[0]);
@@ -116,18 +137,28 @@ impl Flight {
 
 /// Advances a flight by a number of steps in its wind. This is a macro because a closure would not be inlined.
 macro_rules! in_wind {
-    ($steps:expr, $b:ident, |$wind:ident, $eddy:ident| $step:block) => {
+    ($steps:expr, $b:ident, $moves:expr, |$wind:ident, $fed:ident| $step:block) => {
         for _ in 0..$steps {
-            let now = $b.wind.blow::<S>($b.steps_done as f64 * $b.h);
-            let $eddy = $b.eddies.of_element();
-            if let Some(surroundings) = &mut $b.surroundings {
-                let $wind = surroundings.around::<S>($b.steps_done, &$b.chain.position, now);
+            let time = $b.steps_done as f64 * $b.h;
+            if let Some(stations) = &mut $b.stations {
+                const $fed: bool = true;
+                let $wind = stations.around::<S>($b.steps_done, time, &mut $b.wind, &$b.chain.position);
                 $step
             } else {
-                let $wind = now;
-                $step
+                const $fed: bool = false;
+                let eddies = InEddies { now: $b.wind.blow::<S>(time), of_element: $b.eddies.of_element() };
+                if let Some(surroundings) = &mut $b.surroundings {
+                    let $wind = surroundings.around::<S>($b.steps_done, &$b.chain.position, eddies);
+                    $step
+                } else {
+                    let $wind = eddies;
+                    $step
+                }
             }
             $b.count_step::<S>();
+            if $moves {
+                $b.feed_and_lay();
+            }
         }
     };
 }
@@ -159,8 +190,8 @@ impl Advance<'_> {
         let (b, by) = (self.flight, self.kick_and_drift);
         let how = (b.damped, self.split);
         let mut block = ElementBlock::new();
-        in_wind!(self.steps, b, |wind, eddy| {
-            explicit::step::<S, LEAPFROG>(&mut b.chain, wind, eddy, by, how, &mut b.work, &mut block);
+        in_wind!(self.steps, b, by.1 != 0.0, |wind, FED| {
+            explicit::step::<S, LEAPFROG, FED>(&mut b.chain, wind, by, how, &mut b.work, &mut block);
         });
     }
 
@@ -169,8 +200,8 @@ impl Advance<'_> {
         let b = self.flight;
         let how = (b.damped, self.split);
         let mut block = ElementBlock::new();
-        in_wind!(self.steps, b, |wind, eddy| {
-            implicit::step::<S>(&mut b.chain, wind, eddy, b.h, how, &mut b.work, &mut block);
+        in_wind!(self.steps, b, true, |wind, FED| {
+            implicit::step::<S, FED>(&mut b.chain, wind, b.h, how, &mut b.work, &mut block);
         });
     }
 }

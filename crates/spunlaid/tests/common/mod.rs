@@ -30,6 +30,7 @@ pub fn table1_fibre() -> Fibre {
         diameter: 50e-6,
         density: 950.0,
         youngs_modulus: 2e9,
+        bending_viscosity_time: 0.0,
         elements: 20,
         root: Root::Pinned,
         direction: X,
@@ -59,7 +60,7 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
         damping: 0.0,
         shapes: None,
     };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), run }
+    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), laydown: None, run }
 }
 
 /// A fibre in a vacuum.

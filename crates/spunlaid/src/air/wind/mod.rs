@@ -25,6 +25,8 @@ use crate::vec3::Vec3;
 
 /// Cubics per sample spacing of a synthesised signal. A record has one per spacing.
 const CELLS: u64 = 16;
+/// Likewise where an error of a few 1e-4 of the rms is small enough.
+const COARSE_CELLS: u64 = 2;
 
 /// The wind along up to eight fibres, mean flow and fluctuation, as a function of time.
 ///
@@ -43,7 +45,7 @@ pub struct Wind {
     spacing: f64,
     /// Mean velocity along x of each eddy [m/s].
     mean: Vec<Lanes>,
-    /// Weights of the `SPREAD` samples for value and slope (per cell) at the `CELLS` cell ends.
+    /// Weights of the `SPREAD` samples for value and slope (per cell) at the cell ends.
     weights: Vec<[(f64, f64); SPREAD]>,
     cells_per_sample: u64,
     cell: Option<u64>,
@@ -118,17 +120,6 @@ impl Wind {
     }
 
     fn of(spacing: f64, mean: Vec<Lanes>, signal: Signal) -> Self {
-        let taper = Taper::new();
-        let weights = (0..CELLS)
-            .map(|cell| {
-                std::array::from_fn(|tap| {
-                    let fraction = cell as f64 / CELLS as f64;
-                    let x = fraction - (tap as f64 - (SPREAD as f64 / 2.0 - 1.0));
-                    let (value, slope) = taper.value_and_slope(x);
-                    (value, slope / CELLS as f64)
-                })
-            })
-            .collect();
         let eddies = mean.len();
         let columns = 3 * eddies;
         let cells_per_sample = match signal {
@@ -140,13 +131,22 @@ impl Wind {
             eddies,
             spacing,
             mean,
-            weights,
+            weights: weights(cells_per_sample),
             cells_per_sample,
             cell: None,
             start: vec![(Lanes::ZERO, Lanes::ZERO); columns],
             end: vec![(Lanes::ZERO, Lanes::ZERO); columns],
             cubic: vec![[[Lanes::ZERO; 4]; 3]; eddies],
         }
+    }
+
+    /// The same wind with fewer cubics: the error of the interpolation is `(π/4)⁴/384 · u/3 = 3e-4 u` for a flat spectrum.
+    ///                                           theory.md (19)
+    pub(crate) fn coarse(mut self) -> Self {
+        if matches!(self.signal, Signal::Synthesised(_)) {
+            (self.weights, self.cells_per_sample) = (weights(COARSE_CELLS), COARSE_CELLS);
+        }
+        self
     }
 
     /// Number of eddies.
@@ -223,8 +223,8 @@ impl Wind {
             }
         };
         let columns = self.end.len();
-        let weights = &self.weights[(cell % CELLS) as usize];
-        let samples = windows.samples(cell / CELLS);
+        let weights = &self.weights[(cell % self.cells_per_sample) as usize];
+        let samples = windows.samples(cell / self.cells_per_sample);
         for (column, end) in self.end.iter_mut().enumerate() {
             let (mut value, mut slope) = (Wide::<S>::zero(), Wide::<S>::zero());
             for (tap, &(for_value, for_slope)) in weights.iter().enumerate() {
@@ -235,6 +235,20 @@ impl Wind {
             *end = (value.store(), slope.store());
         }
     }
+}
+
+/// Weights of the `SPREAD` samples for value and slope (per cell) at the ends of the cells in a sample spacing.
+fn weights(cells: u64) -> Vec<[(f64, f64); SPREAD]> {
+    let taper = Taper::new();
+    let of_cell = |cell: u64| {
+        std::array::from_fn(|tap| {
+            let fraction = cell as f64 / cells as f64;
+            let x = fraction - (tap as f64 - (SPREAD as f64 / 2.0 - 1.0));
+            let (value, slope) = taper.value_and_slope(x);
+            (value, slope / cells as f64)
+        })
+    };
+    (0..cells).map(of_cell).collect()
 }
 
 /// What the fibres of a wind must have in common.

@@ -35,13 +35,6 @@ fn uniform(stream: &mut ChaCha8Rng) -> f64 {
     (stream.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
 }
 
-/// Two independent random numbers of the standard normal distribution (Box and Muller).
-fn normal(stream: &mut ChaCha8Rng) -> (f64, f64) {
-    let radius = (-2.0 * libm::log(1.0 - uniform(stream))).sqrt();
-    let angle = 2.0 * PI * uniform(stream);
-    (radius * libm::cos(angle), radius * libm::sin(angle))
-}
-
 /// The source of the turbulence of one fibre.
 #[derive(Clone, Debug)]
 pub struct Stream {
@@ -174,22 +167,17 @@ impl<'a> Harmonics<'a> {
         let phase = self.phase[component].iter_mut().map(|of| &mut of.0[lane]);
         match turbulence.carried {
             None => phase.for_each(|phase| *phase = uniform(&mut stream)),
-            // The phase lags by the time of arrival, and changes at random as the correlation decays: theory.md (47).
+            // The phase lags by the time of arrival, and turns to either side as the correlation decays: theory.md (47).
             Some(time) => {
                 let lag = time / air.repeat_time();
-                let step = (2.0 * turbulence.forgotten).sqrt() / (2.0 * PI);
-                let mut spare = None;
+                let turn = libm::acos(libm::exp(-turbulence.forgotten)) / (2.0 * PI);
+                let mut sides = 0;
                 for (n, phase) in phase.enumerate() {
-                    let walk = match spare.take() {
-                        _ if step == 0.0 => 0.0,
-                        Some(walk) => walk,
-                        None => {
-                            let (walk, other) = normal(&mut stream);
-                            spare = Some(other);
-                            walk
-                        }
-                    };
-                    let turned = *phase - (n as f64 + 0.5) * lag + step * walk;
+                    if n % 64 == 0 {
+                        sides = stream.next_u64();
+                    }
+                    let side = if sides >> (n % 64) & 1 == 0 { turn } else { -turn };
+                    let turned = *phase - (n as f64 + 0.5) * lag + side;
                     *phase = turned - turned.floor();
                 }
             }

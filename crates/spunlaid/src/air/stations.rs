@@ -1,0 +1,298 @@
+//! The air along the way of fed fibres: signals at fixed stations between inlet and belt.
+//!
+//! ```text
+//! Wind (one signal for each station) → velocity at the stations at a look → velocity at each element, where it is
+//! ```
+//!
+//! A fed element does not stay with an eddy: it feels the air of the place where it is. Between two stations the signal
+//! is interpolated with weights that keep its variance.                                           theory.md (64)
+
+use super::surroundings::{AirAtElements, Surroundings};
+use super::{Air, EddyModel, EddyTurbulence, Eddies, Flow, Wind};
+use crate::error::FlightFault;
+use crate::field::Hint;
+use crate::lanes::{Lanes, Register, WIDTH, Wide};
+use crate::nodes::Nodes;
+use crate::vec3::Vec3;
+
+/// Most stations along the way.
+const MOST: f64 = 2000.0;
+/// Stations in a length scale of a carried pattern, and in the shortest wave.
+const PER_LENGTH_SCALE: f64 = 4.0;
+const PER_WAVE: f64 = 12.0;
+/// Looks in the time in which fibre or air passes a length scale.
+const LOOKS: f64 = 4.0;
+
+/// Stations along x, the first half a spacing from the inlet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StationGrid {
+    /// Number of stations, at least two.
+    pub count: usize,
+    /// Distance between two [m].
+    pub spacing: f64,
+}
+
+impl StationGrid {
+    /// Vector from the inlet to half a spacing below the last station [m].
+    fn along(&self) -> Vec3<f64> {
+        Vec3::new(self.spacing * self.count as f64, 0.0, 0.0)
+    }
+
+    /// The eddies, one for each station.
+    pub fn eddies(&self) -> Eddies {
+        Eddies::of_each(self.count)
+    }
+}
+
+impl Air {
+    /// The stations between an inlet and a belt at a distance [m] from it.
+    ///
+    /// Independent eddies have one in each length scale. A carried pattern has four in each length scale and twelve in
+    /// the shortest wave.
+    pub fn stations(&self, distance: f64) -> StationGrid {
+        const PLACES: usize = 64;
+        let mut hint = Hint::default();
+        let spacing = match self.eddies {
+            EddyModel::Independent => self.length_scale,
+            EddyModel::Convected { .. } => (0..PLACES)
+                .map(|i| {
+                    let x = distance * (i as f64 + 0.5) / PLACES as f64;
+                    let air = self.local(Vec3::new(x, 0.0, 0.0), &mut hint);
+                    let wave = air.velocity.norm() / air.cutoff_frequency;
+                    let shortest = if wave > 0.0 { wave / PER_WAVE } else { f64::INFINITY };
+                    shortest.min(air.length_scale / PER_LENGTH_SCALE)
+                })
+                .fold(f64::INFINITY, f64::min),
+        };
+        let count = (distance / spacing).ceil().clamp(1.0, MOST);
+        StationGrid { count: count as usize + 1, spacing: spacing.max(distance / count) }
+    }
+
+    /// The turbulence at each station; its mean is zero. In a uniform flow it has the flow's rms, otherwise rms one.
+    pub fn turbulence_at(&self, grid: &StationGrid) -> Vec<EddyTurbulence> {
+        let mut turbulence = self.turbulence_along(grid.along(), grid.count, &grid.eddies());
+        turbulence.iter_mut().for_each(|of| of.mean = 0.0);
+        turbulence
+    }
+
+    /// Correlation of the signals of two neighbouring stations [-], the second of which is `lower`.
+    fn correlation(&self, upper: &EddyTurbulence, lower: &EddyTurbulence) -> f64 {
+        let Some(time) = lower.carried else { return 0.0 };
+        let (mut common, mut own) = (0.0, (0.0, 0.0));
+        let spacing = std::f64::consts::TAU / self.repeat_time();
+        for component in 0..3 {
+            let amplitudes = [upper, lower].map(|of| of.spectrum(self, component).amplitudes());
+            for (n, (a, b)) in amplitudes[0].iter().zip(&amplitudes[1]).enumerate() {
+                common += a * b * libm::cos((n as f64 + 0.5) * spacing * time);
+            }
+            own.0 += amplitudes[0].iter().map(|a| a * a).sum::<f64>();
+            own.1 += amplitudes[1].iter().map(|a| a * a).sum::<f64>();
+        }
+        let whole = (own.0 * own.1).sqrt();
+        if whole > 0.0 { (common / whole * libm::exp(-lower.forgotten)).clamp(0.0, 1.0) } else { 1.0 }
+    }
+}
+
+/// The air at an element of eight fibres.
+#[derive(Clone, Copy, Debug)]
+struct Here {
+    /// Velocity at the last look [m/s].
+    value: Vec3<Lanes>,
+    /// Its rise in a step [m/s].
+    rise: Vec3<Lanes>,
+}
+
+/// The air along the way of up to eight fed fibres, and at their elements.
+#[derive(Clone, Debug)]
+pub struct Stations {
+    grid: StationGrid,
+    /// Mean velocity along x [m/s], and factor of the signal.
+    still: Vec<[Lanes; 2]>,
+    /// `2(1−ρ)` with the correlation `ρ` of a station's signal and the next one's.
+    apart: Vec<Lanes>,
+    /// Steps from one look to the next.
+    every: u64,
+    looked: bool,
+    /// Fluctuation at the stations at the last look [m/s].
+    now: Vec<Vec3<Lanes>>,
+    elements: Nodes<Here>,
+    /// The mean flow and the rms in a field.
+    field: Option<Surroundings>,
+}
+
+impl Stations {
+    /// * `airs` – of up to eight fibres; lanes left over repeat the first
+    /// * `elements` – number of elements at the start
+    /// * `every` – steps from one look to the next
+    ///
+    /// # Errors
+    /// No air or more than eight.
+    pub fn new(airs: Vec<Air>, grid: StationGrid, elements: usize, every: u64) -> Result<Self, FlightFault> {
+        if airs.is_empty() {
+            return Err(FlightFault::Empty);
+        }
+        if airs.len() > WIDTH {
+            return Err(FlightFault::TooMany { fibres: airs.len(), most: WIDTH });
+        }
+        let pick = |lane: usize| if lane < airs.len() { lane } else { 0 };
+        let mut hint = Hint::default();
+        let mut still = vec![[Lanes::ZERO, Lanes::splat(1.0)]; grid.count];
+        let mut apart = vec![Lanes::ZERO; grid.count];
+        for (lane, air) in airs.iter().enumerate() {
+            let turbulence = air.turbulence_at(&grid);
+            for (k, still) in still.iter_mut().enumerate() {
+                let x = (k as f64 + 0.5) * grid.spacing;
+                let local = air.local(Vec3::new(x, 0.0, 0.0), &mut hint);
+                (still[0].0[lane], still[1].0[lane]) = match air.flow {
+                    Flow::Uniform => (air.velocity, 1.0),
+                    Flow::Profile(_) => (local.velocity.x, local.rms),
+                    Flow::Field(_) => (0.0, 1.0),
+                };
+            }
+            for (apart, pair) in apart.iter_mut().zip(turbulence.windows(2)) {
+                apart.0[lane] = 2.0 * (1.0 - air.correlation(&pair[0], &pair[1]));
+            }
+        }
+        for lane in airs.len()..WIDTH {
+            still.iter_mut().flatten().chain(&mut apart).for_each(|of| of.0[lane] = of.0[pick(lane)]);
+        }
+        let field = match airs[0].flow {
+            Flow::Field(_) => Some(Surroundings::new(airs, elements, every)?),
+            Flow::Uniform | Flow::Profile(_) => None,
+        };
+        let (now, nothing) = (vec![Vec3::ZERO; grid.count], Here { value: Vec3::ZERO, rise: Vec3::ZERO });
+        let elements = vec![nothing; elements].into();
+        Ok(Self { grid, still, apart, every: every.max(1), looked: false, now, elements, field })
+    }
+
+    /// Number of elements.
+    pub(crate) fn elements(&self) -> usize {
+        self.elements.len()
+    }
+
+    /// Share of the time that the elements of a lane's fibre have spent outside of a field's data.
+    pub fn outside(&self, lane: usize) -> Option<f64> {
+        self.field.as_ref().map(|field| field.outside(lane))
+    }
+
+    /// Forgets the looks so far.
+    pub(crate) fn forget(&mut self) {
+        self.looked = false;
+        if let Some(field) = &mut self.field {
+            field.forget();
+        }
+    }
+
+    /// Replaces the air by another one with as many stations. The values of the last look are kept until the next.
+    pub(crate) fn change(&mut self, by: Self) {
+        let Self { still, apart, every, field, .. } = by;
+        (self.still, self.apart, self.every) = (still, apart, every);
+        if let (Some(field), Some(new)) = (&mut self.field, field) {
+            field.change(new);
+        }
+    }
+
+    /// Follows a chain that has grown at its root and become shorter at its end to so many elements.
+    pub(crate) fn follow(&mut self, elements: usize, born: bool) {
+        if born {
+            self.elements.push_root(self.elements[0]);
+        }
+        self.elements.truncate(elements);
+        if let Some(field) = &mut self.field {
+            field.follow(elements, born);
+        }
+    }
+
+    /// The air at the elements before a step at the time `t` [s].
+    #[inline(always)]
+    pub(crate) fn around<S: Register>(
+        &mut self,
+        step: u64,
+        t: f64,
+        wind: &mut Wind,
+        position: &[Vec3<Lanes>],
+    ) -> AlongTheWay<'_, S> {
+        let since = step % self.every;
+        if since == 0 {
+            self.look::<S>(t, wind, position);
+        }
+        AlongTheWay { elements: &self.elements, steps: Wide::splat(since as f64) }
+    }
+
+    #[inline(always)]
+    fn look<S: Register>(&mut self, t: f64, wind: &mut Wind, position: &[Vec3<Lanes>]) {
+        let signal = wind.blow::<S>(t);
+        for (k, (now, still)) in (0..).zip(self.now.iter_mut().zip(&self.still)) {
+            *now = (signal.velocity(k) * Wide::load(&still[1])).store();
+        }
+        if let Some(field) = &mut self.field {
+            field.look::<S>(position);
+        }
+        let (half, one) = (Wide::<S>::splat(0.5), Wide::splat(1.0));
+        // The first look has none before it to extrapolate from.
+        let per_step = Wide::splat(if self.looked { 1.0 / self.every as f64 } else { 0.0 });
+        let (per_spacing, last) = (1.0 / self.grid.spacing, (self.grid.count - 1) as f64);
+        for (j, (ends, here)) in position.windows(2).zip(self.elements.iter_mut()).enumerate() {
+            let centre = ((Wide::<S>::load(&ends[0].x) + Wide::load(&ends[1].x)) * half).store();
+            let mut share = Lanes::ZERO;
+            let mut apart = Lanes::ZERO;
+            let mut mean = [Lanes::ZERO; 2];
+            let mut near = [Vec3::ZERO; 2];
+            for lane in 0..WIDTH {
+                let place = (centre.0[lane] * per_spacing - 0.5).max(0.0).min(last);
+                let k = (place as usize).min(self.grid.count - 2);
+                share.0[lane] = place - k as f64;
+                apart.0[lane] = self.apart[k].0[lane];
+                for (i, near) in near.iter_mut().enumerate() {
+                    mean[i].0[lane] = self.still[k + i][0].0[lane];
+                    near.x.0[lane] = self.now[k + i].x.0[lane];
+                    near.y.0[lane] = self.now[k + i].y.0[lane];
+                    near.z.0[lane] = self.now[k + i].z.0[lane];
+                }
+            }
+            let share = Wide::<S>::load(&share);
+            let rest = one - share;
+            // (1−w)² + w² + 2w(1−w)ρ = 1 − 2w(1−w)(1−ρ)
+            let scale = one.over((share * rest).neg_mul_add(Wide::load(&apart), one).sqrt());
+            let [above, below] = [Vec3::load(&near[0]), Vec3::load(&near[1])];
+            let mut fluctuation = below.mul_add(share * scale, above * (rest * scale));
+            let [upper, lower] = [Wide::load(&mean[0]), Wide::load(&mean[1])];
+            let mut flow = Vec3::new((lower - upper).mul_add(share, upper), Wide::zero(), Wide::zero());
+            if let Some(field) = &self.field {
+                let [u, v, w, rms] = field.value(j);
+                flow = Vec3::new(Wide::load(u), Wide::load(v), Wide::load(w));
+                fluctuation = fluctuation * Wide::load(rms);
+            }
+            let value = flow + fluctuation;
+            here.rise = ((value - Vec3::load(&here.value)) * per_step).store();
+            here.value = value.store();
+        }
+        self.looked = true;
+    }
+}
+
+/// Longest time between two looks at the air [s]: fibre and air pass a quarter of a length scale.
+pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
+    air.length_scale / air.velocity.abs().max(feed_speed) / LOOKS
+}
+
+/// The air at the elements of fed fibres.
+#[derive(Clone, Copy)]
+pub(crate) struct AlongTheWay<'a, S: Register> {
+    elements: &'a [Here],
+    /// Steps since the last look.
+    steps: Wide<S>,
+}
+
+impl<S: Register> AirAtElements<S> for AlongTheWay<'_, S> {
+    type Shared = ();
+
+    #[inline(always)]
+    fn enter(&self, _: usize) {}
+
+    #[inline(always)]
+    fn at(&self, j: usize, (): &mut ()) -> Vec3<Wide<S>> {
+        let Here { value, rise } = &self.elements[j];
+        Vec3::load(rise).mul_add(self.steps, Vec3::load(value))
+    }
+}
