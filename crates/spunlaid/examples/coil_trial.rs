@@ -6,7 +6,7 @@ use spunlaid::drag::*;
 use spunlaid::fibre::*;
 use spunlaid::flight::*;
 use spunlaid::lanes::Isa;
-use spunlaid::laydown::*;
+use spunlaid::line::*;
 use spunlaid::vec3::Vec3;
 
 fn main() {
@@ -29,14 +29,14 @@ fn main() {
     let run = Run { time_step: 1.0, steps: 1, spin_up_steps: 0, output_steps: 100, replicates: 8, seed: 1, scheme, gravity: g, damping: 0.1 * (g / height).sqrt(), shapes: None };
     let belt = num(6, 0.0) * v;
     let mut case = Case { fibre, air, drag: Drag { along: FrictionLaw::ALL[0], across: NormalLaw::MarheinekeWegener },
-        laydown: Some(Laydown { feed_speed: v, distance: height, belt_speed: belt, contact: Contact::Stick, kept_length: num(7, 5.0) * l, steps_per_element: 1 }), run };
+        line: Some(Line { feed_speed: v, distance: height, belt_speed: belt, contact: Contact::Stick, kept_length: num(7, 5.0) * l, steps_per_element: 1 }), run };
     let limit = case.stable_step_limits().into_iter().map(|l| l.limit).fold(f64::INFINITY, f64::min);
     let n = (l / v / (0.5 * limit)).ceil().max(2.0) as u64;
     let duration = turns * std::f64::consts::TAU * 0.4 * height / v;
     let h = l / v / n as f64;
     case.run.time_step = h;
     case.run.steps = (duration / h) as u64;
-    case.laydown.as_mut().unwrap().steps_per_element = n;
+    case.line.as_mut().unwrap().steps_per_element = n;
     println!("h {h:e} limits {:?} n {n}", case.stable_step_limits());
     let jobs: Vec<Job> = (0..1).map(|replicate| Job { case: &case, replicate }).collect();
     let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();

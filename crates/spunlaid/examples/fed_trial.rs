@@ -6,7 +6,7 @@ use spunlaid::drag::*;
 use spunlaid::fibre::*;
 use spunlaid::flight::*;
 use spunlaid::lanes::Isa;
-use spunlaid::laydown::*;
+use spunlaid::line::*;
 use spunlaid::vec3::Vec3;
 
 fn main() {
@@ -28,7 +28,7 @@ fn main() {
         fibre,
         air,
         drag: Drag { along: FrictionLaw::ALL[0], across: NormalLaw::MarheinekeWegener },
-        laydown: Some(Laydown { feed_speed: vf, distance, belt_speed: 3.0, contact: Contact::Stick, kept_length: 0.02f64.max(5.0*l), steps_per_element: n }),
+        line: Some(Line { feed_speed: vf, distance, belt_speed: 3.0, contact: Contact::Stick, kept_length: 0.02f64.max(5.0*l), steps_per_element: n }),
         run: Run { time_step: h, steps: (duration / h) as u64, spin_up_steps: 0, output_steps: 100, replicates: 8, seed: num(6, 1.0) as u64, scheme, gravity: 9.81, damping: 0.0, shapes: None },
     };
     println!("h {h:e}, bending limit {:e}, axial {:e}, stations {:?}, looks {}", case.fibre.bending_step_limit(), case.fibre.axial_step_limit(), case.stations(), case.steps_between_looks());

@@ -51,6 +51,15 @@ pub struct Fibre {
 }
 
 impl Fibre {
+    /// Makes the fibre about as long as a distance [m], in whole elements of exactly the given length [m].
+    pub fn span(&mut self, distance: f64, element_length: f64) {
+        let elements = (distance / element_length).round().clamp(1.0, 1e15);
+        self.elements = elements as usize;
+        // Rounding may change the last bit once, but not twice.
+        let once = elements * element_length / elements;
+        self.length = elements * once;
+    }
+
     /// Rest length of an element `l = L/N` [m].
     pub fn rest_length(&self) -> f64 {
         self.length / self.elements as f64

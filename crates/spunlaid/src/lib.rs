@@ -52,7 +52,7 @@
 // Vector instructions are unsafe to call; nothing else in the workspace is.
 #[allow(unsafe_code)]
 pub mod lanes;
-pub mod laydown;
+pub mod line;
 pub mod nodes;
 pub mod vec3;
 

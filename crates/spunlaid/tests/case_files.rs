@@ -94,6 +94,7 @@ fn table_1_is_read_in_si_units() {
         },
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
+        line: None,
         run: Run {
             time_step: 1e-6,
             steps: 1_000_000,
@@ -267,7 +268,7 @@ prop_compose! {
             shapes: leapfrog.then_some(seed % 20_001),
         };
         let drag = Drag { along, across };
-        let mut case = Case { fibre, air, drag, laydown: None, run };
+        let mut case = Case { fibre, air, drag, line: None, run };
         let limit = case.stable_step_limits().iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
         case.run.time_step = share * limit;
         case.air.harmonics = (case.air.cutoff_frequency * case.run.duration()) as usize + more_harmonics;

@@ -15,7 +15,7 @@ const ROOMS: &[&[&str]] = &[
     &["vec3", "fft", "nodes", "units"],
     &["error"],
     &["file", "table"],
-    &["fibre", "laydown"],
+    &["fibre", "line"],
     &["field"],
     &["air", "drag"],
     &["chain"],

@@ -127,7 +127,7 @@ fn table1(scheme: Scheme) -> Case {
         damping: 0.0,
         shapes: None,
     };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), laydown: None, run }
+    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), line: None, run }
 }
 
 /// End nodes of eight replicates every millisecond (lateral components), and the rms amplitude.

@@ -22,7 +22,7 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
         damping: 0.0,
         shapes: None,
     };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), laydown: None, run }
+    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), line: None, run }
 }
 
 /// The first eight flights of a case, on this thread.

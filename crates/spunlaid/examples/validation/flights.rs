@@ -30,7 +30,7 @@ fn case(h: f64, replicates: u64) -> Case {
         damping: 0.0,
         shapes: None,
     };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), laydown: None, run }
+    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), line: None, run }
 }
 
 fn results(case: &Case) -> Results {

@@ -8,6 +8,7 @@ use crate::air::{Flow, FromFile, Measured, SpectrumShape};
 use crate::chain::schemes::Scheme;
 use crate::drag::NormalLaw;
 use crate::error::{Fault, Finding, Place, Problem};
+use crate::fibre::Root;
 use crate::field::Hint;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
@@ -225,6 +226,16 @@ impl Check<'_> {
         let fibre = self.case.fibre;
         if fibre.diameter >= fibre.length {
             self.blame("fibre.diameter", fibre.diameter, Fault::TooThick { length: fibre.length });
+        }
+        if self.case.line.is_some() && fibre.root == Root::Free {
+            let (other, remedy) = ("[feed]", "the root is driven; choose \"clamped\" or \"pinned\"");
+            self.blame_key("fibre.root", "\"free\"".to_owned(), Fault::Excludes { other, remedy });
+        }
+        if self.case.line.is_some() && fibre.direction.x <= 0.0 {
+            let remedy = "the belt lies along +x; let the first number be above zero";
+            let direction = fibre.direction;
+            let shown = format!("[{}, {}, {}]", direction.x, direction.y, direction.z);
+            self.blame_key("fibre.direction", shown, Fault::Excludes { other: "[feed]", remedy });
         }
     }
 

@@ -1,7 +1,8 @@
 //! The choice of the time step where the case does not give one.
 
-use super::{Case, whole_parts};
+use super::{Case, FEEDING, whole_parts};
 use crate::chain::schemes::Scheme;
+use crate::line::Line;
 use std::f64::consts::PI;
 
 /// Error tolerance if the case does not give one either [-].
@@ -16,6 +17,8 @@ pub enum StepChoice {
     Stability,
     /// The run is not longer than this step.
     Duration,
+    /// An element is fed in two steps.
+    Feed,
 }
 
 impl StepChoice {
@@ -25,14 +28,24 @@ impl StepChoice {
             Self::Error => "it keeps the error tolerance",
             Self::Stability => "it is at most half the stability limit",
             Self::Duration => "the run is one step long",
+            Self::Feed => "an element is fed in two steps",
         }
     }
 }
 
 impl Case {
-    /// Changes the time step [s]. All times of the run stay the same if they are whole steps; their numbers of steps
+    /// Changes the time step [s]; that of a fed fibre becomes a little shorter if an element is not fed in whole steps. All
+    /// times of the run stay the same if they are whole steps; their numbers of steps
     /// change.
     pub fn set_time_step(&mut self, time_step: f64) {
+        let length = self.fibre.rest_length();
+        let time_step = match &mut self.line {
+            Some(line) => {
+                line.steps_per_element = line.steps_of(length, time_step);
+                length / line.feed_speed / line.steps_per_element as f64
+            }
+            None => time_step,
+        };
         let run = &mut self.run;
         let steps = |time: f64| whole_parts(time, time_step).0;
         let (duration, spin_up, output) = (run.duration(), run.spin_up(), run.output_interval());
@@ -58,11 +71,25 @@ impl Case {
             Scheme::Leapfrog => (tolerance / 0.06).sqrt() / cutoff,
             Scheme::ImplicitTension => (tolerance / 0.12).sqrt() / cutoff,
         };
+        if let Some(line) = self.line {
+            return self.suggested_feeding_step(&line);
+        }
         let limits = self.stable_step_limits();
         let stable = 0.5 * limits.iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
         let (longest, choice) =
             if accurate <= stable { (accurate, StepChoice::Error) } else { (stable, StepChoice::Stability) };
         if longest >= duration { (duration, StepChoice::Duration) } else { (round_down(longest), choice) }
+    }
+
+    /// A suitable time step of a fed fibre [s]: an element is fed in at least two steps, and the step is at most half the
+    /// stability limit. With steps as long as that, the statistics of the lay-down stay the same.
+    fn suggested_feeding_step(&self, line: &Line) -> (f64, StepChoice) {
+        let limits = self.stable_step_limits();
+        let waves = limits.iter().filter(|limit| limit.cause != FEEDING).map(|limit| limit.limit);
+        let (longest, length) = (0.5 * waves.fold(f64::INFINITY, f64::min), self.fibre.rest_length());
+        let steps = line.steps_of(length, longest).max(2);
+        let choice = if steps == 2 { StepChoice::Feed } else { StepChoice::Stability };
+        (length / line.feed_speed / steps as f64, choice)
     }
 }
 

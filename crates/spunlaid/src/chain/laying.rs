@@ -14,7 +14,7 @@
 use super::{Chain, Node};
 use crate::fibre::Root;
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
-use crate::laydown::Laydown;
+use crate::line::Line;
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
@@ -83,7 +83,7 @@ pub(crate) struct Carried {
 impl Laying {
     /// * `lanes` – feed and belt of up to eight fibres, and how their roots are held
     /// * `rest_length` – of an element [m]
-    pub(crate) fn new(lanes: &[(Laydown, Root, f64)], rest_length: &Lanes, elements: usize) -> Self {
+    pub(crate) fn new(lanes: &[(Line, Root, f64)], rest_length: &Lanes, elements: usize) -> Self {
         let pick = |i: usize| &lanes[if i < lanes.len() { i } else { 0 }];
         let kept = |i: usize| (pick(i).0.kept_length / rest_length.0[i]).ceil().clamp(1.0, 1e9) as u64;
         Self {
@@ -381,7 +381,7 @@ impl Chain {
     /// unstable balance of a column.
     ///
     /// * `lanes` – feed and belt of each fibre, how its root is held, and the direction of that offset [turns]
-    pub(crate) fn feed(&mut self, lanes: &[(Laydown, Root, f64)]) {
+    pub(crate) fn feed(&mut self, lanes: &[(Line, Root, f64)]) {
         let c = &mut self.constants;
         let elements = self.position.len() - 1;
         let mut laying = Laying::new(lanes, &c.rest_length, elements);

@@ -21,6 +21,8 @@ pub(crate) struct Common {
     harmonics: usize,
     records: Vec<u32>,
     steps_between_looks: u64,
+    /// Steps to an element, bits of its length, and number of stations, of a fed fibre.
+    feed: Option<(u64, u64, usize)>,
 }
 
 impl Common {
@@ -28,7 +30,7 @@ impl Common {
         let Case { fibre, air, run, .. } = case;
         Self {
             elements: fibre.elements,
-            eddy_of_element: case.eddies().of_element().to_vec(),
+            eddy_of_element: if case.line.is_some() { Vec::new() } else { case.eddies().of_element().to_vec() },
             time_step: run.time_step.to_bits(),
             steps: run.steps,
             spin_up_steps: run.spin_up_steps,
@@ -40,7 +42,11 @@ impl Common {
             harmonics: air.harmonics,
             records: air.records.iter().map(FromFile::checksum).collect(),
             // A uniform flow is never looked up.
-            steps_between_looks: if air.is_uniform() { 0 } else { case.steps_between_looks() },
+            feed: case.line.map(|line| {
+                let stations = case.stations().map_or(0, |stations| stations.count);
+                (line.steps_per_element, fibre.rest_length().to_bits(), stations)
+            }),
+            steps_between_looks: if case.line.is_none() && air.is_uniform() { 0 } else { case.steps_between_looks() },
         }
     }
 
@@ -62,6 +68,10 @@ impl Common {
             ("air.cutoff_frequency", self.cutoff_frequency == other.cutoff_frequency),
             ("air.harmonics", self.harmonics == other.harmonics),
             ("air.record", self.records == other.records),
+            (
+                "how the fibre is fed (feed.speed, belt.distance, fibre.element_length, and the air's stations between inlet and belt)",
+                self.feed == other.feed,
+            ),
             (
                 "how often the flow around the fibre is looked up (air.length_scale, air.velocity, or a flow that is not uniform)",
                 self.steps_between_looks == other.steps_between_looks,

@@ -10,7 +10,7 @@ use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
 use crate::fibre::Root;
 use crate::lanes::{Isa, Lanes, WIDTH};
-use crate::laydown::Laydown;
+use crate::line::Line;
 use crate::vec3::Vec3;
 
 impl Flight {
@@ -44,7 +44,7 @@ impl Flight {
         let cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect::<Vec<_>>();
         let air = surrounded(&cases, isa, horizon)?;
         let laid: Option<Vec<_>> =
-            jobs.iter().map(|job| Some((job.case.laydown?, job.case.fibre.root, job.turn()))).collect();
+            jobs.iter().map(|job| Some((job.case.line?, job.case.fibre.root, job.turn()))).collect();
         let mut flight = match laid {
             Some(laid) => Self::fed(isa, &strands, &laid, air, run.scheme, run.time_step)?,
             None => Self::assembled(isa, &strands, air, run.scheme, run.time_step)?,
@@ -85,7 +85,7 @@ impl Flight {
     fn fed(
         isa: Isa,
         strands: &[Strand],
-        laid: &[(Laydown, Root, f64)],
+        laid: &[(Line, Root, f64)],
         air: Surrounded,
         scheme: Scheme,
         h: f64,

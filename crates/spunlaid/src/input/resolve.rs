@@ -2,7 +2,7 @@
 
 use super::data::DataFiles;
 use super::written::{Said, Written, sorted};
-use crate::air::{Air, Flow, PlacedField, RecordLayout, SpectrumShape};
+use crate::air::{Air, EddyModel, Flow, PlacedField, RecordLayout, SpectrumShape};
 use crate::case::keys::{self, Content, FileKind, Key, Kind, LeftOut, Value};
 use crate::case::{Case, MOST_STEPS, Note, Remark, Run, whole_parts};
 use crate::chain::schemes::Scheme;
@@ -10,6 +10,7 @@ use crate::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::error::{Error, Fault, FileError, Finding};
 use crate::fibre::{Fibre, Root};
 use crate::field::FieldWarning;
+use crate::line::Line;
 use crate::vec3::Vec3;
 use std::path::PathBuf;
 
@@ -32,6 +33,10 @@ pub(super) struct Open {
 /// Every problem with any key.
 pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Error> {
     let (mut case, mut notes) = (blank(), Vec::new());
+    let fed = written.has_table("feed") || written.has_table("belt");
+    if fed {
+        case.line = Some(Line::UNKNOWN);
+    }
     let twice = ["air.profile", "air.field"].map(|key| written.get(key).is_some()) == [true; 2];
     // Files come first, because they may give the values of other keys. Names come next, because a law or a model
     // decides which numbers have a meaning.
@@ -48,7 +53,15 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
         let Some(Said { place, shown, value }) = written.get(key.name).cloned() else {
             match key.left_out {
                 // A key without a meaning for this case refuses its default, which is then not needed.
-                LeftOut::Value(text) if !key.counted => drop(key.set(&mut case, text)),
+                LeftOut::Value(text) if !key.counted => {
+                    drop(key.set(&mut case, if fed { default_if_fed(key.name, text) } else { text }));
+                }
+                LeftOut::Follows(_) if fed && REQUIRED_IF_FED.iter().any(|(name, _)| *name == key.name) => {
+                    let (_, line) = REQUIRED_IF_FED.iter().find(|(name, _)| *name == key.name).unwrap_or(&("", ""));
+                    let (table, line) = (key.table(), (*line).to_owned());
+                    written.reject(key.name, Fault::Missing { table, line });
+                }
+                LeftOut::Required(_) if key.is_told(&case) => {}
                 LeftOut::Required(_)
                     if !(is_told(&mut case.air, key.name)
                         || written.is_excused(key.name)
@@ -122,6 +135,22 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
     }
 }
 
+/// Keys that a fed fibre needs, with a line for each.
+const REQUIRED_IF_FED: [(&str, &str); 3] = [
+    ("feed.speed", "speed = \"50 m/s\""),
+    ("belt.distance", "distance = \"0.5 m\""),
+    ("belt.speed", "speed = \"3 m/s\""),
+];
+
+/// The default of a key for a fed fibre, which may differ from that of others.
+fn default_if_fed(key: &str, text: &'static str) -> &'static str {
+    match key {
+        "run.scheme" => Scheme::ImplicitTension.name(),
+        "air.eddies" => EddyModel::Convected { decay_time: f64::INFINITY }.name(),
+        _ => text,
+    }
+}
+
 /// A written key that says the same as this one in other words, and the way out.
 fn rival(key: &str, written: &Written) -> Option<(&'static str, &'static str)> {
     let (others, remedy): (&[&'static str], _) = match key {
@@ -162,7 +191,7 @@ fn blank() -> Case {
         },
         air: Air::uniform(nan, nan, nan, nan),
         drag: Drag { along: FrictionLaw::ALL[0], across: NormalLaw::ALL[0] },
-        laydown: None,
+        line: None,
         run: Run {
             time_step: nan,
             steps: 0,
@@ -310,18 +339,16 @@ impl Open {
             |key, value, remark: Remark| notes.push(written.placed(keys::finding(key, value, remark)));
         case.air.settle(case.fibre.direction * case.fibre.length);
 
-        let (fibre, written_length) = (&mut case.fibre, written.number("fibre.element_length"));
-        let element_length = written_length.unwrap_or(case.air.length_scale.min(fibre.length));
-        let (mut elements, whole) = whole_parts(fibre.length, element_length);
-        if written_length.is_none() && !whole && (elements as f64) < fibre.length / element_length {
-            // An element must not be longer than an eddy, so that no eddy is skipped.
-            elements += 1;
-        }
-        fibre.elements = usize::try_from(elements.max(1)).unwrap_or(usize::MAX);
-        if !whole {
-            let (elements, rest_length) = (fibre.elements, fibre.rest_length());
-            let remark = Remark::ElementsRounded { elements, element_length: rest_length };
-            note("fibre.element_length", element_length, remark);
+        let written_length = written.number("fibre.element_length");
+        if case.line.is_some() {
+            feed(case, written, written_length);
+        } else {
+            let (fibre, length_scale) = (&mut case.fibre, case.air.length_scale);
+            if let Some(element_length) = divide(fibre, written_length, length_scale) {
+                let (elements, rest_length) = (fibre.elements, fibre.rest_length());
+                let remark = Remark::ElementsRounded { elements, element_length: rest_length };
+                note("fibre.element_length", element_length, remark);
+            }
         }
 
         let (written_step, mut chosen) = (written.number("run.time_step"), None);
@@ -349,10 +376,14 @@ impl Open {
             let fault = Fault::TooManySteps { steps, most: MOST_STEPS as f64, time_step };
             return Err(vec![written.placed(keys::finding("run.duration", duration, fault))].into());
         }
-        let run = &mut case.run;
         let (nearest, whole) = whole_parts(duration, time_step);
-        (run.steps, run.time_step) = (nearest, time_step);
-        if !whole || nearest == 0 {
+        (case.run.steps, case.run.time_step) = (nearest, time_step);
+        if case.line.is_some() {
+            if let Some(remark) = feed_in_whole_steps(case, duration) {
+                note("run.time_step", time_step, remark);
+            }
+        } else if !whole || nearest == 0 {
+            let run = &mut case.run;
             // Round up: a shorter step keeps every limit that the written step keeps.
             run.steps = steps as u64;
             run.time_step = duration / steps;
@@ -362,9 +393,16 @@ impl Open {
             }
         }
 
+        let run = &mut case.run;
+        let spin_up = match &case.line {
+            Some(line) if written.get("run.spin_up").is_none() => {
+                (4.0 * line.distance / line.feed_speed).min(0.5 * run.duration())
+            }
+            _ => spin_up,
+        };
         let (spin_up_steps, whole) = whole_parts(spin_up, run.time_step);
         run.spin_up_steps = spin_up_steps;
-        if !whole {
+        if !whole && written.get("run.spin_up").is_some() {
             note("run.spin_up", spin_up, Remark::TimeRounded { time: run.spin_up() });
         }
         let (output_steps, whole) = whole_parts(interval, run.time_step);
@@ -385,4 +423,50 @@ impl Open {
         }
         Ok(())
     }
+}
+
+/// Divides a fibre of fixed length into elements: of the written length, or else as long as an eddy. Returns the wanted
+/// length of an element [m] if the fibre is not a whole number of them.
+fn divide(fibre: &mut Fibre, written_length: Option<f64>, length_scale: f64) -> Option<f64> {
+    let element_length = written_length.unwrap_or(length_scale.min(fibre.length));
+    let (mut elements, whole) = whole_parts(fibre.length, element_length);
+    if written_length.is_none() && !whole && (elements as f64) < fibre.length / element_length {
+        // An element must not be longer than an eddy, so that no eddy is skipped.
+        elements += 1;
+    }
+    fibre.elements = usize::try_from(elements.max(1)).unwrap_or(usize::MAX);
+    (!whole).then_some(element_length)
+}
+
+/// Sets what follows from the distance to the belt: the elements, the length that still moves on the belt, and the decay
+/// time of the eddies.
+fn feed(case: &mut Case, written: &Written, written_length: Option<f64>) {
+    let Some(line) = &mut case.line else { return };
+    case.fibre.span(line.distance, written_length.unwrap_or(line.distance / 125.0));
+    if written.get("belt.kept_length").is_none() {
+        line.kept_length = 0.06 * line.distance;
+    }
+    // An eddy turns over in this time. Air at rest has none.
+    let turnover = case.air.length_scale / case.air.rms();
+    if let EddyModel::Convected { decay_time } = &mut case.air.eddies
+        && written.get("air.decay_time").is_none()
+        && case.air.records.is_empty()
+    {
+        *decay_time = turnover;
+    }
+}
+
+/// Shortens the time step of a fed fibre so that an element is fed in a whole number of steps, and sets the number of
+/// steps of the run. A step that is too long for the feed stays as it is, because it is refused later.
+fn feed_in_whole_steps(case: &mut Case, duration: f64) -> Option<Remark> {
+    let (length, step) = (case.fibre.rest_length(), case.run.time_step);
+    let line = case.line.as_mut()?;
+    let lifetime = length / line.feed_speed;
+    line.steps_per_element = line.steps_of(length, step);
+    let whole = lifetime / line.steps_per_element as f64;
+    let keeps = (whole / step - 1.0).abs() < 1e-9 || step > 0.5 * lifetime;
+    case.run.time_step = if keeps { step } else { whole };
+    case.run.steps = whole_parts(duration, case.run.time_step).0.max(1);
+    let (steps, time_step) = (case.run.steps, case.run.time_step);
+    (!keeps).then_some(Remark::StepShortened { steps, time_step })
 }

@@ -39,6 +39,11 @@ impl Written {
         self.values.get(key)
     }
 
+    /// Whether any key of a table is written.
+    pub(super) fn has_table(&self, table: &str) -> bool {
+        self.values.keys().any(|key| key.split_once('.').is_some_and(|(of, _)| of == table))
+    }
+
     pub(super) fn set(&mut self, key: &'static Key, said: Said) {
         self.values.insert(key.name, said);
     }

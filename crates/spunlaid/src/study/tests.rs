@@ -22,7 +22,7 @@ pub(crate) fn table1() -> Case {
         },
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
-        laydown: None,
+        line: None,
         run: Run {
             time_step: 2e-5,
             steps: 1000,

@@ -61,7 +61,7 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
         damping: 0.0,
         shapes: None,
     };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), laydown: None, run }
+    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), line: None, run }
 }
 
 /// A fibre in a vacuum.

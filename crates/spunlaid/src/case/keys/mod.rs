@@ -21,7 +21,7 @@ use crate::error::{Fault, Finding, Place, Problem};
 use crate::units::Dimension;
 
 /// The tables of a case file, in order.
-pub const TABLES: [&str; 4] = ["fibre", "air", "drag", "run"];
+pub const TABLES: [&str; 6] = ["fibre", "feed", "belt", "air", "drag", "run"];
 
 /// The text that a case file may give as cut-off frequency: Taylor's hypothesis.
 pub(crate) const TAYLOR: &str = "taylor";

@@ -5,6 +5,7 @@ use super::{Key, LeftOut};
 use crate::air::{Flow, PlacedField};
 use crate::case::Case;
 use crate::error::Fault;
+use crate::line::Line;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 
@@ -79,6 +80,41 @@ macro_rules! of_record {
                     // The records have been read with it.
                     Some(record) if record.layout.$field == Some(said) => Ok(()),
                     Some(_) => Err(Fault::ReadWithCase),
+                }
+            },
+        }
+    };
+}
+
+/// Access to a number of a fed fibre: `of_line!(feed_speed)`.
+macro_rules! of_line {
+    ($field:ident) => {
+        Access {
+            get: |case| Some(Value::Number(case.line?.$field)),
+            set: |case, value| {
+                line(case)?.$field = number(value)?;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// Access to a number of the friction on the belt.
+macro_rules! of_friction {
+    ($field:ident) => {
+        Access {
+            get: |case| match case.line?.contact {
+                Contact::Friction { $field, .. } => Some(Value::Number($field)),
+                Contact::Stick => None,
+            },
+            set: |case, value| match &mut line(case)?.contact {
+                Contact::Friction { $field, .. } => {
+                    *$field = number(value)?;
+                    Ok(())
+                }
+                Contact::Stick => {
+                    let remedy = "leave it out, or let the fibre slide";
+                    Err(Fault::Needs { needed: "belt.contact = \"friction\"", remedy })
                 }
             },
         }
@@ -229,4 +265,10 @@ pub(super) fn placed_mut(case: &mut Case) -> Result<&mut PlacedField, Fault> {
             Err(Fault::Needs { needed: "air.field", remedy })
         }
     }
+}
+
+/// Feed and belt of a fed fibre.
+pub(super) fn line(case: &mut Case) -> Result<&mut Line, Fault> {
+    let remedy = "leave it out, or feed the fibre on to a belt";
+    case.line.as_mut().ok_or(Fault::Needs { needed: "feed.speed", remedy })
 }

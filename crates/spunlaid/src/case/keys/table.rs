@@ -2,7 +2,7 @@
 
 use super::Key;
 use super::row::{
-    Access, choose, file, key, named, number, placed, placed_mut, quantity, text, vector, whole,
+    Access, choose, file, key, line, named, number, placed, placed_mut, quantity, text, vector, whole,
 };
 use super::value::{Content, FileKind, Kind, SPECTRA, Sign, Value};
 use crate::air::{
@@ -14,6 +14,7 @@ use crate::chain::schemes::Scheme;
 use crate::drag::{FrictionLaw, NormalLaw};
 use crate::error::Fault;
 use crate::fibre::Root;
+use crate::line::Contact;
 use crate::units::Dimension;
 use Sign::{Any, NotNegative, Positive};
 use std::f64::consts::PI;
@@ -22,9 +23,20 @@ use std::f64::consts::PI;
 const MOST_SKIPPED: u64 = 1_000_000;
 
 pub(super) static KEYS: &[Key] = &[
-    quantity("fibre.length", Dimension::Length, Positive, number!(fibre.length))
+    quantity("fibre.length", Dimension::Length, Positive, Access {
+        get: |case| case.line.is_none().then_some(Value::Number(case.fibre.length)),
+        set: |case, value| {
+            if case.line.is_some() {
+                let (other, remedy) = ("[feed]", "a fed fibre has no fixed length; leave one out");
+                return Err(Fault::Excludes { other, remedy });
+            }
+            case.fibre.length = number(value)?;
+            Ok(())
+        },
+    })
+        .told(|case| case.line.is_some())
         .required("1 m")
-        .meaning("Length of the fibre, from its root to its free end.")
+        .meaning("Length of the fibre, from its root to its free end. A fibre that is fed on to a belt has none.")
         .label("Fibre length *L*")
         .slider(0.1, 2.0),
     quantity("fibre.diameter", Dimension::Length, Positive, number!(fibre.diameter))
@@ -56,6 +68,20 @@ pub(super) static KEYS: &[Key] = &[
         .label("Young’s modulus *E*")
         .slider(1e7, 1e10)
         .in_flight(),
+    quantity(
+        "fibre.bending_viscosity_time",
+        Dimension::Time,
+        NotNegative,
+        number!(fibre.bending_viscosity_time),
+    )
+    .value("0 s")
+    .meaning(
+        "Time constant τ of the bending viscosity: the bending moment is EI (κ + τ dκ/dt), with the curvature κ. It damps the \
+         bending of a polymer that is still soft.",
+    )
+    .label("Bending viscosity *τ*")
+    .slider(0.0, 1e-3)
+    .in_flight(),
     quantity("fibre.element_length", Dimension::Length, Positive, Access {
         get: |case| {
             let length = case.fibre.rest_length();
@@ -67,7 +93,7 @@ pub(super) static KEYS: &[Key] = &[
             Ok(())
         },
     })
-    .follows("the length of an eddy, or a little less so that a whole number of elements fits")
+    .follows("the length of an eddy, or a little less so that a whole number of elements fits; of a fed fibre, 1/125 of the distance to the belt")
     .meaning("Length of the elements that the fibre is divided into. Shorter elements resolve shorter waves, and the run takes longer.")
     .label("Element length *l*")
     .slider(2e-3, 0.1)
@@ -87,6 +113,63 @@ pub(super) static KEYS: &[Key] = &[
     })
     .value("[1.0, 0.0, 0.0]")
     .meaning("Direction of the straight fibre at the start, and of a clamped root throughout. The air and gravity act along x."),
+    quantity("feed.speed", Dimension::Velocity, Positive, of_line!(feed_speed))
+        .follows("a fibre of fixed length")
+        .meaning("Speed at which the fibre is fed at the inlet, along its direction: the spinning speed. The fibre is then laid down on a belt.")
+        .label("Feed speed *v*_{f}")
+        .slider(1.0, 100.0),
+    quantity("belt.distance", Dimension::Length, Positive, Access {
+        get: |case| Some(Value::Number(case.line?.distance)),
+        set: |case, value| {
+            let distance = number(value)?;
+            let element_length = case.fibre.rest_length();
+            line(case)?.distance = distance;
+            if element_length.is_finite() {
+                case.fibre.span(distance, element_length);
+            } else {
+                case.fibre.length = distance;
+            }
+            Ok(())
+        },
+    })
+    .follows("a fibre of fixed length")
+    .meaning("Distance from the inlet to the belt, along x. The belt is perpendicular to x.")
+    .label("Distance to the belt *H*")
+    .slider(0.1, 2.0),
+    quantity("belt.speed", Dimension::Velocity, NotNegative, of_line!(belt_speed))
+        .follows("a fibre of fixed length")
+        .meaning("Speed of the belt, along y, the machine direction.")
+        .label("Belt speed *v*_{b}")
+        .slider(0.0, 10.0),
+    choose("belt.contact", || Contact::ALL.map(|contact| contact.name()).to_vec(), Access {
+        get: |case| Some(case.line?.contact.name().into()),
+        set: |case, value| {
+            let contact = named(value, &Contact::ALL, |contact| contact.name())?;
+            let line = line(case)?;
+            if contact.name() != line.contact.name() {
+                line.contact = contact;
+            }
+            Ok(())
+        },
+    })
+    .value("stick")
+    .meaning("What holds the fibre on the belt: it sticks where it touches down, or it slides against friction.")
+    .label("Contact with the belt"),
+    quantity("belt.friction", Dimension::Ratio, NotNegative, of_friction!(coefficient))
+        .value("0.3")
+        .meaning("Coefficient of the friction between fibre and belt.")
+        .label("Friction on the belt *μ*")
+        .slider(0.0, 1.0),
+    quantity("belt.suction", Dimension::Pressure, NotNegative, of_friction!(suction))
+        .value("200 Pa")
+        .meaning("Pressure difference that pulls the fibre on to the belt. Times the diameter, it is a force per length of fibre.")
+        .label("Suction")
+        .slider(0.0, 2000.0),
+    quantity("belt.kept_length", Dimension::Length, Positive, of_line!(kept_length))
+        .follows("6 % of the distance to the belt")
+        .meaning("Length of fibre behind the newest touch-down that still moves. What comes after it is laid; arches that are still in the air stay where they are.")
+        .label("Length that still moves on the belt")
+        .slider(5e-3, 0.2),
     quantity("air.velocity", Dimension::Velocity, Any, Access {
         get: |case| Some(Value::Number(case.air.velocity)),
         set: |case, value| {
@@ -315,7 +398,7 @@ pub(super) static KEYS: &[Key] = &[
         },
     })
     .value("independent")
-    .meaning("How the turbulence is correlated along the fibre: independent eddies side by side, or a pattern that the mean flow carries along.")
+    .meaning("How the turbulence is correlated along the fibre: independent eddies side by side, or a pattern that the mean flow carries along. For a fed fibre, `convected` is the default.")
     .label("Eddies"),
     quantity("air.decay_time", Dimension::Time, Positive, Access {
         get: |case| match case.air.eddies {
@@ -333,7 +416,7 @@ pub(super) static KEYS: &[Key] = &[
             }
         },
     })
-    .follows("no decay: the pattern is frozen")
+    .follows("no decay: the pattern is frozen; of a fed fibre, the length scale divided by the rms velocity")
     .meaning("Time constant with which a convected pattern loses its correlation while it travels.")
     .label("Decay time of the eddies")
     .slider(1e-3, 0.1),
@@ -410,7 +493,7 @@ pub(super) static KEYS: &[Key] = &[
             Ok(())
         },
     })
-    .follows("the largest of 1, 2 or 5 times a power of ten that keeps the error tolerance and half the stability limit")
+    .follows("the largest of 1, 2 or 5 times a power of ten that keeps the error tolerance and half the stability limit; of a fed fibre, a whole part of the time in which an element is fed, at most half of it")
     .meaning("Length of a time step. It must be below the stability limit; otherwise a message gives the limit.")
     .label("Time step *h*")
     .slider(1e-7, 1e-3)
@@ -451,7 +534,7 @@ pub(super) static KEYS: &[Key] = &[
     .meaning("Seed of the random phases. Another seed gives other turbulence; the same seed gives the same results to the last bit."),
     choose("run.scheme", || Scheme::ALL.map(Scheme::name).to_vec(), choice!(run.scheme, Scheme::ALL))
         .value("semi-implicit-euler")
-        .meaning("Time integration: the paper's scheme has first order, `leapfrog` has second order, `implicit-tension` allows long steps.")
+        .meaning("Time integration: the paper's scheme has first order, `leapfrog` has second order, `implicit-tension` allows long steps and is the default for a fed fibre.")
         .label("Scheme"),
     quantity("run.gravity", Dimension::Acceleration, Any, number!(run.gravity))
         .value("9.81 m/s²")
@@ -463,7 +546,9 @@ pub(super) static KEYS: &[Key] = &[
         .value("0 s")
         .meaning(
             "Time at the start that the statistics of the motion leave out; the energy errors and the time outside the flow \
-             include it. The fibre starts straight and at rest, and its motion depends on this start for a fraction of a second.",
+             include it. The fibre starts straight and at rest, and its motion depends on this start for a fraction of a second. \
+             Of a fed fibre the default is four times distance / feed speed, at most half the run: it comes down once, and \
+             its length between inlet and belt is laid twice.",
         )
         .label("Spin-up")
         .slider(0.0, 1.0)

@@ -3,7 +3,7 @@
 /// Feed and belt of a fibre. x runs from the inlet to the belt, which moves along +y, the machine direction; z is the
 /// cross direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Laydown {
+pub struct Line {
     /// Speed at which the fibre is fed, along its direction [m/s].
     pub feed_speed: f64,
     /// Distance from the inlet to the belt [m].
@@ -32,7 +32,30 @@ pub enum Contact {
     },
 }
 
+impl Line {
+    /// Feed and belt of which nothing is known yet.
+    pub const UNKNOWN: Self = Self {
+        feed_speed: f64::NAN,
+        distance: f64::NAN,
+        belt_speed: f64::NAN,
+        contact: Contact::Stick,
+        kept_length: f64::NAN,
+        steps_per_element: 1,
+    };
+
+    /// The number of steps, of at most `longest` [s], in which an element of `length` [m] is fed.
+    pub fn steps_of(&self, length: f64, longest: f64) -> u64 {
+        let ratio = length / self.feed_speed / longest;
+        // A step that was written with all its digits is not shortened because of the last of them.
+        (ratio * (1.0 - 1e-9)).ceil().clamp(1.0, 1e15) as u64
+    }
+}
+
 impl Contact {
+    /// Every kind of contact, with the usual numbers.
+    pub const ALL: [Self; 2] = [Self::Stick, Self::Friction { coefficient: 0.3, suction: 200.0 }];
+
+
     /// Name in the case file.
     pub const fn name(self) -> &'static str {
         match self {
