@@ -77,6 +77,9 @@ pub mod energy;
 
 pub mod statistics;
 
+pub mod laydown;
+pub mod surrogate;
+
 pub mod record;
 
 pub mod case;

@@ -21,6 +21,7 @@ const ROOMS: &[&[&str]] = &[
     &["chain"],
     &["energy"],
     &["statistics"],
+    &["laydown", "surrogate"],
     &["record"],
     &["case"],
     &["flight"],

@@ -1,0 +1,337 @@
+//! Statistics of a laid curve, point by point.
+
+use super::correlation::{LaggedProducts, half_lag};
+use super::footprint::Footprint;
+use std::collections::VecDeque;
+use std::f64::consts::PI;
+
+/// Fed length of the chords that give the orientation [m].
+const CHORD: f64 = 0.01;
+
+/// Most lags of an autocorrelation, lag zero included.
+const LAGS: usize = 257;
+
+/// How a laid curve is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tracing {
+    /// Fed length from one point to the next [m].
+    pub spacing: f64,
+    /// Speed of the belt over speed of the feed.
+    pub belt_ratio: f64,
+    /// Points at the start that are left out.
+    pub skip: u64,
+    /// Largest lag of the autocorrelations that is wanted [m].
+    pub reach: f64,
+}
+
+/// The statistics of one laid curve, collected point by point with a memory that does not grow.
+///
+/// The points come in the order of feed, evenly spaced in the fed length s. Position is looked at relative to the straight
+/// trace that a fibre leaves which comes down at one place: `ξ₁ = md + (v_b/v_f) s`, `ξ₂ = cd`.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    tracing: Tracing,
+    fed: u64,
+    /// First and last counted `md` [m].
+    md: Option<(f64, f64)>,
+    /// Of ξ₁ and ξ₂.
+    positions: [LaggedProducts; 2],
+    footprint: Footprint,
+    /// Steps of a chord.
+    chord: usize,
+    /// The points within a chord's length, the oldest first.
+    recent: VecDeque<[f64; 2]>,
+    chords: Chords,
+}
+
+/// Sums over chords.
+#[derive(Clone, Debug)]
+struct Chords {
+    count: u64,
+    /// Chords that are not a single point.
+    directed: u64,
+    length: f64,
+    cos_squared: f64,
+    directions: [u64; Laid::DIRECTIONS],
+}
+
+/// What a laid curve was found to be. NaN stands for what cannot be said from the points there are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Laid {
+    /// Fed length of the counted points, from the first to the last [m].
+    pub length: f64,
+    /// Mean of `−d md/ds`. A fibre that stays in place above the belt has the belt's speed over the feed's.
+    pub slope: f64,
+    /// Mean of ξ₁ and ξ₂ [m]. That of ξ₁ depends on where s begins.
+    pub mean: [f64; 2],
+    /// Standard deviation of ξ₁, in machine direction [m].
+    pub sigma_md: f64,
+    /// Standard deviation of ξ₂, in cross direction [m].
+    pub sigma_cd: f64,
+    /// Step of the lag of the autocorrelations [m].
+    pub lag_step: f64,
+    /// Autocorrelation coefficient of ξ₁ from lag zero; products at a lag are divided by the number of pairs.
+    pub correlation_md: Vec<f64>,
+    /// The same of ξ₂.
+    pub correlation_cd: Vec<f64>,
+    /// Lag at which the autocorrelation of ξ₁ has fallen to ½ [m].
+    pub half_correlation_length_md: f64,
+    /// The same of ξ₂ [m].
+    pub half_correlation_length_cd: f64,
+    /// Fed length of the chords: 10 mm, or the nearest multiple of the spacing [m].
+    pub chord: f64,
+    /// `⟨cos²⟩` of the angle between a chord on the belt and the machine direction: ½ without orientation.
+    pub orientation_md: f64,
+    /// Mean length of a chord on the belt over its fed length.
+    pub chord_over_arc: f64,
+    /// Chords by direction on the belt, in the sense of feed: entry i counts angles to the machine direction from 10i to
+    /// 10(i+1) degrees, positive towards the cross direction.
+    pub directions: [u64; Self::DIRECTIONS],
+    /// Where (ξ₁, ξ₂) was.
+    pub footprint: Footprint,
+}
+
+impl Laid {
+    /// Number of classes of direction.
+    pub const DIRECTIONS: usize = 36;
+}
+
+impl Trace {
+    /// No points yet. With a spacing that is not positive and finite, no result has a meaning.
+    pub fn new(tracing: Tracing) -> Self {
+        // Not above a million, so that no request can ask for more memory than there is.
+        let steps = |length: f64, round: fn(f64) -> f64| {
+            (round(length / tracing.spacing).clamp(1.0, 1e6) as usize).max(1)
+        };
+        let reach = steps(tracing.reach, f64::ceil);
+        let stride = reach.div_ceil(LAGS - 1);
+        let positions = LaggedProducts::new(stride, reach.div_ceil(stride) + 1);
+        Self {
+            fed: 0,
+            md: None,
+            positions: [positions.clone(), positions],
+            footprint: Footprint::new(tracing.spacing, [0.0; 2]),
+            chord: steps(CHORD, f64::round),
+            recent: VecDeque::new(),
+            chords: Chords::NONE,
+            tracing,
+        }
+    }
+
+    /// Takes the next point.
+    ///
+    /// * `md`, `cd` – position on the belt, in its own frame: machine and cross direction [m]
+    pub fn add(&mut self, md: f64, cd: f64) {
+        let Tracing { spacing, belt_ratio, skip, .. } = self.tracing;
+        let index = self.fed;
+        self.fed += 1;
+        if index < skip {
+            return;
+        }
+        let (first, _) = self.md.unwrap_or((md, md));
+        self.md = Some((first, md));
+        let position = [md + belt_ratio * (index as f64 * spacing), cd];
+        if self.positions[0].count() == 0 {
+            self.footprint.centre = position;
+        }
+        self.footprint.add(position);
+        for (sums, x) in self.positions.iter_mut().zip(position) {
+            sums.add(x);
+        }
+        if self.recent.len() == self.chord
+            && let Some(start) = self.recent.pop_front()
+        {
+            self.chords.add(md - start[0], cd - start[1]);
+        }
+        self.recent.push_back([md, cd]);
+    }
+
+    /// Points that were taken after those left out.
+    pub const fn points(&self) -> u64 {
+        self.positions[0].count()
+    }
+
+    /// The statistics of the points so far.
+    pub fn finish(&self) -> Laid {
+        let spacing = self.tracing.spacing;
+        let length = spacing * self.points().saturating_sub(1) as f64;
+        let covariances = self.positions.each_ref().map(LaggedProducts::covariances);
+        // A single point has no spread to speak of.
+        let sigma =
+            covariances.each_ref().map(|of| if of.len() > 1 { of[0].max(0.0).sqrt() } else { f64::NAN });
+        let lag_step = spacing * self.positions[0].stride() as f64;
+        let [correlation_md, correlation_cd] =
+            covariances.map(|of| of.iter().map(|covariance| covariance / of[0]).collect::<Vec<f64>>());
+        let chord = spacing * self.chord as f64;
+        let Chords { count, directed, length: chords, cos_squared, directions } = self.chords;
+        Laid {
+            length,
+            slope: self.md.map_or(f64::NAN, |(first, last)| (first - last) / length),
+            mean: self.positions.each_ref().map(LaggedProducts::mean),
+            sigma_md: sigma[0],
+            sigma_cd: sigma[1],
+            lag_step,
+            half_correlation_length_md: lag_step * half_lag(&correlation_md),
+            half_correlation_length_cd: lag_step * half_lag(&correlation_cd),
+            correlation_md,
+            correlation_cd,
+            chord,
+            orientation_md: cos_squared / directed as f64,
+            chord_over_arc: chords / (count as f64 * chord),
+            directions,
+            footprint: self.footprint.clone(),
+        }
+    }
+}
+
+impl Chords {
+    const NONE: Self =
+        Self { count: 0, directed: 0, length: 0.0, cos_squared: 0.0, directions: [0; Laid::DIRECTIONS] };
+
+    fn add(&mut self, md: f64, cd: f64) {
+        let squared = md * md + cd * cd;
+        self.count += 1;
+        self.length += squared.sqrt();
+        if squared == 0.0 {
+            return;
+        }
+        self.directed += 1;
+        self.cos_squared += md * md / squared;
+        let turns = libm::atan2(cd, md) / (2.0 * PI);
+        let class = (turns - turns.floor()) * Laid::DIRECTIONS as f64;
+        if class.is_finite() {
+            self.directions[(class as usize).min(Laid::DIRECTIONS - 1)] += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SPACING: f64 = 0.002;
+    const RATIO: f64 = 0.06;
+
+    /// A curve with loops and wander, stored.
+    fn curve(points: u32) -> Vec<[f64; 2]> {
+        let at = |i: u32| {
+            let s = f64::from(i) * SPACING;
+            let wander = 0.01 * (7.3 * s).sin() + 0.004 * (31.0 * s).cos();
+            [wander + 0.01 * (90.0 * s).cos() - RATIO * s, 0.008 * (70.0 * s).sin() - wander]
+        };
+        (0..points).map(at).collect()
+    }
+
+    fn traced(points: &[[f64; 2]], tracing: Tracing) -> Laid {
+        let mut trace = Trace::new(tracing);
+        points.iter().for_each(|[md, cd]| trace.add(*md, *cd));
+        trace.finish()
+    }
+
+    const TRACING: Tracing = Tracing { spacing: SPACING, belt_ratio: RATIO, skip: 100, reach: 0.5 };
+
+    #[test]
+    fn analytic_statistics_of_a_stored_curve() {
+        let all = curve(5000);
+        let found = traced(&all, TRACING);
+        let counted = &all[100..];
+        let n = counted.len() as f64;
+        let position = |axis: usize| -> Vec<f64> {
+            (100..5000)
+                .map(|i| all[i][axis] + if axis == 0 { RATIO * SPACING * i as f64 } else { 0.0 })
+                .collect()
+        };
+        let close = |found: f64, wanted: f64| {
+            // Rounding of sums of 5000 numbers.
+            assert!((found / wanted - 1.0).abs() < 1e-11, "{found}, {wanted}");
+        };
+        close(found.length, SPACING * (n - 1.0));
+        close(found.slope, (counted[0][0] - counted[4899][0]) / found.length);
+        let sigmas = [found.sigma_md, found.sigma_cd];
+        let correlations = [&found.correlation_md, &found.correlation_cd];
+        for axis in 0..2 {
+            let xi = position(axis);
+            let mean = xi.iter().sum::<f64>() / n;
+            assert!((found.mean[axis] - mean).abs() < 1e-14);
+            let covariance = |lag: usize| {
+                let products = xi.iter().zip(&xi[lag..]).map(|(a, b)| (a - mean) * (b - mean));
+                products.sum::<f64>() / (n - lag as f64)
+            };
+            close(sigmas[axis], covariance(0).sqrt());
+            assert_eq!(correlations[axis].len(), 251);
+            for lag in [0, 1, 100, 250] {
+                let wanted = covariance(lag) / covariance(0);
+                assert!((correlations[axis][lag] - wanted).abs() < 1e-12);
+            }
+        }
+        close(found.chord, 0.01);
+        let chords: Vec<[f64; 2]> =
+            counted.windows(6).map(|of| [of[5][0] - of[0][0], of[5][1] - of[0][1]]).collect();
+        let mean = |of: fn(&[f64; 2]) -> f64| chords.iter().map(of).sum::<f64>() / chords.len() as f64;
+        close(found.orientation_md, mean(|[x, y]| x * x / (x * x + y * y)));
+        close(found.chord_over_arc, mean(|[x, y]| x.hypot(*y)) / 0.01);
+        for (class, count) in found.directions.iter().enumerate() {
+            let within = |[x, y]: &&[f64; 2]| {
+                (y.atan2(*x).to_degrees().rem_euclid(360.0) / 10.0).floor() as usize == class
+            };
+            assert_eq!(*count, chords.iter().filter(within).count() as u64, "{class}");
+        }
+        assert_eq!(found.footprint.rows().flatten().sum::<u64>(), 4900);
+    }
+
+    #[test]
+    fn analytic_circle_of_a_coiling_thread() {
+        // One coil of radius R in 2000 points, laid on a belt that stands: ⟨ξ²⟩ = R²/2, ρ = cos(s/R), chord 2R sin(5 mm/R).
+        let (radius, points) = (0.05, 2000_u32);
+        let spacing = 2.0 * PI * radius / f64::from(points);
+        let circle: Vec<[f64; 2]> = (0..40 * points)
+            .map(|i| 2.0 * PI * f64::from(i) / f64::from(points))
+            .map(|angle| [radius * angle.cos(), radius * angle.sin()])
+            .collect();
+        let of = traced(&circle, Tracing { spacing, belt_ratio: 0.0, skip: 0, reach: 0.1 });
+        for sigma in [of.sigma_md, of.sigma_cd] {
+            assert!((sigma / (radius / 2.0_f64.sqrt()) - 1.0).abs() < 1e-9, "{sigma}");
+        }
+        // Forty turns, cut off by the lag, leave 1/40 of a turn of the unbiased estimate uneven.
+        for half in [of.half_correlation_length_md, of.half_correlation_length_cd] {
+            assert!((half / (radius * PI / 3.0) - 1.0).abs() < 5e-3, "{half}");
+        }
+        assert!(
+            (of.chord_over_arc - 2.0 * radius * (of.chord / 2.0 / radius).sin() / of.chord).abs() < 1e-12
+        );
+        assert!((of.orientation_md - 0.5).abs() < 1e-3 && of.slope.abs() < 1e-3);
+        assert!(of.directions.iter().all(|count| count.abs_diff(40 * u64::from(points) / 36) < 60));
+    }
+
+    #[test]
+    fn a_long_reach_takes_wider_lags() {
+        let of = traced(&curve(3000), Tracing { reach: 3.0, ..TRACING });
+        let fine = traced(&curve(3000), Tracing { reach: 1.0, ..TRACING });
+        assert_eq!((of.lag_step, fine.lag_step), (6.0 * SPACING, 2.0 * SPACING));
+        assert!(of.lag_step * (of.correlation_md.len() - 1) as f64 >= 3.0 - 1e-9);
+        for lag in [0, 1, 100] {
+            assert!((of.correlation_md[lag] - fine.correlation_md[3 * lag]).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_said_is_nan() {
+        let none = traced(&[], TRACING);
+        assert!(none.slope.is_nan() && none.sigma_md.is_nan() && none.mean[0].is_nan());
+        assert!(
+            none.orientation_md.is_nan() && none.chord_over_arc.is_nan() && none.correlation_md.is_empty()
+        );
+        let one = traced(&curve(101), TRACING);
+        assert!(one.slope.is_nan() && one.sigma_cd.is_nan() && one.half_correlation_length_cd.is_nan());
+        assert_eq!((one.length, one.mean[1]), (0.0, curve(101)[100][1]));
+        let mut broken = curve(300);
+        broken[200] = [f64::NAN; 2];
+        let broken = traced(&broken, TRACING);
+        assert!(broken.sigma_md.is_nan() && broken.orientation_md.is_nan());
+        let heap = traced(&[[1.0, 2.0]; 200], Tracing { belt_ratio: 0.0, ..TRACING });
+        assert!(heap.orientation_md.is_nan() && heap.half_correlation_length_md.is_nan());
+        assert_eq!((heap.sigma_md, heap.chord_over_arc, heap.slope), (0.0, 0.0, 0.0));
+        let _ = traced(&curve(200), Tracing { spacing: f64::NAN, ..TRACING });
+        let _ = traced(&curve(200), Tracing { spacing: 0.0, reach: f64::INFINITY, ..TRACING });
+    }
+}
