@@ -40,6 +40,25 @@ pub enum Error {
         /// Likely cause and remedy.
         cause: String,
     },
+    /// A fed fibre does not come down.
+    #[error(
+        "replicate {replicate}: the fibre does not reach the belt: after {time:.3} s, {times} times the way to the belt has \
+         been fed and has not landed, and the lowest node is {} from the inlet of {}; give faster air towards the belt, more \
+         weight, or a belt that is nearer (belt.distance)",
+        Dimension::Length.pretty_to(*reached, 3), Dimension::Length.pretty(*distance)
+    )]
+    NotLanding {
+        /// The replicate, counted from 1.
+        replicate: u64,
+        /// Length of fibre in the air, in distances to the belt.
+        times: f64,
+        /// Time [s].
+        time: f64,
+        /// Distance of the lowest node from the inlet [m].
+        reached: f64,
+        /// Distance to the belt [m].
+        distance: f64,
+    },
     /// Fibres cannot fly side by side, or a flight cannot do what is asked of it.
     #[error(transparent)]
     Flight(#[from] FlightFault),

@@ -27,7 +27,7 @@ fn table1(changes: &[(&str, &str)]) -> Case {
 
 fn flights(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps };
+    let computing = Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, laid: None };
     let mut flights = Vec::new();
     fly::<Error>(
         case,
@@ -344,7 +344,7 @@ fn check_identical(flow: impl Fn() -> Flow) {
     for isa in Isa::available() {
         for threads in [1, 3] {
             let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-            let computing = Computing { threads, isa, stop: &stop, fibre_steps: &steps };
+            let computing = Computing { threads, isa, stop: &stop, fibre_steps: &steps, laid: None };
             let mut fewer = case.clone();
             fewer.run.replicates = 3;
             fewer.air.flow = flow();

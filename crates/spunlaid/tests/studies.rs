@@ -23,7 +23,7 @@ fn study(text: &str) -> StudyFile {
 }
 
 fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> Computing<'a> {
-    Computing { threads, isa: Isa::detect(), stop, fibre_steps: steps }
+    Computing { threads, isa: Isa::detect(), stop, fibre_steps: steps, laid: None }
 }
 
 fn flown(study: &Study, threads: usize) -> Journal {

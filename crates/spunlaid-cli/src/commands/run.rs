@@ -38,7 +38,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
 
     let fibre_steps = AtomicU64::new(0);
     let computing =
-        Computing { threads: threads(run.threads), isa: Isa::detect(), stop, fibre_steps: &fibre_steps };
+        Computing { threads: threads(run.threads), isa: Isa::detect(), stop, fibre_steps: &fibre_steps, laid: None };
     let started = Instant::now();
     let plan = StepCheckPlan::of(&case);
     let again = plan.map_or(0, |plan| plan.fibre_steps());

@@ -24,6 +24,7 @@ pub(crate) fn case(elements: usize, instants: usize, replicates: u64) -> Case {
         },
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
+        line: None,
         run: Run {
             time_step: 1e-3,
             steps: instants as u64 - 1,
@@ -94,14 +95,14 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
         "balance_error_over_time" => over_time(Sample::balance_error_percent),
         _ => match measure.kind {
             Kind::Number => Value::Number(1e-4),
-            Kind::Profile => along(0.5),
+            Kind::Profile | Kind::Way | Kind::Lag | Kind::Direction => along(0.5),
             Kind::Series => over_time(|sample| sample.time),
             Kind::Spectrum => spectrum(),
         },
     };
     let applied = DECLARED.iter().filter(|declared| (declared.applies)(case));
     let values = applied.flat_map(|declared| declared.measures).map(|measure| (measure, value(measure)));
-    Trajectory { replicate, values: values.collect(), shapes: times.iter().map(shape).collect(), samples }
+    Trajectory { replicate, values: values.collect(), shapes: times.iter().map(shape).collect(), samples, ..Trajectory::default() }
 }
 
 /// A spectrum of turbulence.

@@ -55,17 +55,20 @@ struct Page<'a> {
 
 /// The figures under headings, in the order of the headings.
 fn sections(figures: &[Figure]) -> Vec<(&'static str, Vec<&Figure>)> {
-    const HEADINGS: [&str; 4] = ["Motion of the free end", "Along the fibre", "Over time", "Air"];
+    const HEADINGS: [&str; 6] =
+        ["The laid fibre", "From the inlet to the belt", "Motion of the free end", "Along the fibre", "Over time", "Air"];
     let kind = |figure: &Figure| {
         let mut measures = DECLARED.iter().flat_map(|declaration| declaration.measures);
         measures.find(|measure| measure.figure.name == figure.name).map(|measure| measure.kind)
     };
     let heading = |figure: &Figure| match kind(figure) {
-        Some(Kind::Number | Kind::Spectrum) => HEADINGS[0],
-        Some(Kind::Profile) => HEADINGS[1],
-        Some(Kind::Series) => HEADINGS[2],
-        None if figure.name.starts_with("end_node") => HEADINGS[0],
-        None => HEADINGS[3],
+        Some(Kind::Lag | Kind::Direction) => HEADINGS[0],
+        Some(Kind::Way) => HEADINGS[1],
+        Some(Kind::Number | Kind::Spectrum) => HEADINGS[2],
+        Some(Kind::Profile) => HEADINGS[3],
+        Some(Kind::Series) => HEADINGS[4],
+        None if figure.name.starts_with("end_node") => HEADINGS[2],
+        None => HEADINGS[5],
     };
     let below = |title: &'static str| {
         let figures: Vec<&Figure> = figures.iter().filter(|figure| heading(figure) == title).collect();

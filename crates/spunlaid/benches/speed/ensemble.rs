@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 
 fn computing<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Computing<'a> {
-    Computing { threads, isa: Isa::detect(), stop, fibre_steps }
+    Computing { threads, isa: Isa::detect(), stop, fibre_steps, laid: None }
 }
 
 fn fly_all(case: &Case, threads: usize) {

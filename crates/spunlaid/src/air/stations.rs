@@ -165,11 +165,6 @@ impl Stations {
         Ok(Self { grid, still, apart, every: every.max(1), looked: false, now, elements, field })
     }
 
-    /// Number of elements.
-    pub(crate) fn elements(&self) -> usize {
-        self.elements.len()
-    }
-
     /// Share of the time that the elements of a lane's fibre have spent outside of a field's data.
     pub fn outside(&self, lane: usize) -> Option<f64> {
         self.field.as_ref().map(|field| field.outside(lane))

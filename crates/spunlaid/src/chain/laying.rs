@@ -11,7 +11,7 @@
 //! Landing and leaving depend on the fibre's own lane alone, so a fibre has the same bits whatever flies beside it.
 //!                                                                         theory.md (59) to (63)
 
-use super::{Chain, Node};
+use super::{Chain, Constants, Node};
 use crate::fibre::Root;
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use crate::line::Line;
@@ -104,19 +104,9 @@ impl Laying {
         }
     }
 
-    /// Speed of the belt [m/s].
-    pub(crate) fn belt_speed(&self) -> Lanes {
-        self.belt_speed
-    }
-
-    /// Length that is in the air or on its way out of the chain [elements], for a lane.
+    /// Number of nodes between the root and the newest touch-down, for a lane.
     pub(crate) fn in_air(&self, lane: usize) -> u64 {
         self.root_number + 1 - self.touched[lane].min(self.root_number + 1)
-    }
-
-    /// Number of the node that touched down last in the order of feed, plus one.
-    pub(crate) fn touched(&self, lane: usize) -> u64 {
-        self.touched[lane]
     }
 
     /// Nodes from the root on that have not left the chain, for a lane.
@@ -126,11 +116,6 @@ impl Laying {
 
     /// Number of elements fed so far.
     pub(crate) fn fed(&self) -> u64 {
-        self.root_number
-    }
-
-    /// Number of the root in the order of feed.
-    pub(crate) fn root_number(&self) -> u64 {
         self.root_number
     }
 
@@ -373,6 +358,28 @@ impl Chain {
         carried.kinetic = carried.kinetic + kinetic * half;
         carried.axial = carried.axial + axial * half;
         carried.bending = carried.bending + bending * half;
+    }
+
+    /// Carries over to new constants what is fed, and what is held by the belt.
+    pub(super) fn keep_held(&mut self, former: &Constants) {
+        if self.laying.is_none() {
+            return;
+        }
+        let c = &mut self.constants;
+        c.frame = former.frame;
+        (c.root.mass, c.root.weight) = (c.node.mass, c.node.weight);
+        let (root, second) = (former.root_stiffness, former.second_stiffness);
+        let scale = |of: Lanes| {
+            Lanes::from_fn(|i| of.0[i] / former.bending_stiffness.0[i] * c.bending_stiffness.0[i])
+        };
+        (c.root_stiffness, c.second_stiffness) = (scale(root), scale(second));
+        let node = c.node;
+        let kept = |new: Lanes, old: Lanes| Lanes::from_fn(|i| if old.0[i] == 0.0 { 0.0 } else { new.0[i] });
+        c.tail = former.tail.iter().map(|old| Node {
+            mass: kept(node.mass, old.mass),
+            inverse_mass: kept(node.inverse_mass, old.inverse_mass),
+            weight: kept(node.weight, old.weight),
+        }).collect();
     }
 
     /// Makes a fibre of fixed length a fed one: its first elements move down from the inlet at the feed speed.

@@ -161,9 +161,9 @@ impl Chain {
     /// Replaces the fibres by others with the same number of elements. Positions and velocities stay; tensions
     /// change in proportion to the axial stiffness.
     pub(crate) fn become_of(&mut self, strands: &[Strand]) {
-        let before = self.constants.axial_stiffness;
-        self.constants = Constants::of(strands);
-        let after = self.constants.axial_stiffness;
+        let former = std::mem::replace(&mut self.constants, Constants::of(strands));
+        self.keep_held(&former);
+        let (before, after) = (former.axial_stiffness, self.constants.axial_stiffness);
         for tension in self.tensions.tension.iter_mut() {
             *tension = Lanes::from_fn(|i| tension.0[i] * (after.0[i] / before.0[i]));
         }
@@ -203,6 +203,14 @@ impl Chain {
     pub(crate) fn nodes(&self) -> [usize; WIDTH] {
         let all = self.position.len();
         std::array::from_fn(|lane| self.laying.as_ref().map_or(all, |laying| laying.nodes(lane).min(all)))
+    }
+
+    /// Number of nodes between the root and the newest touch-down in each lane; all nodes without a belt.
+    pub(crate) fn in_air(&self) -> [usize; WIDTH] {
+        let all = self.position.len();
+        std::array::from_fn(|lane| {
+            self.laying.as_ref().map_or(all, |laying| (laying.in_air(lane) as usize).min(all))
+        })
     }
 
     /// Whether a node is held in a lane.

@@ -16,6 +16,7 @@ pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 
 use crate::case::Case;
 use crate::error::Error;
+use crate::flight::LaidPoint;
 use crate::lanes::{Isa, WIDTH};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -30,6 +31,18 @@ pub struct Computing<'a> {
     pub stop: &'a AtomicBool,
     /// Counts fibre steps done, for a progress display.
     pub fibre_steps: &'a AtomicU64,
+    /// Takes what fed fibres lay.
+    pub laid: Option<&'a dyn TakeLaid>,
+}
+
+/// Takes what fed fibres lay on the belt while they fly, so that no run has to keep it in memory.
+pub trait TakeLaid: std::fmt::Debug + Sync {
+    /// Receives the next points of a replicate, in the order in which they were fed. Flights of other replicates may call
+    /// it at the same time.
+    ///
+    /// # Errors
+    /// An error ends the flight.
+    fn take(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error>;
 }
 
 /// Computes the replicates of a case and passes on each trajectory, in the order of the replicates.

@@ -3,7 +3,7 @@
 use super::Computing;
 use crate::case::Case;
 use crate::error::Error;
-use crate::flight::{Flight, Job};
+use crate::flight::{Flight, Job, LaidPoint};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use crate::observe::{Measure, Observers, Sample, Seen, Value};
 use crate::vec3::Vec3;
@@ -21,7 +21,12 @@ pub struct Trajectory {
     pub samples: Vec<Sample>,
     /// The whole fibre at some of the recorded instants; empty unless asked for.
     pub shapes: Vec<Shape>,
+    /// The first points that a fed fibre has laid after the spin-up, of the replicates whose shapes are stored.
+    pub laid: Vec<LaidPoint>,
 }
+
+/// Most points of a laid fibre that are kept with its shapes.
+const LAID_WITH_SHAPES: usize = 16_384;
 
 impl Trajectory {
     /// A number by its measure's name, in SI units; NaN if there is none.
@@ -39,7 +44,7 @@ impl Trajectory {
 pub struct Shape {
     /// Time [s].
     pub time: f64,
-    /// Positions of the `N+1` nodes [m].
+    /// Positions of the `N+1` nodes [m]. Of a fed fibre, their number changes with time.
     pub position: Vec<Vec3<f64>>,
 }
 
@@ -109,6 +114,7 @@ pub fn fly_together(
     let mut observers = Observers::of(case, keep.curves);
     let mut trajectories: Vec<Trajectory> =
         jobs.iter().map(|job| Trajectory { replicate: job.replicate, ..Trajectory::default() }).collect();
+    let first_counted = case.line.map_or(0.0, |line| line.feed_speed * run.spin_up());
     let mut step = 0;
     for instant in 0.. {
         // A snapshot needs one step. The last one takes that step on a copy.
@@ -116,13 +122,29 @@ pub fn fly_together(
         if !is_finite(&snapshot.position, jobs.len()) {
             return Err(divergence(jobs, computing.isa, step - run.output_steps.min(step)));
         }
+        if let Some(adrift) = flight.adrift() {
+            return Err(adrift);
+        }
         let samples: [Sample; WIDTH] = std::array::from_fn(|lane| Sample::of(&snapshot, lane));
-        observers.see(&Seen { snapshot: &snapshot, samples: &samples, settled: step >= run.spin_up_steps });
+        let laid: [Vec<LaidPoint>; WIDTH] = std::array::from_fn(|lane| flight.take_laid(lane));
+        let settled = step >= run.spin_up_steps;
+        observers.see(&Seen { snapshot: &snapshot, samples: &samples, settled, laid: &laid });
         for (lane, trajectory) in trajectories.iter_mut().enumerate() {
             trajectory.samples.push(samples[lane]);
             if trajectory.replicate < keep.shapes.replicates && instant % keep.shapes.every == 0 {
-                let position = snapshot.position.iter().map(|p| p.lane(lane)).collect();
+                let nodes = snapshot.position.iter().take(snapshot.nodes[lane]);
+                let position = nodes.map(|p| p.lane(lane)).collect();
                 trajectory.shapes.push(Shape { time: snapshot.time, position });
+            }
+            if trajectory.replicate < keep.shapes.replicates {
+                let room = LAID_WITH_SHAPES - trajectory.laid.len();
+                let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);
+                trajectory.laid.extend(counted.take(room));
+            }
+            if let Some(take) = computing.laid
+                && !laid[lane].is_empty()
+            {
+                take.take(trajectory.replicate, &laid[lane])?;
             }
         }
         if step >= run.steps {

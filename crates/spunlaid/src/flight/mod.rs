@@ -119,6 +119,8 @@ pub struct Snapshot {
     pub tension: Vec<Lanes>,
     /// Number of nodes of the fibre in each lane.
     pub nodes: [usize; WIDTH],
+    /// Number of those between the root and the newest touch-down; all of a fibre of fixed length.
+    pub in_air: [usize; WIDTH],
     /// Strain of the element at the root, integrated over time since the start [s]. The difference between two
     /// instants, divided by the time between them, is the mean strain, whatever happened between them.
     pub root_strain_integral: Lanes,

@@ -43,7 +43,8 @@ impl Flight {
         let air = surrounded(&cases, self.isa, cases[0].0.air_horizon())?;
         let strands: Vec<Strand> = cases.iter().map(|(case, _)| case.strand()).collect();
         check_strands(&strands)?;
-        if air.eddies != self.eddies || strands[0].fibre.elements != self.chain.elements() {
+        let meshed_anew = self.stations.is_none() && strands[0].fibre.elements != self.chain.elements();
+        if air.eddies != self.eddies || meshed_anew {
             let reason = "it would change which element lies in which eddy";
             return Err(FlightFault::NotInFlight { key, reason }.into());
         }
@@ -59,6 +60,9 @@ impl Flight {
 
         self.damped = strands.iter().any(|strand| strand.damping != 0.0);
         self.wind = air.wind;
+        if let (Some(stations), Some(new)) = (&mut self.stations, air.stations) {
+            stations.change(new);
+        }
         if let (Some(around), Some(new)) = (&mut self.surroundings, air.surroundings) {
             around.change(new);
         }

@@ -9,7 +9,11 @@ use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
 use crate::fibre::Root;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
+use crate::line::Line;
 use crate::vec3::Vec3;
+
+/// Length of fibre in the air, in distances to the belt, above which it does not reach the belt.
+const MOST_IN_AIR: f64 = 10.0;
 
 /// Number of steps between two checks that all positions are finite.
 const STEPS_UNSEEN: u64 = 256;
@@ -31,7 +35,7 @@ impl Flight {
             let now = left.min(STEPS_UNSEEN);
             self.advance(now);
             left -= now;
-            if let Some(lost) = self.lost() {
+            if let Some(lost) = self.lost().or_else(|| self.adrift()) {
                 return Err(lost);
             }
         }
@@ -56,7 +60,7 @@ impl Flight {
         let tension = chain.tension();
         // The step may add nodes and take others away.
         let (constants, origin) = (chain.constants.clone(), chain.origin(&self.start.position).to_vec());
-        let (nodes, fed) = (chain.nodes(), chain.fed());
+        let (nodes, in_air, fed) = (chain.nodes(), chain.in_air(), chain.fed());
         let carried = chain.laying.as_ref().map(|laying| laying.carried).unwrap_or_default();
         let root_strain_integral = self.root_strain * Lanes::splat(self.h);
         let (before, first) = (self.work, self.steps_done == 0);
@@ -76,7 +80,7 @@ impl Flight {
         let mut energy = Energy::held(self.isa, &constants, &position, &velocity, &origin);
         let works = (&before, &self.work);
         energy.enter_work(&self.start.energy, works, &carried, self.scheme, self.h);
-        Snapshot { time, position, velocity, tension, nodes, root_strain_integral, energy }
+        Snapshot { time, position, velocity, tension, nodes, in_air, root_strain_integral, energy }
     }
 
     /// The first fibre and node whose position is not finite, if there is one.
@@ -95,6 +99,22 @@ impl Flight {
                 || "lower the time step".to_owned(),
                 |(case, _)| case.likely_cause_of_divergence(),
             ),
+        })
+    }
+
+    /// The first fibre that does not reach the belt, if there is one: ten times the way has been fed and has not landed.
+    pub(crate) fn adrift(&self) -> Option<Error> {
+        let in_air = self.chain.in_air();
+        let length = |lane: usize, line: &Line| in_air[lane] as f64 * self.chain.constants.rest_length.0[lane] / line.distance;
+        self.cases.iter().enumerate().find_map(|(lane, (case, replicate))| {
+            let line = case.line.as_ref()?;
+            (length(lane, line) > MOST_IN_AIR).then(|| Error::NotLanding {
+                replicate: replicate + 1,
+                times: MOST_IN_AIR,
+                time: self.time(),
+                reached: self.chain.position.iter().map(|p| p.x.0[lane]).fold(f64::NEG_INFINITY, f64::max),
+                distance: line.distance,
+            })
         })
     }
 

@@ -1,6 +1,6 @@
 //! Amplitude of each node of the fibre.
 
-use super::{Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observer, Seen, Value, always};
+use super::{Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observer, Seen, Value, fixed};
 use crate::case::Case;
 use crate::flight::Flight;
 use crate::lanes::Lanes;
@@ -23,7 +23,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             ..AMPLITUDE
         },
     ],
-    applies: always,
+    applies: fixed,
     observer: |case| Box::new(Spread::of(case)),
 };
 

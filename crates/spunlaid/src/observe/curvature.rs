@@ -1,6 +1,6 @@
 //! Curvature along the fibre.
 
-use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PER_METRE, Seen, Value, always};
+use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PER_METRE, Seen, Value, fixed};
 use crate::case::Case;
 use crate::chain::forces::Element;
 use crate::flight::Flight;
@@ -29,7 +29,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
         series: "rms",
     }],
-    applies: always,
+    applies: fixed,
     observer: |case| Box::new(Curvature::of(case)),
 };
 

@@ -1,6 +1,6 @@
 //! Distance of the free end from the axis of the flow.
 
-use super::{Declaration, Figure, MILLIMETRES, Measure, Observer, Seen, Value, always};
+use super::{Declaration, Figure, MILLIMETRES, Measure, Observer, Seen, Value, fixed};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
 use crate::statistics::quantile;
@@ -25,7 +25,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             ..DEFLECTION
         },
     ],
-    applies: always,
+    applies: fixed,
     observer: |_| Box::new(Deflection::default()),
 };
 

@@ -1,6 +1,6 @@
 //! Amplitude, frequency and mean position of the free end, from every step after the spin-up.
 
-use super::{Declaration, Figure, HERTZ, MILLIMETRES, Measure, Observer, Seen, Value, always};
+use super::{Declaration, Figure, HERTZ, MILLIMETRES, Measure, Observer, Seen, Value, fixed};
 use crate::case::Case;
 use crate::flight::Flight;
 
@@ -36,7 +36,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
         MEAN_X,
     ],
-    applies: always,
+    applies: fixed,
     observer: |case| Box::new(EndNode::of(case)),
 };
 

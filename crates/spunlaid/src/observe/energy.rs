@@ -37,7 +37,7 @@ pub(super) const WORK: Declaration = Declaration {
             ..OVER_TIME
         },
     ],
-    applies: |case| case.run.scheme != Scheme::ImplicitTension,
+    applies: |case| case.line.is_none() && case.run.scheme != Scheme::ImplicitTension,
     observer: |_| Errors::observer(Sample::work_error_percent, true),
 };
 

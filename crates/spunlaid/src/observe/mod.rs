@@ -8,21 +8,24 @@
 //! tables, the report with its figures and CSV files, and the studies loop over the declarations.
 
 mod along_fibre;
+mod along_way;
 mod curvature;
 mod deflection;
 mod end_node;
 mod energy;
 mod flow;
+mod laydown;
 mod residence;
 mod root_tension;
 mod sample;
 mod spectrum;
 mod strain;
 
+pub use laydown::{LAYDOWN, SURROGATE};
 pub use sample::Sample;
 
 use crate::case::Case;
-use crate::flight::{Flight, Snapshot};
+use crate::flight::{Flight, LaidPoint, Snapshot};
 
 /// Everything that is measured, in the order of the tables.
 pub const DECLARED: &[&Declaration] = &[
@@ -32,6 +35,8 @@ pub const DECLARED: &[&Declaration] = &[
     &along_fibre::DECLARATION,
     &curvature::DECLARATION,
     &spectrum::DECLARATION,
+    &laydown::DECLARATION,
+    &along_way::DECLARATION,
     &root_tension::DECLARATION,
     &strain::USUAL,
     &strain::LARGEST,
@@ -144,6 +149,12 @@ pub enum Kind {
     Series,
     /// A curve over frequency [Hz].
     Spectrum,
+    /// A curve between the inlet and the belt, over the distance from the inlet along x [m].
+    Way,
+    /// A curve over the length of fibre between two points [m].
+    Lag,
+    /// A curve over the direction on the belt [degrees], 0 in machine direction.
+    Direction,
 }
 
 impl Kind {
@@ -154,6 +165,11 @@ impl Kind {
             Self::Profile => Some(("distance_m", "Distance from the root along the fibre", MILLIMETRES)),
             Self::Series => Some(("time_s", "Time", Unit { shown: "s", per_si: 1.0 })),
             Self::Spectrum => Some(("frequency_hz", "Frequency *f*", HERTZ)),
+            Self::Way => Some(("distance_m", "Distance from the inlet", MILLIMETRES)),
+            Self::Lag => Some(("lag_m", "Length of fibre between two points", MILLIMETRES)),
+            Self::Direction => {
+                Some(("direction_degrees", "Direction on the belt", Unit { shown: "°", per_si: 1.0 }))
+            }
         }
     }
 }
@@ -195,6 +211,8 @@ pub struct Seen<'a> {
     pub samples: &'a [Sample],
     /// Whether the spin-up is over.
     pub settled: bool,
+    /// What each of the eight fibres has laid since the last recorded instant.
+    pub laid: &'a [Vec<LaidPoint>],
 }
 
 /// One value of a measure.
@@ -281,6 +299,16 @@ pub const MEASURES: [&Measure; NUMBERS] = {
     }
     all
 };
+
+/// Applies to fibres of fixed length.
+fn fixed(case: &Case) -> bool {
+    case.line.is_none()
+}
+
+/// Applies to fed fibres.
+fn fed(case: &Case) -> bool {
+    case.line.is_some()
+}
 
 /// Applies to every case.
 fn always(_: &Case) -> bool {

@@ -1,6 +1,6 @@
 //! The circle in which the free end stays.
 
-use super::{Declaration, END_NODE, Figure, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Value, always};
+use super::{Declaration, END_NODE, Figure, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Value, fixed};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
 use crate::statistics::quantile;
@@ -26,7 +26,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
         series: "radius",
     }],
-    applies: always,
+    applies: fixed,
     observer: |_| Box::new(Residence::default()),
 };
 

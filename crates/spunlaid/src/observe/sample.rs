@@ -25,6 +25,12 @@ pub struct Sample {
     pub air_work: f64,
     /// Work of the damping [J].
     pub damping_work: f64,
+    /// Work of what drives the root of a fed fibre [J]. Energies and works of a fed fibre are those seen from the belt.
+    pub feed_work: f64,
+    /// Work of the belt [J], negative.
+    pub belt_work: f64,
+    /// Energy that came with fed fibre, minus the energy that left with laid fibre [J].
+    pub carried: f64,
     /// Energy that the implicit tension has taken out of the motion and that the elements do not store [J]; zero
     /// with the explicit schemes.
     pub tension_dissipation: f64,
@@ -36,9 +42,10 @@ impl Sample {
     /// The sample of the fibre in a lane.
     pub(crate) fn of(snapshot: &Snapshot, lane: usize) -> Self {
         let e: &Energy = &snapshot.energy;
+        let end = snapshot.position.get(snapshot.nodes[lane] - 1);
         Self {
             time: snapshot.time,
-            end: snapshot.position.last().map_or_else(Vec3::default, |p| p.lane(lane)),
+            end: end.map_or_else(Vec3::default, |p| p.lane(lane)),
             kinetic: e.kinetic.0[lane],
             axial: e.axial.0[lane],
             bending: e.bending.0[lane],
@@ -46,6 +53,9 @@ impl Sample {
             gravity_work: e.gravity_work.0[lane],
             air_work: e.drag_work.0[lane],
             damping_work: e.damping_work.0[lane],
+            feed_work: e.feed_work.0[lane],
+            belt_work: e.belt_work.0[lane],
+            carried: e.carried.0[lane],
             tension_dissipation: e.tension_dissipation.0[lane],
             imbalance: e.imbalance().0[lane],
         }

@@ -1,7 +1,7 @@
 //! Power spectrum of the free end's motion.
 
 use super::{
-    Declaration, Figure, Kind, Measure, Observer, SQUARE_MILLIMETRES_PER_HERTZ, Seen, Value, always,
+    Declaration, Figure, Kind, Measure, Observer, SQUARE_MILLIMETRES_PER_HERTZ, Seen, Value, fixed,
 };
 use crate::case::Case;
 use crate::flight::Flight;
@@ -25,7 +25,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             ..SPECTRUM
         },
     ],
-    applies: always,
+    applies: fixed,
     observer: |case| Box::new(EndPositions::of(case)),
 };
 

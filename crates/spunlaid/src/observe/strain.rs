@@ -1,6 +1,6 @@
 //! Strain of the elements.
 
-use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PERCENT, Seen, Value, always};
+use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PERCENT, Seen, Value, fixed};
 use crate::fibre::Root;
 use crate::flight::Flight;
 use crate::lanes::Lanes;
@@ -36,7 +36,7 @@ pub(super) const LARGEST: Declaration = Declaration {
         Over::Largest,
         "largest",
     )],
-    applies: always,
+    applies: fixed,
     observer: |_| Box::new(Largest(Lanes::ZERO)),
 };
 

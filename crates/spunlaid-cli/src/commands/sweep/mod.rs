@@ -108,6 +108,7 @@ fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Err
         isa: Isa::detect(),
         stop: stop_on_ctrl_c(),
         fibre_steps: &fibre_steps,
+        laid: None,
     };
     progress::follow(study.points.len() as u64, &progress, &fibre_steps, sweep.quiet, || {
         run(study, journal, computing, &progress)

@@ -40,7 +40,7 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
     for (i, curve) in curves.iter().enumerate() {
         let places = scaled(curve, unit);
         chart = match first.kind {
-            Kind::Profile => profile(chart, i, curve, &places),
+            Kind::Profile | Kind::Way | Kind::Lag | Kind::Direction => profile(chart, i, curve, &places),
             Kind::Series => series(chart, i, curve, &places, results.replicates()),
             Kind::Number | Kind::Spectrum => {
                 let points: Vec<_> = places.iter().map(|place| (place.at, place.mean)).collect();
@@ -65,7 +65,8 @@ pub(crate) fn axes(first: &Measure, alone: bool) -> (Axis, Axis) {
     let label = format!("{over} ({})", unit.shown);
     let along = if first.kind == Kind::Spectrum { Axis::logarithmic(&label) } else { Axis::linear(&label) };
     let along = match first.kind {
-        Kind::Profile => along.including(0.0),
+        Kind::Profile | Kind::Way | Kind::Lag => along.including(0.0),
+        Kind::Direction => along.tight(),
         Kind::Series => along.tight().including(0.0),
         Kind::Number | Kind::Spectrum => along.tight(),
     };

@@ -1,0 +1,102 @@
+//! Speed and tension of a fed fibre on its way from the inlet to the belt.
+
+use super::{Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observer, Seen, Unit, Value, fed};
+use crate::case::Case;
+use crate::flight::Flight;
+use crate::lanes::WIDTH;
+
+/// Classes of distance from the inlet.
+const CLASSES: usize = 50;
+
+pub(super) const DECLARATION: Declaration = Declaration {
+    measures: &[
+        Measure {
+            name: "speed_along_way",
+            column: "speed_along_way_m_s",
+            label: "Speed on the way",
+            meaning: "mean of the fibre’s velocity along x at each distance from the inlet, at the recorded instants",
+            unit: Unit { shown: "m/s", per_si: 1.0 },
+            kind: Kind::Way,
+            group: FIBRE,
+            figure: &Figure {
+                name: "speed_along_way",
+                title: "Velocity towards the belt",
+                words: "velocity towards the belt",
+                logarithmic: false,
+                from_zero: false,
+                caption: "Mean velocity of the fibre towards the belt. It is below the feed speed where the fibre swings and \
+                          folds.",
+            },
+            ..Measure::NUMBER
+        },
+        Measure {
+            name: "tension_along_way",
+            column: "tension_along_way_n",
+            label: "Tension on the way",
+            meaning: "mean of the fibre’s tension at each distance from the inlet, at the recorded instants; negative in \
+                      compression",
+            unit: MILLINEWTONS,
+            kind: Kind::Way,
+            group: FIBRE,
+            figure: &Figure {
+                name: "tension_along_way",
+                title: "Tension",
+                words: "tension",
+                logarithmic: false,
+                from_zero: false,
+                caption: "Mean tension of the fibre on its way to the belt.",
+            },
+            ..Measure::NUMBER
+        },
+    ],
+    applies: fed,
+    observer: |case| Box::new(Way::of(case)),
+};
+
+/// Sums over the elements in each class of distance.
+#[derive(Debug)]
+struct Way {
+    distance: f64,
+    /// Count, sum of the velocity and of the tension, for each lane and class.
+    classes: Vec<[[f64; 3]; CLASSES]>,
+}
+
+impl Way {
+    fn of(case: &Case) -> Self {
+        let distance = case.line.map_or(f64::NAN, |line| line.distance);
+        Self { distance, classes: vec![[[0.0; 3]; CLASSES]; WIDTH] }
+    }
+}
+
+impl Observer for Way {
+    fn see(&mut self, seen: &Seen<'_>) {
+        if !seen.settled {
+            return;
+        }
+        let snapshot = seen.snapshot;
+        for (lane, classes) in self.classes.iter_mut().enumerate() {
+            let elements = snapshot.in_air[lane].min(snapshot.tension.len());
+            for (j, tension) in snapshot.tension.iter().enumerate().take(elements) {
+                let x = 0.5 * (snapshot.position[j].x.0[lane] + snapshot.position[j + 1].x.0[lane]);
+                let class = x / self.distance * CLASSES as f64;
+                if (0.0..CLASSES as f64).contains(&class) {
+                    let v = 0.5 * (snapshot.velocity[j].x.0[lane] + snapshot.velocity[j + 1].x.0[lane]);
+                    let [count, velocity, force] = &mut classes[class as usize];
+                    *count += 1.0;
+                    *velocity += v;
+                    *force += tension.0[lane];
+                }
+            }
+        }
+    }
+
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        let classes = &self.classes[lane];
+        let at = |i: usize| (i as f64 + 0.5) / CLASSES as f64 * self.distance;
+        let of = |which: usize| {
+            let places = (0..CLASSES).map(at).collect();
+            Value::Curve(places, classes.iter().map(|sums| sums[which] / sums[0]).collect())
+        };
+        vec![of(1), of(2)]
+    }
+}

@@ -1,0 +1,289 @@
+//! The laid fibre: how wide it lies, in which directions, and the surrogate that describes it.
+
+use super::{Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observer, Seen, Unit, Value, fed};
+use crate::case::Case;
+use crate::flight::Flight;
+use crate::lanes::WIDTH;
+use crate::laydown::{Laid, Trace, Tracing};
+use crate::surrogate::identify;
+
+/// The laid fibre.
+pub const LAYDOWN: Group = Group { name: "laydown", title: "laid fibre" };
+/// The stochastic model of the laid fibre.
+pub const SURROGATE: Group = Group { name: "laydown.surrogate", title: "surrogate of the laid fibre" };
+
+const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
+const RATIO: Unit = Unit { shown: "", per_si: 1.0 };
+
+pub(super) const DECLARATION: Declaration = Declaration {
+    measures: &[
+        Measure {
+            name: "sigma_md",
+            column: "sigma_md_m",
+            label: "Spread in machine direction",
+            meaning: "standard deviation of the laid fibre's place about its straight trace, in machine direction. The \
+                      straight trace is what a fibre leaves that comes down at one place",
+            series: "machine direction",
+            ..SPREAD
+        },
+        Measure {
+            name: "sigma_cd",
+            column: "sigma_cd_m",
+            label: "Spread in cross direction",
+            meaning: "likewise in cross direction",
+            series: "cross direction",
+            ..SPREAD
+        },
+        Measure {
+            name: "half_correlation_length_md",
+            column: "half_correlation_length_md_m",
+            label: "Half correlation length in machine direction",
+            meaning: "length of fibre over which the autocorrelation of its place in machine direction falls to one half",
+            series: "machine direction",
+            ..HALF_LENGTH
+        },
+        Measure {
+            name: "half_correlation_length_cd",
+            column: "half_correlation_length_cd_m",
+            label: "Half correlation length in cross direction",
+            meaning: "likewise in cross direction",
+            series: "cross direction",
+            ..HALF_LENGTH
+        },
+        Measure {
+            name: "belt_speed_ratio",
+            column: "belt_speed_ratio",
+            label: "Belt speed found in the laid fibre, over the belt’s",
+            meaning: "mean of −d md/ds along the laid fibre, divided by belt speed / feed speed. It is one within its \
+                      statistical error, whatever the fibre does",
+            figure: &numbers("belt_speed_ratio", "Belt speed found over belt speed", "ratio of belt speeds"),
+            ..RATIO_OF
+        },
+        Measure {
+            name: "orientation_md",
+            column: "orientation_md",
+            label: "Orientation in machine direction",
+            meaning: "mean of cos² of the angle between chords of 10 mm of fibre and the machine direction: 0.5 without \
+                      orientation, 1 if all lie in machine direction",
+            figure: &numbers("orientation", "Mean cos² to the machine direction", "orientation"),
+            ..RATIO_OF
+        },
+        Measure {
+            name: "chord_over_arc",
+            column: "chord_over_arc",
+            label: "Chord over arc at 10 mm",
+            meaning: "mean length on the belt of 10 mm of fibre, divided by 10 mm: the texture of the laid fibre. It gets \
+                      smaller with a finer mesh, because a thin fibre folds more closely than elements can show",
+            figure: &numbers("chord_over_arc", "Chord over arc at 10 mm", "chord over arc"),
+            ..RATIO_OF
+        },
+        Measure {
+            name: "laid_length",
+            column: "laid_length_m",
+            label: "Length laid",
+            meaning: "length of fibre that has been laid after the spin-up and that the statistics rest on",
+            unit: METRES,
+            figure: &numbers("laid_length", "Length laid", "length laid"),
+            ..RATIO_OF
+        },
+        Measure {
+            name: "nodes_in_air",
+            column: "nodes_in_air",
+            label: "Nodes in the air",
+            meaning: "mean number of nodes between the inlet and the newest touch-down",
+            figure: &numbers("nodes_in_air", "Nodes in the air", "nodes in the air"),
+            ..RATIO_OF
+        },
+        Measure {
+            name: "sigma_1",
+            column: "sigma_1_m",
+            label: "σ₁ of the surrogate",
+            meaning: "spread in machine direction, as the surrogate has it",
+            group: SURROGATE,
+            series: "σ₁",
+            ..SPREAD
+        },
+        Measure {
+            name: "sigma_2",
+            column: "sigma_2_m",
+            label: "σ₂ of the surrogate",
+            meaning: "spread in cross direction, as the surrogate has it",
+            group: SURROGATE,
+            series: "σ₂",
+            ..SPREAD
+        },
+        Measure {
+            name: "noise",
+            column: "noise_per_sqrt_m",
+            label: "Noise A of the surrogate",
+            meaning: "strength of the noise in the direction of the surrogate, from its autocorrelation over lags from 0.5 to \
+                      12 times the spread; not defined where the laid fibre is no random curve",
+            unit: Unit { shown: "m^-0.5", per_si: 1.0 },
+            group: SURROGATE,
+            figure: &numbers("noise", "Noise *A* of the surrogate", "noise of the surrogate"),
+            ..Measure::NUMBER
+        },
+        Measure {
+            name: "correlation_md",
+            column: "correlation_md",
+            label: "Autocorrelation in machine direction",
+            series: "machine direction",
+            ..CORRELATION
+        },
+        Measure {
+            name: "correlation_cd",
+            column: "correlation_cd",
+            label: "Autocorrelation in cross direction",
+            series: "cross direction",
+            ..CORRELATION
+        },
+        Measure {
+            name: "surrogate_correlation_md",
+            column: "surrogate_correlation_md",
+            label: "Autocorrelation of the surrogate in machine direction",
+            series: "surrogate, machine direction",
+            ..CORRELATION
+        },
+        Measure {
+            name: "surrogate_correlation_cd",
+            column: "surrogate_correlation_cd",
+            label: "Autocorrelation of the surrogate in cross direction",
+            series: "surrogate, cross direction",
+            ..CORRELATION
+        },
+        Measure {
+            name: "direction",
+            column: "direction",
+            label: "Directions of the laid fibre",
+            meaning: "share of the chords of 10 mm in each class of 10 degrees, times the number of classes: one without \
+                      orientation",
+            kind: Kind::Direction,
+            group: LAYDOWN,
+            figure: &Figure {
+                name: "directions",
+                title: "Share of chords, times the number of classes",
+                words: "directions",
+                logarithmic: false,
+                from_zero: true,
+                caption: "Directions of chords of 10 mm on the belt, in the sense of feed. 0° is the way of the belt’s run, \
+                          against which the laid fibre grows.",
+            },
+            ..Measure::NUMBER
+        },
+    ],
+    applies: fed,
+    observer: |case| Box::new(LaidFibres::of(case)),
+};
+
+const fn numbers(name: &'static str, title: &'static str, words: &'static str) -> Figure {
+    Figure { name, title, words, logarithmic: false, from_zero: true, caption: "" }
+}
+
+const SPREAD: Measure = Measure {
+    unit: MILLIMETRES,
+    group: LAYDOWN,
+    figure: &numbers("spread", "Spread of the laid fibre", "spread"),
+    ..Measure::NUMBER
+};
+
+const HALF_LENGTH: Measure = Measure {
+    unit: MILLIMETRES,
+    group: LAYDOWN,
+    figure: &numbers("half_correlation_length", "Half correlation length", "half correlation length"),
+    ..Measure::NUMBER
+};
+
+const RATIO_OF: Measure = Measure { unit: RATIO, group: LAYDOWN, ..Measure::NUMBER };
+
+const CORRELATION: Measure = Measure {
+    meaning: "autocorrelation of the laid fibre’s place about its straight trace, over the length of fibre between two points",
+    kind: Kind::Lag,
+    group: LAYDOWN,
+    figure: &Figure {
+        name: "correlation",
+        title: "Autocorrelation of the place",
+        words: "autocorrelation",
+        logarithmic: false,
+        from_zero: false,
+        caption: "Autocorrelation of the laid fibre’s place about its straight trace, and that of the surrogate fitted to it.",
+    },
+    ..Measure::NUMBER
+};
+
+/// The laid curves of up to eight fibres.
+#[derive(Debug)]
+struct LaidFibres {
+    traces: Vec<Trace>,
+    belt_ratio: f64,
+    /// Recorded instants after the spin-up, and the sums of the nodes in the air.
+    count: f64,
+    in_air: [f64; WIDTH],
+}
+
+impl LaidFibres {
+    fn of(case: &Case) -> Self {
+        let spacing = case.fibre.rest_length();
+        let (ratio, reach, fed) = case.line.map_or((0.0, 0.0, 0.0), |line| {
+            (line.belt_speed / line.feed_speed, line.distance, line.feed_speed * case.run.spin_up())
+        });
+        let tracing = Tracing { spacing, belt_ratio: ratio, skip: (fed / spacing).round() as u64, reach };
+        Self { traces: vec![Trace::new(tracing); WIDTH], belt_ratio: ratio, count: 0.0, in_air: [0.0; WIDTH] }
+    }
+}
+
+impl Observer for LaidFibres {
+    fn see(&mut self, seen: &Seen<'_>) {
+        for (trace, laid) in self.traces.iter_mut().zip(seen.laid) {
+            laid.iter().for_each(|point| trace.add(point.md, point.cd));
+        }
+        if seen.settled {
+            self.count += 1.0;
+            for (sum, nodes) in self.in_air.iter_mut().zip(seen.snapshot.in_air) {
+                *sum += nodes as f64;
+            }
+        }
+    }
+
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        let laid = self.traces[lane].finish();
+        let sigmas = [laid.sigma_md, laid.sigma_cd];
+        let found = identify(sigmas, laid.lag_step, [&laid.correlation_md, &laid.correlation_cd]).ok();
+        let surrogate = found.and_then(|found| {
+            found.surrogate.autocorrelation(laid.lag_step, laid.correlation_md.len())
+        });
+        let noise = found.map_or(f64::NAN, |found| found.surrogate.noise);
+        // What cannot be said is left out of the mean over the replicates.
+        let unknown = || vec![f64::NAN; laid.correlation_md.len()];
+        let [md, cd] = surrogate.unwrap_or_else(|| [unknown(), unknown()]);
+        let over_lag = |values: Vec<f64>| {
+            let lags = (0..values.len()).map(|i| i as f64 * laid.lag_step).collect();
+            Value::Curve(lags, values)
+        };
+        let numbers = [
+            laid.sigma_md,
+            laid.sigma_cd,
+            laid.half_correlation_length_md,
+            laid.half_correlation_length_cd,
+            laid.slope / self.belt_ratio,
+            laid.orientation_md,
+            laid.chord_over_arc,
+            laid.length,
+            self.in_air[lane] / self.count,
+            laid.sigma_md,
+            laid.sigma_cd,
+            noise,
+        ];
+        let curves = [laid.correlation_md.clone(), laid.correlation_cd.clone(), md, cd].map(over_lag);
+        let finite = |value: f64| Value::Number(if value.is_finite() { value } else { f64::NAN });
+        numbers.into_iter().map(finite).chain(curves).chain([directions(&laid)]).collect()
+    }
+}
+
+/// Share of the chords in each class of direction, times the number of classes, over the angle [degrees].
+fn directions(laid: &Laid) -> Value {
+    let all: u64 = laid.directions.iter().sum();
+    let classes = Laid::DIRECTIONS as f64;
+    let angles = (0..Laid::DIRECTIONS).map(|i| (i as f64 + 0.5) * 360.0 / classes).collect();
+    let share = |&count: &u64| count as f64 / all as f64 * classes;
+    Value::Curve(angles, laid.directions.iter().map(share).collect())
+}
