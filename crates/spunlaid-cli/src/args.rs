@@ -26,6 +26,7 @@ Examples:
   spunlaid run my.toml                              fly it; then open results/my/report.html
   spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
   spunlaid sweep my_study.toml                      fly it with many values of some keys
+  spunlaid run results/my --until \"20 s\"             fly it for longer, in the same turbulence
   spunlaid compare results/my results/faster        say what differs between two runs
   spunlaid analyse wire.csv                         make the air of a case from a velocity record
 
@@ -86,9 +87,14 @@ The results folder holds
   shape.pvd, shape/    the fibre over time, for ParaView (open shape.pvd)
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
 
+With --until, a finished run is flown for longer, again from the start: everything but the duration
+is as in its case.toml, harmonics of the turbulence and time step too, and the first part has the
+same bits. The new results replace the old ones when they are complete, or go to --out.
+
 Examples:
   spunlaid run cases/table1.toml
-  spunlaid run cases/table1.toml --set fibre.diameter=\"18 um\" --replicates 40 --out results/fine";
+  spunlaid run cases/table1.toml --set fibre.diameter=\"18 um\" --replicates 40 --out results/fine
+  spunlaid run results/table1 --until \"20 s\"";
 
 const SWEEP_HELP: &str = "\
 A study is a small text file beside the case it varies:
@@ -236,13 +242,17 @@ pub(crate) struct Run {
     /// Seed of the turbulence; replaces run.seed
     #[arg(long, value_name = "S")]
     pub(crate) seed: Option<u64>,
+    /// Fly a finished run again for longer, to this time, as "20 s"; CASE is its results folder
+    #[arg(long, value_name = "TIME", value_parser = |t: &str| quantity(Dimension::Time, t),
+          conflicts_with_all = ["set", "replicates", "seed"])]
+    pub(crate) until: Option<f64>,
     /// Number of threads [default: all cores]; it does not change the results
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: Option<u16>,
     /// No progress bar and no table; warnings and errors are still shown
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// Print summary.json instead of the table; without --out, write no files
+    /// Print summary.json instead of the table; without --out or --until, write no files
     #[arg(long)]
     pub(crate) json: bool,
     /// Replace the results in the output folder

@@ -38,6 +38,8 @@ pub(crate) enum Failure {
     FewerReplicates { folder: PathBuf, held: u64, asked: u64 },
     /// A folder does not hold the results of a run.
     NotARun { folder: PathBuf, reason: String },
+    /// A finished run cannot be flown for longer.
+    NotContinued { folder: PathBuf, reason: String },
     /// More runs than a picture can show.
     TooManyRuns { runs: usize, most: usize },
     /// The paper has no such figure.
@@ -84,6 +86,7 @@ impl Failure {
             | Self::OtherVersion { .. }
             | Self::FewerReplicates { .. }
             | Self::NotARun { .. }
+            | Self::NotContinued { .. }
             | Self::TooManyRuns { .. }
             | Self::NoSuchFigure { .. }
             | Self::NoSuchKey { .. }
@@ -182,6 +185,9 @@ impl fmt::Display for Failure {
                 "{}: does not hold the results of a run: {reason}; name folders that `spunlaid run` has written",
                 folder.display()
             ),
+            Self::NotContinued { folder, reason } => {
+                write!(f, "{}: cannot be continued: {reason}", folder.display())
+            }
             Self::TooManyRuns { runs, most } => {
                 write!(f, "{runs} runs are named, and at most {most} are compared at a time; name fewer")
             }
@@ -220,6 +226,7 @@ fn options(error: &Error) -> &'static str {
         }
         Error::File(error) => match error.fault {
             FileFault::NotThere(FileKind::Case) => " (`spunlaid new` writes one)",
+            FileFault::IsFolder(FileKind::Case) => " (--until flies a finished run for longer)",
             FileFault::NotThere(FileKind::Study) => " (`spunlaid help sweep` shows one)",
             _ => "",
         },
@@ -307,6 +314,8 @@ mod tests {
             Failure::OtherStudy { folder: path(), differences: Vec::new() },
             Failure::OtherVersion { folder: path(), version: "0".to_owned() },
             Failure::FewerReplicates { folder: path(), held: 8, asked: 4 },
+            Failure::NotARun { folder: path(), reason: "it is a file".to_owned() },
+            Failure::NotContinued { folder: path(), reason: "it is longer".to_owned() },
             Failure::NoSuchFigure { name: "12".to_owned(), known: "2".to_owned() },
             Failure::NoSuchPoint { point: 3, points: 2 },
             Error::Flight(FlightFault::Empty).into(),

@@ -1,6 +1,7 @@
 //! Progress of a run, on the terminal only.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
@@ -36,28 +37,25 @@ fn follow_on<T>(bar: &ProgressBar, done: &AtomicU64, work: impl FnOnce() -> T) -
                 std::thread::park_timeout(Duration::from_millis(50));
             }
         });
-        let _end = OnDrop(|| {
+        ended(work, || {
             finished.store(true, Ordering::Release);
             shown.thread().unpark();
             bar.finish_and_clear();
-        });
-        work()
+        })
     })
 }
 
-/// Ends the thread that shows a bar, also if the work panics. Otherwise the program would wait for the thread for ever.
-pub(crate) struct OnDrop<F: FnMut()>(pub(crate) F);
-
-impl<F: FnMut()> Drop for OnDrop<F> {
-    fn drop(&mut self) {
-        (self.0)();
-    }
+/// Does `work` and ends the thread that shows a bar, also if the work panics. Otherwise the program would wait for the
+/// thread for ever.
+pub(crate) fn ended<T>(work: impl FnOnce() -> T, end: impl FnOnce()) -> T {
+    let done = catch_unwind(AssertUnwindSafe(work));
+    end();
+    done.unwrap_or_else(|panic| resume_unwind(panic))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::panic::{AssertUnwindSafe, catch_unwind};
 
     #[test]
     fn a_panic_in_the_work_ends_the_bar() {

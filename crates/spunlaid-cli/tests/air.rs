@@ -73,6 +73,76 @@ fn a_sweep_through_a_field_keeps_it_and_goes_on_from_its_own_folder() {
     assert_eq!(read("out/results.csv"), results);
 }
 
+/// A list of the parts of a field, and the parts in folders beside it. OpenFOAM lists walls too.
+fn listed_field(desk: &Desk) {
+    let parts = cases().join("../crates/spunlaid/tests/field_fixtures/lists");
+    std::fs::create_dir_all(desk.path("air/blocks")).unwrap();
+    for name in ["blocks.vtm", "blocks/blocks_0.vtu", "blocks/blocks_1.vtu"] {
+        std::fs::copy(parts.join(name), desk.path("air").join(name)).unwrap();
+    }
+}
+
+#[test]
+fn the_parts_of_a_list_stay_with_the_results() {
+    let desk = Desk::new();
+    listed_field(&desk);
+    let changes = ["air.velocity", "air.turbulence_intensity", "air.length_scale", "air.cutoff_frequency"];
+    let case = desk::BRIEF.lines().filter(|line| !changes.iter().any(|key| line.starts_with(&key[4..])));
+    let case = case.map(|line| if line == "[air]" { "[air]\nfield = \"air/blocks.vtm\"" } else { line });
+    let case = case.collect::<Vec<_>>().join("\n").replace("0.2 m", "0.9 m");
+    std::fs::write(desk.path("listed.toml"), case).unwrap();
+    success(&mut desk.spunlaid("run listed.toml --out first"));
+    let files = ["blocks.vtm", "blocks"];
+    assert_eq!(desk.entries("first/case_files/blocks"), names(&files));
+    // Walls are not needed.
+    assert_eq!(desk.entries("first/case_files/blocks/blocks"), names(&["blocks_0.vtu", "blocks_1.vtu"]));
+    std::fs::remove_dir_all(desk.path("air")).unwrap();
+    std::fs::create_dir(desk.path("moved")).unwrap();
+    std::fs::rename(desk.path("first"), desk.path("moved/first")).unwrap();
+    // The notes of the summary name the case, so the tables are compared.
+    let identical = || {
+        for table in ["end_node.parquet", "energy.parquet"] {
+            let of = |folder: &str| desk.read(&format!("{folder}/{table}"));
+            assert!(of("moved/first") == of("again"), "{table}");
+        }
+    };
+    success(&mut desk.spunlaid("run moved/first/case.toml --out again"));
+    identical();
+    // Over itself: the parts are read before they are replaced.
+    success(&mut desk.spunlaid("run again/case.toml --out again --force"));
+    identical();
+    // A part that is gone or is another one is told.
+    std::fs::remove_file(desk.path("again/case_files/blocks/blocks/blocks_1.vtu")).unwrap();
+    let said = refusal(&mut desk.spunlaid("run again/case.toml --out third"), 1);
+    assert!(
+        said.contains("blocks.vtm:6: names the part \"blocks/blocks_1.vtu\", which is not there"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_study_with_another_part_is_another_study() {
+    let desk = Desk::new();
+    listed_field(&desk);
+    let case = std::fs::read_to_string(cases().join("openfoam_diffuser.toml")).unwrap();
+    let case = case.replace("fields/openfoam_diffuser.vtu", "air/blocks.vtm").replace("\"1 s\"", "\"20 ms\"");
+    let case = case.lines().filter(|line| !line.starts_with("field_root")).collect::<Vec<_>>().join("\n");
+    std::fs::write(desk.path("case.toml"), case).unwrap();
+    let study =
+        "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'air.speed_factor' = [0.8, 1.25]\n";
+    std::fs::write(desk.path("study.toml"), study).unwrap();
+    success(&mut desk.spunlaid("sweep study.toml --out out"));
+    assert!(desk.path("out/case_files/blocks/blocks/blocks_1.vtu").exists());
+    success(&mut desk.spunlaid("sweep out/study.toml --out again"));
+    assert_eq!(desk.read("again/results.csv"), desk.read("out/results.csv"));
+    // A byte that the field does not depend on.
+    let part = desk.path("air/blocks/blocks_1.vtu");
+    let text = std::fs::read(&part).unwrap();
+    std::fs::write(&part, [text, b"\n".to_vec()].concat()).unwrap();
+    let said = refusal(&mut desk.spunlaid("sweep study.toml --out out"), 1);
+    assert!(said.contains("another study"), "{said}");
+}
+
 #[test]
 fn a_study_of_another_field_is_another_study() {
     let desk = Desk::new();

@@ -51,6 +51,11 @@ fn runs_in_the_same_turbulence_are_compared_pair_by_pair() {
     // The curves of both stand in one picture.
     let numbers = String::from_utf8(desk.read("c/figures/motion_spectrum.csv")).unwrap();
     assert!(numbers.contains("\"a, y\",") && numbers.contains("\"b, z\","), "{numbers}");
+    // Only the means are drawn of the energy errors, not the area up to the largest.
+    let page = String::from_utf8(desk.read("c/report.html")).unwrap();
+    assert!(page.contains("Errors of the energy checks over time.") && !page.contains("shaded area"));
+    let page = String::from_utf8(desk.read("a/report.html")).unwrap();
+    assert!(page.contains("the shaded area reaches to the largest of any replicate"));
 }
 
 #[test]

@@ -12,16 +12,14 @@ use std::time::Duration;
 
 /// A run that would take hours, up to where it has begun to fly.
 fn long_run(desk: &Desk, arguments: &str, home: &str) -> Child {
+    let long = ["run.duration=10000 s", "run.output_interval=1 s", "air.cutoff_frequency=1 Hz"];
+    flying(desk, desk.with("run brief.toml", &long).args(arguments.split_whitespace()), home)
+}
+
+/// Starts a run and waits until it has begun to fly.
+fn flying(desk: &Desk, command: &mut Command, home: &str) -> Child {
     let before = hidden(&desk.path(home));
-    let child = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
-        .current_dir(desk.folder.path())
-        .args(["run", "brief.toml", "--set", "run.duration=10000 s", "--set", "run.output_interval=1 s"])
-        .args(["--set", "air.cutoff_frequency=1 Hz"])
-        .args(arguments.split_whitespace())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let flying = |folder: &Path| {
         let begun = |name: &String| folder.join(name).join("new/energy.parquet").exists();
         hidden(folder).iter().any(|name| !before.contains(name) && begun(name))
@@ -71,6 +69,20 @@ fn interrupted_old_results_stay() {
     assert_eq!(end(long_run(&desk, "--out r --force", "r"), "INT").status.code(), Some(130));
     assert_eq!(desk.entries("r"), names(&ENTRIES));
     assert!(desk.read("r/summary.json") == before);
+}
+
+#[test]
+fn interrupted_while_it_goes_on_a_run_stays_as_it_was() {
+    let desk = Desk::new();
+    success(&mut desk.with("run brief.toml --out r", &["run.output_interval=10 ms"]));
+    let before = desk.read("r/summary.json");
+    for (signal, code) in [("INT", Some(130)), ("KILL", None)] {
+        let longer = flying(&desk, &mut desk.spunlaid("run r --until 3000s"), "r");
+        assert_eq!(end(longer, signal).status.code(), code);
+        assert!(desk.read("r/summary.json") == before);
+    }
+    success(&mut desk.spunlaid("run r --until 20ms"));
+    assert_eq!(desk.entries("r"), names(&ENTRIES));
 }
 
 #[test]

@@ -17,7 +17,7 @@ mod flights;
 mod measure;
 
 use common::*;
-use flights::{Difference, compare, table1, trajectories_of};
+use flights::{Difference, compare, trajectories_of};
 use measure::{Trial, in_rounds, processor_time};
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::case::Case;

@@ -91,7 +91,7 @@ fn rejects_meshes_with_place_and_way_out() {
         (
             "type=\"UnstructuredGrid\"",
             "type=\"PUnstructuredGrid\"",
-            "a.vtu: is a VTK file of PUnstructuredGrid; write an unstructured grid (.vtu), or name the file that holds one",
+            "a.vtu: is a VTK file of PUnstructuredGrid; it lists other files, so name it by its path",
         ),
         (
             "header_type",
@@ -308,7 +308,7 @@ fn rejects_tables_with_place_and_way_out() {
         ),
         (
             "\u{89}HDF\r\n\0\0",
-            "a.vtu:2: is not text; a field of air is VTK (.vtu, .vti, .vts, .vtr, .vtk) or a table (.csv)",
+            "a.vtu:2: is not text; a field of air is VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of its files (.vtm, .pvtu) or a table (.csv)",
         ),
     ] {
         assert_eq!(refused(text.as_bytes()), said);
@@ -333,7 +333,7 @@ fn rejects_what_is_no_file() {
     let said = |path: &Path| Field::read(path).expect_err("this is no field").to_string();
     assert_eq!(
         said(Path::new("no/a.vtu")),
-        "no/a.vtu: there is no such file; name a field of air, VTK (.vtu, .vti, .vts, .vtr, .vtk) or a table (.csv)"
+        "no/a.vtu: there is no such file; name a field of air, VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of its files (.vtm, .pvtu) or a table (.csv)"
     );
     assert_eq!(said(Path::new("src")), "src: is a folder; name the field of air in it");
     let lzma = Path::new("tests/field_fixtures/lzma.refused");

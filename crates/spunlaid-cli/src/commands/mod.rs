@@ -3,6 +3,7 @@
 mod analyse;
 mod check;
 mod compare;
+mod finished;
 mod interrupt;
 mod keys;
 mod reproduce;

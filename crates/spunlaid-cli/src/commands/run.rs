@@ -1,5 +1,6 @@
 //! `spunlaid run`: flies a case and writes the results.
 
+use super::finished::continued;
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, stem, threads};
 use crate::args::Run;
@@ -29,12 +30,23 @@ const PER_PERIOD: f64 = 8.0;
 pub(super) const POSITIONS: u64 = 4_000_000;
 
 pub(crate) fn run(run: &Run) -> Result<(), Failure> {
-    let (case, notes) = run.source.read(&overrides(run))?;
-    notes.iter().for_each(say::note);
-    let folder = (run.out.is_some() || !run.json)
-        .then(|| super::folder(run.out.as_ref(), stem(&run.source.case, "run")));
+    let (case, mut notes) = match run.until {
+        Some(until) => continued(run, until)?,
+        None => {
+            let (case, notes) = run.source.read(&overrides(run))?;
+            notes.iter().for_each(say::note);
+            (case, notes.iter().map(Note::to_string).collect())
+        }
+    };
+    let name = name(run);
+    let folder = match run.until {
+        Some(_) if run.out.is_none() => Some(run.source.case.clone()),
+        _ => (run.out.is_some() || !run.json).then(|| super::folder(run.out.as_ref(), &name)),
+    };
     let stop = stop_on_ctrl_c();
-    let staging = folder.as_ref().map(|folder| Staging::new(folder, ENTRIES, run.force, stop)).transpose()?;
+    // A continued run replaces its own results.
+    let replace = run.force || run.until.is_some() && run.out.is_none();
+    let staging = folder.as_ref().map(|folder| Staging::new(folder, ENTRIES, replace, stop)).transpose()?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing =
@@ -51,7 +63,6 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     )?;
     let performance = performance(&case, plan, computing, started.elapsed().as_secs_f64());
 
-    let mut notes: Vec<String> = notes.iter().map(Note::to_string).collect();
     if let Some(outside) = outside(&results) {
         say::warning(&outside);
         notes.push(outside);
@@ -60,7 +71,6 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     notes.extend(coarse.clone());
     let summary = Summary::new(&case, &results, check.as_ref(), performance, notes.clone()).to_json();
     if let Some(staging) = staging {
-        let name = stem(&run.source.case, "run").to_string_lossy().into_owned();
         let written = Written {
             name,
             case: &case,
@@ -95,6 +105,13 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// What the results are called: as the case file, or as the folder of a run that is continued.
+fn name(run: &Run) -> String {
+    let case = &run.source.case;
+    let folder = run.until.and_then(|_| Some(case.canonicalize().ok()?.file_name()?.to_owned()));
+    folder.as_deref().unwrap_or_else(|| stem(case, "run")).to_string_lossy().into_owned()
 }
 
 /// The changes to the case on the command line.

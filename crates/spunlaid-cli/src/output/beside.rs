@@ -15,21 +15,30 @@ pub(crate) fn copy<'a>(
     folder: &Path,
 ) -> Result<BTreeMap<PathBuf, PathBuf>, Failure> {
     let mut copied = BTreeMap::new();
-    for file in cases.into_iter().flat_map(|case| case.air.files()) {
+    for (file, parts) in cases.into_iter().flat_map(|case| case.air.files()) {
         if copied.contains_key(file) {
             continue;
         }
-        fs::create_dir_all(folder).map_err(Failure::unwritable(folder))?;
-        let name = unused(file, &copied);
-        let to = folder.join(&name);
-        // Copying a file onto itself would empty it.
-        let same = || Some(fs::canonicalize(file).ok()? == fs::canonicalize(&to).ok()?);
-        if same() != Some(true) {
-            fs::copy(file, &to).map_err(Failure::unwritable(&to))?;
-        }
+        let name = unused(file, !parts.is_empty(), &copied);
+        copy_file(file, &folder.join(&name))?;
+        // The parts of a list lie where it says, seen from its own folder.
+        let [from, to] =
+            [file, &folder.join(&name)].map(|file| file.parent().unwrap_or(Path::new("")).to_owned());
+        parts.iter().try_for_each(|part| copy_file(&from.join(part), &to.join(part)))?;
         copied.insert(file.to_owned(), Path::new(CASE_FILES).join(name));
     }
     Ok(copied)
+}
+
+fn copy_file(from: &Path, to: &Path) -> Result<(), Failure> {
+    let folder = to.parent().unwrap_or(Path::new(""));
+    fs::create_dir_all(folder).map_err(Failure::unwritable(folder))?;
+    // Copying a file onto itself would empty it.
+    let same = || Some(fs::canonicalize(from).ok()? == fs::canonicalize(to).ok()?);
+    if same() != Some(true) {
+        fs::copy(from, to).map_err(Failure::unwritable(to))?;
+    }
+    Ok(())
 }
 
 /// The case with the paths of the copied files.
@@ -38,10 +47,14 @@ pub(crate) fn relocated(case: &Case, copied: &BTreeMap<PathBuf, PathBuf>) -> Cas
     Case { air: case.air.with_files_at(place), ..case.clone() }
 }
 
-/// The name of the file, with a number in front if another file has the same name.
-fn unused(file: &Path, copied: &BTreeMap<PathBuf, PathBuf>) -> PathBuf {
-    let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let taken = |name: &str| copied.values().any(|path| path.file_name().is_some_and(|taken| taken == name));
+/// The path of the copy in its folder: the name of the file, with a number in front if another file has the same name. A
+/// list gets a folder of its own, so that its parts meet no other files.
+fn unused(file: &Path, is_list: bool, copied: &BTreeMap<PathBuf, PathBuf>) -> PathBuf {
+    let whole = file.file_name().unwrap_or_default();
+    let name = if is_list { file.file_stem().unwrap_or(whole) } else { whole }.to_string_lossy().into_owned();
+    let place = Path::new(CASE_FILES);
+    let taken = |name: &str| copied.values().any(|path| path.starts_with(place.join(name)));
     let numbered = (2..).map(|number| format!("{number}_{name}"));
-    std::iter::once(name.clone()).chain(numbered).find(|name| !taken(name)).unwrap_or(name).into()
+    let name = std::iter::once(name.clone()).chain(numbered).find(|name| !taken(name)).unwrap_or(name);
+    if is_list { Path::new(&name).join(whole) } else { name.into() }
 }

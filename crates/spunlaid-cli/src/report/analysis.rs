@@ -39,8 +39,6 @@ struct Page<'a> {
     air: &'a str,
     methods: Vec<(&'static str, String)>,
     version: &'static str,
-    style: &'static str,
-    study_style: &'static str,
 }
 
 /// Makes the report as one HTML file.
@@ -60,8 +58,6 @@ pub(crate) fn analysis_html(input: &AnalysisReport<'_>) -> String {
         air: input.air,
         methods: methods(of),
         version: env!("CARGO_PKG_VERSION"),
-        style: include_str!("../../assets/report.css"),
-        study_style: include_str!("../../assets/study.css"),
     };
     rendered(&page)
 }

@@ -1,5 +1,6 @@
 //! `report.html` of a comparison: a table for each pair of runs, and their curves in one picture each.
 
+use super::rendered;
 use crate::output::comparison::{Compared, Comparison};
 use askama::Template;
 use spunlaid_charts::Figure;
@@ -21,8 +22,6 @@ struct Page<'a> {
     tables: Vec<Table<'a>>,
     figures: &'a [Figure],
     version: &'a str,
-    style: &'static str,
-    study_style: &'static str,
 }
 
 struct Table<'a> {
@@ -60,9 +59,6 @@ pub(crate) fn comparison_html(input: &ComparisonReport<'_>) -> String {
         tables: tables.collect(),
         figures: input.figures,
         version: input.version,
-        style: include_str!("../../assets/report.css"),
-        study_style: include_str!("../../assets/study.css"),
     };
-    // Formatting these values into a string cannot fail.
-    page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
+    rendered(&page)
 }

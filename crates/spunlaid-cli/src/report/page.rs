@@ -14,8 +14,6 @@ use spunlaid_charts::Figure;
 /// Most replicates whose own values are listed.
 const LISTED: usize = 1000;
 
-const STYLE: &str = include_str!("../../assets/report.css");
-
 /// The scripts, in one scope, in this order.
 const SCRIPTS: [&str; 6] = [
     include_str!("../../assets/save.js"),
@@ -49,7 +47,6 @@ struct Page<'a> {
     case_toml: &'a str,
     cost: String,
     version: &'a str,
-    style: &'a str,
     script: String,
 }
 
@@ -106,7 +103,6 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
             words::quantity(p.ns_per_element_step, "ns"),
         ),
         version: input.version,
-        style: STYLE,
         script: format!("(() => {{\n\"use strict\";\n{}\n}})();", SCRIPTS.join("\n")),
     };
     rendered(&page)

@@ -28,8 +28,6 @@ struct Page<'a> {
     how: &'a str,
     case_toml: &'a str,
     version: &'a str,
-    style: &'static str,
-    paper_style: &'static str,
 }
 
 struct Row<'a> {
@@ -62,8 +60,6 @@ pub(crate) fn paper_html(input: &PaperReport<'_>) -> String {
         how: input.how,
         case_toml: input.case_toml,
         version: input.version,
-        style: include_str!("../../assets/report.css"),
-        paper_style: include_str!("../../assets/paper.css"),
     };
     rendered(&page)
 }

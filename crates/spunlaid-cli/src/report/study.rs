@@ -57,8 +57,6 @@ struct Page<'a> {
     study_toml: &'a str,
     case_toml: &'a str,
     version: &'a str,
-    style: &'static str,
-    study_style: &'static str,
 }
 
 struct Row {
@@ -99,8 +97,6 @@ pub(crate) fn study_html(input: &StudyReport<'_>) -> String {
         study_toml: input.study_toml,
         case_toml: input.case_toml,
         version: input.version,
-        style: include_str!("../../assets/report.css"),
-        study_style: include_str!("../../assets/study.css"),
     };
     rendered(&page)
 }

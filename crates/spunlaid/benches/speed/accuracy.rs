@@ -1,6 +1,7 @@
 //! What longer steps cost in accuracy: paths against converged ones, energy that is lost.
 
-use crate::flights::{compare, table1, trajectories_of};
+use crate::common::table1;
+use crate::flights::{compare, trajectories_of};
 use crate::title;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;

@@ -1,6 +1,7 @@
 //! Whole ensembles: turbulence, flight, records and statistics.
 
-use crate::flights::{table1, trajectories_of};
+use crate::common::table1;
+use crate::flights::trajectories_of;
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
 use cpu_time::ProcessTime;

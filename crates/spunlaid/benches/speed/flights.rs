@@ -1,29 +1,10 @@
 //! Whole flights for the tables of speed and accuracy: Table 1 by any scheme and step, and how far its
 //! paths are off.
 
-use crate::common::*;
-use spunlaid::case::{Case, Run};
-use spunlaid::chain::schemes::Scheme;
+use spunlaid::case::Case;
 use spunlaid::ensemble::{Computing, Job, Keep, Sample, Trajectory, fly_together};
 use spunlaid::lanes::{Isa, WIDTH};
 use std::sync::atomic::{AtomicBool, AtomicU64};
-
-/// The paper's Table 1, recorded every millisecond or every step.
-pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) -> Case {
-    let run = Run {
-        time_step,
-        steps: (duration / time_step).round() as u64,
-        spin_up_steps: 0,
-        output_steps: ((1e-3 / time_step).round() as u64).max(1),
-        replicates,
-        seed: 1,
-        scheme,
-        gravity: 9.81,
-        damping: 0.0,
-        shapes: None,
-    };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), line: None, run }
-}
 
 /// The first eight flights of a case, on this thread.
 pub fn trajectories_of(case: &Case) -> Vec<Trajectory> {

@@ -9,13 +9,21 @@ use std::sync::Arc;
 pub struct FromFile<T> {
     path: PathBuf,
     checksum: u32,
+    /// Further files that this one names, relative to its folder.
+    parts: Arc<[PathBuf]>,
     content: Arc<T>,
 }
 
 impl<T> FromFile<T> {
     /// The content of the file at `path`; `checksum` tells this content from another.
     pub fn new(path: PathBuf, checksum: u32, content: Arc<T>) -> Self {
-        Self { path, checksum, content }
+        Self { path, checksum, parts: Arc::default(), content }
+    }
+
+    /// The same content with the files that the file names, relative to its folder. The checksum is that of all of them.
+    #[must_use]
+    pub fn with_parts(self, parts: Vec<PathBuf>) -> Self {
+        Self { parts: parts.into(), ..self }
     }
 
     /// Path of the file.
@@ -23,14 +31,20 @@ impl<T> FromFile<T> {
         &self.path
     }
 
-    /// Checksum of the file.
+    /// Further files that the file names, relative to its folder: those of a list of files.
+    pub fn parts(&self) -> &[PathBuf] {
+        &self.parts
+    }
+
+    /// Checksum of the file and its parts.
     pub const fn checksum(&self) -> u32 {
         self.checksum
     }
 
     /// The same content at another path.
     pub fn moved_to(&self, path: PathBuf) -> Self {
-        Self { path, checksum: self.checksum, content: Arc::clone(&self.content) }
+        let (parts, content) = (Arc::clone(&self.parts), Arc::clone(&self.content));
+        Self { path, checksum: self.checksum, parts, content }
     }
 }
 

@@ -104,16 +104,19 @@ impl Air {
         air
     }
 
-    /// The files that the air was read from.
-    pub fn files(&self) -> Vec<&Path> {
-        let mut files: Vec<&Path> = self.records.iter().map(FromFile::path).collect();
+    /// The files that the air was read from, each with the parts that it names, relative to its folder.
+    pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
+        fn of<T>(file: &FromFile<T>) -> (&Path, &[PathBuf]) {
+            (file.path(), file.parts())
+        }
+        let mut files: Vec<_> = self.records.iter().map(of).collect();
         match &self.flow {
             Flow::Uniform => {}
-            Flow::Profile(profile) => files.push(profile.path()),
-            Flow::Field(placed) => files.push(placed.field.path()),
+            Flow::Profile(profile) => files.push(of(profile)),
+            Flow::Field(placed) => files.push(of(&placed.field)),
         }
         if let SpectrumShape::Measured(table) = &self.spectrum {
-            files.push(table.path());
+            files.push(of(table));
         }
         files
     }

@@ -139,6 +139,26 @@ pub enum FieldFault {
         /// Cells that are points, lines or faces.
         flat: u64,
     },
+    /// A list of files names a part that cannot be used.
+    #[error("names the part \"{part}\", {why}")]
+    Part {
+        /// As written in the list.
+        part: String,
+        /// Why it cannot be used, and how to correct it.
+        why: &'static str,
+    },
+    /// A list of files names no part with a volume.
+    #[error(
+        "is a list that names no file with a volume{}; name the file that holds the interior of the flow",
+        if *surfaces == 0 { String::new() } else { format!(", only {surfaces} with surfaces (.vtp)") }
+    )]
+    NoParts {
+        /// How many of its parts are surfaces.
+        surfaces: u64,
+    },
+    /// Only some of the parts have turbulence.
+    #[error("has k and ε (or ω) in some of its parts only; write them in all parts, or in none")]
+    TurbulenceInParts,
     /// The field has too few points.
     #[error("has {found} points; at least {least} are needed for interpolation")]
     TooFewPoints {

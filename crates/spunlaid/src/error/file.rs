@@ -35,7 +35,9 @@ impl FileKind {
         match self {
             Self::Case | Self::Study => "UTF-8 text",
             Self::Record => "CSV in UTF-8 or Latin-1, or Parquet",
-            Self::Field => "VTK (.vtu, .vti, .vts, .vtr, .vtk) or a table (.csv)",
+            Self::Field => {
+                "VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of its files (.vtm, .pvtu) or a table (.csv)"
+            }
             Self::Table => "CSV in UTF-8 or Latin-1",
         }
     }

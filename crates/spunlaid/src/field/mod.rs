@@ -57,6 +57,8 @@ pub use mesh::cells::{Cells, Shape};
 pub use values::Values;
 pub use warning::FieldWarning;
 
+pub(crate) use read::ReadField;
+
 use crate::error::FileError;
 use crate::vec3::Vec3;
 use bricks::Bricks;

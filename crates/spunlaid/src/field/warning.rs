@@ -43,6 +43,11 @@ pub enum FieldWarning {
         /// Line of the first such row.
         first: u64,
     },
+    /// Some parts of a list are surfaces.
+    Surfaces {
+        /// How many.
+        parts: u64,
+    },
     /// Some values of the turbulence are negative.
     Negative {
         /// The array.
@@ -81,6 +86,12 @@ impl fmt::Display for FieldWarning {
             ),
             Self::Dropped { rows, first } => {
                 write!(f, "{rows} rows lack a number and are left out; the first is in line {first}")
+            }
+            Self::Surfaces { parts } => {
+                write!(
+                    f,
+                    "the list names surfaces too (.vtp: {parts}), perhaps the boundary; they are left out"
+                )
             }
             Self::Negative { array, points } => {
                 write!(f, "{array} is negative at {points} points; zero is used there")

@@ -118,7 +118,7 @@ const OVER_TIME: Measure = Measure {
         name: "energy_errors",
         title: "Energy errors over time",
         words: "energy errors",
-        caption: "Errors of the energy checks over time, mean over the replicates. The shaded area reaches to the largest of any replicate.",
+        caption: "Errors of the energy checks over time.",
         ..FIGURE
     },
     ..ERROR

@@ -47,13 +47,13 @@ pub fn paper_drag() -> Drag {
     Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh }
 }
 
-/// Table 1 of the paper, seed 1 and no spin-up, recorded every millisecond.
+/// Table 1 of the paper, seed 1 and no spin-up, recorded every millisecond or, if this is longer, every step.
 pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) -> Case {
     let run = Run {
         time_step,
         steps: (duration / time_step).round() as u64,
         spin_up_steps: 0,
-        output_steps: (1e-3 / time_step).round() as u64,
+        output_steps: ((1e-3 / time_step).round() as u64).max(1),
         replicates,
         seed: 1,
         scheme,

@@ -3,6 +3,8 @@
     pip install vtk==9.7.2 meshio==5.3.5 && python make.py
 """
 
+import os
+
 import meshio
 import numpy as np
 import vtk
@@ -153,3 +155,60 @@ hexahedra.write("meshio.vtu")
 hexahedra.write("meshio_ascii.vtu", binary=False, compression=None)
 hexahedra.write("meshio_42.vtk", file_format="vtk42")
 hexahedra.write("meshio_51.vtk", file_format="vtk51")
+
+
+def halves(data):
+    """The cells on either side of x = ½, as two grids."""
+    for side in range(2):
+        cells = vtk.vtkIdList()
+        for i in range(data.GetNumberOfCells()):
+            bounds = data.GetCell(i).GetBounds()
+            if data.GetCell(i).GetCellDimension() == 3 and (bounds[0] + bounds[1] > 1) == bool(side):
+                cells.InsertNextId(i)
+        extract = vtk.vtkExtractCells()
+        extract.SetInputData(data)
+        extract.SetCellList(cells)
+        extract.Update()
+        yield extract.GetOutput()
+
+
+def write_parallel(writer, source, name):
+    """Writes what two processes of a parallel program would write."""
+    writer.SetInputConnection(source.GetOutputPort())
+    writer.SetFileName(name)
+    writer.SetNumberOfPieces(2)
+    writer.SetStartPiece(0)
+    writer.SetEndPiece(1)
+    assert writer.Write() == 1
+
+
+def read(reader, name):
+    reader.SetFileName(name)
+    return reader
+
+
+# Lists of files, in a folder of their own, because the parts alone are half a cube.
+os.makedirs("lists", exist_ok=True)
+os.chdir("lists")
+write_parallel(vtk.vtkXMLPImageDataWriter(), read(vtk.vtkXMLImageDataReader(), "../vtk_raw_lz4.vti"), "image.pvti")
+rows = read(vtk.vtkXMLRectilinearGridReader(), "../vtk_raw.vtr")
+write_parallel(vtk.vtkXMLPRectilinearGridWriter(), rows, "rectilinear.pvtr")
+bent = read(vtk.vtkXMLStructuredGridReader(), "../vtk_base64_zlib.vts")
+write_parallel(vtk.vtkXMLPStructuredGridWriter(), bent, "structured.pvts")
+pieces = vtk.vtkExtractUnstructuredGridPiece()
+pieces.SetInputData(grid)
+write_parallel(vtk.vtkXMLPUnstructuredGridWriter(), pieces, "parallel.pvtu")
+blocks, inner = vtk.vtkMultiBlockDataSet(), vtk.vtkMultiBlockDataSet()
+first, second = halves(grid)
+surface = vtk.vtkDataSetSurfaceFilter()
+surface.SetInputData(grid)
+surface.Update()
+inner.SetBlock(0, second)
+inner.SetBlock(1, None)
+blocks.SetBlock(0, first)
+blocks.SetBlock(1, inner)
+blocks.SetBlock(2, surface.GetOutput())
+writer = vtk.vtkXMLMultiBlockDataWriter()
+writer.SetInputData(blocks)
+writer.SetFileName("blocks.vtm")
+assert writer.Write() == 1

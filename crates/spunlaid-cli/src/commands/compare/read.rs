@@ -1,13 +1,12 @@
 //! Reads the results folders of runs.
 
+use super::super::finished::summary;
 use crate::failure::Failure;
 use crate::figures::{Curves, Row};
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-
-const SUMMARY: &str = "summary.json";
 
 /// The results of a run.
 #[derive(Clone, Debug)]
@@ -18,20 +17,7 @@ pub(super) struct Run {
 
 impl Run {
     pub(super) fn read(folder: &Path, name: String) -> Result<Self, Failure> {
-        let not_a_run = |reason: String| Failure::NotARun { folder: folder.to_owned(), reason };
-        if !folder.is_dir() {
-            return Err(not_a_run("there is no such folder".to_owned()));
-        }
-        if folder.join("results.csv").exists() || folder.join("analysis.json").exists() {
-            return Err(not_a_run("it holds a study or an analysis, and runs are compared".to_owned()));
-        }
-        let path = folder.join(SUMMARY);
-        let text = fs::read_to_string(&path).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
-        let summary: Json =
-            serde_json::from_str(&text).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
-        if summary.get("end_node").is_none() {
-            return Err(not_a_run(format!("{SUMMARY} is not that of a run")));
-        }
+        let summary = summary(folder)?;
         Ok(Self { curves: Curves { name, of: curves(&folder.join("figures")) }, summary })
     }
 

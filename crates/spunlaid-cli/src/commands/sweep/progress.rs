@@ -1,6 +1,6 @@
 //! Progress of a study: a bar on a terminal, or a line from time to time in a log file.
 
-use crate::progress::OnDrop;
+use crate::progress::ended;
 use crate::say;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use spunlaid::study::Progress;
@@ -45,12 +45,11 @@ pub(super) fn follow<T>(
                 }
             }
         });
-        let _end = OnDrop(|| {
+        ended(work, || {
             finished.store(true, Ordering::Release);
             shown.thread().unpark();
             bar.finish_and_clear();
-        });
-        work()
+        })
     })
 }
 

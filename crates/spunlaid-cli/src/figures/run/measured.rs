@@ -174,7 +174,9 @@ fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates:
             let each = places.len().div_ceil(INSTANTS).max(1);
             let together =
                 if each > 1 { format!(", {each} recorded instants at a time") } else { String::new() };
-            format!(" Mean and largest over {n} replicates{together}.")
+            format!(
+                " Mean over {n} replicates{together}; the shaded area reaches to the largest of any replicate."
+            )
         }
     };
     format!("{}{over}", declared.caption)

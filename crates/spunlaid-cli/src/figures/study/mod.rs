@@ -19,8 +19,7 @@ const FAMILY: usize = 6;
 
 /// The figures of a study, the most important first.
 pub(crate) fn study_figures(study: &Study, results: &[PointResults], rankings: &[Ranking]) -> Vec<Figure> {
-    let mut groups = quantity::groups();
-    groups.retain(|group| group.applies(results));
+    let groups: Vec<_> = quantity::groups().into_iter().filter_map(|group| group.applying(results)).collect();
     let mut figures = Vec::new();
     match (study.design, study.factors.len()) {
         (_, 0) => {}

@@ -47,9 +47,10 @@ impl Group {
         matches!(self.of[..], [(_, "*y*"), (_, "*z*")])
     }
 
-    /// Whether it applies to any point.
-    pub(super) fn applies(&self, results: &[PointResults]) -> bool {
-        results.iter().any(|point| self.of.iter().any(|(measure, _)| point.mean[*measure].is_finite()))
+    /// Leaves out results that apply to no point, as the work check does with implicit tension. None if no result is left.
+    pub(super) fn applying(mut self, results: &[PointResults]) -> Option<Self> {
+        self.of.retain(|(measure, _)| results.iter().any(|point| point.mean[*measure].is_finite()));
+        if self.of.is_empty() { None } else { Some(self) }
     }
 
     /// Mean and standard error of one of its measures at a point, in the units of the axis.

@@ -85,6 +85,25 @@ fn draws_every_kind_of_study() {
 }
 
 #[test]
+fn a_result_that_applies_to_no_point_is_not_drawn() {
+    let (study, mut results) = study(Design::Grid, &[5]);
+    let names = |results: &[PointResults]| -> Vec<String> {
+        let figures = study_figures(&study, results, &rankings(&study));
+        let with =
+            |figure: &&Figure| figure.svg.contains("work check") || figure.caption.contains("work check");
+        figures.iter().filter(with).map(|figure| figure.name.clone()).collect()
+    };
+    assert_eq!(names(&results), ["energy_error_over_air_velocity", "energy_error_at_end_over_air_velocity"]);
+    // Implicit tension has no work check.
+    for (i, measure) in MEASURES.iter().enumerate() {
+        if measure.name.starts_with("work_error") {
+            results.iter_mut().for_each(|point| point.mean[i] = f64::NAN);
+        }
+    }
+    assert!(names(&results).is_empty());
+}
+
+#[test]
 fn keys_are_named_in_words() {
     assert_eq!(name_of_key("air.velocity"), "mean velocity");
     assert_eq!(name_of_key("fibre.youngs_modulus"), "Young’s modulus");

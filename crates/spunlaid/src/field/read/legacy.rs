@@ -4,7 +4,7 @@ use super::array::{Array, Number, Source};
 use super::encoding::Budget;
 use super::grid::{Grid, counted, vectors};
 use super::line;
-use super::piece::{Piece, assemble};
+use super::piece::{Assembly, Piece};
 use super::unstructured::{Listed, Polyhedra};
 use crate::error::{FieldFault, FileError, FileFault, FilePlace};
 use crate::field::{Field, FieldWarning};
@@ -17,10 +17,10 @@ pub(super) const START: &[u8] = b"# vtk DataFile Version";
 /// Reads a file.
 pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
     let mut scanner = Scanner { bytes, at: 0, binary: false };
-    let mut budget = Budget::new();
-    let piece = scanner.piece(&mut budget).map_err(|error| error.at(scanner.place()));
-    let field = piece.and_then(|piece| assemble(vec![piece], &mut budget));
-    field.map_err(|error| match scanner.binary {
+    let mut assembly = Assembly::new();
+    let piece = scanner.piece(&mut assembly.budget).map_err(|error| error.at(scanner.place()));
+    let added = piece.and_then(|piece| assembly.add(piece));
+    added.and_then(|()| assembly.finish()).map_err(|error| match scanner.binary {
         true => error,
         false => FileError { place: line(bytes, error.place), ..error },
     })

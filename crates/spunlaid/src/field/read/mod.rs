@@ -7,6 +7,7 @@ mod array;
 mod encoding;
 mod grid;
 mod legacy;
+mod list;
 mod names;
 mod piece;
 mod table;
@@ -17,17 +18,41 @@ mod xml;
 use super::{Field, FieldWarning};
 use crate::error::{FieldFault, FileError, FileKind, FilePlace};
 use crate::file;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// A field with what is known of its files.
+#[derive(Debug)]
+pub(crate) struct ReadField {
+    pub(crate) field: Field,
+    pub(crate) warnings: Vec<FieldWarning>,
+    /// Checksum of the file and of its parts.
+    pub(crate) checksum: u32,
+    /// The files that a list names, relative to its folder. Empty for a file that is no list.
+    pub(crate) parts: Vec<PathBuf>,
+}
+
+impl ReadField {
+    /// Reads a field from a file, with the files that this one lists.
+    pub(crate) fn read(path: &Path) -> Result<Self, FileError> {
+        let bytes = file::read(path, FileKind::Field, u64::MAX)?;
+        if list::is_list(&bytes) {
+            return list::read(path, &bytes);
+        }
+        let (field, warnings) = Field::parse(&bytes, &path.display().to_string())?;
+        Ok(Self { field, warnings, checksum: crc32fast::hash(&bytes), parts: Vec::new() })
+    }
+}
 
 impl Field {
-    /// Reads a field from a file, VTK or a table; the format is recognised from the file's content.
+    /// Reads a field from a file, VTK or a table; the format is recognised from the file's content. A file of VTK that
+    /// lists others is the field of all of them.
     ///
     /// `docs/air.md` of the repository lists the formats and the names of arrays and columns.
     ///
     /// # Errors
     /// When the file cannot be read or holds no field of air. The message says where and why.
     pub fn read(path: &Path) -> Result<(Self, Vec<FieldWarning>), FileError> {
-        Self::parse(&file::read(path, FileKind::Field, u64::MAX)?, &path.display().to_string())
+        ReadField::read(path).map(|read| (read.field, read.warnings))
     }
 
     /// Reads a field from the bytes of a file. Messages call it `name`.

@@ -16,20 +16,60 @@ pub(super) struct Piece<'a> {
     pub(super) cell_data: Vec<Array<'a>>,
 }
 
-/// Makes a field of the pieces.
-pub(super) fn assemble(
-    mut pieces: Vec<Piece<'_>>,
-    budget: &mut Budget,
-) -> Result<(Field, Vec<FieldWarning>), FileError> {
-    let lacks = pieces.first().and_then(|piece| {
-        let arrays = || piece.point_data.iter().chain(&piece.cell_data);
-        let names: Vec<Name> = arrays().map(|array| Name::new(&array.name)).collect();
-        let components: Vec<usize> = arrays().map(|array| array.components).collect();
-        lacks(&names, &components)
-    });
-    let (mut field, warnings) = joined(&mut pieces, budget)?;
-    field.lacks = lacks;
-    Ok((field, warnings))
+/// Collects the pieces of a file, or of several, and makes a field of them.
+pub(super) struct Assembly {
+    grids: Vec<Grid>,
+    values: Vec<Values>,
+    warnings: Vec<FieldWarning>,
+    /// What the first piece lacks for turbulence.
+    lacks: Option<String>,
+    /// How much may still be read, for all pieces together.
+    pub(super) budget: Budget,
+}
+
+impl Assembly {
+    pub(super) const fn new() -> Self {
+        Self {
+            grids: Vec::new(),
+            values: Vec::new(),
+            warnings: Vec::new(),
+            lacks: None,
+            budget: Budget::new(),
+        }
+    }
+
+    /// Decodes a piece and keeps it. The bytes that it was read from are not needed any more.
+    pub(super) fn add(&mut self, piece: Piece<'_>) -> Result<(), FileError> {
+        if self.grids.is_empty() {
+            let arrays = || piece.point_data.iter().chain(&piece.cell_data);
+            let names: Vec<Name> = arrays().map(|array| Name::new(&array.name)).collect();
+            let components: Vec<usize> = arrays().map(|array| array.components).collect();
+            self.lacks = lacks(&names, &components);
+        }
+        let Self { budget, warnings, .. } = self;
+        let values = Reader { piece: &piece, budget, warnings }.values()?;
+        self.values.push(values);
+        self.grids.push(piece.grid);
+        Ok(())
+    }
+
+    pub(super) fn warn(&mut self, warning: FieldWarning) {
+        self.warnings.push(warning);
+    }
+
+    /// The field of all pieces.
+    pub(super) fn finish(self) -> Result<(Field, Vec<FieldWarning>), FileError> {
+        let Self { grids, values, warnings, lacks, .. } = self;
+        let of_turbulence = |wanted| {
+            values.iter().any(|values| !values.velocity.is_empty() && values.has_turbulence() == wanted)
+        };
+        if of_turbulence(true) && of_turbulence(false) {
+            return Err(FieldFault::TurbulenceInParts.into());
+        }
+        let (mut field, warnings) = joined(grids, values, warnings)?;
+        field.lacks = lacks;
+        Ok((field, warnings))
+    }
 }
 
 /// What a file with these arrays lacks for turbulence, and what it has.
@@ -45,31 +85,30 @@ pub(super) fn lacks(names: &[Name], components: &[usize]) -> Option<String> {
     Some(format!("{missing} among {}", crate::error::listed(&found)))
 }
 
-fn joined(pieces: &mut [Piece<'_>], budget: &mut Budget) -> Result<(Field, Vec<FieldWarning>), FileError> {
-    let mut warnings = Vec::new();
-    let mut values = Vec::new();
-    for piece in pieces.iter() {
-        values.push(Reader { piece, budget, warnings: &mut warnings }.values()?);
-    }
-    if let ([piece], [values]) = (&*pieces, values.as_slice()) {
-        if let Grid::Scattered(points) = &piece.grid {
+fn joined(
+    mut grids: Vec<Grid>,
+    values: Vec<Values>,
+    mut warnings: Vec<FieldWarning>,
+) -> Result<(Field, Vec<FieldWarning>), FileError> {
+    if let ([grid], [values]) = (grids.as_slice(), values.as_slice()) {
+        if let Grid::Scattered(points) = grid {
             let (field, more) = Field::points(points, values)?;
             return Ok((field, [warnings, more].concat()));
         }
-        if let Some(axes) = piece.grid.axes() {
+        if let Some(axes) = grid.axes() {
             return Ok((Field::lattice(axes, values)?, warnings));
         }
     }
-    if let Some((field, more)) = lattice(pieces, &values)? {
+    if let Some((field, more)) = lattice(&grids, &values)? {
         return Ok((field, [warnings, more].concat()));
     }
     let mut points = Vec::new();
     let mut cells = Cells::new();
     let mut all = Values::default();
     let (mut flat, mut higher_order) = (0, 0);
-    for (piece, values) in pieces.iter_mut().zip(values) {
+    for (grid, values) in grids.iter_mut().zip(values) {
         let before = points.len() as u32;
-        match &mut piece.grid {
+        match grid {
             Grid::Unstructured { points: own, solid, .. } => {
                 points.append(own);
                 cells.append(&solid.cells, before);
@@ -111,8 +150,8 @@ fn joined(pieces: &mut [Piece<'_>], budget: &mut Budget) -> Result<(Field, Vec<F
 }
 
 /// The lattice that pieces of one make together. None if some of them are none, or leave a gap.
-fn lattice(pieces: &[Piece<'_>], values: &[Values]) -> Result<Option<(Field, Vec<FieldWarning>)>, FileError> {
-    let Some(axes) = pieces.iter().map(|piece| piece.grid.axes()).collect::<Option<Vec<_>>>() else {
+fn lattice(grids: &[Grid], values: &[Values]) -> Result<Option<(Field, Vec<FieldWarning>)>, FileError> {
+    let Some(axes) = grids.iter().map(Grid::axes).collect::<Option<Vec<_>>>() else {
         return Ok(None);
     };
     let points: Vec<Vec3<f64>> = axes.iter().flat_map(combinations).collect();

@@ -1,10 +1,9 @@
 //! Tables of points, one row for each point.
 
 use super::array::{Array, Number, Source};
-use super::encoding::Budget;
 use super::grid::Grid;
 use super::names::{self, Found, Measure, Name};
-use super::piece::{Piece, assemble, lacks};
+use super::piece::{Assembly, Piece, lacks};
 use crate::error::{FieldFault, FileError, FileFault, FileKind, FilePlace};
 use crate::field::{Field, FieldWarning};
 use crate::table::Table;
@@ -36,8 +35,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError
     }
     let unit = length_unit(bytes)?;
     let in_metres = |found: Option<Found>| found.map(|(column, factor)| (column, factor * unit));
-    let piece = piece(&names, &used, &columns, coordinates.map(in_metres));
-    let (mut field, mut warnings) = assemble(vec![piece], &mut Budget::new())?;
+    let mut assembly = Assembly::new();
+    assembly.add(piece(&names, &used, &columns, coordinates.map(in_metres)))?;
+    let (mut field, mut warnings) = assembly.finish()?;
     // The piece has only the columns that are used.
     field.lacks = lacks(&names, &vec![1; names.len()]);
     if let (rows @ 1.., first) = dropped {

@@ -5,48 +5,92 @@
 use super::array::{Array, Number, Source};
 use super::encoding::{Budget, Compressor, Packing};
 use super::grid::{Grid, counted, vectors};
-use super::line;
-use super::piece::{Piece, assemble};
+use super::piece::{Assembly, Piece};
 use super::unstructured::{Listed, Polyhedra};
+use super::{line, list};
 use crate::error::{FieldFault, FileError, FileFault, FilePlace};
 use crate::field::{Field, FieldWarning};
 use crate::units::excerpt;
 use roxmltree::{Document, Node};
 use std::borrow::Cow;
 
+/// The kinds of grids.
+const GRIDS: [&str; 4] = ["ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid"];
+
 /// Reads a file.
 pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
-    whole(bytes).map_err(|error| FileError { place: line(bytes, error.place), ..error })
+    let mut assembly = Assembly::new();
+    let added = add(bytes, None, &mut assembly);
+    added
+        .and_then(|()| assembly.finish())
+        .map_err(|error| FileError { place: line(bytes, error.place), ..error })
 }
 
-fn whole(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
-    let (text, appended) = parted(bytes)?;
-    let document = Document::parse(&text).map_err(|error| {
+/// Adds the pieces of a file that is a part of a field.
+///
+/// * `announced` – the kind of grid that the list of parts says it is
+pub(super) fn read_part(
+    bytes: &[u8],
+    announced: Option<&str>,
+    assembly: &mut Assembly,
+) -> Result<(), FileError> {
+    let added = add(bytes, announced, assembly);
+    added.map_err(|error| FileError { place: line(bytes, error.place), ..error })
+}
+
+/// The attribute `type` of a file, read without the rest of it.
+pub(super) fn kind(bytes: &[u8]) -> Option<String> {
+    const TAG: &[u8] = b"<VTKFile";
+    /// The tag follows the declaration and a comment at most.
+    const WITHIN: usize = 10_000;
+    let bytes = &bytes[..bytes.len().min(WITHIN)];
+    let start = bytes.windows(TAG.len()).position(|window| window == TAG)?;
+    let end = start + bytes[start..].iter().position(|byte| *byte == b'>')?;
+    let tag = str::from_utf8(&bytes[start..end]).ok()?.trim_end_matches('/');
+    let document = format!("{tag}/>");
+    Some(Document::parse(&document).ok()?.root_element().attribute("type")?.to_owned())
+}
+
+/// The text of a file as a tree of XML.
+pub(super) fn tree(text: &str) -> Result<Document<'_>, FileError> {
+    Document::parse(text).map_err(|error| {
         let fault = FieldFault::Xml { message: excerpt(&error.to_string(), 100) };
         FileError::from(fault).at(FilePlace::Line(error.pos().row.into()))
-    })?;
+    })
+}
+
+fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly) -> Result<(), FileError> {
+    let (text, appended) = parted(bytes)?;
+    let document = tree(&text)?;
     let root = document.root_element();
     if root.tag_name().name() != "VTKFile" {
         let found = format!("an XML file of {}", excerpt(root.tag_name().name(), 40));
         return Err(FieldFault::Format { found, advice: "write the field as a VTK file" }.into());
     }
     let kind = root.attribute("type").unwrap_or_default();
-    if !["ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid"].contains(&kind) {
+    if !GRIDS.contains(&kind) {
         let found = format!("a VTK file of {}", excerpt(kind, 40));
-        let advice = "write an unstructured grid (.vtu), or name the file that holds one";
+        let advice = match list::of(kind) {
+            None => "write an unstructured grid (.vtu), or name the file that holds one",
+            Some(_) => "it lists other files, so name it by its path",
+        };
         return Err(FieldFault::Format { found, advice }.into());
+    }
+    if announced.is_some_and(|announced| announced != kind) {
+        let found = format!("a VTK file of {kind}");
+        return Err(
+            FieldFault::Format { found, advice: "its list names parts of another kind of grid" }.into()
+        );
     }
     let Some(grid) = root.children().find(|node| node.has_tag_name(kind)) else {
         return Err(FileFault::CutOff { wanted: "the grid" }.into());
     };
-    let mut budget = Budget::new();
     let file = File { format: Format::of(root)?, appended, offsets: offsets(grid) };
-    let mut pieces = Vec::new();
     for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {
-        let read = file.piece(kind, grid, piece, &mut budget);
-        pieces.push(read.map_err(|error| error.at(place(piece)))?);
+        let read = file.piece(kind, grid, piece, &mut assembly.budget);
+        assembly.add(read.map_err(|error| error.at(place(piece)))?)?;
     }
-    assemble(pieces, &mut budget)
+    Ok(())
 }
 
 /// The appended bytes at the end of a file.

@@ -4,7 +4,7 @@ mod profile;
 
 use crate::air::{FromFile, Measured, Profile, RecordLayout, Said, SpectrumTable};
 use crate::error::{FileError, FileFault, FileKind, RecordFault};
-use crate::field::{Field, FieldWarning};
+use crate::field::{Field, FieldWarning, ReadField};
 use crate::file;
 use crate::record::{Interval, Layout, Record, Settings, analyse, read_record};
 use std::cell::RefCell;
@@ -33,7 +33,7 @@ impl DataFiles {
     pub(super) fn profile(&self, path: &Path) -> Result<FromFile<Profile>, FileError> {
         once(&self.profiles, path, "", || {
             let bytes = file::read(path, FileKind::Table, LARGEST_TABLE)?;
-            Ok((profile::profile(&bytes)?, crc32fast::hash(&bytes)))
+            Ok(from_file(path, crc32fast::hash(&bytes), profile::profile(&bytes)?))
         })
     }
 
@@ -41,17 +41,16 @@ impl DataFiles {
     pub(super) fn spectrum(&self, path: &Path) -> Result<FromFile<SpectrumTable>, FileError> {
         once(&self.spectra, path, "", || {
             let bytes = file::read(path, FileKind::Table, LARGEST_TABLE)?;
-            Ok((profile::spectrum(&bytes)?, crc32fast::hash(&bytes)))
+            Ok(from_file(path, crc32fast::hash(&bytes), profile::spectrum(&bytes)?))
         })
     }
 
     /// A CFD field, and warnings about it.
     pub(super) fn field(&self, path: &Path) -> Result<(FromFile<Field>, Vec<FieldWarning>), FileError> {
         let field = once(&self.fields, path, "", || {
-            let bytes = file::read(path, FileKind::Field, u64::MAX)?;
-            let (field, warnings) = Field::parse(&bytes, "")?;
+            let ReadField { field, warnings, checksum, parts } = ReadField::read(path)?;
             self.field_warnings.borrow_mut().insert(path.to_owned(), warnings);
-            Ok((field, crc32fast::hash(&bytes)))
+            Ok(from_file(path, checksum, field).with_parts(parts))
         })?;
         Ok((field, self.field_warnings.borrow().get(path).cloned().unwrap_or_default()))
     }
@@ -71,7 +70,7 @@ impl DataFiles {
             };
             let record = read_record(path, &layout)?;
             let checksum = record.reading.checksum;
-            Ok((Measured { layout: said.clone(), ..measured(record)? }, checksum))
+            Ok(from_file(path, checksum, Measured { layout: said.clone(), ..measured(record)? }))
         })
     }
 }
@@ -96,20 +95,23 @@ fn measured(record: Record) -> Result<Measured, FileError> {
     Ok(Measured::new(record.interval, &components, analysis.integral_time.value, says))
 }
 
+fn from_file<T>(path: &Path, checksum: u32, content: T) -> FromFile<T> {
+    FromFile::new(path.to_owned(), checksum, Arc::new(content))
+}
+
 /// The content kept from an earlier reading, or the content read now.
 fn once<T>(
     shelf: &Shelf<T>,
     path: &Path,
     way: &str,
-    read: impl FnOnce() -> Result<(T, u32), FileError>,
+    read: impl FnOnce() -> Result<FromFile<T>, FileError>,
 ) -> Result<FromFile<T>, FileError> {
     let key = (path.to_owned(), way.to_owned());
     if let Some(known) = shelf.borrow().get(&key) {
         return known.clone();
     }
-    let content = read().map_err(|error| error.path(path));
-    let content =
-        content.map(|(content, checksum)| FromFile::new(path.to_owned(), checksum, Arc::new(content)));
+    // The error may be about a file that this one names.
+    let content = read().map_err(|error| if error.file.is_empty() { error.path(path) } else { error });
     shelf.borrow_mut().insert(key, content.clone());
     content
 }

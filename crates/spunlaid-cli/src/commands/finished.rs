@@ -1,0 +1,111 @@
+//! Results folders of finished runs: what they say, and the case for flying one for longer.
+
+use crate::args::Run;
+use crate::failure::Failure;
+use crate::say;
+use serde_json::Value as Json;
+use spunlaid::case::{Case, Note, Remark, keys};
+use spunlaid::error::{Error, Finding, Place};
+use spunlaid::input::read_case;
+use spunlaid::units::Dimension;
+use std::fs;
+use std::path::Path;
+
+const SUMMARY: &str = "summary.json";
+/// The option of `run` that asks for a longer flight.
+const UNTIL: &str = "--until";
+
+/// Reads the summary of a results folder.
+///
+/// # Errors
+/// If the folder does not hold the results of a run.
+pub(super) fn summary(folder: &Path) -> Result<Json, Failure> {
+    let not_a_run = |reason: String| Failure::NotARun { folder: folder.to_owned(), reason };
+    if folder.is_file() {
+        return Err(not_a_run("it is a file".to_owned()));
+    }
+    if !folder.is_dir() {
+        return Err(not_a_run("there is no such folder".to_owned()));
+    }
+    if folder.join("results.csv").exists() || folder.join("analysis.json").exists() {
+        return Err(not_a_run("it holds a study or an analysis".to_owned()));
+    }
+    let path = folder.join(SUMMARY);
+    let text = fs::read_to_string(&path).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
+    let summary: Json =
+        serde_json::from_str(&text).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
+    if summary.get("end_node").is_none() {
+        return Err(not_a_run(format!("{SUMMARY} is not that of a run")));
+    }
+    Ok(summary)
+}
+
+/// The case of a finished run with a longer duration, and the notes about it, which have been told.
+///
+/// Time step and harmonics of the turbulence stay those of the first flight, so that the first part of the longer one
+/// has the same bits.
+///
+/// * `until` – the new duration [s]
+///
+/// # Errors
+/// If the folder does not hold the results of a run, or if the run cannot be continued.
+pub(super) fn continued(run: &Run, until: f64) -> Result<(Case, Vec<String>), Failure> {
+    let folder = &run.source.case;
+    let flown_by = summary(folder)?;
+    let (mut case, mut notes) = read_case(&folder.join("case.toml"), &[])?;
+    let refused = |reason: String| Failure::NotContinued { folder: folder.clone(), reason };
+    if !case.air.records.is_empty() {
+        return Err(refused(
+            "its air follows a record, and which stretches of it are flown through depends on the duration; run its \
+             case.toml with --set run.duration=… and name another folder with --out"
+                .to_owned(),
+        ));
+    }
+    let (before, asked) = (case.run.duration(), Dimension::Time.pretty(until));
+    let at_option = |problem| Finding { place: Place::Override(UNTIL.to_owned()), ..problem };
+    let rejected = |problems: Vec<_>| Error::Rejected(problems.into_iter().map(at_option).collect());
+    if let Some(duration) = keys::find("run.duration") {
+        duration.set(&mut case, until).map_err(|problem| rejected(vec![*problem]))?;
+    }
+    if case.run.duration() <= before {
+        let flown = Dimension::Time.pretty(before);
+        return Err(refused(format!(
+            "it lasts for {flown} already, and {UNTIL} says {asked}; write a longer time"
+        )));
+    }
+    case.check().map_err(rejected)?;
+    let (time, folder) = (case.run.duration(), folder.display());
+    if (time - until).abs() > 1e-9 * until {
+        notes.push(Finding {
+            place: Place::Override(UNTIL.to_owned()),
+            key: "run.duration".to_owned(),
+            value: Some(asked),
+            what: Remark::TimeRounded { time },
+        });
+    }
+    notes.iter().for_each(say::note);
+    let mut notes: Vec<String> = notes.iter().map(Note::to_string).collect();
+    let (harmonics, usual) = (case.air.harmonics, case.air.default_harmonics(time));
+    if case.air.rms() > 0.0 && harmonics != usual {
+        notes.push(format!(
+            "{folder}: the turbulence keeps the {harmonics} harmonics of the first flight, with new phases every {}; a \
+             flight to {} of its own would have {usual}",
+            Dimension::Time.pretty(0.75 * case.air.repeat_time()),
+            Dimension::Time.pretty(time)
+        ));
+        notes.last().iter().for_each(|note| say::remark(false, note));
+    }
+    let version = flown_by["spunlaid_version"].as_str().unwrap_or("an unknown version");
+    let this = env!("CARGO_PKG_VERSION");
+    if version != this {
+        notes.push(format!(
+            "{folder}: was flown by spunlaid {version}, and this is {this}: the first part may differ in its last bits"
+        ));
+        notes.last().iter().for_each(|note| say::warning(note));
+    }
+    if !run.quiet {
+        let times = [time, before].map(|time| Dimension::Time.pretty(time));
+        say::aside(&format!("flying again from the start, to {} in place of {}", times[0], times[1]));
+    }
+    Ok((case, notes))
+}
