@@ -112,7 +112,7 @@ struct Part {
 impl Generator {
     fn new(rate: f64, Size { degree, harmonic }: Size) -> Self {
         let there = |m: usize, n: usize, k: usize| {
-            m + n <= degree && k <= harmonic && (m + n + k) % 2 == 1 && (k > 0 || n % 2 == 0)
+            m + n <= degree && k <= harmonic && (m + n + k) % 2 == 1 && (k > 0 || n.is_multiple_of(2))
         };
         // Number of each function among those with k of the same parity; m = 1 alone, x₁, comes first.
         let width = degree + 1;
