@@ -19,7 +19,7 @@ use crate::vec3::Vec3;
 const MOST: f64 = 2000.0;
 /// Stations in a length scale of a carried pattern, and in the shortest wave.
 const PER_LENGTH_SCALE: f64 = 4.0;
-const PER_WAVE: f64 = 12.0;
+const PER_WAVE: f64 = 8.0;
 /// Looks in the time in which fibre or air passes a length scale.
 const LOOKS: f64 = 4.0;
 
@@ -47,8 +47,8 @@ impl StationGrid {
 impl Air {
     /// The stations between an inlet and a belt at a distance [m] from it.
     ///
-    /// Independent eddies have one in each length scale. A carried pattern has four in each length scale and twelve in
-    /// the shortest wave.
+    /// Independent eddies have one in each length scale. A carried pattern has four in each length scale and eight in the
+    /// shortest wave.
     pub fn stations(&self, distance: f64) -> StationGrid {
         const PLACES: usize = 64;
         let mut hint = Hint::default();

@@ -9,6 +9,7 @@ use crate::chain::schemes::Scheme;
 use crate::drag::NormalLaw;
 use crate::error::{Fault, Finding, Place, Problem};
 use crate::fibre::Root;
+use crate::line::Contact;
 use crate::field::Hint;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
@@ -231,6 +232,12 @@ impl Check<'_> {
             let (other, remedy) = ("[feed]", "the root is driven; choose \"clamped\" or \"pinned\"");
             self.blame_key("fibre.root", "\"free\"".to_owned(), Fault::Excludes { other, remedy });
         }
+        let scheme = self.case.run.scheme;
+        if self.case.line.is_some_and(|line| line.contact != Contact::Stick) && scheme != Scheme::ImplicitTension {
+            let remedy = "only implicit tension computes how a fibre slides; choose it, or let the fibre stick";
+            let (other, shown) = ("this run.scheme", format!("\"{}\"", "friction"));
+            self.blame_key("belt.contact", shown, Fault::Excludes { other, remedy });
+        }
         if self.case.line.is_some() && fibre.direction.x <= 0.0 {
             let remedy = "the belt lies along +x; let the first number be above zero";
             let direction = fibre.direction;
@@ -301,7 +308,7 @@ impl Check<'_> {
         let fault = |what, remedy| Fault::TooMuchMemory { bytes, most, what, remedy };
         let (air, largest) =
             (&case.air, memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.instants));
-        let chosen = air.default_harmonics(case.run.duration());
+        let chosen = case.default_harmonics();
         if largest == memory.chain {
             let fault = fault("the chain", "choose a longer one");
             self.blame("fibre.element_length", case.fibre.rest_length(), fault);
@@ -358,8 +365,14 @@ impl Check<'_> {
         let Some(shared) = self.case.air.records.first() else {
             return;
         };
-        let eddies = self.case.eddies();
-        let turbulence = self.case.turbulence_along(&eddies);
+        let (eddies, turbulence) = match self.case.stations() {
+            Some(stations) => (stations.eddies(), self.case.air.turbulence_at(&stations)),
+            None => {
+                let eddies = self.case.eddies();
+                let turbulence = self.case.turbulence_along(&eddies);
+                (eddies, turbulence)
+            }
+        };
         let (records, convected) =
             (self.case.air.records.len(), turbulence.iter().any(|t| t.carried.is_some()));
         if convected && turbulence.iter().any(|eddy| eddy.forgotten > 0.0) {

@@ -40,8 +40,11 @@ impl FlightMemory {
 impl Case {
     /// Estimate of the memory of a flight of eight fibres [bytes].
     pub fn flight_memory(&self) -> FlightMemory {
-        let (air, elements) = (&self.air, self.fibre.elements as f64);
+        // A fed fibre swings and folds on its way, and some of it lies on the belt.
+        let slack = if self.line.is_some() { 2.0 } else { 1.0 };
+        let (air, elements) = (&self.air, self.fibre.elements as f64 * slack);
         let eddies = match air.eddies {
+            _ if self.line.is_some() => self.stations().map_or(0.0, |stations| stations.count as f64),
             EddyModel::Convected { .. } => elements,
             EddyModel::Independent if air.from_flow.length_scale => elements,
             EddyModel::Independent => (self.fibre.length / air.length_scale).ceil().max(1.0),

@@ -84,6 +84,19 @@ impl Supports {
         force
     }
 
+    /// Adds the work of the friction on a node that slides on the belt.
+    #[inline(always)]
+    pub(crate) fn rub<S: Register>(
+        &mut self,
+        friction: Vec3<Wide<S>>,
+        [before, after]: [Vec3<Wide<S>>; 2],
+        c: &Constants,
+    ) {
+        let frame = Wide::load(&c.frame);
+        let sum = before.less_y(frame) + after.less_y(frame);
+        self.belt.both = friction.dot_add(sum, Wide::load(&self.belt.both)).store();
+    }
+
     #[inline(always)]
     pub(crate) fn put(self, work: &mut WorkDone) {
         (work.feed, work.belt) = (self.feed, self.belt);

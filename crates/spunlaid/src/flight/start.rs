@@ -3,14 +3,13 @@
 use super::{Common, EndNodeStatistics, Flight, Job, Start, Surrounded};
 use crate::air::{Stations, Surroundings, Wind};
 use crate::case::Case;
+use crate::chain::laying::Fed;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
 use crate::chain::{Chain, Strand};
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
-use crate::fibre::Root;
 use crate::lanes::{Isa, Lanes, WIDTH};
-use crate::line::Line;
 use crate::vec3::Vec3;
 
 impl Flight {
@@ -44,7 +43,7 @@ impl Flight {
         let cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect::<Vec<_>>();
         let air = surrounded(&cases, isa, horizon)?;
         let laid: Option<Vec<_>> =
-            jobs.iter().map(|job| Some((job.case.line?, job.case.fibre.root, job.turn()))).collect();
+            jobs.iter().map(Job::fed).collect();
         let mut flight = match laid {
             Some(laid) => Self::fed(isa, &strands, &laid, air, run.scheme, run.time_step)?,
             None => Self::assembled(isa, &strands, air, run.scheme, run.time_step)?,
@@ -85,7 +84,7 @@ impl Flight {
     fn fed(
         isa: Isa,
         strands: &[Strand],
-        laid: &[(Line, Root, f64)],
+        laid: &[Fed],
         air: Surrounded,
         scheme: Scheme,
         h: f64,

@@ -134,6 +134,7 @@ impl Flight {
     fn feed_and_lay(&mut self) {
         if let Some(stations) = &mut self.stations {
             let fed = self.chain.fed();
+            self.chain.slide(self.h);
             self.chain.feed_and_lay(self.steps_done, self.h);
             stations.follow(self.chain.elements(), self.chain.fed() > fed);
         }

@@ -415,7 +415,7 @@ impl Open {
 
         case.air.harmonics = match written.get("air.harmonics").map(|said| &said.value) {
             Some(Some(Value::Whole(harmonics))) => usize::try_from(*harmonics).unwrap_or(usize::MAX),
-            _ => case.air.default_harmonics(case.run.duration()),
+            _ => case.default_harmonics(),
         };
         if let Some((time_step, remark)) = chosen {
             let place = written.whole();
