@@ -15,9 +15,10 @@ use spunlaid_charts::Figure;
 const LISTED: usize = 1000;
 
 /// The scripts, in one scope, in this order.
-const SCRIPTS: [&str; 6] = [
+const SCRIPTS: [&str; 7] = [
     include_str!("../../assets/save.js"),
     include_str!("../../assets/frames.js"),
+    include_str!("../../assets/belt.js"),
     include_str!("../../assets/camera.js"),
     include_str!("../../assets/scene.js"),
     include_str!("../../assets/player.js"),
