@@ -152,3 +152,54 @@ impl<'a> LaidTable<'a> {
         self.writer.finish().map(drop)
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn points(replicate: u64, from: usize, count: usize) -> Vec<LaidPoint> {
+        let of = |i: usize| {
+            let fed = i as f64 * 0.1;
+            LaidPoint { fed, time: fed / 3.0, md: -fed, cd: (fed + replicate as f64).sin() }
+        };
+        (from..from + count).map(of).collect()
+    }
+
+    fn spill(folder: &tempfile::TempDir) -> Spill {
+        Spill { folder: folder.path().join("scratch"), table: PathBuf::from("r").join(LAID), held: Mutex::default() }
+    }
+
+    #[test]
+    fn what_goes_through_files_comes_back_to_the_bit_and_in_order() {
+        let folder = tempfile::tempdir().unwrap();
+        let spill = spill(&folder);
+        // Two replicates in turns, in pieces that do not fit the file's.
+        let (mut given, pieces) = (0, [1, 700, IN_MEMORY - 300, 2 * IN_MEMORY, 5]);
+        for piece in pieces {
+            [3, 4].map(|replicate| spill.take(replicate, &points(replicate, given, piece)).unwrap());
+            given += piece;
+        }
+        assert!(spill.file(3).exists(), "so many points do not stay in memory");
+        for replicate in [3, 4, 5] {
+            let mut back = Vec::new();
+            spill.drain(replicate, |some| Ok(back.extend_from_slice(some))).unwrap();
+            let wanted = if replicate == 5 { Vec::new() } else { points(replicate, 0, given) };
+            assert!(back == wanted, "{replicate}");
+        }
+        assert_eq!(fs::read_dir(folder.path().join("scratch")).unwrap().count(), 0);
+        assert!(spill.held().points.is_empty());
+    }
+
+    #[test]
+    fn a_place_that_cannot_be_written_is_told_with_the_path_of_the_table() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("scratch"), "in the way").unwrap();
+        let spill = spill(&folder);
+        let error = spill.take(0, &points(0, 0, IN_MEMORY)).unwrap_err();
+        let told = spill.failure(error.into()).to_string();
+        assert!(told.starts_with("r/laid.parquet: cannot be written: "), "{told}");
+        // Another error stays what it is.
+        assert!(matches!(spill.failure(Error::Interrupted.into()), Failure::Library(Error::Interrupted)));
+    }
+}

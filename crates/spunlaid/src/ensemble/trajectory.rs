@@ -171,7 +171,12 @@ pub fn fly_together(
 pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     const TRIAL: f64 = 0.05;
     let steps = ((2e5 / case.fibre.elements as f64).clamp(1.0, 1e4) as u64).min(case.run.steps).max(1);
-    let flight = Flight::new(&[Job { case, replicate: 0 }], isa)?;
+    let mut flight = Flight::new(&[Job { case, replicate: 0 }], isa)?;
+    if let Some(line) = case.line {
+        // A fed fibre is timed when it hangs down to the belt.
+        let filled = 1.5 * line.distance / line.feed_speed / case.run.time_step;
+        flight.advance((filled as u64).min(case.run.steps));
+    }
     let (mut done, started) = (0, Instant::now());
     while done == 0 || started.elapsed().as_secs_f64() < TRIAL {
         flight.clone().advance(steps);
