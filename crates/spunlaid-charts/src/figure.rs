@@ -44,7 +44,7 @@ impl Figure {
 }
 
 /// The same text, but no line ends between a number and `%`.
-fn unbroken(text: impl Into<String>) -> String {
+pub(crate) fn unbroken(text: impl Into<String>) -> String {
     text.into().replace(" %", "\u{a0}%")
 }
 

@@ -35,7 +35,7 @@
 //! ```
 //!
 //! Labels have a small mark-up: `*t*` is italic, `^{2}` is raised, `_{n}` is lowered.
-//! What a chart cannot show is drawn with [`svg`], in the colours of [`palette`].
+//! Directions are shown by a [`Rose`]. What neither can show is drawn with [`svg`], in the colours of [`palette`].
 
 // Units stand in brackets, [px], which rustdoc takes for links that lead nowhere.
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -50,6 +50,7 @@ mod map;
 mod numbers;
 pub mod palette;
 mod png;
+mod rose;
 mod scale;
 pub mod svg;
 mod table;
@@ -61,5 +62,6 @@ pub use map::Map;
 pub use numbers::{shortest, signed, significant};
 pub use palette::Marker;
 pub use png::{PngError, png};
+pub use rose::Rose;
 pub use scale::{Axis, Scale, Spacing, Tick};
 pub use table::Table;

@@ -11,6 +11,7 @@ function readFrames(element) {
   for (let i = 0; i < positions.length; i++) {
     positions[i] = data.origin_mm[i % 3] + data.step_mm[i % 3] * levels.getUint16(2 * i, true);
   }
+  if (data.belt) return { ...data, positions, ...readBelt(data) };
   const expected = data.replicates.length * data.times.length * data.nodes * 3;
   if (positions.length !== expected) {
     throw new Error(`${positions.length} coordinates of the fibre where ${expected} belong`);
@@ -34,6 +35,7 @@ function findInstant(times, time) {
 
 /** The shape of a replicate at a time, linear between instants: `[x, y, z]` per node. */
 function shapeAt(frames, replicate, time) {
+  if (frames.belt) return fedShapeAt(frames, replicate, time);
   const [instant, share] = findInstant(frames.times, time);
   const next = Math.min(instant + 1, frames.times.length - 1);
   const start = (i) => (replicate * frames.times.length + i) * frames.nodes * 3;
@@ -64,7 +66,7 @@ function trailOf(frames, replicate, from, to) {
 /** Least and largest x, y and z over all shapes. */
 function boundsOf(frames) {
   const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
+  const high = [-Infinity, frames.belt ? frames.belt.shown_mm : -Infinity, -Infinity];
   frames.positions.forEach((value, i) => {
     low[i % 3] = Math.min(low[i % 3], value);
     high[i % 3] = Math.max(high[i % 3], value);

@@ -79,6 +79,8 @@ function startMotion(canvas) {
   document.querySelectorAll("[data-view]").forEach((b) => b.addEventListener("click", () => look(b.dataset.view)));
   byId("snapshot").addEventListener("click", () => savePicture(player));
   byId("ghosts").closest("label").hidden = frames.replicates.length < 2;
+  // A fed fibre has no free end to follow.
+  trail.closest("label").hidden = Boolean(frames.belt);
 
   // Turning and zooming: mouse, touch, keys
   const pointers = new Map();

@@ -21,13 +21,17 @@ class Player {
 
   /** About one swing a second, but not faster than real; without swings the whole in ten seconds. */
   usualSpeed() {
-    const wanted = this.frames.frequency > 0 ? Math.min(1 / this.frames.frequency, 1) : (this.end - this.start) / 10;
+    const { belt, length_mm: length } = this.frames;
+    // A fed fibre comes down in about two seconds.
+    const falling = belt ? length / 1e3 / belt.feed_speed / 2 : 0;
+    const wanted = belt ? falling : this.frames.frequency > 0 ? Math.min(1 / this.frames.frequency, 1) : (this.end - this.start) / 10;
     const off = (speed) => Math.abs(Math.log(speed / Math.max(wanted, 1e-9)));
     return this.speeds.reduce((best, s) => (off(s) < off(best) ? s : best));
   }
 
   /** Sideways motion drawn up to as wide as the fibre is long, but never shrunk. */
   usualStretch() {
+    if (this.frames.belt) return 1;
     const { low, high } = this.bounds;
     const sideways = Math.max(...[1, 2].map((k) => Math.max(Math.abs(low[k]), Math.abs(high[k]))));
     if (sideways < 1e-6 * this.frames.length_mm) return 1;
@@ -114,6 +118,7 @@ class Player {
     const arrows = [];
     if (air !== 0) arrows.push({ label: `air ${Number(Math.abs(air).toPrecision(3))} m/s`, sign: Math.sign(air), colour: "air" });
     if (gravity !== 0) arrows.push({ label: "gravity", sign: Math.sign(gravity), colour: "ink" });
+    if (this.frames.belt) arrows.push({ label: `belt ${Number(this.frames.belt.speed.toPrecision(3))} m/s`, along: 1, sign: 1, colour: "trail" });
     return arrows;
   }
 
@@ -121,12 +126,19 @@ class Player {
   draw(captions = []) {
     const { frames, replicate, time } = this;
     const others = this.ghosts ? frames.replicates.map((_, r) => r).filter((r) => r !== replicate) : [];
+    const shape = shapeAt(frames, replicate, time);
+    const belt = frames.belt && {
+      height: frames.length_mm,
+      marks: marksAt(frames, this.box, time),
+      laid: laidAt(frames, replicate, time, shape.at(-1)),
+    };
     const scale = this.stretch === 1 ? "True to scale" : `Sideways stretched × ${this.stretch}`;
     this.scene.draw({
       box: this.box,
-      shape: shapeAt(frames, replicate, time),
+      shape,
+      belt,
       ghosts: others.map((r) => shapeAt(frames, r, time)),
-      trail: this.trail > 0 ? trailOf(frames, replicate, Math.max(time - this.trail, this.start), time) : [],
+      trail: this.trail > 0 && !belt ? trailOf(frames, replicate, Math.max(time - this.trail, this.start), time) : [],
       captions: [
         scale,
         `t = ${this.timeText()}, ${this.speedText()}`,

@@ -6,7 +6,7 @@ const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, Arial, sans-serif";
 /** Colours of a picture that is saved. */
 const PAPER = {
   ink: "#000000", muted: "#444444", rule: "#cccccc", stage: "#ffffff", fibre: "#000000",
-  trail: "#d55e00", ghost: "#999999", shadow: "#dddddd", air: "#0072b2",
+  trail: "#d55e00", ghost: "#999999", shadow: "#dddddd", air: "#0072b2", belt: "#f3eee0", mark: "#c9bfa3",
 };
 
 /** Round numbers from low to high, about so many. */
@@ -37,7 +37,7 @@ class Scene {
     const style = getComputedStyle(this.canvas);
     const colour = (name) => style.getPropertyValue(`--${name}`).trim();
     this.colours = Object.fromEntries(
-      ["ink", "muted", "rule", "stage", "fibre", "trail", "ghost", "shadow", "air", "y", "z"].map((n) => [n, colour(n)]),
+      ["ink", "muted", "rule", "stage", "fibre", "trail", "ghost", "shadow", "air", "belt", "mark", "y", "z"].map((n) => [n, colour(n)]),
     );
   }
 
@@ -64,7 +64,7 @@ class Scene {
     return true;
   }
 
-  /** Draws one picture: `{ shape, ghosts, trail, box, captions, arrows, held }`. */
+  /** Draws one picture: `{ shape, belt, ghosts, trail, box, captions, arrows, held }`. */
   draw(picture) {
     const { context: c, camera } = this;
     c.setTransform(this.fineness, 0, 0, this.fineness, 0, 0);
@@ -76,6 +76,7 @@ class Scene {
     const faces = this.facing(picture.box);
     this.drawBox(picture.box, faces);
     this.drawShadows(picture.box, faces, picture.shape);
+    if (picture.belt) this.drawBelt(picture.box, picture.belt);
     for (const ghost of picture.ghosts) this.drawLine(ghost, this.colours.ghost, 1.1, 0.8);
     this.drawTrail(picture.trail);
     this.drawLine(picture.shape, this.colours.fibre, 2.6, 1);
@@ -136,6 +137,22 @@ class Scene {
     return roundTicks(box.low[k], box.high[k], Math.min(Math.max(pixels / 60, 2), 12));
   }
 
+  /** The belt, with lines across that move with it, and the fibre that it carries. */
+  drawBelt(box, { height, marks, laid }) {
+    const { context: c } = this;
+    const [low, high] = [box.low, box.high];
+    const corners = [[low[1], low[2]], [high[1], low[2]], [high[1], high[2]], [low[1], high[2]]];
+    c.save();
+    c.fillStyle = this.colours.belt;
+    c.beginPath();
+    this.trace(corners.map(([y, z]) => [height, y, z]));
+    c.closePath();
+    c.fill();
+    c.restore();
+    for (const y of marks) this.drawLine([[height, y, low[2]], [height, y, high[2]]], this.colours.mark, 1, 1, "butt");
+    for (const line of laid) this.drawLine(line, this.colours.fibre, 1.3, 0.85);
+  }
+
   trace(points) {
     points.forEach((p, i) => {
       const [x, y] = this.camera.project(p);
@@ -174,9 +191,9 @@ class Scene {
   }
 
   /** The root's hold, the nodes where there are few, and the free end. */
-  drawNodes({ shape, held }) {
+  drawNodes({ shape, held, belt }) {
     const { context: c } = this;
-    if (shape.length <= 61) {
+    if (shape.length <= 61 && !belt) {
       c.fillStyle = this.colours.fibre;
       for (const node of shape) this.drawDot(node, 2.3);
     }
@@ -184,7 +201,7 @@ class Scene {
     c.fillStyle = this.colours.ink;
     if (held) c.fillRect(x - 4, y - 4, 8, 8);
     c.fillStyle = this.colours.trail;
-    this.drawDot(shape.at(-1), 4.5);
+    if (!belt) this.drawDot(shape.at(-1), 4.5);
   }
 
   drawDot(point, radius) {
@@ -274,9 +291,9 @@ class Scene {
   /** What blows and what pulls, as arrows in the top right corner. */
   drawArrows(arrows) {
     const { context: c, camera } = this;
-    arrows.forEach(({ label, sign, colour }, i) => {
+    arrows.forEach(({ label, sign, colour, along = 0 }, i) => {
       const x = camera.width - 44 - (camera.width < 520 ? 72 : 92) * (arrows.length - 1 - i);
-      const [right, up, towards] = camera.direction([sign, 0, 0]);
+      const [right, up, towards] = camera.direction([0, 1, 2].map((k) => (k === along ? sign : 0)));
       Object.assign(c, { strokeStyle: this.colours[colour], fillStyle: this.colours[colour], lineWidth: 2 });
       this.drawArrow(x, 34, 22 * right, -22 * up, towards);
       c.font = `12px ${FONT}`;

@@ -21,6 +21,7 @@ pub(crate) struct Arguments {
 const EXAMPLES: &str = "\
 Examples:
   spunlaid new my.toml                              write a commented case to start from
+  spunlaid new --fed line.toml                      one of a fibre that is laid on a moving belt
   spunlaid keys field                               explain the keys about a field
   spunlaid check my.toml                            show mesh, limits, expected time and memory
   spunlaid run my.toml                              fly it; then open results/my/report.html
@@ -61,7 +62,8 @@ pub(crate) enum Command {
     #[command(after_help = KEYS_HELP)]
     Keys(Keys),
     /// Write a commented case file to start from
-    #[command(after_help = "Example:\n  spunlaid new my.toml && spunlaid run my.toml")]
+    #[command(after_help = "Examples:\n  spunlaid new my.toml && spunlaid run my.toml\n  \
+        spunlaid new --fed line.toml        a fibre that is fed and laid on a moving belt")]
     New(New),
     /// Print a script that completes commands and options in your shell
     #[command(
@@ -85,6 +87,8 @@ The results folder holds
   case_files/          copies of the files that the case names
   end_node.parquet     the free end over time      energy.parquet   both energy ledgers over time
   shape.pvd, shape/    the fibre over time, for ParaView (open shape.pvd)
+  laid.parquet         of a fed fibre, in place of end_node.parquet: where each point lies on the belt
+  laid.vtp             the same of the first fibres as curves, for ParaView
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
 
 With --until, a finished run is flown for longer, again from the start: everything but the duration
@@ -453,6 +457,9 @@ pub(crate) struct New {
     /// File to write; it must not exist yet
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
+    /// A fibre that is fed at an inlet and laid on a moving belt, in place of one of fixed length
+    #[arg(long)]
+    pub(crate) fed: bool,
 }
 
 #[derive(Debug, Args)]

@@ -66,6 +66,34 @@ fn new_writes_a_case_that_can_be_run_and_overwrites_nothing() {
 }
 
 #[test]
+fn new_writes_a_fed_fibre_that_can_be_run() {
+    let desk = Desk::new();
+    success(&mut desk.spunlaid("new --fed line.toml"));
+    let said = success(&mut desk.spunlaid("check line.toml"));
+    for part in [
+        "elements of 4 mm, one fed every 80 µs (2 steps); 125 from the inlet to the belt",
+        "16.7 m of fibre on each metre of belt; 12.5 m are fed in the run, 10.5 m of them after the spin-up",
+        "the air at 126 stations, 4 mm apart",
+        "feed of an element",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    assert!(!said.contains("eddies of"), "{said}");
+    let said = success(&mut desk.with("run line.toml", &["run.duration=30 ms", "run.replicates=2"]));
+    assert!(said.contains("Spread in machine direction"), "{said}");
+    // Lines that are commented out show the default.
+    let written = String::from_utf8(desk.read("line.toml")).unwrap();
+    let optional = |line: &&str| line.strip_prefix("# ").is_some_and(|rest| rest.contains(" = ") && !rest.contains("version"));
+    let all: Vec<&str> = written.lines().filter(optional).collect();
+    assert!(all.len() > 8, "{all:?}");
+    let uncommented: String =
+        written.lines().map(|line| if optional(&line) { &line[2..] } else { line }.to_owned() + "\n").collect();
+    std::fs::write(desk.path("all.toml"), uncommented).unwrap();
+    let resolved = |name: &str| success(&mut desk.spunlaid(&format!("check {name}"))).split("# mesh").next().unwrap().to_owned();
+    assert_eq!(resolved("all.toml"), resolved("line.toml"));
+}
+
+#[test]
 fn completions_name_every_command_and_option() {
     let desk = Desk::new();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {

@@ -3,7 +3,7 @@
 
 mod desk;
 
-use desk::{Desk, ENTRIES, assert_identical, names, refusal, success};
+use desk::{Desk, ENTRIES, ENTRIES_OF_FED, FED, assert_identical, names, refusal, success};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::{Map, Value, json};
@@ -334,4 +334,101 @@ fn as_many_shapes_are_kept_as_the_case_says() {
         refusal(&mut desk.with("run brief.toml --out no", &["run.shapes=20001"]), 1)
             .contains("from 0 to 20000")
     );
+}
+
+#[test]
+fn a_fed_fibre_leaves_what_it_laid() {
+    let desk = Desk::of(FED);
+    success(&mut desk.spunlaid("run brief.toml --out r"));
+    assert_eq!(desk.entries("r"), names(&ENTRIES_OF_FED));
+    let help = success(&mut desk.spunlaid("run --help"));
+    assert!(ENTRIES_OF_FED.iter().all(|entry| help.contains(&format!("  {entry}"))), "{help}");
+
+    let (columns, rows) = table(&desk, "r/laid.parquet");
+    assert_eq!(columns, ["replicate", "s_m", "time_s", "md_m", "cd_m"]);
+    let of = |replicate: f64| rows.iter().filter(move |row| row[0] == replicate);
+    assert!(rows.is_sorted_by(|a, b| a[0] <= b[0]), "replicate after replicate");
+    for replicate in [1.0, 2.0, 3.0] {
+        // 2 m are fed, less what is in the air and what still moves on the belt.
+        let count = of(replicate).count();
+        assert!((250..500).contains(&count), "{count}");
+        for (i, row) in of(replicate).enumerate() {
+            let fed = i as f64 * 0.004;
+            assert!((row[1] - fed).abs() < 1e-12, "{row:?}");
+            // It cannot land before it could have come down in air of 45 m/s, nor long after it was fed.
+            assert!(row[2] > fed / 50.0 && row[2] <= 0.04, "{row:?}");
+            // It lies where it landed: within the width of the lay-down about y = 0.
+            assert!((row[3] + 3.0 * row[2]).abs() < 0.1 && row[4].abs() < 0.1, "{row:?}");
+        }
+    }
+
+    let (columns, rows) = table(&desk, "r/energy.parquet");
+    let at = |name: &str| columns.iter().position(|column| column == name).unwrap();
+    assert!(!columns.iter().any(|column| column == "work_j" || column == "work_error_percent"));
+    let sum = |row: &[f64], names: &[&str]| names.iter().map(|name| row[at(name)]).sum::<f64>();
+    let held = ["kinetic_j", "axial_j", "bending_j", "tension_dissipation_j"];
+    let given = ["gravity_work_j", "air_work_j", "damping_work_j", "feed_work_j", "belt_work_j", "carried_j"];
+    let start = |row: &[f64]| rows.iter().find(|other| other[0] == row[0]).unwrap();
+    for row in &rows {
+        let (held, given) = (sum(row, &held) - sum(start(row), &held), sum(row, &given));
+        // Rounding of sums of ten terms, none larger than what the feed brings in by much.
+        let rounding = 1e-12 * (row[at("carried_j")].abs() + row[at("feed_work_j")].abs() + held.abs());
+        assert!((held - given - row[at("imbalance_j")]).abs() <= rounding, "{row:?}");
+    }
+    assert!(rows.iter().any(|row| row[at("feed_work_j")] != 0.0 && row[at("belt_work_j")] != 0.0));
+
+    let summary = desk.summary("r");
+    assert!(summary["end_node"].is_null());
+    let laydown = &summary["laydown"];
+    for name in ["sigma_md_m", "half_correlation_length_cd_m", "laid_length_m", "nodes_in_air"] {
+        assert_eq!(keys(&laydown[name]), ["mean", "standard_error", "values"], "{name}");
+    }
+    assert_eq!(keys(&laydown["surrogate"]), ["noise_per_sqrt_m", "sigma_1_m", "sigma_2_m"]);
+    // As many elements at work as nodes in the air, in 1000 steps of three fibres.
+    let steps = summary["steps"].as_f64().unwrap() * 3.0;
+    let nodes = laydown["nodes_in_air"]["mean"].as_f64().unwrap();
+    let counted = summary["performance"]["element_steps"].as_f64().unwrap();
+    assert!((counted / (nodes * steps) - 1.0).abs() < 1e-6, "{counted}");
+}
+
+#[test]
+fn identical_laid_fibres_whatever_the_threads_and_from_the_resolved_case() {
+    let desk = Desk::of(FED);
+    for threads in [1, 2] {
+        success(&mut desk.spunlaid(&format!("run brief.toml --replicates 11 --threads {threads} --out t{threads}")));
+    }
+    assert_identical(&desk, "t1", "t2");
+    success(&mut desk.spunlaid("run t1/case.toml --out again"));
+    assert!(desk.read("again/laid.parquet") == desk.read("t1/laid.parquet"));
+}
+
+#[test]
+fn lines_of_a_fed_fibre_have_as_many_points_as_it_has_nodes() {
+    let desk = Desk::of(FED);
+    success(&mut desk.spunlaid("run brief.toml --out r"));
+    let text = |name: &str| String::from_utf8(desk.read(name)).unwrap();
+    let array = |text: &str, from: &str| -> Vec<f64> {
+        let after = text.split(from).nth(1).unwrap();
+        let inner = after.split('>').nth(1).unwrap().split('<').next().unwrap();
+        inner.split_whitespace().map(|word| word.parse().unwrap()).collect()
+    };
+    let mut counts = Vec::new();
+    for name in desk.entries("r/shape") {
+        let text = text(&format!("r/shape/{name}"));
+        let points = array(&text, "NumberOfComponents=\"3\"");
+        let offsets = array(&text, "Name=\"offsets\"");
+        assert_eq!(offsets.len(), 3);
+        assert_eq!(points.len() as f64, 3.0 * offsets[2], "{name}");
+        assert_eq!(array(&text, "Name=\"connectivity\"").len() as f64, offsets[2]);
+        assert_eq!(array(&text, "Name=\"replicate\"").len() as f64, offsets[2]);
+        counts.push(offsets[0]);
+    }
+    assert!(counts.iter().any(|count| *count != counts[0]), "the number of nodes changes: {counts:?}");
+    let laid = text("r/laid.vtp");
+    let (points, fed) = (array(&laid, "NumberOfComponents=\"3\""), array(&laid, "Name=\"fed_m\""));
+    assert_eq!(points.len(), 3 * fed.len());
+    assert!(points.iter().step_by(3).all(|x| *x == 0.0));
+    let (_, rows) = table(&desk, "r/laid.parquet");
+    let row = rows.iter().find(|row| row[1] == fed[0]).unwrap();
+    assert_eq!([row[3], row[4]], [points[1], points[2]]);
 }

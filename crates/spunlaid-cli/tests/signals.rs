@@ -4,7 +4,7 @@
 
 mod desk;
 
-use desk::{Desk, ENTRIES, entries, names, success};
+use desk::{Desk, ENTRIES, ENTRIES_OF_FED, FED, entries, names, success};
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
@@ -185,4 +185,30 @@ fn a_standard_output_that_is_full_is_told() {
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(said.starts_with("error: standard output: cannot be written: "), "{said}");
     }
+}
+
+#[test]
+fn a_fed_fibre_that_is_killed_or_cannot_be_written_leaves_nothing() {
+    let desk = Desk::of(FED);
+    let long = ["run.duration=600 s", "run.output_interval=0.1 s", "air.cutoff_frequency=10 Hz"];
+    let mut command = desk.with("run brief.toml --out r", &long);
+    assert_eq!(end(flying(&desk, &mut command, ""), "KILL").status.code(), None);
+    assert!(!desk.path("r").exists());
+    assert_eq!(hidden(&desk.path("")).len(), 1);
+    // What it had laid lies in files that the next run clears up.
+    let output = end(flying(&desk, &mut command, ""), "INT");
+    assert_eq!(output.status.code(), Some(130));
+    success(&mut desk.spunlaid("run brief.toml --out r"));
+    assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
+    assert_eq!(desk.entries("r"), names(&ENTRIES_OF_FED));
+
+    // Files may grow to so many blocks of 512 or 1024 bytes: the points of one replicate do not fit.
+    let finer = "--set fibre.element_length=1mm --set run.duration=100ms --set run.output_interval=10ms";
+    let program = env!("CARGO_BIN_EXE_spunlaid");
+    let shell = format!("trap '' XFSZ; ulimit -f 100; exec {program} run brief.toml {finer} --out a/b");
+    let output = Command::new("sh").args(["-c", &shell]).current_dir(desk.folder.path()).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("error: a/b/laid.parquet: cannot be written: "), "{said}");
+    assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
 }

@@ -13,6 +13,7 @@ use spunlaid::case::{Case, INSTANT_ON_DISK, Note, StepLimit};
 use spunlaid::ensemble::{KeepShapes, StepCheckPlan, pace};
 use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
+use spunlaid::line::Line;
 use spunlaid::units::Dimension;
 
 pub(crate) fn check(check: &Check) -> Result<(), Failure> {
@@ -60,7 +61,7 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
         spunlaid_version: env!("CARGO_PKG_VERSION"),
         case: resolved(case),
         elements: case.fibre.elements,
-        eddies: case.eddies().count(),
+        eddies: case.stations().map_or_else(|| case.eddies().count(), |stations| stations.count),
         steps: case.run.steps,
         step_limits: case.stable_step_limits(),
         expected,
@@ -70,15 +71,17 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
 
 fn mesh(case: &Case) {
     let fibre = &case.fibre;
-    let eddies = case.eddies().count();
     say::line("# mesh");
-    say::line(&format!(
-        "#   {} elements of {}, {} eddies of {} along the fibre",
-        fibre.elements,
-        Dimension::Length.pretty(fibre.rest_length()),
-        eddies,
-        Dimension::Length.pretty(case.air.length_scale)
-    ));
+    match case.line {
+        None => say::line(&format!(
+            "#   {} elements of {}, {} eddies of {} along the fibre",
+            fibre.elements,
+            Dimension::Length.pretty(fibre.rest_length()),
+            case.eddies().count(),
+            Dimension::Length.pretty(case.air.length_scale)
+        )),
+        Some(line) => fed(case, line),
+    }
     if case.air.rms() > 0.0 {
         let source = match case.air.records.len() {
             0 => format!(
@@ -91,6 +94,32 @@ fn mesh(case: &Case) {
         };
         let rms = Dimension::Velocity.pretty(case.air.rms());
         say::line(&format!("#   turbulence of {rms} rms {source}"));
+    }
+}
+
+/// Feed, belt and stations of the air.
+fn fed(case: &Case, line: Line) {
+    let length = |of: f64| Dimension::Length.pretty_to(of, 3);
+    let rest_length = case.fibre.rest_length();
+    say::line(&format!(
+        "#   elements of {}, one fed every {} ({} step{}); {} from the inlet to the belt",
+        length(rest_length),
+        Dimension::Time.pretty_to(rest_length / line.feed_speed, 3),
+        line.steps_per_element,
+        if line.steps_per_element == 1 { "" } else { "s" },
+        case.fibre.elements,
+    ));
+    let on_belt = match line.feed_speed / line.belt_speed {
+        ratio if ratio.is_finite() => format!("{} of fibre on each metre of belt; ", length(ratio)),
+        _ => String::new(),
+    };
+    say::line(&format!(
+        "#   {on_belt}{} are fed in the run, {} of them after the spin-up",
+        length(line.feed_speed * case.run.duration()),
+        length(line.feed_speed * (case.run.duration() - case.run.spin_up())),
+    ));
+    if let Some(stations) = case.stations() {
+        say::line(&format!("#   the air at {} stations, {} apart", stations.count, length(stations.spacing)));
     }
 }
 
@@ -140,12 +169,15 @@ impl Expected {
 /// Size of the results: tables, shapes as text, figures and report [bytes].
 fn on_disk(case: &Case) -> f64 {
     const POSITION: f64 = 90.0;
+    const LAID_POINT: f64 = 40.0;
     const FIGURES_AND_REPORT: f64 = 1e6;
     let run = &case.run;
     let instants = (run.steps / run.output_steps + 1) as f64;
     let kept = KeepShapes::within(case, POSITIONS);
     let positions = instants / kept.every as f64 * kept.replicates as f64 * (case.fibre.elements + 1) as f64;
-    instants * run.replicates as f64 * INSTANT_ON_DISK + positions * POSITION + FIGURES_AND_REPORT
+    let points = case.line.map_or(0.0, |line| line.feed_speed * run.duration() / case.fibre.rest_length());
+    let each = instants * INSTANT_ON_DISK + points * LAID_POINT;
+    run.replicates as f64 * each + positions * POSITION + FIGURES_AND_REPORT
 }
 
 fn size(bytes: f64) -> String {

@@ -34,7 +34,7 @@ pub(super) fn summary(folder: &Path) -> Result<Json, Failure> {
     let text = fs::read_to_string(&path).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
     let summary: Json =
         serde_json::from_str(&text).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
-    if summary.get("end_node").is_none() {
+    if summary.get("end_node").or_else(|| summary.get("laydown")).is_none() {
         return Err(not_a_run(format!("{SUMMARY} is not that of a run")));
     }
     Ok(summary)

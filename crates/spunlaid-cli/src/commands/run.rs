@@ -8,14 +8,16 @@ use crate::failure::Failure;
 use crate::figures::run_figures;
 use crate::numbers::significant;
 use crate::output::folder::{ENTRIES, Staging};
+use crate::output::laid::{LaidTable, Spill};
 use crate::output::summary::{Performance, Summary};
-use crate::output::tables::{END_NODE, ENERGY, Table};
+use crate::output::tables::{END_NODE, ENERGY, ENERGY_OF_FED, Table};
 use crate::output::{beside, paraview, pictures, table};
 use crate::report::{self, ReportInput};
 use crate::{progress, say};
 use spunlaid::case::{Case, Note};
 use spunlaid::ensemble::{
-    Computing, Keep, KeepShapes, Results, StepCheck, StepCheckPlan, fly_and_check_step, turbulence_spectrum,
+    Computing, Keep, KeepShapes, Results, StepCheck, StepCheckPlan, TakeLaid, fly_and_check_step,
+    turbulence_spectrum,
 };
 use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
@@ -61,7 +63,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         run.quiet,
         || flights(&case, plan, computing, staging.as_ref()),
     )?;
-    let performance = performance(&case, plan, computing, started.elapsed().as_secs_f64());
+    let performance = performance(&case, &results, plan, computing, started.elapsed().as_secs_f64());
 
     if let Some(outside) = outside(&results) {
         say::warning(&outside);
@@ -127,20 +129,34 @@ fn flights(
     computing: Computing<'_>,
     staging: Option<&Staging<'_>>,
 ) -> Result<(Results, Option<StepCheck>), Failure> {
+    let wanted: &[_] = match case.line {
+        None => &[("end_node.parquet", END_NODE), ("energy.parquet", ENERGY)],
+        Some(_) => &[("energy.parquet", ENERGY_OF_FED)],
+    };
     let mut tables = Vec::new();
     if let Some(staging) = staging {
-        for (name, columns) in [("end_node.parquet", END_NODE), ("energy.parquet", ENERGY)] {
+        for (name, columns) in wanted {
             tables.push(Table::create(staging.place(name), columns)?);
         }
     }
+    let fed = staging.filter(|_| case.line.is_some());
+    let spill = fed.map(Spill::new);
+    let mut laid = fed.zip(spill.as_ref()).map(|(staging, spill)| LaidTable::create(staging, spill)).transpose()?;
+    let computing = Computing { laid: spill.as_ref().map(|spill| spill as &dyn TakeLaid), ..computing };
     let mut collector = Results::collector(KEPT);
     let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
     let check = fly_and_check_step(case, plan, Keep { curves: true, shapes }, computing, |trajectory| {
         tables.iter_mut().try_for_each(|table| table.add(&trajectory))?;
+        laid.iter_mut().try_for_each(|table| table.add(trajectory.replicate))?;
         collector.take(&trajectory);
         Ok::<(), Failure>(())
+    })
+    .map_err(|ended| match &spill {
+        Some(spill) => spill.failure(ended),
+        None => ended,
     })?;
     tables.into_iter().try_for_each(Table::finish)?;
+    laid.map_or(Ok(()), LaidTable::finish)?;
     Ok((collector.finish(), check))
 }
 
@@ -195,6 +211,7 @@ fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
 
 fn performance(
     case: &Case,
+    results: &Results,
     plan: Option<StepCheckPlan>,
     computing: Computing<'_>,
     wall_s: f64,
@@ -202,7 +219,10 @@ fn performance(
     let flights = case.run.replicates.div_ceil(WIDTH as u64) as usize + usize::from(plan.is_some());
     let threads = computing.threads.min(flights);
     let again = plan.map_or(0, |plan| plan.fibre_steps());
-    let element_steps = case.fibre.elements as u64 * (case.run.steps * case.run.replicates + again);
+    // Of a fed fibre, as many as there are in the air on average.
+    let elements = results.number("nodes_in_air").map_or(case.fibre.elements as f64, |nodes| nodes.estimate.mean);
+    let fibre_steps = case.run.steps * case.run.replicates + again;
+    let element_steps = (elements * fibre_steps as f64).round() as u64;
     Performance {
         wall_s,
         threads,
@@ -232,7 +252,10 @@ impl Written<'_> {
         // Writing a thousand small files waits for the disk, so the figures are drawn at the same time.
         std::thread::scope(|scope| {
             let (case, trajectories) = (self.case, &self.results.trajectories);
-            let shapes = scope.spawn(move || paraview::write(staging, case, trajectories));
+            let shapes = scope.spawn(move || {
+                paraview::write(staging, case, trajectories)?;
+                paraview::write_laid(staging, trajectories)
+            });
             pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
             shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })?;

@@ -4,15 +4,16 @@ use crate::args::{Arguments, Completions, New};
 use crate::failure::Failure;
 use crate::say;
 use clap::CommandFactory;
-use spunlaid::input::starter_case;
+use spunlaid::input::{starter_case, starter_case_of_fed};
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 
 /// Writes a commented case to start from. It never overwrites a file.
 pub(crate) fn new(new: &New) -> Result<(), Failure> {
     let path = &new.file;
+    let case = if new.fed { starter_case_of_fed() } else { starter_case() };
     let written = OpenOptions::new().write(true).create_new(true).open(path).and_then(|mut file| {
-        file.write_all(starter_case().as_bytes()).inspect_err(|_| {
+        file.write_all(case.as_bytes()).inspect_err(|_| {
             let _ = std::fs::remove_file(path);
         })
     });

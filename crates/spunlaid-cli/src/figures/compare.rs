@@ -13,7 +13,7 @@ pub(crate) const MOST: usize = 6;
 
 const COLOURS: [&str; MOST] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 /// Dashes of the series of one run.
-const DASHES: [Option<&str>; 3] = [None, Some("8 4"), Some("2 3")];
+const DASHES: [Option<&str>; 4] = [None, Some("8 4"), Some("2 3"), Some("8 3 2 3")];
 
 /// A point of a curve, in the units of the axes.
 #[derive(Clone, Debug, PartialEq)]

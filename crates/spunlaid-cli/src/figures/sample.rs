@@ -6,6 +6,8 @@ use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::ensemble::{Results, Sample, Shape, SpectrumPoint, Trajectory};
 use spunlaid::fibre::{Fibre, Root};
+use spunlaid::flight::LaidPoint;
+use spunlaid::line::{Contact, Line};
 use spunlaid::observe::{DECLARED, Kind, Measure, Value};
 use spunlaid::vec3::Vec3;
 
@@ -103,6 +105,83 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
     let applied = DECLARED.iter().filter(|declared| (declared.applies)(case));
     let values = applied.flat_map(|declared| declared.measures).map(|measure| (measure, value(measure)));
     Trajectory { replicate, values: values.collect(), shapes: times.iter().map(shape).collect(), samples, ..Trajectory::default() }
+}
+
+/// A fed fibre with so many recorded instants, 1 ms apart. An element of 5 mm is fed in a tenth of that.
+pub(crate) fn fed_case(instants: usize, replicates: u64) -> Case {
+    let case = case(100, instants, replicates);
+    Case {
+        fibre: Fibre { length: 0.5, ..case.fibre },
+        line: Some(Line {
+            feed_speed: 50.0,
+            distance: 0.5,
+            belt_speed: 3.0,
+            contact: Contact::Stick,
+            kept_length: 0.03,
+            steps_per_element: 1,
+        }),
+        run: Run { time_step: 1e-4, steps: 10 * (instants as u64 - 1), output_steps: 10, ..case.run },
+        ..case
+    }
+}
+
+/// Results of a fed fibre that lays circles of 20 mm, with six nodes on the belt that have not left the chain.
+pub(crate) fn fed_results(case: &Case, keep: usize) -> Results {
+    let mut collector = Results::collector(keep);
+    (0..case.run.replicates).for_each(|replicate| collector.take(&fed_trajectory(case, replicate)));
+    collector.finish()
+}
+
+/// Where node `number` of a fed fibre is at a time, counted from the first that was fed.
+fn fed_node(case: &Case, replicate: u64, number: u64, time: f64) -> Vec3<f64> {
+    let line = case.line.unwrap();
+    let fed = number as f64 * case.fibre.rest_length();
+    let fallen = line.feed_speed * time - fed;
+    let phase = fed / 0.02 + replicate as f64;
+    let landed = (fallen - line.distance).max(0.0) / line.feed_speed;
+    let share = (fallen / line.distance).min(1.0);
+    let (y, z) = (0.02 * share * phase.cos(), 0.02 * share * phase.sin());
+    Vec3::new(fallen.min(line.distance), y + line.belt_speed * landed, z)
+}
+
+fn fed_trajectory(case: &Case, replicate: u64) -> Trajectory {
+    const KEPT: u64 = 6;
+    let (line, length) = (case.line.unwrap(), case.fibre.rest_length());
+    let in_air = (line.distance / length).round() as u64;
+    let root = |time: f64| 2 + (time * line.feed_speed / length).round() as u64;
+    let oldest = |time: f64| root(time).saturating_sub(in_air + KEPT);
+    let instants = case.run.steps / case.run.output_steps;
+    let times: Vec<f64> = (0..=instants).map(|i| i as f64 * 1e-3).collect();
+    let position = |time: f64| {
+        let nodes = (oldest(time)..=root(time)).rev();
+        nodes.map(|number| fed_node(case, replicate, number, time)).collect()
+    };
+    let end = times.last().copied().unwrap_or(0.0);
+    let laid = (0..oldest(end)).map(|number| {
+        let fed = number as f64 * length;
+        let time = (fed + line.distance) / line.feed_speed;
+        let at = fed_node(case, replicate, number, time);
+        LaidPoint { fed, time, md: at.y - line.belt_speed * time, cd: at.z }
+    });
+    let sample = |&time: &f64| Sample { time, air_work: time, feed_work: time, ..Sample::default() };
+    let curve = |from: f64| {
+        let at = |i: i32| f64::from(i) * 10.0;
+        Value::Curve((0..36).map(at).collect(), (0..36).map(|i| from / (1.0 + at(i) / 100.0)).collect())
+    };
+    let value = |measure: &Measure| match measure.kind {
+        Kind::Number => Value::Number(0.014 + 1e-4 * replicate as f64),
+        Kind::Series => Value::Curve(times.clone(), times.clone()),
+        _ => curve(1.0 + 0.01 * replicate as f64),
+    };
+    let applied = DECLARED.iter().filter(|declared| (declared.applies)(case));
+    let values = applied.flat_map(|declared| declared.measures).map(|measure| (measure, value(measure)));
+    Trajectory {
+        replicate,
+        values: values.collect(),
+        samples: times.iter().map(sample).collect(),
+        shapes: times.iter().map(|&time| Shape { time, position: position(time) }).collect(),
+        laid: laid.collect(),
+    }
 }
 
 /// A spectrum of turbulence.

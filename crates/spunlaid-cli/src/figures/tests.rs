@@ -133,3 +133,55 @@ fn shades_the_spin_up() {
     assert!(figures[0].svg.contains("spin-up"));
     check(&figures);
 }
+
+#[test]
+fn draws_every_figure_of_a_fed_fibre() {
+    let case = sample::fed_case(200, 3);
+    let figures = run_figures(&case, &sample::fed_results(&case, 8), &sample::turbulence());
+    let wanted = [
+        "laid_trace",
+        "footprint",
+        "correlation",
+        "directions",
+        "speed_along_way",
+        "tension_along_way",
+        "energy_errors",
+        "turbulence_spectrum",
+    ];
+    assert_eq!(names(&figures), wanted);
+    check(&figures);
+    for (name, words) in [("laid_trace", "true proportions"), ("footprint", "39.3\u{a0}%")] {
+        let figure = figures.iter().find(|figure| figure.name == name).unwrap();
+        assert!(figure.caption.contains(words), "{}", figure.caption);
+    }
+}
+
+#[test]
+fn draws_a_fed_fibre_of_which_little_is_known() {
+    for (instants, keep) in [(1, 8), (2, 8), (13, 8), (200, 0)] {
+        let case = sample::fed_case(instants, 2);
+        check(&run_figures(&case, &sample::fed_results(&case, keep), &[]));
+    }
+    let case = sample::fed_case(200, 2);
+    let mut results = sample::fed_results(&case, 8);
+    for curve in &mut results.curves {
+        curve.places.iter_mut().for_each(|place| (place.mean, place.standard_error) = (f64::NAN, None));
+    }
+    for trajectory in &mut results.trajectories {
+        trajectory.laid[20].md = f64::NAN;
+    }
+    check(&run_figures(&case, &results, &[]));
+}
+
+#[test]
+fn analytic_footprint_of_circles() {
+    // A circle of 20 mm about the straight trace: all of it lies at √2 spreads, so between the two ellipses.
+    let case = sample::fed_case(2000, 1);
+    let mut results = sample::fed_results(&case, 8);
+    for number in &mut results.numbers {
+        number.estimate.mean = 0.02 / 2.0_f64.sqrt();
+    }
+    let figures = run_figures(&case, &results, &[]);
+    let caption = &figures[1].caption;
+    assert!(caption.contains("Inside lie 0\u{a0}% and 100\u{a0}% of the fibre"), "{caption}");
+}

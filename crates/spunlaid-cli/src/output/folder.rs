@@ -13,6 +13,8 @@ pub(crate) const ENTRIES: &[&str] = &[
     CASE_FILES,
     "end_node.parquet",
     "energy.parquet",
+    "laid.parquet",
+    "laid.vtp",
     "shape.pvd",
     "shape",
     "figures",
@@ -27,6 +29,8 @@ const COMPLETE: &str = "summary.json";
 /// Folders in the staging folder: the new results, and the old ones while they are replaced.
 const NEW: &str = "new";
 const OLD: &str = "old";
+/// Files that are needed only while the results are made.
+const SCRATCH: &str = "scratch";
 
 /// A hidden folder, in or beside the results folder, that collects the files. It is removed unless
 /// [`Staging::publish`] is called.
@@ -87,6 +91,11 @@ impl<'a> Staging<'a> {
     /// The present and the final path of a file of the results.
     pub(crate) fn place(&self, name: &str) -> (PathBuf, PathBuf) {
         (self.staging.join(NEW).join(name), self.folder.join(name))
+    }
+
+    /// A folder for files that are needed only while the results are made. It may not exist yet.
+    pub(crate) fn scratch(&self) -> PathBuf {
+        self.staging.join(SCRATCH)
     }
 
     /// Writes a file and creates its parent folders.

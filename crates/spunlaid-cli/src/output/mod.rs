@@ -4,6 +4,7 @@ pub(crate) mod analysis;
 pub(crate) mod beside;
 pub(crate) mod comparison;
 pub(crate) mod folder;
+pub(crate) mod laid;
 pub(crate) mod leftovers;
 pub(crate) mod paraview;
 mod parquet;

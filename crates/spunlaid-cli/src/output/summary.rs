@@ -22,9 +22,9 @@ pub(crate) struct Summary<'a> {
     elements: usize,
     steps: u64,
     replicates: u64,
-    /// `end_node`, `fibre`, `energy`: the measures by group.
+    /// `end_node`, `fibre`, `energy`, `laydown`: the measures by group.
     #[serde(flatten)]
-    measures: BTreeMap<&'static str, GroupSummary<'a>>,
+    measures: GroupSummary<'a>,
     /// Null if the run is too short for it, or if the fibres do not move across the flow.
     step_check: Option<StepCheckSummary<'a>>,
     performance: Performance,
@@ -57,8 +57,16 @@ struct NumberSummary<'a> {
     values: &'a [f64],
 }
 
-/// The measures of a group, by the names of their columns.
-type GroupSummary<'a> = BTreeMap<&'static str, NumberSummary<'a>>;
+/// The measures of a group by the names of their columns, and the groups within it by theirs.
+type GroupSummary<'a> = BTreeMap<&'static str, Member<'a>>;
+
+/// What a group consists of.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Member<'a> {
+    Number(NumberSummary<'a>),
+    Group(GroupSummary<'a>),
+}
 
 /// The speed of the run. This is the only part that differs when a run is repeated.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -89,10 +97,9 @@ impl<'a> Summary<'a> {
         performance: Performance,
         notes: Vec<String>,
     ) -> Self {
-        let mut measures: BTreeMap<&'static str, GroupSummary<'_>> = BTreeMap::new();
+        let mut measures = GroupSummary::new();
         for number in &results.numbers {
-            let group = measures.entry(number.measure.group.name).or_default();
-            group.insert(number.measure.column, summary_of(number));
+            insert(&mut measures, number.measure.group.name, number);
         }
         Self {
             schema_version: SCHEMA_VERSION,
@@ -115,6 +122,17 @@ impl<'a> Summary<'a> {
 
     pub(crate) fn to_json(&self) -> String {
         super::json_text(self)
+    }
+}
+
+/// Puts a number into its group. The name of a group within another one has a point: `laydown.surrogate`.
+fn insert<'a>(into: &mut GroupSummary<'a>, group: &'static str, number: &'a Number) {
+    let (outer, inner) = group.split_once('.').map_or((group, None), |(outer, inner)| (outer, Some(inner)));
+    let member = into.entry(outer).or_insert_with(|| Member::Group(BTreeMap::new()));
+    let Member::Group(members) = member else { return };
+    match inner {
+        Some(inner) => insert(members, inner, number),
+        None => drop(members.insert(number.measure.column, Member::Number(summary_of(number)))),
     }
 }
 

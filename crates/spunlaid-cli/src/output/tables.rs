@@ -28,6 +28,23 @@ pub(crate) const ENERGY: &[Column] = &[
     ("balance_error_percent", Sample::balance_error_percent),
 ];
 
+/// `energy.parquet` of a fed fibre: the full balance over time.
+pub(crate) const ENERGY_OF_FED: &[Column] = &[
+    ("time_s", |s| s.time),
+    ("kinetic_j", |s| s.kinetic),
+    ("axial_j", |s| s.axial),
+    ("bending_j", |s| s.bending),
+    ("gravity_work_j", |s| s.gravity_work),
+    ("air_work_j", |s| s.air_work),
+    ("damping_work_j", |s| s.damping_work),
+    ("feed_work_j", |s| s.feed_work),
+    ("belt_work_j", |s| s.belt_work),
+    ("carried_j", |s| s.carried),
+    ("tension_dissipation_j", |s| s.tension_dissipation),
+    ("imbalance_j", |s| s.imbalance),
+    ("balance_error_percent", Sample::balance_error_percent),
+];
+
 /// Number of rows in a row group.
 const ROWS: usize = 1 << 18;
 

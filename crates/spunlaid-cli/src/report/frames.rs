@@ -1,5 +1,6 @@
 //! The moving fibre as data of the page: instants, nodes and replicates chosen to fit, packed in 16 bits.
 
+use super::belt;
 use super::words::{count, time};
 use crate::figures::swing_frequency;
 use base64::Engine;
@@ -12,7 +13,7 @@ use spunlaid::vec3::Vec3;
 use spunlaid_charts::even;
 
 /// Most node positions in a page: 8 characters each, 3 MB in all.
-const POSITIONS: usize = 375_000;
+pub(super) const POSITIONS: usize = 375_000;
 /// Most nodes of a fibre in a picture.
 const NODES: usize = 101;
 /// Most instants of a picture.
@@ -26,6 +27,8 @@ pub(super) struct Frames {
     pub(super) json: String,
     /// What was left out, in sentences.
     pub(super) remarks: Vec<String>,
+    /// Whether it is a fed fibre above a belt.
+    pub(super) fed: bool,
 }
 
 /// What `assets/frames.js` reads.
@@ -60,6 +63,9 @@ struct Choice {
 
 /// Chooses and packs the shapes of a run.
 pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
+    if let Some(line) = case.line {
+        return belt::pack(case, line, results);
+    }
     let seen: Vec<&Trajectory> =
         results.trajectories.iter().filter(|f| !f.shapes.is_empty()).take(8).collect();
     let shapes: &[Shape] = &seen.first()?.shapes;
@@ -74,14 +80,6 @@ pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
         })
     };
     let (origin, step) = grid(chosen());
-    let mut bytes = Vec::with_capacity(POSITIONS * 6);
-    for p in chosen() {
-        for (value, (origin, step)) in [p.x, p.y, p.z].into_iter().zip(origin.iter().zip(step)) {
-            // Saturates, and a position that is no number becomes the smallest.
-            let level = ((value - origin) / step).round() as u16;
-            bytes.extend_from_slice(&level.to_le_bytes());
-        }
-    }
     let data = Data {
         replicates: trajectories.iter().map(|t| t.replicate + 1).collect(),
         nodes: choice.nodes.len(),
@@ -93,10 +91,10 @@ pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
         gravity: case.run.gravity,
         held: case.fibre.root != Root::Free,
         frequency,
-        positions: STANDARD.encode(bytes),
+        positions: encode(&bytes_of(chosen(), origin, step)),
     };
     // Numbers and base64 only: nothing in it can end the script element it stands in.
-    Some(Frames { json: serde_json::to_string(&data).ok()?, remarks })
+    Some(Frames { json: serde_json::to_string(&data).ok()?, remarks, fed: false })
 }
 
 fn choose(
@@ -141,8 +139,26 @@ fn choose(
     (Choice { instants, nodes: kept_nodes }, remarks)
 }
 
+/// Positions as 16-bit levels, low byte first.
+pub(super) fn bytes_of(positions: impl Iterator<Item = Vec3<f64>>, origin: [f64; 3], step: [f64; 3]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for p in positions {
+        for (value, (origin, step)) in [p.x, p.y, p.z].into_iter().zip(origin.iter().zip(step)) {
+            // Saturates, and a position that is no number becomes the smallest.
+            let level = ((value - origin) / step).round() as u16;
+            bytes.extend_from_slice(&level.to_le_bytes());
+        }
+    }
+    bytes
+}
+
+/// Bytes as base64.
+pub(super) fn encode(bytes: &[u8]) -> String {
+    STANDARD.encode(bytes)
+}
+
 /// Lowest value and step of a 16-bit grid that holds all positions, for x, y and z [m].
-fn grid(positions: impl Iterator<Item = Vec3<f64>>) -> ([f64; 3], [f64; 3]) {
+pub(super) fn grid(positions: impl Iterator<Item = Vec3<f64>>) -> ([f64; 3], [f64; 3]) {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
     for p in positions {

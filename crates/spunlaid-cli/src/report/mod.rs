@@ -5,6 +5,7 @@
 //! ```
 
 mod analysis;
+mod belt;
 mod comparison;
 mod frames;
 mod page;

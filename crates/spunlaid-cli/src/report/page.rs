@@ -15,9 +15,10 @@ use spunlaid_charts::Figure;
 const LISTED: usize = 1000;
 
 /// The scripts, in one scope, in this order.
-const SCRIPTS: [&str; 6] = [
+const SCRIPTS: [&str; 7] = [
     include_str!("../../assets/save.js"),
     include_str!("../../assets/frames.js"),
+    include_str!("../../assets/belt.js"),
     include_str!("../../assets/camera.js"),
     include_str!("../../assets/scene.js"),
     include_str!("../../assets/player.js"),
@@ -44,6 +45,9 @@ struct Page<'a> {
     /// Of explicit schemes.
     work_error: Option<String>,
     step_check: Option<StepCheckWords>,
+    fed: bool,
+    /// Of a fed fibre: what the mesh resolves.
+    mesh: Option<(String, String)>,
     case_toml: &'a str,
     cost: String,
     version: &'a str,
@@ -60,6 +64,7 @@ fn sections(figures: &[Figure]) -> Vec<(&'static str, Vec<&Figure>)> {
     };
     let heading = |figure: &Figure| match kind(figure) {
         Some(Kind::Lag | Kind::Direction) => HEADINGS[0],
+        None if ["laid_trace", "footprint"].contains(&figure.name.as_str()) => HEADINGS[0],
         Some(Kind::Way) => HEADINGS[1],
         Some(Kind::Number | Kind::Spectrum) => HEADINGS[2],
         Some(Kind::Profile) => HEADINGS[3],
@@ -94,6 +99,8 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
         balance_error: number(results.number("balance_error").map_or(f64::NAN, Number::value)),
         work_error: results.number("work_error").map(|error| number(error.value())),
         step_check: input.step_check.map(|check| StepCheckWords::of(check, results)),
+        fed: input.case.line.is_some(),
+        mesh: words::mesh(input.case),
         case_toml: input.case_toml,
         cost: format!(
             "computed in {} on {} with {} instructions, {} per element and step",

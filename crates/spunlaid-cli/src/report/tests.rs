@@ -154,3 +154,54 @@ fn shows_a_stretch_of_a_run_too_long_to_follow() {
     );
     assert!(frames.remarks.iter().any(|r| r.starts_with("101 of 201 nodes")), "{:?}", frames.remarks);
 }
+
+#[test]
+fn a_fed_fibre_is_shown_above_its_belt() {
+    for (instants, replicates) in [(1, 1), (20, 2), (300, 8), (5000, 1)] {
+        let case = sample::fed_case(instants, replicates);
+        let page = page(&case, &sample::fed_results(&case, 8), "case", &[], "");
+        assert!(page.len() < MOST, "{instants} instants: {} bytes", page.len());
+        check_well_formed(&page);
+        assert!(page.contains("<h1>The fibre lies ") && page.contains("is fed at 50\u{202f}m/s"));
+        // 50 µm at 50 m/s: d √(E/ρ)/(4v).
+        assert!(page.contains("the fibre itself folds at a scale of 0.36\u{202f}mm") || page.contains("360\u{202f}µm"));
+        assert!(page.contains("is that of the mesh and no result"));
+    }
+}
+
+#[test]
+fn nodes_of_a_fed_fibre_keep_their_numbers() {
+    let case = sample::fed_case(300, 2);
+    let results = sample::fed_results(&case, 8);
+    let frames = super::frames::pack(&case, &results).expect("shapes were kept");
+    let data: serde_json::Value = serde_json::from_str(&frames.json).expect("JSON");
+    let list = |of: &serde_json::Value| -> Vec<f64> {
+        of.as_array().expect("a list").iter().map(|v| v.as_f64().expect("a number")).collect()
+    };
+    let belt = &data["belt"];
+    let (newest, times) = (list(&belt["newest"]), list(&data["times"]));
+    let counts: Vec<Vec<f64>> = belt["counts"].as_array().expect("counts").iter().map(list).collect();
+    let decode = |of: &serde_json::Value| STANDARD.decode(of.as_str().expect("text")).expect("base64");
+    let bytes = decode(&data["positions"]);
+    let all: f64 = counts.iter().flatten().sum();
+    assert_eq!(bytes.len(), 6 * all as usize);
+    let (origin, step) = (list(&data["origin_mm"]), list(&data["step_mm"]));
+    let last = times.len() - 1;
+    // The newest node of the last instant of the second replicate was fed two elements ago and is numbered so.
+    let fed = 1e-3 * 50.0 * times[last] * 1e3;
+    assert_eq!(newest[last], (fed / 5.0 * 1e3).round() / 1e3 * 1.0 + 2.0);
+    // What was laid last goes on where the oldest node is, one element further down the belt.
+    let laid = decode(&belt["laid"][1]["points"]);
+    let oldest = newest[last] - counts[1][last] + 1.0;
+    let index = oldest - 1.0 - belt["laid"][1]["first"].as_f64().expect("a number");
+    let number = |i: usize| f32::from_le_bytes(laid[4 * i..4 * i + 4].try_into().expect("four bytes"));
+    let level = |k: usize| {
+        let at = bytes.len() - 6 + 2 * k;
+        origin[k] + step[k] * f64::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]))
+    };
+    let run = 3.0 * times[last] * 1e3;
+    let dy = level(1) - (f64::from(number(2 * index as usize)) + run);
+    let dz = level(2) - f64::from(number(2 * index as usize + 1));
+    // An element of 5 mm on a circle, and the 0.3 mm that the belt runs meanwhile.
+    assert!(dy.hypot(dz) < 5.4 && dy.hypot(dz) > 4.0, "{dy}, {dz}");
+}

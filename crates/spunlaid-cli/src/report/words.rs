@@ -58,6 +58,9 @@ pub(super) fn count(n: u64, thing: &str) -> String {
 
 /// The result in a sentence.
 pub(super) fn headline(case: &Case, results: &Results) -> String {
+    if case.line.is_some() {
+        return headline_of_laid(results);
+    }
     let of = |axis| {
         let of = |measure: &str| results.estimate(&format!("{measure}_{axis}"));
         (axis, of("amplitude"), of("frequency"))
@@ -84,6 +87,60 @@ pub(super) fn headline(case: &Case, results: &Results) -> String {
     }
 }
 
+/// The same of a fed fibre.
+fn headline_of_laid(results: &Results) -> String {
+    let [md, cd] = ["sigma_md", "sigma_cd"].map(|name| results.estimate(name));
+    if !(md.mean.is_finite() && cd.mean.is_finite()) {
+        return "Too little fibre was laid to say how wide it lies.".to_owned();
+    }
+    format!(
+        "The fibre lies {}{THIN}mm wide in machine direction and {}{THIN}mm in cross direction (standard deviation).",
+        estimate_text(&md, 1e3),
+        estimate_text(&cd, 1e3)
+    )
+}
+
+/// Scale at which a fibre folds when it meets the belt [m].
+pub(super) fn folding_scale(case: &Case) -> Option<f64> {
+    let (fibre, line) = (&case.fibre, case.line?);
+    Some(fibre.diameter * (fibre.youngs_modulus / fibre.density).sqrt() / (4.0 * line.feed_speed))
+}
+
+/// What the mesh of a fed fibre resolves: a heading and sentences.
+pub(super) fn mesh(case: &Case) -> Option<(String, String)> {
+    /// Elements in a folding scale with which the texture was seen to stand still.
+    const FINE: f64 = 3.0;
+    let scale = folding_scale(case)?;
+    let element = case.fibre.rest_length();
+    let (fold, each) = (length(significant_of(scale)), length(element));
+    let texture = if FINE * element <= scale {
+        format!(
+            "The elements of {each} are fine enough for such folds, so the texture on the belt (chord over arc in the table, and \
+             the finest bends in the pictures) is a result as well. Halve fibre.element_length to see how well it stands."
+        )
+    } else {
+        format!(
+            "Elements of {each} cannot show such folds. So the texture below 10{THIN}mm (chord over arc in the table, and the \
+             finest bends in the pictures) is that of the mesh and no result: with finer elements the fibre lies more \
+             closely folded."
+        )
+    };
+    Some((
+        format!("Mesh: elements of {each}; the fibre itself folds at a scale of {fold}"),
+        format!(
+            "Spread and correlation length are results: for a fibre of 18{THIN}µm at 50{THIN}m/s they stand still within one per \
+             cent from elements of 4{THIN}mm down to 0.25{THIN}mm. A fibre that meets the belt folds at a scale of \
+             d√(E/ρ)/(4v), which is {fold} in this case. {texture}"
+        ),
+    ))
+}
+
+/// The same with two digits.
+fn significant_of(value: f64) -> f64 {
+    let power = 10f64.powf(value.abs().log10().floor() - 1.0);
+    if power > 0.0 && power.is_finite() { (value / power).round() * power } else { value }
+}
+
 /// What was simulated, in three sentences.
 pub(super) fn case(case: &Case) -> String {
     let (fibre, air, run) = (&case.fibre, &case.air, &case.run);
@@ -99,9 +156,14 @@ pub(super) fn case(case: &Case) -> String {
     } else if air.rms() == 0.0 {
         format!("in air of {} without turbulence", quantity(air.velocity, "m/s"))
     } else {
-        let along = if air.is_uniform() { "" } else { ", on average along the fibre" };
+        let along = match (air.is_uniform(), case.line) {
+            (true, _) => "",
+            (false, None) => ", on average along the fibre",
+            (false, Some(_)) => ", on average along its way",
+        };
         let eddies = match air.eddies {
             EddyModel::Independent => format!("in eddies of {}", length(air.length_scale)),
+            EddyModel::Convected { .. } if case.line.is_some() => "that is carried along by the air".to_owned(),
             EddyModel::Convected { .. } => "that is carried along the fibre".to_owned(),
         };
         let measured = if air.records.is_empty() { "" } else { "measured " };
@@ -116,16 +178,30 @@ pub(super) fn case(case: &Case) -> String {
         Scheme::Leapfrog => "leapfrog",
         Scheme::ImplicitTension => "leapfrog with implicit tension",
     };
-    format!(
-        "A fibre of {} length and {} diameter, {held}, moves {medium}. {} computed, {}for {} in {} of {} ({scheme}). The \
-         fibre is divided into {}.",
-        length(fibre.length),
-        length(fibre.diameter),
+    let computed = format!(
+        "{} computed, {}for {} in {} of {} ({scheme}).",
         count(run.replicates, "replicate") + if run.replicates == 1 { " was" } else { " were" },
         if run.replicates > 1 { "each " } else { "" },
         time(run.duration()),
         count(run.steps, "step"),
         time(run.time_step),
+    );
+    if let Some(line) = case.line {
+        let held = if fibre.root == Root::Clamped { "" } else { ", free to turn at the inlet," };
+        return format!(
+            "A fibre of {} diameter is fed at {}{held} and comes down {medium}, on a belt {} below the inlet that moves at {}. \
+             {computed} The fibre is divided into elements of {}.",
+            length(fibre.diameter),
+            quantity(line.feed_speed, "m/s"),
+            length(line.distance),
+            quantity(line.belt_speed, "m/s"),
+            length(fibre.rest_length()),
+        );
+    }
+    format!(
+        "A fibre of {} length and {} diameter, {held}, moves {medium}. {computed} The fibre is divided into {}.",
+        length(fibre.length),
+        length(fibre.diameter),
         count(fibre.elements as u64, "element"),
     )
 }

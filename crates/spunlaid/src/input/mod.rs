@@ -96,3 +96,8 @@ fn parse_with(
 pub const fn starter_case() -> &'static str {
     include_str!("starter.toml")
 }
+
+/// A commented case of a fibre that is fed and laid on a moving belt.
+pub const fn starter_case_of_fed() -> &'static str {
+    include_str!("starter_of_fed.toml")
+}

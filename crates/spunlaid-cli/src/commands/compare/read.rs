@@ -36,7 +36,9 @@ impl Run {
 
     /// The values of the replicates of a measure; NaN where there is none.
     pub(super) fn values(&self, group: &str, column: &str) -> Option<Vec<f64>> {
-        let values = self.summary[group][column]["values"].as_array()?;
+        // A group within another one: `laydown.surrogate`.
+        let group = group.split('.').try_fold(&self.summary, |outer, inner| outer.get(inner))?;
+        let values = group[column]["values"].as_array()?;
         Some(values.iter().map(|value| value.as_f64().unwrap_or(f64::NAN)).collect())
     }
 }

@@ -4,8 +4,8 @@ use crate::numbers::significant;
 use spunlaid::ensemble::{Curve, Place, Results};
 use spunlaid::observe::{self, Kind, Measure};
 use spunlaid_charts::{
-    Axis, Chart, Figure, Series, even,
-    palette::{GREEN, PURPLE},
+    Axis, Chart, Figure, Rose, Series, even,
+    palette::{BLUE, GREEN, PURPLE, VERMILION},
 };
 
 /// Most places along the fibre that get markers of their own, and that a line is drawn through.
@@ -33,6 +33,9 @@ pub(super) fn figures(results: &Results) -> Vec<Figure> {
 /// A figure of the curves that are declared for it.
 fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figure {
     let first = curves[0].measure;
+    if first.kind == Kind::Direction {
+        return rose(declared, curves[0], results.replicates());
+    }
     let (along, value) = axes(first, curves.len() == 1);
     let unit = first.kind.over().map_or(1.0, |(.., unit)| unit.per_si);
     let mut chart = Chart::new(declared.name, declared.title, along, value)
@@ -40,9 +43,10 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
     for (i, curve) in curves.iter().enumerate() {
         let places = scaled(curve, unit);
         chart = match first.kind {
-            Kind::Profile | Kind::Way | Kind::Lag | Kind::Direction => profile(chart, i, curve, &places),
+            Kind::Profile | Kind::Way => profile(chart, i, curve, &places),
+            Kind::Lag => correlation(chart, i, curve, &places),
             Kind::Series => series(chart, i, curve, &places, results.replicates()),
-            Kind::Number | Kind::Spectrum => {
+            Kind::Number | Kind::Spectrum | Kind::Direction => {
                 let points: Vec<_> = places.iter().map(|place| (place.at, place.mean)).collect();
                 chart.line(styled(i, curve.measure.series).unmarked(), &points)
             }
@@ -116,6 +120,48 @@ fn profile(chart: Chart, i: usize, curve: &Curve, places: &[Place]) -> Chart {
         .scatter(styled(i, curve.measure.series).thinned_from(all), &marked)
 }
 
+/// A line with a band of one standard error to both sides. What was fitted to a measured curve has its colour, dashed.
+fn correlation(chart: Chart, i: usize, curve: &Curve, places: &[Place]) -> Chart {
+    let colour = if i.is_multiple_of(2) { BLUE } else { VERMILION };
+    let points: Vec<_> = places.iter().map(|place| (place.at, place.mean)).collect();
+    let full = places.iter().map(|place| (place.at, place.mean, place.standard_error)).collect();
+    let series = Series::new(curve.measure.series, colour).thinned_from(full);
+    if i >= MEASURED {
+        return chart.line(series.dashed("7 4").width(1.4), &points);
+    }
+    let error = |place: &Place| place.standard_error.filter(|error| error.is_finite()).unwrap_or(0.0);
+    let band: Vec<_> =
+        places.iter().map(|place| (place.at, place.mean - error(place), place.mean + error(place))).collect();
+    chart.band(Series::new("", colour).adorning(), &band).line(series.width(1.8), &points)
+}
+
+/// Curves of a correlation that are measured, the first ones; the others are fitted to them.
+const MEASURED: usize = 2;
+
+/// Directions on the belt.
+fn rose(declared: &observe::Figure, curve: &Curve, replicates: usize) -> Figure {
+    let places = scaled(curve, 1.0);
+    let rose = Rose {
+        name: declared.name.to_owned(),
+        title: "Directions of the laid fibre".to_owned(),
+        classes: places.iter().map(|place| (place.mean, place.standard_error)).collect(),
+        reference: Some((1.0, "as often in all directions".to_owned())),
+        sides: ["MD", "CD", "against MD", "CD"].map(str::to_owned),
+        columns: ["direction_degrees", "share_of_chords_times_classes"].map(str::to_owned),
+        series: "laid fibre".to_owned(),
+    };
+    rose.figure(format!("{} {}.{}", declared.caption, declared.title, over_replicates(replicates)))
+}
+
+/// `1 replicate`, `8 replicates`.
+pub(super) fn one_of(n: usize, thing: &str) -> String {
+    format!("{n} {thing}{}", if n == 1 { "" } else { "s" })
+}
+
+fn over_replicates(replicates: usize) -> String {
+    if replicates > 1 { format!(" Mean over {replicates} replicates.") } else { String::new() }
+}
+
 /// The mean over time, and a band from it to the largest of any replicate.
 fn series(chart: Chart, i: usize, curve: &Curve, places: &[Place], replicates: usize) -> Chart {
     let each = places.len().div_ceil(INSTANTS).max(1);
@@ -162,7 +208,11 @@ fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates:
             " Dashed: the crossing frequency, half the number of sign changes per second.".to_owned()
         }
         (_, 0 | 1) => " There is a single replicate, so there are no error bars.".to_owned(),
-        (Kind::Profile, n) => {
+        (Kind::Lag, n) => {
+            format!(" Mean over {n} replicates; bands: ± one standard error of the mean. Dashed: the surrogate.")
+        }
+        (Kind::Direction, n) => over_replicates(n),
+        (Kind::Profile | Kind::Way, n) => {
             let marked = if places.len() > MARKED {
                 format!(" {MARKED} of {} places carry a marker.", places.len())
             } else {

@@ -1,6 +1,7 @@
 //! The figures of a run.
 
 mod air;
+mod laid;
 pub(super) mod measured;
 mod motion;
 mod spectra;
@@ -14,7 +15,10 @@ const MM: f64 = 1e3;
 
 /// The figures of a run, in the order a reader wants them; the turbulence is left out where there is none.
 pub(crate) fn run_figures(case: &Case, results: &Results, turbulence: &[SpectrumPoint]) -> Vec<Figure> {
-    let mut figures = vec![motion::end_node_history(case, results), motion::end_node_path(case, results)];
+    let mut figures = match case.line {
+        Some(_) => laid::figures(case, results),
+        None => vec![motion::end_node_history(case, results), motion::end_node_path(case, results)],
+    };
     figures.extend(measured::figures(results));
     if !case.air.is_uniform() {
         figures.push(air::along_fibre(case));
