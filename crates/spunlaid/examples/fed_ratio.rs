@@ -11,9 +11,27 @@ fn flight(case: &Case) -> Flight {
 }
 
 fn main() {
-    let set = |pairs: &[(&str, &str)]| pairs.iter().map(|(a, b)| (a.to_string(), b.to_string())).collect::<Vec<_>>();
-    let (fed, _) = read_case(Path::new("cases/spunbond.toml"), &set(&[("run.duration", "2 s"), ("air.harmonics", "256")])).unwrap();
-    let (fixed, _) = read_case(Path::new("cases/diffuser.toml"), &set(&[("run.duration", "2 s"), ("run.scheme", "implicit-tension"), ("run.time_step", "40 µs"), ("fibre.length", "0.76 m"), ("fibre.element_length", "4 mm"), ("air.harmonics", "256"), ("air.cutoff_frequency", "940 Hz")])).unwrap();
+    let set = |pairs: &[(&str, &str)]| {
+        pairs.iter().map(|(a, b)| (a.to_string(), b.to_string())).collect::<Vec<_>>()
+    };
+    let (fed, _) = read_case(
+        Path::new("cases/spunbond.toml"),
+        &set(&[("run.duration", "2 s"), ("air.harmonics", "256")]),
+    )
+    .unwrap();
+    let (fixed, _) = read_case(
+        Path::new("cases/diffuser.toml"),
+        &set(&[
+            ("run.duration", "2 s"),
+            ("run.scheme", "implicit-tension"),
+            ("run.time_step", "40 µs"),
+            ("fibre.length", "0.76 m"),
+            ("fibre.element_length", "4 mm"),
+            ("air.harmonics", "256"),
+            ("air.cutoff_frequency", "940 Hz"),
+        ]),
+    )
+    .unwrap();
     let (mut a, mut b) = (flight(&fed), flight(&fixed));
     a.advance(2000);
     b.advance(2000);
@@ -23,8 +41,17 @@ fn main() {
             let t = std::time::Instant::now();
             f.advance(1500);
             ns[i] = t.elapsed().as_secs_f64() / 1500.0 / 8.0 / f.chain().elements() as f64 * 1e9;
-            for lane in 0..8 { f.take_laid(lane); }
+            for lane in 0..8 {
+                f.take_laid(lane);
+            }
         }
-        println!("fed {:.1} ns ({}), fixed {:.1} ns ({}), ratio {:.2}", ns[0], a.chain().elements(), ns[1], b.chain().elements(), ns[0] / ns[1]);
+        println!(
+            "fed {:.1} ns ({}), fixed {:.1} ns ({}), ratio {:.2}",
+            ns[0],
+            a.chain().elements(),
+            ns[1],
+            b.chain().elements(),
+            ns[0] / ns[1]
+        );
     }
 }

@@ -73,7 +73,8 @@ fn memory_of<T>(work: impl FnOnce() -> T) -> (T, Memory) {
 
 fn flights(case: &Case) -> (Vec<Trajectory>, u64) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
+    let computing =
+        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
     let jobs: Vec<Job<'_>> = (0..case.run.replicates).map(|replicate| Job { case, replicate }).collect();
     let flights = fly_together(&jobs, Keep::NUMBERS, computing).expect("the case flies");
     (flights, fibre_steps.into_inner())

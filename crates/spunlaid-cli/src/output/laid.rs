@@ -49,7 +49,11 @@ impl Spill {
     }
 
     /// Passes on the points of a replicate that has landed, in the order of feed, and forgets them.
-    fn drain(&self, replicate: u64, mut to: impl FnMut(&[LaidPoint]) -> Result<(), Failure>) -> Result<(), Failure> {
+    fn drain(
+        &self,
+        replicate: u64,
+        mut to: impl FnMut(&[LaidPoint]) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
         let last = self.held().points.remove(&replicate).unwrap_or_default();
         let path = self.file(replicate);
         if path.exists() {
@@ -167,7 +171,11 @@ mod tests {
     }
 
     fn spill(folder: &tempfile::TempDir) -> Spill {
-        Spill { folder: folder.path().join("scratch"), table: PathBuf::from("r").join(LAID), held: Mutex::default() }
+        Spill {
+            folder: folder.path().join("scratch"),
+            table: PathBuf::from("r").join(LAID),
+            held: Mutex::default(),
+        }
     }
 
     #[test]
@@ -177,7 +185,7 @@ mod tests {
         // Two replicates in turns, in pieces that do not fit the file's.
         let (mut given, pieces) = (0, [1, 700, IN_MEMORY - 300, 2 * IN_MEMORY, 5]);
         for piece in pieces {
-            [3, 4].map(|replicate| spill.take(replicate, &points(replicate, given, piece)).unwrap());
+            let _ = [3, 4].map(|replicate| spill.take(replicate, &points(replicate, given, piece)).unwrap());
             given += piece;
         }
         assert!(spill.file(3).exists(), "so many points do not stay in memory");

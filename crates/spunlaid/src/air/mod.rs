@@ -30,8 +30,8 @@ pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
 pub(crate) use stations::time_between_looks;
 pub use stations::{StationGrid, Stations};
-pub(crate) use surroundings::{AirAtElements, InEddies};
 pub use surroundings::Surroundings;
+pub(crate) use surroundings::{AirAtElements, InEddies};
 pub(crate) use wind::EddyVelocities;
 pub use wind::{Stream, StreamKey, Wind};
 

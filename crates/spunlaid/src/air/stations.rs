@@ -8,7 +8,7 @@
 //! is interpolated with weights that keep its variance.                                           theory.md (64)
 
 use super::surroundings::{AirAtElements, Surroundings};
-use super::{Air, EddyModel, EddyTurbulence, Eddies, Flow, Wind};
+use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Wind};
 use crate::error::FlightFault;
 use crate::field::Hint;
 use crate::lanes::{Lanes, Register, WIDTH, Wide};

@@ -9,8 +9,8 @@ use crate::chain::schemes::Scheme;
 use crate::drag::NormalLaw;
 use crate::error::{Fault, Finding, Place, Problem};
 use crate::fibre::Root;
-use crate::line::Contact;
 use crate::field::Hint;
+use crate::line::Contact;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 
@@ -233,8 +233,11 @@ impl Check<'_> {
             self.blame_key("fibre.root", "\"free\"".to_owned(), Fault::Excludes { other, remedy });
         }
         let scheme = self.case.run.scheme;
-        if self.case.line.is_some_and(|line| line.contact != Contact::Stick) && scheme != Scheme::ImplicitTension {
-            let remedy = "only implicit tension computes how a fibre slides; choose it, or let the fibre stick";
+        if self.case.line.is_some_and(|line| line.contact != Contact::Stick)
+            && scheme != Scheme::ImplicitTension
+        {
+            let remedy =
+                "only implicit tension computes how a fibre slides; choose it, or let the fibre stick";
             let (other, shown) = ("this run.scheme", format!("\"{}\"", "friction"));
             self.blame_key("belt.contact", shown, Fault::Excludes { other, remedy });
         }

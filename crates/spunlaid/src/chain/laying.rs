@@ -165,10 +165,7 @@ fn friction(lanes: &[Fed], rest_length: &Lanes) -> Option<Friction> {
         }
     };
     let slides = (0..WIDTH).any(|i| pick(i).line.contact != Contact::Stick);
-    slides.then(|| Friction {
-        coefficient: Lanes::from_fn(|i| of(i).0),
-        press: Lanes::from_fn(|i| of(i).1),
-    })
+    slides.then(|| Friction { coefficient: Lanes::from_fn(|i| of(i).0), press: Lanes::from_fn(|i| of(i).1) })
 }
 
 /// How a fibre is fed and laid.
@@ -195,7 +192,9 @@ impl Chain {
     #[inline(never)]
     fn begin_and_end_sliding(&mut self, h: f64) {
         let nodes = self.position.len();
-        let Self { velocity, earlier, constants: c, tensions, laying: Some(laying), .. } = self else { return };
+        let Self { velocity, earlier, constants: c, tensions, laying: Some(laying), .. } = self else {
+            return;
+        };
         let Some(friction) = c.friction else { return };
         for (from_end, node) in c.tail.iter_mut().enumerate() {
             let i = nodes - 1 - from_end;
@@ -278,9 +277,8 @@ impl Chain {
         let second = Lanes::from_fn(|i| k.0[i] * if laying.clamped[i] { 1.0 } else { inside.min(1.0) });
         (self.constants.root_stiffness, self.constants.second_stiffness) = (root, second);
         // What the change adds or takes is the feed's.
-        let bends: [Lanes; 2] = [0, 1].map(|node| {
-            if node + 1 < self.position.len() { self.bend_squared(node) } else { Lanes::ZERO }
-        });
+        let bends: [Lanes; 2] = [0, 1]
+            .map(|node| if node + 1 < self.position.len() { self.bend_squared(node) } else { Lanes::ZERO });
         let half = Lanes::splat(0.5);
         let change = (root - before.0) * bends[0] + (second - before.1) * bends[1];
         if let Some(laying) = &mut self.laying {
@@ -294,7 +292,9 @@ impl Chain {
         let nodes = self.position.len();
         let time = step as f64 * h;
         self.lengthen_tail();
-        let Self { position, velocity, earlier, constants: c, laying: Some(laying), .. } = self else { return };
+        let Self { position, velocity, earlier, constants: c, laying: Some(laying), .. } = self else {
+            return;
+        };
         let mut changed = [false; WIDTH];
         for (node, shares) in laying.landing.drain(..) {
             let from_end = nodes - 1 - node;
@@ -322,7 +322,9 @@ impl Chain {
     /// from now on.
     fn leave(&mut self, lane: usize, time: f64) {
         loop {
-            let Self { position, velocity, earlier, constants: c, laying: Some(laying), .. } = self else { return };
+            let Self { position, velocity, earlier, constants: c, laying: Some(laying), .. } = self else {
+                return;
+            };
             let number = laying.left[lane];
             if number + laying.kept[lane] >= laying.touched[lane] {
                 return;
@@ -366,7 +368,8 @@ impl Chain {
         let Some(below) = self.position.get(node + 1) else { return (0.0, 0.0) };
         let edge = below.lane(lane) - self.position[node].lane(lane);
         let stretch = edge.norm() - c.rest_length.0[lane];
-        let bending = if node == 0 { 0.0 } else { c.bending_stiffness.0[lane] * self.bend_squared_in(node, lane) };
+        let bending =
+            if node == 0 { 0.0 } else { c.bending_stiffness.0[lane] * self.bend_squared_in(node, lane) };
         (0.5 * c.axial_stiffness.0[lane] * stretch * stretch, 0.5 * bending)
     }
 
@@ -455,12 +458,16 @@ impl Chain {
         (c.root_stiffness, c.second_stiffness) = (scale(root), scale(second));
         let node = c.node;
         let kept = |new: Lanes, old: Lanes| Lanes::from_fn(|i| if old.0[i] == 0.0 { 0.0 } else { new.0[i] });
-        c.tail = former.tail.iter().map(|old| Node {
-            mass: kept(node.mass, old.mass),
-            inverse_mass: kept(node.inverse_mass, old.inverse_mass),
-            inverse_mass_x: kept(node.inverse_mass_x, old.inverse_mass_x),
-            weight: kept(node.weight, old.weight),
-        }).collect();
+        c.tail = former
+            .tail
+            .iter()
+            .map(|old| Node {
+                mass: kept(node.mass, old.mass),
+                inverse_mass: kept(node.inverse_mass, old.inverse_mass),
+                inverse_mass_x: kept(node.inverse_mass_x, old.inverse_mass_x),
+                weight: kept(node.weight, old.weight),
+            })
+            .collect();
     }
 
     /// Makes a fibre of fixed length a fed one: its first elements move down from the inlet at the feed speed.
@@ -475,7 +482,8 @@ impl Chain {
         let mut laying = Laying::new(lanes, &c.rest_length, elements);
         let above = c.root_direction * (c.rest_length * Lanes::splat(BORN - 0.5));
         self.position.iter_mut().for_each(|position| *position += above);
-        let pick = |lane: usize| lanes[if lane < lanes.len() { lane } else { 0 }].turn * std::f64::consts::TAU;
+        let pick =
+            |lane: usize| lanes[if lane < lanes.len() { lane } else { 0 }].turn * std::f64::consts::TAU;
         let end = &mut self.position[elements];
         for lane in 0..WIDTH {
             let off = 1e-3 * c.rest_length.0[lane];

@@ -112,7 +112,6 @@ impl WorkDone {
         }
     }
 
-
     /// Removes what the first step added for the time before the start. Called once, after that step.
     pub(crate) fn begin(&mut self) {
         for power in [

@@ -42,8 +42,7 @@ impl Flight {
         let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
         let cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect::<Vec<_>>();
         let air = surrounded(&cases, isa, horizon)?;
-        let laid: Option<Vec<_>> =
-            jobs.iter().map(Job::fed).collect();
+        let laid: Option<Vec<_>> = jobs.iter().map(Job::fed).collect();
         let mut flight = match laid {
             Some(laid) => Self::fed(isa, &strands, &laid, air, run.scheme, run.time_step)?,
             None => Self::assembled(isa, &strands, air, run.scheme, run.time_step)?,

@@ -57,7 +57,8 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                     drop(key.set(&mut case, if fed { default_if_fed(key.name, text) } else { text }));
                 }
                 LeftOut::Follows(_) if fed && REQUIRED_IF_FED.iter().any(|(name, _)| *name == key.name) => {
-                    let (_, line) = REQUIRED_IF_FED.iter().find(|(name, _)| *name == key.name).unwrap_or(&("", ""));
+                    let (_, line) =
+                        REQUIRED_IF_FED.iter().find(|(name, _)| *name == key.name).unwrap_or(&("", ""));
                     let (table, line) = (key.table(), (*line).to_owned());
                     written.reject(key.name, Fault::Missing { table, line });
                 }

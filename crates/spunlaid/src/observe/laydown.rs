@@ -248,9 +248,8 @@ impl Observer for LaidFibres {
         let laid = self.traces[lane].finish();
         let sigmas = [laid.sigma_md, laid.sigma_cd];
         let found = identify(sigmas, laid.lag_step, [&laid.correlation_md, &laid.correlation_cd]).ok();
-        let surrogate = found.and_then(|found| {
-            found.surrogate.autocorrelation(laid.lag_step, laid.correlation_md.len())
-        });
+        let surrogate =
+            found.and_then(|found| found.surrogate.autocorrelation(laid.lag_step, laid.correlation_md.len()));
         let noise = found.map_or(f64::NAN, |found| found.surrogate.noise);
         // What cannot be said is left out of the mean over the replicates.
         let unknown = || vec![f64::NAN; laid.correlation_md.len()];
