@@ -112,7 +112,11 @@ impl Case {
         let knows = |at: Vec3<f64>| self.air.local(at, &mut Hint::default()).inside;
         let root_outside = self.root_outside();
         if root_outside.is_none() && !centres.into_iter().all(knows) {
-            note("fibre.length", fibre.length, Remark::LeavesFlow);
+            let (key, length) = match self.line {
+                Some(line) => ("belt.distance", line.distance),
+                None => ("fibre.length", fibre.length),
+            };
+            note(key, length, Remark::LeavesFlow);
         }
         let felt = there_is_air && self.air.rms() > 0.0;
         if felt && self.air.length_scale < l * (1.0 - 1e-9) {

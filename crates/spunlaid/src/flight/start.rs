@@ -138,12 +138,15 @@ impl Flight {
     /// * `position`, `velocity` – of the `N+1` nodes [m, m/s]
     ///
     /// # Errors
-    /// The number of positions or velocities is not the number of nodes.
+    /// The number of positions or velocities is not the number of nodes, or the fibre is being fed.
     pub fn restart_from(
         &mut self,
         position: Vec<Vec3<Lanes>>,
         velocity: Vec<Vec3<Lanes>>,
     ) -> Result<(), FlightFault> {
+        if self.stations.is_some() {
+            return Err(FlightFault::Fed);
+        }
         let wanted = self.chain.position.len();
         for found in [position.len(), velocity.len()] {
             if found != wanted {
