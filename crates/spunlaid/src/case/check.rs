@@ -3,7 +3,7 @@
 use super::keys::{self, finding};
 use super::memory::FLIGHT_MEMORY_LIMIT;
 use super::note::{Note, Remark};
-use super::{Case, StepLimit};
+use super::{Case, FEEDING, StepLimit};
 use crate::air::{Flow, FromFile, Measured, SpectrumShape};
 use crate::chain::schemes::Scheme;
 use crate::drag::NormalLaw;
@@ -232,8 +232,14 @@ impl Check<'_> {
         if fibre.diameter >= fibre.length {
             self.blame("fibre.diameter", fibre.diameter, Fault::TooThick { length: fibre.length });
         }
+        if let Some(line) = self.case.line
+            && fibre.rest_length() > 0.5 * line.distance
+        {
+            let fault = Fault::TooLongForBelt { distance: line.distance };
+            self.blame("fibre.element_length", fibre.rest_length(), fault);
+        }
         if self.case.line.is_some() && fibre.root == Root::Free {
-            let (other, remedy) = ("[feed]", "the root is driven; choose \"clamped\" or \"pinned\"");
+            let (other, remedy) = ("[feed]", "the feed drives the root, so choose \"clamped\" or \"pinned\"");
             self.blame_key("fibre.root", "\"free\"".to_owned(), Fault::Excludes { other, remedy });
         }
         let scheme = self.case.run.scheme;
@@ -246,7 +252,7 @@ impl Check<'_> {
             self.blame_key("belt.contact", shown, Fault::Excludes { other, remedy });
         }
         if self.case.line.is_some() && fibre.direction.x <= 0.0 {
-            let remedy = "the belt lies along +x; let the first number be above zero";
+            let remedy = "the belt lies along +x, so the first number has to be above zero";
             let direction = fibre.direction;
             let shown = format!("[{}, {}, {}]", direction.x, direction.y, direction.z);
             self.blame_key("fibre.direction", shown, Fault::Excludes { other: "[feed]", remedy });
@@ -348,7 +354,10 @@ impl Check<'_> {
         {
             let element_length = fibre.rest_length();
             let advice = two_digits_down(0.9 * limit);
-            let fault = Fault::StepTooLong { limit, cause, element_length, advice };
+            let fault = match cause {
+                FEEDING => Fault::StepOverFeed { limit, element_length },
+                _ => Fault::StepTooLong { limit, cause, element_length, advice },
+            };
             self.blame("run.time_step", run.time_step, fault);
         }
         if run.spin_up_steps >= run.steps {

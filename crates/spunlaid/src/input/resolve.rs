@@ -60,7 +60,13 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                     let (_, line) =
                         REQUIRED_IF_FED.iter().find(|(name, _)| *name == key.name).unwrap_or(&("", ""));
                     let (table, line) = (key.table(), (*line).to_owned());
-                    written.reject(key.name, Fault::Missing { table, line });
+                    let table_there = if table == "feed" { "belt" } else { "feed" };
+                    let fault = if written.has_table(table) {
+                        Fault::Missing { table, line }
+                    } else {
+                        Fault::MissingBeside { table_there, table, line }
+                    };
+                    written.reject(key.name, fault);
                 }
                 LeftOut::Required(_) if key.is_told(&case) => {}
                 LeftOut::Required(_)
@@ -468,6 +474,6 @@ fn feed_in_whole_steps(case: &mut Case, duration: f64) -> Option<Remark> {
     let keeps = (whole / step - 1.0).abs() < 1e-9 || step > 0.5 * lifetime;
     case.run.time_step = if keeps { step } else { whole };
     case.run.steps = whole_parts(duration, case.run.time_step).0.max(1);
-    let (steps, time_step) = (case.run.steps, case.run.time_step);
-    (!keeps).then_some(Remark::StepShortened { steps, time_step })
+    let (steps, time_step) = (line.steps_per_element, case.run.time_step);
+    (!keeps).then_some(Remark::StepShortenedToFeed { steps, time_step })
 }
