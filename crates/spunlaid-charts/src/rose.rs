@@ -8,8 +8,8 @@ use crate::table::Table;
 use std::f64::consts::{PI, TAU};
 
 /// Width and height [px], the centre, and the radius of the outermost ring.
-const SIZE: (f64, f64) = (520.0, 470.0);
-const CENTRE: (f64, f64) = (260.0, 235.0);
+const SIZE: (f64, f64) = (580.0, 460.0);
+const CENTRE: (f64, f64) = (290.0, 214.0);
 const RADIUS: f64 = 185.0;
 /// Most rings.
 const RINGS: f64 = 5.0;
@@ -104,7 +104,7 @@ impl Rose {
         svg.text((x - RADIUS - 8.0, y + 5.0), left, text(Anchor::End, INK, 13.0));
         svg.text((x, y + RADIUS + 22.0), down, text(Anchor::Middle, INK, 13.0));
         if let Some((_, words)) = &self.reference {
-            let y = SIZE.1 - 10.0;
+            let y = SIZE.1 - 9.0;
             let width = crate::svg::width(words, 13.0);
             let left = CENTRE.0 - 0.5 * (width + 34.0);
             svg.line(

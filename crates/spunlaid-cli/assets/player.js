@@ -117,7 +117,9 @@ class Player {
     const { air_velocity: air, gravity } = this.frames;
     const arrows = [];
     if (air !== 0) arrows.push({ label: `air ${Number(Math.abs(air).toPrecision(3))} m/s`, sign: Math.sign(air), colour: "air" });
-    if (gravity !== 0) arrows.push({ label: "gravity", sign: Math.sign(gravity), colour: "ink" });
+    // Three arrows have no room beside the captions of a narrow picture.
+    const crowded = this.frames.belt && air !== 0 && this.scene.camera.width < 520;
+    if (gravity !== 0 && !crowded) arrows.push({ label: "gravity", sign: Math.sign(gravity), colour: "ink" });
     if (this.frames.belt) arrows.push({ label: `belt ${Number(this.frames.belt.speed.toPrecision(3))} m/s`, along: 1, sign: 1, colour: "trail" });
     return arrows;
   }

@@ -271,7 +271,7 @@ class Scene {
     const away = 16 + Math.abs(nx) * widest + Math.abs(ny) * 14;
     const middle = [(a[0] + b[0]) / 2 + away * nx, (a[1] + b[1]) / 2 + away * ny];
     const top = a[1] < b[1] ? a : b;
-    const [x, y] = k === 0 && upright ? [top[0] + 9 * nx, top[1] - 18] : middle;
+    const [x, y] = upright ? [top[0] + 9 * nx, top[1] - 18] : middle;
     c.fillText(`${name} / mm`, x, y);
   }
 

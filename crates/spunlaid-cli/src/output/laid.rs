@@ -185,7 +185,9 @@ mod tests {
         // Two replicates in turns, in pieces that do not fit the file's.
         let (mut given, pieces) = (0, [1, 700, IN_MEMORY - 300, 2 * IN_MEMORY, 5]);
         for piece in pieces {
-            let _ = [3, 4].map(|replicate| spill.take(replicate, &points(replicate, given, piece)).unwrap());
+            for replicate in [3, 4] {
+                spill.take(replicate, &points(replicate, given, piece)).unwrap();
+            }
             given += piece;
         }
         assert!(spill.file(3).exists(), "so many points do not stay in memory");

@@ -18,6 +18,9 @@ pub struct SpectrumPoint {
     pub wanted: f64,
 }
 
+/// Most places on the way of a fed fibre whose spectra are averaged.
+const PLACES_ON_THE_WAY: usize = 12;
+
 /// One-sided spectrum of the velocity fluctuation along the first replicates, up to four times the cut-off.
 ///
 /// Averaged over components, eddies and up to eight replicates (Welch). Empty without turbulence.
@@ -29,6 +32,12 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
         return Ok(Vec::new());
     }
     let duration = case.run.duration();
+    let mut case = case.clone();
+    if case.line.is_some() {
+        // A fed fibre passes the places on its way; some of them say as much as all.
+        case.fibre.elements = case.fibre.elements.min(PLACES_ON_THE_WAY);
+    }
+    let case = &case;
     let eddies = case.eddies();
     let turbulence = case.turbulence_along(&eddies);
     let lanes = case.run.replicates.min(WIDTH as u64) as usize;

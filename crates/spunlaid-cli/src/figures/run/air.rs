@@ -25,10 +25,14 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
     let mean: Vec<_> = places.iter().map(|(s, air)| (*s, air.velocity.x)).collect();
     let band: Vec<_> =
         places.iter().map(|(s, air)| (*s, air.velocity.x - air.rms, air.velocity.x + air.rms)).collect();
+    let (title, from, straight) = match case.line {
+        None => ("Air along the fibre", "root", "The air where the straight fibre would lie"),
+        Some(_) => ("Air from the inlet to the belt", "inlet", "The air on the straight way from the inlet to the belt"),
+    };
     let chart = Chart::new(
         "air_along_fibre",
-        "Air along the fibre",
-        Axis::linear("Distance from the root (mm)").tight(),
+        title,
+        Axis::linear(&format!("Distance from the {from} (mm)")).tight(),
         Axis::linear("Velocity along *x* (m/s)"),
     )
     .band(Series::new("± rms of the fluctuation", GREEN), &band)
@@ -40,7 +44,7 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
         format!("{} {unit}", range(least, most))
     };
     let caption = format!(
-        "The air where the straight fibre would lie: mean velocity along x, and the rms of each component of the turbulence \
+        "{straight}: mean velocity along x, and the rms of each component of the turbulence \
          about it. The eddies are {} long, and the turbulence has no energy above {}.",
         between(|air| air.length_scale, MM, "mm"),
         between(|air| air.cutoff_frequency, 1.0, "Hz"),

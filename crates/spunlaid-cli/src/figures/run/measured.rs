@@ -43,7 +43,8 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
     for (i, curve) in curves.iter().enumerate() {
         let places = scaled(curve, unit);
         chart = match first.kind {
-            Kind::Profile | Kind::Way => profile(chart, i, curve, &places),
+            Kind::Profile => profile(chart, i, curve, &places, MARKED),
+            Kind::Way => profile(chart, i, curve, &places, places.len()),
             Kind::Lag => correlation(chart, i, curve, &places),
             Kind::Series => series(chart, i, curve, &places, results.replicates()),
             Kind::Number | Kind::Spectrum | Kind::Direction => {
@@ -66,7 +67,10 @@ pub(crate) fn axes(first: &Measure, alone: bool) -> (Axis, Axis) {
     let Some((column, over, unit)) = first.kind.over() else {
         return (Axis::linear(""), Axis::linear(""));
     };
-    let label = format!("{over} ({})", unit.shown);
+    let with_unit = |label: &str, unit: &str| {
+        if unit.is_empty() { label.to_owned() } else { format!("{label} ({unit})") }
+    };
+    let label = with_unit(over, unit.shown);
     let along = if first.kind == Kind::Spectrum { Axis::logarithmic(&label) } else { Axis::linear(&label) };
     let along = match first.kind {
         Kind::Profile | Kind::Way | Kind::Lag => along.including(0.0),
@@ -77,7 +81,7 @@ pub(crate) fn axes(first: &Measure, alone: bool) -> (Axis, Axis) {
     // The numbers beside a figure are in the units of its axes.
     let column = column.rsplit_once('_').map_or(column, |(name, _)| name);
     let shown = unit.shown.to_lowercase();
-    let value = format!("{} ({})", if alone { first.label } else { declared.title }, first.unit.shown);
+    let value = with_unit(if alone { first.label } else { declared.title }, first.unit.shown);
     let value = match (declared.logarithmic, first.kind) {
         (true, Kind::Spectrum) => Axis::logarithmic(&value).decades(9),
         (true, _) => Axis::logarithmic(&value).steady(),
@@ -109,15 +113,17 @@ fn scaled(curve: &Curve, per_si: f64) -> Vec<Place> {
     curve.places.iter().map(scaled).collect()
 }
 
-/// A thin line with markers and error bars at some of the places.
-fn profile(chart: Chart, i: usize, curve: &Curve, places: &[Place]) -> Chart {
+/// A thin line with markers and error bars at so many of the places.
+fn profile(chart: Chart, i: usize, curve: &Curve, places: &[Place], marked: usize) -> Chart {
     let point = |place: &Place| (place.at, place.mean, place.standard_error);
     let line: Vec<_> = even(places.len(), LINED).iter().map(|&k| (places[k].at, places[k].mean)).collect();
-    let marked: Vec<_> = even(places.len(), MARKED).iter().map(|&k| point(&places[k])).collect();
+    let marked: Vec<_> = even(places.len(), marked).iter().map(|&k| point(&places[k])).collect();
     let all = places.iter().map(point).collect();
-    chart
-        .line(styled(i, "").adorning().unmarked().width(0.8), &line)
-        .scatter(styled(i, curve.measure.series).thinned_from(all), &marked)
+    let named = curve.measure.series;
+    let series = styled(i, named).thinned_from(all);
+    // The only curve of a figure has no name of its own.
+    let series = if named.is_empty() { series.unlabelled() } else { series };
+    chart.line(styled(i, "").adorning().unmarked().width(0.8), &line).scatter(series, &marked)
 }
 
 /// A line with a band of one standard error to both sides. What was fitted to a measured curve has its colour, dashed.
@@ -215,7 +221,7 @@ fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates:
         }
         (Kind::Direction, n) => over_replicates(n),
         (Kind::Profile | Kind::Way, n) => {
-            let marked = if places.len() > MARKED {
+            let marked = if kind == Kind::Profile && places.len() > MARKED {
                 format!(" {MARKED} of {} places carry a marker.", places.len())
             } else {
                 String::new()
