@@ -40,6 +40,8 @@ pub struct Thread {
     pub g: f64,
     /// Height of the clamp above the plane [m].
     pub height: f64,
+    /// The thicker it is, the softer is its material, and the longer is the step of an explicit scheme [m].
+    pub diameter: f64,
     /// Length of an element [H].
     pub element: f64,
     /// Time of the bending viscosity [√(H/g)].
@@ -59,7 +61,7 @@ impl Thread {
 
     pub fn new(g: f64) -> Self {
         let scheme = Scheme::ImplicitTension;
-        Self { g, height: 0.1, element: 0.05, viscosity: 1e-3, belt: 0.0, scheme, step: 1.0 }
+        Self { g, height: 0.1, diameter: 3e-4, element: 0.05, viscosity: 1e-3, belt: 0.0, scheme, step: 1.0 }
     }
 
     pub fn feed_speed(&self) -> f64 {
@@ -77,7 +79,7 @@ impl Thread {
     }
 
     fn fibre(&self) -> Fibre {
-        let (diameter, density) = (3e-4, 1000.0);
+        let (diameter, density) = (self.diameter, 1000.0);
         Fibre {
             length: self.height,
             diameter,
