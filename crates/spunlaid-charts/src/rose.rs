@@ -107,11 +107,16 @@ impl Rose {
             let y = SIZE.1 - 9.0;
             let width = crate::svg::width(words, 13.0);
             let left = CENTRE.0 - 0.5 * (width + 34.0);
-            svg.line((left, y - 4.5), (left + 28.0, y - 4.5), &Stroke { colour: INK, width: 1.3, dash: Some("5 4") });
+            svg.line(
+                (left, y - 4.5),
+                (left + 28.0, y - 4.5),
+                &Stroke { colour: INK, width: 1.3, dash: Some("5 4") },
+            );
             svg.text((left + 34.0, y), words, text(Anchor::Start, INK, 13.0));
         }
         if self.classes.iter().all(|class| !class.0.is_finite()) {
-            let box_ = [(x - 90.0, y - 14.0), (x + 90.0, y - 14.0), (x + 90.0, y + 12.0), (x - 90.0, y + 12.0)];
+            let box_ =
+                [(x - 90.0, y - 14.0), (x + 90.0, y - 14.0), (x + 90.0, y + 12.0), (x - 90.0, y + 12.0)];
             svg.polygon(&box_, "#ffffff", 1.0, Some(&Stroke::solid(GRID, 0.8)));
             svg.text((x, y + 4.0), "no values to show", text(Anchor::Middle, GREY, 14.0));
         }
@@ -172,9 +177,16 @@ mod tests {
         // Two of four classes: 2 to the upper right, 1 to the lower left. Rings every 0.4 up to 2.
         let rose = rose(vec![(2.0, None), (0.0, None), (1.0, Some(0.1)), (f64::NAN, None)]);
         let figure = rose.figure("");
-        let wedges: Vec<&str> = figure.svg.lines().filter(|line| line.contains("fill-opacity=\"0.28\"")).collect();
+        let wedges: Vec<&str> =
+            figure.svg.lines().filter(|line| line.contains("fill-opacity=\"0.28\"")).collect();
         assert_eq!(wedges.len(), 2);
-        assert!(wedges[0].contains(&format!("M{} {}L{} {}", CENTRE.0, CENTRE.1, CENTRE.0 + RADIUS, CENTRE.1)));
+        assert!(wedges[0].contains(&format!(
+            "M{} {}L{} {}",
+            CENTRE.0,
+            CENTRE.1,
+            CENTRE.0 + RADIUS,
+            CENTRE.1
+        )));
         assert!(wedges[1].contains(&format!("L{} {}", CENTRE.0 - 0.5 * RADIUS, CENTRE.1)), "{}", wedges[1]);
         assert_eq!(
             figure.table.csv(),

@@ -83,13 +83,19 @@ fn new_writes_a_fed_fibre_that_can_be_run() {
     assert!(said.contains("Spread in machine direction"), "{said}");
     // Lines that are commented out show the default.
     let written = String::from_utf8(desk.read("line.toml")).unwrap();
-    let optional = |line: &&str| line.strip_prefix("# ").is_some_and(|rest| rest.contains(" = ") && !rest.contains("version"));
+    let optional = |line: &&str| {
+        line.strip_prefix("# ").is_some_and(|rest| rest.contains(" = ") && !rest.contains("version"))
+    };
     let all: Vec<&str> = written.lines().filter(optional).collect();
     assert!(all.len() > 8, "{all:?}");
-    let uncommented: String =
-        written.lines().map(|line| if optional(&line) { &line[2..] } else { line }.to_owned() + "\n").collect();
+    let uncommented: String = written
+        .lines()
+        .map(|line| if optional(&line) { &line[2..] } else { line }.to_owned() + "\n")
+        .collect();
     std::fs::write(desk.path("all.toml"), uncommented).unwrap();
-    let resolved = |name: &str| success(&mut desk.spunlaid(&format!("check {name}"))).split("# mesh").next().unwrap().to_owned();
+    let resolved = |name: &str| {
+        success(&mut desk.spunlaid(&format!("check {name}"))).split("# mesh").next().unwrap().to_owned()
+    };
     assert_eq!(resolved("all.toml"), resolved("line.toml"));
 }
 

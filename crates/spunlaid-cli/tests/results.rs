@@ -395,7 +395,10 @@ fn a_fed_fibre_leaves_what_it_laid() {
 fn identical_laid_fibres_whatever_the_threads_and_from_the_resolved_case() {
     let desk = Desk::of(FED);
     for threads in [1, 2] {
-        success(&mut desk.spunlaid(&format!("run brief.toml --replicates 11 --threads {threads} --out t{threads}")));
+        success(
+            &mut desk
+                .spunlaid(&format!("run brief.toml --replicates 11 --threads {threads} --out t{threads}")),
+        );
     }
     assert_identical(&desk, "t1", "t2");
     success(&mut desk.spunlaid("run t1/case.toml --out again"));

@@ -51,8 +51,13 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     let staging = folder.as_ref().map(|folder| Staging::new(folder, ENTRIES, replace, stop)).transpose()?;
 
     let fibre_steps = AtomicU64::new(0);
-    let computing =
-        Computing { threads: threads(run.threads), isa: Isa::detect(), stop, fibre_steps: &fibre_steps, laid: None };
+    let computing = Computing {
+        threads: threads(run.threads),
+        isa: Isa::detect(),
+        stop,
+        fibre_steps: &fibre_steps,
+        laid: None,
+    };
     let started = Instant::now();
     let plan = StepCheckPlan::of(&case);
     let again = plan.map_or(0, |plan| plan.fibre_steps());
@@ -141,7 +146,8 @@ fn flights(
     }
     let fed = staging.filter(|_| case.line.is_some());
     let spill = fed.map(Spill::new);
-    let mut laid = fed.zip(spill.as_ref()).map(|(staging, spill)| LaidTable::create(staging, spill)).transpose()?;
+    let mut laid =
+        fed.zip(spill.as_ref()).map(|(staging, spill)| LaidTable::create(staging, spill)).transpose()?;
     let computing = Computing { laid: spill.as_ref().map(|spill| spill as &dyn TakeLaid), ..computing };
     let mut collector = Results::collector(KEPT);
     let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
@@ -220,7 +226,8 @@ fn performance(
     let threads = computing.threads.min(flights);
     let again = plan.map_or(0, |plan| plan.fibre_steps());
     // Of a fed fibre, as many as there are in the air on average.
-    let elements = results.number("nodes_in_air").map_or(case.fibre.elements as f64, |nodes| nodes.estimate.mean);
+    let elements =
+        results.number("nodes_in_air").map_or(case.fibre.elements as f64, |nodes| nodes.estimate.mean);
     let fibre_steps = case.run.steps * case.run.replicates + again;
     let element_steps = (elements * fibre_steps as f64).round() as u64;
     Performance {

@@ -104,7 +104,13 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
     };
     let applied = DECLARED.iter().filter(|declared| (declared.applies)(case));
     let values = applied.flat_map(|declared| declared.measures).map(|measure| (measure, value(measure)));
-    Trajectory { replicate, values: values.collect(), shapes: times.iter().map(shape).collect(), samples, ..Trajectory::default() }
+    Trajectory {
+        replicate,
+        values: values.collect(),
+        shapes: times.iter().map(shape).collect(),
+        samples,
+        ..Trajectory::default()
+    }
 }
 
 /// A fed fibre with so many recorded instants, 1 ms apart. An element of 5 mm is fed in a tenth of that.

@@ -49,7 +49,11 @@ impl Spill {
     }
 
     /// Passes on the points of a replicate that has landed, in the order of feed, and forgets them.
-    fn drain(&self, replicate: u64, mut to: impl FnMut(&[LaidPoint]) -> Result<(), Failure>) -> Result<(), Failure> {
+    fn drain(
+        &self,
+        replicate: u64,
+        mut to: impl FnMut(&[LaidPoint]) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
         let last = self.held().points.remove(&replicate).unwrap_or_default();
         let path = self.file(replicate);
         if path.exists() {
@@ -167,7 +171,11 @@ mod tests {
     }
 
     fn spill(folder: &tempfile::TempDir) -> Spill {
-        Spill { folder: folder.path().join("scratch"), table: PathBuf::from("r").join(LAID), held: Mutex::default() }
+        Spill {
+            folder: folder.path().join("scratch"),
+            table: PathBuf::from("r").join(LAID),
+            held: Mutex::default(),
+        }
     }
 
     #[test]

@@ -162,7 +162,9 @@ fn instants(chosen: &Chosen<'_>, trajectories: &[&Trajectory], most: usize) -> s
     let goes_on = |instant: usize| {
         trajectories.iter().all(|t| {
             let number = |point: Option<&spunlaid::flight::LaidPoint>| point.map(|p| chosen.number(p.fed));
-            let (Some(first), Some(last)) = (number(t.laid.first()), number(t.laid.last())) else { return false };
+            let (Some(first), Some(last)) = (number(t.laid.first()), number(t.laid.last())) else {
+                return false;
+            };
             (first..=last + 1).contains(&chosen.oldest(t, instant))
         })
     };
@@ -183,7 +185,8 @@ fn instants(chosen: &Chosen<'_>, trajectories: &[&Trajectory], most: usize) -> s
 fn laid(chosen: &Chosen<'_>, of: &Trajectory, times: &[f64]) -> Laid {
     let seen = SHOWN * chosen.line.distance / chosen.line.belt_speed;
     let from = times.first().map_or(0.0, |time| time - 1.5 * seen);
-    let points = of.laid.iter().filter(|p| p.time >= from && chosen.number(p.fed).is_multiple_of(chosen.stride));
+    let points =
+        of.laid.iter().filter(|p| p.time >= from && chosen.number(p.fed).is_multiple_of(chosen.stride));
     let points: Vec<_> = points.take(LAID).collect();
     let first = points.first().map_or(0, |p| chosen.number(p.fed) / chosen.stride);
     let numbers = points.iter().flat_map(|p| [p.md, p.cd]).map(|v| (v * 1e3) as f32);

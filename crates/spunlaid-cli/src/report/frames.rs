@@ -140,7 +140,11 @@ fn choose(
 }
 
 /// Positions as 16-bit levels, low byte first.
-pub(super) fn bytes_of(positions: impl Iterator<Item = Vec3<f64>>, origin: [f64; 3], step: [f64; 3]) -> Vec<u8> {
+pub(super) fn bytes_of(
+    positions: impl Iterator<Item = Vec3<f64>>,
+    origin: [f64; 3],
+    step: [f64; 3],
+) -> Vec<u8> {
     let mut bytes = Vec::new();
     for p in positions {
         for (value, (origin, step)) in [p.x, p.y, p.z].into_iter().zip(origin.iter().zip(step)) {

@@ -56,8 +56,14 @@ struct Page<'a> {
 
 /// The figures under headings, in the order of the headings.
 fn sections(figures: &[Figure]) -> Vec<(&'static str, Vec<&Figure>)> {
-    const HEADINGS: [&str; 6] =
-        ["The laid fibre", "From the inlet to the belt", "Motion of the free end", "Along the fibre", "Over time", "Air"];
+    const HEADINGS: [&str; 6] = [
+        "The laid fibre",
+        "From the inlet to the belt",
+        "Motion of the free end",
+        "Along the fibre",
+        "Over time",
+        "Air",
+    ];
     let kind = |figure: &Figure| {
         let mut measures = DECLARED.iter().flat_map(|declaration| declaration.measures);
         measures.find(|measure| measure.figure.name == figure.name).map(|measure| measure.kind)

@@ -164,7 +164,10 @@ fn a_fed_fibre_is_shown_above_its_belt() {
         check_well_formed(&page);
         assert!(page.contains("<h1>The fibre lies ") && page.contains("is fed at 50\u{202f}m/s"));
         // 50 µm at 50 m/s: d √(E/ρ)/(4v).
-        assert!(page.contains("the fibre itself folds at a scale of 0.36\u{202f}mm") || page.contains("360\u{202f}µm"));
+        assert!(
+            page.contains("the fibre itself folds at a scale of 0.36\u{202f}mm")
+                || page.contains("360\u{202f}µm")
+        );
         assert!(page.contains("is that of the mesh and no result"));
     }
 }

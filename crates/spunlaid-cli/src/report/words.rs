@@ -163,7 +163,9 @@ pub(super) fn case(case: &Case) -> String {
         };
         let eddies = match air.eddies {
             EddyModel::Independent => format!("in eddies of {}", length(air.length_scale)),
-            EddyModel::Convected { .. } if case.line.is_some() => "that is carried along by the air".to_owned(),
+            EddyModel::Convected { .. } if case.line.is_some() => {
+                "that is carried along by the air".to_owned()
+            }
             EddyModel::Convected { .. } => "that is carried along the fibre".to_owned(),
         };
         let measured = if air.records.is_empty() { "" } else { "measured " };

@@ -168,7 +168,9 @@ pub fn success(command: &mut Command) -> String {
 /// how fast it went.
 pub fn assert_identical(desk: &Desk, one: &str, other: &str) {
     let files = desk.entries(one);
-    for name in files.iter().filter(|name| *name == "case.toml" || name.ends_with("parquet") || name.contains(".v")) {
+    for name in
+        files.iter().filter(|name| *name == "case.toml" || name.ends_with("parquet") || name.contains(".v"))
+    {
         assert!(desk.read(&format!("{one}/{name}")) == desk.read(&format!("{other}/{name}")), "{name}");
     }
     let shapes = desk.entries(&format!("{one}/shape"));

@@ -99,18 +99,16 @@ pub(super) const DECLARATION: Declaration = Declaration {
             column: "sigma_1_m",
             label: "σ₁ of the surrogate",
             meaning: "spread in machine direction, as the surrogate has it",
-            group: SURROGATE,
-            series: "σ₁",
-            ..SPREAD
+            series: "*σ*_{1}",
+            ..SURROGATE_SPREAD
         },
         Measure {
             name: "sigma_2",
             column: "sigma_2_m",
             label: "σ₂ of the surrogate",
             meaning: "spread in cross direction, as the surrogate has it",
-            group: SURROGATE,
-            series: "σ₂",
-            ..SPREAD
+            series: "*σ*_{2}",
+            ..SURROGATE_SPREAD
         },
         Measure {
             name: "noise",
@@ -186,6 +184,12 @@ const SPREAD: Measure = Measure {
     ..Measure::NUMBER
 };
 
+const SURROGATE_SPREAD: Measure = Measure {
+    group: SURROGATE,
+    figure: &numbers("surrogate_spread", "Spread of the surrogate", "spread of the surrogate"),
+    ..SPREAD
+};
+
 const HALF_LENGTH: Measure = Measure {
     unit: MILLIMETRES,
     group: LAYDOWN,
@@ -248,9 +252,8 @@ impl Observer for LaidFibres {
         let laid = self.traces[lane].finish();
         let sigmas = [laid.sigma_md, laid.sigma_cd];
         let found = identify(sigmas, laid.lag_step, [&laid.correlation_md, &laid.correlation_cd]).ok();
-        let surrogate = found.and_then(|found| {
-            found.surrogate.autocorrelation(laid.lag_step, laid.correlation_md.len())
-        });
+        let surrogate =
+            found.and_then(|found| found.surrogate.autocorrelation(laid.lag_step, laid.correlation_md.len()));
         let noise = found.map_or(f64::NAN, |found| found.surrogate.noise);
         // What cannot be said is left out of the mean over the replicates.
         let unknown = || vec![f64::NAN; laid.correlation_md.len()];

@@ -27,7 +27,11 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
         places.iter().map(|(s, air)| (*s, air.velocity.x - air.rms, air.velocity.x + air.rms)).collect();
     let (title, from, straight) = match case.line {
         None => ("Air along the fibre", "root", "The air where the straight fibre would lie"),
-        Some(_) => ("Air from the inlet to the belt", "inlet", "The air on the straight way from the inlet to the belt"),
+        Some(_) => (
+            "Air from the inlet to the belt",
+            "inlet",
+            "The air on the straight way from the inlet to the belt",
+        ),
     };
     let chart = Chart::new(
         "air_along_fibre",

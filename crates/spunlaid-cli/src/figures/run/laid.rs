@@ -148,7 +148,10 @@ fn footprint(case: &Case, results: &Results) -> Figure {
     .when_empty("too little has been laid to be shown");
     let half = REACH * md.max(cd);
     if points.is_empty() || !(md > 0.0 && cd > 0.0 && half.is_finite()) {
-        return Figure::of(&chart, "Too little was laid after the spin-up to say where the fibre comes down.");
+        return Figure::of(
+            &chart,
+            "Too little was laid after the spin-up to say where the fibre comes down.",
+        );
     }
     let values = density(&points, half);
     let largest = values.iter().copied().fold(0.0, f64::max);

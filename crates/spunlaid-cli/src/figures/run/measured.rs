@@ -215,7 +215,9 @@ fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates:
         }
         (_, 0 | 1) => " There is a single replicate, so there are no error bars.".to_owned(),
         (Kind::Lag, n) => {
-            format!(" Mean over {n} replicates; bands: ± one standard error of the mean. Dashed: the surrogate.")
+            format!(
+                " Mean over {n} replicates; bands: ± one standard error of the mean. Dashed: the surrogate."
+            )
         }
         (Kind::Direction, n) => over_replicates(n),
         (Kind::Profile | Kind::Way, n) => {
