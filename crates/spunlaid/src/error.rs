@@ -220,6 +220,18 @@ pub enum Fault {
         /// An example line.
         line: String,
     },
+    /// A key that another table needs.
+    #[error(
+        "is missing, and a case with [{table_there}] needs it; add {line} to [{table}], or leave out [{table_there}]"
+    )]
+    MissingBeside {
+        /// The table that needs it.
+        table_there: &'static str,
+        /// The table it belongs in.
+        table: &'static str,
+        /// An example line.
+        line: String,
+    },
     /// A required key is not there, and the field lacks what would tell it.
     #[error(
         "is missing, and the field does not contain it: {why}; write these arrays too, or add {line} to [{table}]"
@@ -402,6 +414,28 @@ pub enum Fault {
         element_length: f64,
         /// A stable step [s].
         advice: f64,
+    },
+    /// A time step in which a fed fibre moves too far.
+    #[error(
+        "is longer than half the time in which an element of {} is fed; lower it to at most {}, or lengthen \
+         fibre.element_length",
+        Dimension::Length.pretty(*element_length), Dimension::Time.pretty(*limit)
+    )]
+    StepOverFeed {
+        /// The limit [s].
+        limit: f64,
+        /// Rest length of an element [m].
+        element_length: f64,
+    },
+    /// Elements that do not fit between inlet and belt.
+    #[error(
+        "is longer than half of belt.distance = {}, so that the fibre cannot bend on its way; shorten the elements, or \
+         correct the distance",
+        Dimension::Length.pretty(*distance)
+    )]
+    TooLongForBelt {
+        /// Distance from the inlet to the belt [m].
+        distance: f64,
     },
     /// More steps than are allowed.
     #[error(

@@ -55,7 +55,6 @@ impl Contact {
     /// Every kind of contact, with the usual numbers.
     pub const ALL: [Self; 2] = [Self::Stick, Self::Friction { coefficient: 0.3, suction: 200.0 }];
 
-
     /// Name in the case file.
     pub const fn name(self) -> &'static str {
         match self {

@@ -27,7 +27,8 @@ fn table1(changes: &[(&str, &str)]) -> Case {
 
 fn flights(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, laid: None };
+    let computing =
+        Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, laid: None };
     let mut flights = Vec::new();
     fly::<Error>(
         case,

@@ -2,12 +2,13 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use proptest::prelude::*;
-use spunlaid::air::Air;
+use spunlaid::air::{Air, EddyModel};
 use spunlaid::case::{Case, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::fibre::{Fibre, Root};
 use spunlaid::input::{parse_case, read_case, starter_case, write_case};
+use spunlaid::line::{Contact, Line};
 use spunlaid::record::{Layout, Settings, analyse, read_record};
 use spunlaid::vec3::Vec3;
 use std::fs;
@@ -276,8 +277,50 @@ prop_compose! {
     }
 }
 
+fn contact() -> impl Strategy<Value = Contact> {
+    let friction = (0f64..2.0, 0f64..1000.0)
+        .prop_map(|(coefficient, suction)| Contact::Friction { coefficient, suction });
+    prop_oneof![Just(Contact::Stick), friction]
+}
+
+prop_compose! {
+    /// A case whose fibre is fed on to a belt.
+    fn fed_case()(
+        case in case(),
+        (distance, elements, feed_speed, belt_speed) in (between(-2, 1), 2usize..1000, between(-2, 2), 0f64..10.0),
+        (kept_length, contact, steps_per_element) in (between(-3, 0), contact(), 2u64..50),
+        (decay_time, convected, implicit, pinned) in (between(-4, 0), any::<bool>(), any::<bool>(), any::<bool>()),
+        bending_viscosity_time in prop_oneof![Just(0.0), between(-9, -3)],
+    ) -> Case {
+        let mut case = case;
+        case.fibre.span(distance, distance / elements as f64);
+        case.fibre.direction = case.fibre.direction * case.fibre.direction.x.signum();
+        case.fibre.root = if pinned { Root::Pinned } else { Root::Clamped };
+        case.fibre.bending_viscosity_time = bending_viscosity_time;
+        if convected {
+            case.air.eddies = EddyModel::Convected { decay_time };
+        }
+        if implicit {
+            case.run.scheme = Scheme::ImplicitTension;
+        }
+        let line = Line { feed_speed, distance, belt_speed, contact, kept_length, steps_per_element };
+        case.line = Some(line);
+        let limit = case.stable_step_limits().iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
+        let whole_run = case.run.duration();
+        case.set_time_step(limit.min(case.fibre.rest_length() / feed_speed / steps_per_element as f64));
+        case.air.harmonics = case.air.harmonics.max((case.air.cutoff_frequency * whole_run) as usize);
+        case
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn identical_fed_cases_after_writing_and_reading(case in fed_case()) {
+        prop_assume!(case.check().is_ok());
+        prop_assert_eq!(bits(&read_again(&case)), bits(&case));
+    }
 
     #[test]
     fn identical_after_writing_and_reading(case in case()) {

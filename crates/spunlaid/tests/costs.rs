@@ -7,6 +7,8 @@
 #![allow(clippy::expect_used, unsafe_code)]
 
 mod common;
+#[path = "common/vtk.rs"]
+mod vtk;
 
 use common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
@@ -14,6 +16,7 @@ use spunlaid::case::Case;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{Computing, Job, Keep, Results, Trajectory, fly_together};
+use spunlaid::field::Field;
 use spunlaid::flight::Flight;
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::study::MEASURES;
@@ -73,7 +76,8 @@ fn memory_of<T>(work: impl FnOnce() -> T) -> (T, Memory) {
 
 fn flights(case: &Case) -> (Vec<Trajectory>, u64) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
+    let computing =
+        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
     let jobs: Vec<Job<'_>> = (0..case.run.replicates).map(|replicate| Job { case, replicate }).collect();
     let flights = fly_together(&jobs, Keep::NUMBERS, computing).expect("the case flies");
     (flights, fibre_steps.into_inner())
@@ -239,4 +243,94 @@ fn memory_of_a_flight_does_not_grow_with_its_time() {
     let (ten, hundred) = (seconds(&mut flight, 14.0), seconds(&mut flight, 114.0));
     assert_eq!((ten.kept, hundred.kept), (0, 0));
     assert_eq!(ten.peak, hundred.peak);
+}
+
+/// Points of a lattice of so many along each side of a unit cube, each with velocity, k and ε.
+fn cube(side: usize) -> (Vec<[f64; 3]>, [vtk::Data; 3]) {
+    let along = |i: usize| i as f64 / (side - 1) as f64;
+    let points: Vec<[f64; 3]> =
+        (0..side.pow(3)).map(|i| [along(i % side), along(i / side % side), along(i / side.pow(2))]).collect();
+    let velocity = points.iter().flat_map(|[x, y, z]| [1.0 + x, y * z, x * y]).collect();
+    let ones = || vec![1.0; points.len()];
+    let data = [("U", 3, velocity), ("k", 1, ones()), ("epsilon", 1, ones())];
+    (points, data)
+}
+
+const RAW: vtk::Style = vtk::Style { place: vtk::Place::AppendedRaw, ..vtk::ASCII };
+
+/// Bytes of a field when it is ready, and at most while it is made, without those of its file.
+fn memory_of_field(file: &[u8], name: &str) -> (f64, f64, usize) {
+    let (field, memory) = memory_of(|| Field::parse(file, name).expect("a field").0);
+    // What the field says it takes is what it holds.
+    let (told, kept) = (field.memory() as f64, memory.kept as f64);
+    assert!((kept / told - 1.0).abs() < 0.1, "{name}: {kept} bytes held, {told} told");
+    (kept, memory.peak as f64, field.memory_while_made())
+}
+
+#[test]
+fn a_field_takes_as_much_memory_as_the_guide_says() {
+    let side = 41;
+    let (points, data) = cube(side);
+    let first = |i: usize| i % 40 + side * (i / 40 % 40) + side * side * (i / 1600);
+    let corners = [0, 1, side + 1, side].map(|i| [i, i + side * side]);
+    let corners: Vec<usize> = [0, 1].into_iter().flat_map(|top| corners.map(|pair| pair[top])).collect();
+    let hexahedra = 40_usize.pow(3);
+    let cell = |i: usize| (12, corners.iter().map(|corner| first(i) + corner).collect(), Vec::new());
+    let mesh = vtk::Mesh {
+        points: points.clone(),
+        cells: (0..hexahedra).map(cell).collect(),
+        point_data: data.to_vec(),
+        cell_data: Vec::new(),
+    };
+    let image = vtk::vti([side; 3], [0.0; 3], [1.0 / 40.0; 3], [&data, &[]], RAW);
+    // Moved a little, so that they are no lattice.
+    let row = |(i, [x, y, z]): (usize, &[f64; 3])| {
+        let x = x + 1e-3 * scatter(i);
+        format!("{x},{y},{z},{},{},{},1,1\n", 1.0 + x, y * z, x * y)
+    };
+    let table: String = points.iter().enumerate().map(row).collect();
+    let table = format!("x_m,y_m,z_m,u_m_s,v_m_s,w_m_s,k,epsilon\n{table}");
+    // docs/air.md: 0.4 GB for a million hexahedra, and 1.1 GB besides the file while they are made. Here it is a little
+    // more, by lists that grow by doubling. 40 bytes for a point of a lattice, 225 for one of a table.
+    for (file, name, each, kept_each, made_each) in [
+        (vtk::vtu(&[mesh], RAW), "a.vtu", hexahedra, 400.0, 1250.0),
+        (image, "a.vti", points.len(), 41.0, 90.0),
+        (table.into_bytes(), "a.csv", points.len(), 226.0, 500.0),
+    ] {
+        let (kept, peak, told) = memory_of_field(&file, name);
+        let (kept, made) = (kept / each as f64, peak / each as f64);
+        println!(
+            "{name}: {kept:.0} and {made:.0} bytes each, {:.0} told, {} file",
+            told as f64 / each as f64,
+            file.len() / each
+        );
+        assert!(kept <= kept_each && made <= made_each, "{name}: {kept:.0} and {made:.0} bytes for each");
+        let share = told as f64 / peak;
+        assert!((0.67..1.5).contains(&share), "{name}: {told} bytes told of {peak}");
+    }
+}
+
+#[test]
+fn a_file_that_unpacks_to_more_than_is_read_is_refused_before_it_is_unpacked() {
+    // 24 blocks of 128 MiB of zeros, 0.13 MB each: 3 GiB, and as much again in numbers.
+    const BLOCK: usize = 128 << 20;
+    let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::new(6));
+    std::io::Write::write_all(&mut encoder, &vec![0; BLOCK]).expect("memory");
+    let packed = encoder.finish().expect("memory");
+    let points = 24 * BLOCK / 24;
+    let extent = format!("0 {} 0 0 0 0", points - 1);
+    let mut file = format!(
+        "<VTKFile type=\"ImageData\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n\
+         <ImageData WholeExtent=\"{extent}\">\n<Piece Extent=\"{extent}\">\n<PointData>\n\
+         <DataArray type=\"Float64\" Name=\"U\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/>\n\
+         </PointData>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">_"
+    )
+    .into_bytes();
+    let header = [24, BLOCK as u64, 0].into_iter().chain([packed.len() as u64; 24]);
+    header.for_each(|number| file.extend(number.to_le_bytes()));
+    (0..24).for_each(|_| file.extend(&packed));
+    let (said, memory) = memory_of(|| Field::parse(&file, "bomb.vti").err().map(|error| error.to_string()));
+    let said = said.expect("it is refused");
+    assert!(said.starts_with("bomb.vti:5: U: contains more than 4 GiB"), "{said}");
+    assert!(memory.peak < 1 << 20, "{} bytes at once", memory.peak);
 }

@@ -115,6 +115,8 @@ fn stat_intervals_hold_the_truth_as_often_as_they_say() {
         ("design = 'latin-hypercube'\npoints = 10", 6, MIXED, COMMON),
         ("design = 'latin-hypercube'\npoints = 24\ncommon_phases = false", 3, BENT, ALONE),
         ("design = 'latin-hypercube'\npoints = 40", 1, BENT, ALONE),
+        ("design = 'sobol'\npoints = 16", 6, STRAIGHT, COMMON),
+        ("design = 'sobol'\npoints = 32", 6, MIXED, COMMON),
     ] {
         let (share, width, scatter) = coverage(design, replicates, model, noise);
         let line = format!(

@@ -24,7 +24,8 @@ fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
 
 fn flights(case: &Case, threads: usize) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
+    let computing =
+        Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
     let mut flights = Vec::new();
     let done: Result<(), Error> = fly(case, Keep::NUMBERS, computing, |flight| {
         flights.push(flight);
@@ -178,7 +179,8 @@ fn rejects_a_flight_that_is_no_longer_finite() {
     let mut case = table1(3e-5, 0.5, 3);
     (case.fibre.diameter, case.air.velocity) = (2e-6, 3000.0);
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
+    let computing =
+        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
     let done: Result<(), Error> = fly(&case, Keep::NUMBERS, computing, |_| Ok(()));
     let message = done.expect_err("must blow up").to_string();
     assert!(message.contains("no longer finite") && message.contains("lower run.time_step"), "{message}");

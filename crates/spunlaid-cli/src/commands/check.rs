@@ -9,17 +9,22 @@ use crate::output::summary::{InOrder, resolved};
 use crate::say;
 use serde::Serialize;
 use serde_json::Value as Json;
+use spunlaid::air::{Air, Flow};
 use spunlaid::case::{Case, INSTANT_ON_DISK, Note, StepLimit};
 use spunlaid::ensemble::{KeepShapes, StepCheckPlan, pace};
 use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::line::Line;
 use spunlaid::units::Dimension;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 pub(crate) fn check(check: &Check) -> Result<(), Failure> {
+    let started = Instant::now();
     let (case, notes) = check.source.read(&[])?;
     notes.iter().for_each(say::note);
-    let expected = Expected::of(&case)?;
+    let expected = Expected::of(&case, started.elapsed().as_secs_f64())?;
     if check.json {
         say::text(&json(&case, expected, notes.iter().map(Note::to_string).collect()));
         return Ok(());
@@ -147,23 +152,67 @@ struct Expected {
 
 impl Expected {
     /// Measures the time of a few steps.
-    fn of(case: &Case) -> Result<Self, Failure> {
-        /// Memory of the program itself with its figures [bytes].
-        const PROGRAM: f64 = 30.0 * (1u64 << 20) as f64;
+    ///
+    /// * `reading` – time that it took to read the case and its files [s]
+    fn of(case: &Case, reading: f64) -> Result<Self, Failure> {
+        /// Time for figures and report [s], and for writing the position of a node.
+        const FIGURES: f64 = 0.4;
+        const WRITING: f64 = 0.7e-6;
         let flights = case.run.replicates.div_ceil(WIDTH as u64);
         let busy = (threads(None) as u64).min(flights);
         // A flight takes as long whether its lanes are full or not. The step check is one more, of its own length.
         let again = StepCheckPlan::of(case).map_or(0.0, |plan| plan.share_of_run) * flights as f64;
         let rounds = (flights.div_ceil(busy) as f64).max((flights as f64 + again) / busy as f64);
+        let flying = pace(case, Isa::detect())? * case.run.steps as f64 * rounds;
         Ok(Self {
-            wall_s: pace(case, Isa::detect())? * case.run.steps as f64 * rounds,
+            wall_s: reading + flying + FIGURES + WRITING * positions(case),
             threads: busy,
-            memory_bytes: case.flight_memory().total() * busy as f64
-                + case.air.field_memory() as f64
-                + PROGRAM,
+            memory_bytes: memory(case, busy),
             disk_bytes: on_disk(case),
         })
     }
+}
+
+/// Largest memory of a run on so many threads [bytes]: while its files are read, while it flies, or while figures are drawn.
+fn memory(case: &Case, threads: u64) -> f64 {
+    /// The program itself, and the figures that it draws when the flights are over.
+    const PROGRAM: f64 = 15.0 * (1u64 << 20) as f64;
+    const FIGURES: f64 = 20.0 * (1u64 << 20) as f64;
+    /// A position that is kept, and once more while it is written.
+    const POSITION: f64 = 2.0 * 24.0;
+    /// Rows of the tables that wait to be written, of 18 numbers.
+    const ROWS: f64 = (1 << 18) as f64;
+    const ROW: f64 = 18.0 * 8.0;
+    let air = &case.air;
+    let reading = match &air.flow {
+        Flow::Field(placed) => placed.field.memory_while_made() as f64 + largest_file(air),
+        Flow::Uniform | Flow::Profile(_) => 0.0,
+    };
+    let rows = instants(case) * case.run.replicates as f64;
+    let flying = case.flight_memory().total() * threads as f64 + ROW * rows.min(ROWS);
+    let kept = air.field_memory() as f64 + POSITION * positions(case);
+    PROGRAM + reading.max(kept + flying.max(FIGURES))
+}
+
+/// Size of the largest of the files of the air [bytes]; they are read one after the other.
+fn largest_file(air: &Air) -> f64 {
+    let size = |file: &Path| fs::metadata(file).map_or(0, |about| about.len()) as f64;
+    let of = |(file, parts): (&Path, &[PathBuf])| {
+        let folder = file.parent().unwrap_or(Path::new(""));
+        parts.iter().map(|part| size(&folder.join(part))).fold(size(file), f64::max)
+    };
+    air.files().into_iter().map(of).fold(0.0, f64::max)
+}
+
+/// Number of recorded instants of a fibre.
+fn instants(case: &Case) -> f64 {
+    (case.run.steps / case.run.output_steps + 1) as f64
+}
+
+/// Number of node positions that are kept for the report and ParaView.
+fn positions(case: &Case) -> f64 {
+    let kept = KeepShapes::within(case, POSITIONS);
+    instants(case) / kept.every as f64 * kept.replicates as f64 * (case.fibre.elements + 1) as f64
 }
 
 /// Size of the results: tables, shapes as text, figures and report [bytes].
@@ -172,12 +221,9 @@ fn on_disk(case: &Case) -> f64 {
     const LAID_POINT: f64 = 40.0;
     const FIGURES_AND_REPORT: f64 = 1e6;
     let run = &case.run;
-    let instants = (run.steps / run.output_steps + 1) as f64;
-    let kept = KeepShapes::within(case, POSITIONS);
-    let positions = instants / kept.every as f64 * kept.replicates as f64 * (case.fibre.elements + 1) as f64;
     let points = case.line.map_or(0.0, |line| line.feed_speed * run.duration() / case.fibre.rest_length());
-    let each = instants * INSTANT_ON_DISK + points * LAID_POINT;
-    run.replicates as f64 * each + positions * POSITION + FIGURES_AND_REPORT
+    let each = instants(case) * INSTANT_ON_DISK + points * LAID_POINT;
+    run.replicates as f64 * each + positions(case) * POSITION + FIGURES_AND_REPORT
 }
 
 fn size(bytes: f64) -> String {

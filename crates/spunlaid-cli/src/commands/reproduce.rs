@@ -46,8 +46,13 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     let flying = Flying::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
-    let computing =
-        Computing { threads: threads(asked.threads), isa: Isa::detect(), stop, fibre_steps: &fibre_steps, laid: None };
+    let computing = Computing {
+        threads: threads(asked.threads),
+        isa: Isa::detect(),
+        stop,
+        fibre_steps: &fibre_steps,
+        laid: None,
+    };
     let label = format!("flying {}", plural(flying.fibres(), "fibre"));
     let flown =
         progress::follow(&fibre_steps, flying.steps(), &label, asked.quiet, || flying.fly(computing))?;

@@ -36,7 +36,8 @@ fn case(h: f64, replicates: u64) -> Case {
 fn results(case: &Case) -> Results {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let computing = Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
+    let computing =
+        Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
     let mut collector = Results::collector(0);
     let done: Result<(), Error> = fly(case, Keep::NUMBERS, computing, |flight| {
         collector.take(&flight);

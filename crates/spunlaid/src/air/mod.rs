@@ -30,8 +30,8 @@ pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
 pub(crate) use stations::time_between_looks;
 pub use stations::{StationGrid, Stations};
-pub(crate) use surroundings::{AirAtElements, InEddies};
 pub use surroundings::Surroundings;
+pub(crate) use surroundings::{AirAtElements, InEddies};
 pub(crate) use wind::EddyVelocities;
 pub use wind::{Stream, StreamKey, Wind};
 
@@ -172,10 +172,19 @@ impl Air {
     ///
     /// * `duration` – of the flight [s]
     pub fn default_harmonics(&self, duration: f64) -> usize {
-        const MOST: f64 = 1024.0;
+        self.harmonics_lasting(duration, 1024.0)
+    }
+
+    /// As [`Air::default_harmonics`], for the many stations along the way of a fed fibre: at most 256 harmonics, or as many
+    /// as make a window last for 256 integral times.
+    pub fn default_harmonics_at_stations(&self, duration: f64) -> usize {
+        self.harmonics_lasting(duration, 256.0)
+    }
+
+    fn harmonics_lasting(&self, duration: f64, most: f64) -> usize {
         const INTEGRAL_TIMES: f64 = 256.0;
         let lasting = INTEGRAL_TIMES * self.cutoff_frequency * self.length_scale / self.velocity.abs();
-        let most = if lasting.is_finite() { lasting.max(MOST) } else { MOST };
+        let most = if lasting.is_finite() { lasting.max(most) } else { most };
         let wanted = (2.0 * self.cutoff_frequency * duration).min(most).ceil().max(128.0);
         if wanted < (1u64 << 62) as f64 { (wanted as usize).next_power_of_two() } else { usize::MAX }
     }

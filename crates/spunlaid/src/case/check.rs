@@ -3,13 +3,14 @@
 use super::keys::{self, finding};
 use super::memory::FLIGHT_MEMORY_LIMIT;
 use super::note::{Note, Remark};
-use super::{Case, StepLimit};
+use super::{Case, FEEDING, StepLimit};
 use crate::air::{Flow, FromFile, Measured, SpectrumShape};
 use crate::chain::schemes::Scheme;
 use crate::drag::NormalLaw;
 use crate::error::{Fault, Finding, Place, Problem};
 use crate::fibre::Root;
 use crate::field::Hint;
+use crate::line::Contact;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 
@@ -111,7 +112,11 @@ impl Case {
         let knows = |at: Vec3<f64>| self.air.local(at, &mut Hint::default()).inside;
         let root_outside = self.root_outside();
         if root_outside.is_none() && !centres.into_iter().all(knows) {
-            note("fibre.length", fibre.length, Remark::LeavesFlow);
+            let (key, length) = match self.line {
+                Some(line) => ("belt.distance", line.distance),
+                None => ("fibre.length", fibre.length),
+            };
+            note(key, length, Remark::LeavesFlow);
         }
         let felt = there_is_air && self.air.rms() > 0.0;
         if felt && self.air.length_scale < l * (1.0 - 1e-9) {
@@ -227,12 +232,27 @@ impl Check<'_> {
         if fibre.diameter >= fibre.length {
             self.blame("fibre.diameter", fibre.diameter, Fault::TooThick { length: fibre.length });
         }
+        if let Some(line) = self.case.line
+            && fibre.rest_length() > 0.5 * line.distance
+        {
+            let fault = Fault::TooLongForBelt { distance: line.distance };
+            self.blame("fibre.element_length", fibre.rest_length(), fault);
+        }
         if self.case.line.is_some() && fibre.root == Root::Free {
-            let (other, remedy) = ("[feed]", "the root is driven; choose \"clamped\" or \"pinned\"");
+            let (other, remedy) = ("[feed]", "the feed drives the root, so choose \"clamped\" or \"pinned\"");
             self.blame_key("fibre.root", "\"free\"".to_owned(), Fault::Excludes { other, remedy });
         }
+        let scheme = self.case.run.scheme;
+        if self.case.line.is_some_and(|line| line.contact != Contact::Stick)
+            && scheme != Scheme::ImplicitTension
+        {
+            let remedy =
+                "only implicit tension computes how a fibre slides; choose it, or let the fibre stick";
+            let (other, shown) = ("this run.scheme", format!("\"{}\"", "friction"));
+            self.blame_key("belt.contact", shown, Fault::Excludes { other, remedy });
+        }
         if self.case.line.is_some() && fibre.direction.x <= 0.0 {
-            let remedy = "the belt lies along +x; let the first number be above zero";
+            let remedy = "the belt lies along +x, so the first number has to be above zero";
             let direction = fibre.direction;
             let shown = format!("[{}, {}, {}]", direction.x, direction.y, direction.z);
             self.blame_key("fibre.direction", shown, Fault::Excludes { other: "[feed]", remedy });
@@ -301,7 +321,7 @@ impl Check<'_> {
         let fault = |what, remedy| Fault::TooMuchMemory { bytes, most, what, remedy };
         let (air, largest) =
             (&case.air, memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.instants));
-        let chosen = air.default_harmonics(case.run.duration());
+        let chosen = case.default_harmonics();
         if largest == memory.chain {
             let fault = fault("the chain", "choose a longer one");
             self.blame("fibre.element_length", case.fibre.rest_length(), fault);
@@ -334,7 +354,10 @@ impl Check<'_> {
         {
             let element_length = fibre.rest_length();
             let advice = two_digits_down(0.9 * limit);
-            let fault = Fault::StepTooLong { limit, cause, element_length, advice };
+            let fault = match cause {
+                FEEDING => Fault::StepOverFeed { limit, element_length },
+                _ => Fault::StepTooLong { limit, cause, element_length, advice },
+            };
             self.blame("run.time_step", run.time_step, fault);
         }
         if run.spin_up_steps >= run.steps {
@@ -358,8 +381,14 @@ impl Check<'_> {
         let Some(shared) = self.case.air.records.first() else {
             return;
         };
-        let eddies = self.case.eddies();
-        let turbulence = self.case.turbulence_along(&eddies);
+        let (eddies, turbulence) = match self.case.stations() {
+            Some(stations) => (stations.eddies(), self.case.air.turbulence_at(&stations)),
+            None => {
+                let eddies = self.case.eddies();
+                let turbulence = self.case.turbulence_along(&eddies);
+                (eddies, turbulence)
+            }
+        };
         let (records, convected) =
             (self.case.air.records.len(), turbulence.iter().any(|t| t.carried.is_some()));
         if convected && turbulence.iter().any(|eddy| eddy.forgotten > 0.0) {

@@ -10,8 +10,9 @@ pub const FLIGHT_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
 const VECTORS_PER_NODE: f64 = 10.0;
 /// Bytes of such a vector.
 const VECTOR: f64 = 192.0;
-/// Bytes of the end nodes and energies of eight fibres at a recorded instant.
-const INSTANT: f64 = 8.0 * 14.0 * 8.0;
+/// Bytes of a recorded instant of eight fibres: 896 of end nodes and energies, 600 of what observers keep, in lists that
+/// grow by doubling, half of which may be empty.
+const INSTANT: f64 = 2200.0;
 /// Bytes of the air around an element of eight fibres in a flow that is not uniform.
 const SURROUNDINGS: f64 = 2000.0;
 /// Bytes of scratch space that the synthesis of turbulence takes per harmonic.
@@ -40,8 +41,11 @@ impl FlightMemory {
 impl Case {
     /// Estimate of the memory of a flight of eight fibres [bytes].
     pub fn flight_memory(&self) -> FlightMemory {
-        let (air, elements) = (&self.air, self.fibre.elements as f64);
+        // A fed fibre swings and folds on its way, and some of it lies on the belt.
+        let slack = if self.line.is_some() { 2.0 } else { 1.0 };
+        let (air, elements) = (&self.air, self.fibre.elements as f64 * slack);
         let eddies = match air.eddies {
+            _ if self.line.is_some() => self.stations().map_or(0.0, |stations| stations.count as f64),
             EddyModel::Convected { .. } => elements,
             EddyModel::Independent if air.from_flow.length_scale => elements,
             EddyModel::Independent => (self.fibre.length / air.length_scale).ceil().max(1.0),

@@ -119,7 +119,7 @@ impl Case {
     /// Longest stable step for bending waves [s], with the stiff root of a fed fibre and the bending viscosity.
     ///
     /// The bending viscosity damps a wave of angular frequency `ω = 2/h₀` by `ω²τ`, so `(h/h₀)² + κ ω²τ h < 1`, `κ` as
-    /// of [`Case::stable_step_limits`].                                                 theory.md (62)
+    /// of [`Case::stable_step_limits`].                                                 theory.md (63)
     fn bending_step_limit(&self) -> f64 {
         let stiff_root = if self.line.is_some() { FED_ROOT } else { 1.0 };
         let alone = self.fibre.bending_step_limit() * stiff_root;
@@ -149,6 +149,14 @@ impl Case {
     /// Vector from the root to the free end of the straight fibre [m].
     pub fn along(&self) -> Vec3<f64> {
         self.fibre.direction * self.fibre.length
+    }
+
+    /// The number of harmonics if the case does not give it.
+    pub fn default_harmonics(&self) -> usize {
+        match self.line {
+            Some(_) => self.air.default_harmonics_at_stations(self.run.duration()),
+            None => self.air.default_harmonics(self.run.duration()),
+        }
     }
 
     /// The stations of the air between inlet and belt; `None` for a fibre of fixed length.

@@ -23,6 +23,17 @@ pub enum Remark {
         /// Their rest length [m].
         element_length: f64,
     },
+    /// An element is not fed in a whole number of steps.
+    #[error(
+        "does not divide the time in which an element is fed into whole steps: {steps} of {} are used for each",
+        Dimension::Time.pretty_to(*time_step, 8)
+    )]
+    StepShortenedToFeed {
+        /// Number of steps for an element.
+        steps: u64,
+        /// Length of a step [s].
+        time_step: f64,
+    },
     /// The run is not a whole number of steps long.
     #[error(
         "does not divide run.duration into whole steps: {steps} of {} {}",

@@ -147,7 +147,8 @@ impl<S: Register, const LEAPFROG: bool, const FED: bool> ExplicitIntegrator<'_, 
         }
         if held {
             let rate = Wide::load(&node.mass).over(self.kick);
-            let support = self.supports.add(i, free, (after - before) * rate - *force, [before, after], self.c);
+            let support =
+                self.supports.add(i, free, (after - before) * rate - *force, [before, after], self.c);
             *force += support;
         }
         after

@@ -17,9 +17,9 @@
 use super::force_pass::{ElementBlock, Integrator, force_pass};
 use super::forces::Element;
 use super::work::{Supports, WorkDone, WorkRegisters};
-use super::{Chain, Constants};
+use super::{Chain, Constants, Node};
 use crate::air::AirAtElements;
-use crate::lanes::{Lanes, Register, Wide};
+use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
@@ -37,6 +37,8 @@ pub(crate) struct Tensions {
     /// For each node: acceleration [m/s²] minus `slope` times that of the next node; later the predicted velocity.
     acceleration: Vec<Vec3<Lanes>>,
     slope: Vec<Lanes>,
+    /// For each node on the belt, with friction: the belt's force on it [N].
+    pub(crate) belt_force: Vec<Vec3<Lanes>>,
     /// For each element: correction of the tension [N] minus `.1` times that of the element above.
     correction: Vec<(Lanes, Lanes)>,
 }
@@ -61,6 +63,7 @@ impl Tensions {
             self.force.resize(room, Vec3::ZERO);
             self.drag.resize(room, Vec3::ZERO);
             self.acceleration.resize(room, Vec3::ZERO);
+            self.belt_force.resize(room, Vec3::ZERO);
             self.slope.resize(room, Lanes::ZERO);
             self.correction.resize(room, Default::default());
         }
@@ -99,6 +102,7 @@ pub(crate) fn step<S: Register, const FED: bool>(
         velocity: &chain.velocity,
         earlier: &chain.earlier,
         c,
+        h,
         rate: Wide::splat(h * h) * Wide::load(&c.node.inverse_mass),
         t: &mut chain.tensions,
         string: (Wide::zero(), Wide::zero()),
@@ -125,6 +129,8 @@ struct Predictor<'a, S: Register> {
     velocity: &'a [Vec3<Lanes>],
     earlier: &'a [Vec3<Lanes>],
     c: &'a Constants,
+    /// The time step [s].
+    h: f64,
     /// `h²/m` of a node between elements.
     rate: Wide<S>,
     t: &'a mut Tensions,
@@ -175,6 +181,9 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
             let damping = Wide::load(&node.mass) * Wide::load(&self.c.damping);
             force = self.drag_velocity(i).neg_mul_add(damping, force);
         }
+        if i > 0 && self.c.friction.is_some() && self.c.may_be_held(i, nodes) {
+            force += self.friction(i, node, force.x);
+        }
         self.t.force[i] = force.store();
         self.t.drag[i] = drag.store();
 
@@ -192,6 +201,33 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
         self.t.slope[i] = slope.store();
         self.above = (acceleration, slope);
         self.string.0 = self.string.1;
+    }
+}
+
+impl<S: Register> Predictor<'_, S> {
+    /// The friction on a node that slides on the belt; zero in the lanes where it does not. It slows the node down, at most
+    /// to the belt's velocity within the step.
+    ///
+    /// * `pull` – force of the chain and of gravity on to the belt [N]
+    #[cold]
+    #[inline(never)]
+    fn friction(&mut self, i: usize, node: &Node, pull: Wide<S>) -> Vec3<Wide<S>> {
+        let Some(friction) = &self.c.friction else { return Vec3::zero() };
+        let (pull, v) = (pull.store(), self.velocity[i]);
+        let mut force = Vec3::ZERO;
+        for lane in 0..WIDTH {
+            if node.inverse_mass.0[lane] > 0.0 && node.inverse_mass_x.0[lane] == 0.0 {
+                let slip = [v.y.0[lane] - self.c.frame.0[lane], v.z.0[lane]];
+                let speed = slip[0].hypot(slip[1]);
+                let normal = (pull.0[lane] + friction.press.0[lane]).max(0.0);
+                let stopping = node.mass.0[lane] / self.h;
+                let drag = (friction.coefficient.0[lane] * normal / speed).min(stopping);
+                let drag = if speed > 0.0 { drag } else { 0.0 };
+                force.set_lane(lane, Vec3::new(0.0, -drag * slip[0], -drag * slip[1]));
+            }
+        }
+        self.t.belt_force[i] = force;
+        Vec3::load(&force)
     }
 }
 
@@ -215,24 +251,36 @@ fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Chain, h: f64
     let mut acceleration = Vec3::zero();
     // The node below: where it is predicted, and its weight. Then the element below: its direction, and what it lacks.
     let mut lower = (Vec3::zero(), Vec3::zero());
-    let mut weights = (Wide::zero(), Wide::zero());
+    let none = Weight { x: Wide::zero(), across: Wide::zero() };
+    let mut weights = (none, none);
     let (mut below, mut here, mut wanted) = (Vec3::zero(), Vec3::zero(), Wide::zero());
     let (mut value, mut slope) = (Wide::zero(), Wide::zero());
     for i in (0..nodes).rev() {
         acceleration = acceleration.mul_add(Wide::load(&t.slope[i]), Vec3::load(&t.acceleration[i]));
         let mut predicted = acceleration.mul_add(h, Vec3::load(&velocity[i]));
-        let mut free = Wide::load(&c.node(i, nodes).inverse_mass);
+        let node = c.node(i, nodes);
+        let mut free = Wide::load(&node.inverse_mass);
+        let mut free_x = free;
         let at = Vec3::load(&position[i]);
+        if FED && c.may_be_held(i, nodes) {
+            // What slides on the belt does not leave it.
+            free_x = Wide::load(&node.inverse_mass_x);
+            let zero = Wide::zero();
+            let slides = Wide::select_less(zero, free, zero, predicted.x);
+            let own = Wide::select_less(zero, free_x, predicted.x, slides);
+            predicted.x = own;
+        }
         if FED
             && let Some(laying) = laying
             && laying.reached(at.x, predicted.x, h)
         {
             let mut landing = predicted.store();
-            free = free * Wide::load(&laying.land(i, &position[i], &mut landing, step));
+            let others = Wide::load(&laying.land(i, &position[i], &mut landing, step));
+            (free, free_x) = (free * others, free_x * others);
             predicted = Vec3::load(&landing);
         }
         t.acceleration[i] = predicted.store();
-        let weight = scale * free;
+        let weight = Weight { x: scale * free_x, across: scale * free };
         if i < elements {
             let edge = (lower.1 - predicted).mul_add(h, lower.0 - at);
             let length = edge.dot(edge).sqrt();
@@ -240,8 +288,8 @@ fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Chain, h: f64
             t.direction[i] = direction.store();
             // Row `i+1`, between the directions above and below it.
             if i + 1 < elements {
-                let above = -(weights.0 * here.dot(direction));
-                (value, slope) = row(above, (weights, here, below), wanted, (value, slope));
+                let above = -weights.0.between::<FED>(here, direction);
+                (value, slope) = row::<S, FED>(above, (weights, here, below), wanted, (value, slope));
                 t.correction[i + 1] = (value.store(), slope.store());
             }
             (below, here) = (here, direction);
@@ -250,8 +298,27 @@ fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Chain, h: f64
         weights = (weight, weights.0);
         lower = (at, predicted);
     }
-    (value, slope) = row(Wide::zero(), (weights, here, below), wanted, (value, slope));
+    (value, slope) = row::<S, FED>(Wide::zero(), (weights, here, below), wanted, (value, slope));
     t.correction[0] = (value.store(), slope.store());
+}
+
+/// `h²k_a/m` of a node: along x, where the belt may hold it, and across.
+#[derive(Clone, Copy)]
+struct Weight<S: Register> {
+    x: Wide<S>,
+    across: Wide<S>,
+}
+
+impl<S: Register> Weight<S> {
+    /// The weight between two directions.
+    #[inline(always)]
+    fn between<const FED: bool>(&self, a: Vec3<Wide<S>>, b: Vec3<Wide<S>>) -> Wide<S> {
+        if FED {
+            self.x * (a.x * b.x) + self.across * a.y.mul_add(b.y, a.z * b.z)
+        } else {
+            self.across * a.dot(b)
+        }
+    }
 }
 
 /// Eliminates a row.
@@ -261,15 +328,21 @@ fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Chain, h: f64
 /// * `wanted` – the right-hand side
 /// * `next` – value and slope of the row below
 #[inline(always)]
-fn row<S: Register>(
+fn row<S: Register, const FED: bool>(
     above: Wide<S>,
-    (weights, here, below): ((Wide<S>, Wide<S>), Vec3<Wide<S>>, Vec3<Wide<S>>),
+    (weights, here, below): ((Weight<S>, Weight<S>), Vec3<Wide<S>>, Vec3<Wide<S>>),
     wanted: Wide<S>,
     next: (Wide<S>, Wide<S>),
 ) -> (Wide<S>, Wide<S>) {
     let one = Wide::splat(1.0);
-    let below = -(weights.1 * here.dot(below));
-    let pivot = one.over(below.neg_mul_add(next.1, one + (weights.0 + weights.1)));
+    let below = -weights.1.between::<FED>(here, below);
+    let own = if FED {
+        let x = here.x * here.x;
+        (weights.0.x + weights.1.x).mul_add(x, (weights.0.across + weights.1.across) * (one - x))
+    } else {
+        weights.0.across + weights.1.across
+    };
+    let pivot = one.over(below.neg_mul_add(next.1, one + own));
     (below.neg_mul_add(next.0, wanted) * pivot, above * pivot)
 }
 
@@ -301,7 +374,12 @@ fn correct_and_move<S: Register, const FED: bool>(
         let node = c.node(i, nodes);
         let before = Vec3::load(&velocity[i]);
         let kick = h * Wide::load(&node.inverse_mass);
-        let after = (change - change_above).mul_add(kick, Vec3::load(&t.acceleration[i]));
+        let predicted = Vec3::load(&t.acceleration[i]);
+        let mut after = (change - change_above).mul_add(kick, predicted);
+        if FED && i > 0 && c.may_be_held(i, nodes) {
+            let zero = Wide::zero();
+            after.x = Wide::select_less(zero, Wide::load(&node.inverse_mass_x), after.x, predicted.x);
+        }
         // The force that moved the node. What the other forces do not explain is the tension.
         let force = (after - before) * (Wide::load(&node.mass) * rate);
         let mut tension = force - Vec3::load(&t.force[i]) + (pull - pull_above);
@@ -314,7 +392,12 @@ fn correct_and_move<S: Register, const FED: bool>(
         if FED {
             if c.may_be_held(i, nodes) {
                 let unexplained = force - Vec3::load(&t.force[i]) - (change - change_above);
-                tension -= supports.add(i, Wide::load(&node.inverse_mass), unexplained, seen, c);
+                let held = supports.add(i, Wide::load(&node.inverse_mass), unexplained, seen, c);
+                tension -= held;
+                if i > 0 && c.friction.is_some() {
+                    supports.rub(Vec3::load(&t.belt_force[i]), seen, c);
+                    t.belt_force[i] = (Vec3::load(&t.belt_force[i]) + held).store();
+                }
             }
             seen = [before.less_y(frame), after.less_y(frame)];
         }

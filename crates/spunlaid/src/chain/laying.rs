@@ -9,12 +9,12 @@
 //! ```
 //!
 //! Landing and leaving depend on the fibre's own lane alone, so a fibre has the same bits whatever flies beside it.
-//!                                                                         theory.md (59) to (63)
+//!                                                                         theory.md (59) to (62)
 
-use super::{Chain, Constants, Node};
-use crate::fibre::Root;
+use super::{Chain, Constants, Friction, Node};
+use crate::fibre::{Fibre, Root};
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
-use crate::line::Line;
+use crate::line::{Contact, Line};
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
@@ -25,7 +25,7 @@ pub(crate) const BORN: f64 = 1.0 / 16.0;
 /// Nodes that stay in the chain after they have left it in every lane, because they hold the bending of the last one.
 const HOLDING: usize = 2;
 /// Nodes that leave the arrays together.
-const TOGETHER: usize = 16;
+const TOGETHER: usize = 4;
 
 /// A point of a fibre that has been laid.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -81,17 +81,17 @@ pub(crate) struct Carried {
 }
 
 impl Laying {
-    /// * `lanes` – feed and belt of up to eight fibres, and how their roots are held
+    /// * `lanes` – of up to eight fibres
     /// * `rest_length` – of an element [m]
-    pub(crate) fn new(lanes: &[(Line, Root, f64)], rest_length: &Lanes, elements: usize) -> Self {
+    fn new(lanes: &[Fed], rest_length: &Lanes, elements: usize) -> Self {
         let pick = |i: usize| &lanes[if i < lanes.len() { i } else { 0 }];
-        let kept = |i: usize| (pick(i).0.kept_length / rest_length.0[i]).ceil().clamp(1.0, 1e9) as u64;
+        let kept = |i: usize| (pick(i).line.kept_length / rest_length.0[i]).ceil().clamp(1.0, 1e9) as u64;
         Self {
-            clamped: std::array::from_fn(|i| pick(i).1 == Root::Clamped),
-            feed_speed: Lanes::from_fn(|i| pick(i).0.feed_speed),
-            height: Lanes::from_fn(|i| pick(i).0.distance),
-            belt_speed: Lanes::from_fn(|i| pick(i).0.belt_speed),
-            steps_per_element: lanes[0].0.steps_per_element,
+            clamped: std::array::from_fn(|i| pick(i).fibre.root == Root::Clamped),
+            feed_speed: Lanes::from_fn(|i| pick(i).line.feed_speed),
+            height: Lanes::from_fn(|i| pick(i).line.distance),
+            belt_speed: Lanes::from_fn(|i| pick(i).line.belt_speed),
+            steps_per_element: lanes[0].line.steps_per_element,
             kept: std::array::from_fn(kept),
             root_number: elements as u64,
             touched: [0; WIDTH],
@@ -147,7 +147,83 @@ impl Laying {
     }
 }
 
+impl Node {
+    /// Holds the node in a lane.
+    fn hold(&mut self, lane: usize) {
+        (self.inverse_mass.0[lane], self.inverse_mass_x.0[lane]) = (0.0, 0.0);
+    }
+}
+
+/// Friction of up to eight fibres; none if all of them stick.
+fn friction(lanes: &[Fed], rest_length: &Lanes) -> Option<Friction> {
+    let pick = |i: usize| &lanes[if i < lanes.len() { i } else { 0 }];
+    let of = |i: usize| match pick(i).line.contact {
+        // What sticks would have to be pulled with an infinite force.
+        Contact::Stick => (f64::INFINITY, 0.0),
+        Contact::Friction { coefficient, suction } => {
+            (coefficient, suction * pick(i).fibre.diameter * rest_length.0[i])
+        }
+    };
+    let slides = (0..WIDTH).any(|i| pick(i).line.contact != Contact::Stick);
+    slides.then(|| Friction { coefficient: Lanes::from_fn(|i| of(i).0), press: Lanes::from_fn(|i| of(i).1) })
+}
+
+/// How a fibre is fed and laid.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fed {
+    /// Feed and belt.
+    pub(crate) line: Line,
+    /// The fibre.
+    pub(crate) fibre: Fibre,
+    /// Direction around the axis in which the first end is a little off it [turns].
+    pub(crate) turn: f64,
+}
+
 impl Chain {
+    /// Nodes on the belt begin to slide where the belt would have to hold them with more than the friction, and stick
+    /// again where the friction stops them.                                       theory.md (61)
+    #[inline(always)]
+    pub(crate) fn slide(&mut self, h: f64) {
+        if self.constants.friction.is_some() && self.laying.is_some() {
+            self.begin_and_end_sliding(h);
+        }
+    }
+
+    #[inline(never)]
+    fn begin_and_end_sliding(&mut self, h: f64) {
+        let nodes = self.position.len();
+        let Self { velocity, earlier, constants: c, tensions, laying: Some(laying), .. } = self else {
+            return;
+        };
+        let Some(friction) = c.friction else { return };
+        for (from_end, node) in c.tail.iter_mut().enumerate() {
+            let i = nodes - 1 - from_end;
+            for lane in 0..WIDTH {
+                let landed = !laying.landed_at[from_end].0[lane].is_nan() && node.mass.0[lane] > 0.0;
+                if !landed {
+                    continue;
+                }
+                let (mass, force) = (node.mass.0[lane], tensions.belt_force[i].lane(lane));
+                let with_belt = Vec3::new(0.0, laying.belt_speed.0[lane], 0.0);
+                if node.inverse_mass.0[lane] == 0.0 {
+                    let normal = (friction.press.0[lane] - force.x).max(0.0);
+                    if force.y.hypot(force.z) > friction.coefficient.0[lane] * normal {
+                        node.inverse_mass.0[lane] = 1.0 / mass;
+                    }
+                    continue;
+                }
+                let before = (earlier[i].lane(lane) - with_belt).norm();
+                if before > 0.0 && force.y.hypot(force.z) * h >= 0.999_999 * mass * before {
+                    let slip = velocity[i].lane(lane) - with_belt;
+                    laying.carried.impacts.0[lane] -= 0.5 * mass * slip.dot(slip);
+                    velocity[i].set_lane(lane, with_belt);
+                    earlier[i].set_lane(lane, with_belt);
+                    node.hold(lane);
+                }
+            }
+        }
+    }
+
     /// Holds the nodes that land in this step.
     #[inline(always)]
     pub(crate) fn hold_landing(&mut self) {
@@ -167,8 +243,9 @@ impl Chain {
                 c.tail.push(c.node);
                 laying.landed_at.push(Lanes::splat(f64::NAN));
             }
-            let held = &mut c.tail[from_end].inverse_mass;
-            (0..WIDTH).filter(|&lane| !shares.0[lane].is_nan()).for_each(|lane| held.0[lane] = 0.0);
+            for lane in (0..WIDTH).filter(|&lane| !shares.0[lane].is_nan()) {
+                c.tail[from_end].hold(lane);
+            }
         }
     }
 
@@ -200,9 +277,8 @@ impl Chain {
         let second = Lanes::from_fn(|i| k.0[i] * if laying.clamped[i] { 1.0 } else { inside.min(1.0) });
         (self.constants.root_stiffness, self.constants.second_stiffness) = (root, second);
         // What the change adds or takes is the feed's.
-        let bends: [Lanes; 2] = [0, 1].map(|node| {
-            if node + 1 < self.position.len() { self.bend_squared(node) } else { Lanes::ZERO }
-        });
+        let bends: [Lanes; 2] = [0, 1]
+            .map(|node| if node + 1 < self.position.len() { self.bend_squared(node) } else { Lanes::ZERO });
         let half = Lanes::splat(0.5);
         let change = (root - before.0) * bends[0] + (second - before.1) * bends[1];
         if let Some(laying) = &mut self.laying {
@@ -216,7 +292,9 @@ impl Chain {
         let nodes = self.position.len();
         let time = step as f64 * h;
         self.lengthen_tail();
-        let Self { position, velocity, earlier, constants: c, laying: Some(laying), .. } = self else { return };
+        let Self { position, velocity, earlier, constants: c, laying: Some(laying), .. } = self else {
+            return;
+        };
         let mut changed = [false; WIDTH];
         for (node, shares) in laying.landing.drain(..) {
             let from_end = nodes - 1 - node;
@@ -244,7 +322,9 @@ impl Chain {
     /// from now on.
     fn leave(&mut self, lane: usize, time: f64) {
         loop {
-            let Self { position, velocity, earlier, constants: c, laying: Some(laying), .. } = self else { return };
+            let Self { position, velocity, earlier, constants: c, laying: Some(laying), .. } = self else {
+                return;
+            };
             let number = laying.left[lane];
             if number + laying.kept[lane] >= laying.touched[lane] {
                 return;
@@ -255,10 +335,12 @@ impl Chain {
             if c.tail[from_end].inverse_mass.0[lane] != 0.0 {
                 let fall = velocity[node].lane(lane) - with_belt;
                 laying.carried.impacts.0[lane] -= 0.5 * c.tail[from_end].mass.0[lane] * fall.dot(fall);
-                c.tail[from_end].inverse_mass.0[lane] = 0.0;
+                c.tail[from_end].hold(lane);
                 velocity[node].set_lane(lane, with_belt);
                 earlier[node].set_lane(lane, with_belt);
-                laying.landed_at[from_end].0[lane] = time;
+                if laying.landed_at[from_end].0[lane].is_nan() {
+                    laying.landed_at[from_end].0[lane] = time;
+                }
             }
             let at = position[node].lane(lane);
             let fed = number as f64 * c.rest_length.0[lane];
@@ -286,7 +368,8 @@ impl Chain {
         let Some(below) = self.position.get(node + 1) else { return (0.0, 0.0) };
         let edge = below.lane(lane) - self.position[node].lane(lane);
         let stretch = edge.norm() - c.rest_length.0[lane];
-        let bending = if node == 0 { 0.0 } else { c.bending_stiffness.0[lane] * self.bend_squared_in(node, lane) };
+        let bending =
+            if node == 0 { 0.0 } else { c.bending_stiffness.0[lane] * self.bend_squared_in(node, lane) };
         (0.5 * c.axial_stiffness.0[lane] * stretch * stretch, 0.5 * bending)
     }
 
@@ -366,7 +449,7 @@ impl Chain {
             return;
         }
         let c = &mut self.constants;
-        c.frame = former.frame;
+        (c.frame, c.friction) = (former.frame, former.friction);
         (c.root.mass, c.root.weight) = (c.node.mass, c.node.weight);
         let (root, second) = (former.root_stiffness, former.second_stiffness);
         let scale = |of: Lanes| {
@@ -375,11 +458,16 @@ impl Chain {
         (c.root_stiffness, c.second_stiffness) = (scale(root), scale(second));
         let node = c.node;
         let kept = |new: Lanes, old: Lanes| Lanes::from_fn(|i| if old.0[i] == 0.0 { 0.0 } else { new.0[i] });
-        c.tail = former.tail.iter().map(|old| Node {
-            mass: kept(node.mass, old.mass),
-            inverse_mass: kept(node.inverse_mass, old.inverse_mass),
-            weight: kept(node.weight, old.weight),
-        }).collect();
+        c.tail = former
+            .tail
+            .iter()
+            .map(|old| Node {
+                mass: kept(node.mass, old.mass),
+                inverse_mass: kept(node.inverse_mass, old.inverse_mass),
+                inverse_mass_x: kept(node.inverse_mass_x, old.inverse_mass_x),
+                weight: kept(node.weight, old.weight),
+            })
+            .collect();
     }
 
     /// Makes a fibre of fixed length a fed one: its first elements move down from the inlet at the feed speed.
@@ -387,14 +475,15 @@ impl Chain {
     /// The first end is a thousandth of an element off the axis, because a fibre that is exactly straight stays in the
     /// unstable balance of a column.
     ///
-    /// * `lanes` – feed and belt of each fibre, how its root is held, and the direction of that offset [turns]
-    pub(crate) fn feed(&mut self, lanes: &[(Line, Root, f64)]) {
+    /// * `lanes` – of each fibre
+    pub(crate) fn feed(&mut self, lanes: &[Fed]) {
         let c = &mut self.constants;
         let elements = self.position.len() - 1;
         let mut laying = Laying::new(lanes, &c.rest_length, elements);
         let above = c.root_direction * (c.rest_length * Lanes::splat(BORN - 0.5));
         self.position.iter_mut().for_each(|position| *position += above);
-        let pick = |lane: usize| lanes[if lane < lanes.len() { lane } else { 0 }].2 * std::f64::consts::TAU;
+        let pick =
+            |lane: usize| lanes[if lane < lanes.len() { lane } else { 0 }].turn * std::f64::consts::TAU;
         let end = &mut self.position[elements];
         for lane in 0..WIDTH {
             let off = 1e-3 * c.rest_length.0[lane];
@@ -405,6 +494,7 @@ impl Chain {
         self.velocity.iter_mut().chain(self.earlier.iter_mut()).for_each(|v| *v = velocity);
         laying.origin = self.position.clone();
         c.frame = laying.belt_speed;
+        c.friction = friction(lanes, &c.rest_length);
         // It becomes a node between two elements.
         let Node { mass, weight, .. } = c.node;
         (c.root.mass, c.root.weight) = (mass, weight);

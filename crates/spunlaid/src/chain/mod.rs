@@ -68,10 +68,21 @@ pub(crate) struct Constants {
     /// Time constant of the bending viscosity [s]; none if it is zero in all lanes.
     pub(crate) viscosity: Option<Lanes>,
     pub(crate) damping: Lanes,
+    /// Friction on the belt; none if the fibres stick to it.
+    pub(crate) friction: Option<Friction>,
     /// Speed of the belt along y, from which energies are seen [m/s]; zero without a belt.
     pub(crate) frame: Lanes,
     /// Half an element's drag, which is the share of each of its two nodes.
     pub(crate) half_drag: DragLanes,
+}
+
+/// Friction of eight fibres on their belts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Friction {
+    /// Coefficient of friction `μ` [-].
+    pub(crate) coefficient: Lanes,
+    /// Force with which the suction presses a node on to the belt [N].
+    pub(crate) press: Lanes,
 }
 
 /// The constants of a node that a step needs.
@@ -80,6 +91,8 @@ pub(crate) struct Node {
     pub(crate) mass: Lanes,
     /// 0 if the node is held.
     pub(crate) inverse_mass: Lanes,
+    /// Likewise along x; 0 also if the node slides on the belt.
+    pub(crate) inverse_mass_x: Lanes,
     pub(crate) weight: Lanes,
 }
 
@@ -94,10 +107,14 @@ impl Constants {
             lanes(&|s| s.fibre.direction.y),
             lanes(&|s| s.fibre.direction.z),
         );
-        let node = |i: usize, held: &dyn Fn(&Strand) -> bool| Node {
-            mass: lanes(&|s| s.fibre.node_mass(i)),
-            inverse_mass: lanes(&|s| if held(s) { 0.0 } else { 1.0 / s.fibre.node_mass(i) }),
-            weight: lanes(&|s| s.fibre.node_mass(i) * s.gravity),
+        let node = |i: usize, held: &dyn Fn(&Strand) -> bool| {
+            let inverse_mass = lanes(&|s| if held(s) { 0.0 } else { 1.0 / s.fibre.node_mass(i) });
+            Node {
+                mass: lanes(&|s| s.fibre.node_mass(i)),
+                inverse_mass,
+                inverse_mass_x: inverse_mass,
+                weight: lanes(&|s| s.fibre.node_mass(i) * s.gravity),
+            }
         };
         Self {
             root: node(0, &|s| s.fibre.root != Root::Free),
@@ -115,6 +132,7 @@ impl Constants {
                 .any(|s| s.fibre.bending_viscosity_time != 0.0)
                 .then(|| lanes(&|s| s.fibre.bending_viscosity_time)),
             damping: lanes(&|s| s.damping),
+            friction: None,
             frame: Lanes::ZERO,
             half_drag: DragLanes::pack(&std::array::from_fn::<_, WIDTH, _>(|i| pick(i).drag.half())),
         }

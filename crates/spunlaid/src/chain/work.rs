@@ -84,6 +84,19 @@ impl Supports {
         force
     }
 
+    /// Adds the work of the friction on a node that slides on the belt.
+    #[inline(always)]
+    pub(crate) fn rub<S: Register>(
+        &mut self,
+        friction: Vec3<Wide<S>>,
+        [before, after]: [Vec3<Wide<S>>; 2],
+        c: &Constants,
+    ) {
+        let frame = Wide::load(&c.frame);
+        let sum = before.less_y(frame) + after.less_y(frame);
+        self.belt.both = friction.dot_add(sum, Wide::load(&self.belt.both)).store();
+    }
+
     #[inline(always)]
     pub(crate) fn put(self, work: &mut WorkDone) {
         (work.feed, work.belt) = (self.feed, self.belt);
@@ -98,7 +111,6 @@ impl WorkDone {
             self.viscous = power.mul_add(Wide::splat(h), Wide::load(&self.viscous)).store();
         }
     }
-
 
     /// Removes what the first step added for the time before the start. Called once, after that step.
     pub(crate) fn begin(&mut self) {

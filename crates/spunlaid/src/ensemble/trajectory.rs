@@ -173,9 +173,9 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     let steps = ((2e5 / case.fibre.elements as f64).clamp(1.0, 1e4) as u64).min(case.run.steps).max(1);
     let mut flight = Flight::new(&[Job { case, replicate: 0 }], isa)?;
     if let Some(line) = case.line {
-        // A fed fibre is timed when it hangs down to the belt.
-        let filled = 1.5 * line.distance / line.feed_speed / case.run.time_step;
-        flight.advance((filled as u64).min(case.run.steps));
+        // Until the fibre has come down.
+        let down = 1.5 * line.distance / line.feed_speed / case.run.time_step;
+        flight.advance((down as u64).min(case.run.steps).min(100_000));
     }
     let (mut done, started) = (0, Instant::now());
     while done == 0 || started.elapsed().as_secs_f64() < TRIAL {

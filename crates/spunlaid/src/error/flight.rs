@@ -52,6 +52,9 @@ pub enum FlightFault {
         /// How many there must be.
         wanted: usize,
     },
+    /// Other positions for a fibre that is being fed.
+    #[error("a fed fibre starts at its inlet; start a new flight of it")]
+    Fed,
     /// A time step that is not positive and finite.
     #[error("a time step of {step:e} s cannot be taken; it must be positive and finite")]
     Step {

@@ -242,6 +242,16 @@ impl Field {
         support + self.bricks.memory()
     }
 
+    /// Estimate of the memory that reading the field took, without that of its file [bytes].
+    pub fn memory_while_made(&self) -> usize {
+        // Measured: points, cells and values are there as they were read, sorted, and as they are kept.
+        match &self.support {
+            Support::Lattice(lattice) => 2 * lattice.memory(),
+            Support::Mesh(mesh) => 3 * mesh.memory(),
+            Support::Points(points) => 2 * points.memory(),
+        }
+    }
+
     /// The air at a point.
     ///
     /// * `at` – [m]; if a coordinate is NaN, the air stands still

@@ -18,16 +18,18 @@ pub(super) struct Node {
 
 /// Combines points and values after checking that the coordinates are in range.
 pub(super) fn nodes(points: &[Vec3<f64>], values: Vec<Quantities>) -> Result<Vec<Node>, FileError> {
-    let node = |(i, (point, values)): (usize, (&Vec3<f64>, Quantities))| {
+    // A list that grows would take up to twice as much.
+    let mut nodes = Vec::with_capacity(points.len());
+    for (point, values) in points.iter().zip(values) {
         // Adding zero turns −0 into 0, so that both count as one place.
         let at = [point.x + 0.0, point.y + 0.0, point.z + 0.0];
-        match at.into_iter().find(|x| !in_range(*x)) {
-            None => Ok(Node { at, values }),
-            Some(value) => Err(FileError::from(FieldFault::OutOfRange { value, most: LARGEST })
-                .at(FilePlace::Point(i as u64 + 1))),
+        if let Some(value) = at.into_iter().find(|x| !in_range(*x)) {
+            let point = FilePlace::Point(nodes.len() as u64 + 1);
+            return Err(FileError::from(FieldFault::OutOfRange { value, most: LARGEST }).at(point));
         }
-    };
-    points.iter().zip(values).enumerate().map(node).collect()
+        nodes.push(Node { at, values });
+    }
+    Ok(nodes)
 }
 
 /// The points at different places, each with the mean of the values there, and a warning where they differ.
@@ -37,9 +39,10 @@ pub(super) fn distinct(
 ) -> Result<(Vec<Node>, Vec<FieldWarning>), FileError> {
     let mut nodes = nodes(points, values.check(points.len())?)?;
     let (place_of, merged) = merge(&mut nodes);
-    let firsts = nodes.into_iter().zip(0..).filter(|(_, i)| place_of[*i as usize] == *i);
+    let mut number = 0..;
+    nodes.retain(|_| number.next().is_some_and(|i: u32| place_of[i as usize] == i));
     let warning = (merged > 0).then_some(FieldWarning::Merged { points: merged });
-    Ok((firsts.map(|(node, _)| node).collect(), warning.into_iter().collect()))
+    Ok((nodes, warning.into_iter().collect()))
 }
 
 /// Merges points at the same place: the first of them gets the mean of their values.

@@ -30,7 +30,11 @@ impl Common {
         let Case { fibre, air, run, .. } = case;
         Self {
             elements: fibre.elements,
-            eddy_of_element: if case.line.is_some() { Vec::new() } else { case.eddies().of_element().to_vec() },
+            eddy_of_element: if case.line.is_some() {
+                Vec::new()
+            } else {
+                case.eddies().of_element().to_vec()
+            },
             time_step: run.time_step.to_bits(),
             steps: run.steps,
             spin_up_steps: run.spin_up_steps,
@@ -46,7 +50,11 @@ impl Common {
                 let stations = case.stations().map_or(0, |stations| stations.count);
                 (line.steps_per_element, fibre.rest_length().to_bits(), stations)
             }),
-            steps_between_looks: if case.line.is_none() && air.is_uniform() { 0 } else { case.steps_between_looks() },
+            steps_between_looks: if case.line.is_none() && air.is_uniform() {
+                0
+            } else {
+                case.steps_between_looks()
+            },
         }
     }
 

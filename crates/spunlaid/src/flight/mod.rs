@@ -35,6 +35,7 @@ pub use end_node::{EndNodeMotion, EndNodeStatistics};
 use crate::air::{Eddies, Stations, Stream, StreamKey, Surroundings, Wind};
 use crate::case::Case;
 use crate::chain::Chain;
+use crate::chain::laying::Fed;
 pub use crate::chain::laying::LaidPoint;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
@@ -52,10 +53,13 @@ pub struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// A direction around the axis of its own [turns]; those of successive replicates spread evenly.
-    pub(crate) fn turn(&self) -> f64 {
+    /// How its fibre is fed and laid; `None` for a fibre of fixed length. The first ends of successive replicates are off
+    /// the axis in directions that spread evenly.
+    pub(crate) fn fed(&self) -> Option<Fed> {
         const RATIOS: [f64; 2] = [0.618_033_988_749_894_9, 0.754_877_666_246_692_7];
-        (self.replicate as f64 * RATIOS[0] + (self.case.run.seed % 1_000_003) as f64 * RATIOS[1]).fract()
+        let (seed, fibre) = ((self.case.run.seed % 1_000_003) as f64, self.case.fibre);
+        let turn = (self.replicate as f64 * RATIOS[0] + seed * RATIOS[1]).fract();
+        Some(Fed { line: self.case.line?, fibre, turn })
     }
 
     /// The source of its turbulence.

@@ -3,14 +3,13 @@
 use super::{Common, EndNodeStatistics, Flight, Job, Start, Surrounded};
 use crate::air::{Stations, Surroundings, Wind};
 use crate::case::Case;
+use crate::chain::laying::Fed;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
 use crate::chain::{Chain, Strand};
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
-use crate::fibre::Root;
 use crate::lanes::{Isa, Lanes, WIDTH};
-use crate::line::Line;
 use crate::vec3::Vec3;
 
 impl Flight {
@@ -43,8 +42,7 @@ impl Flight {
         let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
         let cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect::<Vec<_>>();
         let air = surrounded(&cases, isa, horizon)?;
-        let laid: Option<Vec<_>> =
-            jobs.iter().map(|job| Some((job.case.line?, job.case.fibre.root, job.turn()))).collect();
+        let laid: Option<Vec<_>> = jobs.iter().map(Job::fed).collect();
         let mut flight = match laid {
             Some(laid) => Self::fed(isa, &strands, &laid, air, run.scheme, run.time_step)?,
             None => Self::assembled(isa, &strands, air, run.scheme, run.time_step)?,
@@ -85,7 +83,7 @@ impl Flight {
     fn fed(
         isa: Isa,
         strands: &[Strand],
-        laid: &[(Line, Root, f64)],
+        laid: &[Fed],
         air: Surrounded,
         scheme: Scheme,
         h: f64,
@@ -140,12 +138,15 @@ impl Flight {
     /// * `position`, `velocity` – of the `N+1` nodes [m, m/s]
     ///
     /// # Errors
-    /// The number of positions or velocities is not the number of nodes.
+    /// The number of positions or velocities is not the number of nodes, or the fibre is being fed.
     pub fn restart_from(
         &mut self,
         position: Vec<Vec3<Lanes>>,
         velocity: Vec<Vec3<Lanes>>,
     ) -> Result<(), FlightFault> {
+        if self.stations.is_some() {
+            return Err(FlightFault::Fed);
+        }
         let wanted = self.chain.position.len();
         for found in [position.len(), velocity.len()] {
             if found != wanted {

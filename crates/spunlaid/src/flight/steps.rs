@@ -105,7 +105,9 @@ impl Flight {
     /// The first fibre that does not reach the belt, if there is one: ten times the way has been fed and has not landed.
     pub(crate) fn adrift(&self) -> Option<Error> {
         let in_air = self.chain.in_air();
-        let length = |lane: usize, line: &Line| in_air[lane] as f64 * self.chain.constants.rest_length.0[lane] / line.distance;
+        let length = |lane: usize, line: &Line| {
+            in_air[lane] as f64 * self.chain.constants.rest_length.0[lane] / line.distance
+        };
         self.cases.iter().enumerate().find_map(|(lane, (case, replicate))| {
             let line = case.line.as_ref()?;
             (length(lane, line) > MOST_IN_AIR).then(|| Error::NotLanding {
@@ -134,6 +136,7 @@ impl Flight {
     fn feed_and_lay(&mut self) {
         if let Some(stations) = &mut self.stations {
             let fed = self.chain.fed();
+            self.chain.slide(self.h);
             self.chain.feed_and_lay(self.steps_done, self.h);
             stations.follow(self.chain.elements(), self.chain.fed() > fed);
         }

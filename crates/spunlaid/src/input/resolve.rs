@@ -57,9 +57,16 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                     drop(key.set(&mut case, if fed { default_if_fed(key.name, text) } else { text }));
                 }
                 LeftOut::Follows(_) if fed && REQUIRED_IF_FED.iter().any(|(name, _)| *name == key.name) => {
-                    let (_, line) = REQUIRED_IF_FED.iter().find(|(name, _)| *name == key.name).unwrap_or(&("", ""));
+                    let (_, line) =
+                        REQUIRED_IF_FED.iter().find(|(name, _)| *name == key.name).unwrap_or(&("", ""));
                     let (table, line) = (key.table(), (*line).to_owned());
-                    written.reject(key.name, Fault::Missing { table, line });
+                    let table_there = if table == "feed" { "belt" } else { "feed" };
+                    let fault = if written.has_table(table) {
+                        Fault::Missing { table, line }
+                    } else {
+                        Fault::MissingBeside { table_there, table, line }
+                    };
+                    written.reject(key.name, fault);
                 }
                 LeftOut::Required(_) if key.is_told(&case) => {}
                 LeftOut::Required(_)
@@ -415,7 +422,7 @@ impl Open {
 
         case.air.harmonics = match written.get("air.harmonics").map(|said| &said.value) {
             Some(Some(Value::Whole(harmonics))) => usize::try_from(*harmonics).unwrap_or(usize::MAX),
-            _ => case.air.default_harmonics(case.run.duration()),
+            _ => case.default_harmonics(),
         };
         if let Some((time_step, remark)) = chosen {
             let place = written.whole();
@@ -467,6 +474,6 @@ fn feed_in_whole_steps(case: &mut Case, duration: f64) -> Option<Remark> {
     let keeps = (whole / step - 1.0).abs() < 1e-9 || step > 0.5 * lifetime;
     case.run.time_step = if keeps { step } else { whole };
     case.run.steps = whole_parts(duration, case.run.time_step).0.max(1);
-    let (steps, time_step) = (case.run.steps, case.run.time_step);
-    (!keeps).then_some(Remark::StepShortened { steps, time_step })
+    let (steps, time_step) = (line.steps_per_element, case.run.time_step);
+    (!keeps).then_some(Remark::StepShortenedToFeed { steps, time_step })
 }

@@ -81,9 +81,14 @@ fn float(value: f64) -> String {
 fn tidy(case: &Case, key: &Key, value: f64) -> f64 {
     let (step, run) = (case.run.time_step, case.run);
     let same = |tidied: f64| match key.name {
-        "fibre.element_length" => {
-            whole_parts(case.fibre.length, tidied) == (case.fibre.elements as u64, true)
-        }
+        "fibre.element_length" => match case.line {
+            Some(line) => {
+                let mut again = case.fibre;
+                again.span(line.distance, tidied);
+                again == case.fibre
+            }
+            None => whole_parts(case.fibre.length, tidied) == (case.fibre.elements as u64, true),
+        },
         "run.duration" => whole_parts(tidied, step) == (run.steps, true),
         "run.spin_up" => whole_parts(tidied, step) == (run.spin_up_steps, true),
         "run.output_interval" => whole_parts(tidied, step) == (run.output_steps, true),

@@ -1,8 +1,6 @@
 //! Power spectrum of the free end's motion.
 
-use super::{
-    Declaration, Figure, Kind, Measure, Observer, SQUARE_MILLIMETRES_PER_HERTZ, Seen, Value, fixed,
-};
+use super::{Declaration, Figure, Kind, Measure, Observer, SQUARE_MILLIMETRES_PER_HERTZ, Seen, Value, fixed};
 use crate::case::Case;
 use crate::flight::Flight;
 use crate::lanes::WIDTH;

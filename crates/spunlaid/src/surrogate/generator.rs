@@ -37,7 +37,7 @@ impl Size {
     }
 }
 
-/// Step along half the lag that keeps the error of the integration below 5e-5 [σ₁].
+/// Step along half the lag that keeps the error of the integration below 6e-5, as its test measures [σ₁].
 const STEP: f64 = 0.025;
 
 /// Half the step of the lag between the values that are kept, as long as one step is no longer [σ₁].
@@ -55,9 +55,13 @@ impl Correlations {
     /// * `noise` – A²σ₁ of each lane
     /// * `reach` – largest lag that is wanted [σ₁]
     pub(super) fn new(other: f64, noise: [f64; WIDTH], reach: f64, size: Size) -> Self {
+        Self::with_step(STEP, other, noise, reach, size)
+    }
+
+    fn with_step(step: f64, other: f64, noise: [f64; WIDTH], reach: f64, size: Size) -> Self {
         let generator = Generator::new(1.0 / other, size);
         // Leapfrog is stable below 2/|H|; the norm is found from below.
-        let largest = STEP.min(1.7 / generator.norm());
+        let largest = step.min(1.7 / generator.norm());
         let half = 0.5 * reach.max(1e-3);
         let values = (half / KEPT.max(largest)).ceil().max(4.0);
         let spacing = half / values;
@@ -108,7 +112,7 @@ struct Part {
 impl Generator {
     fn new(rate: f64, Size { degree, harmonic }: Size) -> Self {
         let there = |m: usize, n: usize, k: usize| {
-            m + n <= degree && k <= harmonic && (m + n + k) % 2 == 1 && (k > 0 || n % 2 == 0)
+            m + n <= degree && k <= harmonic && (m + n + k) % 2 == 1 && (k > 0 || n.is_multiple_of(2))
         };
         // Number of each function among those with k of the same parity; m = 1 alone, x₁, comes first.
         let width = degree + 1;
@@ -270,4 +274,58 @@ fn sum_of_squares<S: Simd>(of: &[Lanes]) -> Wide<S> {
         sum += x * x;
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Largest difference of two sets of curves up to a lag of twelve, by lane.
+    fn difference(a: &Correlations, b: &Correlations) -> [f64; WIDTH] {
+        let mut largest = [0.0_f64; WIDTH];
+        for lag in (0..=120).map(|i| f64::from(i) * 0.1) {
+            let (a, b) = (a.at(lag), b.at(lag));
+            for (i, largest) in largest.iter_mut().enumerate() {
+                *largest = largest.max((a[i] - b[i]).abs());
+            }
+        }
+        largest
+    }
+
+    /// `A²σ₁` for a relative noise.
+    fn noises(other: f64, relative: [f64; 4]) -> [f64; WIDTH] {
+        std::array::from_fn(|i| relative[i % 4] / other.sqrt())
+    }
+
+    #[test]
+    fn order_of_the_error_of_the_size_is_as_documented() {
+        for other in [1.0, 0.25, 4.0] {
+            let at_least = [0.25, 0.4, 0.8, 2.0];
+            let noises = noises(other, at_least);
+            let fine = Correlations::with_step(5e-3, other, noises, 12.0, Size { degree: 44, harmonic: 12 });
+            for ((i, noise), most) in at_least.iter().enumerate().zip([2e-3, 3e-4, 1e-4, 1e-5]) {
+                let of = Correlations::with_step(5e-3, other, noises, 12.0, Size::for_noise(*noise));
+                let found = difference(&of, &fine)[i];
+                assert!(found < most, "{other} {noise}: {found:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn order_two_in_the_step() {
+        for other in [1.0, 0.4, 2.5] {
+            let noises = noises(other, [0.8, 2.0, 8.0, 40.0]);
+            let of = |step: f64| {
+                Correlations::with_step(step, other, noises, 12.0, Size { degree: 10, harmonic: 6 })
+            };
+            let (exact, fine, coarse) = (of(1e-3), of(0.00625), of(0.025));
+            let (fine, coarse) = (difference(&fine, &exact), difference(&coarse, &exact));
+            for i in 0..4 {
+                let order = (coarse[i] / fine[i]).ln() / 4.0_f64.ln();
+                assert!((1.8..2.3).contains(&order), "{other} {i}: {order}, {:e}", coarse[i]);
+                // The step that is used.
+                assert!(coarse[i] < 6e-5, "{other} {i}: {:e}", coarse[i]);
+            }
+        }
+    }
 }

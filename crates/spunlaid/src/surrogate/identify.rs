@@ -36,10 +36,10 @@ pub enum Unidentified {
          fibre, with points closer together"
     )]
     TooShort,
-    /// The autocorrelation stays high.
+    /// The autocorrelation stays high, or swings without end.
     #[error(
-        "the position is still correlated by more than {NOT_DECAYED} at the largest lag of the fit; this is no stationary \
-         lay-down that the surrogate could describe"
+        "the autocorrelation of the position does not decay: it is still beyond ±{NOT_DECAYED} near the largest lag of the \
+         fit; a regular pattern or a drift is no lay-down that the surrogate could describe"
     )]
     NotDecaying,
     /// The fit wants less noise than there can be.
@@ -62,7 +62,7 @@ const LAGS: [f64; 2] = [0.5, 12.0];
 const LEAST_REACH: f64 = 3.0;
 /// The fit needs so many lags of each coordinate at least.
 const LEAST_LAGS: usize = 5;
-/// An autocorrelation that nowhere falls below this does not decay.
+/// An autocorrelation that still goes beyond this, up or down, in the last quarter of the lags does not decay.
 const NOT_DECAYED: f64 = 0.9;
 
 /// Finds A by least squares of both autocorrelations over lags from 0.5σ to 12σ, each coordinate with its own σ and the
@@ -86,7 +86,7 @@ pub fn identify(sigmas: [f64; 2], step: f64, correlations: [&[f64]; 2]) -> Resul
         Wanted::of(sigmas[0], sigmas[1], step, correlations[0])?,
         Wanted::of(sigmas[1], sigmas[0], step, correlations[1])?,
     ];
-    if wanted.iter().any(|of| of.coefficients.iter().all(|c| c.1 > NOT_DECAYED)) {
+    if wanted.iter().any(Wanted::goes_on) {
         return Err(Unidentified::NotDecaying);
     }
     let middle = (sigmas[0] * sigmas[1]).sqrt();
@@ -129,6 +129,11 @@ impl Wanted {
             && coefficients.last().is_some_and(|(lag, _)| *lag >= LEAST_REACH)
             && coefficients.iter().all(|(_, c)| c.is_finite());
         if known { Ok(Self { own, other: other / own, coefficients }) } else { Err(Unidentified::TooShort) }
+    }
+
+    fn goes_on(&self) -> bool {
+        let last = self.coefficients.len() / 4;
+        self.coefficients.iter().rev().take(last.max(1)).any(|(_, c)| c.abs() > NOT_DECAYED)
     }
 
     /// Differences of the autocorrelations with eight noises from the measured one, lag by lag.

@@ -191,16 +191,14 @@ impl Task for Next<'_> {
         }
         let corner = Corner::<S>::new(paths);
         let mut at = paths.position.each_ref().map(Wide::load);
-        // Rounding lets the length of the direction wander by 1e-16 a step.
-        let [x, y] = paths.direction.each_ref().map(Wide::<S>::load);
-        let over = Wide::splat(1.0).over(x.mul_add(x, y * y).sqrt());
-        let mut along = [x * over, y * over];
+        let mut along = paths.direction.each_ref().map(Wide::load);
         for (pair, points) in paths.points.chunks_exact_mut(2).enumerate() {
             let noise = &mut paths.turns[2 * pair..][..2];
             for (point, turn) in points.iter_mut().zip(noise.iter()) {
                 *point = at.map(Wide::store);
                 (at, along) = corner.pass(at, along, turn);
             }
+            along = of_length_one(along);
             // A step waits for the one before; the noise of the next block is made meanwhile.
             turns::<S>(paths.noise, &paths.bits[pair], noise);
         }
@@ -208,6 +206,15 @@ impl Task for Next<'_> {
         paths.direction = along.map(Wide::store);
         paths.taken = 0;
     }
+}
+
+/// Sets right the length of a direction that rounding has changed: on the way out from the centre the steps would
+/// enlarge the error.
+#[inline(always)]
+fn of_length_one<S: Register>([a, b]: [Wide<S>; 2]) -> [Wide<S>; 2] {
+    let squared = a.mul_add(a, b * b);
+    let factor = squared.mul_add(Wide::splat(-0.5), Wide::splat(1.5));
+    [a * factor, b * factor]
 }
 
 /// What a corner of the path does.

@@ -2,6 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 pub mod coiling;
+pub mod laying;
 pub mod modes;
 pub mod reference;
 

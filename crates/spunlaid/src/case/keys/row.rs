@@ -113,7 +113,7 @@ macro_rules! of_friction {
                     Ok(())
                 }
                 Contact::Stick => {
-                    let remedy = "leave it out, or let the fibre slide";
+                    let remedy = "leave it out, or write this line, with which the fibre slides on the belt";
                     Err(Fault::Needs { needed: "belt.contact = \"friction\"", remedy })
                 }
             },

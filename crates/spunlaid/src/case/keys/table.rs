@@ -27,7 +27,7 @@ pub(super) static KEYS: &[Key] = &[
         get: |case| case.line.is_none().then_some(Value::Number(case.fibre.length)),
         set: |case, value| {
             if case.line.is_some() {
-                let (other, remedy) = ("[feed]", "a fed fibre has no fixed length; leave one out");
+                let (other, remedy) = ("[feed]", "a fed fibre has no length of its own; leave it out, or leave out [feed] and [belt]");
                 return Err(Fault::Excludes { other, remedy });
             }
             case.fibre.length = number(value)?;
