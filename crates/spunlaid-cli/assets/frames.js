@@ -71,5 +71,7 @@ function boundsOf(frames) {
     low[i % 3] = Math.min(low[i % 3], value);
     high[i % 3] = Math.max(high[i % 3], value);
   });
+  // Nodes above the inlet are not drawn.
+  if (frames.belt) [low[0], high[0]] = [0, frames.length_mm];
   return { low, high };
 }

@@ -152,7 +152,7 @@ fn the_summary_has_the_fields_that_are_promised() {
     assert_eq!(keys(performance), sorted(fields));
     assert_eq!(performance["element_steps"], 3 * 4 * 500);
     let case = &summary["case"];
-    assert_eq!(keys(case), sorted("fibre air drag run"));
+    assert_eq!(keys(case), sorted("fibre feed belt air drag run"));
     assert_eq!(case["fibre"]["diameter_m"], 50e-6);
     assert_eq!(case["fibre"]["element_length_m"], 0.05);
     assert_eq!(case["air"]["velocity_m_s"], 10.0);
@@ -388,7 +388,7 @@ fn a_fed_fibre_leaves_what_it_laid() {
     let steps = summary["steps"].as_f64().unwrap() * 3.0;
     let nodes = laydown["nodes_in_air"]["mean"].as_f64().unwrap();
     let counted = summary["performance"]["element_steps"].as_f64().unwrap();
-    assert!((counted / (nodes * steps) - 1.0).abs() < 1e-6, "{counted}");
+    assert!((counted - nodes * steps).abs() <= 0.5, "{counted}");
 }
 
 #[test]

@@ -24,6 +24,7 @@ const CHARTS: &[&[&str]] = &[
     &["legend"],
     &["draw"],
     &["figure"],
+    &["rose"],
 ];
 
 #[test]

@@ -435,3 +435,28 @@ fn json_holds_what_the_table_holds() {
     let effect = &json["ranking"]["amplitude_y_m"]["effects"][0];
     assert_eq!((effect["factor"].as_str(), effect["from"].as_f64()), (Some("air.velocity"), Some(5.0)));
 }
+
+#[test]
+fn points_of_a_belt_at_several_speeds_are_those_of_runs_alone() {
+    let case = "[fibre]\ndiameter = '18 µm'\ndensity = '910 kg/m³'\nyoungs_modulus = '2 GPa'\nelement_length = '4 mm'\n\
+                [feed]\nspeed = '50 m/s'\n[belt]\ndistance = '0.1 m'\nspeed = '3 m/s'\n\
+                [air]\nvelocity = '45 m/s'\nturbulence_intensity = 0.1\nlength_scale = '16 mm'\ncutoff_frequency = '700 Hz'\n\
+                [drag]\nacross = 'marheineke-wegener'\n[run]\nduration = '40 ms'\n";
+    let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'belt.speed' = ['1 m/s', '3 m/s', '8 m/s']\n";
+    let place = Place::new(case, study);
+    let output = said(&place.swept("out", &[]));
+    assert!(output.contains("Spread in machine direction (mm)") && !output.contains("Amplitude"), "{output}");
+    let rows = csv(&place, "out");
+    let column = |name: &str| rows[0].iter().position(|head| head == name).unwrap();
+    for (number, row) in rows.iter().enumerate().skip(1) {
+        let point = number.to_string();
+        let output = place.spunlaid(&["sweep", "study.toml", "--print-point", &point]).output().unwrap();
+        fs::write(place.path("point.toml"), &output.stdout).unwrap();
+        let output = place.spunlaid(&["run", "point.toml", "--replicates", "2", "--json"]).output().unwrap();
+        let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        for name in ["sigma_md_m", "belt_speed_ratio", "half_correlation_length_cd_m"] {
+            let alone = summary["laydown"][name]["mean"].as_f64();
+            assert_eq!(row[column(name)].parse().ok(), alone, "point {number}: {name}");
+        }
+    }
+}

@@ -17,8 +17,10 @@ const INSTANTS: usize = 300;
 const REPLICATES: usize = 8;
 const MOST_INSTANTS: usize = 1000;
 const LAID: usize = 8192;
-/// Length of belt that is shown behind the inlet, in distances from the inlet to the belt.
-const SHOWN: f64 = 0.6;
+/// Length of belt that is shown behind the inlet: in distances from the inlet to the belt at least and at most, and in
+/// widths of the lay-down.
+const SHOWN: (f64, f64) = (0.6, 3.0);
+const WIDTHS: f64 = 4.0;
 
 /// What `assets/belt.js` reads.
 #[derive(Serialize)]
@@ -73,6 +75,8 @@ struct Chosen<'a> {
     stride: u64,
     /// Number of the root at the start.
     first_root: u64,
+    /// Length of belt that is shown behind the inlet [m].
+    shown: f64,
 }
 
 impl Chosen<'_> {
@@ -108,7 +112,10 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames>
     let shapes = &flown.first()?.shapes;
     let longest = shapes.iter().map(|shape| shape.position.len()).max()?;
     let first_root = shapes.first()?.position.len().checked_sub(1)? as u64;
-    let chosen = Chosen { case, line, stride: longest.div_ceil(NODES) as u64, first_root };
+    let nodes = shapes.iter().flat_map(|shape| &shape.position).map(|p| p.z.abs());
+    let aside = nodes.filter(|z| z.is_finite()).fold(0.0, f64::max);
+    let shown = (WIDTHS * aside).clamp(SHOWN.0 * line.distance, SHOWN.1 * line.distance);
+    let chosen = Chosen { case, line, stride: longest.div_ceil(NODES) as u64, first_root, shown };
     let nodes = longest / chosen.stride as usize + 1;
     let replicates = (POSITIONS / (nodes * INSTANTS)).clamp(1, REPLICATES);
     let trajectories: Vec<&Trajectory> =
@@ -133,7 +140,7 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames>
         belt: Belt {
             speed: line.belt_speed,
             feed_speed: line.feed_speed,
-            shown_mm: SHOWN * line.distance * 1e3,
+            shown_mm: shown * 1e3,
             newest: all.first()?.iter().map(|(newest, _)| *newest).collect(),
             counts: all.iter().map(|of| of.iter().map(|(_, nodes)| nodes.len()).collect()).collect(),
             laid: trajectories.iter().map(|t| laid(&chosen, t, &times)).collect(),
@@ -174,7 +181,7 @@ fn instants(chosen: &Chosen<'_>, trajectories: &[&Trajectory], most: usize) -> s
     };
     let start = (0..end).find(|&instant| goes_on(instant)).unwrap_or(end);
     // Some belt has been covered before the picture begins, if there is time for it.
-    let covered = SHOWN * chosen.line.distance / chosen.line.belt_speed;
+    let covered = chosen.shown / chosen.line.belt_speed;
     let shapes = &trajectories[0].shapes;
     let wanted = (start..end).find(|&i| shapes[i].time >= shapes[start].time + covered).unwrap_or(start);
     let start = wanted.min(start + (end - start) / 3);
@@ -183,7 +190,7 @@ fn instants(chosen: &Chosen<'_>, trajectories: &[&Trajectory], most: usize) -> s
 
 /// The laid points that can be seen between the first and the last of the times.
 fn laid(chosen: &Chosen<'_>, of: &Trajectory, times: &[f64]) -> Laid {
-    let seen = SHOWN * chosen.line.distance / chosen.line.belt_speed;
+    let seen = chosen.shown / chosen.line.belt_speed;
     let from = times.first().map_or(0.0, |time| time - 1.5 * seen);
     let points =
         of.laid.iter().filter(|p| p.time >= from && chosen.number(p.fed).is_multiple_of(chosen.stride));

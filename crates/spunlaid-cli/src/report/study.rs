@@ -12,9 +12,6 @@ use spunlaid_charts::Figure;
 /// Largest number of points that are listed.
 const LISTED: usize = 500;
 
-/// Measures that are listed.
-const SHOWN: [&str; 6] = ["amplitude_y", "amplitude_z", "frequency_y", "frequency_z", "mean_x", "strain_99"];
-
 /// Content of the report.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StudyReport<'a> {
@@ -86,10 +83,10 @@ pub(crate) fn study_html(input: &StudyReport<'_>) -> String {
         summary: summary(study, input.results),
         phases: phases(study),
         notes: input.notes,
-        ranking_heads: SHOWN.map(shown::head).to_vec(),
+        ranking_heads: shown::measures(study).map(shown::head).to_vec(),
         rankings: ranking_rows(study, shown),
         refusal: input.refusal,
-        explained: explained(shown),
+        explained: explained(study, shown),
         figures: input.figures,
         heads: heads(study),
         rows: rows(study, input.results),
@@ -103,12 +100,14 @@ pub(crate) fn study_html(input: &StudyReport<'_>) -> String {
 
 fn question(study: &Study) -> String {
     let names: Vec<String> = study.factors.iter().map(|factor| name_of_key(factor.key)).collect();
+    let fed = study.points.first().is_some_and(|point| point.case.line.is_some());
+    let what = if fed { "laid fibre" } else { "fibre’s motion" };
     match names.as_slice() {
         [] => "How does the fibre move?".to_owned(),
-        [one] => format!("How does the fibre’s motion depend on the {one}?"),
-        [one, two] => format!("How does the fibre’s motion depend on the {one} and the {two}?"),
+        [one] => format!("How does the {what} depend on the {one}?"),
+        [one, two] => format!("How does the {what} depend on the {one} and the {two}?"),
         [first @ .., last] => {
-            format!("Which matters most for the fibre’s motion: the {} or the {last}?", first.join(", the "))
+            format!("Which matters most for the {what}: the {} or the {last}?", first.join(", the "))
         }
     }
 }
@@ -159,14 +158,14 @@ fn phases(study: &Study) -> &'static str {
 
 fn heads(study: &Study) -> Vec<String> {
     let inputs = study.inputs().map(|input| input.key.to_owned());
-    inputs.chain(SHOWN.map(shown::head)).chain(["n".to_owned()]).collect()
+    inputs.chain(shown::measures(study).map(shown::head)).chain(["n".to_owned()]).collect()
 }
 
 fn rows(study: &Study, results: &[PointResults]) -> Vec<Row> {
     let row = |(index, point): (usize, &PointResults)| {
         let values = study.points[index].values.iter().zip(study.inputs());
         let inputs = values.map(|(value, input)| input.pretty(*value));
-        let results = SHOWN.map(|name| shown::cell(point, name));
+        let results = shown::measures(study).map(|name| shown::cell(point, name));
         Row { number: index + 1, cells: inputs.chain(results).chain([point.n.to_string()]).collect() }
     };
     results.iter().enumerate().take(LISTED).map(row).collect()
@@ -186,7 +185,7 @@ fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
             } else {
                 format!("{to} instead of {from}")
             },
-            cells: SHOWN.iter().map(|name| cell(rankings, name, effect)).collect(),
+            cells: shown::measures(study).iter().map(|name| cell(rankings, name, effect)).collect(),
         }
     };
     // The rows have the order of the effects on the amplitude.
@@ -210,12 +209,12 @@ fn cell(rankings: &[Ranking], name: &str, of: &Effect) -> Cell {
     )
 }
 
-fn explained(rankings: &[Ranking]) -> Vec<String> {
+fn explained(study: &Study, rankings: &[Ranking]) -> Vec<String> {
     let of = |name: &&str| {
         ranking_of(rankings, name).filter(|ranking| ranking.explained.is_finite()).map_or_else(
             || "–".to_owned(),
             |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())),
         )
     };
-    SHOWN.iter().map(of).collect()
+    shown::measures(study).iter().map(of).collect()
 }

@@ -99,18 +99,16 @@ pub(super) const DECLARATION: Declaration = Declaration {
             column: "sigma_1_m",
             label: "σ₁ of the surrogate",
             meaning: "spread in machine direction, as the surrogate has it",
-            group: SURROGATE,
-            series: "σ₁",
-            ..SPREAD
+            series: "*σ*_{1}",
+            ..SURROGATE_SPREAD
         },
         Measure {
             name: "sigma_2",
             column: "sigma_2_m",
             label: "σ₂ of the surrogate",
             meaning: "spread in cross direction, as the surrogate has it",
-            group: SURROGATE,
-            series: "σ₂",
-            ..SPREAD
+            series: "*σ*_{2}",
+            ..SURROGATE_SPREAD
         },
         Measure {
             name: "noise",
@@ -184,6 +182,12 @@ const SPREAD: Measure = Measure {
     group: LAYDOWN,
     figure: &numbers("spread", "Spread of the laid fibre", "spread"),
     ..Measure::NUMBER
+};
+
+const SURROGATE_SPREAD: Measure = Measure {
+    group: SURROGATE,
+    figure: &numbers("surrogate_spread", "Spread of the surrogate", "spread of the surrogate"),
+    ..SPREAD
 };
 
 const HALF_LENGTH: Measure = Measure {

@@ -249,10 +249,12 @@ impl Observers {
     }
 
     /// What the observers take from a case besides what all fibres of a flight have in common: which measures apply,
-    /// and the bits of the elements' rest length. Fibres that differ in it must be observed apart.
-    pub(crate) fn setting(case: &Case) -> (Vec<bool>, u64) {
+    /// the bits of the elements' rest length, and those of feed speed, belt speed and distance. Fibres that differ in it
+    /// must be observed apart.
+    pub(crate) fn setting(case: &Case) -> (Vec<bool>, u64, Option<[u64; 3]>) {
         let applies = DECLARED.iter().map(|declared| (declared.applies)(case)).collect();
-        (applies, case.fibre.rest_length().to_bits())
+        let line = case.line.map(|line| [line.feed_speed, line.belt_speed, line.distance].map(f64::to_bits));
+        (applies, case.fibre.rest_length().to_bits(), line)
     }
 
     /// Passes a recorded instant to all observers.

@@ -22,8 +22,8 @@ pub(super) fn figures(case: &Case, results: &Results) -> Vec<Figure> {
 const WIDTH: f64 = 760.0;
 const MARGIN: f64 = 14.0;
 const BELOW: f64 = 40.0;
-/// Length of belt that is shown, in widths of the trace, and most of it in spreads of the fibre's place.
-const ASPECT: f64 = 2.2;
+/// Length of belt that is shown, in widths of the trace.
+const ASPECT: f64 = 3.0;
 /// The light table.
 const LIGHT: &str = "#fdfaf0";
 
@@ -234,10 +234,10 @@ mod tests {
         };
         let laid: Vec<LaidPoint> = (0..5000).map(at).collect();
         let window = Window::of(&laid).unwrap();
-        // 40 mm wide, so 88 mm long, and half a width from the end at −1.2 m.
-        assert!((window.length - 0.088).abs() < 1e-4, "{}", window.length);
+        // 40 mm wide, so 120 mm long, and half a width from the end at −1.2 m.
+        assert!((window.length - 0.12).abs() < 1e-4, "{}", window.length);
         assert!((window.from + 0.06 * 4999.0 * 0.004 - 0.02).abs() < 1e-3, "{}", window.from);
-        assert_eq!(window.points.len(), (0.088_f64 / 0.06 / 0.004).round() as usize + 2);
+        assert_eq!(window.points.len(), (0.12_f64 / 0.06 / 0.004).round() as usize + 2);
         assert!(Window::of(&laid[..2]).is_none());
         assert!(Window::of(&[LaidPoint { md: f64::NAN, ..LaidPoint::default() }; 9]).is_none());
     }

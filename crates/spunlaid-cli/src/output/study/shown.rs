@@ -1,11 +1,24 @@
 //! Measures as tables for readers show them, by their names.
 
 use crate::numbers::plus_minus;
-use spunlaid::study::{PointResults, measure};
+use spunlaid::study::{PointResults, Study, measure};
+
+/// The measures that tables show, the most important first.
+pub(crate) fn measures(study: &Study) -> [&'static str; 6] {
+    if study.points.first().is_some_and(|point| point.case.line.is_some()) {
+        let lengths = ["half_correlation_length_md", "half_correlation_length_cd"];
+        return ["sigma_md", "sigma_cd", lengths[0], lengths[1], "noise", "orientation_md"];
+    }
+    ["amplitude_y", "amplitude_z", "frequency_y", "frequency_z", "mean_x", "strain_99"]
+}
 
 /// The head of a column: `Amplitude in y (mm)`.
 pub(crate) fn head(name: &str) -> String {
-    measure(name).map_or_else(|| name.to_owned(), |(_, of)| format!("{} ({})", of.label, of.unit.shown))
+    match measure(name) {
+        Some((_, of)) if of.unit.shown.is_empty() => of.label.to_owned(),
+        Some((_, of)) => format!("{} ({})", of.label, of.unit.shown),
+        None => name.to_owned(),
+    }
 }
 
 /// Mean ± standard error at a point.
