@@ -133,7 +133,6 @@ fn a_hundred_fibres_stay_finite_at_twice_the_intensity() {
 }
 
 #[test]
-#[ignore = "8 of 10 flights of eight fibres fail with the step that is chosen, l/2v"]
 fn a_hundred_fibres_stay_finite_at_four_times_the_intensity() {
     fly_a_hundred("40 %");
 }
