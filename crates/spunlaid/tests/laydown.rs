@@ -36,10 +36,6 @@ fn invariant_what_was_born_is_on_the_chain_or_laid() {
     }
     for laid in &laid {
         assert!(laid.len() > 300, "only {} points were laid", laid.len());
-        let longest = laid
-            .windows(2)
-            .map(|pair| (pair[1].md - pair[0].md).hypot(pair[1].cd - pair[0].cd))
-            .fold(0.0, f64::max);
         for (i, (point, next)) in laid.iter().zip(&laid[1..]).enumerate() {
             assert_eq!(point.fed, i as f64 * l);
             // Two neighbours lie at most an element apart, which is strained by little (found: 1.9 %).
