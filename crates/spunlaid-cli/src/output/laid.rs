@@ -193,7 +193,12 @@ mod tests {
         assert!(spill.file(3).exists(), "so many points do not stay in memory");
         for replicate in [3, 4, 5] {
             let mut back = Vec::new();
-            spill.drain(replicate, |some| Ok(back.extend_from_slice(some))).unwrap();
+            spill
+                .drain(replicate, |some| {
+                    back.extend_from_slice(some);
+                    Ok(())
+                })
+                .unwrap();
             let wanted = if replicate == 5 { Vec::new() } else { points(replicate, 0, given) };
             assert!(back == wanted, "{replicate}");
         }
