@@ -6,6 +6,7 @@ mod common;
 use common::{Place, assert_same, case, contents, results, said};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
+use spunlaid::observe::{LAYDOWN, MEASURES, SURROGATE};
 use std::fs;
 
 const STUDY: &str = "case = 'case.toml'
@@ -63,8 +64,13 @@ fn writes_what_it_says() {
         ]
     );
     assert_eq!(rows[4][..6], ["4", "1", "10", "5e-5", "3", "0"]);
-    // Empty where a measure does not apply: there is no flow to leave, and an explicit scheme takes nothing out.
-    let applies = |head: &str| !head.starts_with("share_outside") && !head.starts_with("tension_dissipation");
+    // Empty where a measure does not apply: there is no flow to leave, an explicit scheme takes nothing out, and nothing is
+    // laid.
+    let of_laid = MEASURES.iter().filter(|measure| [LAYDOWN, SURROGATE].contains(&measure.group));
+    let others =
+        ["share_outside", "tension_dissipation"].into_iter().chain(of_laid.map(|measure| measure.column));
+    let others: Vec<&str> = others.collect();
+    let applies = |head: &str| !others.iter().any(|other| head.starts_with(other));
     for row in &rows[1..] {
         for (head, cell) in rows[0].iter().zip(row) {
             let known = cell.parse::<f64>().is_ok_and(f64::is_finite);

@@ -191,8 +191,7 @@ fn nodes_of_a_fed_fibre_keep_their_numbers() {
     let (origin, step) = (list(&data["origin_mm"]), list(&data["step_mm"]));
     let last = times.len() - 1;
     // The newest node of the last instant of the second replicate was fed two elements ago and is numbered so.
-    let fed = 1e-3 * 50.0 * times[last] * 1e3;
-    assert_eq!(newest[last], (fed / 5.0 * 1e3).round() / 1e3 * 1.0 + 2.0);
+    assert_eq!(newest[last], (times[last] * 50.0 / 0.005).round() + 2.0);
     // What was laid last goes on where the oldest node is, one element further down the belt.
     let laid = decode(&belt["laid"][1]["points"]);
     let oldest = newest[last] - counts[1][last] + 1.0;

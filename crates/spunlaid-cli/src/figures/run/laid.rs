@@ -88,7 +88,8 @@ impl<'a> Window<'a> {
         };
         let all = range(|p| p.md, laid);
         let across = range(|p| p.cd, laid);
-        let wide = (across.1 - across.0).max(0.05 * (all.1 - all.0)).max(1e-6);
+        // A fibre that lies straight is seen over some elements.
+        let wide = (across.1 - across.0).max(5.0 * (laid[1].fed - laid[0].fed)).max(1e-6);
         let length = (ASPECT * wide).min(all.1 - all.0).max(1e-6);
         let from = all.0 + 0.5 * wide.min(all.1 - all.0 - length);
         let inside = |p: &LaidPoint| (from..=from + length).contains(&p.md);
