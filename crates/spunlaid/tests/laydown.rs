@@ -98,8 +98,11 @@ fn analytic_a_fed_fibre_hangs_by_its_weight() {
 #[test]
 fn identical_to_a_fibre_of_fixed_length_in_air_of_its_own_speed() {
     let (speed, elements) = (5.0, 100);
-    let mut case =
-        spunbond(&[("feed.speed", "5 m/s"), ("run.scheme", "semi-implicit-euler"), ("run.gravity", "0 m/s²")]);
+    let mut case = spunbond(&[
+        ("feed.speed", "5 m/s"),
+        ("run.scheme", "semi-implicit-euler"),
+        ("run.gravity", "0 m/s²"),
+    ]);
     case.air = Air { harmonics: 8, ..Air::uniform(speed, 0.0, 0.016, 100.0) };
     case.set_time_step(0.5e-6);
     let mut fed = flight(&case, 0..1);
@@ -112,9 +115,14 @@ fn identical_to_a_fibre_of_fixed_length_in_air_of_its_own_speed() {
     let drag = case.drag.of_element(&fibre, case.air.density, case.air.kinematic_viscosity);
     let strand = Strand { fibre, drag, gravity: 0.0, damping: 0.0 };
     let (eddies, wind) = steady_air(0.0, fibre.elements, 1.0);
-    let mut fixed =
-        Flight::assembled(Isa::detect(), &[strand], (&eddies, &wind), Scheme::SemiImplicitEuler, fed.time_step())
-            .unwrap();
+    let mut fixed = Flight::assembled(
+        Isa::detect(),
+        &[strand],
+        (&eddies, &wind),
+        Scheme::SemiImplicitEuler,
+        fed.time_step(),
+    )
+    .unwrap();
     let drift = Vec3::splat(X * speed);
     fixed.restart_from(start.position.clone(), start.velocity.iter().map(|v| *v - drift).collect()).unwrap();
     for flight in [&mut fed, &mut fixed] {
@@ -128,7 +136,9 @@ fn identical_to_a_fibre_of_fixed_length_in_air_of_its_own_speed() {
         let (a, b) = (fed.snapshot(), fixed.snapshot());
         let (last, drifted) = (a.nodes[0] - 1, X * (speed * (a.time - start.time)));
         let of_fixed = |i: usize| b.position[elements as usize - i].lane(0);
-        let off = (0..20).map(|i| (a.position[last - i].lane(0) - drifted - of_fixed(i)).norm()).fold(0.0, f64::max);
+        let off = (0..20)
+            .map(|i| (a.position[last - i].lane(0) - drifted - of_fixed(i)).norm())
+            .fold(0.0, f64::max);
         let way = (of_fixed(0) - start.position[elements as usize].lane(0)).norm();
         assert!(off < allowed * way, "{off} of {way}");
     }
@@ -188,7 +198,8 @@ fn order_of_the_path_is_one() {
     for scheme in [Scheme::SemiImplicitEuler, Scheme::Leapfrog, Scheme::ImplicitTension] {
         for viscosity in [0.0, 1e-3] {
             let ends = [1.0, 0.5, 0.25, 0.125].map(|step| {
-                let thread = Thread { element: 0.1, diameter: 3e-3, viscosity, scheme, step, ..Thread::new(28.6) };
+                let thread =
+                    Thread { element: 0.1, diameter: 3e-3, viscosity, scheme, step, ..Thread::new(28.6) };
                 let mut case = thread.case(0.6 * thread.height / thread.feed_speed());
                 case.fibre.direction = Vec3::new(0.8, 0.6, 0.0);
                 let mut flight = flight(&case, 0..1);
@@ -197,7 +208,7 @@ fn order_of_the_path_is_one() {
                 seen.position[seen.nodes[0] - 1].lane(0)
             });
             let d: Vec<f64> = ends.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
-// Found: orders of 0.95 or more over two halvings without viscosity. With it, the last steps change the path
+            // Found: orders of 0.95 or more over two halvings without viscosity. With it, the last steps change the path
             // by 1.5 µm at most, 1.5e-5 of the height.
             assert!(d[2] < 1e-4 * 0.1, "{scheme:?}, {viscosity}: {d:?}");
             assert!(viscosity > 0.0 || d[0] > 3.0 * d[2], "{scheme:?}: {d:?}");
@@ -223,7 +234,8 @@ fn beam(viscosity: f64, scheme: Scheme) -> (Case, f64) {
 fn bent(case: &Case, step: f64, shape: impl Fn(usize) -> f64) -> Flight {
     let strand = case.strand();
     let (eddies, wind) = steady_air(0.0, case.fibre.elements, 1.0);
-    let mut flight = Flight::assembled(Isa::detect(), &[strand], (&eddies, &wind), case.run.scheme, step).unwrap();
+    let mut flight =
+        Flight::assembled(Isa::detect(), &[strand], (&eddies, &wind), case.run.scheme, step).unwrap();
     let l = case.fibre.rest_length();
     let places: Vec<_> = (0..=case.fibre.elements).map(|i| Vec3::new(i as f64 * l, shape(i), 0.0)).collect();
     let at_rest = vec![Vec3::ZERO; places.len()];
@@ -236,7 +248,8 @@ fn bent(case: &Case, step: f64, shape: impl Fn(usize) -> f64) -> Flight {
 fn analytic_bending_viscosity_damps_a_mode() {
     for scheme in [Scheme::SemiImplicitEuler, Scheme::Leapfrog, Scheme::ImplicitTension] {
         let (case, omega) = beam(0.02, scheme);
-        let limit = case.stable_step_limits().into_iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
+        let limit =
+            case.stable_step_limits().into_iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
         let (length, n) = (case.fibre.length, case.fibre.elements as f64);
         let mut flight = bent(&case, 0.2 * limit, |i| 1e-3 * length * (i as f64 / n).powi(2));
         let end = case.fibre.elements;

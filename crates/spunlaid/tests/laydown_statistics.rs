@@ -97,8 +97,13 @@ fn identical_lay_down_for_any_packing_instruction_set_and_number_of_threads() {
     let ensemble = |threads| {
         let kept = Kept(Mutex::new(vec![Vec::new(); 11]));
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing =
-            Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: Some(&kept) };
+        let computing = Computing {
+            threads,
+            isa: Isa::detect(),
+            stop: &stop,
+            fibre_steps: &fibre_steps,
+            laid: Some(&kept),
+        };
         fly::<Error>(&case, Keep::NUMBERS, computing, |_| Ok(())).unwrap();
         kept.0.into_inner().unwrap().iter().map(|laid| bits(laid)).collect::<Vec<_>>()
     };
@@ -140,7 +145,8 @@ fn a_hundred_fibres_stay_finite_at_four_times_the_intensity() {
 #[test]
 fn rejects_a_belt_that_the_fibre_cannot_reach() {
     // Air that blows back to the inlet.
-    let case = spunbond(&[("air.speed_factor", "0.001"), ("run.gravity", "-500 m/s²"), ("run.duration", "1 s")]);
+    let case =
+        spunbond(&[("air.speed_factor", "0.001"), ("run.gravity", "-500 m/s²"), ("run.duration", "1 s")]);
     let said = flight(&case, 0..8).step_to(1.0).unwrap_err();
     assert!(matches!(said, Error::NotLanding { .. }), "{said}");
     assert_eq!(said.exit_code(), 1);
