@@ -289,7 +289,8 @@ fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Chain, h: f64
             // Row `i+1`, between the directions above and below it.
             if i + 1 < elements {
                 let above = -weights.0.between::<FED>(here, direction);
-                (value, slope) = row::<S, FED>(above, (weights, here, below), wanted, (value, slope));
+                let row = Row { weights, here, below, wanted };
+                (value, slope) = row.eliminate::<FED>(above, (value, slope));
                 t.correction[i + 1] = (value.store(), slope.store());
             }
             (below, here) = (here, direction);
@@ -298,7 +299,8 @@ fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Chain, h: f64
         weights = (weight, weights.0);
         lower = (at, predicted);
     }
-    (value, slope) = row::<S, FED>(Wide::zero(), (weights, here, below), wanted, (value, slope));
+    let row = Row { weights, here, below, wanted };
+    (value, slope) = row.eliminate::<FED>(Wide::zero(), (value, slope));
     t.correction[0] = (value.store(), slope.store());
 }
 
@@ -321,29 +323,36 @@ impl<S: Register> Weight<S> {
     }
 }
 
-/// Eliminates a row.
-///
-/// * `above` – the entry left of the diagonal
-/// * the weights of the element's upper and lower node, its direction, and the direction of the element below
-/// * `wanted` – the right-hand side
-/// * `next` – value and slope of the row below
-#[inline(always)]
-fn row<S: Register, const FED: bool>(
-    above: Wide<S>,
-    (weights, here, below): ((Weight<S>, Weight<S>), Vec3<Wide<S>>, Vec3<Wide<S>>),
+/// An element in the system of the tensions' corrections.
+struct Row<S: Register> {
+    /// The weights of its upper and its lower node.
+    weights: (Weight<S>, Weight<S>),
+    /// Its direction, and that of the element below.
+    here: Vec3<Wide<S>>,
+    below: Vec3<Wide<S>>,
+    /// The right-hand side.
     wanted: Wide<S>,
-    next: (Wide<S>, Wide<S>),
-) -> (Wide<S>, Wide<S>) {
-    let one = Wide::splat(1.0);
-    let below = -weights.1.between::<FED>(here, below);
-    let own = if FED {
-        let x = here.x * here.x;
-        (weights.0.x + weights.1.x).mul_add(x, (weights.0.across + weights.1.across) * (one - x))
-    } else {
-        weights.0.across + weights.1.across
-    };
-    let pivot = one.over(below.neg_mul_add(next.1, one + own));
-    (below.neg_mul_add(next.0, wanted) * pivot, above * pivot)
+}
+
+impl<S: Register> Row<S> {
+    /// Eliminates the row: returns its value and slope.
+    ///
+    /// * `above` – the entry left of the diagonal
+    /// * `next` – value and slope of the row below
+    #[inline(always)]
+    fn eliminate<const FED: bool>(&self, above: Wide<S>, next: (Wide<S>, Wide<S>)) -> (Wide<S>, Wide<S>) {
+        let one = Wide::splat(1.0);
+        let Self { weights: (upper, lower), here, .. } = *self;
+        let below = -lower.between::<FED>(here, self.below);
+        let own = if FED {
+            let x = here.x * here.x;
+            (upper.x + lower.x).mul_add(x, (upper.across + lower.across) * (one - x))
+        } else {
+            upper.across + lower.across
+        };
+        let pivot = one.over(below.neg_mul_add(next.1, one + own));
+        (below.neg_mul_add(next.0, self.wanted) * pivot, above * pivot)
+    }
 }
 
 /// From the root to the free end: corrects the tensions and moves the nodes.
