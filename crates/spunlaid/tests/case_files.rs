@@ -145,20 +145,20 @@ fn what_was_rounded_is_said() {
         (
             "element_length = \"3 m\"",
             "case.toml:7: fibre.element_length = \"3 m\" does not divide fibre.length into whole elements: 1 of 1 m is used\n\
-             case.toml:19: air.length_scale = \"50 mm\" is shorter than the elements (1 m): each element only feels the eddy \
+             case.toml:20: air.length_scale = \"50 mm\" is shorter than the elements (1 m): each element only feels the eddy \
              at its centre. Shorten fibre.element_length so that every eddy acts on the fibre",
         ),
         (
             "time_step = \"3 µs\"",
-            "case.toml:34: run.time_step = \"3 µs\" does not divide run.duration into whole steps: 333334 of 2.999994 µs are used",
+            "case.toml:35: run.time_step = \"3 µs\" does not divide run.duration into whole steps: 333334 of 2.999994 µs are used",
         ),
         (
             "spin_up = \"1.4 µs\"",
-            "case.toml:34: run.spin_up = \"1.4 µs\" is not a whole number of time steps: 1 µs is used",
+            "case.toml:35: run.spin_up = \"1.4 µs\" is not a whole number of time steps: 1 µs is used",
         ),
         (
             "output_interval = \"0.1 µs\"",
-            "case.toml:34: run.output_interval = \"0.1 µs\" is not a whole number of time steps: 1 µs is used",
+            "case.toml:35: run.output_interval = \"0.1 µs\" is not a whole number of time steps: 1 µs is used",
         ),
     ] {
         assert_eq!(remarks(&with(line)).join("\n"), said);
@@ -314,7 +314,7 @@ prop_compose! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig { max_global_rejects: 20_000, ..ProptestConfig::with_cases(2000) })]
 
     #[test]
     fn identical_fed_cases_after_writing_and_reading(case in fed_case()) {

@@ -238,9 +238,9 @@ fn invariant_the_step_check_tells_the_error_of_the_step() {
         let error = own.iter().zip(&exact).map(|(own, exact)| off(own, exact)).sum::<f64>() / 8.0;
         // To half the step, an error of first order changes by a half of itself, one of second order by three quarters.
         // The axial waves of the start die out under implicit tension at a rate that grows with less than the step:
-        // what is told is that the error is at most 2.5 times the difference.
+        // what is told is that the error is at most 2.7 times the difference.
         let share = check.path.mean / error;
-        assert!((0.4..0.85).contains(&share), "{} at {h} s: {share} of {error}", scheme.name());
+        assert!((0.37..0.85).contains(&share), "{} at {h} s: {share} of {error}", scheme.name());
         assert!(check.amplitude.mean.abs() < check.path.mean, "{} at {h} s", scheme.name());
     }
 }

@@ -63,7 +63,8 @@ impl Case {
         };
         let rate = share * self.run.damping;
         let tightened = |StepLimit { cause, limit }| {
-            let half = 0.5 * rate * limit;
+            // Without a limit there is none to tighten.
+            let half = if rate > 0.0 { 0.5 * rate * limit } else { 0.0 };
             StepLimit { cause, limit: limit / (half + half.hypot(1.0)) }
         };
         self.step_limits().into_iter().map(tightened).collect()

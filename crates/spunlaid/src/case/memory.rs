@@ -7,7 +7,7 @@ use crate::air::{EddyModel, Wind};
 pub const FLIGHT_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
 
 /// Vectors of eight fibres that the chain, its copies for a look ahead and its start keep per node.
-const VECTORS_PER_NODE: f64 = 10.0;
+const VECTORS_PER_NODE: f64 = 12.0;
 /// Bytes of such a vector.
 const VECTOR: f64 = 192.0;
 /// Bytes of a recorded instant of eight fibres: 896 of end nodes and energies, 600 of what observers keep, in lists that

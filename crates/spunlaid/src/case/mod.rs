@@ -146,7 +146,10 @@ impl Case {
         let elements = self.fibre.elements as f64;
         let weight = self.fibre.element_mass() * elements * self.run.gravity.abs();
         let feed = self.line.map_or(0.0, |line| line.feed_speed);
-        let friction = strand.drag.along.force((self.air.velocity - feed).abs(), 0.5 * elements) * elements;
+        let relative = (self.air.velocity - feed).abs();
+        let there_is_air = self.air.density > 0.0 && relative > 0.0;
+        let friction =
+            if there_is_air { strand.drag.along.force(relative, 0.5 * elements) * elements } else { 0.0 };
         let line_density = self.fibre.density * self.fibre.cross_section();
         let speed = ((weight + friction) / line_density).sqrt();
         StepLimit { cause: "waves of the taut string", limit: 1.5 * self.fibre.rest_length() / speed }

@@ -37,8 +37,9 @@ pub(crate) struct Tensions {
     /// For each node: acceleration [m/s²] minus `slope` times that of the next node; later the predicted velocity.
     acceleration: Vec<Vec3<Lanes>>,
     slope: Vec<Lanes>,
-    /// For each node on the belt, with friction: the belt's force on it [N].
+    /// For each node on the belt, if there is friction: the belt's force on it [N].
     pub(crate) belt_force: Vec<Vec3<Lanes>>,
+    rubs: bool,
     /// For each element: correction of the tension [N] minus `.1` times that of the element above.
     correction: Vec<(Lanes, Lanes)>,
 }
@@ -47,23 +48,28 @@ impl Tensions {
     pub(crate) fn new(elements: usize) -> Self {
         let mut tensions = Self { tension: vec![Lanes::ZERO; elements].into(), ..Self::default() };
         if elements > 0 {
-            tensions.make_room();
+            tensions.make_room(elements + 1);
         }
         tensions
     }
 
-    /// Makes room for as many elements as have a tension.
-    fn make_room(&mut self) {
-        let nodes = self.tension.len() + 1;
-        if self.force.len() < nodes {
-            // For some more, because the next element may be born soon.
-            let room = nodes + nodes / 4;
+    /// Keeps the belt's force on each node.
+    pub(crate) fn rub(&mut self) {
+        self.rubs = true;
+        self.belt_force = vec![Vec3::ZERO; self.force.len()];
+    }
+
+    /// Makes room for a number of nodes.
+    fn make_room(&mut self, room: usize) {
+        if self.force.len() < room {
+            if self.rubs {
+                self.belt_force.resize(room, Vec3::ZERO);
+            }
             self.tangent.resize(room, Vec3::ZERO);
             self.direction.resize(room, Vec3::ZERO);
             self.force.resize(room, Vec3::ZERO);
             self.drag.resize(room, Vec3::ZERO);
             self.acceleration.resize(room, Vec3::ZERO);
-            self.belt_force.resize(room, Vec3::ZERO);
             self.slope.resize(room, Lanes::ZERO);
             self.correction.resize(room, Default::default());
         }
@@ -73,7 +79,11 @@ impl Tensions {
     pub(crate) fn push_root(&mut self, tension: Lanes) {
         if !self.tension.is_empty() {
             self.tension.push_root(tension);
-            self.make_room();
+            let nodes = self.tension.len() + 1;
+            if self.force.len() < nodes {
+                // For some more, because the next element is born soon.
+                self.make_room(nodes + nodes / 4);
+            }
         }
     }
 

@@ -495,6 +495,9 @@ impl Chain {
         laying.origin = self.position.clone();
         c.frame = laying.belt_speed;
         c.friction = friction(lanes, &c.rest_length);
+        if c.friction.is_some() {
+            self.tensions.rub();
+        }
         // It becomes a node between two elements.
         let Node { mass, weight, .. } = c.node;
         (c.root.mass, c.root.weight) = (mass, weight);

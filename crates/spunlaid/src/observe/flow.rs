@@ -1,6 +1,7 @@
 //! Share of the time that the fibres spend outside the given flow.
 
 use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PERCENT, Seen, Value};
+use crate::air::Flow;
 use crate::flight::Flight;
 
 pub(super) const DECLARATION: Declaration = Declaration {
@@ -24,7 +25,12 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
         series: "share",
     }],
-    applies: |case| !case.air.is_uniform(),
+    // A profile reaches from the inlet to the belt as far as it was measured; a fed fibre does not leave it sideways.
+    applies: |case| match case.air.flow {
+        Flow::Uniform => false,
+        Flow::Profile(_) => case.line.is_none(),
+        Flow::Field(_) => true,
+    },
     observer: |_| Box::new(Outside),
 };
 
