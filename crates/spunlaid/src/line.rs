@@ -43,6 +43,15 @@ impl Line {
         steps_per_element: 1,
     };
 
+    /// The fewest time steps in which an element can be fed: two, or eight if the fibre slides. Flights with sliding fibres
+    /// were seen to fail with four.
+    pub const fn fewest_steps(&self) -> u64 {
+        match self.contact {
+            Contact::Stick => 2,
+            Contact::Friction { .. } => 8,
+        }
+    }
+
     /// The number of steps, of at most `longest` [s], in which an element of `length` [m] is fed.
     pub fn steps_of(&self, length: f64, longest: f64) -> u64 {
         let ratio = length / self.feed_speed / longest;

@@ -78,7 +78,7 @@ impl Run {
     }
 }
 
-/// The limit that the feed sets: half the time in which an element is fed.
+/// The limit that the feed sets, see [`Line::fewest_steps`].
 const FEEDING: &str = "feed of an element";
 
 /// Factor of the root of a fed fibre on the limit of the bending waves: its largest stiffness is sixteen times that of
@@ -109,8 +109,9 @@ impl Case {
             Scheme::ImplicitTension => vec![bending, self.string_step_limit()],
         };
         if let Some(line) = self.line {
-            // A step may be exactly half the time in which an element is fed.
-            let limit = 0.5 * self.fibre.rest_length() / line.feed_speed * (1.0 + 1e-9);
+            // A step may be exactly this part of the time in which an element is fed.
+            let limit =
+                self.fibre.rest_length() / line.feed_speed / line.fewest_steps() as f64 * (1.0 + 1e-9);
             limits.push(StepLimit { cause: FEEDING, limit });
             if self.run.scheme == Scheme::ImplicitTension && self.air.density > 0.0 && self.air.rms() > 0.0 {
                 // One iteration for the tensions finds them only where gusts turn an element little in a step. Most flights

@@ -2,7 +2,7 @@
 
 use super::{Case, FEEDING, whole_parts};
 use crate::chain::schemes::Scheme;
-use crate::line::Line;
+use crate::line::{Contact, Line};
 use std::f64::consts::PI;
 
 /// Error tolerance if the case does not give one either [-].
@@ -17,7 +17,7 @@ pub enum StepChoice {
     Stability,
     /// The run is not longer than this step.
     Duration,
-    /// An element is fed in two steps.
+    /// An element is fed in as few steps as can be.
     Feed,
 }
 
@@ -28,7 +28,7 @@ impl StepChoice {
             Self::Error => "it keeps the error tolerance",
             Self::Stability => "it is at most half the stability limit",
             Self::Duration => "the run is one step long",
-            Self::Feed => "an element is fed in two steps",
+            Self::Feed => "an element is fed in as few steps as can be",
         }
     }
 }
@@ -87,8 +87,11 @@ impl Case {
         let limits = self.stable_step_limits();
         let waves = limits.iter().filter(|limit| limit.cause != FEEDING).map(|limit| limit.limit);
         let (longest, length) = (0.5 * waves.fold(f64::INFINITY, f64::min), self.fibre.rest_length());
-        let steps = line.steps_of(length, longest).max(2);
-        let choice = if steps == 2 { StepChoice::Feed } else { StepChoice::Stability };
+        // Half of the limit where that is not known to be safe in every flight.
+        let usual =
+            if line.contact == Contact::Stick { line.fewest_steps() } else { 2 * line.fewest_steps() };
+        let steps = line.steps_of(length, longest).max(usual);
+        let choice = if steps == usual { StepChoice::Feed } else { StepChoice::Stability };
         (length / line.feed_speed / steps as f64, choice)
     }
 }

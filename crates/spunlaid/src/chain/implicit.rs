@@ -224,7 +224,7 @@ impl<S: Register> Predictor<'_, S> {
     fn friction(&mut self, i: usize, node: &Node, pull: Wide<S>) -> Vec3<Wide<S>> {
         let Some(friction) = &self.c.friction else { return Vec3::zero() };
         let (pull, v) = (pull.store(), self.velocity[i]);
-        let mut force = Vec3::ZERO;
+        let (mut force, mut rubbing) = (Vec3::ZERO, Vec3::ZERO);
         for lane in 0..WIDTH {
             if node.inverse_mass.0[lane] > 0.0 && node.inverse_mass_x.0[lane] == 0.0 {
                 let slip = [v.y.0[lane] - self.c.frame.0[lane], v.z.0[lane]];
@@ -233,11 +233,13 @@ impl<S: Register> Predictor<'_, S> {
                 let stopping = node.mass.0[lane] / self.h;
                 let drag = (friction.coefficient.0[lane] * normal / speed).min(stopping);
                 let drag = if speed > 0.0 { drag } else { 0.0 };
-                force.set_lane(lane, Vec3::new(0.0, -drag * slip[0], -drag * slip[1]));
+                let [y, z] = slip.map(|slip| -drag * slip);
+                force.set_lane(lane, Vec3::new(-pull.0[lane], y, z));
+                rubbing.set_lane(lane, Vec3::new(0.0, y, z));
             }
         }
         self.t.belt_force[i] = force;
-        Vec3::load(&force)
+        Vec3::load(&rubbing)
     }
 }
 

@@ -205,15 +205,17 @@ impl Chain {
                 }
                 let (mass, force) = (node.mass.0[lane], tensions.belt_force[i].lane(lane));
                 let with_belt = Vec3::new(0.0, laying.belt_speed.0[lane], 0.0);
+                let normal = (friction.press.0[lane] - force.x).max(0.0);
+                let most = friction.coefficient.0[lane] * normal;
                 if node.inverse_mass.0[lane] == 0.0 {
-                    let normal = (friction.press.0[lane] - force.x).max(0.0);
-                    if force.y.hypot(force.z) > friction.coefficient.0[lane] * normal {
+                    if force.y.hypot(force.z) > most {
                         node.inverse_mass.0[lane] = 1.0 / mass;
                     }
                     continue;
                 }
-                let before = (earlier[i].lane(lane) - with_belt).norm();
-                if before > 0.0 && force.y.hypot(force.z) * h >= 0.999_999 * mass * before {
+                // The slip that there would be without friction: what friction can stop sticks.
+                let (after, rate) = (velocity[i].lane(lane) - with_belt, h / mass);
+                if (after.y - rate * force.y).hypot(after.z - rate * force.z) <= rate * most {
                     let slip = velocity[i].lane(lane) - with_belt;
                     laying.carried.impacts.0[lane] -= 0.5 * mass * slip.dot(slip);
                     velocity[i].set_lane(lane, with_belt);
