@@ -6,6 +6,7 @@ mod flight;
 mod profile;
 mod record;
 mod study;
+mod web;
 
 pub use field::FieldFault;
 pub use file::{FileError, FileFault, FileKind, FilePlace};
@@ -14,6 +15,7 @@ pub use profile::ProfileFault;
 pub use record::RecordFault;
 pub(crate) use record::listed;
 pub use study::{JournalError, StudyFault};
+pub use web::WebFault;
 
 use crate::units::{Dimension, Printable, QuantityFault, shortest};
 use std::fmt::{self, Write};
@@ -59,6 +61,9 @@ pub enum Error {
         /// Distance to the belt [m].
         distance: f64,
     },
+    /// A web cannot be laid.
+    #[error(transparent)]
+    Web(#[from] WebFault),
     /// Fibres cannot fly side by side, or a flight cannot do what is asked of it.
     #[error(transparent)]
     Flight(#[from] FlightFault),

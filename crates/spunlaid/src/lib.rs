@@ -79,6 +79,7 @@ pub mod statistics;
 
 pub mod laydown;
 pub mod surrogate;
+pub mod web;
 
 pub mod record;
 

@@ -22,7 +22,7 @@ const ROOMS: &[&[&str]] = &[
     &["energy"],
     &["statistics"],
     &["laydown", "surrogate"],
-    &["record"],
+    &["record", "web"],
     &["case"],
     &["flight"],
     &["observe"],

@@ -1,7 +1,7 @@
 //! What a flight costs on this machine, in nanoseconds per element and step of a fibre.
 //!
 //!     cargo bench -p spunlaid                       # all of it, two minutes
-//!     cargo bench -p spunlaid -- kernel threads     # parts: kernel, growth, fed, wind, field, ensemble,
+//!     cargo bench -p spunlaid -- kernel threads     # parts: kernel, growth, fed, web, wind, field, ensemble,
 //!                                                   # threads, accuracy
 //!
 //! Processor time, the least of many short repetitions taken in turn; absolute figures wander with the
@@ -20,14 +20,16 @@ mod field;
 mod flights;
 mod kernel;
 mod measure;
+mod web;
 mod wind;
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    let parts: [(&str, fn()); 8] = [
+    let parts: [(&str, fn()); 9] = [
         ("kernel", kernel::instruction_sets),
         ("growth", kernel::growth),
         ("fed", fed::against_fixed),
+        ("web", web::costs),
         ("wind", wind::costs),
         ("field", field::costs),
         ("ensemble", ensemble::costs),

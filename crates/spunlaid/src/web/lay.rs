@@ -1,0 +1,335 @@
+//! Lays all filaments of a web.
+
+use super::curves::Stretches;
+use super::map::Map;
+use super::raster::{Draw, Pens};
+use super::strip::Strip;
+use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
+use crate::error::{Error, WebFault};
+use crate::lanes::{Isa, Lanes, WIDTH};
+use crate::surrogate::{PathKey, Paths};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What computes, and how it is watched and stopped.
+#[derive(Clone, Copy, Debug)]
+pub struct Laying<'a> {
+    /// Number of threads. The map does not depend on it.
+    pub threads: usize,
+    /// Instruction set. The map does not depend on it.
+    pub isa: Isa,
+    /// Ends the laying when it is set.
+    pub stop: &'a AtomicBool,
+    /// Grows by the pieces of filaments that have been laid; [`pieces`] says how many there are.
+    pub laid: &'a AtomicU64,
+}
+
+/// What has been laid.
+#[derive(Clone, Debug)]
+pub struct Laid {
+    /// The basis weight.
+    pub map: Map,
+    /// Mass beyond edges that cut it off [kg].
+    pub cut: f64,
+}
+
+/// Filaments that a thread lays before it adds them to the map.
+const TOGETHER: usize = 8 * WIDTH;
+/// Longest piece of a path: of the smaller standard deviation, and of the length 1/A² in which the direction is forgotten.
+const LONGEST_PIECE: [f64; 2] = [0.06, 0.2];
+/// Points that are drawn at once.
+const BLOCK: usize = 256;
+/// Last word of the keys of the places of filaments, and of the choice of stretches. Paths and winds have others.
+const PLACES: u64 = 4;
+const STRETCHES: u64 = 5;
+/// Highest number of a cell, by which the quantum is chosen, over the mean one and over that of a single trace.
+const HIGHEST: f64 = 4.0;
+
+/// Curves of up to eight filaments, point by point.
+pub(super) trait Points {
+    /// Fills `points` with the ends of at most so many pieces: the first is where the next piece begins, the others where
+    /// pieces end. Returns the number of points.
+    fn next(&mut self, pieces: usize, points: &mut [[Lanes; 2]]) -> usize;
+}
+
+/// Paths of the surrogate.
+struct Wandering {
+    paths: Paths,
+    last: Option<[Lanes; 2]>,
+}
+
+impl Points for Wandering {
+    fn next(&mut self, pieces: usize, points: &mut [[Lanes; 2]]) -> usize {
+        let count = points.len().min(pieces + 1);
+        let points = &mut points[..count];
+        match self.last {
+            Some(last) => {
+                points[0] = last;
+                self.paths.fill(&mut points[1..]);
+            }
+            None => self.paths.fill(points),
+        }
+        self.last = points.last().copied();
+        count
+    }
+}
+
+/// How the filaments of a layer are drawn.
+pub(super) struct Plan<'a> {
+    number: u64,
+    pub(super) layer: &'a Layer,
+    /// Places of the filaments across the web, in order [m].
+    pub(super) places: Vec<f64>,
+    /// Pieces of each filament.
+    pieces: usize,
+    /// Length of a piece [m].
+    pub(super) piece: f64,
+    /// Parts of a piece, and quanta of a part.
+    parts: usize,
+    quanta: u32,
+}
+
+impl<'a> Plan<'a> {
+    fn new(web: &Web, number: usize, layer: &'a Layer) -> Result<Self, WebFault> {
+        let sheet = &web.sheet;
+        let fed = layer.fed_length(sheet);
+        let (wanted, longest) = match &layer.fibres {
+            Fibres::Surrogate(of) => {
+                let least = of.sigma_md.min(of.sigma_cd);
+                let wanted = (LONGEST_PIECE[0] * least).min(LONGEST_PIECE[1] / (of.noise * of.noise));
+                (wanted, None)
+            }
+            Fibres::Curves(curves) => {
+                let [_, longest] = curves.reach();
+                if (curves.belt_ratio() / layer.belt_ratio() - 1.0).abs() > 1e-9 {
+                    return Err(WebFault::OtherLine {
+                        curves: curves.belt_ratio(),
+                        layer: layer.belt_ratio(),
+                    });
+                }
+                (curves.spacing(), Some(longest))
+            }
+        };
+        let pieces = (fed / wanted).round().max(1.0);
+        if !(fed > 0.0 && pieces < 1e12) {
+            return Err(WebFault::NoLayer { layer: number + 1 });
+        }
+        let piece = fed / pieces;
+        let advance = layer.belt_ratio() * piece;
+        let parts = Pens::parts_of((longest.unwrap_or(piece) + advance) / sheet.cell);
+        let places = places(web, number, layer);
+        if places.is_empty() {
+            return Err(WebFault::NoLayer { layer: number + 1 });
+        }
+        Ok(Self { number: number as u64, layer, places, pieces: pieces as usize, piece, parts, quanta: 0 })
+    }
+
+    /// Mass of a part of a piece [kg].
+    fn mass_of_part(&self) -> f64 {
+        self.layer.linear_density * self.piece / self.parts as f64
+    }
+
+    /// Highest mass of a cell that is reckoned with, without the other filaments [kg].
+    fn mass_of_trace(&self, sheet: &Sheet) -> f64 {
+        let width = match &self.layer.fibres {
+            Fibres::Surrogate(of) => (2.0 * std::f64::consts::PI).sqrt() * of.sigma_cd,
+            Fibres::Curves(_) => self.layer.fibres.reach(),
+        };
+        self.layer.linear_density / self.layer.belt_ratio() * sheet.cell * (sheet.cell / width).min(1.0)
+    }
+
+    fn key(&self, web: &Web, filament: usize) -> PathKey {
+        PathKey { seed: web.seed, fibre: self.number << 48 | filament as u64 }
+    }
+
+    /// The curves of the filaments from the number `first` on.
+    fn points(&self, web: &Web, isa: Isa, first: usize, count: usize) -> Result<Box<dyn Points>, WebFault> {
+        match &self.layer.fibres {
+            Fibres::Surrogate(surrogate) => {
+                let keys: Vec<PathKey> = (first..first + count).map(|f| self.key(web, f)).collect();
+                let paths = Paths::new(isa, *surrogate, self.piece, &keys).ok_or(WebFault::NoPath {
+                    sigmas: [surrogate.sigma_md, surrogate.sigma_cd],
+                    noise: surrogate.noise,
+                })?;
+                Ok(Box::new(Wandering { paths, last: None }))
+            }
+            Fibres::Curves(curves) => {
+                let random = random(web.seed, self.number << 48 | first as u64, STRETCHES);
+                Ok(Box::new(Stretches::new(Arc::clone(curves), random, count)))
+            }
+        }
+    }
+
+    /// Draws some filaments on a strip.
+    fn draw(&self, web: &Web, which: Range<usize>, strip: &mut Strip, by: Laying<'_>) -> Result<(), Error> {
+        let per_cell = 1.0 / web.sheet.cell;
+        let (Some(low), Some(high)) = (self.places.get(which.start), self.places.get(which.end - 1)) else {
+            return Ok(());
+        };
+        let reach = self.layer.fibres.reach() + 2.0 * web.sheet.cell;
+        let first = ((low - reach) * per_cell).floor();
+        strip.take(first as i64, ((high + reach) * per_cell - first).ceil() as usize + 1);
+        for start in which.clone().step_by(WIDTH) {
+            let count = WIDTH.min(which.end - start);
+            let mut pens = Pens {
+                curves: count,
+                per_cell,
+                advance: self.layer.belt_ratio() * self.piece * per_cell,
+                parts: self.parts,
+                quanta: self.quanta,
+                at: self.start(web, start, count).map(|at| Lanes(at.0.map(|at| at * per_cell))),
+            };
+            pens.at[0] = Lanes(pens.at[0].0.map(|at| at - first));
+            self.walk(web, start, count, by, |points| {
+                by.isa.run(Draw { pens: &mut pens, strip, points });
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Where the straight traces of some filaments begin, across the web and along it [m].
+    pub(super) fn start(&self, web: &Web, first: usize, count: usize) -> [Lanes; 2] {
+        // Filaments start anywhere on the ring, so that it has no seam.
+        let mut starts = random(web.seed, self.number << 48 | first as u64, PLACES);
+        [
+            Lanes::from_fn(|i| self.places[first + i.min(count - 1)]),
+            Lanes::from_fn(|_| uniform(&mut starts) * web.sheet.length),
+        ]
+    }
+
+    /// Passes on the points (ξ₁, ξ₂) of up to eight filaments, block by block. The first point of a block is where its first piece begins.
+    pub(super) fn walk(
+        &self,
+        web: &Web,
+        first: usize,
+        count: usize,
+        by: Laying<'_>,
+        mut take: impl FnMut(&[[Lanes; 2]]),
+    ) -> Result<(), Error> {
+        let mut points = [[Lanes::ZERO; 2]; BLOCK];
+        let mut curves = self.points(web, by.isa, first, count)?;
+        let mut left = self.pieces;
+        while left > 0 {
+            if by.stop.load(Ordering::Relaxed) {
+                return Err(Error::Interrupted);
+            }
+            let given = curves.next(left, &mut points);
+            take(&points[..given]);
+            left -= given - 1;
+            by.laid.fetch_add(((given - 1) * count) as u64, Ordering::Relaxed);
+        }
+        Ok(())
+    }
+}
+
+/// A stream of random numbers of its own.
+fn random(seed: u64, number: u64, kind: u64) -> ChaCha8Rng {
+    let mut key = [0; 32];
+    for (bytes, word) in key.chunks_exact_mut(8).zip([seed, number, 0, kind]) {
+        bytes.copy_from_slice(&word.to_le_bytes());
+    }
+    ChaCha8Rng::from_seed(key)
+}
+
+/// A random number from 0 to below 1.
+fn uniform(random: &mut ChaCha8Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0
+}
+
+/// Where the filaments of a layer come down, in order [m].
+fn places(web: &Web, number: usize, layer: &Layer) -> Vec<f64> {
+    let mut places: Vec<f64> = match &layer.filaments {
+        Filaments::AtRandom { .. } => {
+            let mut random = random(web.seed, (number as u64) << 48 | 1 << 47, PLACES);
+            (0..layer.count(&web.sheet)).map(|_| uniform(&mut random) * web.sheet.width).collect()
+        }
+        Filaments::Rows(rows) => {
+            let nozzles =
+                rows.iter().flat_map(|row| (0..row.filaments).map(|i| row.offset + row.pitch * i as f64));
+            nozzles.collect()
+        }
+    };
+    places.sort_by(f64::total_cmp);
+    places
+}
+
+pub(super) fn plans(web: &Web) -> Result<Vec<Plan<'_>>, WebFault> {
+    web.layers.iter().enumerate().map(|(number, layer)| Plan::new(web, number, layer)).collect()
+}
+
+/// Number of pieces that [`lay`] lays.
+///
+/// # Errors
+/// As [`lay`].
+pub fn pieces(web: &Web) -> Result<u64, Error> {
+    Ok(plans(web)?.iter().map(|plan| (plan.pieces * plan.places.len()) as u64).sum())
+}
+
+/// Lays all filaments of a web.
+///
+/// Each filament lays as much fibre as the belt takes along on its way through the sheet, so the basis weight is on average exactly line
+/// density × filaments × feed speed / belt speed / width. Several layers share a quantum of mass, which rounds the
+/// mass of a layer by less than 1e-5.
+///
+/// # Errors
+/// If the web cannot be laid, or if it is stopped.
+pub fn lay(web: &Web, by: Laying<'_>) -> Result<Laid, Error> {
+    let sheet = &web.sheet;
+    let [columns, rows] = sheet.cells();
+    let mut plans = plans(web)?;
+    let quantum = quantum(web, &plans).ok_or(WebFault::NoSheet)?;
+    for plan in &mut plans {
+        plan.quanta = (plan.mass_of_part() / quantum).round() as u32;
+    }
+    let units: Vec<(&Plan<'_>, Range<usize>)> = plans
+        .iter()
+        .flat_map(|plan| {
+            let count = plan.places.len();
+            (0..count).step_by(TOGETHER).map(move |first| (plan, first..(first + TOGETHER).min(count)))
+        })
+        .collect();
+    let closed = [sheet.edges == Edges::Periodic, true];
+    let sum = Mutex::new((Map::new([columns, rows], sheet.cell, quantum, closed), 0u64, false));
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut strip = Strip::new(rows);
+        while let Some((plan, which)) = units.get(next.fetch_add(1, Ordering::Relaxed)) {
+            plan.draw(web, which.clone(), &mut strip, by)?;
+            let mut sum = sum.lock().unwrap_or_else(PoisonError::into_inner);
+            let (cut, is_full) = strip.add_to(&mut sum.0);
+            sum.1 += cut;
+            sum.2 |= is_full;
+        }
+        Ok::<(), Error>(())
+    };
+    std::thread::scope(|scope| {
+        let helpers: Vec<_> = (1..by.threads.min(units.len())).map(|_| scope.spawn(work)).collect();
+        let own = work();
+        helpers
+            .into_iter()
+            .map(|helper| helper.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .fold(own, Result::and)
+    })?;
+    let (map, cut, is_full) = sum.into_inner().unwrap_or_else(PoisonError::into_inner);
+    if is_full {
+        return Err(WebFault::FullCell { cell: sheet.cell }.into());
+    }
+    Ok(Laid { map, cut: cut as f64 * quantum })
+}
+
+/// The quantum of mass [kg]: a part of a piece is a power of two of them, as many as the fullest cell can count.
+fn quantum(web: &Web, plans: &[Plan<'_>]) -> Option<f64> {
+    let part = plans.first()?.mass_of_part();
+    let cell = web.sheet.cell * web.sheet.cell;
+    let single = plans.iter().map(|plan| plan.mass_of_trace(&web.sheet)).sum::<f64>();
+    let highest = HIGHEST * (web.basis_weight() * cell + single) / part;
+    let lightest = plans.iter().map(Plan::mass_of_part).fold(f64::MAX, f64::min) / part;
+    // A curve that stays in one cell for a block of pieces can be counted too.
+    let pieces = plans.iter().map(|plan| plan.parts * BLOCK).max()?;
+    let most = (2f64.powi(31) / pieces as f64).min(2f64.powi(20));
+    let quanta = (2f64.powi(32) / highest).min(most).log2().floor().exp2();
+    (quanta * lightest >= 16.0 && quanta.is_finite()).then(|| part / quanta)
+}

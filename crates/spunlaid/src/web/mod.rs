@@ -1,0 +1,156 @@
+//! The web: how much fibre lies where on the belt when many filaments are laid side by side.
+//!
+//! A [`Web`] is a sheet of cells on which layers of filaments are laid, each a curve of the [surrogate](crate::surrogate) or
+//! one that was flown. [`lay`] gives the [`Map`] of the basis weight, the mass of fibre in each cell. Of such a map, simulated or
+//! measured, [`uniformity`] says how uneven it is.
+//!
+//! md is the machine direction, in which the belt moves the web; cd is the cross direction.
+
+mod curves;
+mod lay;
+mod map;
+mod one_fibre;
+mod orientation;
+mod raster;
+mod sensitivity;
+mod strands;
+mod strip;
+pub mod uniformity;
+
+pub use curves::Curves;
+pub use lay::{Laid, Laying, lay, pieces};
+pub use map::Map;
+pub use one_fibre::{OneFibre, one_fibre, straight_fibres};
+pub use orientation::{Orientation, orientation};
+pub use sensitivity::{Lever, Sensitivity, sensitivities};
+pub use strands::{Strand, Window, strands};
+
+use crate::surrogate::Surrogate;
+use std::sync::Arc;
+
+/// A sheet and what is laid on it.
+#[derive(Clone, Debug)]
+pub struct Web {
+    /// The sheet.
+    pub sheet: Sheet,
+    /// What lies on it; the basis weights add up.
+    pub layers: Vec<Layer>,
+    /// Seed of all random numbers. Equal webs with equal seeds are equal to the last bit.
+    pub seed: u64,
+}
+
+/// The part of the web that is looked at, and its cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    /// Size in cross direction, a whole number of cells [m].
+    pub width: f64,
+    /// Size in machine direction, a whole number of cells [m].
+    pub length: f64,
+    /// Side of a square cell [m].
+    pub cell: f64,
+    /// Sides of the square patches over which the basis weight is compared, whole numbers of cells [m].
+    pub patches: Vec<f64>,
+    /// What happens at the edges in cross direction.
+    pub edges: Edges,
+}
+
+/// What becomes of fibre beyond the edges of the sheet in cross direction. In machine direction the sheet is a stretch of an endless web, closed to
+/// a ring: what goes out at one end comes in at the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edges {
+    /// It comes in at the other edge: the sheet is a part of a web that is wide everywhere.
+    Periodic,
+    /// It is cut off.
+    Cut,
+}
+
+/// Filaments of one kind.
+#[derive(Clone, Debug)]
+pub struct Layer {
+    /// Mass per length of a filament [kg/m].
+    pub linear_density: f64,
+    /// Speed at which each filament is fed [m/s].
+    pub feed_speed: f64,
+    /// Speed of the belt [m/s].
+    pub belt_speed: f64,
+    /// Where the filaments come down.
+    pub filaments: Filaments,
+    /// The curves that they lay.
+    pub fibres: Fibres,
+}
+
+/// Where the filaments of a layer come down in cross direction.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Filaments {
+    /// At random places, independent of each other, over the whole width of the sheet.
+    AtRandom {
+        /// Number of filaments per width of the sheet [1/m]; the nearest whole number is laid.
+        per_metre: f64,
+    },
+    /// In rows of nozzles.
+    Rows(Vec<Row>),
+}
+
+/// A row of nozzles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Place of the first nozzle, from the sheet's edge [m].
+    pub offset: f64,
+    /// Distance from nozzle to nozzle [m].
+    pub pitch: f64,
+    /// Number of nozzles.
+    pub filaments: u64,
+}
+
+/// The curves that filaments lay.
+#[derive(Clone, Debug)]
+pub enum Fibres {
+    /// Paths of the stochastic model, each its own.
+    Surrogate(Surrogate),
+    /// Curves that were flown, laid again and again at other places.
+    Curves(Arc<Curves>),
+}
+
+impl Layer {
+    /// Speed of the belt over speed of the feed.
+    pub fn belt_ratio(&self) -> f64 {
+        self.belt_speed / self.feed_speed
+    }
+
+    /// Number of filaments on a sheet.
+    pub fn count(&self, sheet: &Sheet) -> u64 {
+        match &self.filaments {
+            Filaments::AtRandom { per_metre } => (per_metre * sheet.width).round() as u64,
+            Filaments::Rows(rows) => rows.iter().map(|row| row.filaments).sum(),
+        }
+    }
+
+    /// Length that each filament lays on a sheet [m].
+    pub fn fed_length(&self, sheet: &Sheet) -> f64 {
+        sheet.length / self.belt_ratio()
+    }
+
+    /// Mass of all its filaments over the sheet's area [kg/m²].
+    pub fn basis_weight(&self, sheet: &Sheet) -> f64 {
+        self.linear_density * self.count(sheet) as f64 * self.fed_length(sheet) / (sheet.width * sheet.length)
+    }
+}
+
+impl Web {
+    /// Mass of all filaments over the sheet's area [kg/m²]. With [`Edges::Cut`] some of it may lie beyond the edges.
+    pub fn basis_weight(&self) -> f64 {
+        self.layers.iter().map(|layer| layer.basis_weight(&self.sheet)).sum()
+    }
+
+    /// Length of all filaments [m].
+    pub fn fibre_length(&self) -> f64 {
+        self.layers.iter().map(|layer| layer.count(&self.sheet) as f64 * layer.fed_length(&self.sheet)).sum()
+    }
+}
+
+impl Sheet {
+    /// Number of cells in cross and in machine direction.
+    pub fn cells(&self) -> [usize; 2] {
+        [self.width, self.length].map(|size| (size / self.cell).round() as usize)
+    }
+}

@@ -1,0 +1,94 @@
+//! What one fibre alone says about the unevenness of a web of many.
+
+use super::lay::{Laying, lay};
+use super::uniformity::boxes;
+use super::{Edges, Fibres, Filaments, Layer, Row, Sheet, Web};
+use crate::error::Error;
+use crate::statistics::Estimate;
+
+/// How the unevenness is found from single fibres.
+#[derive(Clone, Copy, Debug)]
+pub struct OneFibre {
+    /// Side of a cell [m].
+    pub cell: f64,
+    /// Length of each fibre [m].
+    pub length: f64,
+    /// Number of fibres; each is laid alone.
+    pub fibres: u64,
+    /// Seed of the curves.
+    pub seed: u64,
+}
+
+/// `CV²·τ` of a web of independent filaments at random places, over patches of some sides [m^-1·m²/m = m^-1 per m of fibre and m²].
+///
+/// A patch of side x holds of one filament the length m; over all patches, `CV² τ = Σ m²/(L x²)` with the filament's length L and the
+/// length of all filaments per area, τ = basis weight/line density. The patches are taken at every place on the lattice of cells.
+///
+/// * `sides` – of the patches [cells]
+///
+/// Returns for each side the value of each fibre, with the mean over the fibres.
+///
+/// # Errors
+/// If the filaments cannot be laid, or if it is stopped.
+pub fn one_fibre(
+    layer: &Layer,
+    sides: &[usize],
+    of: OneFibre,
+    by: Laying<'_>,
+) -> Result<Vec<Estimate>, Error> {
+    let largest = sides.iter().copied().max().unwrap_or(1);
+    // So far apart that no patch meets two fibres.
+    let apart = (2.0 * layer.fibres.reach() / of.cell).ceil() as usize + largest + 8;
+    let fibres = of.fibres.max(1) as usize;
+    let pitch = apart as f64 * of.cell;
+    let rows = (of.length * layer.belt_ratio() / of.cell).round().max(largest as f64);
+    let row = Row { offset: 0.5 * pitch, pitch, filaments: fibres as u64 };
+    let web = Web {
+        sheet: Sheet {
+            width: pitch * fibres as f64,
+            length: rows * of.cell,
+            cell: of.cell,
+            patches: Vec::new(),
+            edges: Edges::Periodic,
+        },
+        layers: vec![Layer { filaments: Filaments::Rows(vec![row]), ..layer.clone() }],
+        seed: of.seed,
+    };
+    let map = lay(&web, by)?.map;
+    let metres = map.quantum / layer.linear_density;
+    let length = layer.fed_length(&web.sheet);
+    let estimate = |side: &usize| {
+        let mut squares = vec![0.0; fibres];
+        boxes(&map, *side, [map.columns, map.rows], |_, boxes| {
+            for (squares, of) in squares.iter_mut().zip(boxes.chunks_exact(apart)) {
+                *squares += of.iter().map(|quanta| (*quanta as f64).powi(2)).sum::<f64>();
+            }
+        });
+        // Each fibre's patches begin up to a patch before its own columns, where no other fibre is.
+        let scale = (metres / (*side as f64)).powi(2) / (length * (*side as f64 * of.cell).powi(2));
+        Estimate::of(squares.iter().map(|sum| sum * scale).collect())
+    };
+    Ok(sides.iter().map(estimate).collect())
+}
+
+/// `CV²·τ·x` of straight, endless fibres in all directions, thrown at random: the mean of 1/(π distance) over pairs of
+/// points in a square of side 1, `(4 ln(1+√2) + 4(1−√2)/3)/π = 0.9464`.
+///
+/// Source: W. J. Corte, O. Kallmes, in: The Formation and Structure of Paper (1962), 13–46, for squares.
+pub fn straight_fibres(tau: f64, patch: f64) -> f64 {
+    let root = std::f64::consts::SQRT_2;
+    let mean = (4.0 * libm::log1p(root) + 4.0 * (1.0 - root) / 3.0) / std::f64::consts::PI;
+    (mean / (tau * patch)).sqrt()
+}
+
+impl Fibres {
+    /// Farthest that a curve goes across, but for rare exceptions [m].
+    pub(super) fn reach(&self) -> f64 {
+        /// A normal distribution goes beyond once in 26 million points.
+        const SIGMAS: f64 = 5.5;
+        match self {
+            Self::Surrogate(of) => SIGMAS * of.sigma_cd,
+            Self::Curves(curves) => curves.reach()[0],
+        }
+    }
+}

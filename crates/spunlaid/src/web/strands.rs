@@ -1,0 +1,105 @@
+//! Single fibres of a web, as curves.
+
+use super::lay::{Laying, Plan, plans};
+use super::{Edges, Web};
+use crate::error::Error;
+use crate::lanes::{Lanes, WIDTH};
+
+/// A rectangle of the sheet, in cross and in machine direction [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// The corner nearest to the origin.
+    pub corner: [f64; 2],
+    /// Its sides.
+    pub sides: [f64; 2],
+}
+
+/// A part of a fibre within a window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strand {
+    /// Number of the layer, from 0.
+    pub layer: usize,
+    /// Number of the filament in its layer, counted across the web from 0.
+    pub filament: usize,
+    /// Places in cross and in machine direction, from the corner of the window [m]. The first and the last may be one
+    /// piece outside.
+    pub points: Vec<[f64; 2]>,
+}
+
+impl Window {
+    fn holds(&self, point: [f64; 2]) -> bool {
+        point.iter().zip(self.sides).all(|(at, side)| (0.0..=side).contains(at))
+    }
+}
+
+/// The fibres in a window: those that [`lay`](super::lay) lays there, point by point.
+///
+/// # Errors
+/// As [`lay`](super::lay).
+pub fn strands(web: &Web, window: Window, by: Laying<'_>) -> Result<Vec<Strand>, Error> {
+    let mut strands = Vec::new();
+    for (layer, plan) in plans(web)?.iter().enumerate() {
+        for first in (0..plan.places.len()).step_by(WIDTH) {
+            let count = WIDTH.min(plan.places.len() - first);
+            let near = (first..first + count).any(|i| nears(web, plan, plan.places[i], window));
+            if !near {
+                continue;
+            }
+            let [places, mut along] = plan.start(web, first, count);
+            let advance = plan.layer.belt_ratio() * plan.piece;
+            let mut open: [Option<Strand>; WIDTH] = Default::default();
+            plan.walk(web, first, count, by, |points| {
+                for lane in 0..count {
+                    let at = |i: usize| {
+                        let [md, cd] = points[i].each_ref().map(|of: &Lanes| of.0[lane]);
+                        within(web, window, [places.0[lane] + cd, along.0[lane] + md - advance * i as f64])
+                    };
+                    // A block may begin elsewhere than the last one ended.
+                    strands.extend(open[lane].take());
+                    let mut before = at(0);
+                    for i in 1..points.len() {
+                        let point = at(i);
+                        let joined = (point[0] - before[0]).abs().max((point[1] - before[1]).abs())
+                            < 0.5 * web.sheet.length.min(web.sheet.width);
+                        if joined && (window.holds(before) || window.holds(point)) {
+                            let start = || Strand { layer, filament: first + lane, points: vec![before] };
+                            open[lane].get_or_insert_with(start).points.push(point);
+                        } else {
+                            strands.extend(open[lane].take());
+                        }
+                        before = point;
+                    }
+                }
+                let pieces = (points.len() - 1) as f64;
+                along = Lanes(along.0.map(|at| at - advance * pieces));
+            })?;
+            strands.extend(open.into_iter().flatten());
+        }
+    }
+    Ok(strands)
+}
+
+/// Whether a filament that comes down at a place may lay fibre in the window.
+fn nears(web: &Web, plan: &Plan<'_>, place: f64, window: Window) -> bool {
+    let reach = plan.layer.fibres.reach();
+    let from_middle = (place - window.corner[0] - 0.5 * window.sides[0]).abs();
+    let distance = match web.sheet.edges {
+        Edges::Cut => from_middle,
+        Edges::Periodic => {
+            let turned = from_middle % web.sheet.width;
+            turned.min(web.sheet.width - turned)
+        }
+    };
+    distance <= reach + 0.5 * window.sides[0]
+}
+
+/// A place on the ring as seen from the corner of the window, as near to its middle as it can be.
+fn within(web: &Web, window: Window, [cd, md]: [f64; 2]) -> [f64; 2] {
+    let near = |at: f64, side: f64, around: f64| at - ((at - 0.5 * side) / around).round() * around;
+    let (across, along) = (cd - window.corner[0], md - window.corner[1]);
+    let across = match web.sheet.edges {
+        Edges::Periodic => near(across, window.sides[0], web.sheet.width),
+        Edges::Cut => across,
+    };
+    [across, near(along, window.sides[1], web.sheet.length)]
+}
