@@ -8,7 +8,7 @@ pub(crate) mod laying;
 pub mod schemes;
 pub mod work;
 
-use self::laying::Laying;
+use self::laying::{Friction, Laying};
 use self::schemes::Scheme;
 use crate::drag::{DragLanes, ElementDrag};
 use crate::fibre::{Fibre, Root};
@@ -74,15 +74,6 @@ pub(crate) struct Constants {
     pub(crate) frame: Lanes,
     /// Half an element's drag, which is the share of each of its two nodes.
     pub(crate) half_drag: DragLanes,
-}
-
-/// Friction of eight fibres on their belts.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Friction {
-    /// Coefficient of friction `μ` [-].
-    pub(crate) coefficient: Lanes,
-    /// Force with which the suction presses a node on to the belt [N].
-    pub(crate) press: Lanes,
 }
 
 /// The constants of a node that a step needs.

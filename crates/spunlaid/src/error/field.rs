@@ -1,7 +1,7 @@
 //! Errors of CFD fields.
 
+use super::listed;
 use super::memory;
-use super::record::listed;
 use crate::units::shortest;
 
 /// What is wrong with a CFD field, and how to correct it.

@@ -1,6 +1,6 @@
 //! Errors of profiles and spectra.
 
-use super::record::listed;
+use super::listed;
 use crate::units::shortest;
 
 /// What is wrong with a profile or a spectrum, and how to correct it.

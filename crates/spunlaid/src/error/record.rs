@@ -1,6 +1,6 @@
 //! Errors of velocity records.
 
-use super::{all_of, memory};
+use super::{listed, memory};
 use crate::units::{Dimension, shortest};
 
 /// What is wrong with a velocity record, and how to correct it.
@@ -166,14 +166,4 @@ pub enum RecordFault {
         /// One that would do.
         advice: usize,
     },
-}
-
-pub(crate) fn listed(names: &[String]) -> String {
-    const MOST: usize = 12;
-    let mut shown: Vec<&str> = names.iter().take(MOST).map(String::as_str).collect();
-    let more = format!("{} more", names.len().saturating_sub(MOST));
-    if names.len() > MOST {
-        shown.push(&more);
-    }
-    if shown.is_empty() { "none".to_owned() } else { all_of(&shown) }
 }

@@ -1,11 +1,11 @@
 //! The keys of a case: one table that describes each of them.
 //!
 //! ```text
-//! table.rs, one row for each key → reading, checking and writing case files, studies, labels of figures,
+//! table/, one row for each key → reading, checking and writing case files, studies, labels of figures,
 //!   `spunlaid keys`, docs/keys.md, `Key::set` for programs that change a case or a flight
 //! ```
 //!
-//! To add a key, add a row to the table; then write the code that uses its value.
+//! To add a key, add a row to its file in `table`; then write the code that uses its value.
 
 mod nearest;
 #[macro_use]
@@ -21,7 +21,7 @@ use crate::error::{Fault, Finding, Place, Problem};
 use crate::units::Dimension;
 
 /// The tables of a case file, in order.
-pub const TABLES: [&str; 6] = ["fibre", "feed", "belt", "air", "drag", "run"];
+pub const TABLES: [&str; table::NAMES.len()] = table::NAMES;
 
 /// The text that a case file may give as cut-off frequency: Taylor's hypothesis.
 pub(crate) const TAYLOR: &str = "taylor";
@@ -38,7 +38,7 @@ pub enum LeftOut {
 }
 
 /// A key of a case, which is a row of the table.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Key {
     /// Full name, `air.velocity`.
     pub name: &'static str,
@@ -65,7 +65,7 @@ pub struct Key {
 
 /// Every key, in the order of a case file.
 pub fn all() -> &'static [Key] {
-    table::KEYS
+    &table::KEYS
 }
 
 /// The key with this full name, `air.velocity`.

@@ -1,0 +1,64 @@
+//! The belt.
+
+use super::super::Key;
+use super::super::row::{Access, choose, line, named, number, quantity};
+use super::super::value::Sign::{NotNegative, Positive};
+use super::super::value::Value;
+use crate::error::Fault;
+use crate::line::Contact;
+use crate::units::Dimension;
+
+pub(super) const KEYS: &[Key] = &[
+    quantity("belt.distance", Dimension::Length, Positive, Access {
+        get: |case| Some(Value::Number(case.line?.distance)),
+        set: |case, value| {
+            let distance = number(value)?;
+            let element_length = case.fibre.rest_length();
+            line(case)?.distance = distance;
+            if element_length.is_finite() {
+                case.fibre.span(distance, element_length);
+            } else {
+                case.fibre.length = distance;
+            }
+            Ok(())
+        },
+    })
+    .follows("a fibre of fixed length")
+    .meaning("Distance from the inlet to the belt, along x. The belt is perpendicular to x.")
+    .label("Distance to the belt *H*")
+    .slider(0.1, 2.0),
+    quantity("belt.speed", Dimension::Velocity, NotNegative, of_line!(belt_speed))
+        .follows("a fibre of fixed length")
+        .meaning("Speed of the belt, along y, the machine direction.")
+        .label("Belt speed *v*_{b}")
+        .slider(0.0, 10.0),
+    choose("belt.contact", || Contact::ALL.map(|contact| contact.name()).to_vec(), Access {
+        get: |case| Some(case.line?.contact.name().into()),
+        set: |case, value| {
+            let contact = named(value, &Contact::ALL, |contact| contact.name())?;
+            let line = line(case)?;
+            if contact.name() != line.contact.name() {
+                line.contact = contact;
+            }
+            Ok(())
+        },
+    })
+    .value("stick")
+    .meaning("What holds the fibre on the belt: it sticks where it touches down, or it slides against friction.")
+    .label("Contact with the belt"),
+    quantity("belt.friction", Dimension::Ratio, NotNegative, of_friction!(coefficient))
+        .value("0.3")
+        .meaning("Coefficient of the friction between fibre and belt.")
+        .label("Friction on the belt *μ*")
+        .slider(0.0, 1.0),
+    quantity("belt.suction", Dimension::Pressure, NotNegative, of_friction!(suction))
+        .value("200 Pa")
+        .meaning("Pressure difference that pulls the fibre on to the belt. Times the diameter, it is a force per length of fibre.")
+        .label("Suction")
+        .slider(0.0, 2000.0),
+    quantity("belt.kept_length", Dimension::Length, Positive, of_line!(kept_length))
+        .follows("6 % of the distance to the belt")
+        .meaning("Length of fibre behind the newest touch-down that still moves. What comes after it is laid; arches that are still in the air stay where they are.")
+        .label("Length that still moves on the belt")
+        .slider(5e-3, 0.2),
+];

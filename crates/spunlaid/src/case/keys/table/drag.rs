@@ -1,0 +1,60 @@
+//! The drag laws.
+
+use super::super::Key;
+use super::super::row::{Access, choose, named, number, quantity};
+use super::super::value::Sign::NotNegative;
+use super::super::value::Value;
+use crate::drag::{FrictionLaw, NormalLaw};
+use crate::error::Fault;
+use crate::units::Dimension;
+
+pub(super) const KEYS: &[Key] = &[
+    choose(
+        "drag.along",
+        || FrictionLaw::ALL.map(FrictionLaw::name).to_vec(),
+        Access {
+            get: |case| Some(case.drag.along.name().into()),
+            set: |case, value| {
+                let law = named(value, &FrictionLaw::ALL, |law| law.name())?;
+                if law.name() != case.drag.along.name() {
+                    case.drag.along = law;
+                }
+                Ok(())
+            },
+        },
+    )
+    .value("matsui")
+    .meaning("Law of the friction along the fibre. Source and range of each law: docs/theory.md.")
+    .label("Law of the friction along the fibre")
+    .in_flight(),
+    choose(
+        "drag.across",
+        || NormalLaw::ALL.map(NormalLaw::name).to_vec(),
+        choice!(drag.across, NormalLaw::ALL),
+    )
+    .value("ju-shambaugh")
+    .meaning(
+        "Law of the drag across the fibre. \"marheineke-wegener\" agrees with measurements from fine fibres to thick cylinders; \
+         \"ju-shambaugh\" is the paper's. Source and range of each law: docs/theory.md.",
+    )
+    .label("Law of the drag across the fibre")
+    .in_flight(),
+    quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative, Access {
+        get: |case| case.drag.along.factor().map(Value::Number),
+        set: |case, value| match &mut case.drag.along {
+            FrictionLaw::Matsui { factor } => {
+                *factor = number(value)?;
+                Ok(())
+            }
+            _ => {
+                let (needed, remedy) = ("drag.along = \"matsui\"", "remove it, this law has its own");
+                Err(Fault::Needs { needed, remedy })
+            }
+        },
+    })
+    .value("0.9")
+    .meaning("Factor of Matsui's friction law. Values from 0.37 to 0.9 are in use.")
+    .label("Friction coefficient *β*")
+    .slider(0.2, 1.2)
+    .in_flight(),
+];

@@ -1,0 +1,15 @@
+//! The feed.
+
+use super::super::Key;
+use super::super::row::{Access, line, number, quantity};
+use super::super::value::Sign::Positive;
+use super::super::value::Value;
+use crate::units::Dimension;
+
+pub(super) const KEYS: &[Key] = &[
+    quantity("feed.speed", Dimension::Velocity, Positive, of_line!(feed_speed))
+        .follows("a fibre of fixed length")
+        .meaning("Speed at which the fibre is fed at the inlet, along its direction: the spinning speed. The fibre is then laid down on a belt.")
+        .label("Feed speed *v*_{f}")
+        .slider(1.0, 100.0),
+];

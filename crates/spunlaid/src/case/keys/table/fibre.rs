@@ -1,0 +1,104 @@
+//! The fibre.
+
+use super::super::Key;
+use super::super::row::{Access, choose, key, named, number, quantity, vector};
+use super::super::value::Sign::{NotNegative, Positive};
+use super::super::value::{Kind, Value};
+use crate::case::whole_parts;
+use crate::error::Fault;
+use crate::fibre::Root;
+use crate::units::Dimension;
+use std::f64::consts::PI;
+
+pub(super) const KEYS: &[Key] = &[
+    quantity("fibre.length", Dimension::Length, Positive, Access {
+        get: |case| case.line.is_none().then_some(Value::Number(case.fibre.length)),
+        set: |case, value| {
+            if case.line.is_some() {
+                let (other, remedy) = ("[feed]", "a fed fibre has no length of its own; leave it out, or leave out [feed] and [belt]");
+                return Err(Fault::Excludes { other, remedy });
+            }
+            case.fibre.length = number(value)?;
+            Ok(())
+        },
+    })
+        .told(|case| case.line.is_some())
+        .required("1 m")
+        .meaning("Length of the fibre, from its root to its free end. A fibre that is fed on to a belt has none.")
+        .label("Fibre length *L*")
+        .slider(0.1, 2.0),
+    quantity("fibre.diameter", Dimension::Length, Positive, number!(fibre.diameter))
+        .required("50 µm")
+        .meaning("Diameter of the round fibre.")
+        .label("Fibre diameter *d*")
+        .slider(5e-6, 2e-4)
+        .in_flight(),
+    quantity("fibre.density", Dimension::Density, Positive, number!(fibre.density))
+        .required("950 kg/m³")
+        .meaning("Density of the polymer.")
+        .label("Fibre density")
+        .slider(800.0, 1500.0)
+        .in_flight(),
+    quantity("fibre.linear_density", Dimension::LinearDensity, Positive, Access {
+        get: |_| None,
+        set: |case, value| {
+            case.fibre.diameter = (4.0 * number(value)? / (PI * case.fibre.density)).sqrt();
+            Ok(())
+        },
+    })
+    .follows("diameter and density give it")
+    .meaning("Mass per length of the fibre, which may be written instead of `fibre.diameter`; the diameter follows with the density.")
+    .label("Linear density")
+    .slider(1e-8, 2e-5),
+    quantity("fibre.youngs_modulus", Dimension::Pressure, Positive, number!(fibre.youngs_modulus))
+        .required("2 GPa")
+        .meaning("Young's modulus of the polymer along the fibre. The fibre is elastic.")
+        .label("Young’s modulus *E*")
+        .slider(1e7, 1e10)
+        .in_flight(),
+    quantity(
+        "fibre.bending_viscosity_time",
+        Dimension::Time,
+        NotNegative,
+        number!(fibre.bending_viscosity_time),
+    )
+    .value("0 s")
+    .meaning(
+        "Time constant τ of the bending viscosity: the bending moment is EI (κ + τ dκ/dt), with the curvature κ. It damps the \
+         bending of a polymer that is still soft.",
+    )
+    .label("Bending viscosity *τ*")
+    .slider(0.0, 1e-3)
+    .in_flight(),
+    quantity("fibre.element_length", Dimension::Length, Positive, Access {
+        get: |case| {
+            let length = case.fibre.rest_length();
+            (length > 0.0 && length.is_finite()).then_some(Value::Number(length))
+        },
+        set: |case, value| {
+            let elements = whole_parts(case.fibre.length, number(value)?).0.max(1);
+            case.fibre.elements = usize::try_from(elements).unwrap_or(usize::MAX);
+            Ok(())
+        },
+    })
+    .follows("the length of an eddy, or a little less so that a whole number of elements fits; of a fed fibre, 1/125 of the distance to the belt")
+    .meaning("Length of the elements that the fibre is divided into. Shorter elements resolve shorter waves, and the run takes longer.")
+    .label("Element length *l*")
+    .slider(2e-3, 0.1)
+    .counted(),
+    choose("fibre.root", || Root::ALL.map(Root::name).to_vec(), choice!(fibre.root, Root::ALL))
+        .value("pinned")
+        .meaning(
+            "How the root is held: `pinned` can turn, `clamped` keeps its direction, `free` is not held.",
+        )
+        .label("Root"),
+    key("fibre.direction", Kind::Direction, Access {
+        get: |case| Some(case.fibre.direction.into()),
+        set: |case, value| {
+            case.fibre.direction = vector(value)?;
+            Ok(())
+        },
+    })
+    .value("[1.0, 0.0, 0.0]")
+    .meaning("Direction of the straight fibre at the start, and of a clamped root throughout. The air and gravity act along x."),
+];

@@ -1,0 +1,54 @@
+//! The table of keys: one row for each, in the order of a case file.
+
+mod air;
+mod belt;
+mod drag;
+mod feed;
+mod fibre;
+mod run;
+
+use super::Key;
+
+/// The tables of a case file and their keys.
+const TABLES: [(&str, &[Key]); 6] = [
+    ("fibre", fibre::KEYS),
+    ("feed", feed::KEYS),
+    ("belt", belt::KEYS),
+    ("air", air::KEYS),
+    ("drag", drag::KEYS),
+    ("run", run::KEYS),
+];
+
+/// The names of the tables.
+pub(super) const NAMES: [&str; TABLES.len()] = {
+    let (mut names, mut i) = ([""; TABLES.len()], 0);
+    while i < names.len() {
+        names[i] = TABLES[i].0;
+        i += 1;
+    }
+    names
+};
+
+const COUNT: usize = {
+    let (mut count, mut i) = (0, 0);
+    while i < TABLES.len() {
+        count += TABLES[i].1.len();
+        i += 1;
+    }
+    count
+};
+
+pub(super) static KEYS: [Key; COUNT] = {
+    let mut all = [TABLES[0].1[0]; COUNT];
+    let (mut count, mut i) = (0, 0);
+    while i < TABLES.len() {
+        let (keys, mut j) = (TABLES[i].1, 0);
+        while j < keys.len() {
+            all[count] = keys[j];
+            count += 1;
+            j += 1;
+        }
+        i += 1;
+    }
+    all
+};

@@ -1,0 +1,48 @@
+//! Lists and numbers in the words of messages.
+
+pub(super) fn did_you_mean(nearest: &Option<String>, otherwise: impl Fn() -> String) -> String {
+    nearest.as_ref().map_or_else(otherwise, |nearest| format!("did you mean {nearest}?"))
+}
+
+pub(super) fn all_of(words: &[&str]) -> String {
+    joined(words.iter().map(ToString::to_string).collect(), "and")
+}
+
+/// `"a", "b" or "c"`.
+pub(crate) fn one_of(words: &[&str]) -> String {
+    joined(words.iter().map(|word| format!("\"{word}\"")).collect(), "or")
+}
+
+fn joined(mut words: Vec<String>, last: &str) -> String {
+    match words.pop() {
+        Some(word) if words.is_empty() => word,
+        Some(word) => format!("{} {last} {word}", words.join(", ")),
+        None => String::new(),
+    }
+}
+
+/// The first names of a list, and how many more there are: `u, v and 3 more`.
+pub(crate) fn listed(names: &[String]) -> String {
+    const MOST: usize = 12;
+    let mut shown: Vec<&str> = names.iter().take(MOST).map(String::as_str).collect();
+    let more = format!("{} more", names.len().saturating_sub(MOST));
+    if names.len() > MOST {
+        shown.push(&more);
+    }
+    if shown.is_empty() { "none".to_owned() } else { all_of(&shown) }
+}
+
+/// Memory formatted for people: `3.1 GiB`.
+pub(crate) fn memory(bytes: f64) -> String {
+    let (unit, size) = [("GiB", 30), ("MiB", 20), ("KiB", 10), ("bytes", 0)]
+        .into_iter()
+        .map(|(unit, power)| (unit, f64::from(1u32 << power)))
+        .find(|(_, size)| bytes >= *size)
+        .unwrap_or(("bytes", 1.0));
+    let number = bytes / size;
+    if number < 1e4 {
+        format!("{} {unit}", (number * 10.0).round() / 10.0)
+    } else {
+        format!("{number:.1e} {unit}")
+    }
+}
