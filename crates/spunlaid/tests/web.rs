@@ -90,7 +90,7 @@ fn one_fibre_says_how_uneven_the_web_is() {
     let sides = [1, 2, 5, 10, 20, 50];
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
-    let of = OneFibre { cell: 1e-3, length: 200.0, fibres: 16, seed: 1 };
+    let of = OneFibre { cell: 1e-3, fibres: 64, seed: 1 };
     let alone = one_fibre(&by_surrogate, &sides, of, by).expect("single fibres");
     for (side, alone) in sides.into_iter().zip(alone) {
         let found = unevenness(&map, side).expect("an unevenness");

@@ -13,8 +13,10 @@ pub(crate) mod sample;
 mod study;
 #[cfg(test)]
 mod tests;
+mod web;
 
 pub(crate) use compare::{Curves, MOST as MOST_COMPARED, Row, overlaid_figures};
 pub(crate) use record::record_figures;
 pub(crate) use run::{run_figures, swing_frequency};
 pub(crate) use study::{name_of_key, study_figures};
+pub(crate) use web::web_figures;

@@ -14,6 +14,7 @@ pub(crate) mod study;
 pub(crate) mod summary;
 pub(crate) mod table;
 pub(crate) mod tables;
+pub(crate) mod web;
 
 use serde::Serialize;
 

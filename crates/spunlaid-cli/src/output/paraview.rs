@@ -29,7 +29,7 @@ pub(crate) fn write(staging: &Staging<'_>, case: &Case, trajectories: &[Trajecto
     for (number, (k, shape)) in first.shapes.iter().enumerate().step_by(every).enumerate() {
         let name = format!("shape/fibre_{number:0digits$}.vtp");
         let lines: Vec<Line> = trajectories.iter().filter_map(|of| shape_line(of, k, rest_length)).collect();
-        staging.write(&name, poly_data(&["distance_m"], &lines))?;
+        staging.write(&name, poly_data("replicate", &["distance_m"], &lines))?;
         let _ = writeln!(collection, "<DataSet timestep=\"{:?}\" part=\"0\" file=\"{name}\"/>", shape.time);
     }
     collection.push_str("</Collection>\n</VTKFile>\n");
@@ -39,13 +39,17 @@ pub(crate) fn write(staging: &Staging<'_>, case: &Case, trajectories: &[Trajecto
 /// Writes what fed fibres have laid, a line for each kept replicate, in the coordinates of the belt.
 pub(crate) fn write_laid(staging: &Staging<'_>, trajectories: &[Trajectory]) -> Result<(), Failure> {
     let laid: Vec<Line> = trajectories.iter().filter(|t| !t.laid.is_empty()).map(laid_line).collect();
-    if laid.is_empty() { Ok(()) } else { staging.write("laid.vtp", poly_data(&["fed_m", "time_s"], &laid)) }
+    if laid.is_empty() {
+        Ok(())
+    } else {
+        staging.write("laid.vtp", poly_data("replicate", &["fed_m", "time_s"], &laid))
+    }
 }
 
 fn laid_line(of: &Trajectory) -> Line {
     let points = of.laid.iter();
     Line {
-        replicate: of.replicate,
+        number: of.replicate + 1,
         points: points.clone().map(|p| Vec3::new(0.0, p.md, p.cd)).collect(),
         data: vec![points.clone().map(|p| p.fed).collect(), points.map(|p| p.time).collect()],
     }
@@ -54,29 +58,30 @@ fn laid_line(of: &Trajectory) -> Line {
 fn shape_line(of: &Trajectory, k: usize, rest_length: f64) -> Option<Line> {
     let points = &of.shapes.get(k)?.position;
     let distance = (0..points.len()).map(|i| i as f64 * rest_length).collect();
-    Some(Line { replicate: of.replicate, points: points.clone(), data: vec![distance] })
+    Some(Line { number: of.replicate + 1, points: points.clone(), data: vec![distance] })
 }
 
 /// A line of a VTK file.
-struct Line {
-    replicate: u64,
+pub(super) struct Line {
+    /// Of the replicate, counted from 1, or of the layer.
+    pub(super) number: u64,
     /// [m]
-    points: Vec<Vec3<f64>>,
+    pub(super) points: Vec<Vec3<f64>>,
     /// Numbers at the points, a list for each name.
-    data: Vec<Vec<f64>>,
+    pub(super) data: Vec<Vec<f64>>,
 }
 
-/// VTK XML PolyData of lines: points [m], replicate, and the data with these names.
-fn poly_data(names: &[&str], lines: &[Line]) -> String {
+/// VTK XML PolyData of lines: points [m], what is numbered, and the data with these names.
+pub(super) fn poly_data(numbered: &str, names: &[&str], lines: &[Line]) -> String {
     let count: usize = lines.iter().map(|line| line.points.len()).sum();
     let mut points = String::with_capacity(count * 48);
     let mut data = vec![String::new(); names.len()];
-    let (mut replicate, mut connectivity, mut offsets) = (String::new(), String::new(), String::new());
+    let (mut number, mut connectivity, mut offsets) = (String::new(), String::new(), String::new());
     let mut before = 0;
     for line in lines {
         for (i, p) in line.points.iter().enumerate() {
             let _ = writeln!(points, "{:e} {:e} {:e}", p.x, p.y, p.z);
-            let _ = write!(replicate, "{} ", line.replicate + 1);
+            let _ = write!(number, "{} ", line.number);
             let _ = write!(connectivity, "{} ", before + i);
         }
         for (text, values) in data.iter_mut().zip(&line.data) {
@@ -95,8 +100,8 @@ fn poly_data(names: &[&str], lines: &[Line]) -> String {
         "<?xml version=\"1.0\"?>\n\
          <VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n\
          <Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n\
-         <PointData Scalars=\"replicate\">\n\
-         <DataArray type=\"Int32\" Name=\"replicate\" format=\"ascii\">\n{replicate}\n</DataArray>\n\
+         <PointData Scalars=\"{numbered}\">\n\
+         <DataArray type=\"Int32\" Name=\"{numbered}\" format=\"ascii\">\n{number}\n</DataArray>\n\
          {data}\
          </PointData>\n\
          <Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n{points}</DataArray>\n</Points>\n\

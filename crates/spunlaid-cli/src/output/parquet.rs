@@ -115,7 +115,10 @@ impl Parquet {
     /// Adds values to a column of numbers.
     pub(super) fn extend(&mut self, column: usize, values: impl IntoIterator<Item = f64>) {
         match self.columns.get_mut(column) {
-            Some(Gathered::Number(gathered)) => gathered.extend(values),
+            Some(Gathered::Number(gathered)) => {
+                gathered.extend(values);
+                self.rows = gathered.len();
+            }
             Some(Gathered::Optional(gathered, known)) => {
                 for value in values {
                     gathered.extend(value.is_finite().then_some(value));

@@ -14,12 +14,14 @@ mod study;
 mod table;
 #[cfg(test)]
 mod tests;
+mod web;
 mod words;
 
 pub(crate) use analysis::{AnalysisReport, analysis_html};
 pub(crate) use comparison::{ComparisonReport, comparison_html};
 pub(crate) use paper::{PaperReport, paper_html};
 pub(crate) use study::{StudyReport, study_html};
+pub(crate) use web::{WebReport, web_html};
 
 use crate::output::summary::Performance;
 use askama::Template;

@@ -36,12 +36,12 @@ pub fn costs() {
 
 fn web(cell: f64) -> Web {
     Web {
-        sheet: Sheet { width: 0.5, length: 0.2, cell, patches: Vec::new(), edges: Edges::Periodic },
+        sheet: Sheet { width: 0.5, length: 0.6, cell, patches: Vec::new(), edges: Edges::Periodic },
         layers: vec![Layer {
             linear_density: 2.3e-7,
             feed_speed: 50.0,
             belt_speed: 3.0,
-            filaments: Filaments::AtRandom { per_metre: 2048.0 },
+            filaments: Filaments::AtRandom { per_metre: 1024.0 },
             fibres: Fibres::Surrogate(SURROGATE),
         }],
         seed: 1,

@@ -6,7 +6,9 @@
 //!
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 
+mod clouds;
 mod curves;
+mod findings;
 mod lay;
 mod map;
 mod one_fibre;
@@ -17,7 +19,9 @@ mod strands;
 mod strip;
 pub mod uniformity;
 
+pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
+pub use findings::{Findings, PatchFindings, find};
 pub use lay::{Laid, Laying, lay, pieces};
 pub use map::Map;
 pub use one_fibre::{OneFibre, one_fibre, straight_fibres};

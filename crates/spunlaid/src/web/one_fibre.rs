@@ -11,18 +11,23 @@ use crate::statistics::Estimate;
 pub struct OneFibre {
     /// Side of a cell [m].
     pub cell: f64,
-    /// Length of each fibre [m].
-    pub length: f64,
     /// Number of fibres; each is laid alone.
     pub fibres: u64,
     /// Seed of the curves.
     pub seed: u64,
 }
 
-/// `CV²·τ` of a web of independent filaments at random places, over patches of some sides [m^-1·m²/m = m^-1 per m of fibre and m²].
+/// Cells that fibres laid at the same time may take, and the shortest belt that a fibre is laid on [spreads].
+const CELLS: usize = 1 << 22;
+const SHORTEST: f64 = 5.0;
+/// Fibres laid at the same time.
+const ABREAST: usize = 8;
+
+/// `CV²·τ` of a web of independent filaments at random places, over patches of some sides [1/m].
 ///
-/// A patch of side x holds of one filament the length m; over all patches, `CV² τ = Σ m²/(L x²)` with the filament's length L and the
-/// length of all filaments per area, τ = basis weight/line density. The patches are taken at every place on the lattice of cells.
+/// A patch of side x holds of one filament the length m. Over all patches, `CV² τ = Σ m²/(L x²)` with the filament's length L and the
+/// length of all filaments per area, τ = basis weight/line density. The patches are taken at every place on the lattice of
+/// cells. A fibre is laid on a ring of belt; what its ends leave out is less than a part in a hundred.
 ///
 /// * `sides` – of the patches [cells]
 ///
@@ -38,37 +43,45 @@ pub fn one_fibre(
 ) -> Result<Vec<Estimate>, Error> {
     let largest = sides.iter().copied().max().unwrap_or(1);
     // So far apart that no patch meets two fibres.
-    let apart = (2.0 * layer.fibres.reach() / of.cell).ceil() as usize + largest + 8;
-    let fibres = of.fibres.max(1) as usize;
+    let reach = layer.fibres.reach() / of.cell;
+    let apart = (2.0 * reach).ceil() as usize + largest + 8;
+    let rows = (CELLS / (ABREAST * apart)).max((SHORTEST * reach).ceil() as usize).max(4 * largest);
+    let abreast = (4 * CELLS / (rows * apart)).clamp(1, ABREAST);
     let pitch = apart as f64 * of.cell;
-    let rows = (of.length * layer.belt_ratio() / of.cell).round().max(largest as f64);
-    let row = Row { offset: 0.5 * pitch, pitch, filaments: fibres as u64 };
-    let web = Web {
-        sheet: Sheet {
-            width: pitch * fibres as f64,
-            length: rows * of.cell,
-            cell: of.cell,
-            patches: Vec::new(),
-            edges: Edges::Periodic,
-        },
-        layers: vec![Layer { filaments: Filaments::Rows(vec![row]), ..layer.clone() }],
-        seed: of.seed,
-    };
-    let map = lay(&web, by)?.map;
-    let metres = map.quantum / layer.linear_density;
-    let length = layer.fed_length(&web.sheet);
-    let estimate = |side: &usize| {
-        let mut squares = vec![0.0; fibres];
-        boxes(&map, *side, [map.columns, map.rows], |_, boxes| {
-            for (squares, of) in squares.iter_mut().zip(boxes.chunks_exact(apart)) {
-                *squares += of.iter().map(|quanta| (*quanta as f64).powi(2)).sum::<f64>();
-            }
-        });
-        // Each fibre's patches begin up to a patch before its own columns, where no other fibre is.
-        let scale = (metres / (*side as f64)).powi(2) / (length * (*side as f64 * of.cell).powi(2));
-        Estimate::of(squares.iter().map(|sum| sum * scale).collect())
-    };
-    Ok(sides.iter().map(estimate).collect())
+    let mut values = vec![Vec::new(); sides.len()];
+    let mut left = of.fibres.max(1) as usize;
+    let mut seed = of.seed;
+    while left > 0 {
+        let fibres = left.min(abreast);
+        let row = Row { offset: 0.5 * pitch, pitch, filaments: fibres as u64 };
+        let web = Web {
+            sheet: Sheet {
+                width: pitch * fibres as f64,
+                length: rows as f64 * of.cell,
+                cell: of.cell,
+                patches: Vec::new(),
+                edges: Edges::Periodic,
+            },
+            layers: vec![Layer { filaments: Filaments::Rows(vec![row]), ..layer.clone() }],
+            seed,
+        };
+        let map = lay(&web, by)?.map;
+        let metres = map.quantum / layer.linear_density;
+        let length = layer.fed_length(&web.sheet);
+        for (side, values) in sides.iter().zip(&mut values) {
+            let mut squares = vec![0.0; fibres];
+            boxes(&map, *side, [map.columns, map.rows], |_, boxes| {
+                for (squares, of) in squares.iter_mut().zip(boxes.chunks_exact(apart)) {
+                    *squares += of.iter().map(|quanta| (*quanta as f64).powi(2)).sum::<f64>();
+                }
+            });
+            let scale = (metres / (*side as f64)).powi(2) / (length * (*side as f64 * of.cell).powi(2));
+            values.extend(squares.iter().map(|sum| sum * scale));
+        }
+        left -= fibres;
+        seed = seed.wrapping_add(1);
+    }
+    Ok(values.into_iter().map(Estimate::of).collect())
 }
 
 /// `CV²·τ·x` of straight, endless fibres in all directions, thrown at random: the mean of 1/(π distance) over pairs of

@@ -69,7 +69,7 @@ impl Task for Draw<'_> {
                 ink.part([at[0], wrapped], by, strip);
                 at = [at[0] + by[0], at[1] + by[1]];
             }
-            row = row - advance;
+            row -= advance;
         }
         ink.finish(strip);
         pens.at[1] = floor(row * per_row).neg_mul_add(rows, row).store();

@@ -49,13 +49,13 @@ pub fn strands(web: &Web, window: Window, by: Laying<'_>) -> Result<Vec<Strand>,
             let advance = plan.layer.belt_ratio() * plan.piece;
             let mut open: [Option<Strand>; WIDTH] = Default::default();
             plan.walk(web, first, count, by, |points| {
-                for lane in 0..count {
+                for (lane, open) in open.iter_mut().enumerate().take(count) {
                     let at = |i: usize| {
                         let [md, cd] = points[i].each_ref().map(|of: &Lanes| of.0[lane]);
                         within(web, window, [places.0[lane] + cd, along.0[lane] + md - advance * i as f64])
                     };
                     // A block may begin elsewhere than the last one ended.
-                    strands.extend(open[lane].take());
+                    strands.extend(open.take());
                     let mut before = at(0);
                     for i in 1..points.len() {
                         let point = at(i);
@@ -63,9 +63,9 @@ pub fn strands(web: &Web, window: Window, by: Laying<'_>) -> Result<Vec<Strand>,
                             < 0.5 * web.sheet.length.min(web.sheet.width);
                         if joined && (window.holds(before) || window.holds(point)) {
                             let start = || Strand { layer, filament: first + lane, points: vec![before] };
-                            open[lane].get_or_insert_with(start).points.push(point);
+                            open.get_or_insert_with(start).points.push(point);
                         } else {
-                            strands.extend(open[lane].take());
+                            strands.extend(open.take());
                         }
                         before = point;
                     }

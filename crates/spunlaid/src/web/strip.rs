@@ -57,28 +57,48 @@ impl Strip {
 
     /// Adds everything to the map. Returns what lies beyond edges that cut, and whether the map could count it all.
     pub(super) fn add_to(&mut self, map: &mut Map) -> (u64, bool) {
-        let (mut cut, mut is_full) = (0, self.is_full);
-        let mut put = |column: i64, row: i64, quanta: u32| {
-            let columns = map.columns as i64;
-            let column = if map.closed[0] { column.rem_euclid(columns) } else { column };
-            if !(0..columns).contains(&column) {
-                cut += u64::from(quanta);
-                return;
-            }
-            let row = (row - OUTSIDE[1] as i64).rem_euclid(map.rows as i64) as usize;
-            let cell = &mut map.cells[row * map.columns + column as usize];
-            let (sum, beyond) = cell.overflowing_add(quanta);
-            *cell = sum;
-            is_full |= beyond;
-        };
+        let mut sums = Sums { map, cut: 0, is_full: self.is_full };
+        let first = self.first - OUTSIDE[0] as i64;
         for (row, cells) in self.cells.chunks_exact(self.stride()).enumerate() {
-            for (column, quanta) in cells.iter().enumerate().filter(|(_, quanta)| **quanta > 0) {
-                put(self.first + column as i64 - OUTSIDE[0] as i64, row as i64, *quanta);
-            }
+            sums.add(first, row as i64, cells);
         }
         for (column, row, quanta) in self.strays.drain(..) {
-            put(column, row, quanta);
+            sums.add(column, row, &[quanta]);
         }
-        (cut, is_full)
+        (sums.cut, sums.is_full)
+    }
+}
+
+/// The map that strips are added to.
+struct Sums<'a> {
+    map: &'a mut Map,
+    cut: u64,
+    is_full: bool,
+}
+
+impl Sums<'_> {
+    /// Adds cells of a row of a strip, from a column of the endless sheet on.
+    fn add(&mut self, column: i64, row: i64, mut cells: &[u32]) {
+        let map = &mut *self.map;
+        let row = (row - OUTSIDE[1] as i64).rem_euclid(map.rows as i64) as usize;
+        let into = &mut map.cells[row * map.columns..][..map.columns];
+        let mut column = column;
+        while !cells.is_empty() {
+            // As far as the next edge of the sheet.
+            let turn = column.div_euclid(map.columns as i64);
+            let at = column.rem_euclid(map.columns as i64) as usize;
+            let (now, later) = cells.split_at(cells.len().min(map.columns - at));
+            if map.closed[0] || turn == 0 {
+                for (cell, quanta) in into[at..].iter_mut().zip(now) {
+                    let (sum, beyond) = cell.overflowing_add(*quanta);
+                    *cell = sum;
+                    self.is_full |= beyond;
+                }
+            } else {
+                self.cut += now.iter().map(|quanta| u64::from(*quanta)).sum::<u64>();
+            }
+            column += now.len() as i64;
+            cells = later;
+        }
     }
 }

@@ -32,7 +32,7 @@ const SHORTEST: usize = 2;
 pub fn unevenness(map: &Map, side: usize) -> Option<Unevenness> {
     let sizes = [map.columns, map.rows];
     let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
-    if side == 0 || sizes.iter().any(|size| side > *size) || !(mean > 0.0) {
+    if side == 0 || sizes.iter().any(|size| side > *size) || mean <= 0.0 {
         return None;
     }
     let places = [0, 1].map(|of| if map.closed[of] { sizes[of] } else { sizes[of] - side + 1 });

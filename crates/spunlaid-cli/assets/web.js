@@ -1,0 +1,149 @@
+// The light table: the whole web as a picture, single fibres where one looks closely.
+
+/** Bytes of base64 text. */
+const bytesOf = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+
+/** The fibres of the window as paths, in mm from its corner: [x, y, x, y, …] each. */
+function readStrands(window) {
+  const numbers = new Float32Array(bytesOf(window.points).buffer);
+  let at = 0;
+  return window.counts.map((count) => numbers.subarray(at, (at += 2 * count)));
+}
+
+function startTable(canvas, data) {
+  const image = new Image();
+  const strands = readStrands(data.window);
+  const pen = canvas.getContext("2d");
+  const byId = (id) => document.getElementById(id);
+  // Middle of the view [mm] and pixels per mm.
+  const view = { x: 0, y: 0, scale: 1 };
+  const size = () => [canvas.clientWidth, canvas.clientHeight];
+  const fit = (width, length) => Math.min(size()[0] / width, size()[1] / length);
+
+  function drawFibres() {
+    const { corner, sides, diameter } = data.window;
+    const [width, height] = size();
+    const x = width / 2 + (corner[0] - view.x) * view.scale;
+    const y = height / 2 + (corner[1] - view.y) * view.scale;
+    const drawn = diameter * view.scale;
+    // Fibres are drawn where they are thick enough to be told apart.
+    const shown = Math.min(1, Math.max(0, (view.scale * Math.max(...sides)) / Math.min(width, height) - 0.15) * 3);
+    pen.save();
+    pen.strokeStyle = "#8a7f63";
+    pen.lineWidth = 1;
+    pen.strokeRect(x, y, sides[0] * view.scale, sides[1] * view.scale);
+    if (shown > 0) {
+      pen.beginPath();
+      pen.rect(x, y, sides[0] * view.scale, sides[1] * view.scale);
+      pen.clip();
+      pen.globalAlpha = shown;
+      pen.fillStyle = "#fdfaf0";
+      pen.fillRect(x, y, sides[0] * view.scale, sides[1] * view.scale);
+      pen.globalAlpha = shown * Math.min(0.85, Math.max(0.3, drawn));
+      pen.strokeStyle = "#1a1a1a";
+      pen.lineJoin = "round";
+      pen.lineWidth = Math.max(drawn, 0.6);
+      for (const strand of strands) {
+        pen.beginPath();
+        for (let i = 0; i < strand.length; i += 2) pen.lineTo(x + strand[i] * view.scale, y + strand[i + 1] * view.scale);
+        pen.stroke();
+      }
+    }
+    pen.restore();
+  }
+
+  function drawScale() {
+    const [, height] = size();
+    const rough = 120 / view.scale;
+    const power = 10 ** Math.floor(Math.log10(rough));
+    const bar = [5, 2, 1].find((step) => step * power <= rough) * power;
+    const text = bar >= 1000 ? `${bar / 1000} m` : bar >= 1 ? `${bar} mm` : `${Number((bar * 1000).toPrecision(2))} µm`;
+    pen.fillStyle = "rgba(253, 250, 240, 0.85)";
+    pen.fillRect(10, height - 42, bar * view.scale + 20, 34);
+    pen.fillStyle = "#1a1a1a";
+    pen.fillRect(20, height - 18, bar * view.scale, 3);
+    pen.font = "14px system-ui, sans-serif";
+    pen.fillText(text, 20, height - 24);
+  }
+
+  function draw() {
+    const [width, height] = size();
+    const ratio = devicePixelRatio || 1;
+    [canvas.width, canvas.height] = [width * ratio, height * ratio];
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.fillStyle = "#e9e5d8";
+    pen.fillRect(0, 0, width, height);
+    const x = width / 2 - view.x * view.scale;
+    const y = height / 2 - view.y * view.scale;
+    pen.imageSmoothingEnabled = view.scale * data.pixel < 6;
+    if (image.complete) pen.drawImage(image, x, y, data.width * view.scale, data.length * view.scale);
+    drawFibres();
+    drawScale();
+    byId("width-shown").textContent = `${Number((width / view.scale).toPrecision(3))} mm wide`;
+  }
+
+  function show(x, y, scale) {
+    const least = 0.8 * fit(data.width, data.length);
+    view.scale = Math.min(Math.max(scale, least), 2000);
+    view.x = Math.min(Math.max(x, 0), data.width);
+    view.y = Math.min(Math.max(y, 0), data.length);
+    requestAnimationFrame(draw);
+  }
+
+  /** Zooms about a place of the canvas, which stays where it is. */
+  function zoom(factor, px = size()[0] / 2, py = size()[1] / 2) {
+    const [dx, dy] = [px - size()[0] / 2, py - size()[1] / 2];
+    const before = view.scale;
+    const after = Math.min(Math.max(before * factor, 0.8 * fit(data.width, data.length)), 2000);
+    show(view.x + dx / before - dx / after, view.y + dy / before - dy / after, after);
+  }
+
+  const whole = () => show(data.width / 2, data.length / 2, 0.97 * fit(data.width, data.length));
+  const fibres = () => {
+    const { corner, sides } = data.window;
+    show(corner[0] + sides[0] / 2, corner[1] + sides[1] / 2, 1.02 * Math.max(size()[0] / sides[0], size()[1] / sides[1]));
+  };
+  byId("closer").addEventListener("click", () => zoom(1.6));
+  byId("farther").addEventListener("click", () => zoom(1 / 1.6));
+  byId("whole").addEventListener("click", whole);
+  byId("fibres").addEventListener("click", fibres);
+  canvas.addEventListener("wheel", (e) => {
+    e.preventDefault();
+    zoom(Math.exp(-0.0015 * e.deltaY), e.offsetX, e.offsetY);
+  }, { passive: false });
+
+  // One finger moves, two zoom.
+  const fingers = new Map();
+  canvas.addEventListener("pointerdown", (e) => {
+    canvas.setPointerCapture(e.pointerId);
+    fingers.set(e.pointerId, [e.offsetX, e.offsetY]);
+  });
+  const lift = (e) => fingers.delete(e.pointerId);
+  canvas.addEventListener("pointerup", lift);
+  canvas.addEventListener("pointercancel", lift);
+  canvas.addEventListener("pointermove", (e) => {
+    const before = fingers.get(e.pointerId);
+    if (!before) return;
+    const now = [e.offsetX, e.offsetY];
+    const other = [...fingers].find(([id]) => id !== e.pointerId)?.[1];
+    if (other) {
+      const apart = (p) => Math.hypot(p[0] - other[0], p[1] - other[1]);
+      zoom(apart(now) / Math.max(apart(before), 1), (now[0] + other[0]) / 2, (now[1] + other[1]) / 2);
+    } else {
+      show(view.x - (now[0] - before[0]) / view.scale, view.y - (now[1] - before[1]) / view.scale, view.scale);
+    }
+    fingers.set(e.pointerId, now);
+  });
+  canvas.addEventListener("keydown", (e) => {
+    const step = 60 / view.scale;
+    const moves = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
+    if (moves[e.key]) show(view.x + moves[e.key][0], view.y + moves[e.key][1], view.scale);
+    else if (e.key === "+" || e.key === "=") zoom(1.3);
+    else if (e.key === "-") zoom(1 / 1.3);
+    else return;
+    e.preventDefault();
+  });
+  new ResizeObserver(() => show(view.x, view.y, view.scale)).observe(canvas);
+  image.onload = whole;
+  image.src = `data:image/png;base64,${data.image}`;
+}

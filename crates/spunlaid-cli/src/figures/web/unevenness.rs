@@ -1,0 +1,94 @@
+//! How uneven the web is: over patches, and cell by cell.
+
+use super::{GRAMS, MM, PER_CENT};
+use crate::numbers::significant;
+use spunlaid::web::{Edges, Filaments, Findings, Map, Web, straight_fibres};
+use spunlaid_charts::{
+    Axis, Chart, Figure, Series,
+    palette::{BLUE, GREY, VERMILION},
+};
+
+/// The coefficient of variation over the size of the patches.
+pub(super) fn over_patches(web: &Web, of: &Findings) -> Figure {
+    let chart = Chart::new(
+        "web_cv",
+        "Unevenness over the size of the patches",
+        Axis::logarithmic("Side of a patch (mm)").in_column("patch_mm"),
+        Axis::logarithmic("Coefficient of variation CV (%)").in_column("cv_percent"),
+    );
+    let map = of.patches.iter().map(|patch| {
+        let error = patch.map.standard_error.map(|error| error * PER_CENT);
+        (patch.map.patch * MM, patch.map.cv * PER_CENT, error)
+    });
+    let map: Vec<(f64, f64, Option<f64>)> = map.collect();
+    let single: Vec<(f64, f64)> =
+        of.patches.iter().map(|patch| (patch.map.patch * MM, patch.one_fibre.0 * PER_CENT)).collect();
+    let straight: Vec<(f64, f64)> =
+        of.patches.iter().map(|patch| (patch.map.patch * MM, patch.straight_fibres * PER_CENT)).collect();
+    let chart = chart
+        .line(Series::new("straight fibres at random", GREY).dashed("6 4"), &straight)
+        .line(Series::new("expected, from single fibres", VERMILION).width(1.8), &single)
+        .scatter(Series::spots("this map", BLUE), &map);
+    let rows = web.layers.iter().any(|layer| matches!(layer.filaments, Filaments::Rows(_)));
+    let cut = if web.sheet.edges == Edges::Cut {
+        "cut off at the edges in cross direction"
+    } else {
+        "closed to a ring both ways"
+    };
+    let tau = web.basis_weight() / web.layers.first().map_or(f64::NAN, |layer| layer.linear_density);
+    let tenth = straight_fibres(tau, 0.01) * PER_CENT;
+    let caption = format!(
+        "Standard deviation of the basis weight of square patches over its mean; the sheet is {cut}. Bars are one standard error of \
+         the map, from the scatter of its parts. The expected curve is that of independent filaments at random places, from the \
+         squared lengths that one fibre leaves in each patch{}. Straight fibres of the same mass in all directions would give \
+         CV² = 0.946 line density/(basis weight · side), {} % at 10 mm for the first layer’s fibre: the distance to them is what the loops of the lay-down \
+         cost.",
+        if rows { "; rows of nozzles differ from it by what their pitch leaves" } else { "" },
+        significant(tenth, 2)
+    );
+    Figure::of(&chart, caption)
+}
+
+/// Most classes of a histogram.
+const CLASSES: usize = 60;
+
+/// How often each basis weight occurs.
+pub(super) fn histogram(map: &Map) -> Figure {
+    let largest = map.cells.iter().copied().max().unwrap_or(0);
+    let width = (largest / CLASSES as u32).max(1);
+    let mut counts = vec![0u64; (largest / width) as usize + 1];
+    map.cells.iter().for_each(|quanta| counts[(quanta / width) as usize] += 1);
+    let grams = map.weight_of_quantum() * GRAMS;
+    let scale = PER_CENT / (map.cells.len() as f64 * f64::from(width) * grams);
+    // A line with a step at each end of a class.
+    let steps = counts.iter().enumerate().flat_map(|(i, count)| {
+        let ends = [i, i + 1].map(|end| end as f64 * f64::from(width) * grams);
+        ends.map(|end| (end, *count as f64 * scale))
+    });
+    let steps: Vec<(f64, f64)> = steps.collect();
+    let mean = map.basis_weight() * GRAMS;
+    let squares = map.cells.iter().map(|quanta| (f64::from(*quanta) * grams - mean).powi(2));
+    let deviation = (squares.sum::<f64>() / map.cells.len() as f64).sqrt();
+    let normal = |i: usize| {
+        let at = steps.last().map_or(0.0, |last| last.0) * i as f64 / 200.0;
+        let height =
+            (-0.5 * ((at - mean) / deviation).powi(2)).exp() / (deviation * std::f64::consts::TAU.sqrt());
+        (at, PER_CENT * height)
+    };
+    let normal: Vec<(f64, f64)> = (0..=200).map(normal).collect();
+    let chart = Chart::new(
+        "web_histogram",
+        "Basis weight, cell by cell",
+        Axis::linear("Basis weight (g/m^{2})").tight(),
+        Axis::linear("Share of the cells (% per g/m^{2})").zero_based(),
+    )
+    .path(Series::new("normal distribution", GREY).dashed("6 4").adorning(), &normal)
+    .path(Series::new("web", BLUE).unlabelled().width(1.8), &steps);
+    let caption = format!(
+        "Cells of {} mm: mean {} g/m², standard deviation {} g/m². Dashed: the normal distribution with both.",
+        significant(map.cell * MM, 3),
+        significant(mean, 3),
+        significant(deviation, 3)
+    );
+    Figure::of(&chart, caption)
+}

@@ -1,0 +1,33 @@
+//! The files of a web's results folder.
+
+mod map;
+mod strands;
+mod summary;
+
+pub(crate) use map::light_table;
+pub(crate) use summary::{Layer, Performance, SEEN, Summary};
+
+use super::folder::Staging;
+use crate::failure::Failure;
+use spunlaid::web::{Findings, Strand};
+
+/// The contents of the folder. The last entry marks it as complete.
+pub(crate) const ENTRIES: &[&str] = &[
+    "web.toml",
+    "map.npy",
+    "map.png",
+    "map.parquet",
+    "fibres.vtp",
+    "figures",
+    "report.html",
+    "summary.json",
+];
+
+/// Most cells that are written as a table and as a picture; the array holds all.
+pub(crate) const MOST_CELLS: usize = 20_000_000;
+
+/// Writes the map and the fibres of the window.
+pub(crate) fn write(staging: &Staging<'_>, of: &Findings, strands: &[Strand]) -> Result<(), Failure> {
+    map::write(staging, &of.laid.map)?;
+    strands::write(staging, strands)
+}
