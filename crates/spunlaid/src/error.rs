@@ -5,6 +5,7 @@ mod field;
 mod file;
 mod finding;
 mod flight;
+mod laying;
 mod profile;
 mod record;
 mod study;
@@ -16,6 +17,7 @@ pub use field::FieldFault;
 pub use file::{FileError, FileFault, FileKind, FilePlace};
 pub use finding::{Finding, Place, Problem};
 pub use flight::FlightFault;
+pub use laying::LayingFault;
 pub use profile::ProfileFault;
 pub use record::RecordFault;
 pub use study::{JournalError, StudyFault};
@@ -67,7 +69,7 @@ pub enum Error {
     },
     /// A web cannot be laid.
     #[error(transparent)]
-    Web(#[from] WebFault),
+    Laying(#[from] LayingFault),
     /// Fibres cannot fly side by side, or a flight cannot do what is asked of it.
     #[error(transparent)]
     Flight(#[from] FlightFault),

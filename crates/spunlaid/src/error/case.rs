@@ -1,7 +1,7 @@
 //! What can be wrong with a case.
 
 use super::words::{all_of, did_you_mean};
-use super::{FileError, StudyFault, memory, one_of};
+use super::{FileError, StudyFault, WebFault, memory, one_of};
 use crate::units::{Dimension, QuantityFault, shortest};
 
 /// What is wrong with a value of a case. The text continues after `key = value `.
@@ -29,6 +29,9 @@ pub enum Fault {
     /// The file is a study.
     #[error("belongs to a study, not to a case; read the file as a study")]
     IsStudy,
+    /// The file is a web.
+    #[error("belongs to the file of a web, not to a case; read it as a web")]
+    IsWeb,
     /// A required key is missing.
     #[error("is missing; add {line} to [{table}]")]
     Missing {
@@ -99,6 +102,9 @@ pub enum Fault {
     /// A fault of a study file.
     #[error(transparent)]
     Study(#[from] StudyFault),
+    /// A fault of the file of a web.
+    #[error(transparent)]
+    Web(#[from] WebFault),
     /// A name that the key does not take.
     #[error("is unknown; {}", did_you_mean(nearest, || format!("write {}", one_of(allowed))))]
     NotOneOf {

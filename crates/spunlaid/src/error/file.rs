@@ -12,6 +12,8 @@ pub enum FileKind {
     Case,
     /// A study.
     Study,
+    /// A web.
+    Web,
     /// A velocity record.
     Record,
     /// A field of air.
@@ -25,6 +27,7 @@ impl FileKind {
         match self {
             Self::Case => "case file",
             Self::Study => "study file",
+            Self::Web => "file of a web",
             Self::Record => "velocity record",
             Self::Field => "field of air",
             Self::Table => "table",
@@ -33,7 +36,7 @@ impl FileKind {
 
     const fn formats(self) -> &'static str {
         match self {
-            Self::Case | Self::Study => "UTF-8 text",
+            Self::Case | Self::Study | Self::Web => "UTF-8 text",
             Self::Record => "CSV in UTF-8 or Latin-1, or Parquet",
             Self::Field => {
                 "VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of its files (.vtm, .pvtu) or a table (.csv)"
@@ -46,6 +49,7 @@ impl FileKind {
         match self {
             Self::Case => "name a case file".to_owned(),
             Self::Study => "name a study file".to_owned(),
+            Self::Web => "name the file of a web".to_owned(),
             Self::Table => "a path in a case counts from the folder of the case file".to_owned(),
             Self::Record | Self::Field => format!("name a {}, {}", self.name(), self.formats()),
         }

@@ -1,27 +1,17 @@
 //! Reads a case file into its entries. Each entry remembers where it was written.
 
+use super::entry::{Entry, VERSION, check_version, kind, root};
 use super::source::{Source, fit};
 use super::written::{Said, Written};
-use super::{FORMAT_VERSION, Overrides, values};
+use super::{Overrides, values};
 use crate::case::keys::{self, Key, TAYLOR};
 use crate::error::{Error, Fault, Finding, Place};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The value of an override that removes a key, so that its default applies.
 pub(super) const AUTO: &str = "auto";
-/// The only key above the tables.
-const VERSION: &str = "version";
-
-/// A value as it was written.
-struct Entry<'a> {
-    place: Place,
-    /// Source text, shortened for messages. None for tables, because their text is spread over the file.
-    shown: Option<String>,
-    value: DeValue<'a>,
-}
 
 /// The entries of a case file and of the overrides, and the problems found so far.
 pub(super) struct Document<'a> {
@@ -42,21 +32,21 @@ impl<'a> Document<'a> {
         let written = Written::new(source.whole());
         let mut document =
             Self { name: name.to_owned(), source, version: None, entries: BTreeMap::new(), written };
-        let (root, faults) = DeTable::parse_recoverable(text);
-        if !faults.is_empty() {
-            return Err(Error::Rejected(faults.iter().map(|fault| document.source.syntax(fault)).collect()));
-        }
-        let root = root.into_inner();
-        if let Some((key, _)) = root.iter().find(|(key, _)| matches!(&**key.get_ref(), "vary" | "design")) {
+        let root = root(&document.source, text)?;
+        for (key, what) in root.keys().filter_map(|key| Some((key, other_file(key.get_ref())?))) {
             let (place, key) = (document.place(key.span().start), key.get_ref().to_string());
-            return Err(vec![Finding { place, key, value: None, what: Fault::IsStudy }].into());
+            return Err(vec![Finding { place, key, value: None, what }].into());
         }
         document.take_root(root);
         for Overrides { values, word } in overrides {
             values.iter().for_each(|(key, value)| document.take_override(word, key.trim(), value));
         }
         // A newer format may mean other things, so this check comes first.
-        document.version.take().map_or(Ok(()), check_version)?;
+        document
+            .version
+            .take()
+            .map_or(Ok(()), |entry| check_version(&entry))
+            .map_err(|problem| vec![problem])?;
         for key in keys::all() {
             if let Some(entry) = document.entries.remove(key.name) {
                 document.read_entry(key, entry);
@@ -66,7 +56,7 @@ impl<'a> Document<'a> {
     }
 
     fn read_entry(&mut self, key: &'static Key, entry: Entry<'_>) {
-        let Entry { place, shown, value } = entry;
+        let Entry { place, shown, value, .. } = entry;
         // A unit alone is one of it.
         let value = match value {
             DeValue::String(unit)
@@ -84,7 +74,7 @@ impl<'a> Document<'a> {
             Ok(value) => (Some(value), None),
             Err(fault) => (None, Some(fault)),
         };
-        self.written.set(key, Said { place, shown, value });
+        self.written.set(key.name, Said { place, shown, value });
         if let Some(fault) = fault {
             self.written.reject(key.name, fault);
         }
@@ -96,13 +86,13 @@ impl<'a> Document<'a> {
 
     fn take_root(&mut self, root: DeTable<'a>) {
         for (key, value) in root {
-            let (place, name) = (self.place(key.span().start), key.into_inner());
-            let entry = self.entry(place, value);
+            let (at, name) = (key.span().start, key.into_inner());
+            let entry = Entry::of_file(&self.source, at, value);
             match (table_named(&name), entry.value) {
                 (Some(table), DeValue::Table(keys)) => {
                     for (key, value) in keys {
-                        let (place, key) = (self.place(key.span().start), key.into_inner());
-                        let entry = self.entry(place, value);
+                        let (at, key) = (key.span().start, key.into_inner());
+                        let entry = Entry::of_file(&self.source, at, value);
                         self.take_entry(table, &key, entry);
                     }
                 }
@@ -118,29 +108,13 @@ impl<'a> Document<'a> {
         }
     }
 
-    fn entry(&self, place: Place, value: Spanned<DeValue<'a>>) -> Entry<'a> {
-        let text = self.source.shown(value.span());
-        let is_headed = value.get_ref().is_table() && !text.starts_with('{') || text.starts_with("[[");
-        let shown = Some(text).filter(|_| !is_headed);
-        Entry { place, shown, value: value.into_inner() }
-    }
-
     /// Takes an override, which replaces the value in the file. The value `auto` removes it.
     fn take_override(&mut self, word: &str, key: &str, text: &'a str) {
         if let Some(key) = keys::find(key).filter(|_| text.trim().trim_matches('"') == AUTO) {
             self.entries.remove(key.name);
             return;
         }
-        let value = match DeValue::parse(text) {
-            Ok(value) => value.into_inner(),
-            Err(_) => DeValue::String(text.into()),
-        };
-        let shown = if value.is_str() && !text.trim_start().starts_with(['"', '\'']) {
-            format!("\"{}\"", fit(text))
-        } else {
-            fit(text)
-        };
-        let entry = Entry { place: Place::Override(word.to_owned()), shown: Some(shown), value };
+        let entry = Entry::of_override(word, text);
         match key.split_once('.') {
             Some((table, key)) => match table_named(table) {
                 Some(table) => self.take_entry(table, key, entry),
@@ -212,19 +186,13 @@ impl<'a> Document<'a> {
     }
 }
 
-/// Rejects a file of a newer format.
-fn check_version(entry: Entry<'_>) -> Result<(), Error> {
-    let Entry { place, shown, value } = entry;
-    let known = FORMAT_VERSION;
-    let what = match &value {
-        DeValue::Integer(number) => match number.as_str().parse() {
-            Ok(version) if (1..=i128::from(known)).contains(&version) => return Ok(()),
-            Ok(version) if version < 1 => Fault::OutOfRange { least: 1, most: u64::from(known) },
-            _ => Fault::NewerVersion { known },
-        },
-        other => Fault::WrongType { found: kind(other), wanted: format!("a whole number, {known}") },
-    };
-    Err(vec![Finding { place, key: VERSION.to_owned(), value: shown, what }].into())
+/// What a file is that has this key or table at its top, if it is no case.
+fn other_file(key: &str) -> Option<Fault> {
+    match key {
+        "vary" | "design" => Some(Fault::IsStudy),
+        "web" | "layer" | "laydown" => Some(Fault::IsWeb),
+        _ => None,
+    }
 }
 
 /// The name of the table, if there is such a table.
@@ -237,17 +205,4 @@ fn home_of(name: &str) -> Option<&'static Key> {
     let mut homes = keys::all().iter().filter(|key| key.short() == name);
     let home = homes.next();
     if homes.next().is_some() { None } else { home }
-}
-
-/// The kind of the value in words, with an article.
-pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
-    match value {
-        DeValue::String(_) => "a text",
-        DeValue::Integer(_) => "a whole number",
-        DeValue::Float(_) => "a decimal number",
-        DeValue::Boolean(_) => "a truth value",
-        DeValue::Datetime(_) => "a date",
-        DeValue::Array(_) => "a list",
-        DeValue::Table(_) => "a table",
-    }
 }

@@ -1,21 +1,27 @@
-//! Reads and writes case and study files (TOML). In memory, all values are in SI units.
+//! Reads and writes the files of cases, studies and webs (TOML). In memory, all values are in SI units.
 //!
 //! A quantity is written with its unit, `diameter = "50 µm"`. All problems of a file are reported at once, each
 //! with line, key, value, what is allowed and how to correct it.
 
 mod data;
 mod document;
+mod entry;
 mod file;
 mod resolve;
 mod source;
 mod study;
 mod values;
+mod web;
 mod write;
 mod written;
 
 pub use study::{
     MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
     read_changed_study, read_study,
+};
+pub use web::{
+    LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebFile, WebKey, WebSpec, parse_web, read_web,
+    write_web,
 };
 pub use write::write_case;
 

@@ -1,6 +1,6 @@
 //! Converts TOML values to the [`Value`] of a key.
 
-use super::document::kind;
+use super::entry::kind;
 use crate::case::keys::{FileKind, Kind, Value};
 use crate::error::Fault;
 use crate::units::{Dimension, QuantityFault, Wanted};
@@ -27,6 +27,11 @@ pub(super) fn read(of: &Kind, value: &DeValue<'_>, beside: impl Fn(&str) -> Path
                 [x, y, z] => Value::Vector(Vec3::new(x, y, z)),
                 _ => return Err(wrong("a list of another length")),
             }
+        }
+        (Kind::Lengths, DeValue::Array(list)) => {
+            let lengths: Result<_, Fault> =
+                list.iter().map(|one| number(Dimension::Length, one.get_ref())).collect();
+            Value::Numbers(lengths?)
         }
         (Kind::File(FileKind::Spectrum), DeValue::String(text))
             if !text.is_empty() && !text.contains('.') =>

@@ -26,20 +26,28 @@ pub fn write_case(case: &Case) -> String {
     text
 }
 
-/// A value as TOML.
+/// A value of a case as TOML.
 fn written(case: &Case, key: &Key, value: Value) -> String {
-    match (key.kind, value) {
+    match value {
+        Value::Number(value) if key.counted => toml_value(&key.kind, Value::Number(tidy(case, key, value))),
+        value => toml_value(&key.kind, value),
+    }
+}
+
+/// A value as TOML, in SI units.
+pub(super) fn toml_value(kind: &Kind, value: Value) -> String {
+    let lengths = |lengths: &[f64]| {
+        let quoted = |x: &f64| format!("\"{}\"", Dimension::Length.exact(*x));
+        format!("[{}]", lengths.iter().map(quoted).collect::<Vec<_>>().join(", "))
+    };
+    match (kind, value) {
         (Kind::Quantity(Dimension::Ratio, _), Value::Number(value)) => float(value),
-        (Kind::Quantity(dimension, _), Value::Number(value)) => {
-            format!("\"{}\"", dimension.exact(tidy(case, key, value)))
-        }
+        (Kind::Quantity(dimension, _), Value::Number(value)) => format!("\"{}\"", dimension.exact(value)),
         (_, Value::Number(value)) => float(value),
         (_, Value::Whole(value)) => value.to_string(),
         (_, Value::Text(name)) => quoted(&name),
-        (Kind::Point, Value::Vector(v)) => {
-            let lengths = [v.x, v.y, v.z].map(|x| format!("\"{}\"", Dimension::Length.exact(x)));
-            format!("[{}]", lengths.join(", "))
-        }
+        (_, Value::Numbers(values)) => lengths(&values),
+        (Kind::Point, Value::Vector(v)) => lengths(&[v.x, v.y, v.z]),
         (_, Value::Vector(v)) => format!("[{}]", [v.x, v.y, v.z].map(float).join(", ")),
         (_, Value::Paths(paths)) => listed(&paths.iter().map(|path| path.as_path()).collect::<Vec<_>>()),
         (_, Value::Content(content)) => listed(&content.paths()),

@@ -1,7 +1,8 @@
-//! The values of a case file by key, each with the place where it was written.
+//! The values of a file by key, each with the place where it was written.
 
-use crate::case::keys::{Key, Value};
+use crate::case::keys::Value;
 use crate::error::{Fault, Finding, Place, Problem};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// A value as it was written.
@@ -14,12 +15,12 @@ pub(super) struct Said {
     pub(super) value: Option<Value>,
 }
 
-/// The values of a case file, and the problems found so far.
+/// The values of a file, and the problems found so far.
 #[derive(Clone, Debug)]
 pub(super) struct Written {
     /// The whole file as a place, for values that it does not contain.
     file: Place,
-    values: BTreeMap<&'static str, Said>,
+    values: BTreeMap<Cow<'static, str>, Said>,
     pub(super) problems: Vec<Problem>,
     /// Keys that are missing only because of another problem. Names of tables end in a dot.
     excused: Vec<String>,
@@ -44,8 +45,8 @@ impl Written {
         self.values.keys().any(|key| key.split_once('.').is_some_and(|(of, _)| of == table))
     }
 
-    pub(super) fn set(&mut self, key: &'static Key, said: Said) {
-        self.values.insert(key.name, said);
+    pub(super) fn set(&mut self, key: impl Into<Cow<'static, str>>, said: Said) {
+        self.values.insert(key.into(), said);
     }
 
     /// Takes a value out, as if it had not been written.

@@ -33,12 +33,14 @@ pub enum Dimension {
     Acceleration,
     /// [K]
     Temperature,
+    /// [m^-½]
+    Noise,
     /// A plain number, or a percentage.
     Ratio,
 }
 
 /// Every dimension.
-const ALL: [Dimension; 12] = [
+const ALL: [Dimension; 13] = [
     Dimension::Length,
     Dimension::Velocity,
     Dimension::Time,
@@ -50,6 +52,7 @@ const ALL: [Dimension; 12] = [
     Dimension::KinematicViscosity,
     Dimension::Acceleration,
     Dimension::Temperature,
+    Dimension::Noise,
     Dimension::Ratio,
 ];
 
@@ -149,6 +152,7 @@ impl Dimension {
             Self::KinematicViscosity => "a kinematic viscosity",
             Self::Acceleration => "an acceleration",
             Self::Temperature => "a temperature",
+            Self::Noise => "a noise",
             Self::Ratio => "a ratio",
         }
     }

@@ -77,6 +77,7 @@ const KINEMATIC_VISCOSITY: &[Unit] =
     &[unit("m²/s", "m2/s", Ten(0)), also("mm²/s", "mm2/s", Ten(-6)), also("cSt", "cSt", Ten(-6))];
 const ACCELERATION: &[Unit] = &[unit("m/s²", "m/s2", Ten(0))];
 const TEMPERATURE: &[Unit] = &[unit("K", "K", Ten(0)), unit("°C", "°C", Above(273.15))];
+const NOISE: &[Unit] = &[unit("m^-0.5", "m-0.5", Ten(0)), also("1/√m", "1/√m", Ten(0))];
 const RATIO: &[Unit] = &[unit("", "", Ten(0)), also("%", "%", Ten(-2))];
 
 impl Dimension {
@@ -94,6 +95,7 @@ impl Dimension {
             Self::KinematicViscosity => KINEMATIC_VISCOSITY,
             Self::Acceleration => ACCELERATION,
             Self::Temperature => TEMPERATURE,
+            Self::Noise => NOISE,
             Self::Ratio => RATIO,
         }
     }

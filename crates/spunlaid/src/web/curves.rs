@@ -1,7 +1,7 @@
 //! Curves that fibres have laid, to be laid again in a web.
 
 use super::lay::Points;
-use crate::error::WebFault;
+use crate::error::LayingFault;
 use crate::lanes::Lanes;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
@@ -27,14 +27,14 @@ impl Curves {
     /// * `curves` – of each fibre the places (md, cd) of its points on the belt [m], in the order of feed
     ///
     /// # Errors
-    /// [`WebFault::NoCurves`] if there is no curve, or one of less than 16 pieces or with a point that is not finite.
-    pub fn new(spacing: f64, belt_ratio: f64, mut curves: Vec<Vec<[f64; 2]>>) -> Result<Self, WebFault> {
+    /// [`LayingFault::NoCurves`] if there is no curve, or one of less than 16 pieces or with a point that is not finite.
+    pub fn new(spacing: f64, belt_ratio: f64, mut curves: Vec<Vec<[f64; 2]>>) -> Result<Self, LayingFault> {
         let usable = |curve: &Vec<[f64; 2]>| {
             curve.len() > Self::FEWEST && curve.iter().flatten().all(|x| x.is_finite())
         };
         let known = spacing > 0.0 && spacing.is_finite() && belt_ratio > 0.0 && belt_ratio.is_finite();
         if !known || curves.is_empty() || !curves.iter().all(usable) {
-            return Err(WebFault::NoCurves);
+            return Err(LayingFault::NoCurves);
         }
         for curve in &mut curves {
             for (i, point) in curve.iter_mut().enumerate() {

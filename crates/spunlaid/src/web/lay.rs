@@ -5,7 +5,7 @@ use super::map::Map;
 use super::raster::{Draw, Pens};
 use super::strip::Strip;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
-use crate::error::{Error, WebFault};
+use crate::error::{Error, LayingFault};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use crate::surrogate::{PathKey, Paths};
 use rand_chacha::ChaCha8Rng;
@@ -93,7 +93,7 @@ pub(super) struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    fn new(web: &Web, number: usize, layer: &'a Layer) -> Result<Self, WebFault> {
+    fn new(web: &Web, number: usize, layer: &'a Layer) -> Result<Self, LayingFault> {
         let sheet = &web.sheet;
         let fed = layer.fed_length(sheet);
         let (wanted, longest) = match &layer.fibres {
@@ -105,7 +105,7 @@ impl<'a> Plan<'a> {
             Fibres::Curves(curves) => {
                 let [_, longest] = curves.reach();
                 if (curves.belt_ratio() / layer.belt_ratio() - 1.0).abs() > 1e-9 {
-                    return Err(WebFault::OtherLine {
+                    return Err(LayingFault::OtherLine {
                         curves: curves.belt_ratio(),
                         layer: layer.belt_ratio(),
                     });
@@ -115,14 +115,14 @@ impl<'a> Plan<'a> {
         };
         let pieces = (fed / wanted).round().max(1.0);
         if !(fed > 0.0 && pieces < 1e12) {
-            return Err(WebFault::NoLayer { layer: number + 1 });
+            return Err(LayingFault::NoLayer { layer: number + 1 });
         }
         let piece = fed / pieces;
         let advance = layer.belt_ratio() * piece;
         let parts = Pens::parts_of((longest.unwrap_or(piece) + advance) / sheet.cell);
         let places = places(web, number, layer);
         if places.is_empty() {
-            return Err(WebFault::NoLayer { layer: number + 1 });
+            return Err(LayingFault::NoLayer { layer: number + 1 });
         }
         Ok(Self { number: number as u64, layer, places, pieces: pieces as usize, piece, parts, quanta: 0 })
     }
@@ -146,11 +146,11 @@ impl<'a> Plan<'a> {
     }
 
     /// The curves of the filaments from the number `first` on.
-    fn points(&self, web: &Web, isa: Isa, first: usize, count: usize) -> Result<Box<dyn Points>, WebFault> {
+    fn points(&self, web: &Web, isa: Isa, first: usize, count: usize) -> Result<Box<dyn Points>, LayingFault> {
         match &self.layer.fibres {
             Fibres::Surrogate(surrogate) => {
                 let keys: Vec<PathKey> = (first..first + count).map(|f| self.key(web, f)).collect();
-                let paths = Paths::new(isa, *surrogate, self.piece, &keys).ok_or(WebFault::NoPath {
+                let paths = Paths::new(isa, *surrogate, self.piece, &keys).ok_or(LayingFault::NoPath {
                     sigmas: [surrogate.sigma_md, surrogate.sigma_cd],
                     noise: surrogate.noise,
                 })?;
@@ -256,7 +256,7 @@ fn places(web: &Web, number: usize, layer: &Layer) -> Vec<f64> {
     places
 }
 
-pub(super) fn plans(web: &Web) -> Result<Vec<Plan<'_>>, WebFault> {
+pub(super) fn plans(web: &Web) -> Result<Vec<Plan<'_>>, LayingFault> {
     web.layers.iter().enumerate().map(|(number, layer)| Plan::new(web, number, layer)).collect()
 }
 
@@ -280,7 +280,7 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<Laid, Error> {
     let sheet = &web.sheet;
     let [columns, rows] = sheet.cells();
     let mut plans = plans(web)?;
-    let quantum = quantum(web, &plans).ok_or(WebFault::NoSheet)?;
+    let quantum = quantum(web, &plans).ok_or(LayingFault::NoSheet)?;
     for plan in &mut plans {
         plan.quanta = (plan.mass_of_part() / quantum).round() as u32;
     }
@@ -315,7 +315,7 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<Laid, Error> {
     })?;
     let (map, cut, is_full) = sum.into_inner().unwrap_or_else(PoisonError::into_inner);
     if is_full {
-        return Err(WebFault::FullCell { cell: sheet.cell }.into());
+        return Err(LayingFault::FullCell { cell: sheet.cell }.into());
     }
     Ok(Laid { map, cut: cut as f64 * quantum })
 }

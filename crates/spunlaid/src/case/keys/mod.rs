@@ -129,11 +129,7 @@ impl Key {
 
     /// The dimension of a quantity; none for other kinds.
     pub const fn dimension(&self) -> Option<Dimension> {
-        match self.kind {
-            Kind::Quantity(dimension, _) => Some(dimension),
-            Kind::Point => Some(Dimension::Length),
-            _ => None,
-        }
+        self.kind.dimension()
     }
 
     /// Whether it takes only whole numbers.
@@ -176,35 +172,20 @@ impl Key {
 
     /// An example line of a case file.
     pub(crate) fn example(&self) -> String {
-        let (LeftOut::Required(value) | LeftOut::Value(value) | LeftOut::Follows(value)) = self.left_out;
-        match self.kind {
-            Kind::Quantity(dimension, _) if dimension != Dimension::Ratio => {
-                format!("{} = \"{value}\"", self.short())
-            }
-            _ => format!("{} = {value}", self.short()),
-        }
+        example(self.short(), &self.kind, self.left_out)
     }
 
     /// The allowed values in words: `a length above zero`.
     pub fn allowed(&self) -> String {
-        match self.kind {
-            Kind::Quantity(dimension, Sign::Positive) => format!("{} above zero", dimension.name()),
-            Kind::Quantity(dimension, Sign::NotNegative) => format!("{}, zero or above", dimension.name()),
-            Kind::Quantity(dimension, Sign::Any) => format!("{}, of either sign", dimension.name()),
-            Kind::Whole(0, _) => "a whole number".to_owned(),
-            Kind::Whole(least, most) if most > 1 << 50 => format!("a whole number from {least} up"),
-            Kind::Whole(least, most) => format!("a whole number from {least} to {most}"),
-            Kind::Choice(_) | Kind::Text(_) => self.kind.wanted(),
-            Kind::File(FileKind::Spectrum) => {
-                let names = self.kind.words().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
-                format!("{} or the path of a file", names.join(", "))
-            }
-            Kind::Direction => "three numbers, like [1.0, 0.0, 0.0]".to_owned(),
-            Kind::Point => "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned(),
-            Kind::File(FileKind::Records) => {
-                "the path of a file, or a list with one for each eddy".to_owned()
-            }
-            Kind::File(_) => "the path of a file".to_owned(),
-        }
+        self.kind.allowed()
+    }
+}
+
+/// An example line of a file: `velocity = "10 m/s"`.
+pub(crate) fn example(name: &str, kind: &Kind, left_out: LeftOut) -> String {
+    let (LeftOut::Required(value) | LeftOut::Value(value) | LeftOut::Follows(value)) = left_out;
+    match kind {
+        Kind::Quantity(dimension, _) if *dimension != Dimension::Ratio => format!("{name} = \"{value}\""),
+        _ => format!("{name} = {value}"),
     }
 }

@@ -17,6 +17,8 @@ pub enum Value {
     Whole(u64),
     /// A name such as `clamped`; or any value as text, `20 m/s`.
     Text(String),
+    /// Several quantities, in SI units.
+    Numbers(Vec<f64>),
     /// A direction [-] or a point [m].
     Vector(Vec3<f64>),
     /// Files that are still to be read.
@@ -100,6 +102,7 @@ impl Value {
             Self::Number(_) => "a number",
             Self::Whole(_) => "a whole number",
             Self::Text(_) => "a text",
+            Self::Numbers(_) => "a list",
             Self::Vector(_) => "a vector",
             Self::Paths(_) | Self::Content(_) => "a file",
         }
@@ -154,6 +157,8 @@ pub enum Kind {
     Direction,
     /// A point in space.
     Point,
+    /// Several lengths above zero.
+    Lengths,
     /// The path of a file.
     File(FileKind),
 }
@@ -211,6 +216,7 @@ impl Kind {
                 let found = "an empty text";
                 text.trim().is_empty().then(|| Fault::WrongType { found, wanted: self.wanted() })
             }
+            (Self::Lengths, Value::Numbers(lengths)) => lengths_fault(lengths, self),
             (Self::Point, Value::Vector(_)) | (Self::File(_), Value::Paths(_) | Value::Content(_)) => None,
             (_, value) => Some(Fault::WrongType { found: value.what(), wanted: self.wanted() }),
         }
@@ -240,10 +246,44 @@ impl Kind {
             Self::Text(example) => format!("a text like \"{example}\""),
             Self::Direction => "three plain numbers, like [1.0, 0.0, 0.0]".to_owned(),
             Self::Point => "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned(),
+            Self::Lengths => "a list of lengths, like [\"1 mm\", \"5 mm\"]".to_owned(),
             Self::File(FileKind::Records) => {
                 "the path of a record, \"probe.csv\", or a list with one for each eddy".to_owned()
             }
             Self::File(_) => "the path of a file, in quotes".to_owned(),
+        }
+    }
+
+    /// The dimension of a quantity; none for other kinds.
+    pub const fn dimension(&self) -> Option<Dimension> {
+        match self {
+            Self::Quantity(dimension, _) => Some(*dimension),
+            Self::Point | Self::Lengths => Some(Dimension::Length),
+            _ => None,
+        }
+    }
+
+    /// The allowed values in words: `a length above zero`.
+    pub fn allowed(&self) -> String {
+        match *self {
+            Self::Quantity(dimension, Sign::Positive) => format!("{} above zero", dimension.name()),
+            Self::Quantity(dimension, Sign::NotNegative) => format!("{}, zero or above", dimension.name()),
+            Self::Quantity(dimension, Sign::Any) => format!("{}, of either sign", dimension.name()),
+            Self::Whole(0, _) => "a whole number".to_owned(),
+            Self::Whole(least, most) if most > 1 << 50 => format!("a whole number from {least} up"),
+            Self::Whole(least, most) => format!("a whole number from {least} to {most}"),
+            Self::Choice(_) | Self::Text(_) => self.wanted(),
+            Self::File(FileKind::Spectrum) => {
+                let names = self.words().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
+                format!("{} or the path of a file", names.join(", "))
+            }
+            Self::Direction => "three numbers, like [1.0, 0.0, 0.0]".to_owned(),
+            Self::Lengths => "a list of lengths above zero, like [\"1 mm\", \"5 mm\"]".to_owned(),
+            Self::Point => "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned(),
+            Self::File(FileKind::Records) => {
+                "the path of a file, or a list with one for each eddy".to_owned()
+            }
+            Self::File(_) => "the path of a file".to_owned(),
         }
     }
 
@@ -271,6 +311,11 @@ impl Kind {
                 other => Ok(other),
             },
             Self::Point => vector(Dimension::Length),
+            Self::Lengths => {
+                let lengths: Result<_, _> =
+                    parts().into_iter().map(|part| Dimension::Length.parse(part)).collect();
+                Ok(Value::Numbers(lengths?))
+            }
             Self::Choice(_) | Self::Text(_) => Ok(Value::Text(text.to_owned())),
             Self::File(FileKind::Spectrum) if !text.contains('.') => Ok(Value::Text(text.to_owned())),
             Self::File(_) => Ok(Value::Paths(vec![PathBuf::from(text)])),
@@ -284,11 +329,25 @@ impl Kind {
             (_, Value::Number(value)) => shortest(*value),
             (_, Value::Whole(value)) => value.to_string(),
             (_, Value::Text(text)) => format!("\"{}\"", crate::units::excerpt(text, 60)),
+            (_, Value::Numbers(values)) => {
+                let shown =
+                    |value: &f64| self.dimension().map_or_else(|| shortest(*value), |of| of.pretty(*value));
+                values.iter().map(shown).collect::<Vec<_>>().join(", ")
+            }
             (_, Value::Vector(v)) => format!("[{}, {}, {}]", v.x, v.y, v.z),
             (_, Value::Paths(paths)) => listed(paths.iter().map(PathBuf::as_path)),
             (_, Value::Content(content)) => listed(content.paths().into_iter()),
         }
     }
+}
+
+/// What is wrong with a list of lengths, if anything.
+fn lengths_fault(lengths: &[f64], kind: &Kind) -> Option<Fault> {
+    if lengths.is_empty() {
+        return Some(Fault::WrongType { found: "an empty list", wanted: kind.wanted() });
+    }
+    let of_one = Kind::Quantity(Dimension::Length, Sign::Positive);
+    lengths.iter().find_map(|length| of_one.fault(&Value::Number(*length)))
 }
 
 fn listed<'a>(paths: impl Iterator<Item = &'a Path>) -> String {

@@ -1,9 +1,9 @@
 //! The values that a factor takes: a list, or a range.
 
-use super::super::document::kind;
+use super::super::entry::{Entry, in_order, kind};
 use super::super::values::{integer, number};
 use super::dimension;
-use super::reader::{Entry, Reader, in_order};
+use super::reader::Reader;
 use crate::case::keys::{Key, Value, nearest_word};
 use crate::error::{Fault, StudyFault};
 use crate::study::{Design, Levels, Spacing};

@@ -1,17 +1,17 @@
 //! The plan of a study: its file, checked as far as it can be before its points are made.
 
 use super::super::document::AUTO;
+use super::super::entry::{Entry, in_order};
 use super::super::resolve::Open;
-use super::super::source::fit;
 use super::super::values::integer;
 use super::super::write::quoted;
 use super::super::{FORMAT_VERSION, Overrides};
-use super::reader::{Entry, Reader, in_order};
+use super::reader::Reader;
 use super::{
     MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, StudyChanges, dimension, level, links, numeric, varied,
 };
 use crate::case::keys::{self, Key, Kind, nearest_word};
-use crate::error::{Fault, Finding, Place, StudyFault};
+use crate::error::{Fault, Finding, StudyFault};
 use crate::study::{Design, Factor, Link, MEASURES, Point, Replicates, Study};
 use crate::units::Dimension;
 use toml::de::DeValue;
@@ -87,10 +87,7 @@ impl<'a> Reader<'a> {
         }
         for (key, text) in asked.values {
             let key = key.trim().to_owned();
-            // What is not TOML is a text.
-            let value = DeValue::parse(text).map_or(DeValue::String(text.into()), |value| value.into_inner());
-            let place = Place::Override(asked.word.to_owned());
-            let entry = Entry { at: 0, place, shown: Some(fit(text)), text, value };
+            let entry = Entry::of_override(asked.word, text);
             self.check_set(&key, &entry);
             let written = if DeValue::parse(text).is_ok() { text.clone() } else { quoted(text) };
             set.retain(|(other, _)| *other != key);

@@ -89,7 +89,7 @@ impl Resolver<'_> {
             let (key, value) = *one;
             let said = |value| Said { place: at.clone(), shown: Some(pretty(one)), value: Some(value) };
             match value_of(key, value) {
-                Ok(value) => written.set(key, said(value)),
+                Ok(value) => written.set(key.name, said(value)),
                 Err(what) => faults.push(Problem {
                     place: at.clone(),
                     key: key.name.to_owned(),
@@ -105,7 +105,7 @@ impl Resolver<'_> {
         for (name, value) in [("run.seed", seed), ("run.replicates", replicates.at_most)] {
             if let Some(key) = keys::find(name) {
                 let (shown, value) = (Some(value.to_string()), Some(Value::Whole(value)));
-                written.set(key, Said { place: at.clone(), shown, value });
+                written.set(key.name, Said { place: at.clone(), shown, value });
             }
         }
         let (opened, unneeded) = self.open(written, &set);

@@ -1,26 +1,17 @@
 //! The entries of a study file, each with its place, and the problems found in them.
 
-use super::super::document::{kind, table_named};
-use super::super::source::{Source, fit};
+use super::super::document::table_named;
+use super::super::entry::{Entry, in_order, kind, root};
+use super::super::source::Source;
 use super::super::values::integer;
 use crate::case::keys::nearest_word;
-use crate::error::{Error, Fault, Finding, Place, Problem, StudyFault};
+use crate::error::{Error, Fault, Finding, Problem, StudyFault};
 use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 const KEYS: [&str; 10] =
     ["version", "case", "design", "points", "replicates", "common_phases", "seed", "set", "vary", "link"];
-
-/// A value with its place and its text in the file.
-pub(super) struct Entry<'a> {
-    pub(super) at: usize,
-    pub(super) place: Place,
-    pub(super) shown: Option<String>,
-    /// Its whole text.
-    pub(super) text: &'a str,
-    pub(super) value: DeValue<'a>,
-}
 
 /// Reads a study file and collects its problems.
 pub(super) struct Reader<'a> {
@@ -38,13 +29,10 @@ impl<'a> Reader<'a> {
     /// When the text is not TOML.
     pub(super) fn new(text: &'a str, name: &str) -> Result<Self, Error> {
         let source = Source::new(text, name);
-        let (root, faults) = DeTable::parse_recoverable(text);
-        if !faults.is_empty() {
-            return Err(Error::Rejected(faults.iter().map(|fault| source.syntax(fault)).collect()));
-        }
+        let root = root(&source, text)?;
         let mut reader = Self { source, entries: BTreeMap::new(), problems: Vec::new(), excused: Vec::new() };
         let mut tables = Vec::new();
-        for (key, value) in root.into_inner() {
+        for (key, value) in root {
             let (at, name) = (key.span().start, key.into_inner());
             let entry = reader.entry(at, value);
             if KEYS.contains(&name.as_ref()) {
@@ -77,16 +65,11 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn entry(&self, at: usize, value: Spanned<DeValue<'a>>) -> Entry<'a> {
-        let shown = self.source.shown(value.span());
-        let is_headed = value.get_ref().is_table() && !shown.starts_with('{');
-        let shown = Some(shown).filter(|_| !is_headed);
-        let text = self.source.exact(value.span());
-        Entry { at, place: self.source.place(at), shown, text, value: value.into_inner() }
+        Entry::of_file(&self.source, at, value)
     }
 
     pub(super) fn reject(&mut self, entry: &Entry<'_>, key: &str, fault: impl Into<Fault>) {
-        let (place, value) = (entry.place.clone(), entry.shown.clone());
-        self.problems.push(Finding { place, key: fit(key), value, what: fault.into() });
+        self.problems.push(entry.problem(key, fault));
     }
 
     /// Notes a problem of the whole file.
@@ -157,14 +140,4 @@ impl<'a> Reader<'a> {
         flat.sort_by_key(|(_, entry)| entry.at);
         flat
     }
-}
-
-/// Keys with their positions, and values of a table in the order of the file.
-pub(super) fn in_order<'a>(table: DeTable<'a>) -> Vec<((usize, String), Spanned<DeValue<'a>>)> {
-    let mut entries: Vec<_> = table
-        .into_iter()
-        .map(|(key, value)| ((key.span().start, key.into_inner().into_owned()), value))
-        .collect();
-    entries.sort_by_key(|((at, _), _)| *at);
-    entries
 }

@@ -1,0 +1,99 @@
+//! A value of a TOML file or of an override, before its key says how it is read.
+
+use super::FORMAT_VERSION;
+use super::source::{Source, fit};
+use crate::error::{Fault, Finding, Place, Problem};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// The only key above the tables of a case.
+pub(super) const VERSION: &str = "version";
+
+/// A value with its place and its text.
+pub(super) struct Entry<'a> {
+    /// Its first byte in the file; of an override, zero.
+    pub(super) at: usize,
+    pub(super) place: Place,
+    /// Its text, shortened for messages. None for tables, because their text is spread over the file.
+    pub(super) shown: Option<String>,
+    /// Its whole text.
+    pub(super) text: &'a str,
+    pub(super) value: DeValue<'a>,
+}
+
+impl<'a> Entry<'a> {
+    /// The value of a key that stands at byte `at` of a file.
+    pub(super) fn of_file(source: &Source<'a>, at: usize, value: Spanned<DeValue<'a>>) -> Self {
+        let shown = source.shown(value.span());
+        let is_headed = value.get_ref().is_table() && !shown.starts_with('{') || shown.starts_with("[[");
+        let shown = Some(shown).filter(|_| !is_headed);
+        let text = source.exact(value.span());
+        Self { at, place: source.place(at), shown, text, value: value.into_inner() }
+    }
+
+    /// The value of an override. What is not TOML is a text.
+    pub(super) fn of_override(word: &str, text: &'a str) -> Self {
+        let value = DeValue::parse(text).map_or(DeValue::String(text.into()), Spanned::into_inner);
+        let shown = if value.is_str() && !text.trim_start().starts_with(['"', '\'']) {
+            format!("\"{}\"", fit(text))
+        } else {
+            fit(text)
+        };
+        Self { at: 0, place: Place::Override(word.to_owned()), shown: Some(shown), text, value }
+    }
+
+    /// A problem with it.
+    pub(super) fn problem(&self, key: &str, what: impl Into<Fault>) -> Problem {
+        Finding { place: self.place.clone(), key: fit(key), value: self.shown.clone(), what: what.into() }
+    }
+}
+
+/// The root table of a file.
+///
+/// # Errors
+/// What the parser finds.
+pub(super) fn root<'a>(source: &Source<'_>, text: &'a str) -> Result<DeTable<'a>, Vec<Problem>> {
+    let (root, faults) = DeTable::parse_recoverable(text);
+    if faults.is_empty() {
+        Ok(root.into_inner())
+    } else {
+        Err(faults.iter().map(|fault| source.syntax(fault)).collect())
+    }
+}
+
+/// Keys with their positions, and values of a table in the order of the file.
+pub(super) fn in_order<'a>(table: DeTable<'a>) -> Vec<((usize, String), Spanned<DeValue<'a>>)> {
+    let mut entries: Vec<_> = table
+        .into_iter()
+        .map(|(key, value)| ((key.span().start, key.into_inner().into_owned()), value))
+        .collect();
+    entries.sort_by_key(|((at, _), _)| *at);
+    entries
+}
+
+/// Rejects a file of a newer format.
+pub(super) fn check_version(entry: &Entry<'_>) -> Result<(), Problem> {
+    let known = FORMAT_VERSION;
+    let what = match &entry.value {
+        DeValue::Integer(number) => match number.as_str().parse() {
+            Ok(version) if (1..=i128::from(known)).contains(&version) => return Ok(()),
+            Ok(version) if version < 1 => Fault::OutOfRange { least: 1, most: u64::from(known) },
+            _ => Fault::NewerVersion { known },
+        },
+        other => Fault::WrongType { found: kind(other), wanted: format!("a whole number, {known}") },
+    };
+    Err(entry.problem(VERSION, what))
+}
+
+/// The kind of the value in words, with an article.
+pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(_) => "a text",
+        DeValue::Integer(_) => "a whole number",
+        DeValue::Float(_) => "a decimal number",
+        DeValue::Boolean(_) => "a truth value",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
+    }
+}

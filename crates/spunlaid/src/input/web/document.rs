@@ -1,0 +1,375 @@
+//! Reads the file of a web into its values. Each remembers where it was written.
+
+use super::super::document::AUTO;
+use super::super::entry::{Entry, VERSION, check_version, in_order, kind, root};
+use super::super::source::{Source, fit};
+use super::super::written::{Said, Written};
+use super::super::{Overrides, values};
+use super::keys::{self, WEB_KEYS, WEB_TABLES, WebKey};
+use crate::case::keys::{Value, nearest_word};
+use crate::error::{Error, Fault, Finding, Place, WebFault};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use toml::de::{DeTable, DeValue};
+
+/// The tables of which each layer has its own.
+const OF_A_LAYER: [&str; 3] = ["fibre", "laydown", "line"];
+/// The only table that is not of a layer.
+const OF_THE_WEB: &str = "web";
+/// Tables that only a case has.
+const OF_A_CASE: [&str; 5] = ["feed", "belt", "air", "drag", "run"];
+
+/// What is written in the file of a web and in overrides.
+pub(super) struct WebDocument {
+    /// The values by full name: `line.belt_speed`; `layer.2.line.belt_speed` in a file with `[[layer]]`. The rows of nozzles
+    /// are `line.rows.1.pitch` and so on, and `line.rows` is their number.
+    pub(super) written: Written,
+    /// What comes before the names of a layer's keys: `layer.2.`, or nothing in a file without `[[layer]]`.
+    pub(super) layers: Vec<String>,
+}
+
+/// The entries of the file and of the overrides.
+struct Entries<'a> {
+    source: Source<'a>,
+    written: Written,
+    version: Option<Entry<'a>>,
+    /// The entries of keys by full name.
+    entries: BTreeMap<String, (&'static WebKey, Entry<'a>)>,
+    /// The lists of rows by full name, with their lengths.
+    rows: BTreeMap<String, (Place, Option<String>, u64)>,
+    /// The names of the layers, if the file has `[[layer]]`.
+    names: Option<Vec<Option<String>>>,
+}
+
+/// Reads the values of the file called `name` and of the overrides.
+///
+/// # Errors
+/// If the text is not TOML, is no web, or has a newer format.
+pub(super) fn read(text: &str, name: &str, overrides: Overrides<'_>) -> Result<WebDocument, Error> {
+    let source = Source::new(text, name);
+    let written = Written::new(source.whole());
+    let root = root(&source, text)?;
+    for (key, what) in root.keys().filter_map(|key| Some((key, other_file(key.get_ref())?))) {
+        let (place, key) = (source.place(key.span().start), format!("[{}]", key.get_ref()));
+        return Err(vec![Finding { place, key, value: None, what: what.into() }].into());
+    }
+    let (entries, rows) = (BTreeMap::new(), BTreeMap::new());
+    let mut document = Entries { source, written, version: None, entries, rows, names: None };
+    document.take_root(root);
+    for (key, value) in overrides.values {
+        document.take_override(overrides.word, key.trim(), value);
+    }
+    // A newer format may mean other things, so this check comes first.
+    document.version.take().map_or(Ok(()), |entry| check_version(&entry)).map_err(|problem| vec![problem])?;
+    Ok(document.read())
+}
+
+/// What a file is that has this key or table at its top, if it is no web.
+fn other_file(key: &str) -> Option<WebFault> {
+    match key {
+        "vary" | "design" => Some(WebFault::IsStudy),
+        key if OF_A_CASE.contains(&key) => Some(WebFault::IsCase),
+        _ => None,
+    }
+}
+
+/// The name of the table, if there is such a table.
+fn table_of<'t>(tables: &'t [&'static str], name: &str) -> Option<&'t &'static str> {
+    tables.iter().find(|table| **table == name)
+}
+
+impl<'a> Entries<'a> {
+    /// Reads the values of all keys.
+    fn read(self) -> WebDocument {
+        let Self { mut written, entries, rows, names, .. } = self;
+        for (full, (key, entry)) in entries {
+            // The paths are made where the files are read.
+            let read = values::read(&key.kind, &entry.value, |named| PathBuf::from(named));
+            let (value, fault) = match read {
+                Ok(value) => (Some(value), None),
+                Err(fault) => (None, Some(fault)),
+            };
+            written.set(full.clone(), Said { place: entry.place, shown: entry.shown, value });
+            if let Some(fault) = fault {
+                written.reject(&full, fault);
+            }
+        }
+        for (full, (place, shown, count)) in rows {
+            written.set(full, Said { place, shown, value: Some(Value::Whole(count)) });
+        }
+        let layers = match names {
+            None => vec![String::new()],
+            Some(names) => (1..=names.len()).map(|number| format!("layer.{number}.")).collect(),
+        };
+        WebDocument { written, layers }
+    }
+
+    fn take_root(&mut self, root: DeTable<'a>) {
+        let layered = root.keys().any(|key| key.get_ref() == "layer");
+        self.names = layered.then(Vec::new);
+        for ((at, name), value) in in_order(root) {
+            let entry = Entry::of_file(&self.source, at, value);
+            match name.as_str() {
+                VERSION => self.version = Some(entry),
+                "layer" => self.take_layers(entry),
+                OF_THE_WEB => self.take_table("", OF_THE_WEB, entry),
+                name => match table_of(&OF_A_LAYER, name) {
+                    Some(table) if layered => {
+                        let what = WebFault::BesideLayers { table };
+                        let problem = entry.problem(&format!("[{table}]"), what);
+                        self.written.problems.push(Finding { value: None, ..problem });
+                    }
+                    Some(table) => self.take_table("", table, entry),
+                    None => self.unknown_at_top(name, &entry),
+                },
+            }
+        }
+    }
+
+    fn take_layers(&mut self, entry: Entry<'a>) {
+        let wanted = || {
+            "a list of tables: [[layer]], and below it [layer.fibre], [layer.laydown] and [layer.line]"
+                .to_owned()
+        };
+        let place = entry.place.clone();
+        let list = match entry.value {
+            DeValue::Array(list) if !list.is_empty() => list,
+            other => {
+                let found = if other.is_array() { "an empty list" } else { kind(&other) };
+                let what = Fault::WrongType { found, wanted: wanted() };
+                self.written.problems.push(Finding {
+                    place,
+                    key: "layer".to_owned(),
+                    value: entry.shown,
+                    what,
+                });
+                return;
+            }
+        };
+        for (number, layer) in (1..).zip(list) {
+            let entry = Entry::of_file(&self.source, layer.span().start, layer);
+            let prefix = format!("layer.{number}.");
+            let mut name = None;
+            if let DeValue::Table(table) = entry.value {
+                name = table.get("name").and_then(|name| name.get_ref().as_str()).map(ToOwned::to_owned);
+                self.take_layer(&prefix, table);
+            } else {
+                self.written.excuse(prefix.clone());
+                let what = Fault::WrongType { found: kind(&entry.value), wanted: wanted() };
+                let key = format!("layer.{number}");
+                self.written.problems.push(entry.problem(&key, what));
+            }
+            self.names.get_or_insert_default().push(name);
+        }
+    }
+
+    fn take_layer(&mut self, prefix: &str, layer: DeTable<'a>) {
+        for ((at, name), value) in in_order(layer) {
+            let entry = Entry::of_file(&self.source, at, value);
+            match (name.as_str(), table_of(&OF_A_LAYER, &name)) {
+                ("name", _) => self.take_entry(prefix, "layer", "name", entry),
+                (_, Some(table)) => self.take_table(prefix, table, entry),
+                (name, None) => {
+                    let nearest = nearest_word(name, OF_A_LAYER.into_iter());
+                    nearest.iter().for_each(|table| self.written.excuse(format!("{prefix}{table}.")));
+                    let nearest = nearest.map(|table| format!("[layer.{table}]"));
+                    let known = vec!["name", "[layer.fibre]", "[layer.laydown]", "[layer.line]"];
+                    let what = WebFault::Unknown { nearest, where_: "[[layer]]".to_owned(), known };
+                    self.written.problems.push(entry.problem(&format!("{prefix}{name}"), what));
+                }
+            }
+        }
+    }
+
+    /// Takes a table, which is of a layer if there is a prefix.
+    fn take_table(&mut self, prefix: &str, table: &'static str, entry: Entry<'a>) {
+        let DeValue::Table(keys) = entry.value else {
+            self.written.excuse(format!("{prefix}{table}."));
+            let wanted = format!("a table, [{}{table}]", if prefix.is_empty() { "" } else { "layer." });
+            let what = Fault::WrongType { found: kind(&entry.value), wanted };
+            self.written.problems.push(entry.problem(&format!("{prefix}{table}"), what));
+            return;
+        };
+        for ((at, key), value) in in_order(keys) {
+            let entry = Entry::of_file(&self.source, at, value);
+            if (table, key.as_str()) == ("line", "rows") {
+                self.take_rows(prefix, entry);
+            } else {
+                self.take_entry(&format!("{prefix}{table}."), table, &key, entry);
+            }
+        }
+    }
+
+    /// Takes a list of rows of nozzles in place of the one there was.
+    fn take_rows(&mut self, prefix: &str, entry: Entry<'a>) {
+        let full = format!("{prefix}line.rows");
+        self.remove(&full);
+        let wanted = || {
+            "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]".to_owned()
+        };
+        let (place, shown) = (entry.place.clone(), entry.shown.clone());
+        let list = match entry.value {
+            DeValue::Array(list) if !list.is_empty() => list,
+            other => {
+                self.written.excuse(format!("{prefix}line.filaments_per_metre"));
+                let found = if other.is_array() { "an empty list" } else { kind(&other) };
+                let what = Fault::WrongType { found, wanted: wanted() };
+                self.written.problems.push(Finding { place, key: full, value: shown, what });
+                return;
+            }
+        };
+        self.rows.insert(full.clone(), (place.clone(), shown.clone(), list.len() as u64));
+        for (number, row) in (1..).zip(list) {
+            let of_row = format!("{full}.{number}.");
+            match row.into_inner() {
+                DeValue::Table(keys) => {
+                    for ((at, key), value) in in_order(keys) {
+                        let read = Entry::of_file(&self.source, at, value);
+                        // Positions in an override are not positions in the file.
+                        let entry = match &place {
+                            Place::Override(_) => {
+                                Entry { place: place.clone(), shown: shown.clone(), ..read }
+                            }
+                            _ => read,
+                        };
+                        self.take_entry(&of_row, "line.rows", &key, entry);
+                    }
+                }
+                other => {
+                    self.written.excuse(of_row);
+                    let what = Fault::WrongType { found: kind(&other), wanted: wanted() };
+                    let (place, value) = (place.clone(), shown.clone());
+                    self.written.problems.push(Finding { place, key: full.clone(), value, what });
+                }
+            }
+        }
+    }
+
+    /// Takes an entry of a table. Unknown keys are rejected.
+    ///
+    /// * `before` – what comes before its key in its full name
+    fn take_entry(&mut self, before: &str, table: &str, key: &str, entry: Entry<'a>) {
+        let full = format!("{before}{key}");
+        if let Some(known) = keys::of_table(table).find(|known| known.short() == key) {
+            self.entries.insert(full, (known, entry));
+            return;
+        }
+        let what = match home_of(key) {
+            Some(home) => {
+                self.written.excuse(home.name);
+                Fault::Misplaced { table: home.table(), key: home.short() }
+            }
+            None => {
+                let nearest = keys::nearest(table, key).map(|key| {
+                    if key.table() == table {
+                        format!("{before}{}", key.short())
+                    } else {
+                        key.name.to_owned()
+                    }
+                });
+                nearest.iter().for_each(|key| self.written.excuse(key));
+                let known =
+                    keys::of_table(table).map(WebKey::short).chain((table == "line").then_some("rows"));
+                WebFault::Unknown { nearest, where_: format!("[{table}]"), known: known.collect() }.into()
+            }
+        };
+        self.written.problems.push(entry.problem(&full, what));
+    }
+
+    /// Takes an override, which replaces the value in the file. The value `auto` removes it.
+    fn take_override(&mut self, word: &str, key: &str, text: &'a str) {
+        let entry = Entry::of_override(word, text);
+        let (prefix, rest) = match self.layer_of(key) {
+            Ok(of) => of,
+            Err(what) => {
+                self.written.problems.push(entry.problem(key, what));
+                return;
+            }
+        };
+        if text.trim().trim_matches('"') == AUTO {
+            self.remove(&format!("{prefix}{rest}"));
+            return;
+        }
+        let tables: &[&str] = if prefix.is_empty() { &WEB_TABLES[1..] } else { &OF_A_LAYER };
+        match rest.split_once('.').map(|(table, key)| (table_of(tables, table), key)) {
+            Some((Some(&"line"), "rows")) => self.take_rows(&prefix, entry),
+            Some((Some(&"line"), of_row)) if of_row.starts_with("rows.") => {
+                let rows = format!("{prefix}line.rows");
+                let there = self.rows.get(&rows).map_or(0, |(.., count)| *count);
+                let row = of_row.strip_prefix("rows.").and_then(|of| of.split_once('.'));
+                match row.filter(|(row, _)| (1..=there).any(|number| number.to_string() == *row)) {
+                    Some((row, key)) => self.take_entry(&format!("{rows}.{row}."), "line.rows", key, entry),
+                    None => {
+                        let what = WebFault::NoSuchRow { rows: there };
+                        self.written.problems.push(entry.problem(key, what));
+                    }
+                }
+            }
+            Some((Some(table), key)) => self.take_entry(&format!("{prefix}{table}."), table, key, entry),
+            None if rest == VERSION => self.version = Some(entry),
+            None if rest == "name" && !prefix.is_empty() => self.take_entry(&prefix, "layer", rest, entry),
+            None if table_of(tables, rest).is_some() => {
+                let wanted = format!("one of its keys, {word} {prefix}{rest}.key=value");
+                let what = Fault::WrongType { found: "a table", wanted };
+                self.written.problems.push(Finding { value: None, ..entry.problem(key, what) });
+            }
+            _ => self.unknown_at_top(rest, &entry),
+        }
+    }
+
+    /// What comes before the names of the layer that an override is for, and the rest of its key.
+    fn layer_of<'k>(&self, key: &'k str) -> Result<(String, &'k str), WebFault> {
+        let names = self.names.as_deref();
+        let Some(rest) = key.strip_prefix("layer.") else {
+            let (table, _) = key.split_once('.').unwrap_or((key, ""));
+            let of_a_layer = names.is_some() && table_of(&OF_A_LAYER, table).is_some();
+            let which = || WebFault::WhichLayer { key: fit(key) };
+            return if of_a_layer { Err(which()) } else { Ok((String::new(), key)) };
+        };
+        let layers = names.map_or(0, <[_]>::len);
+        let after = |name: &str| rest.strip_prefix(name)?.strip_prefix('.');
+        let numbers = (1..=layers).find_map(|number| Some((number, after(&number.to_string())?)));
+        let by_name =
+            || (1..).zip(names?).find_map(|(number, name)| Some((number, after(name.as_deref()?)?)));
+        let (number, rest) = numbers.or_else(by_name).ok_or(WebFault::NoSuchLayer { layers })?;
+        Ok((format!("layer.{number}."), rest))
+    }
+
+    /// Removes a key, or a list of rows.
+    fn remove(&mut self, full: &str) {
+        self.rows.remove(full);
+        let of_a_row = |name: &str| name.strip_prefix(full).is_some_and(|rest| rest.starts_with('.'));
+        self.entries.retain(|name, _| name != full && !of_a_row(name));
+    }
+
+    /// Rejects a key or table that the top of the file does not have.
+    fn unknown_at_top(&mut self, name: &str, entry: &Entry<'_>) {
+        let is_table = entry.value.is_table();
+        let word = name.split_once('.').map_or(name, |(table, _)| table);
+        let what = match home_of(name).filter(|_| !is_table) {
+            Some(home) => {
+                self.written.excuse(home.name);
+                Fault::Misplaced { table: home.table(), key: home.short() }
+            }
+            None => {
+                let nearest = nearest_word(word, WEB_TABLES.into_iter());
+                nearest.iter().for_each(|table| self.written.excuse(format!("{table}.")));
+                let nearest =
+                    nearest.map(
+                        |table| if table == "layer" { "[[layer]]".to_owned() } else { format!("[{table}]") },
+                    );
+                let known = vec![VERSION, "[fibre]", "[laydown]", "[line]", "[web]", "[[layer]]"];
+                WebFault::Unknown { nearest, where_: "the top of the file".to_owned(), known }.into()
+            }
+        };
+        let key = if is_table { format!("[{}]", fit(name)) } else { name.to_owned() };
+        self.written.problems.push(entry.problem(&key, what));
+    }
+}
+
+/// The key with this short name, if exactly one table has such a key.
+fn home_of(name: &str) -> Option<&'static WebKey> {
+    let mut homes = WEB_KEYS.iter().filter(|key| key.short() == name);
+    let home = homes.next();
+    if homes.next().is_some() { None } else { home }
+}

@@ -1,0 +1,114 @@
+//! What tells how the filaments of a layer lie.
+
+use super::super::read_case;
+use super::LaydownSource;
+use super::read::{Reading, table_of};
+use crate::case::Case;
+use crate::case::keys::Value;
+use crate::error::{Error, Fault, Place, WebFault};
+use crate::surrogate::Surrogate;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The three numbers of the surrogate, with a line for each.
+const NUMBERS: [(&str, &str); 3] = [
+    ("laydown.sigma_md", "sigma_md = \"18.4 mm\""),
+    ("laydown.sigma_cd", "sigma_cd = \"18.3 mm\""),
+    ("laydown.noise", "noise = \"12.4 m^-0.5\""),
+];
+const CASE: &str = "laydown.case";
+const RESULTS: &str = "laydown.results";
+/// Files of a finished run.
+const SUMMARY: &str = "summary.json";
+const CASE_OF_RESULTS: &str = "case.toml";
+
+impl Reading {
+    /// What tells how the filaments of a layer lie; none if there is a problem with it, which is noted.
+    ///
+    /// # Errors
+    /// A case that cannot be read for another reason than what is in it.
+    pub(super) fn laydown(&mut self, prefix: &str) -> Result<Option<LaydownSource>, Error> {
+        let is_written = |name: &&&str| self.written.get(&format!("{prefix}{name}")).is_some();
+        let numbers = NUMBERS.iter().map(|(name, _)| name).find(is_written);
+        let ways: Vec<&'static str> =
+            [&CASE, &RESULTS].into_iter().chain(numbers).filter(is_written).copied().collect();
+        match ways[..] {
+            [] if self.written.is_excused(&format!("{prefix}laydown.")) => Ok(None),
+            [] => {
+                self.written.reject(&format!("{prefix}laydown"), WebFault::NoLaydown.into());
+                Ok(None)
+            }
+            [CASE] => self.case(&format!("{prefix}{CASE}")),
+            [RESULTS] => self.results(&format!("{prefix}{RESULTS}")),
+            [_] => Ok(self.surrogate(prefix).map(LaydownSource::Surrogate)),
+            [other, ref more @ ..] => {
+                let remedy = "how the fibres lie is told in one way; keep one";
+                for way in more {
+                    self.written.reject(&format!("{prefix}{way}"), Fault::Excludes { other, remedy });
+                }
+                Ok(None)
+            }
+        }
+    }
+
+    fn surrogate(&mut self, prefix: &str) -> Option<Surrogate> {
+        let [sigma_md, sigma_cd, noise] = NUMBERS.map(|(name, line)| {
+            self.number_or(&format!("{prefix}{name}"), table_of(prefix, name), Err(line))
+        });
+        Some(Surrogate { sigma_md: sigma_md?, sigma_cd: sigma_cd?, noise: noise? })
+    }
+
+    fn case(&mut self, key: &str) -> Result<Option<LaydownSource>, Error> {
+        let Some(path) = self.path(key) else { return Ok(None) };
+        let case = self.fed_case(key, &path)?;
+        Ok(case.map(|case| LaydownSource::Case { path, case }))
+    }
+
+    fn results(&mut self, key: &str) -> Result<Option<LaydownSource>, Error> {
+        let Some(folder) = self.path(key) else { return Ok(None) };
+        if let Some(missing) =
+            [SUMMARY, CASE_OF_RESULTS].into_iter().find(|name| !folder.join(name).is_file())
+        {
+            self.written.reject(key, WebFault::NotARun { missing }.into());
+            return Ok(None);
+        }
+        let case = self.fed_case(key, &folder.join(CASE_OF_RESULTS))?;
+        Ok(case.map(|case| LaydownSource::Results { folder, case }))
+    }
+
+    /// The path that a key names: of the file, relative to its folder.
+    fn path(&self, key: &str) -> Option<PathBuf> {
+        let said = self.written.get(key)?;
+        let Some(Value::Text(named)) = &said.value else { return None };
+        Some(match &said.place {
+            Place::Override(_) => PathBuf::from(named),
+            _ => self.folder.join(named),
+        })
+    }
+
+    /// A case whose fibres are laid down on a moving belt.
+    fn fed_case(&mut self, key: &str, path: &Path) -> Result<Option<Arc<Case>>, Error> {
+        let (case, notes) = match read_case(path, &[]) {
+            Ok(read) => read,
+            Err(Error::File(error)) => {
+                self.written.reject(key, Fault::File(error));
+                return Ok(None);
+            }
+            Err(Error::Rejected(problems)) => {
+                self.written.problems.extend(problems);
+                return Ok(None);
+            }
+            Err(other) => return Err(other),
+        };
+        let fault = match case.line {
+            None => WebFault::NotFed,
+            Some(line) if line.belt_speed <= 0.0 => WebFault::StillBelt,
+            Some(_) => {
+                self.note(notes);
+                return Ok(Some(Arc::new(case)));
+            }
+        };
+        self.written.reject(key, fault.into());
+        Ok(None)
+    }
+}

@@ -1,0 +1,373 @@
+//! Makes the web from the written values, with the defaults.
+
+use super::super::written::{Written, sorted};
+use super::document::WebDocument;
+use super::keys::{self, METHODS};
+use super::{LaydownSource, LayerSpec, Method, WebSpec, too_small};
+use crate::case::Note;
+use crate::case::keys::{LeftOut, Value};
+use crate::error::{Error, Fault, Finding, WebFault};
+use crate::units::Dimension;
+use crate::web::{Edges, Filaments, Row, Sheet};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+/// Relative difference up to which two written numbers are the same.
+const SAME: f64 = 1e-9;
+
+/// A file while it is read.
+pub(super) struct Reading {
+    pub(super) written: Written,
+    /// The folder of the file.
+    pub(super) folder: PathBuf,
+    notes: Vec<Note>,
+}
+
+/// The web that is written, and notes about its cases.
+///
+/// # Errors
+/// Every problem with any key.
+pub(super) fn spec(document: WebDocument, name: &str) -> Result<(WebSpec, Vec<Note>), Error> {
+    let WebDocument { written, layers: prefixes } = document;
+    let folder = Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
+    let mut reading = Reading { written, folder, notes: Vec::new() };
+    let mut layers = Vec::new();
+    for prefix in &prefixes {
+        layers.push(reading.layer(prefix)?);
+    }
+    reading.check_names(&prefixes);
+    let sheet = reading.sheet();
+    let method = reading.method(&prefixes, &layers);
+    let seed = reading.whole("web.seed").unwrap_or_default();
+    let window = sheet.as_ref().and_then(|sheet| reading.window(sheet));
+    reading.check_belts(&prefixes, &layers);
+    if let Some(sheet) = &sheet {
+        for (prefix, layer) in prefixes.iter().zip(&layers) {
+            layer.iter().for_each(|layer| reading.check_layer(prefix, layer, sheet));
+        }
+    }
+    let Reading { written, notes, .. } = reading;
+    match (sheet, layers.into_iter().collect::<Option<Vec<_>>>(), window) {
+        (Some(sheet), Some(layers), Some(window)) if written.problems.is_empty() => {
+            Ok((WebSpec { sheet, layers, seed, method, window }, sorted(notes)))
+        }
+        _ => Err(sorted(written.problems).into()),
+    }
+}
+
+impl Reading {
+    /// Keeps the notes about a case, each once.
+    pub(super) fn note(&mut self, notes: Vec<Note>) {
+        for note in notes {
+            if !self.notes.contains(&note) {
+                self.notes.push(note);
+            }
+        }
+    }
+
+    /// Records a problem with a value, which may be a default.
+    pub(super) fn refuse(&mut self, key: &str, value: String, what: impl Into<Fault>) {
+        let finding = Finding {
+            place: self.written.whole(),
+            key: key.to_owned(),
+            value: Some(value),
+            what: what.into(),
+        };
+        let problem = self.written.placed(finding);
+        self.written.problems.push(problem);
+    }
+
+    /// The number of a required key; none if there is a problem with it, which is noted.
+    pub(super) fn number(&mut self, prefix: &str, name: &str) -> Option<f64> {
+        self.number_or(&format!("{prefix}{name}"), table_of(prefix, name), Err(&example(name)))
+    }
+
+    /// The number of a key, or else another one; a line to write in its table if there is none.
+    pub(super) fn number_or(
+        &mut self,
+        full: &str,
+        table: &'static str,
+        otherwise: Result<f64, &str>,
+    ) -> Option<f64> {
+        if self.written.get(full).is_some() {
+            return self.written.number(full);
+        }
+        if let Err(line) = otherwise
+            && !self.written.is_excused(full)
+        {
+            self.written.reject(full, Fault::Missing { table, line: line.to_owned() });
+        }
+        otherwise.ok()
+    }
+
+    /// The whole number of a key, or its default.
+    pub(super) fn whole(&self, full: &str) -> Option<u64> {
+        match self.written.get(full) {
+            Some(said) => match said.value {
+                Some(Value::Whole(number)) => Some(number),
+                _ => None,
+            },
+            None => match keys::find(full)?.left_out {
+                LeftOut::Value(text) => text.parse().ok(),
+                _ => None,
+            },
+        }
+    }
+
+    /// A layer; none if there is a problem with it, which is noted.
+    fn layer(&mut self, prefix: &str) -> Result<Option<LayerSpec>, Error> {
+        let source = self.laydown(prefix)?;
+        let by_case = ["case", "results"]
+            .iter()
+            .any(|way| self.written.get(&format!("{prefix}laydown.{way}")).is_some());
+        if source.is_none() && (by_case || self.written.is_excused(&format!("{prefix}laydown."))) {
+            // The case would give them.
+            for name in ["fibre.diameter", "fibre.density", "line.feed_speed", "line.belt_speed"] {
+                self.written.excuse(format!("{prefix}{name}"));
+            }
+        }
+        let flown = source.as_ref().and_then(Flown::of);
+        let density = self.as_flown(prefix, "fibre.density", flown.as_ref());
+        let diameter = self.diameter(prefix, density, flown.as_ref());
+        let feed_speed = self.as_flown(prefix, "line.feed_speed", flown.as_ref());
+        let belt_speed = self.as_flown(prefix, "line.belt_speed", flown.as_ref());
+        let filaments = self.filaments(prefix);
+        let name = self.written.text(&format!("{prefix}name"));
+        if let (Some(feed), Some(belt)) = (feed_speed, belt_speed)
+            && belt > feed
+        {
+            let value = Dimension::Velocity.pretty(belt);
+            self.refuse(&format!("{prefix}line.belt_speed"), value, WebFault::BeltTooFast { feed });
+        }
+        let all = (density, diameter, source, feed_speed, belt_speed, filaments);
+        let (
+            Some(density),
+            Some(diameter),
+            Some(source),
+            Some(feed_speed),
+            Some(belt_speed),
+            Some(filaments),
+        ) = all
+        else {
+            return Ok(None);
+        };
+        Ok(Some(LayerSpec { name, diameter, density, source, feed_speed, belt_speed, filaments }))
+    }
+
+    /// A number that the case of the flown fibres gives if there is one, and that must not be another then.
+    fn as_flown(&mut self, prefix: &str, name: &'static str, flown: Option<&Flown>) -> Option<f64> {
+        let there = flown.and_then(|flown| flown.value(name));
+        let (full, line) = (format!("{prefix}{name}"), example(name));
+        let otherwise = there.map(|(_, value)| value).ok_or(&*line);
+        let number = self.number_or(&full, table_of(prefix, name), otherwise)?;
+        self.must_be(&full, number, there, flown)
+    }
+
+    /// The value with which the fibres are flown, if there is one, or else the number of the file.
+    fn must_be(
+        &mut self,
+        key: &str,
+        number: f64,
+        there: Option<(&'static str, f64)>,
+        flown: Option<&Flown>,
+    ) -> Option<f64> {
+        let (Some((of_case, value)), Some(flown)) = (there, flown) else { return Some(number) };
+        if (number / value - 1.0).abs() > SAME {
+            let shown = crate::case::keys::find(of_case).and_then(|key| key.dimension());
+            let value = shown.unwrap_or(Dimension::Ratio).pretty(value);
+            let case = flown.path.clone();
+            self.written.reject(key, WebFault::OtherThanFlown { key: of_case, value, case }.into());
+        }
+        Some(value)
+    }
+
+    /// The diameter, as it is written or from the linear density.
+    fn diameter(&mut self, prefix: &str, density: Option<f64>, flown: Option<&Flown>) -> Option<f64> {
+        const NAME: &str = "fibre.diameter";
+        let linear = format!("{prefix}fibre.linear_density");
+        if self.written.get(&linear).is_none() {
+            return self.as_flown(prefix, NAME, flown);
+        }
+        if self.written.get(&format!("{prefix}{NAME}")).is_some() {
+            let remedy = "either gives the other; write one of the two";
+            self.written.reject(&linear, Fault::Excludes { other: NAME, remedy });
+            return None;
+        }
+        let diameter = (4.0 * self.written.number(&linear)? / (PI * density?)).sqrt();
+        self.must_be(&linear, diameter, flown.and_then(|flown| flown.value(NAME)), flown)
+    }
+
+    fn filaments(&mut self, prefix: &str) -> Option<Filaments> {
+        let [at_random, rows] = ["filaments_per_metre", "rows"].map(|name| format!("{prefix}line.{name}"));
+        match (self.written.get(&at_random).is_some(), self.whole(&rows)) {
+            (true, Some(_)) => {
+                let remedy = "filaments come down at random places or in rows; keep one";
+                self.written.reject(&at_random, Fault::Excludes { other: "line.rows", remedy });
+                None
+            }
+            (true, None) => Some(Filaments::AtRandom { per_metre: self.whole(&at_random)? as f64 }),
+            (false, Some(count)) => {
+                let rows: Vec<Option<Row>> =
+                    (1..=count).map(|number| self.row(&format!("{rows}.{number}."))).collect();
+                rows.into_iter().collect::<Option<_>>().map(Filaments::Rows)
+            }
+            (false, None) => {
+                if !self.written.is_excused(&at_random) {
+                    let fault = WebFault::NoFilaments { table: table_of(prefix, "line.") };
+                    self.written.reject(&at_random, fault.into());
+                }
+                None
+            }
+        }
+    }
+
+    /// A row of nozzles.
+    ///
+    /// * `before` – what comes before the names of its keys: `line.rows.1.`
+    fn row(&mut self, before: &str) -> Option<Row> {
+        const TABLE: &str = "line.rows";
+        let [offset, pitch, filaments] =
+            ["offset", "pitch", "filaments"].map(|name| format!("{before}{name}"));
+        let offset = self.number_or(&offset, TABLE, Ok(0.0));
+        let pitch = self.number_or(&pitch, TABLE, Err(&example("line.rows.pitch")));
+        let count = self.number_or(&filaments, TABLE, Err(&example("line.rows.filaments")));
+        let (offset, pitch, _) = (offset?, pitch?, count?);
+        Some(Row { offset, pitch, filaments: self.whole(&filaments)? })
+    }
+
+    fn method(&mut self, prefixes: &[String], layers: &[Option<LayerSpec>]) -> Method {
+        let method = self.written.text("web.method");
+        if method.as_deref() != Some(METHODS[1]) {
+            return Method::Surrogate;
+        }
+        let numbers = |layer: &Option<LayerSpec>| {
+            layer.as_ref().is_some_and(|layer| matches!(layer.source, LaydownSource::Surrogate(_)))
+        };
+        if let Some((prefix, _)) = prefixes.iter().zip(layers).find(|(_, layer)| numbers(layer)) {
+            let laydown = format!("{prefix}laydown");
+            self.written.reject("web.method", WebFault::NothingFlown { laydown }.into());
+        }
+        Method::Dynamics
+    }
+
+    /// Refuses two layers of one name.
+    fn check_names(&mut self, prefixes: &[String]) {
+        let mut seen: BTreeMap<String, usize> = BTreeMap::new();
+        for (i, prefix) in prefixes.iter().enumerate() {
+            let key = format!("{prefix}name");
+            let Some(name) = self.written.text(&key) else { continue };
+            match seen.get(&name) {
+                Some(other) => self.written.reject(&key, WebFault::NameTwice { other: other + 1 }.into()),
+                None => drop(seen.insert(name, i)),
+            }
+        }
+    }
+
+    /// Refuses layers on belts of different speeds.
+    fn check_belts(&mut self, prefixes: &[String], layers: &[Option<LayerSpec>]) {
+        let Some(first) = layers.first().and_then(|layer| Some(layer.as_ref()?.belt_speed)) else { return };
+        for (prefix, layer) in prefixes.iter().zip(layers).skip(1) {
+            let belt = layer.as_ref().map_or(first, |layer| layer.belt_speed);
+            if (belt / first - 1.0).abs() > SAME {
+                let key = format!("{prefix}line.belt_speed");
+                self.refuse(&key, Dimension::Velocity.pretty(belt), WebFault::TwoBelts { first });
+            }
+        }
+    }
+
+    /// Checks a layer together with the sheet.
+    fn check_layer(&mut self, prefix: &str, layer: &LayerSpec, sheet: &Sheet) {
+        match &layer.filaments {
+            Filaments::AtRandom { per_metre } if (per_metre * sheet.width).round() < 1.0 => {
+                let least = (0.5 / sheet.width).ceil() as u64;
+                let (key, width) = (format!("{prefix}line.filaments_per_metre"), sheet.width);
+                self.written.reject(&key, WebFault::LaysNothing { width, least }.into());
+            }
+            Filaments::AtRandom { .. } => {}
+            Filaments::Rows(rows) => {
+                for (number, row) in (1..).zip(rows) {
+                    self.check_row(&format!("{prefix}line.rows.{number}."), row, sheet);
+                }
+            }
+        }
+        if let LaydownSource::Surrogate(surrogate) = &layer.source {
+            for (key, side, what) in too_small(sheet, [surrogate.sigma_md, surrogate.sigma_cd]) {
+                self.refuse(key, Dimension::Length.pretty(side), what);
+            }
+        }
+        let fed = sheet.length * layer.feed_speed / layer.belt_speed;
+        for (key, what, value) in [
+            ("fibre.diameter", "the mass per length", layer.linear_density()),
+            ("line.belt_speed", "the length that a filament lays on the web, in metres,", fed),
+        ] {
+            if !(value.is_normal() && value > 0.0) {
+                self.written.reject(&format!("{prefix}{key}"), Fault::Degenerate { what, value });
+            }
+        }
+    }
+
+    /// Checks a row of nozzles together with the sheet.
+    fn check_row(&mut self, before: &str, row: &Row, sheet: &Sheet) {
+        let Row { offset, pitch, filaments } = *row;
+        let (width, beam) = (sheet.width, pitch * filaments as f64);
+        let last = offset + pitch * (filaments - 1) as f64;
+        if sheet.edges == Edges::Periodic && (beam / width - 1.0).abs() > SAME {
+            let fault = WebFault::RowNotPeriodic { pitch, beam, width };
+            self.written.reject(&format!("{before}filaments"), fault.into());
+        } else if sheet.edges == Edges::Cut && (offset > width || last < 0.0) {
+            let fault = WebFault::RowBeside { from: offset, to: last, width };
+            self.refuse(&format!("{before}offset"), Dimension::Length.pretty(offset), fault);
+        }
+    }
+}
+
+/// A line that would be valid for a key.
+fn example(name: &str) -> String {
+    keys::find(name).map_or_else(String::new, keys::WebKey::example)
+}
+
+/// The table in which a key of a layer stands, as it is written in the file.
+pub(super) fn table_of(prefix: &str, name: &str) -> &'static str {
+    match (prefix.is_empty(), name.split_once('.').map_or(name, |(table, _)| table)) {
+        (_, "web") => "web",
+        (true, "fibre") => "fibre",
+        (true, "laydown") => "laydown",
+        (true, _) => "line",
+        (false, "fibre") => "layer.fibre",
+        (false, "laydown") => "layer.laydown",
+        (false, _) => "layer.line",
+    }
+}
+
+/// What is known of flown fibres.
+struct Flown {
+    /// Path of their case, for messages.
+    path: String,
+    /// Keys of the web and of the case, and the value there.
+    values: [(&'static str, &'static str, f64); 4],
+}
+
+impl Flown {
+    fn of(source: &LaydownSource) -> Option<Self> {
+        let path = match source {
+            LaydownSource::Case { path, .. } => path.display(),
+            LaydownSource::Results { folder, .. } => folder.display(),
+            LaydownSource::Surrogate(_) => return None,
+        };
+        let (case, path) = (source.case()?, path.to_string());
+        let line = case.line?;
+        let values = [
+            ("fibre.diameter", "fibre.diameter", case.fibre.diameter),
+            ("fibre.density", "fibre.density", case.fibre.density),
+            ("line.feed_speed", "feed.speed", line.feed_speed),
+            ("line.belt_speed", "belt.speed", line.belt_speed),
+        ];
+        Some(Self { path, values })
+    }
+
+    /// The key of the case and its value, by the key of the web.
+    fn value(&self, name: &str) -> Option<(&'static str, f64)> {
+        self.values.iter().find(|(key, ..)| *key == name).map(|(_, of_case, value)| (*of_case, *value))
+    }
+}
