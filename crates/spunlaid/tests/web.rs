@@ -2,12 +2,13 @@
 
 #![allow(clippy::expect_used)]
 
+use proptest::prelude::*;
 use spunlaid::lanes::Isa;
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::uniformity::unevenness;
 use spunlaid::web::{
-    Curves, Edges, Fibres, Filaments, Laid, Layer, Laying, OneFibre, Row, Sheet, Web, lay, one_fibre,
-    straight_fibres,
+    Curves, Edges, Fibres, Filaments, Laid, Layer, Laying, Map, OneFibre, Row, Sheet, Strand, Web, Window,
+    lay, one_fibre, orientation, straight_fibres, strands,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -121,4 +122,105 @@ fn a_web_has_the_same_bits_on_all_machines_and_threads() {
     }
     let other = laid(&Web { seed: 6, ..web }).map;
     assert!(other != first);
+}
+
+/// The single fibres of a whole sheet.
+fn fibres(web: &Web) -> Vec<Strand> {
+    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+    let window = Window { corner: [0.0; 2], sides: [web.sheet.width, web.sheet.length] };
+    strands(web, window, Laying { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid }).expect("fibres")
+}
+
+/// Mass of a straight piece in each cell, by Liang and Barsky's clipping [kg].
+fn clipped(map: &Map, from: [f64; 2], to: [f64; 2], mass: f64, into: &mut [f64]) {
+    let range = |of: usize, size: usize| {
+        let [low, high] = [from[of].min(to[of]), from[of].max(to[of])].map(|x| (x / map.cell).floor());
+        (low.max(0.0) as usize)..=(high.clamp(0.0, size as f64 - 1.0) as usize)
+    };
+    for row in range(1, map.rows) {
+        for column in range(0, map.columns) {
+            let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+            for (of, number) in [column, row].into_iter().enumerate() {
+                let by = to[of] - from[of];
+                let ends = [number, number + 1].map(|edge| (edge as f64 * map.cell - from[of]) / by);
+                enters = enters.max(ends[0].min(ends[1]));
+                leaves = leaves.min(ends[0].max(ends[1]));
+            }
+            into[row * map.columns + column] += mass * (leaves - enters).max(0.0);
+        }
+    }
+}
+
+#[test]
+fn a_cell_holds_what_independent_clipping_gives_it() {
+    for (edges, cell) in [(Edges::Cut, 2e-3), (Edges::Periodic, 2e-3), (Edges::Periodic, 0.4e-3)] {
+        let sheet = Sheet { width: 0.04, length: 0.06, cell, patches: Vec::new(), edges };
+        let web = Web { sheet, layers: vec![layer(Fibres::Surrogate(SPUNBOND), 250.0)], seed: 11 };
+        let map = laid(&web).map;
+        let strands = fibres(&web);
+        let pieces = web.fibre_length() / LINEAR_DENSITY.recip();
+        let mut wanted = vec![0.0; map.cells.len()];
+        // All pieces have the same mass; on the belt they are longer or shorter.
+        let count = (web.layers[0].fed_length(&web.sheet) / (0.06 * 18.3e-3)).round() * 10.0;
+        let mass = pieces / count;
+        for strand in &strands {
+            for pair in strand.points.windows(2) {
+                clipped(&map, pair[0], pair[1], mass, &mut wanted);
+            }
+        }
+        let largest = wanted.iter().copied().fold(0.0, f64::max);
+        for (found, wanted) in map.cells.iter().zip(&wanted) {
+            let found = f64::from(*found) * map.quantum;
+            // A part is rounded to a quantum, and a cell has some thousand parts at most.
+            assert!(
+                (found - wanted).abs() < 1e-4 * largest,
+                "{found:e} where {wanted:e} is wanted, {edges:?}"
+            );
+        }
+        let sum: f64 = wanted.iter().sum();
+        close(sum, map.total() as f64 * map.quantum, 1e-7);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn no_fibre_is_lost_or_made(
+        seed in 0u64..1000, columns in 20usize..120, rows in 10usize..120, cell in 0.2e-3f64..5e-3,
+        filaments in 1u64..40, offset in -0.05f64..0.05, pitch in 0.0f64..0.01, ratio in 0.02f64..0.9,
+        sigma in 2e-3f64..40e-3, noise in 5.0f64..20.0, cut in any::<bool>(),
+    ) {
+        let edges = if cut { Edges::Cut } else { Edges::Periodic };
+        let (width, length) = (columns as f64 * cell, rows as f64 * cell);
+        let filaments = Filaments::Rows(vec![Row { offset, pitch, filaments }]);
+        let fibres = Fibres::Surrogate(Surrogate { sigma_md: sigma, sigma_cd: 0.7 * sigma, noise });
+        let belt_speed = 50.0 * ratio;
+        let layer = Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed, filaments, fibres };
+        let web = Web { sheet: Sheet { edges, ..sheet(width, length, cell) }, layers: vec![layer], seed };
+        let laid = laid(&web);
+        let whole = LINEAR_DENSITY * web.fibre_length();
+        let found = laid.map.total() as f64 * laid.map.quantum + laid.cut;
+        prop_assert!((found / whole - 1.0).abs() < 1e-9, "{found:e} of {whole:e}");
+        prop_assert!(cut || laid.cut == 0.0);
+    }
+}
+
+/// By mass, directions on a moving belt are evenly spread about the machine direction: for a direction α uniform in length of
+/// fibre, the mean of cos² of the direction of (cos α − r, sin α) is ½ for any belt ratio r below one.
+#[test]
+fn half_of_the_mass_lies_along_the_machine_direction() {
+    for belt_speed in [3.0, 25.0] {
+        let layer = Layer { belt_speed, ..layer(Fibres::Surrogate(SPUNBOND), 640.0) };
+        let web = Web { sheet: sheet(0.1, belt_speed / 3.0, 1e-3), layers: vec![layer], seed: 2 };
+        let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+        let by = Laying { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
+        let found = orientation(&web, by).expect("an orientation");
+        let error = found.cos_squared.standard_error.expect("an error");
+        assert!(
+            (found.cos_squared.mean - 0.5).abs() < 4.0 * error && error < 2e-3,
+            "{:?}",
+            found.cos_squared
+        );
+        close(found.directions.iter().sum(), 1.0, 1e-12);
+    }
 }

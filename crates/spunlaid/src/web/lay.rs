@@ -41,7 +41,7 @@ const TOGETHER: usize = 8 * WIDTH;
 /// Longest piece of a path: of the smaller standard deviation, and of the length 1/A² in which the direction is forgotten.
 const LONGEST_PIECE: [f64; 2] = [0.06, 0.2];
 /// Points that are drawn at once.
-const BLOCK: usize = 256;
+const BLOCK: usize = 65;
 /// Last word of the keys of the places of filaments, and of the choice of stretches. Paths and winds have others.
 const PLACES: u64 = 4;
 const STRETCHES: u64 = 5;
@@ -146,7 +146,13 @@ impl<'a> Plan<'a> {
     }
 
     /// The curves of the filaments from the number `first` on.
-    fn points(&self, web: &Web, isa: Isa, first: usize, count: usize) -> Result<Box<dyn Points>, LayingFault> {
+    fn points(
+        &self,
+        web: &Web,
+        isa: Isa,
+        first: usize,
+        count: usize,
+    ) -> Result<Box<dyn Points>, LayingFault> {
         match &self.layer.fibres {
             Fibres::Surrogate(surrogate) => {
                 let keys: Vec<PathKey> = (first..first + count).map(|f| self.key(web, f)).collect();

@@ -107,7 +107,7 @@ impl<S: Register> Crossing<S> {
 }
 
 /// Entries of the list of an [`Ink`], a power of two.
-const LIST: usize = 1024;
+const LIST: usize = 256;
 
 /// What eight curves leave in the cells. Each gathers what it leaves in its cell until it goes on to the next; these sums go to
 /// a list first, because adding to memory at once would wait for the sum before.

@@ -52,22 +52,33 @@ pub fn strands(web: &Web, window: Window, by: Laying<'_>) -> Result<Vec<Strand>,
                 for (lane, open) in open.iter_mut().enumerate().take(count) {
                     let at = |i: usize| {
                         let [md, cd] = points[i].each_ref().map(|of: &Lanes| of.0[lane]);
-                        within(web, window, [places.0[lane] + cd, along.0[lane] + md - advance * i as f64])
+                        [places.0[lane] + cd, along.0[lane] + md - advance * i as f64]
                     };
                     // A block may begin elsewhere than the last one ended.
                     strands.extend(open.take());
-                    let mut before = at(0);
+                    let mut last = at(0);
+                    let mut before = within(web, window, last);
                     for i in 1..points.len() {
-                        let point = at(i);
-                        let joined = (point[0] - before[0]).abs().max((point[1] - before[1]).abs())
-                            < 0.5 * web.sheet.length.min(web.sheet.width);
-                        if joined && (window.holds(before) || window.holds(point)) {
-                            let start = || Strand { layer, filament: first + lane, points: vec![before] };
-                            open.get_or_insert_with(start).points.push(point);
+                        let next = at(i);
+                        let by = [next[0] - last[0], next[1] - last[1]];
+                        let point = [before[0] + by[0], before[1] + by[1]];
+                        let strand = |from| Strand { layer, filament: first + lane, points: vec![from] };
+                        if window.holds(before) || window.holds(point) {
+                            open.get_or_insert_with(|| strand(before)).points.push(point);
                         } else {
                             strands.extend(open.take());
                         }
-                        before = point;
+                        last = next;
+                        before = within(web, window, next);
+                        if (0..2).any(|of| (before[of] - point[of]).abs() > 1e-6 * window.sides[of]) {
+                            // The piece goes over the seam of the ring and comes in at the other end.
+                            strands.extend(open.take());
+                            if window.holds(before) {
+                                let mut strand = strand([before[0] - by[0], before[1] - by[1]]);
+                                strand.points.push(before);
+                                *open = Some(strand);
+                            }
+                        }
                     }
                 }
                 let pieces = (points.len() - 1) as f64;
