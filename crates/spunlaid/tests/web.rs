@@ -24,7 +24,14 @@ fn sheet(width: f64, length: f64, cell: f64) -> Sheet {
 
 fn layer(fibres: Fibres, per_metre: f64) -> Layer {
     let filaments = Filaments::AtRandom { per_metre };
-    Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed: 3.0, filaments, fibres }
+    Layer {
+        linear_density: LINEAR_DENSITY,
+        feed_speed: 50.0,
+        belt_speed: 3.0,
+        filaments,
+        fibres,
+        compared: None,
+    }
 }
 
 fn laid_by(web: &Web, isa: Isa, threads: usize) -> Laid {
@@ -195,7 +202,7 @@ proptest! {
         let filaments = Filaments::Rows(vec![Row { offset, pitch, filaments }]);
         let fibres = Fibres::Surrogate(Surrogate { sigma_md: sigma, sigma_cd: 0.7 * sigma, noise });
         let belt_speed = 50.0 * ratio;
-        let layer = Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed, filaments, fibres };
+        let layer = Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed, filaments, fibres, compared: None };
         let web = Web { sheet: Sheet { edges, ..sheet(width, length, cell) }, layers: vec![layer], seed };
         let laid = laid(&web);
         let whole = LINEAR_DENSITY * web.fibre_length();

@@ -9,7 +9,7 @@ use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
-use spunlaid::web::{Findings, Lever, Sensitivity, Strand, Web, Window};
+use spunlaid::web::{Fibres as WebFibres, Findings, Lever, Sensitivity, Strand, Web, Window};
 use spunlaid_charts::Figure;
 
 const MM: f64 = 1e3;
@@ -52,7 +52,9 @@ struct Page<'a> {
     /// Numbers and base64 only: nothing in it can end the script element it stands in.
     data: String,
     verdict: Vec<String>,
-    patches: Vec<[String; 4]>,
+    patches: Vec<Vec<String>>,
+    /// Heading of the column of the other description of the filaments.
+    compared: Option<&'static str>,
     lever_heads: Vec<String>,
     levers: Vec<(&'static str, Vec<String>)>,
     layers: Vec<[String; 6]>,
@@ -107,6 +109,7 @@ pub(crate) fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         data: serde_json::to_string(&data).map_err(|error| failed(error.to_string()))?,
         verdict: verdict(of),
         patches: patches(of),
+        compared: compared(input.web),
         lever_heads: of.patches.iter().map(|patch| millimetres(patch.map.patch)).collect(),
         levers: of.sensitivities.iter().map(levers).collect(),
         layers: input.layers.iter().map(layer).collect(),
@@ -200,17 +203,27 @@ fn fibres(input: &WebReport<'_>) -> Fibres {
     }
 }
 
-fn patches(of: &Findings) -> Vec<[String; 4]> {
+/// What the other description of the filaments is.
+fn compared(web: &Web) -> Option<&'static str> {
+    match web.layers.first()?.compared.as_ref()? {
+        WebFibres::Surrogate(_) => Some("CV expected, from the surrogate"),
+        WebFibres::Curves(_) => Some("CV expected, from the flown curves"),
+    }
+}
+
+fn patches(of: &Findings) -> Vec<Vec<String>> {
+    let per_cent = |cv: f64, error: Option<f64>| {
+        format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
+    };
     let row = |patch: &spunlaid::web::PatchFindings| {
-        let per_cent = |cv: f64, error: Option<f64>| {
-            format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
-        };
-        [
+        let mut cells = vec![
             millimetres(patch.map.patch),
             per_cent(patch.map.cv, patch.map.standard_error),
             per_cent(patch.one_fibre.0, Some(patch.one_fibre.1)),
-            format!("{}{THIN}%", significant(patch.straight_fibres * PER_CENT, 3)),
-        ]
+        ];
+        cells.extend(patch.compared.map(|(cv, error)| per_cent(cv, Some(error))));
+        cells.push(format!("{}{THIN}%", significant(patch.straight_fibres * PER_CENT, 3)));
+        cells
     };
     of.patches.iter().map(row).collect()
 }

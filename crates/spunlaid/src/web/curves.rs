@@ -59,6 +59,16 @@ impl Curves {
         self.belt_ratio
     }
 
+    /// Each curve for itself.
+    pub(super) fn single(&self) -> impl Iterator<Item = Self> + '_ {
+        self.curves.iter().map(|curve| Self { curves: vec![curve.clone()], ..*self })
+    }
+
+    /// Fed length of the shortest curve [m].
+    pub(super) fn length(&self) -> f64 {
+        self.pieces() as f64 * self.spacing
+    }
+
     /// Pieces of the shortest curve.
     fn pieces(&self) -> usize {
         self.curves.iter().map(|curve| curve.len() - 1).min().unwrap_or(0)

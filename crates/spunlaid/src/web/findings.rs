@@ -8,7 +8,6 @@ use super::sensitivity::{Sensitivity, sensitivities};
 use super::uniformity::{Unevenness, unevenness};
 use super::{Layer, Web};
 use crate::error::Error;
-use crate::statistics::Estimate;
 
 /// A web, laid and looked at.
 #[derive(Clone, Debug)]
@@ -34,6 +33,8 @@ pub struct PatchFindings {
     pub map: Unevenness,
     /// The expected one of independent filaments at random places, from single fibres, with its standard error.
     pub one_fibre: (f64, f64),
+    /// The expected one of [`Layer::compared`], if all layers have it, with its standard error.
+    pub compared: Option<(f64, f64)>,
     /// Of straight fibres in all directions of the same mass.
     pub straight_fibres: f64,
 }
@@ -57,30 +58,23 @@ pub fn find(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
     let side = |patch: &f64| (patch / sheet.cell).round() as usize;
     let sides: Vec<usize> = sheet.patches.iter().map(side).collect();
     let of = OneFibre { cell: sheet.cell, fibres: ALONE, seed: web.seed };
-    let alone: Vec<(&Layer, Vec<Estimate>)> = web
-        .layers
-        .iter()
-        .map(|layer| Ok((layer, one_fibre(layer, &sides, of, by)?)))
-        .collect::<Result<_, Error>>()?;
-    let weight = web.basis_weight();
-    // Variances of independent layers add up.
-    let squared = |of: &dyn Fn(&Layer, &Estimate) -> f64, side: usize| {
-        let parts = alone.iter().map(|(layer, of_sides)| of(layer, &of_sides[side]));
-        parts.sum::<f64>() / (weight * weight)
+    let alone = expected(web, web.layers.clone(), &sides, of, by)?;
+    let other = |layer: &Layer| Some(Layer { fibres: layer.compared.clone()?, ..layer.clone() });
+    let compared = match web.layers.iter().map(other).collect() {
+        Some(layers) => Some(expected(web, layers, &sides, of, by)?),
+        None => None,
     };
-    let scale = |layer: &Layer| layer.linear_density * layer.basis_weight(sheet);
+    let weight = web.basis_weight();
     let mut patches = Vec::new();
     for (i, side) in sides.iter().enumerate() {
         let Some(map) = unevenness(map, *side) else { continue };
-        let cv = squared(&|layer, of| scale(layer) * of.mean, i).sqrt();
-        let error = |layer: &Layer, of: &Estimate| (scale(layer) * of.standard_error.unwrap_or(0.0)).powi(2);
-        let error = squared(&error, i).sqrt() / weight / (2.0 * cv);
         let straight = |layer: &Layer| {
             let tau = layer.basis_weight(sheet) / layer.linear_density;
             (straight_fibres(tau, map.patch) * layer.basis_weight(sheet)).powi(2)
         };
         let straight_fibres = web.layers.iter().map(straight).sum::<f64>().sqrt() / weight;
-        patches.push(PatchFindings { map, one_fibre: (cv, error), straight_fibres });
+        let compared = compared.as_ref().map(|compared| compared[i]);
+        patches.push(PatchFindings { map, one_fibre: alone[i], compared, straight_fibres });
     }
     let sides: Vec<usize> = patches.iter().map(|patch| side(&patch.map.patch)).collect();
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
@@ -92,4 +86,29 @@ pub fn find(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
         patches,
         laid,
     })
+}
+
+/// The expected CV of a web of these layers for each side of a patch, and its standard error.
+fn expected(
+    web: &Web,
+    layers: Vec<Layer>,
+    sides: &[usize],
+    of: OneFibre,
+    by: Laying<'_>,
+) -> Result<Vec<(f64, f64)>, Error> {
+    // Variances of independent layers add up.
+    let mut sums = vec![(0.0, 0.0); sides.len()];
+    for layer in &layers {
+        let share = layer.basis_weight(&web.sheet) / web.basis_weight();
+        let tau = layer.basis_weight(&web.sheet) / layer.linear_density;
+        for (sum, found) in sums.iter_mut().zip(one_fibre(layer, sides, of, by)?) {
+            let scale = share * share / tau;
+            let error = scale * found.standard_error.unwrap_or(0.0);
+            *sum = (sum.0 + scale * found.mean, sum.1 + error * error);
+        }
+    }
+    Ok(sums
+        .into_iter()
+        .map(|(square, error): (f64, f64)| (square.sqrt(), error.sqrt() / (2.0 * square.sqrt())))
+        .collect())
 }

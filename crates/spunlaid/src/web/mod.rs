@@ -81,6 +81,8 @@ pub struct Layer {
     pub filaments: Filaments,
     /// The curves that they lay.
     pub fibres: Fibres,
+    /// Another description of the same filaments, whose unevenness is told beside that of `fibres`.
+    pub compared: Option<Fibres>,
 }
 
 /// Where the filaments of a layer come down in cross direction.

@@ -3,15 +3,16 @@
 use super::lay::{Laying, lay};
 use super::uniformity::boxes;
 use super::{Edges, Fibres, Filaments, Layer, Row, Sheet, Web};
-use crate::error::Error;
+use crate::error::{Error, LayingFault};
 use crate::statistics::Estimate;
+use std::sync::Arc;
 
 /// How the unevenness is found from single fibres.
 #[derive(Clone, Copy, Debug)]
 pub struct OneFibre {
     /// Side of a cell [m].
     pub cell: f64,
-    /// Number of fibres; each is laid alone.
+    /// Number of fibres of a surrogate; each is laid alone. Of curves, all are laid, each once.
     pub fibres: u64,
     /// Seed of the curves.
     pub seed: u64,
@@ -45,43 +46,68 @@ pub fn one_fibre(
     // So far apart that no patch meets two fibres.
     let reach = layer.fibres.reach() / of.cell;
     let apart = (2.0 * reach).ceil() as usize + largest + 8;
-    let rows = (CELLS / (ABREAST * apart)).max((SHORTEST * reach).ceil() as usize).max(4 * largest);
-    let abreast = (4 * CELLS / (rows * apart)).clamp(1, ABREAST);
-    let pitch = apart as f64 * of.cell;
+    let least = ((SHORTEST * reach).ceil() as usize).max(4 * largest);
     let mut values = vec![Vec::new(); sides.len()];
-    let mut left = of.fibres.max(1) as usize;
-    let mut seed = of.seed;
-    while left > 0 {
-        let fibres = left.min(abreast);
-        let row = Row { offset: 0.5 * pitch, pitch, filaments: fibres as u64 };
-        let web = Web {
-            sheet: Sheet {
-                width: pitch * fibres as f64,
-                length: rows as f64 * of.cell,
-                cell: of.cell,
-                patches: Vec::new(),
-                edges: Edges::Periodic,
-            },
-            layers: vec![Layer { filaments: Filaments::Rows(vec![row]), ..layer.clone() }],
-            seed,
-        };
-        let map = lay(&web, by)?.map;
-        let metres = map.quantum / layer.linear_density;
-        let length = layer.fed_length(&web.sheet);
-        for (side, values) in sides.iter().zip(&mut values) {
-            let mut squares = vec![0.0; fibres];
-            boxes(&map, *side, [map.columns, map.rows], |_, boxes| {
-                for (squares, of) in squares.iter_mut().zip(boxes.chunks_exact(apart)) {
-                    *squares += of.iter().map(|quanta| (*quanta as f64).powi(2)).sum::<f64>();
-                }
-            });
-            let scale = (metres / (*side as f64)).powi(2) / (length * (*side as f64 * of.cell).powi(2));
-            values.extend(squares.iter().map(|sum| sum * scale));
+    match &layer.fibres {
+        Fibres::Surrogate(_) => {
+            let rows = (CELLS / (ABREAST * apart)).max(least);
+            let abreast = (4 * CELLS / (rows * apart)).clamp(1, ABREAST) as u64;
+            let fibres = of.fibres.max(1);
+            for (seed, first) in (of.seed..).zip((0..fibres).step_by(abreast as usize)) {
+                let count = abreast.min(fibres - first);
+                add(layer, sides, OneFibre { fibres: count, seed, ..of }, [apart, rows], by, &mut values)?;
+            }
         }
-        left -= fibres;
-        seed = seed.wrapping_add(1);
+        Fibres::Curves(curves) => {
+            for curve in curves.single() {
+                let rows = (curve.length() * layer.belt_ratio() / of.cell).floor() as usize;
+                if rows < largest {
+                    return Err(LayingFault::NoCurves.into());
+                }
+                let alone = Layer { fibres: Fibres::Curves(Arc::new(curve)), ..layer.clone() };
+                add(&alone, sides, OneFibre { fibres: 1, ..of }, [apart, rows], by, &mut values)?;
+            }
+        }
     }
     Ok(values.into_iter().map(Estimate::of).collect())
+}
+
+/// Adds the values of fibres laid at the same time, so many columns apart on a ring of so many rows.
+fn add(
+    layer: &Layer,
+    sides: &[usize],
+    of: OneFibre,
+    [apart, rows]: [usize; 2],
+    by: Laying<'_>,
+    values: &mut [Vec<f64>],
+) -> Result<(), Error> {
+    let pitch = apart as f64 * of.cell;
+    let row = Row { offset: 0.5 * pitch, pitch, filaments: of.fibres };
+    let web = Web {
+        sheet: Sheet {
+            width: pitch * of.fibres as f64,
+            length: rows as f64 * of.cell,
+            cell: of.cell,
+            patches: Vec::new(),
+            edges: Edges::Periodic,
+        },
+        layers: vec![Layer { filaments: Filaments::Rows(vec![row]), ..layer.clone() }],
+        seed: of.seed,
+    };
+    let map = lay(&web, by)?.map;
+    let metres = map.quantum / layer.linear_density;
+    let length = layer.fed_length(&web.sheet);
+    for (side, values) in sides.iter().zip(values) {
+        let mut squares = vec![0.0; of.fibres as usize];
+        boxes(&map, *side, [map.columns, map.rows], |_, boxes| {
+            for (squares, of) in squares.iter_mut().zip(boxes.chunks_exact(apart)) {
+                *squares += of.iter().map(|quanta| (*quanta as f64).powi(2)).sum::<f64>();
+            }
+        });
+        let scale = (metres / (*side as f64)).powi(2) / (length * (*side as f64 * of.cell).powi(2));
+        values.extend(squares.iter().map(|sum| sum * scale));
+    }
+    Ok(())
 }
 
 /// `CV²·τ·x` of straight, endless fibres in all directions, thrown at random: the mean of 1/(π distance) over pairs of

@@ -65,6 +65,11 @@ struct Patch {
     cv_standard_error: Option<f64>,
     cv_one_fibre: f64,
     cv_one_fibre_standard_error: f64,
+    /// Of the flown curves if a surrogate was laid, and the other way round.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_compared: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_compared_standard_error: Option<f64>,
     cv_straight_fibres: f64,
 }
 
@@ -116,6 +121,8 @@ impl<'a> Summary<'a> {
             cv_standard_error: patch.map.standard_error,
             cv_one_fibre: patch.one_fibre.0,
             cv_one_fibre_standard_error: patch.one_fibre.1,
+            cv_compared: patch.compared.map(|of| of.0),
+            cv_compared_standard_error: patch.compared.map(|of| of.1),
             cv_straight_fibres: patch.straight_fibres,
         });
         let cloudiness = of.clouds.as_ref().map(|clouds| {

@@ -122,6 +122,7 @@ impl LayerSpec {
             belt_speed: self.belt_speed,
             filaments: self.filaments.clone(),
             fibres,
+            compared: None,
         }
     }
 }
