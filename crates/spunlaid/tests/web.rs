@@ -67,6 +67,7 @@ fn straight(count: usize, length: f64, width: f64, cell: f64) -> Web {
             belt_speed: ratio,
             filaments,
             fibres,
+            compared: None,
         }],
         seed: 7,
     }
