@@ -27,6 +27,7 @@ Examples:
   spunlaid run my.toml                              fly it; then open results/my/report.html
   spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
   spunlaid sweep my_study.toml                      fly it with many values of some keys
+  spunlaid web my_web.toml                          lay a fabric of many such filaments
   spunlaid run results/my --until \"20 s\"             fly it for longer, in the same turbulence
   spunlaid compare results/my results/faster        say what differs between two runs
   spunlaid analyse wire.csv                         make the air of a case from a velocity record
@@ -46,6 +47,9 @@ pub(crate) enum Command {
     /// Fly a case with many values of its keys, and rank which keys matter
     #[command(after_help = SWEEP_HELP)]
     Sweep(Sweep),
+    /// Lay a web of many filaments: map of its basis weight, how uneven it is, directions
+    #[command(after_help = WEB_HELP)]
+    Web(Web),
     /// Reproduce every result figure of the paper and test its claims
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(Reproduce),
@@ -58,7 +62,7 @@ pub(crate) enum Command {
     /// Show a case with all defaults, its mesh, limits and expected cost, without flying it
     #[command(after_help = CHECK_HELP)]
     Check(Check),
-    /// Explain the keys of a case: meaning, allowed values, default
+    /// Explain the keys of a case or of a web: meaning, allowed values, default
     #[command(after_help = KEYS_HELP)]
     Keys(Keys),
     /// Write a commented case file to start from
@@ -77,7 +81,8 @@ Examples:
   spunlaid keys                        every key
   spunlaid keys field                  the keys with this word in their name or meaning
   spunlaid keys run.spin_up            one of them
-  spunlaid keys --markdown > keys.md   the same as a Markdown document";
+  spunlaid keys --markdown > keys.md   the same as a Markdown document
+  spunlaid keys --web                  the keys of the file of a web";
 
 const RUN_HELP: &str = "\
 The results folder holds
@@ -132,6 +137,33 @@ Examples:
   spunlaid sweep cases/studies/velocity.toml
   spunlaid sweep cases/studies/velocity.toml --replicates 16       adds replicates to the same
   spunlaid sweep my_study.toml --print-point 7 > point7.toml && spunlaid run point7.toml";
+
+const WEB_HELP: &str = "\
+A web is a small text file:
+
+  [laydown]                       # how a filament lies; one of these three:
+  case = \"spunbond.toml\"          #   a case with [feed] and [belt], which is flown first
+  # results = \"results/spunbond\"  #   the results folder of such a case
+  # sigma_md = \"18.4 mm\"          #   the numbers of the surrogate, with [fibre] and both speeds
+  # sigma_cd = \"18.3 mm\"
+  # noise = \"12.4 m^-0.5\"
+  [line]
+  filaments_per_metre = 5000      # at random places, or the rows of nozzles of a beam:
+  # rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]
+  # feed_speed = \"50 m/s\"         # with a case, these are the case's
+  # belt_speed = \"3 m/s\"
+  [web]
+  width = \"1 m\"
+  length = \"1 m\"
+  # method = \"dynamics\"           # lay the flown curves themselves, in place of the surrogate's
+
+Several beams are [[layer]] tables, each with its own [layer.laydown], [layer.line] and
+[layer.fibre]. `spunlaid keys --web` explains every key.
+
+Examples:
+  spunlaid web cases/web.toml
+  spunlaid web cases/web_known.toml --set line.belt_speed=\"6 m/s\" --out results/faster
+  spunlaid web two_beams.toml --set layer.2.line.filaments_per_metre=4000";
 
 const REPRODUCE_HELP: &str = "\
 The results folder holds
@@ -299,6 +331,31 @@ pub(crate) struct Sweep {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct Web {
+    /// File of the web (TOML)
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// Folder for the results [default: results/<name of the file>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Set a key of the web, as line.belt_speed="6 m/s"; can be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Number of threads [default: all cores]; it does not change the results
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// No progress bar and no table; warnings and errors are still shown
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Print summary.json instead of the table; without --out, write no files
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace the results in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct Reproduce {
     /// Folder for the results [default: results/paper]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
@@ -450,6 +507,9 @@ pub(crate) struct Keys {
     /// Print Markdown; docs/keys.md is made this way
     #[arg(long)]
     pub(crate) markdown: bool,
+    /// Show the keys of the file of a web in place of those of a case
+    #[arg(long)]
+    pub(crate) web: bool,
 }
 
 #[derive(Debug, Args)]

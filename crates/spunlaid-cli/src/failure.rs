@@ -1,7 +1,9 @@
 //! The errors of the program, their messages and exit codes.
 
 use parquet::errors::ParquetError;
-use spunlaid::error::{Error, Fault, FileError, FileFault, FileKind, JournalError, RecordFault, StudyFault};
+use spunlaid::error::{
+    Error, Fault, FileError, FileFault, FileKind, JournalError, RecordFault, StudyFault, WebFault,
+};
 use std::fmt;
 use std::io;
 use std::panic::{self, AssertUnwindSafe};
@@ -48,6 +50,8 @@ pub(crate) enum Failure {
     NoSuchKey { pattern: String, nearest: Vec<&'static str> },
     /// The study has fewer points.
     NoSuchPoint { point: u64, points: u64 },
+    /// What fibres have laid cannot make a web.
+    NothingToLay { of: PathBuf, reason: String },
     /// The positions of fibres became infinite or NaN.
     FibresLost { lost: u64, of: u64, first: Vec<String> },
     /// A table cannot be encoded.
@@ -90,6 +94,7 @@ impl Failure {
             | Self::TooManyRuns { .. }
             | Self::NoSuchFigure { .. }
             | Self::NoSuchKey { .. }
+            | Self::NothingToLay { .. }
             | Self::NoSuchPoint { .. } => 1,
             Self::Unwritable { .. }
             | Self::NotWritten { .. }
@@ -188,6 +193,7 @@ impl fmt::Display for Failure {
             Self::NotContinued { folder, reason } => {
                 write!(f, "{}: cannot be continued: {reason}", folder.display())
             }
+            Self::NothingToLay { of, reason } => write!(f, "{}: {reason}", of.display()),
             Self::TooManyRuns { runs, most } => {
                 write!(f, "{runs} runs are named, and at most {most} are compared at a time; name fewer")
             }
@@ -227,6 +233,7 @@ fn options(error: &Error) -> &'static str {
         Error::File(error) => match error.fault {
             FileFault::NotThere(FileKind::Case) => " (`spunlaid new` writes one)",
             FileFault::IsFolder(FileKind::Case) => " (--until flies a finished run for longer)",
+            FileFault::NotThere(FileKind::Web) => " (`spunlaid help web` shows one)",
             FileFault::NotThere(FileKind::Study) => " (`spunlaid help sweep` shows one)",
             _ => "",
         },
@@ -242,8 +249,9 @@ fn options(error: &Error) -> &'static str {
 /// The options and commands that help with a problem of a case or of a study.
 fn of_problem(fault: &Fault) -> &'static str {
     match fault {
-        Fault::IsStudy => " (`spunlaid sweep`)",
-        Fault::Study(StudyFault::TableOfCase) => " (`spunlaid run`)",
+        Fault::IsStudy | Fault::Web(WebFault::IsStudy) => " (`spunlaid sweep`)",
+        Fault::IsWeb => " (`spunlaid web`)",
+        Fault::Study(StudyFault::TableOfCase) | Fault::Web(WebFault::IsCase) => " (`spunlaid run`)",
         Fault::Study(StudyFault::TooManyPoints { .. } | StudyFault::OtherPoints { .. }) => " (--points)",
         _ => "",
     }
@@ -318,6 +326,7 @@ mod tests {
             Failure::NotContinued { folder: path(), reason: "it is longer".to_owned() },
             Failure::NoSuchFigure { name: "12".to_owned(), known: "2".to_owned() },
             Failure::NoSuchPoint { point: 3, points: 2 },
+            Failure::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() },
             Error::Flight(FlightFault::Empty).into(),
             Error::Rejected(Vec::new()).into(),
             Error::from(JournalError::InUse { path: path() }).into(),

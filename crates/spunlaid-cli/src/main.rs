@@ -28,6 +28,7 @@ fn main() -> ExitCode {
     let done = Failure::catch_panic(|| match arguments.command {
         Command::Run(run) => commands::run(&run),
         Command::Sweep(sweep) => commands::sweep(&sweep),
+        Command::Web(web) => commands::web(&web),
         Command::Reproduce(asked) => commands::reproduce(&asked),
         Command::Analyse(analyse) => commands::analyse(&analyse),
         Command::Compare(compare) => commands::compare(&compare),

@@ -15,6 +15,13 @@ fn the_page_of_keys_is_up_to_date() {
         made == written,
         "docs/keys.md is out of date; renew it: cargo run --release -- keys --markdown > docs/keys.md"
     );
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/web_keys.md");
+    let of_webs = success(&mut Desk::new().spunlaid("keys --web --markdown"));
+    assert!(
+        of_webs == std::fs::read_to_string(path).unwrap_or_default(),
+        "docs/web_keys.md is out of date; renew it: cargo run --release -- keys --web --markdown > docs/web_keys.md"
+    );
+    assert!(of_webs.contains("| `rows.pitch` | a length above zero; in m, cm, mm, µm or nm |"), "{of_webs}");
     for key in ["field_root", "field_axis", "field_unit", "spin_up", "error_tolerance"] {
         assert!(written.contains(&format!("| `{key}` |")), "{key}");
     }

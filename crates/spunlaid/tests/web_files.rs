@@ -8,7 +8,6 @@ use spunlaid::input::{LaydownSource, Method, WEB_KEYS, WEB_TABLES, WebFile, WebS
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::{Edges, Fibres, Filaments, Row};
 use std::fs;
-use std::path::Path;
 
 const KNOWN: &str = "../../cases/web_known.toml";
 const FLOWN: &str = "../../cases/web.toml";

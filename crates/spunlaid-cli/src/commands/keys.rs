@@ -1,9 +1,10 @@
-//! `spunlaid keys`: explains the keys of a case.
+//! `spunlaid keys`: explains the keys of a case and of a web.
 
 use crate::args::Keys;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::case::keys::{self, Key, LeftOut, TABLES};
+use spunlaid::case::keys::{self, Key, Kind, LeftOut, TABLES};
+use spunlaid::input::{WEB_KEYS, WEB_TABLES, WebKey};
 use spunlaid::units::{Dimension, Wanted};
 use std::fmt::Write;
 
@@ -12,26 +13,60 @@ const MOST_NEAREST: usize = 3;
 /// Longest line of the reference, in characters.
 const WIDTH: usize = 100;
 
+/// What is shown of a key, of a case or of a web.
+struct Shown {
+    name: &'static str,
+    kind: Kind,
+    left_out: LeftOut,
+    meaning: &'static str,
+    /// Whether it may change in a study, and during a flight.
+    may_change: [bool; 2],
+}
+
+impl Shown {
+    fn of_case(key: &Key) -> Self {
+        let Key { name, kind, left_out, meaning, varies, in_flight, .. } = *key;
+        Self { name, kind, left_out, meaning, may_change: [varies, in_flight] }
+    }
+
+    fn of_web(key: &WebKey) -> Self {
+        let WebKey { name, kind, left_out, meaning } = *key;
+        Self { name, kind, left_out, meaning, may_change: [false; 2] }
+    }
+
+    /// Its name within a table, if it belongs there.
+    fn within(&self, table: &str) -> Option<&'static str> {
+        self.name.strip_prefix(table)?.strip_prefix('.')
+    }
+}
+
 pub(crate) fn keys(asked: &Keys) -> Result<(), Failure> {
     let pattern = asked.pattern.clone().unwrap_or_default();
     let word = pattern.trim().to_lowercase();
+    let all: Vec<Shown> = if asked.web {
+        WEB_KEYS.iter().map(Shown::of_web).collect()
+    } else {
+        keys::all().iter().map(Shown::of_case).collect()
+    };
     let has = |text: &str| text.to_lowercase().contains(&word);
-    let found: Vec<&Key> = keys::all().iter().filter(|key| has(key.name) || has(key.meaning)).collect();
+    let found: Vec<Shown> = all.into_iter().filter(|key| has(key.name) || has(key.meaning)).collect();
     if found.is_empty() {
-        let nearest = keys::like(&word).iter().take(MOST_NEAREST).map(|key| key.name).collect();
+        let nearest = if asked.web { Vec::new() } else { keys::like(&word) };
+        let nearest = nearest.iter().take(MOST_NEAREST).map(|key| key.name).collect();
         return Err(Failure::NoSuchKey { pattern, nearest });
     }
     if asked.markdown {
-        say::text(&markdown(&found));
+        let (head, tables): (_, &[&str]) = if asked.web { (WEB_HEAD, &WEB_TABLES) } else { (HEAD, &TABLES) };
+        say::text(&markdown(&found, head, tables));
     } else {
-        let texts: Vec<String> = found.into_iter().map(reference).collect();
+        let texts: Vec<String> = found.iter().map(reference).collect();
         say::text(&texts.join("\n"));
     }
     Ok(())
 }
 
 /// The description of a key for the terminal.
-fn reference(key: &Key) -> String {
+fn reference(key: &Shown) -> String {
     let mut text = format!("{}\n", key.name);
     let default = match key.left_out {
         LeftOut::Required(example) => format!("none; the key is required, like {example}"),
@@ -61,20 +96,20 @@ fn reference(key: &Key) -> String {
 }
 
 /// The allowed values, with the units of a quantity.
-fn takes(key: &Key) -> String {
-    match key.dimension() {
+fn takes(key: &Shown) -> String {
+    match key.kind.dimension() {
         Some(dimension) if dimension != Dimension::Ratio => {
             let wanted = Wanted(dimension).to_string();
             let units = wanted.split_once(": ").map_or("", |(_, units)| units);
-            format!("{}; in {units}", key.allowed())
+            format!("{}; in {units}", key.kind.allowed())
         }
-        _ => key.allowed(),
+        _ => key.kind.allowed(),
     }
 }
 
 /// Where its value may change.
-fn may_change(key: &Key) -> String {
-    match (key.varies, key.in_flight) {
+fn may_change(key: &Shown) -> String {
+    match (key.may_change[0], key.may_change[1]) {
         (true, true) => "in a study, and during a flight",
         (true, false) => "in a study",
         (false, true) => "during a flight",
@@ -83,9 +118,7 @@ fn may_change(key: &Key) -> String {
     .to_owned()
 }
 
-/// The keys as a Markdown document with one table for each table of the case.
-fn markdown(found: &[&Key]) -> String {
-    let mut text = "# The keys of a case
+const HEAD: &str = "# The keys of a case
 
 This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys WORD` shows the keys with a word in their
 name or meaning.
@@ -93,30 +126,42 @@ name or meaning.
 A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`. `um` is the same as `µm`, and `kg/m^3` is the same
 as `kg/m³`. Each key can also be set for one run, `--set air.velocity=\"20 m/s\"`. `spunlaid sweep` can vary keys marked
 *study*. A program can change keys marked *flight* during a flight.
-"
-    .to_owned();
-    for table in TABLES {
-        let mut rows = found.iter().filter(|key| key.table() == table).peekable();
+";
+const WEB_HEAD: &str = "# The keys of a web
+
+This page is made by `spunlaid keys --web --markdown > docs/web_keys.md`. `spunlaid keys --web WORD` shows the keys with a
+word in their name or meaning.
+
+A quantity is written with its unit, in quotes, as in a case ([keys.md](keys.md)). Each key can also be set for one web,
+`--set line.belt_speed=\"6 m/s\"`; of a file with `[[layer]]`, `--set layer.2.line.filaments_per_metre=4000`, or with the
+layer's name in place of its number.
+";
+
+/// The keys as a Markdown document with one table for each table of the file.
+fn markdown(found: &[Shown], head: &str, tables: &[&str]) -> String {
+    let mut text = head.to_owned();
+    for table in tables {
+        let mut rows = found.iter().filter_map(|key| Some((key, key.within(table)?))).peekable();
         if rows.peek().is_none() {
             continue;
         }
         // Writing to a text cannot fail.
+        let title = if *table == "layer" { "[[layer]]".to_owned() } else { format!("[{table}]") };
         let _ = writeln!(
             text,
-            "\n## [{table}]\n\n| key | takes | if left out | meaning | |\n|---|---|---|---|---|"
+            "\n## {title}\n\n| key | takes | if left out | meaning | |\n|---|---|---|---|---|"
         );
-        for key in rows {
+        for (key, short) in rows {
             let left_out = match key.left_out {
                 LeftOut::Required(example) => format!("required, like `{example}`"),
                 LeftOut::Value(value) => format!("`{value}`"),
                 LeftOut::Follows(words) => words.to_owned(),
             };
-            let marks = [(key.varies, "study"), (key.in_flight, "flight")];
-            let marks: Vec<&str> = marks.into_iter().filter(|(is, _)| *is).map(|(_, mark)| mark).collect();
+            let marks = key.may_change.into_iter().zip(["study", "flight"]);
+            let marks: Vec<&str> = marks.filter(|(is, _)| *is).map(|(_, mark)| mark).collect();
             let _ = writeln!(
                 text,
-                "| `{}` | {} | {left_out} | {} | {} |",
-                key.short(),
+                "| `{short}` | {} | {left_out} | {} | {} |",
                 takes(key),
                 key.meaning,
                 marks.join(", ")

@@ -10,6 +10,7 @@ mod reproduce;
 mod run;
 mod small;
 mod sweep;
+mod web;
 
 pub(crate) use analyse::analyse;
 pub(crate) use check::check;
@@ -19,6 +20,7 @@ pub(crate) use reproduce::reproduce;
 pub(crate) use run::run;
 pub(crate) use small::{completions, new};
 pub(crate) use sweep::sweep;
+pub(crate) use web::web;
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};

@@ -33,7 +33,7 @@ impl<'a> Document<'a> {
         let mut document =
             Self { name: name.to_owned(), source, version: None, entries: BTreeMap::new(), written };
         let root = root(&document.source, text)?;
-        for (key, what) in root.keys().filter_map(|key| Some((key, other_file(key.get_ref())?))) {
+        if let Some((key, what)) = root.keys().find_map(|key| Some((key, other_file(key.get_ref())?))) {
             let (place, key) = (document.place(key.span().start), key.get_ref().to_string());
             return Err(vec![Finding { place, key, value: None, what }].into());
         }
@@ -42,11 +42,7 @@ impl<'a> Document<'a> {
             values.iter().for_each(|(key, value)| document.take_override(word, key.trim(), value));
         }
         // A newer format may mean other things, so this check comes first.
-        document
-            .version
-            .take()
-            .map_or(Ok(()), |entry| check_version(&entry))
-            .map_err(|problem| vec![problem])?;
+        document.version.take().map_or(Ok(()), |entry| check_version(&entry))?;
         for key in keys::all() {
             if let Some(entry) = document.entries.remove(key.name) {
                 document.read_entry(key, entry);

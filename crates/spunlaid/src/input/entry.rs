@@ -72,7 +72,7 @@ pub(super) fn in_order<'a>(table: DeTable<'a>) -> Vec<((usize, String), Spanned<
 }
 
 /// Rejects a file of a newer format.
-pub(super) fn check_version(entry: &Entry<'_>) -> Result<(), Problem> {
+pub(super) fn check_version(entry: &Entry<'_>) -> Result<(), Box<Problem>> {
     let known = FORMAT_VERSION;
     let what = match &entry.value {
         DeValue::Integer(number) => match number.as_str().parse() {
@@ -82,7 +82,7 @@ pub(super) fn check_version(entry: &Entry<'_>) -> Result<(), Problem> {
         },
         other => Fault::WrongType { found: kind(other), wanted: format!("a whole number, {known}") },
     };
-    Err(entry.problem(VERSION, what))
+    Err(Box::new(entry.problem(VERSION, what)))
 }
 
 /// The kind of the value in words, with an article.

@@ -1,6 +1,5 @@
 //! Reads the file of a web into its values. Each remembers where it was written.
 
-use super::super::document::AUTO;
 use super::super::entry::{Entry, VERSION, check_version, in_order, kind, root};
 use super::super::source::{Source, fit};
 use super::super::written::{Said, Written};
@@ -13,7 +12,7 @@ use std::path::PathBuf;
 use toml::de::{DeTable, DeValue};
 
 /// The tables of which each layer has its own.
-const OF_A_LAYER: [&str; 3] = ["fibre", "laydown", "line"];
+pub(super) const OF_A_LAYER: [&str; 3] = ["fibre", "laydown", "line"];
 /// The only table that is not of a layer.
 const OF_THE_WEB: &str = "web";
 /// Tables that only a case has.
@@ -29,16 +28,16 @@ pub(super) struct WebDocument {
 }
 
 /// The entries of the file and of the overrides.
-struct Entries<'a> {
+pub(super) struct Entries<'a> {
     source: Source<'a>,
-    written: Written,
-    version: Option<Entry<'a>>,
+    pub(super) written: Written,
+    pub(super) version: Option<Entry<'a>>,
     /// The entries of keys by full name.
     entries: BTreeMap<String, (&'static WebKey, Entry<'a>)>,
     /// The lists of rows by full name, with their lengths.
-    rows: BTreeMap<String, (Place, Option<String>, u64)>,
+    pub(super) rows: BTreeMap<String, (Place, Option<String>, u64)>,
     /// The names of the layers, if the file has `[[layer]]`.
-    names: Option<Vec<Option<String>>>,
+    pub(super) names: Option<Vec<Option<String>>>,
 }
 
 /// Reads the values of the file called `name` and of the overrides.
@@ -49,7 +48,7 @@ pub(super) fn read(text: &str, name: &str, overrides: Overrides<'_>) -> Result<W
     let source = Source::new(text, name);
     let written = Written::new(source.whole());
     let root = root(&source, text)?;
-    for (key, what) in root.keys().filter_map(|key| Some((key, other_file(key.get_ref())?))) {
+    if let Some((key, what)) = root.keys().find_map(|key| Some((key, other_file(key.get_ref())?))) {
         let (place, key) = (source.place(key.span().start), format!("[{}]", key.get_ref()));
         return Err(vec![Finding { place, key, value: None, what: what.into() }].into());
     }
@@ -60,7 +59,7 @@ pub(super) fn read(text: &str, name: &str, overrides: Overrides<'_>) -> Result<W
         document.take_override(overrides.word, key.trim(), value);
     }
     // A newer format may mean other things, so this check comes first.
-    document.version.take().map_or(Ok(()), |entry| check_version(&entry)).map_err(|problem| vec![problem])?;
+    document.version.take().map_or(Ok(()), |entry| check_version(&entry))?;
     Ok(document.read())
 }
 
@@ -74,7 +73,7 @@ fn other_file(key: &str) -> Option<WebFault> {
 }
 
 /// The name of the table, if there is such a table.
-fn table_of<'t>(tables: &'t [&'static str], name: &str) -> Option<&'t &'static str> {
+pub(super) fn table_of<'t>(tables: &'t [&'static str], name: &str) -> Option<&'t &'static str> {
     tables.iter().find(|table| **table == name)
 }
 
@@ -201,7 +200,7 @@ impl<'a> Entries<'a> {
     }
 
     /// Takes a list of rows of nozzles in place of the one there was.
-    fn take_rows(&mut self, prefix: &str, entry: Entry<'a>) {
+    pub(super) fn take_rows(&mut self, prefix: &str, entry: Entry<'a>) {
         let full = format!("{prefix}line.rows");
         self.remove(&full);
         let wanted = || {
@@ -248,7 +247,7 @@ impl<'a> Entries<'a> {
     /// Takes an entry of a table. Unknown keys are rejected.
     ///
     /// * `before` – what comes before its key in its full name
-    fn take_entry(&mut self, before: &str, table: &str, key: &str, entry: Entry<'a>) {
+    pub(super) fn take_entry(&mut self, before: &str, table: &str, key: &str, entry: Entry<'a>) {
         let full = format!("{before}{key}");
         if let Some(known) = keys::of_table(table).find(|known| known.short() == key) {
             self.entries.insert(full, (known, entry));
@@ -276,74 +275,15 @@ impl<'a> Entries<'a> {
         self.written.problems.push(entry.problem(&full, what));
     }
 
-    /// Takes an override, which replaces the value in the file. The value `auto` removes it.
-    fn take_override(&mut self, word: &str, key: &str, text: &'a str) {
-        let entry = Entry::of_override(word, text);
-        let (prefix, rest) = match self.layer_of(key) {
-            Ok(of) => of,
-            Err(what) => {
-                self.written.problems.push(entry.problem(key, what));
-                return;
-            }
-        };
-        if text.trim().trim_matches('"') == AUTO {
-            self.remove(&format!("{prefix}{rest}"));
-            return;
-        }
-        let tables: &[&str] = if prefix.is_empty() { &WEB_TABLES[1..] } else { &OF_A_LAYER };
-        match rest.split_once('.').map(|(table, key)| (table_of(tables, table), key)) {
-            Some((Some(&"line"), "rows")) => self.take_rows(&prefix, entry),
-            Some((Some(&"line"), of_row)) if of_row.starts_with("rows.") => {
-                let rows = format!("{prefix}line.rows");
-                let there = self.rows.get(&rows).map_or(0, |(.., count)| *count);
-                let row = of_row.strip_prefix("rows.").and_then(|of| of.split_once('.'));
-                match row.filter(|(row, _)| (1..=there).any(|number| number.to_string() == *row)) {
-                    Some((row, key)) => self.take_entry(&format!("{rows}.{row}."), "line.rows", key, entry),
-                    None => {
-                        let what = WebFault::NoSuchRow { rows: there };
-                        self.written.problems.push(entry.problem(key, what));
-                    }
-                }
-            }
-            Some((Some(table), key)) => self.take_entry(&format!("{prefix}{table}."), table, key, entry),
-            None if rest == VERSION => self.version = Some(entry),
-            None if rest == "name" && !prefix.is_empty() => self.take_entry(&prefix, "layer", rest, entry),
-            None if table_of(tables, rest).is_some() => {
-                let wanted = format!("one of its keys, {word} {prefix}{rest}.key=value");
-                let what = Fault::WrongType { found: "a table", wanted };
-                self.written.problems.push(Finding { value: None, ..entry.problem(key, what) });
-            }
-            _ => self.unknown_at_top(rest, &entry),
-        }
-    }
-
-    /// What comes before the names of the layer that an override is for, and the rest of its key.
-    fn layer_of<'k>(&self, key: &'k str) -> Result<(String, &'k str), WebFault> {
-        let names = self.names.as_deref();
-        let Some(rest) = key.strip_prefix("layer.") else {
-            let (table, _) = key.split_once('.').unwrap_or((key, ""));
-            let of_a_layer = names.is_some() && table_of(&OF_A_LAYER, table).is_some();
-            let which = || WebFault::WhichLayer { key: fit(key) };
-            return if of_a_layer { Err(which()) } else { Ok((String::new(), key)) };
-        };
-        let layers = names.map_or(0, <[_]>::len);
-        let after = |name: &str| rest.strip_prefix(name)?.strip_prefix('.');
-        let numbers = (1..=layers).find_map(|number| Some((number, after(&number.to_string())?)));
-        let by_name =
-            || (1..).zip(names?).find_map(|(number, name)| Some((number, after(name.as_deref()?)?)));
-        let (number, rest) = numbers.or_else(by_name).ok_or(WebFault::NoSuchLayer { layers })?;
-        Ok((format!("layer.{number}."), rest))
-    }
-
     /// Removes a key, or a list of rows.
-    fn remove(&mut self, full: &str) {
+    pub(super) fn remove(&mut self, full: &str) {
         self.rows.remove(full);
         let of_a_row = |name: &str| name.strip_prefix(full).is_some_and(|rest| rest.starts_with('.'));
         self.entries.retain(|name, _| name != full && !of_a_row(name));
     }
 
     /// Rejects a key or table that the top of the file does not have.
-    fn unknown_at_top(&mut self, name: &str, entry: &Entry<'_>) {
+    pub(super) fn unknown_at_top(&mut self, name: &str, entry: &Entry<'_>) {
         let is_table = entry.value.is_table();
         let word = name.split_once('.').map_or(name, |(table, _)| table);
         let what = match home_of(name).filter(|_| !is_table) {

@@ -1,8 +1,10 @@
 //! Files of webs: reads a file to what is to be laid, and writes it back.
 
+mod check;
 mod document;
 mod keys;
 mod laydown;
+mod overrides;
 mod read;
 mod sheet;
 mod write;

@@ -33,7 +33,7 @@ impl Reading {
             None => chosen_cell(width, length),
         };
         let cells = width / cell * (length / cell);
-        if !(cells <= MOST_CELLS) {
+        if !cells.is_finite() || cells > MOST_CELLS {
             let fault = WebFault::TooManyCells { cells, most: MOST_CELLS, cell };
             self.refuse("web.cell", Dimension::Length.pretty(cell), fault);
             return None;

@@ -1,0 +1,273 @@
+//! The fibres of each layer: flown, read back from the results of a run, or paths of a surrogate whose numbers are known.
+//!
+//! ```text
+//! case → flights ┐
+//!                ├→ laid points of each replicate → Flown: the curves, and the surrogate identified in them
+//! results folder ┘
+//! ```
+
+use super::super::plural;
+use super::laid;
+use crate::failure::Failure;
+use crate::progress;
+use spunlaid::case::Case;
+use spunlaid::ensemble::{Computing, Keep, TakeLaid, fly};
+use spunlaid::error::Error;
+use spunlaid::flight::LaidPoint;
+use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec};
+use spunlaid::lanes::Isa;
+use spunlaid::laydown::{Trace, Tracing};
+use spunlaid::statistics::Estimate;
+use spunlaid::surrogate::{Surrogate, Unidentified, identify};
+use spunlaid::web::{Curves, Fibres};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The fibres of a layer.
+#[derive(Clone, Debug)]
+pub(super) struct OfLayer {
+    pub(super) fibres: Fibres,
+    /// What the flown fibres have laid, unless the numbers of the surrogate were known.
+    pub(super) flown: Option<Arc<Flown>>,
+}
+
+/// What flown fibres have laid, and the surrogate of it.
+#[derive(Clone, Debug)]
+pub(super) struct Flown {
+    pub(super) curves: Arc<Curves>,
+    /// σ₁ and σ₂ [m] and A [m^-½] over the replicates for which they are known.
+    pub(super) numbers: [Estimate; 3],
+    /// Why the first replicate without a surrogate has none.
+    pub(super) unidentified: Option<Unidentified>,
+}
+
+/// Makes the fibres of the layers, those of one case or folder once for all layers.
+#[derive(Debug)]
+pub(super) struct Flyer<'a> {
+    threads: usize,
+    stop: &'a AtomicBool,
+    quiet: bool,
+    flown: BTreeMap<PathBuf, Arc<Flown>>,
+}
+
+impl<'a> Flyer<'a> {
+    pub(super) const fn new(threads: usize, stop: &'a AtomicBool, quiet: bool) -> Self {
+        Self { threads, stop, quiet, flown: BTreeMap::new() }
+    }
+
+    /// The fibres of a layer.
+    ///
+    /// # Errors
+    /// If the fibres cannot be flown or read, have laid nothing, or spread too far for the sheet; and if no surrogate is
+    /// found where one is to be laid.
+    pub(super) fn fibres(&mut self, spec: &WebSpec, layer: &LayerSpec) -> Result<OfLayer, Failure> {
+        let (path, case) = match &layer.source {
+            LaydownSource::Surrogate(surrogate) => {
+                return Ok(OfLayer { fibres: Fibres::Surrogate(*surrogate), flown: None });
+            }
+            LaydownSource::Case { path, case } | LaydownSource::Results { folder: path, case } => {
+                (path, case)
+            }
+        };
+        let flown = match self.flown.get(path) {
+            Some(flown) => Arc::clone(flown),
+            None => {
+                let curves = match &layer.source {
+                    LaydownSource::Results { folder, .. } => laid::read(folder)?,
+                    _ => self.fly(path, case)?,
+                };
+                let flown = Arc::new(Flown::of(path, case, curves)?);
+                self.flown.insert(path.clone(), Arc::clone(&flown));
+                flown
+            }
+        };
+        let [sigma_md, sigma_cd, _] = &flown.numbers;
+        spec.check_spreads([sigma_md.mean, sigma_cd.mean])?;
+        let fibres = match spec.method {
+            Method::Surrogate => Fibres::Surrogate(flown.surrogate(path)?),
+            Method::Dynamics => Fibres::Curves(Arc::clone(&flown.curves)),
+        };
+        Ok(OfLayer { fibres, flown: Some(flown) })
+    }
+
+    /// Flies a case; the points that each replicate has laid.
+    fn fly(&self, path: &Path, case: &Case) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
+        let (fibre_steps, laid) = (AtomicU64::new(0), Collected::default());
+        let computing = Computing {
+            threads: self.threads,
+            isa: Isa::detect(),
+            stop: self.stop,
+            fibre_steps: &fibre_steps,
+            laid: Some(&laid),
+        };
+        let replicates = case.run.replicates;
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let label = format!("flying {} of {name}", plural(replicates, "fibre"));
+        progress::follow(&fibre_steps, case.run.steps * replicates, &label, self.quiet, || {
+            fly::<Error>(case, Keep::NUMBERS, computing, |_| Ok(()))
+        })?;
+        let mut curves = laid.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+        // A replicate that has laid nothing is missed by its number.
+        Ok((0..replicates).map(|replicate| curves.remove(&replicate).unwrap_or_default()).collect())
+    }
+}
+
+/// Collects in memory what fibres lay: a few megabytes for a kilometre.
+#[derive(Debug, Default)]
+struct Collected(Mutex<BTreeMap<u64, Vec<[f64; 2]>>>);
+
+impl TakeLaid for Collected {
+    fn take(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
+        let mut curves = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        curves.entry(replicate).or_default().extend(points.iter().map(|point| [point.md, point.cd]));
+        Ok(())
+    }
+}
+
+impl Flown {
+    /// * `path` – of the case or of the results, for messages
+    /// * `laid` – all points of each replicate [m]
+    fn of(path: &Path, case: &Case, mut laid: Vec<Vec<[f64; 2]>>) -> Result<Self, Failure> {
+        let nothing = |reason: &str| Failure::NothingToLay { of: path.to_owned(), reason: reason.to_owned() };
+        let line = case.line.ok_or_else(|| nothing("its fibre is not fed on to a belt"))?;
+        let spacing = case.fibre.rest_length();
+        // As the measures of a run do.
+        let skip = (line.feed_speed * case.run.spin_up() / spacing).round() as usize;
+        for points in &mut laid {
+            points.drain(..skip.min(points.len()));
+        }
+        let tracing =
+            Tracing { spacing, belt_ratio: line.belt_speed / line.feed_speed, skip: 0, reach: line.distance };
+        let (mut numbers, mut unidentified) = ([const { Vec::new() }; 3], None);
+        for points in &laid {
+            let mut trace = Trace::new(tracing);
+            points.iter().for_each(|[md, cd]| trace.add(*md, *cd));
+            let of = trace.finish();
+            let sigmas = [of.sigma_md, of.sigma_cd];
+            let found = identify(sigmas, of.lag_step, [&of.correlation_md, &of.correlation_cd]);
+            let noise = found.map(|found| found.surrogate.noise);
+            unidentified = unidentified.or(noise.err());
+            for (all, value) in numbers.iter_mut().zip([sigmas[0], sigmas[1], noise.unwrap_or(f64::NAN)]) {
+                all.extend(value.is_finite().then_some(value));
+            }
+        }
+        let curves = Arc::new(Curves::new(spacing, tracing.belt_ratio, laid).map_err(Error::from)?);
+        Ok(Self { curves, numbers: numbers.map(Estimate::of), unidentified })
+    }
+
+    /// The surrogate with the mean numbers of the replicates.
+    fn surrogate(&self, path: &Path) -> Result<Surrogate, Failure> {
+        let [sigma_md, sigma_cd, noise] = [0, 1, 2].map(|number| self.numbers[number].mean);
+        if noise.is_finite() {
+            return Ok(Surrogate { sigma_md, sigma_cd, noise });
+        }
+        let why = self.unidentified.map_or_else(String::new, |why| format!(": {why}"));
+        let reason = format!(
+            "no surrogate was identified in what its fibres lay{why}. Write web.method = \"dynamics\" to lay the flown curves \
+             themselves, or give laydown.sigma_md, laydown.sigma_cd and laydown.noise"
+        );
+        Err(Failure::NothingToLay { of: path.to_owned(), reason })
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic)]
+mod tests {
+    use super::*;
+    use crate::output::folder::{ENTRIES, Staging};
+    use crate::output::laid::{LaidTable, Spill};
+    use spunlaid::ensemble::Results;
+    use spunlaid::input::{parse_web, read_case};
+
+    /// The web of the spunbond line, with a case for a flight that is as short as it can be.
+    fn web(duration: &str, method: &str) -> (WebSpec, Case) {
+        let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+        let set = [("run.duration", duration), ("run.replicates", "3"), ("belt.distance", "0.1 m")];
+        let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+        let case = read_case(&cases.join("spunbond.toml"), &set).unwrap().0;
+        let text = std::fs::read_to_string(cases.join("web.toml")).unwrap();
+        let path = cases.join("web.toml").display().to_string();
+        let method = [("web.method".to_owned(), method.to_owned())];
+        let mut spec = parse_web(&text, &path, &method).unwrap().spec;
+        let path = PathBuf::from("short.toml");
+        spec.layers[0].source = LaydownSource::Case { path, case: Arc::new(case.clone()) };
+        (spec, case)
+    }
+
+    #[test]
+    fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
+        static STOP: AtomicBool = AtomicBool::new(false);
+        let (mut spec, case) = web("0.5 s", "surrogate");
+        let mut flyer = Flyer::new(2, &STOP, true);
+        let of_case = flyer.fibres(&spec, &spec.layers[0]).unwrap();
+        let Fibres::Surrogate(surrogate) = of_case.fibres else { panic!("{of_case:?}") };
+
+        // A run of the same case: its measures, and its table.
+        let desk = tempfile::tempdir().unwrap();
+        let folder = desk.path().join("r");
+        let staging = Staging::new(&folder, ENTRIES, false, &STOP).unwrap();
+        let spill = Spill::new(&staging);
+        let mut table = LaidTable::create(&staging, &spill).unwrap();
+        let (steps, isa) = (AtomicU64::new(0), Isa::detect());
+        let computing = Computing { threads: 2, isa, stop: &STOP, fibre_steps: &steps, laid: Some(&spill) };
+        let mut results = Results::collector(0);
+        fly(&case, Keep::NUMBERS, computing, |trajectory| {
+            results.take(&trajectory);
+            table.add(trajectory.replicate)
+        })
+        .unwrap();
+        table.finish().unwrap();
+        staging.publish().unwrap();
+        let results = results.finish();
+        let measured = ["sigma_1", "sigma_2", "noise"].map(|name| results.estimate(name));
+        assert_eq!(
+            [surrogate.sigma_md, surrogate.sigma_cd, surrogate.noise],
+            measured.clone().map(|of| of.mean)
+        );
+        assert_eq!(
+            of_case.flown.unwrap().numbers.clone().map(|of| of.standard_error),
+            measured.map(|of| of.standard_error)
+        );
+
+        spec.layers[0].source = LaydownSource::Results { folder, case: Arc::new(case) };
+        let of_results = flyer.fibres(&spec, &spec.layers[0]).unwrap();
+        let Fibres::Surrogate(again) = of_results.fibres else { panic!("{of_results:?}") };
+        assert_eq!(again, surrogate);
+        // The curves too.
+        let [flown, read] =
+            [Path::new("short.toml"), &desk.path().join("r")].map(|path| &flyer.flown[path].curves);
+        assert_eq!(flown, read);
+        spec.method = Method::Dynamics;
+        let laid = flyer.fibres(&spec, &spec.layers[0]).unwrap().fibres;
+        assert!(matches!(laid, Fibres::Curves(_)), "{laid:?}");
+    }
+
+    #[test]
+    fn rejects_fibres_that_make_no_web() {
+        static STOP: AtomicBool = AtomicBool::new(false);
+        let mut flyer = Flyer::new(1, &STOP, true);
+        // So short a time lays too little to see a surrogate in it.
+        let (spec, _) = web("40 ms", "surrogate");
+        let said = flyer.fibres(&spec, &spec.layers[0]).unwrap_err();
+        assert_eq!(said.exit_code(), 1);
+        let said = said.to_string();
+        assert!(
+            said.starts_with("short.toml: no surrogate was identified in what its fibres lay: "),
+            "{said}"
+        );
+        assert!(said.contains("lay a longer fibre") && said.contains("web.method = \"dynamics\""), "{said}");
+        // A sheet on which these filaments would meet themselves.
+        let (mut small, _) = web("40 ms", "dynamics");
+        small.sheet.length = 1e-3;
+        let said = flyer.fibres(&small, &small.layers[0]).unwrap_err().to_string();
+        assert!(said.starts_with("web.length = 1 mm is shorter than 8 times laydown.sigma_md = "), "{said}");
+        // A folder without a table.
+        let desk = tempfile::tempdir().unwrap();
+        let said = laid::read(desk.path()).unwrap_err().to_string();
+        assert!(said.contains("does not hold the results of a run: laid.parquet: "), "{said}");
+        std::fs::write(desk.path().join("laid.parquet"), "PAR1 not at all PAR1").unwrap();
+        assert!(laid::read(desk.path()).unwrap_err().to_string().contains("laid.parquet: "));
+    }
+}
