@@ -158,7 +158,7 @@ impl Flown {
     }
 
     /// The surrogate with the mean numbers of the replicates.
-    fn surrogate(&self, path: &Path) -> Result<Surrogate, Failure> {
+    pub(super) fn surrogate(&self, path: &Path) -> Result<Surrogate, Failure> {
         let [sigma_md, sigma_cd, noise] = [0, 1, 2].map(|number| self.numbers[number].mean);
         if noise.is_finite() {
             return Ok(Surrogate { sigma_md, sigma_cd, noise });
