@@ -211,6 +211,31 @@ fn a_drag_law_says_once_where_it_ends() {
     assert_eq!(vacuum, [""; 0]);
 }
 
+#[test]
+fn a_fed_case_is_warned_of_low_drag_and_of_elements_shorter_than_the_fibre_is_thick() {
+    let warnings = |set: &[(&str, &str)]| {
+        let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        let (_, notes) = read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap();
+        let warnings = notes.into_iter().filter(|note| note.what.is_warning());
+        warnings.map(|note| format!("{} {}", note.key, note.what)).collect::<Vec<_>>()
+    };
+    // 10 % of 35.0 m/s, the mean of the table on the way to the belt, over 18 µm.
+    let low = "fibre.diameter has Reynolds numbers of about 4.2 across the fibre. There drag.across = \"ju-shambaugh\" gives only \
+               0.46 times the drag that was measured on fine fibres and cylinders; \"marheineke-wegener\" agrees with these \
+               measurements";
+    let law = ("drag.across", "ju-shambaugh");
+    assert_eq!(warnings(&[law]), [low]);
+    assert_eq!(warnings(&[law, ("air.density", "0 kg/m³")]), [""; 0]);
+    // Of a thicker fibre the law gives more.
+    assert_eq!(warnings(&[law, ("fibre.diameter", "60 µm")]), [""; 0]);
+    let short = ("belt.distance", "10 mm");
+    assert_eq!(
+        warnings(&[short, ("fibre.element_length", "15 µm")]),
+        ["fibre.diameter is larger than the element length, 15 µm; use longer elements"]
+    );
+    assert_eq!(warnings(&[short, ("fibre.element_length", "20 µm")]), [""; 0]);
+}
+
 /// A number between powers of ten, with all its digits.
 fn between(low: i32, high: i32) -> impl Strategy<Value = f64> {
     (f64::from(low)..f64::from(high)).prop_map(|power| 10f64.powf(power))
