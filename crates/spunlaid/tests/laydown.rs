@@ -312,25 +312,3 @@ fn the_step_limit_with_bending_viscosity_is_honest() {
         assert!(grown(1.2) > 1e3, "{scheme:?}, {viscosity}: {:e}", grown(1.2));
     }
 }
-
-#[test]
-fn a_fine_fibre_that_may_slide_lies_as_one_that_sticks() {
-    let laid = |set: &[(&str, &str)]| {
-        let case = spunbond(set);
-        let mut flight = flight(&case, 0..8);
-        let laid = laid_until(&mut flight, 0.1);
-        let energy = flight.snapshot().energy;
-        let works = energy.drag_work.0[0].abs() + energy.belt_work.0[0].abs();
-        assert!(energy.imbalance().0[0].abs() < 0.01 * works, "{:e} of {works:e}", energy.imbalance().0[0]);
-        let chords = laid.iter().flat_map(|laid| laid[500..].windows(2));
-        let lengths: Vec<f64> =
-            chords.map(|pair| (pair[1].md - pair[0].md).hypot(pair[1].cd - pair[0].cd)).collect();
-        lengths.iter().sum::<f64>() / lengths.len() as f64 / case.fibre.rest_length()
-    };
-    // The suction holds it with more than the forces that arrive at the belt, but for the blows of landings.
-    let (slides, sticks) = (
-        laid(&[("run.duration", "0.1 s"), ("belt.contact", "friction")]),
-        laid(&[("run.duration", "0.1 s")]),
-    );
-    assert!((slides / sticks - 1.0).abs() < 0.02, "{slides} and {sticks}");
-}
