@@ -32,7 +32,8 @@ Examples:
   spunlaid compare results/my results/faster        say what differs between two runs
   spunlaid analyse wire.csv                         make the air of a case from a velocity record
 
-A case is a small text file that describes fibre, air and run. Quantities have a unit:
+A case is a small text file that describes fibre, air and run, and feed and belt of a fibre that is
+laid. Quantities have a unit:
 \"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\".
 
 Exit codes: 0 done; 1 the input is wrong (arguments, case, study, record, or the named folder);
