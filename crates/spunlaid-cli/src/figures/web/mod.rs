@@ -53,7 +53,7 @@ fn profiles(map: &Map) -> Figure {
     };
     let caption = format!(
         "Above: the basis weight at a place across the web, averaged over the whole length of the sheet; it varies by {} %. These \
-         are streaks: what nozzles at fixed places leave in the web. Below: the basis weight at a place along the web, \
+         are streaks, which filaments at fixed places leave in the web; they are weaker where nozzles stand at an even pitch (line.rows). Below: the basis weight at a place along the web, \
          averaged over the whole width; it varies by {} %. The grey lines are the mean.",
         cv(&across),
         cv(&along)
