@@ -9,6 +9,7 @@ use super::threads::each;
 use super::uniformity::{Unevenness, unevenness};
 use super::{Edges, Filaments, Layer, Web};
 use crate::error::Error;
+use std::sync::atomic::AtomicU64;
 
 /// A web, laid and looked at.
 #[derive(Clone, Debug)]
@@ -55,6 +56,9 @@ const LAGS: usize = 257;
 pub fn find(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
     let laid = lay(web, by)?;
+    // The progress is that of the web; what comes after it is short.
+    let aside = AtomicU64::new(0);
+    let by = Laying { laid: &aside, ..by };
     let map = &laid.map;
     let side = |patch: &f64| (patch / sheet.cell).round() as usize;
     let sides: Vec<usize> = sheet.patches.iter().map(side).collect();
