@@ -204,8 +204,9 @@ fn a_cell_holds_what_independent_clipping_gives_it() {
             }
         }
         let largest = wanted.iter().copied().fold(0.0, f64::max);
-        for row in off..map.rows - off {
-            for column in off..map.columns - off {
+        // A piece that only cuts a corner of the window is no strand, so the cells are a piece further inside.
+        for row in 2 * off..map.rows - 2 * off {
+            for column in 2 * off..map.columns - 2 * off {
                 let found = f64::from(map.row(row)[column]) * map.quantum;
                 let wanted = wanted[row * map.columns + column];
                 // A part is rounded to a quantum, and a cell has some thousand parts at most.
