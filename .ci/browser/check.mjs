@@ -1,4 +1,5 @@
-// What a reader must see in a report: a fibre that is drawn and moves, every figure, and no script errors.
+// What a reader must see in a report: a fibre that is drawn and moves, or a web on its light table; every figure, and no
+// script errors.
 // Started by `check`, which says where Chromium and playwright-core are.
 
 import { createRequire } from "node:module";
@@ -11,11 +12,19 @@ const { chromium } = createRequire(join(process.env.PACKAGES, "package.json"))("
 
 const { values: options, positionals } = parseArgs({
   allowPositionals: true,
-  options: { "without-turbulence": { type: "boolean" }, screenshots: { type: "string" } },
+  options: {
+    "without-turbulence": { type: "boolean" },
+    web: { type: "boolean" },
+    screenshots: { type: "string" },
+  },
 });
 const report = pathToFileURL(resolve(positionals[0])).href;
-const FIGURES = ["end_node_history", "end_node_path", "amplitude_along_fibre", "motion_spectrum", "energy_errors"];
-if (!options["without-turbulence"]) FIGURES.push("turbulence_spectrum");
+const OF_RUN = ["end_node_history", "end_node_path", "amplitude_along_fibre", "motion_spectrum", "energy_errors"];
+if (!options["without-turbulence"]) OF_RUN.push("turbulence_spectrum");
+const OF_WEB = ["cv", "histogram", "profiles", "clouds", "spectrum", "autocorrelation", "directions"].map((n) => `web_${n}`);
+const FIGURES = options.web ? OF_WEB : OF_RUN;
+// The captions of the moving fibre show a running clock.
+const CANVAS = options.web ? { id: "table", top: 0 } : { id: "fibre", top: 110 };
 
 const failures = [];
 const expect = (holds, message) => {
@@ -50,14 +59,14 @@ function listen(page, where) {
 }
 
 /**
- * What is on the canvas below its captions, which show a running clock: a fingerprint of the pixels, the share
- * that is not background, the number of colours.
+ * What is on the canvas below its captions: a fingerprint of the pixels, the share that is not background, the
+ * number of colours.
  */
 function pixels(page) {
-  return page.evaluate(() => {
-    const canvas = document.querySelector("canvas#fibre");
+  return page.evaluate((of) => {
+    const canvas = document.querySelector(`canvas#${of.id}`);
     if (!canvas || !canvas.width || !canvas.height) return null;
-    const top = Math.round((110 * canvas.width) / canvas.clientWidth);
+    const top = Math.round((of.top * canvas.width) / canvas.clientWidth);
     const { data } = canvas.getContext("2d").getImageData(0, top, canvas.width, canvas.height - top);
     const counts = new Map();
     let hash = 0;
@@ -68,7 +77,7 @@ function pixels(page) {
     }
     const total = data.length / 4;
     return { hash, drawn: 1 - Math.max(...counts.values()) / total, colours: counts.size };
-  });
+  }, CANVAS);
 }
 
 async function changes(page, act) {
@@ -81,26 +90,8 @@ async function changes(page, act) {
   return false;
 }
 
-async function check(scheme, width) {
-  const where = `${scheme}, ${width} px`;
-  const page = await browser.newPage();
-  listen(page, where);
-  await page.emulateMedia({ colorScheme: scheme });
-  await page.setViewportSize({ width, height: 900 });
-  await page.goto(report, { waitUntil: "load" });
-  await page.waitForTimeout(500);
-  const shot = async (name, full) => {
-    if (!options.screenshots) return;
-    mkdirSync(options.screenshots, { recursive: true });
-    await page.screenshot({ path: join(options.screenshots, `${scheme}-${width}-${name}.png`), fullPage: full });
-  };
-  await shot("page", true);
-
-  const drawn = await pixels(page);
-  expect(drawn !== null, `${where}: there is no canvas`);
-  if (drawn === null) return page.close();
-  expect(drawn.drawn > 0.002 && drawn.colours > 3, `${where}: the canvas is empty (${JSON.stringify(drawn)})`);
-
+/** The fibre moves when it is played, and turns when it is dragged. */
+async function checkMotion(page, where, shot) {
   await page.locator("#fibre").scrollIntoViewIfNeeded();
   const button = page.locator("#play");
   if ((await button.getAttribute("aria-pressed")) === "true") await button.click();
@@ -123,6 +114,51 @@ async function check(scheme, width) {
   await shot("turned", false);
   await page.locator("#fibre").focus();
   expect(await changes(page, () => page.keyboard.press("ArrowLeft")), `${where}: the arrow keys do not turn the picture`);
+}
+
+/** The light table shows single fibres, can be moved, and goes back to the whole web. */
+async function checkTable(page, where, shot) {
+  const canvas = page.locator("#table");
+  await canvas.scrollIntoViewIfNeeded();
+  for (const id of ["fibres", "farther", "whole", "closer"]) {
+    expect(await changes(page, () => page.locator(`#${id}`).click()), `${where}: the button ${id} does nothing`);
+    await shot(id, false);
+  }
+  const box = await canvas.boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  const dragged = await changes(page, async () => {
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 60, y + 40, { steps: 4 });
+    await page.mouse.up();
+  });
+  expect(dragged, `${where}: dragging does not move the web`);
+  expect(await changes(page, () => page.mouse.wheel(0, -300)), `${where}: the wheel does not zoom`);
+  await canvas.focus();
+  expect(await changes(page, () => page.keyboard.press("ArrowLeft")), `${where}: the arrow keys do not move the web`);
+}
+
+async function check(scheme, width) {
+  const where = `${scheme}, ${width} px`;
+  const page = await browser.newPage();
+  listen(page, where);
+  await page.emulateMedia({ colorScheme: scheme });
+  await page.setViewportSize({ width, height: 900 });
+  await page.goto(report, { waitUntil: "load" });
+  await page.waitForTimeout(500);
+  const shot = async (name, full) => {
+    if (!options.screenshots) return;
+    mkdirSync(options.screenshots, { recursive: true });
+    await page.screenshot({ path: join(options.screenshots, `${scheme}-${width}-${name}.png`), fullPage: full });
+  };
+  await shot("page", true);
+
+  const drawn = await pixels(page);
+  expect(drawn !== null, `${where}: there is no canvas`);
+  if (drawn === null) return page.close();
+  expect(drawn.drawn > 0.002 && drawn.colours > 3, `${where}: the canvas is empty (${JSON.stringify(drawn)})`);
+
+  await (options.web ? checkTable : checkMotion)(page, where, shot);
 
   for (const name of FIGURES) {
     const svg = page.locator(`figure[data-name="${name}"] svg`);
@@ -135,8 +171,9 @@ async function check(scheme, width) {
     expect((await svg.locator("path, circle").count()) > 10, `${where}: the figure ${name} is empty`);
     expect(!/NaN|Infinity/.test(await svg.innerHTML()), `${where}: the figure ${name} holds numbers that are none`);
   }
-  expect((await page.locator("#results tbody tr").count()) >= 5, `${where}: the table of results is missing`);
-  expect((await page.locator("#case-toml").innerText()).trim() !== "", `${where}: the case is missing`);
+  const [table, file] = options.web ? ["#verdict", "#file code"] : ["#results", "#case-toml"];
+  expect((await page.locator(`${table} tbody tr`).count()) >= 5, `${where}: the table of results is missing`);
+  expect((await page.locator(file).innerText()).trim() !== "", `${where}: the case is missing`);
   const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   expect(overflow <= 1, `${where}: the page is ${overflow} px wider than the window`);
   await page.close();
@@ -155,4 +192,5 @@ if (failures.length > 0) {
   console.error(`${positionals[0]}:\n${failures.map((f) => `  ${f}`).join("\n")}`);
   process.exit(1);
 }
-console.log(`${positionals[0]}: the fibre is drawn and moves, ${FIGURES.length} figures, no script errors`);
+const seen = options.web ? "the web lies on its table" : "the fibre is drawn and moves";
+console.log(`${positionals[0]}: ${seen}, ${FIGURES.length} figures, no script errors`);

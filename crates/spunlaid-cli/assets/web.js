@@ -28,7 +28,7 @@ function startTable(canvas, data) {
     const x = width / 2 + (corner[0] - view.x) * view.scale;
     const y = height / 2 + (corner[1] - view.y) * view.scale;
     const drawn = diameter * view.scale;
-    // Fibres are drawn where they are thick enough to be told apart.
+    // Single fibres appear as one comes closer.
     const shown = Math.min(1, Math.max(0, (view.scale * Math.max(...sides)) / Math.min(width, height) - 0.15) * 3);
     pen.save();
     pen.strokeStyle = "#8a7f63";
@@ -77,7 +77,6 @@ function startTable(canvas, data) {
     pen.fillRect(0, 0, width, height);
     const x = width / 2 - view.x * view.scale;
     const y = height / 2 - view.y * view.scale;
-    pen.imageSmoothingEnabled = view.scale * data.pixel < 6;
     if (image.complete) pen.drawImage(image, x, y, data.width * view.scale, data.length * view.scale);
     drawFibres();
     drawScale();

@@ -29,11 +29,13 @@ Examples:
   spunlaid sweep my_study.toml                      fly it with many values of some keys
   spunlaid web my_web.toml                          lay a fabric of many such filaments
   spunlaid run results/my --until \"20 s\"             fly it for longer, in the same turbulence
+  spunlaid web cases/web.toml                       lay thousands of filaments: how even is the fabric?
   spunlaid compare results/my results/faster        say what differs between two runs
   spunlaid analyse wire.csv                         make the air of a case from a velocity record
   spunlaid analyse scan.png --pixel \"0.1 mm\"       say how even your own web is
 
-A case is a small text file that describes fibre, air and run. Quantities have a unit:
+A case is a small text file that describes fibre, air and run, and feed and belt of a fibre that is
+laid. Quantities have a unit:
 \"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\".
 
 Exit codes: 0 done; 1 the input is wrong (arguments, case, study, record, or the named folder);
@@ -159,7 +161,13 @@ A web is a small text file:
   # method = \"dynamics\"           # lay the flown curves themselves, in place of the surrogate's
 
 Several beams are [[layer]] tables, each with its own [layer.laydown], [layer.line] and
-[layer.fibre]. `spunlaid keys --web` explains every key.
+[layer.fibre]. `spunlaid keys --web` explains every key. The results folder holds
+  report.html    for the browser: the web on a light table, what makes it uneven, figures
+  summary.json   basis weight, CV over patches with errors, directions, clouds, sensitivities
+  map.npy, map.parquet, map.png   the basis weight of each cell
+  fibres.vtp     the single fibres of a window, for ParaView
+  figures/       every figure as SVG, PNG and CSV
+  web.toml       the file with every default; laying it again gives the same bits
 
 Examples:
   spunlaid web cases/web.toml

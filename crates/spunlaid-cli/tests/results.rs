@@ -3,7 +3,7 @@
 
 mod desk;
 
-use desk::{Desk, ENTRIES, ENTRIES_OF_FED, FED, assert_identical, names, refusal, success};
+use desk::{Desk, ENTRIES, FED, assert_identical, entries_of_fed, names, refusal, success};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::{Map, Value, json};
@@ -340,9 +340,9 @@ fn as_many_shapes_are_kept_as_the_case_says() {
 fn a_fed_fibre_leaves_what_it_laid() {
     let desk = Desk::of(FED);
     success(&mut desk.spunlaid("run brief.toml --out r"));
-    assert_eq!(desk.entries("r"), names(&ENTRIES_OF_FED));
+    assert_eq!(desk.entries("r"), entries_of_fed());
     let help = success(&mut desk.spunlaid("run --help"));
-    assert!(ENTRIES_OF_FED.iter().all(|entry| help.contains(&format!("  {entry}"))), "{help}");
+    assert!(entries_of_fed().iter().all(|entry| help.contains(&format!("  {entry}"))), "{help}");
 
     let (columns, rows) = table(&desk, "r/laid.parquet");
     assert_eq!(columns, ["replicate", "s_m", "time_s", "md_m", "cd_m"]);

@@ -4,7 +4,7 @@
 
 mod desk;
 
-use desk::{Desk, ENTRIES, ENTRIES_OF_FED, FED, entries, names, success};
+use desk::{Desk, ENTRIES, FED, entries, entries_of_fed, names, success};
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
@@ -200,7 +200,7 @@ fn a_fed_fibre_that_is_killed_or_cannot_be_written_leaves_nothing() {
     assert_eq!(output.status.code(), Some(130));
     success(&mut desk.spunlaid("run brief.toml --out r"));
     assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
-    assert_eq!(desk.entries("r"), names(&ENTRIES_OF_FED));
+    assert_eq!(desk.entries("r"), entries_of_fed());
 
     // Files may grow to so many blocks of 512 or 1024 bytes: the points of one replicate do not fit.
     let finer = "--set fibre.element_length=1mm --set run.duration=100ms --set run.output_interval=10ms";

@@ -58,10 +58,10 @@ fn peak(points: u64, replicates: u64) -> Peak {
 #[test]
 fn memory_is_flat() {
     let (few, many, often) = (peak(1000, 2), peak(10_000, 2), peak(1000, 20));
-    // A point is a case, its values and its results, 31 measures: less than 1.75 KiB.
+    // A point is a case, its values and its results: less than 1.5 KiB.
     let points = many.whole - few.whole.min(many.whole);
-    assert!(points < 9000 * 7 / 4, "{} KiB for 1,000 points, {} KiB for 10,000", few.whole, many.whole);
-    // A fibre is an index of 4 bytes. If its 168 bytes of results were kept, this would be 3,000 KiB.
+    assert!(points < 9000 * 3 / 2, "{} KiB for 1,000 points, {} KiB for 10,000", few.whole, many.whole);
+    // A fibre is an index of 4 bytes. If its 272 bytes of results were kept, this would be 4,800 KiB.
     let fibres = often.flying - few.flying.min(often.flying);
     assert!(fibres < 2000, "{} KiB for 2,000 fibres in flight, {} KiB for 20,000", few.flying, often.flying);
 }

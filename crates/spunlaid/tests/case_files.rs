@@ -216,6 +216,31 @@ fn a_drag_law_says_once_where_it_ends() {
     assert_eq!(vacuum, [""; 0]);
 }
 
+#[test]
+fn a_fed_case_is_warned_of_low_drag_and_of_elements_shorter_than_the_fibre_is_thick() {
+    let warnings = |set: &[(&str, &str)]| {
+        let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        let (_, notes) = read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap();
+        let warnings = notes.into_iter().filter(|note| note.what.is_warning());
+        warnings.map(|note| format!("{} {}", note.key, note.what)).collect::<Vec<_>>()
+    };
+    // 10 % of 35.0 m/s, the mean of the table on the way to the belt, over 18 µm.
+    let low = "fibre.diameter has Reynolds numbers of about 4.2 across the fibre. There drag.across = \"ju-shambaugh\" gives only \
+               0.46 times the drag that was measured on fine fibres and cylinders; \"marheineke-wegener\" agrees with these \
+               measurements";
+    let law = ("drag.across", "ju-shambaugh");
+    assert_eq!(warnings(&[law]), [low]);
+    assert_eq!(warnings(&[law, ("air.density", "0 kg/m³")]), [""; 0]);
+    // Of a thicker fibre the law gives more.
+    assert_eq!(warnings(&[law, ("fibre.diameter", "60 µm")]), [""; 0]);
+    let short = ("belt.distance", "10 mm");
+    assert_eq!(
+        warnings(&[short, ("fibre.element_length", "15 µm")]),
+        ["fibre.diameter is larger than the element length, 15 µm; use longer elements"]
+    );
+    assert_eq!(warnings(&[short, ("fibre.element_length", "20 µm")]), [""; 0]);
+}
+
 /// A number between powers of ten, with all its digits.
 fn between(low: i32, high: i32) -> impl Strategy<Value = f64> {
     (f64::from(low)..f64::from(high)).prop_map(|power| 10f64.powf(power))
@@ -225,7 +250,7 @@ prop_compose! {
     fn fibre()(
         length in between(-2, 2), diameter in between(-5, -3), density in between(2, 4), youngs_modulus in between(7, 11),
         elements in 1usize..3000, root in prop::sample::select(vec![Root::Pinned, Root::Clamped, Root::Free]),
-        x in -1f64..1.0, y in -1f64..1.0, z in prop::sample::select(vec![0.0, -0.0, 0.3]),
+        x in prop_oneof![-1f64..-1e-3, 1e-3f64..1.0], y in -1f64..1.0, z in prop::sample::select(vec![0.0, -0.0, 0.3]),
     ) -> Fibre {
         let v = Vec3::new(x, y, z);
         let direction = v * (1.0 / v.norm());
@@ -289,41 +314,53 @@ fn contact() -> impl Strategy<Value = Contact> {
 }
 
 prop_compose! {
-    /// A case whose fibre is fed on to a belt.
+    /// A case whose fibre is fed on to a belt. All of them are valid.
     fn fed_case()(
         case in case(),
-        (distance, elements, feed_speed, belt_speed) in (between(-2, 1), 2usize..1000, between(-2, 2), 0f64..10.0),
-        (kept_length, contact, steps_per_element) in (between(-3, 0), contact(), 2u64..50),
+        (distance, elements, feed_speed, belt_speed) in (between(-2, 1), 3usize..1000, between(-2, 2), 0f64..10.0),
+        (kept_length, contact, share) in (between(-3, 0), contact(), 0.1f64..0.9),
         (decay_time, convected, implicit, pinned) in (between(-4, 0), any::<bool>(), any::<bool>(), any::<bool>()),
-        bending_viscosity_time in prop_oneof![Just(0.0), between(-9, -3)],
+        viscosity in prop_oneof![Just(0.0), between(-3, 1)],
+        (cycles, spin_up, output, more_harmonics) in (between(-1, 3), 0f64..1.0, 1e-3f64..1.0, 1usize..50),
     ) -> Case {
         let mut case = case;
-        case.fibre.span(distance, distance / elements as f64);
+        // Elements are at least as long as the fibre is thick.
+        let element = (distance / elements as f64).max(case.fibre.diameter);
+        case.fibre.span(distance, element);
         case.fibre.direction = case.fibre.direction * case.fibre.direction.x.signum();
         case.fibre.root = if pinned { Root::Pinned } else { Root::Clamped };
-        case.fibre.bending_viscosity_time = bending_viscosity_time;
+        case.air.length_scale = case.air.length_scale.max(0.05 * distance);
         if convected {
             case.air.eddies = EddyModel::Convected { decay_time };
         }
-        if implicit {
+        // No other scheme computes how a fibre slides.
+        if implicit || contact != Contact::Stick {
             case.run.scheme = Scheme::ImplicitTension;
         }
-        let line = Line { feed_speed, distance, belt_speed, contact, kept_length, steps_per_element };
-        case.line = Some(line);
-        let limit = case.stable_step_limits().iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
-        let whole_run = case.run.duration();
-        case.set_time_step(limit.min(case.fibre.rest_length() / feed_speed / steps_per_element as f64));
-        case.air.harmonics = case.air.harmonics.max((case.air.cutoff_frequency * whole_run) as usize);
+        let feeding = case.fibre.rest_length() / feed_speed;
+        case.line = Some(Line { feed_speed, distance, belt_speed, contact, kept_length, steps_per_element: 2 });
+        let limit = |case: &Case| {
+            case.stable_step_limits().iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min)
+        };
+        // In times of the limit without it: up to a step ten times as short.
+        case.fibre.bending_viscosity_time = viscosity * limit(&case);
+        let limit = limit(&case);
+        case.set_time_step(share * limit.min(0.5 * feeding));
+        let run = &mut case.run;
+        run.steps = (cycles / case.air.cutoff_frequency / run.time_step).ceil().min(1e9) as u64;
+        run.spin_up_steps = (spin_up * run.steps as f64) as u64;
+        run.output_steps = 1 + (output * (run.steps - 1) as f64) as u64;
+        case.air.harmonics = cycles as usize + more_harmonics;
         case
     }
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { max_global_rejects: 20_000, ..ProptestConfig::with_cases(2000) })]
+    #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
     fn identical_fed_cases_after_writing_and_reading(case in fed_case()) {
-        prop_assume!(case.check().is_ok());
+        prop_assert!(case.check().is_ok(), "{:?}", case.check());
         prop_assert_eq!(bits(&read_again(&case)), bits(&case));
     }
 

@@ -11,7 +11,7 @@ use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::fibre::Fibre;
 use spunlaid::flight::Flight;
-use spunlaid::lanes::Isa;
+use spunlaid::lanes::{Isa, Lanes};
 use spunlaid::vec3::Vec3;
 
 /// Elements of a fed fibre at its start.
@@ -24,6 +24,7 @@ fn invariant_what_was_born_is_on_the_chain_or_laid() {
     let l = case.fibre.rest_length();
     let mut flight = flight(&case, 0..8);
     let mut laid = vec![Vec::new(); 8];
+    let mut fastest = 0.0f64;
     for steps in (0..40).map(|i| 97 * i) {
         flight.step_to(steps as f64 * case.run.time_step).unwrap();
         let born = steps / line.steps_per_element + AT_START + 1;
@@ -32,15 +33,21 @@ fn invariant_what_was_born_is_on_the_chain_or_laid() {
             laid.extend(flight.take_laid(lane));
             assert_eq!(laid.len() + seen.nodes[lane], born as usize, "lane {lane} after {steps} steps");
             assert!(seen.in_air[lane] <= seen.nodes[lane]);
+            let over_belt = |v: &Vec3<Lanes>| (v.lane(lane) - Vec3::new(0.0, line.belt_speed, 0.0)).norm();
+            fastest = seen.velocity[..seen.in_air[lane]].iter().map(over_belt).fold(fastest, f64::max);
         }
     }
+    // A node stops on the belt at once. The change of its velocity, Δv, runs along the fibre as an axial wave, which strains it
+    // by Δv over the speed of sound.
+    let strain = fastest / (case.fibre.youngs_modulus / case.fibre.density).sqrt();
+    assert!(strain < 0.06, "{fastest} m/s");
     for laid in &laid {
         assert!(laid.len() > 300, "only {} points were laid", laid.len());
         for (i, (point, next)) in laid.iter().zip(&laid[1..]).enumerate() {
             assert_eq!(point.fed, i as f64 * l);
-            // Two neighbours lie at most an element apart, which is strained by little (found: 3.1 %).
+            // Two neighbours lie at most a strained element apart (found: 3.1 %).
             let chord = (next.md - point.md).hypot(next.cd - point.cd);
-            assert!(chord < 1.05 * l, "{} of an element at {i}", chord / l);
+            assert!(chord < (1.0 + strain) * l, "{} of an element at {i}, {strain}", chord / l);
         }
     }
 }
@@ -304,26 +311,4 @@ fn the_step_limit_with_bending_viscosity_is_honest() {
         assert!(grown(0.97) < 3.0, "{scheme:?}, {viscosity}: {:e}", grown(0.97));
         assert!(grown(1.2) > 1e3, "{scheme:?}, {viscosity}: {:e}", grown(1.2));
     }
-}
-
-#[test]
-fn a_fine_fibre_that_may_slide_lies_as_one_that_sticks() {
-    let laid = |set: &[(&str, &str)]| {
-        let case = spunbond(set);
-        let mut flight = flight(&case, 0..8);
-        let laid = laid_until(&mut flight, 0.1);
-        let energy = flight.snapshot().energy;
-        let works = energy.drag_work.0[0].abs() + energy.belt_work.0[0].abs();
-        assert!(energy.imbalance().0[0].abs() < 0.01 * works, "{:e} of {works:e}", energy.imbalance().0[0]);
-        let chords = laid.iter().flat_map(|laid| laid[500..].windows(2));
-        let lengths: Vec<f64> =
-            chords.map(|pair| (pair[1].md - pair[0].md).hypot(pair[1].cd - pair[0].cd)).collect();
-        lengths.iter().sum::<f64>() / lengths.len() as f64 / case.fibre.rest_length()
-    };
-    // The suction holds it with more than the forces that arrive at the belt, but for the blows of landings.
-    let (slides, sticks) = (
-        laid(&[("run.duration", "0.1 s"), ("belt.contact", "friction")]),
-        laid(&[("run.duration", "0.1 s")]),
-    );
-    assert!((slides / sticks - 1.0).abs() < 0.02, "{slides} and {sticks}");
 }

@@ -10,7 +10,7 @@ use crate::numbers::significant;
 use crate::output::folder::{ENTRIES, Staging};
 use crate::output::laid::{LaidTable, Spill};
 use crate::output::summary::{Performance, Summary};
-use crate::output::tables::{END_NODE, ENERGY, ENERGY_OF_FED, Table};
+use crate::output::tables::{self, Table};
 use crate::output::{beside, paraview, pictures, table};
 use crate::report::{self, ReportInput};
 use crate::{progress, say};
@@ -134,13 +134,9 @@ fn flights(
     computing: Computing<'_>,
     staging: Option<&Staging<'_>>,
 ) -> Result<(Results, Option<StepCheck>), Failure> {
-    let wanted: &[_] = match case.line {
-        None => &[("end_node.parquet", END_NODE), ("energy.parquet", ENERGY)],
-        Some(_) => &[("energy.parquet", ENERGY_OF_FED)],
-    };
     let mut tables = Vec::new();
     if let Some(staging) = staging {
-        for (name, columns) in wanted {
+        for (name, columns) in tables::tables(case.line.is_some()) {
             tables.push(Table::create(staging.place(name), columns)?);
         }
     }

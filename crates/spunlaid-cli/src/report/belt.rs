@@ -1,7 +1,7 @@
 //! A fed fibre above its moving belt as data of the page. Every node keeps its number in the order of feed, so that the
 //! page can follow it from one instant to the next, although the number of nodes changes.
 
-use super::frames::{Frames, POSITIONS, bytes_of, encode, grid};
+use super::frames::{Data, Frames, POSITIONS, encode};
 use super::words::{count, time};
 use serde::Serialize;
 use spunlaid::case::Case;
@@ -22,31 +22,9 @@ const LAID: usize = 8192;
 const SHOWN: (f64, f64) = (0.6, 3.0);
 const WIDTHS: f64 = 4.0;
 
-/// What `assets/belt.js` reads.
+/// The belt and what lies on it.
 #[derive(Serialize)]
-struct Data {
-    /// Counted from 1.
-    replicates: Vec<u64>,
-    /// [s]
-    times: Vec<f64>,
-    /// A coordinate is `origin + level · step`, for x, y and z.
-    origin_mm: [f64; 3],
-    step_mm: [f64; 3],
-    /// From the inlet to the belt.
-    length_mm: f64,
-    /// [m/s], zero in a vacuum.
-    air_velocity: f64,
-    /// [m/s²]
-    gravity: f64,
-    held: bool,
-    frequency: Option<f64>,
-    belt: Belt,
-    /// Base64 of the 16-bit levels, low byte first: per replicate, instant and node x, y, z.
-    positions: String,
-}
-
-#[derive(Serialize)]
-struct Belt {
+pub(super) struct Belt {
     /// [m/s]
     speed: f64,
     feed_speed: f64,
@@ -126,28 +104,17 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames>
     let all: Vec<Vec<(u64, Vec<Vec3<f64>>)>> =
         trajectories.iter().map(|t| instants.clone().map(|i| chosen.nodes(t, i)).collect()).collect();
     let points = || all.iter().flatten().flat_map(|(_, nodes)| nodes.iter().copied());
-    let (origin, step) = grid(points());
     let times: Vec<f64> = instants.clone().map(|i| shapes[i].time).collect();
-    let data = Data {
-        replicates: trajectories.iter().map(|t| t.replicate + 1).collect(),
-        origin_mm: origin.map(|v| v * 1e3),
-        step_mm: step.map(|v| v * 1e3),
-        length_mm: line.distance * 1e3,
-        air_velocity: if case.air.density > 0.0 { case.air.velocity } else { 0.0 },
-        gravity: case.run.gravity,
-        held: true,
-        frequency: None,
-        belt: Belt {
-            speed: line.belt_speed,
-            feed_speed: line.feed_speed,
-            shown_mm: shown * 1e3,
-            newest: all.first()?.iter().map(|(newest, _)| *newest).collect(),
-            counts: all.iter().map(|of| of.iter().map(|(_, nodes)| nodes.len()).collect()).collect(),
-            laid: trajectories.iter().map(|t| laid(&chosen, t, &times)).collect(),
-        },
-        positions: encode(&bytes_of(points(), origin, step)),
-        times,
+    let belt = Belt {
+        speed: line.belt_speed,
+        feed_speed: line.feed_speed,
+        shown_mm: shown * 1e3,
+        newest: all.first()?.iter().map(|(newest, _)| *newest).collect(),
+        counts: all.iter().map(|of| of.iter().map(|(_, nodes)| nodes.len()).collect()).collect(),
+        laid: trajectories.iter().map(|t| laid(&chosen, t, &times)).collect(),
     };
+    let mut data = Data::of(case, &trajectories, times, points);
+    data.belt = Some(belt);
     let mut remarks = vec![format!(
         "The belt moves at {} m/s and carries the fibre to the right.",
         crate::numbers::number(line.belt_speed)
@@ -160,8 +127,7 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames>
     {
         remarks.push(format!("The animation shows {} of {}.", time(last - first), time(case.run.duration())));
     }
-    // Numbers and base64 only: nothing in it can end the script element it stands in.
-    Some(Frames { json: serde_json::to_string(&data).ok()?, remarks, fed: true })
+    data.frames(remarks)
 }
 
 /// The last instants at which the laid points that are kept go on where the fibre in the air ends, in all replicates.

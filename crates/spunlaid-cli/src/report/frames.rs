@@ -31,17 +31,20 @@ pub(super) struct Frames {
     pub(super) fed: bool,
 }
 
-/// What `assets/frames.js` reads.
+/// What `assets/frames.js` and `assets/belt.js` read.
 #[derive(Serialize)]
-struct Data {
+pub(super) struct Data {
     /// Counted from 1.
     replicates: Vec<u64>,
-    nodes: usize,
+    /// Number of nodes of a fibre of fixed length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    nodes: Option<usize>,
     /// [s]
-    times: Vec<f64>,
+    pub(super) times: Vec<f64>,
     /// A coordinate is `origin + level · step`, for x, y and z.
     origin_mm: [f64; 3],
     step_mm: [f64; 3],
+    /// Of the fibre, or from the inlet to the belt.
     length_mm: f64,
     /// [m/s], zero in a vacuum.
     air_velocity: f64,
@@ -49,10 +52,44 @@ struct Data {
     gravity: f64,
     /// Whether the first node is held in place.
     held: bool,
-    /// Crossing frequency [Hz].
+    /// Crossing frequency of a free end [Hz].
     frequency: Option<f64>,
+    /// What a fed fibre is laid on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) belt: Option<belt::Belt>,
     /// Base64 of the 16-bit levels, low byte first: per replicate, instant and node x, y, z.
     positions: String,
+}
+
+impl Data {
+    /// * `points` – all positions that are drawn, in their order [m]
+    pub(super) fn of<P: Iterator<Item = Vec3<f64>>>(
+        case: &Case,
+        trajectories: &[&Trajectory],
+        times: Vec<f64>,
+        points: impl Fn() -> P,
+    ) -> Self {
+        let (origin, step) = grid(points());
+        Self {
+            replicates: trajectories.iter().map(|t| t.replicate + 1).collect(),
+            nodes: None,
+            times,
+            origin_mm: origin.map(|v| v * 1e3),
+            step_mm: step.map(|v| v * 1e3),
+            length_mm: 1e3 * case.line.map_or(case.fibre.length, |line| line.distance),
+            air_velocity: if case.air.density > 0.0 { case.air.velocity } else { 0.0 },
+            gravity: case.run.gravity,
+            held: case.fibre.root != Root::Free,
+            frequency: None,
+            belt: None,
+            positions: encode(&bytes_of(points(), origin, step)),
+        }
+    }
+
+    /// What the page draws. Numbers and base64 only: nothing in it can end the script element it stands in.
+    pub(super) fn frames(&self, remarks: Vec<String>) -> Option<Frames> {
+        Some(Frames { json: serde_json::to_string(self).ok()?, remarks, fed: self.belt.is_some() })
+    }
 }
 
 /// Which of the kept shapes are shown.
@@ -79,22 +116,9 @@ pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
             choice.nodes.iter().map(|&n| shape.position.get(n).copied().unwrap_or_default())
         })
     };
-    let (origin, step) = grid(chosen());
-    let data = Data {
-        replicates: trajectories.iter().map(|t| t.replicate + 1).collect(),
-        nodes: choice.nodes.len(),
-        times: choice.instants.iter().map(|&i| shapes[i].time).collect(),
-        origin_mm: origin.map(|v| v * 1e3),
-        step_mm: step.map(|v| v * 1e3),
-        length_mm: case.fibre.length * 1e3,
-        air_velocity: if case.air.density > 0.0 { case.air.velocity } else { 0.0 },
-        gravity: case.run.gravity,
-        held: case.fibre.root != Root::Free,
-        frequency,
-        positions: encode(&bytes_of(chosen(), origin, step)),
-    };
-    // Numbers and base64 only: nothing in it can end the script element it stands in.
-    Some(Frames { json: serde_json::to_string(&data).ok()?, remarks, fed: false })
+    let times = choice.instants.iter().map(|&i| shapes[i].time).collect();
+    let data = Data::of(case, &trajectories, times, chosen);
+    Data { nodes: Some(choice.nodes.len()), frequency, ..data }.frames(remarks)
 }
 
 fn choose(
@@ -140,11 +164,7 @@ fn choose(
 }
 
 /// Positions as 16-bit levels, low byte first.
-pub(super) fn bytes_of(
-    positions: impl Iterator<Item = Vec3<f64>>,
-    origin: [f64; 3],
-    step: [f64; 3],
-) -> Vec<u8> {
+fn bytes_of(positions: impl Iterator<Item = Vec3<f64>>, origin: [f64; 3], step: [f64; 3]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for p in positions {
         for (value, (origin, step)) in [p.x, p.y, p.z].into_iter().zip(origin.iter().zip(step)) {
@@ -162,7 +182,7 @@ pub(super) fn encode(bytes: &[u8]) -> String {
 }
 
 /// Lowest value and step of a 16-bit grid that holds all positions, for x, y and z [m].
-pub(super) fn grid(positions: impl Iterator<Item = Vec3<f64>>) -> ([f64; 3], [f64; 3]) {
+fn grid(positions: impl Iterator<Item = Vec3<f64>>) -> ([f64; 3], [f64; 3]) {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
     for p in positions {

@@ -328,11 +328,16 @@ fn verdict(of: &Findings) -> Vec<String> {
     let mut sentences: Vec<String> = of.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
     let Some(i) = seen(of) else { return sentences };
     let patch = &of.patches[i];
+    let ratio = patch.one_fibre.0 / patch.straight_fibres;
+    let why = if ratio > 1.05 {
+        "a fibre that visits its own place again and again clouds the web"
+    } else {
+        "nozzles at an even pitch take out what loops would make uneven"
+    };
     sentences.push(format!(
-        "Over patches of {} the expected CV is {} times that of straight fibres of the same mass: a fibre that visits its own place again and \
-         again clouds the web.",
+        "Over patches of {} the expected CV is {} times that of straight fibres of the same mass at random: {why}.",
         millimetres(patch.map.patch),
-        significant(patch.one_fibre.0 / patch.straight_fibres, 3)
+        significant(ratio, 3)
     ));
     let change = |sensitivity: &&Sensitivity| sensitivity.elasticity[i].mean.abs();
     if let Some(most) = of.sensitivities.iter().max_by(|a, b| change(a).total_cmp(&change(b))) {

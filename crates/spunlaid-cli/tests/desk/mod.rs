@@ -63,19 +63,6 @@ duration = "40 ms"
 replicates = 3
 "#;
 
-/// What the results folder of a fed fibre holds.
-pub const ENTRIES_OF_FED: [&str; 9] = [
-    "case.toml",
-    "energy.parquet",
-    "figures",
-    "laid.parquet",
-    "laid.vtp",
-    "report.html",
-    "shape",
-    "shape.pvd",
-    "summary.json",
-];
-
 /// What a results folder holds.
 pub const ENTRIES: [&str; 8] = [
     "case.toml",
@@ -146,6 +133,12 @@ pub fn entries(folder: &Path) -> BTreeSet<String> {
 
 pub fn names(names: &[&str]) -> BTreeSet<String> {
     names.iter().map(ToString::to_string).collect()
+}
+
+/// What the results folder of a fed fibre holds: the laid fibre instead of the free end.
+pub fn entries_of_fed() -> BTreeSet<String> {
+    let both = ENTRIES.into_iter().filter(|entry| *entry != "end_node.parquet");
+    both.chain(["laid.parquet", "laid.vtp"]).map(str::to_owned).collect()
 }
 
 /// Standard error of a command that ends with a code and says nothing on standard output.

@@ -65,10 +65,12 @@ pub enum Fault {
         line: String,
     },
     /// No table has this name.
-    #[error("is not a table of a case file; {}", did_you_mean(nearest, || "the tables are [fibre], [air], [drag] and [run]".into()))]
+    #[error("is not a table of a case file; {}", did_you_mean(nearest, || format!("the tables are {}", all_of(known))))]
     UnknownTable {
         /// The most similar table.
         nearest: Option<String>,
+        /// The tables that are known.
+        known: Vec<String>,
     },
     /// No key has this name.
     #[error("is not a key of a case file; {}", did_you_mean(nearest, || format!("{where_} takes {}", all_of(known))))]
@@ -78,7 +80,7 @@ pub enum Fault {
         /// The table, or the top of the file.
         where_: String,
         /// The keys that are known there.
-        known: Vec<&'static str>,
+        known: Vec<String>,
     },
     /// The key belongs to another table.
     #[error("is out of place; it belongs in [{table}], as {table}.{key}")]

@@ -4,7 +4,7 @@ pub(super) fn did_you_mean(nearest: &Option<String>, otherwise: impl Fn() -> Str
     nearest.as_ref().map_or_else(otherwise, |nearest| format!("did you mean {nearest}?"))
 }
 
-pub(super) fn all_of(words: &[&str]) -> String {
+pub(super) fn all_of(words: &[impl ToString]) -> String {
     joined(words.iter().map(ToString::to_string).collect(), "and")
 }
 

@@ -145,9 +145,12 @@ impl<'a> Document<'a> {
             let nearest = keys::like_in(table, key).first().map(|key| key.name.to_owned());
             nearest.iter().for_each(|key| self.written.excuse(key));
             let (where_, known) = if table.is_empty() {
-                ("the top of the file".to_owned(), vec![VERSION, "[fibre]", "[air]", "[drag]", "[run]"])
+                (
+                    "the top of the file".to_owned(),
+                    std::iter::once(VERSION.to_owned()).chain(tables()).collect(),
+                )
             } else {
-                (format!("[{table}]"), keys::of_table(table).map(Key::short).collect())
+                (format!("[{table}]"), keys::of_table(table).map(|key| key.short().to_owned()).collect())
             };
             Fault::UnknownKey { nearest, where_, known }
         };
@@ -164,7 +167,12 @@ impl<'a> Document<'a> {
             self.written.excuse(format!("{table}."));
         }
         let nearest = nearest.map(|table| format!("[{table}]"));
-        self.reject(place, &format!("[{}]", fit(name)), None, Fault::UnknownTable { nearest });
+        self.reject(
+            place,
+            &format!("[{}]", fit(name)),
+            None,
+            Fault::UnknownTable { nearest, known: tables().collect() },
+        );
     }
 
     /// The path that an entry names. It is relative to the folder of the case file, or to the working directory if
@@ -194,6 +202,11 @@ fn other_file(key: &str) -> Option<Fault> {
 /// The name of the table, if there is such a table.
 pub(super) fn table_named(name: &str) -> Option<&'static str> {
     keys::TABLES.into_iter().find(|table| *table == name)
+}
+
+/// The tables as they are written: `[fibre]`.
+fn tables() -> impl Iterator<Item = String> {
+    keys::TABLES.into_iter().map(|table| format!("[{table}]"))
 }
 
 /// The key with this short name, if exactly one table has such a key.

@@ -43,6 +43,9 @@ pub(crate) trait Register: Simd {
 }
 
 /// Plain Rust, for any machine.
+///
+/// On x86-64 it is for machines without AVX2 only, where a fused multiplication calls a function anyway. There the dearer
+/// operations are calls too: inlined, they would be two thirds of the library's code and take most of its compile time.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
 pub(crate) struct Plain([f64; WIDTH]);
@@ -92,31 +95,38 @@ impl Simd for Plain {
     fn mul(self, other: Self) -> Self {
         self.pairs(other, |a, b| a * b)
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn div(self, other: Self) -> Self {
         self.pairs(other, |a, b| a / b)
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
         Self(std::array::from_fn(|i| self.0[i].mul_add(factor.0[i], addend.0[i])))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn neg_mul_add(self, factor: Self, addend: Self) -> Self {
         self.each(|x| -x).mul_add(factor, addend)
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn sqrt(self) -> Self {
         self.each(f64::sqrt)
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn max(self, other: Self) -> Self {
         self.pairs(other, |a, b| if a > b { a } else { b })
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
         Self(std::array::from_fn(|i| if a.0[i] < b.0[i] { yes.0[i] } else { no.0[i] }))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn any_above(self, other: Self) -> bool {
         (0..WIDTH).any(|i| self.0[i] > other.0[i])
     }

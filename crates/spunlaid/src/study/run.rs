@@ -37,14 +37,20 @@ pub struct PointResults {
     pub lost: u64,
     /// Mean of each of the [`MEASURES`]; NaN without any fibre.
     pub mean: [f64; MEASURES.len()],
-    /// Standard error of each mean; `None` from a single fibre.
-    pub standard_error: [Option<f64>; MEASURES.len()],
+    /// Standard error of each mean; of no use from a single fibre. Kept without `Option`, which would take twice the
+    /// memory: a study has many points.
+    pub errors: [f64; MEASURES.len()],
 }
 
 impl PointResults {
     /// Mean and standard error of a measure. None without a measure of this name.
     pub fn of(&self, name: &str) -> Option<(f64, Option<f64>)> {
-        measure(name).map(|(index, _)| (self.mean[index], self.standard_error[index]))
+        measure(name).map(|(index, _)| (self.mean[index], self.standard_error(index)))
+    }
+
+    /// Standard error of the mean of a measure, by its index into the [`MEASURES`]; `None` from a single fibre.
+    pub fn standard_error(&self, measure: usize) -> Option<f64> {
+        (self.n > 1).then(|| self.errors[measure])
     }
 }
 
@@ -99,7 +105,7 @@ fn results_of(journal: &mut Journal, point: usize, replicates: u64) -> Result<Po
         n: measured.len() as u64,
         lost: (records.len() - measured.len()) as u64,
         mean: std::array::from_fn(|i| estimates[i].mean),
-        standard_error: std::array::from_fn(|i| estimates[i].standard_error),
+        errors: std::array::from_fn(|i| estimates[i].standard_error.unwrap_or(f64::NAN)),
     })
 }
 
@@ -110,7 +116,7 @@ fn more_replicates(replicates: &Replicates, results: &PointResults, flown: u64) 
         return None;
     }
     let needed = |&(measure, fraction): &(usize, f64)| {
-        let error = results.standard_error[measure].unwrap_or(f64::INFINITY);
+        let error = results.standard_error(measure).unwrap_or(f64::INFINITY);
         let allowed = fraction * results.mean[measure].abs();
         if error <= allowed { 0.0 } else { results.n as f64 * (error / allowed).powi(2) }
     };
@@ -277,7 +283,7 @@ mod tests {
             n,
             lost: 0,
             mean: [mean; MEASURES.len()],
-            standard_error: [Some(error); MEASURES.len()],
+            errors: [error; MEASURES.len()],
         };
         assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.1), 4), None);
         assert_eq!(more_replicates(&replicates, &results(4, -1.0, 0.1), 4), None);

@@ -15,7 +15,7 @@ pub struct Clouds {
     /// Side of a tile [cells], a power of two.
     side: usize,
     cell: f64,
-    /// Variance of each tile by wave number, any direction; entry r holds waves shorter than `side/(r − ½)` cells.
+    /// Variance of each tile by wave number, any direction; entry r holds waves from `side/(r + 1)` to `side/r` cells.
     tiles: Vec<Vec<f64>>,
     /// Of each tile, the part of the variance of short waves whose crests lie along the machine direction.
     along: Vec<f64>,
@@ -71,7 +71,7 @@ impl Clouds {
             for (j, variance) in row.iter().enumerate() {
                 let (md, cd) = (number(i), number(j));
                 let squared = (md * md + cd * cd) as f64;
-                radial[(squared.sqrt().round() as usize).min(side - 1)] += variance;
+                radial[(squared.sqrt() as usize).min(side - 1)] += variance;
                 self.directions[0][cd] += variance;
                 self.directions[1][md] += variance;
                 // Waves of four to sixteen cells show the directions of fibres; shorter ones those of the lattice.
@@ -99,7 +99,7 @@ impl Clouds {
     /// Variance of the relative basis weight in waves from one length to another, over the tiles.
     pub fn variance(&self, shortest: f64, longest: f64) -> Estimate {
         let within = |r: usize| {
-            let wave = self.side as f64 * self.cell / r as f64;
+            let wave = self.side as f64 * self.cell / (r as f64 + 0.5);
             r > 0 && (shortest..longest).contains(&wave)
         };
         let of_tile = |tile: &Vec<f64>| (0..tile.len()).filter(|r| within(*r)).map(|r| tile[r]).sum();

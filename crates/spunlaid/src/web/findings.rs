@@ -1,13 +1,15 @@
 //! Everything that is found out about a web.
 
 use super::clouds::{Clouds, autocorrelation};
-use super::lay::{Laid, Laying, lay};
+use super::lay::{Laid, Laying, lay, places};
 use super::one_fibre::{OneFibre, one_fibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
 use super::sensitivity::{Sensitivity, sensitivities};
+use super::threads::each;
 use super::uniformity::{Unevenness, unevenness};
-use super::{Layer, Web};
+use super::{Edges, Filaments, Layer, Web};
 use crate::error::Error;
+use std::sync::atomic::AtomicU64;
 
 /// A web, laid and looked at.
 #[derive(Clone, Debug)]
@@ -31,7 +33,7 @@ pub struct Findings {
 pub struct PatchFindings {
     /// On the map.
     pub map: Unevenness,
-    /// The expected one of independent filaments at random places, from single fibres, with its standard error.
+    /// The expected one of independent filaments at the places of the layers, from single fibres, with its standard error.
     pub one_fibre: (f64, f64),
     /// The expected one of [`Layer::compared`], if all layers have it, with its standard error.
     pub compared: Option<(f64, f64)>,
@@ -40,9 +42,9 @@ pub struct PatchFindings {
 }
 
 /// Fibres that are laid alone.
-const ALONE: u64 = 32;
+const ALONE: u64 = 16;
 /// Fibres that are laid alone for each sensitivity.
-const TURNED: u64 = 16;
+const TURNED: u64 = 8;
 /// Longest lag of the autocorrelation [m], and most lags.
 const LAG: f64 = 0.1;
 const LAGS: usize = 257;
@@ -54,6 +56,9 @@ const LAGS: usize = 257;
 pub fn find(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
     let laid = lay(web, by)?;
+    // The progress is that of the web; what comes after it is short.
+    let aside = AtomicU64::new(0);
+    let by = Laying { laid: &aside, ..by };
     let map = &laid.map;
     let side = |patch: &f64| (patch / sheet.cell).round() as usize;
     let sides: Vec<usize> = sheet.patches.iter().map(side).collect();
@@ -96,19 +101,34 @@ fn expected(
     of: OneFibre,
     by: Laying<'_>,
 ) -> Result<Vec<(f64, f64)>, Error> {
-    // Variances of independent layers add up.
-    let mut sums = vec![(0.0, 0.0); sides.len()];
-    for layer in &layers {
-        let share = layer.basis_weight(&web.sheet) / web.basis_weight();
-        let tau = layer.basis_weight(&web.sheet) / layer.linear_density;
-        for (sum, found) in sums.iter_mut().zip(one_fibre(layer, sides, of, by)?) {
-            let scale = share * share / tau;
-            let error = scale * found.standard_error.unwrap_or(0.0);
-            *sum = (sum.0 + scale * found.mean, sum.1 + error * error);
+    let sheet = &web.sheet;
+    let closed = sheet.edges == Edges::Periodic;
+    let found = each(by.threads, layers.len(), |i| one_fibre(&layers[i], sides, of, by))?;
+    let expected = |i: usize| {
+        // Variances of independent layers add up, and so do what their places do at each column.
+        let (mut square, mut error) = (0.0, 0.0);
+        let mut across = vec![0.0; sheet.cells()[0]];
+        for (number, (layer, found)) in layers.iter().zip(&found).enumerate() {
+            let share = layer.basis_weight(sheet) / web.basis_weight();
+            let scale = share * share * layer.linear_density / layer.basis_weight(sheet);
+            let by_chance = found[i].of(&layer.filaments);
+            square += scale * by_chance.mean;
+            error += (scale * by_chance.standard_error.unwrap_or(0.0)).powi(2);
+            let of_places = match &layer.filaments {
+                Filaments::AtRandom { .. } => vec![1.0; across.len()],
+                Filaments::Rows(_) => {
+                    let places = places(web, number, layer);
+                    let places: Vec<f64> = places.iter().map(|place| place / sheet.cell).collect();
+                    found[i].across(&places, (across.len(), closed), sides[i])
+                }
+            };
+            across.truncate(of_places.len());
+            across.iter_mut().zip(of_places).for_each(|(sum, of)| *sum += share * of);
         }
-    }
-    Ok(sums
-        .into_iter()
-        .map(|(square, error): (f64, f64)| (square.sqrt(), error.sqrt() / (2.0 * square.sqrt())))
-        .collect())
+        let columns = across.len() as f64;
+        let mean = across.iter().sum::<f64>() / columns;
+        square += across.iter().map(|of| (of / mean - 1.0).powi(2)).sum::<f64>() / columns;
+        (square.sqrt(), error.sqrt() / (2.0 * square.sqrt()))
+    };
+    Ok((0..sides.len()).map(expected).collect())
 }

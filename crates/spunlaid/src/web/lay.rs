@@ -4,6 +4,7 @@ use super::curves::Stretches;
 use super::map::Map;
 use super::raster::{Draw, Pens};
 use super::strip::Strip;
+use super::threads::each;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::{Error, LayingFault};
 use crate::lanes::{Isa, Lanes, WIDTH};
@@ -11,7 +12,7 @@ use crate::surrogate::{PathKey, Paths};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What computes, and how it is watched and stopped.
@@ -246,7 +247,7 @@ fn uniform(random: &mut ChaCha8Rng) -> f64 {
 }
 
 /// Where the filaments of a layer come down, in order [m].
-fn places(web: &Web, number: usize, layer: &Layer) -> Vec<f64> {
+pub(super) fn places(web: &Web, number: usize, layer: &Layer) -> Vec<f64> {
     let mut places: Vec<f64> = match &layer.filaments {
         Filaments::AtRandom { .. } => {
             let mut random = random(web.seed, (number as u64) << 48 | 1 << 47, PLACES);
@@ -299,25 +300,19 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<Laid, Error> {
         .collect();
     let closed = [sheet.edges == Edges::Periodic, true];
     let sum = Mutex::new((Map::new([columns, rows], sheet.cell, quantum, closed), 0u64, false));
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut strip = Strip::new(rows);
-        while let Some((plan, which)) = units.get(next.fetch_add(1, Ordering::Relaxed)) {
-            plan.draw(web, which.clone(), &mut strip, by)?;
-            let mut sum = sum.lock().unwrap_or_else(PoisonError::into_inner);
-            let (cut, is_full) = strip.add_to(&mut sum.0);
-            sum.1 += cut;
-            sum.2 |= is_full;
-        }
-        Ok::<(), Error>(())
-    };
-    std::thread::scope(|scope| {
-        let helpers: Vec<_> = (1..by.threads.min(units.len())).map(|_| scope.spawn(work)).collect();
-        let own = work();
-        helpers
-            .into_iter()
-            .map(|helper| helper.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-            .fold(own, Result::and)
+    // Strips are large; a thread uses one again.
+    let strips = Mutex::new(Vec::new());
+    let held = |of: &Mutex<Vec<Strip>>| of.lock().unwrap_or_else(PoisonError::into_inner).pop();
+    each(by.threads, units.len(), |unit| {
+        let (plan, which) = &units[unit];
+        let mut strip = held(&strips).unwrap_or_else(|| Strip::new(rows));
+        plan.draw(web, which.clone(), &mut strip, by)?;
+        let mut sum = sum.lock().unwrap_or_else(PoisonError::into_inner);
+        let (cut, is_full) = strip.add_to(&mut sum.0);
+        sum.1 += cut;
+        sum.2 |= is_full;
+        strips.lock().unwrap_or_else(PoisonError::into_inner).push(strip);
+        Ok(())
     })?;
     let (map, cut, is_full) = sum.into_inner().unwrap_or_else(PoisonError::into_inner);
     if is_full {

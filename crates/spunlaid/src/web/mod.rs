@@ -17,6 +17,7 @@ mod raster;
 mod sensitivity;
 mod strands;
 mod strip;
+mod threads;
 pub mod uniformity;
 
 pub use clouds::{Clouds, autocorrelation};
@@ -24,7 +25,7 @@ pub use curves::Curves;
 pub use findings::{Findings, PatchFindings, find};
 pub use lay::{Laid, Laying, lay, pieces};
 pub use map::Map;
-pub use one_fibre::{OneFibre, one_fibre, straight_fibres};
+pub use one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
 pub use sensitivity::{Lever, Sensitivity, sensitivities};
 pub use strands::{Strand, Window, strands};

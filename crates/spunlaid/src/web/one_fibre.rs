@@ -19,35 +19,47 @@ pub struct OneFibre {
 }
 
 /// Cells that fibres laid at the same time may take, and the shortest belt that a fibre is laid on [spreads].
-const CELLS: usize = 1 << 22;
-const SHORTEST: f64 = 5.0;
+const CELLS: usize = 1 << 21;
+const SHORTEST: usize = 5;
 /// Fibres laid at the same time.
 const ABREAST: usize = 8;
 
-/// `CV²·τ` of a web of independent filaments at random places, over patches of some sides [1/m].
+/// What single fibres say about patches of one side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alone {
+    /// `CV²·τ` of filaments at random places [1/m]: the value of each fibre, and their mean.
+    pub at_random: Estimate,
+    /// The same of filaments at fixed places, without what the places themselves do, the unevenness of [`Alone::profile`].
+    pub at_places: Estimate,
+    /// Mean length of a filament in a patch [m], by the first column of the patch; the trace lies in the middle of the
+    /// column `trace`.
+    pub profile: Vec<f64>,
+    /// Column of the trace.
+    pub trace: usize,
+}
+
+/// `CV²·τ` of a web of independent filaments, over patches of some sides.
 ///
 /// A patch of side x holds of one filament the length m. Over all patches, `CV² τ = Σ m²/(L x²)` with the filament's length L and the
 /// length of all filaments per area, τ = basis weight/line density. The patches are taken at every place on the lattice of
 /// cells. A fibre is laid on a ring of belt; what its ends leave out is less than a part in a hundred.
+/// If the places are fixed, the mean of m at each distance from the trace is known, and only `m² − ⟨m⟩²` is left to chance.
 ///
 /// * `sides` – of the patches [cells]
 ///
-/// Returns for each side the value of each fibre, with the mean over the fibres.
+/// Returns what is found for each side.
 ///
 /// # Errors
 /// If the filaments cannot be laid, or if it is stopped.
-pub fn one_fibre(
-    layer: &Layer,
-    sides: &[usize],
-    of: OneFibre,
-    by: Laying<'_>,
-) -> Result<Vec<Estimate>, Error> {
+pub fn one_fibre(layer: &Layer, sides: &[usize], of: OneFibre, by: Laying<'_>) -> Result<Vec<Alone>, Error> {
     let largest = sides.iter().copied().max().unwrap_or(1);
     // So far apart that no patch meets two fibres.
-    let reach = layer.fibres.reach() / of.cell;
-    let apart = (2.0 * reach).ceil() as usize + largest + 8;
-    let least = ((SHORTEST * reach).ceil() as usize).max(4 * largest);
-    let mut values = vec![Vec::new(); sides.len()];
+    let reach = (layer.fibres.reach() / of.cell).ceil() as usize + 4;
+    let apart = 2 * reach + largest;
+    // The first patch that meets a fibre begins in the fibre's own columns.
+    let trace = reach + largest;
+    let least = (SHORTEST * reach).max(4 * largest);
+    let mut found = vec![Sums::default(); sides.len()];
     match &layer.fibres {
         Fibres::Surrogate(_) => {
             let rows = (CELLS / (ABREAST * apart)).max(least);
@@ -55,7 +67,14 @@ pub fn one_fibre(
             let fibres = of.fibres.max(1);
             for (seed, first) in (of.seed..).zip((0..fibres).step_by(abreast as usize)) {
                 let count = abreast.min(fibres - first);
-                add(layer, sides, OneFibre { fibres: count, seed, ..of }, [apart, rows], by, &mut values)?;
+                add(
+                    layer,
+                    sides,
+                    OneFibre { fibres: count, seed, ..of },
+                    [apart, trace, rows],
+                    by,
+                    &mut found,
+                )?;
             }
         }
         Fibres::Curves(curves) => {
@@ -65,24 +84,25 @@ pub fn one_fibre(
                     return Err(LayingFault::NoCurves.into());
                 }
                 let alone = Layer { fibres: Fibres::Curves(Arc::new(curve)), ..layer.clone() };
-                add(&alone, sides, OneFibre { fibres: 1, ..of }, [apart, rows], by, &mut values)?;
+                add(&alone, sides, OneFibre { fibres: 1, ..of }, [apart, trace, rows], by, &mut found)?;
             }
         }
     }
-    Ok(values.into_iter().map(Estimate::of).collect())
+    let scales = sides.iter().map(|side| (*side as f64 * of.cell).powi(2));
+    Ok(found.into_iter().zip(scales).map(|(sums, area)| sums.finish(area, trace)).collect())
 }
 
-/// Adds the values of fibres laid at the same time, so many columns apart on a ring of so many rows.
+/// Adds what fibres say that are laid at the same time, so many columns apart on a ring of so many rows.
 fn add(
     layer: &Layer,
     sides: &[usize],
     of: OneFibre,
-    [apart, rows]: [usize; 2],
+    [apart, trace, rows]: [usize; 3],
     by: Laying<'_>,
-    values: &mut [Vec<f64>],
+    found: &mut [Sums],
 ) -> Result<(), Error> {
     let pitch = apart as f64 * of.cell;
-    let row = Row { offset: 0.5 * pitch, pitch, filaments: of.fibres };
+    let row = Row { offset: (trace as f64 + 0.5) * of.cell, pitch, filaments: of.fibres };
     let web = Web {
         sheet: Sheet {
             width: pitch * of.fibres as f64,
@@ -97,17 +117,99 @@ fn add(
     let map = lay(&web, by)?.map;
     let metres = map.quantum / layer.linear_density;
     let length = layer.fed_length(&web.sheet);
-    for (side, values) in sides.iter().zip(values) {
+    for (side, sums) in sides.iter().zip(found) {
         let mut squares = vec![0.0; of.fibres as usize];
+        let mut profiles = vec![vec![0.0; apart]; of.fibres as usize];
+        let share = metres / (rows as f64);
         boxes(&map, *side, [map.columns, map.rows], |_, boxes| {
-            for (squares, of) in squares.iter_mut().zip(boxes.chunks_exact(apart)) {
-                *squares += of.iter().map(|quanta| (*quanta as f64).powi(2)).sum::<f64>();
+            let fibres = squares.iter_mut().zip(&mut profiles);
+            for ((squares, profile), of) in fibres.zip(boxes.chunks_exact(apart)) {
+                for (mean, quanta) in profile.iter_mut().zip(of) {
+                    let quanta = *quanta as f64;
+                    *squares += quanta * quanta;
+                    *mean += quanta * share;
+                }
             }
         });
-        let scale = (metres / (*side as f64)).powi(2) / (length * (*side as f64 * of.cell).powi(2));
-        values.extend(squares.iter().map(|sum| sum * scale));
+        // All places of a patch on the lattice are looked at, of which a lattice of patches has one in `side²`.
+        let each = 1.0 / ((*side * *side) as f64 * length);
+        sums.squares.extend(squares.iter().map(|sum| sum * metres * metres * each));
+        sums.profiles.extend(profiles);
+        sums.rows.extend(squares.iter().map(|_| rows as f64 * each));
     }
     Ok(())
+}
+
+impl Alone {
+    /// `CV²·τ` of a layer, without what fixed places themselves do.
+    pub fn of(&self, filaments: &Filaments) -> &Estimate {
+        match filaments {
+            Filaments::AtRandom { .. } => &self.at_random,
+            Filaments::Rows(_) => &self.at_places,
+        }
+    }
+
+    /// The mean mass in patches across a sheet over their mean, by the first column of the patch, for filaments at fixed places.
+    ///
+    /// * `places` – of the filaments [columns]
+    /// * `columns` – of the sheet, and whether it is closed
+    /// * `side` – of a patch [columns]
+    pub(super) fn across(&self, places: &[f64], (columns, closed): (usize, bool), side: usize) -> Vec<f64> {
+        let mut sums = vec![0.0; columns];
+        for place in places {
+            // The first patch that the profile knows, and the part of a column that it is further on.
+            let first = place - 0.5 - self.trace as f64;
+            let (start, further) = (first.floor() as i64, first - first.floor());
+            for (i, length) in self.profile.iter().enumerate() {
+                for (column, share) in [(start + i as i64, 1.0 - further), (start + i as i64 + 1, further)] {
+                    let column = if closed { column.rem_euclid(columns as i64) } else { column };
+                    if let Some(sum) = usize::try_from(column).ok().and_then(|column| sums.get_mut(column)) {
+                        *sum += share * length;
+                    }
+                }
+            }
+        }
+        if !closed {
+            sums.truncate(columns + 1 - side.min(columns));
+        }
+        let mean = sums.iter().sum::<f64>() / sums.len() as f64;
+        sums.iter().map(|sum| sum / mean).collect()
+    }
+}
+
+/// What single fibres have been found to do, fibre by fibre.
+#[derive(Clone, Debug, Default)]
+struct Sums {
+    /// `Σ m²/L` over a lattice of patches [m].
+    squares: Vec<f64>,
+    /// Mean of m by column [m].
+    profiles: Vec<Vec<f64>>,
+    /// By how much a squared mean of a column counts.
+    rows: Vec<f64>,
+}
+
+impl Sums {
+    /// * `area` – of a patch [m²]
+    fn finish(self, area: f64, trace: usize) -> Alone {
+        let fibres = self.profiles.len() as f64;
+        let columns = self.profiles.first().map_or(0, Vec::len);
+        let profile: Vec<f64> =
+            (0..columns).map(|i| self.profiles.iter().map(|of| of[i]).sum::<f64>() / fibres).collect();
+        let each = self.squares.iter().zip(&self.profiles).zip(&self.rows);
+        let at_places = each.map(|((squares, own), rows)| {
+            // The mean of the others, for the square of the own one has its chance in it. One alone has no others.
+            let other = |(mean, own): (&f64, &f64)| {
+                if fibres > 1.0 { own * (mean * fibres - own) / (fibres - 1.0) } else { own * own }
+            };
+            (squares - rows * profile.iter().zip(own).map(other).sum::<f64>()) / area
+        });
+        Alone {
+            at_places: Estimate::of(at_places.collect()),
+            at_random: Estimate::of(self.squares.iter().map(|squares| squares / area).collect()),
+            profile,
+            trace,
+        }
+    }
 }
 
 /// `CV²·τ·x` of straight, endless fibres in all directions, thrown at random: the mean of 1/(π distance) over pairs of

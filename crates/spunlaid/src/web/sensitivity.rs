@@ -2,6 +2,7 @@
 
 use super::lay::Laying;
 use super::one_fibre::{OneFibre, one_fibre};
+use super::threads::each;
 use super::{Fibres, Layer, Web};
 use crate::error::Error;
 use crate::statistics::Estimate;
@@ -83,16 +84,28 @@ pub fn sensitivities(
     let [layer] = &web.layers[..] else {
         return Ok(found);
     };
-    for lever in Lever::ALL {
-        let factors = [1.0 / (1.0 + STEP), 1.0 + STEP];
-        let [Some(less), Some(more)] = factors.map(|factor| lever.turned(layer, factor)) else {
-            continue;
-        };
+    let factors = [1.0 / (1.0 + STEP), 1.0 + STEP];
+    let turned: Vec<(Lever, [Layer; 2])> = Lever::ALL
+        .into_iter()
+        .filter_map(|lever| {
+            let [less, more] = factors.map(|factor| lever.turned(layer, factor));
+            Some((lever, [less?, more?]))
+        })
+        .collect();
+    let of_both: Vec<Vec<Estimate>> = each(by.threads, 2 * turned.len(), |i| {
+        let (lever, layers) = &turned[i / 2];
+        // Of the number of filaments, the law is known.
+        if *lever == Lever::Filaments {
+            return Ok(Vec::new());
+        }
+        let found = one_fibre(&layers[i % 2], sides, of, by)?;
+        Ok(found.iter().map(|alone| alone.of(&layer.filaments).clone()).collect())
+    })?;
+    for ((lever, _), of_both) in turned.into_iter().zip(of_both.chunks_exact(2)) {
         let elasticity = if lever == Lever::Filaments {
             // Independent filaments: the variance goes with one over their number.
             vec![Estimate { mean: -0.5, standard_error: None, values: Vec::new() }; sides.len()]
         } else {
-            let of_both = [one_fibre(&less, sides, of, by)?, one_fibre(&more, sides, of, by)?];
             // CV² is CV²τ/τ, and τ goes with one over the speed of the belt.
             let thinner = if lever == Lever::BeltSpeed { 2.0 * libm::log1p(STEP) } else { 0.0 };
             let of_side = |(less, more): (&Estimate, &Estimate)| {

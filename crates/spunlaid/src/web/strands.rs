@@ -1,7 +1,7 @@
 //! Single fibres of a web, as curves.
 
 use super::lay::{Laying, Plan, plans};
-use super::{Edges, Web};
+use super::{Edges, Fibres, Web};
 use crate::error::Error;
 use crate::lanes::{Lanes, WIDTH};
 
@@ -28,7 +28,17 @@ pub struct Strand {
 
 impl Window {
     fn holds(&self, point: [f64; 2]) -> bool {
-        point.iter().zip(self.sides).all(|(at, side)| (0.0..=side).contains(at))
+        self.nears(point, 0.0)
+    }
+
+    /// Whether a point lies in the window, or so far from it either way.
+    fn nears(&self, point: [f64; 2], distance: f64) -> bool {
+        point.iter().zip(self.sides).all(|(at, side)| (-distance..=side + distance).contains(at))
+    }
+
+    /// The larger distance of two points either way, over the window's sides.
+    fn distance(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
+        ((a[0] - b[0]) / self.sides[0]).abs().max(((a[1] - b[1]) / self.sides[1]).abs())
     }
 }
 
@@ -47,6 +57,10 @@ pub fn strands(web: &Web, window: Window, by: Laying<'_>) -> Result<Vec<Strand>,
             }
             let [places, mut along] = plan.start(web, first, count);
             let advance = plan.layer.belt_ratio() * plan.piece;
+            let longest = match &plan.layer.fibres {
+                Fibres::Surrogate(_) => plan.piece,
+                Fibres::Curves(curves) => 2.0 * curves.reach()[1],
+            };
             let mut open: [Option<Strand>; WIDTH] = Default::default();
             plan.walk(web, first, count, by, |points| {
                 for (lane, open) in open.iter_mut().enumerate().take(count) {
@@ -54,10 +68,18 @@ pub fn strands(web: &Web, window: Window, by: Laying<'_>) -> Result<Vec<Strand>,
                         let [md, cd] = points[i].each_ref().map(|of: &Lanes| of.0[lane]);
                         [places.0[lane] + cd, along.0[lane] + md - advance * i as f64]
                     };
-                    // A block may begin elsewhere than the last one ended.
-                    strands.extend(open.take());
                     let mut last = at(0);
                     let mut before = within(web, window, last);
+                    // A block may begin elsewhere than the last one ended.
+                    let ended = open.as_ref().and_then(|strand: &Strand| strand.points.last().copied());
+                    if ended.is_some_and(|end| window.distance(end, before) > 1e-6) {
+                        strands.extend(open.take());
+                    }
+                    let longest = (points.len() - 1) as f64 * (longest + advance);
+                    if !window.nears(before, longest) {
+                        strands.extend(open.take());
+                        continue;
+                    }
                     for i in 1..points.len() {
                         let next = at(i);
                         let by = [next[0] - last[0], next[1] - last[1]];
@@ -70,7 +92,7 @@ pub fn strands(web: &Web, window: Window, by: Laying<'_>) -> Result<Vec<Strand>,
                         }
                         last = next;
                         before = within(web, window, next);
-                        if (0..2).any(|of| (before[of] - point[of]).abs() > 1e-6 * window.sides[of]) {
+                        if window.distance(before, point) > 1e-6 {
                             // The piece goes over the seam of the ring and comes in at the other end.
                             strands.extend(open.take());
                             if window.holds(before) {

@@ -133,17 +133,15 @@ impl Flown {
         let nothing = |reason: &str| Failure::NothingToLay { of: path.to_owned(), reason: reason.to_owned() };
         let line = case.line.ok_or_else(|| nothing("its fibre is not fed on to a belt"))?;
         let spacing = case.fibre.rest_length();
-        // As the measures of a run do.
-        let skip = (line.feed_speed * case.run.spin_up() / spacing).round() as usize;
-        for points in &mut laid {
-            points.drain(..skip.min(points.len()));
-        }
-        let tracing =
-            Tracing { spacing, belt_ratio: line.belt_speed / line.feed_speed, skip: 0, reach: line.distance };
+        // As the measures of a run do, to the same bits.
+        let skip = (line.feed_speed * case.run.spin_up() / spacing).round() as u64;
+        let belt_ratio = line.belt_speed / line.feed_speed;
+        let tracing = Tracing { spacing, belt_ratio, skip, reach: line.distance };
         let (mut numbers, mut unidentified) = ([const { Vec::new() }; 3], None);
-        for points in &laid {
+        for points in &mut laid {
             let mut trace = Trace::new(tracing);
             points.iter().for_each(|[md, cd]| trace.add(*md, *cd));
+            points.drain(..points.len().min(skip as usize));
             let of = trace.finish();
             let sigmas = [of.sigma_md, of.sigma_cd];
             let found = identify(sigmas, of.lag_step, [&of.correlation_md, &of.correlation_cd]);
@@ -153,7 +151,7 @@ impl Flown {
                 all.extend(value.is_finite().then_some(value));
             }
         }
-        let curves = Arc::new(Curves::new(spacing, tracing.belt_ratio, laid).map_err(Error::from)?);
+        let curves = Arc::new(Curves::new(spacing, belt_ratio, laid).map_err(Error::from)?);
         Ok(Self { curves, numbers: numbers.map(Estimate::of), unidentified })
     }
 
@@ -181,10 +179,15 @@ mod tests {
     use spunlaid::ensemble::Results;
     use spunlaid::input::{parse_web, read_case};
 
-    /// The web of the spunbond line, with a case for a flight that is as short as it can be.
-    fn web(duration: &str, method: &str) -> (WebSpec, Case) {
+    /// The web of the spunbond line, with a case for a short flight.
+    fn web(element_length: &str, method: &str) -> (WebSpec, Case) {
         let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
-        let set = [("run.duration", duration), ("run.replicates", "3"), ("belt.distance", "0.1 m")];
+        let set = [
+            ("fibre.element_length", element_length),
+            ("run.duration", "0.1 s"),
+            ("run.replicates", "3"),
+            ("belt.distance", "0.1 m"),
+        ];
         let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
         let case = read_case(&cases.join("spunbond.toml"), &set).unwrap().0;
         let text = std::fs::read_to_string(cases.join("web.toml")).unwrap();
@@ -199,7 +202,7 @@ mod tests {
     #[test]
     fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
         static STOP: AtomicBool = AtomicBool::new(false);
-        let (mut spec, case) = web("0.5 s", "surrogate");
+        let (mut spec, case) = web("4 mm", "surrogate");
         let mut flyer = Flyer::new(2, &STOP, true);
         let of_case = flyer.fibres(&spec, &spec.layers[0]).unwrap();
         let Fibres::Surrogate(surrogate) = of_case.fibres else { panic!("{of_case:?}") };
@@ -248,8 +251,8 @@ mod tests {
     fn rejects_fibres_that_make_no_web() {
         static STOP: AtomicBool = AtomicBool::new(false);
         let mut flyer = Flyer::new(1, &STOP, true);
-        // So short a time lays too little to see a surrogate in it.
-        let (spec, _) = web("40 ms", "surrogate");
+        // So long elements show too little of the autocorrelation to see a surrogate in it.
+        let (spec, _) = web("25 mm", "surrogate");
         let said = flyer.fibres(&spec, &spec.layers[0]).unwrap_err();
         assert_eq!(said.exit_code(), 1);
         let said = said.to_string();
@@ -257,9 +260,12 @@ mod tests {
             said.starts_with("short.toml: no surrogate was identified in what its fibres lay: "),
             "{said}"
         );
-        assert!(said.contains("lay a longer fibre") && said.contains("web.method = \"dynamics\""), "{said}");
+        assert!(
+            said.contains("with points closer together") && said.contains("web.method = \"dynamics\""),
+            "{said}"
+        );
         // A sheet on which these filaments would meet themselves.
-        let (mut small, _) = web("40 ms", "dynamics");
+        let (mut small, _) = web("4 mm", "dynamics");
         small.sheet.length = 1e-3;
         let said = flyer.fibres(&small, &small.layers[0]).unwrap_err().to_string();
         assert!(said.starts_with("web.length = 1 mm is shorter than 8 times laydown.sigma_md = "), "{said}");

@@ -47,7 +47,9 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
         threads: by.threads,
         instruction_set: by.isa.name(),
     };
-    let notes = notes(&file, &findings);
+    let found = notes(&findings);
+    let notes: Vec<String> =
+        file.notes.iter().map(ToString::to_string).chain(found.iter().cloned()).collect();
     let rows = rows(&file.spec, &web);
     let summary = Summary::new(&web, &findings, &rows, performance, &notes).to_json();
     if let Some(staging) = staging {
@@ -71,7 +73,7 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
     } else if !asked.quiet {
         say::text(&told(&findings));
         say::line(&format!("\n{label} took {:.2} s", performance.wall_s));
-        notes.iter().for_each(|note| say::remark(false, note));
+        found.iter().for_each(|note| say::remark(false, note));
         if let Some(folder) = folder {
             say::line(&format!("open {}", folder.join("report.html").display()));
         }
@@ -129,9 +131,9 @@ fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
     spec.layers.iter().zip(&web.layers).enumerate().map(row).collect()
 }
 
-/// What a reader must know.
-fn notes(file: &WebFile, of: &Findings) -> Vec<String> {
-    let mut notes: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
+/// What a reader must know of what was found.
+fn notes(of: &Findings) -> Vec<String> {
+    let mut notes = Vec::new();
     let map = &of.laid.map;
     if of.laid.cut > 0.0 {
         let whole = map.total() as f64 * map.quantum + of.laid.cut;

@@ -55,7 +55,7 @@ impl Group {
 
     /// Mean and standard error of one of its measures at a point, in the units of the axis.
     pub(super) fn value(&self, results: &PointResults, measure: usize) -> (f64, Option<f64>) {
-        let error = results.standard_error[measure].map(|error| error * self.unit.per_si);
+        let error = results.standard_error(measure).map(|error| error * self.unit.per_si);
         (results.mean[measure] * self.unit.per_si, error)
     }
 }

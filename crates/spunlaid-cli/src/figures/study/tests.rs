@@ -29,7 +29,7 @@ fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
             n: 10,
             lost: 0,
             mean: std::array::from_fn(|m| if i == 1 { f64::NAN } else { point.values[0] * (m + 1) as f64 }),
-            standard_error: [Some(1e-3); MEASURES.len()],
+            errors: [1e-3; MEASURES.len()],
         })
         .collect();
     let (links, replicates) = (Vec::new(), Replicates::fixed(10));

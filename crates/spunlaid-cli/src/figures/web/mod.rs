@@ -37,7 +37,7 @@ pub(crate) fn web_figures(web: &Web, of: &Findings) -> Vec<Figure> {
     let mut figures = vec![
         unevenness::over_patches(web, of),
         unevenness::histogram(map, GRAMS),
-        profiles(map, GRAMS, "These are streaks: what nozzles at fixed places leave in the web."),
+        profiles(map, GRAMS, STREAKS),
     ];
     figures.extend(clouds::figures(of.clouds.as_ref(), &of.autocorrelation, map.cell));
     figures.push(directions(of));
@@ -55,6 +55,9 @@ pub(crate) fn scan_figures(of: &scan::Findings) -> Vec<Figure> {
     figures
 }
 
+/// What the profile across a laid web shows.
+const STREAKS: &str = "These are streaks, which filaments at fixed places leave in the web; they are weaker where nozzles stand at an even \
+                       pitch (line.rows).";
 /// Most points of a profile; more cells are averaged.
 const POINTS: usize = 1000;
 

@@ -72,6 +72,7 @@ pub(super) fn over_patches(web: &Web, of: &Findings) -> Figure {
         .line(Series::new("expected, from single fibres", VERMILION).width(1.8), &single)
         .scatter(Series::spots("this map", BLUE), &map);
     let rows = web.layers.iter().any(|layer| matches!(layer.filaments, Filaments::Rows(_)));
+    let places = if rows { "in their rows" } else { "at random places" };
     let cut = if web.sheet.edges == Edges::Cut {
         "cut off at the edges in cross direction"
     } else {
@@ -81,11 +82,10 @@ pub(super) fn over_patches(web: &Web, of: &Findings) -> Figure {
     let tenth = straight_fibres(tau, 0.01) * PER_CENT;
     let caption = format!(
         "Standard deviation of the basis weight of square patches over its mean; the sheet is {cut}. Bars are one standard error of \
-         the map, from the scatter of its parts. The expected curve is that of independent filaments at random places, from the \
-         squared lengths that one fibre leaves in each patch{}. Straight fibres of the same mass in all directions would give \
+         the map, from the scatter of its parts. The expected curve is that of independent filaments {places}, from the \
+         lengths that one fibre leaves in each patch. Straight fibres of the same mass in all directions would give \
          CV² = 0.946 line density/(basis weight · side), {} % at 10 mm for the first layer’s fibre: the distance to them is what the loops of the lay-down \
          cost.",
-        if rows { "; rows of nozzles differ from it by what their pitch leaves" } else { "" },
         significant(tenth, 2)
     );
     Figure::of(&chart, caption)

@@ -93,7 +93,7 @@ fn point(study: &Study, index: usize, of: &PointResults) -> Point {
     let inputs = study.inputs().zip(values(study, index));
     let inputs = inputs.map(|(input, value)| (input.column(), plain(value))).collect();
     let result = |i: usize| {
-        let mean = Mean { mean: of.mean[i], standard_error: of.standard_error[i] };
+        let mean = Mean { mean: of.mean[i], standard_error: of.standard_error(i) };
         (MEASURES[i].column.to_owned(), mean)
     };
     let results = (0..MEASURES.len()).filter(|&i| of.mean[i].is_finite()).map(result).collect();

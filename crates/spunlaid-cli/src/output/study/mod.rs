@@ -54,8 +54,8 @@ fn point_row(study: &Study, index: usize, results: &PointResults) -> Vec<Value> 
     let mut row = vec![Value::Whole(index as i64 + 1), Value::Whole(point.case.run.seed as i64)];
     row.extend(columns::values(study, index));
     row.extend([Value::Whole(results.n as i64), Value::Whole(results.lost as i64)]);
-    for (mean, error) in results.mean.iter().zip(&results.standard_error) {
-        row.extend([Value::Number(*mean), Value::Number(error.unwrap_or(f64::NAN))]);
+    for (mean, error) in results.mean.into_iter().zip(results.errors) {
+        row.extend([mean, error].map(Value::Number));
     }
     row
 }

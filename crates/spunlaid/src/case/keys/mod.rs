@@ -80,9 +80,9 @@ pub fn find(name: &str) -> Option<&'static Key> {
 pub fn named(name: &str) -> Result<&'static Key, Box<Problem>> {
     find(name).ok_or_else(|| {
         let (table, _) = name.split_once('.').unwrap_or(("", name));
-        let known = of_table(table).map(Key::short).collect::<Vec<_>>();
+        let known: Vec<String> = of_table(table).map(|key| key.short().to_owned()).collect();
         let (where_, known) = if known.is_empty() {
-            ("a case".to_owned(), all().iter().map(|key| key.name).collect())
+            ("a case".to_owned(), all().iter().map(|key| key.name.to_owned()).collect())
         } else {
             (format!("[{table}]"), known)
         };

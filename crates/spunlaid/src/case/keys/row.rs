@@ -250,6 +250,20 @@ pub(super) fn named<T: Copy>(value: &Value, all: &[T], name: impl Fn(T) -> &'sta
     found.ok_or_else(|| unfit(value, "a name"))
 }
 
+/// Changes to another of several named options. One that is chosen already keeps its numbers.
+pub(super) fn change<T: Copy>(
+    chosen: &mut T,
+    value: &Value,
+    all: &[T],
+    name: impl Fn(T) -> &'static str,
+) -> Result<(), Fault> {
+    let other = named(value, all, &name)?;
+    if name(other) != name(*chosen) {
+        *chosen = other;
+    }
+    Ok(())
+}
+
 pub(super) fn placed(case: &Case) -> Option<&PlacedField> {
     match &case.air.flow {
         Flow::Field(placed) => Some(placed),

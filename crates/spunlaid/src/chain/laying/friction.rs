@@ -54,7 +54,7 @@ impl Friction {
         for lane in 0..WIDTH {
             if node.inverse_mass.0[lane] > 0.0 && node.inverse_mass_x.0[lane] == 0.0 {
                 let slip = [v.y.0[lane] - belt_speed.0[lane], v.z.0[lane]];
-                let speed = slip[0].hypot(slip[1]);
+                let speed = libm::hypot(slip[0], slip[1]);
                 let stopping = node.mass.0[lane] / h;
                 let drag = (self.most(lane, pull.0[lane]) / speed).min(stopping);
                 let drag = if speed > 0.0 { drag } else { 0.0 };
@@ -94,7 +94,7 @@ impl Chain {
                 let force = tensions.belt_force[i].lane(lane);
                 let most = friction.most(lane, -force.x);
                 if node.inverse_mass.0[lane] == 0.0 {
-                    if force.y.hypot(force.z) > most {
+                    if libm::hypot(force.y, force.z) > most {
                         node.inverse_mass.0[lane] = 1.0 / mass;
                     }
                     continue;
@@ -102,7 +102,7 @@ impl Chain {
                 // The slip that there would be without friction: what friction can stop sticks.
                 let (v, rate) = (velocity[i].lane(lane), h / mass);
                 let slip = [v.y - laying.belt_speed.0[lane] - rate * force.y, v.z - rate * force.z];
-                if slip[0].hypot(slip[1]) <= rate * most {
+                if libm::hypot(slip[0], slip[1]) <= rate * most {
                     self.stop(i, lane);
                 }
             }

@@ -193,7 +193,7 @@ impl Rest {
                 rest.about_lines
                     .add(y - b[0] - lines.map(|(column, _)| b[column] * row[column]).sum::<f64>());
                 if !fit.study.common_phases {
-                    let value = results.standard_error[m].map_or(0.0, |error| error * error);
+                    let value = results.standard_error(m).map_or(0.0, |error| error * error);
                     rest.noise += value * (1.0 - leverage);
                     for ((.., weights), sum) in contrasts.iter().zip(&mut rest.contrasts) {
                         let value = dot(weights, &solved).powi(2) * value;

@@ -2,7 +2,7 @@
 
 use super::super::Key;
 use super::super::row::{
-    Access, choose, file, key, named, number, placed, placed_mut, quantity, text, vector, whole,
+    Access, change, choose, file, key, named, number, placed, placed_mut, quantity, text, vector, whole,
 };
 use super::super::value::Sign::{Any, NotNegative, Positive};
 use super::super::value::{Content, FileKind, Kind, SPECTRA, Value};
@@ -237,11 +237,7 @@ pub(super) const KEYS: &[Key] = &[
         get: |case| Some(case.air.eddies.name().into()),
         set: |case, value| {
             let models = [EddyModel::Independent, EddyModel::Convected { decay_time: f64::INFINITY }];
-            let model = named(value, &models, |model| model.name())?;
-            if model.name() != case.air.eddies.name() {
-                case.air.eddies = model;
-            }
-            Ok(())
+            change(&mut case.air.eddies, value, &models, |model| model.name())
         },
     })
     .value("independent")

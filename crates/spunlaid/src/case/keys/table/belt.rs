@@ -1,7 +1,7 @@
 //! The belt.
 
 use super::super::Key;
-use super::super::row::{Access, choose, line, named, number, quantity};
+use super::super::row::{Access, change, choose, line, number, quantity};
 use super::super::value::Sign::{NotNegative, Positive};
 use super::super::value::Value;
 use crate::error::Fault;
@@ -35,12 +35,7 @@ pub(super) const KEYS: &[Key] = &[
     choose("belt.contact", || Contact::ALL.map(|contact| contact.name()).to_vec(), Access {
         get: |case| Some(case.line?.contact.name().into()),
         set: |case, value| {
-            let contact = named(value, &Contact::ALL, |contact| contact.name())?;
-            let line = line(case)?;
-            if contact.name() != line.contact.name() {
-                line.contact = contact;
-            }
-            Ok(())
+            change(&mut line(case)?.contact, value, &Contact::ALL, |contact| contact.name())
         },
     })
     .value("stick")

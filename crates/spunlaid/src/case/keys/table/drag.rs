@@ -1,7 +1,7 @@
 //! The drag laws.
 
 use super::super::Key;
-use super::super::row::{Access, choose, named, number, quantity};
+use super::super::row::{Access, change, choose, named, number, quantity};
 use super::super::value::Sign::NotNegative;
 use super::super::value::Value;
 use crate::drag::{FrictionLaw, NormalLaw};
@@ -15,11 +15,7 @@ pub(super) const KEYS: &[Key] = &[
         Access {
             get: |case| Some(case.drag.along.name().into()),
             set: |case, value| {
-                let law = named(value, &FrictionLaw::ALL, |law| law.name())?;
-                if law.name() != case.drag.along.name() {
-                    case.drag.along = law;
-                }
-                Ok(())
+                change(&mut case.drag.along, value, &FrictionLaw::ALL, |law| law.name())
             },
         },
     )
