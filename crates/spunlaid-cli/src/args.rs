@@ -58,7 +58,7 @@ pub(crate) enum Command {
     Reproduce(Reproduce),
     /// Make the air of a case from a velocity record, or say how even the web of a scan is
     #[command(after_help = ANALYSE_HELP)]
-    Analyse(Analyse),
+    Analyse(Box<Analyse>),
     /// Compare the results of runs or of webs: differences, whether they are beyond chance, curves in one picture
     #[command(after_help = COMPARE_HELP)]
     Compare(Compare),

@@ -145,10 +145,6 @@ fn rendered_and_found(lamp: Lamp, pictured: bool, truth: impl Fn(&Map) -> Vec<f6
             for ((side, patch), truth) in SIDES.into_iter().zip(&found.patches).zip(&truth) {
                 let [low, high] = patch.interval().expect("an interval");
                 let ratio = patch.unevenness.cv / truth;
-                eprintln!(
-                    "{seed}, {bits} bits, {side:2} pixels: {truth:.4} in {low:.4} to {high:.4}, ratio {ratio:.4}, blur {:.4}",
-                    patch.blur
-                );
                 if patch.is_sharp() {
                     sharp += 1;
                     assert!((low..=high).contains(truth), "{truth} is not in {low} to {high}");
@@ -235,10 +231,6 @@ fn stat_given_noise_is_taken_out_and_other_noise_is_at_most_what_is_told() {
         let truth = unevenness(&map, side).expect("an unevenness").cv / 3.0;
         let noise = NOISE / 3.0 / side as f64;
         let found = without.patches[i].unevenness.cv;
-        eprintln!(
-            "{side} pixels: {truth:.5}, found {found:.5}, with noise {:.5}",
-            with.patches[i].unevenness.cv
-        );
         assert!((found / truth - 1.0).abs() < 0.01, "{found} where {truth} is wanted");
         // The mean of the noise is not exactly zero.
         assert!((without.patches[i].noise / noise - 1.0).abs() < 1e-3);

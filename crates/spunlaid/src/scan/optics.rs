@@ -37,12 +37,12 @@ pub(super) fn blurred(map: &Map) -> Map {
         }
         let mut before = cells[..map.columns].to_vec();
         for row in 0..map.rows {
-            for column in 0..map.columns {
+            for (column, before) in before.iter_mut().enumerate() {
                 let at = row * map.columns + column;
                 let here = cells[at];
                 let after = cells.get(at + map.columns).copied().unwrap_or(here);
-                cells[at] = binomial(before[column], here, after);
-                before[column] = here;
+                cells[at] = binomial(*before, here, after);
+                *before = here;
             }
         }
     }
