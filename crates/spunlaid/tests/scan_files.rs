@@ -1,5 +1,7 @@
 //! Files of scans: what is read, what is refused and how, and that broken bytes do no harm.
 
+#![allow(clippy::unwrap_used)]
+
 #[path = "common/scans.rs"]
 mod scans;
 
