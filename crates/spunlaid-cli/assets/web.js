@@ -3,8 +3,9 @@
 /** Bytes of base64 text. */
 const bytesOf = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
-/** The fibres of the window as paths, in mm from its corner: [x, y, x, y, …] each. */
+/** The fibres of the window as paths, in mm from its corner: [x, y, x, y, …] each. A scan has none. */
 function readStrands(window) {
+  if (!window) return [];
   const numbers = new Float32Array(bytesOf(window.points).buffer);
   let at = 0;
   return window.counts.map((count) => numbers.subarray(at, (at += 2 * count)));
@@ -21,6 +22,7 @@ function startTable(canvas, data) {
   const fit = (width, length) => Math.min(size()[0] / width, size()[1] / length);
 
   function drawFibres() {
+    if (!data.window) return;
     const { corner, sides, diameter } = data.window;
     const [width, height] = size();
     const x = width / 2 + (corner[0] - view.x) * view.scale;
@@ -105,7 +107,7 @@ function startTable(canvas, data) {
   byId("closer").addEventListener("click", () => zoom(1.6));
   byId("farther").addEventListener("click", () => zoom(1 / 1.6));
   byId("whole").addEventListener("click", whole);
-  byId("fibres").addEventListener("click", fibres);
+  byId("fibres")?.addEventListener("click", fibres);
   canvas.addEventListener("wheel", (e) => {
     e.preventDefault();
     zoom(Math.exp(-0.0015 * e.deltaY), e.offsetX, e.offsetY);

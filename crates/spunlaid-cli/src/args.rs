@@ -32,6 +32,7 @@ Examples:
   spunlaid web cases/web.toml                       lay thousands of filaments: how even is the fabric?
   spunlaid compare results/my results/faster        say what differs between two runs
   spunlaid analyse wire.csv                         make the air of a case from a velocity record
+  spunlaid analyse scan.png --pixel \"0.1 mm\"       say how even your own web is
 
 A case is a small text file that describes fibre, air and run, and feed and belt of a fibre that is
 laid. Quantities have a unit:
@@ -55,10 +56,10 @@ pub(crate) enum Command {
     /// Reproduce every result figure of the paper and test its claims
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(Reproduce),
-    /// Make the air of a case from a measured velocity record: mean, intensity, scales, spectrum
+    /// Make the air of a case from a velocity record, or say how even the web of a scan is
     #[command(after_help = ANALYSE_HELP)]
-    Analyse(Analyse),
-    /// Compare the results of runs: differences, whether they are beyond chance, curves in one picture
+    Analyse(Box<Analyse>),
+    /// Compare the results of runs or of webs: differences, whether they are beyond chance, curves in one picture
     #[command(after_help = COMPARE_HELP)]
     Compare(Compare),
     /// Show a case with all defaults, its mesh, limits and expected cost, without flying it
@@ -208,13 +209,20 @@ The integral time is the integral of the autocorrelation up to
   e-fold               the lag where it falls to 1/e (63 % of the integral of an exponential)
   fixed=\"50 ms\"        a given lag
 
+With --pixel, the file is the scan of a web in transmitted light (PNG or TIFF) or the map of its
+basis weight (.npy or CSV, a line for each row of the map). The results folder then holds what that
+of `spunlaid web` holds: report.html, summary.json, map.npy and figures/.
+
 Examples:
   spunlaid analyse cases/records/probe.csv
+  spunlaid analyse scan.png --pixel \"0.1 mm\" --weight \"15 g/m²\" --lamp empty.png
+  spunlaid analyse gauge.csv --pixel \"2 mm\" --md rows --patches \"4 mm,10 mm,20 mm\"
   spunlaid analyse wire.csv --rate \"20 kHz\" --velocity-unit m/s --integral e-fold --out results/wire";
 
 const COMPARE_HELP: &str = "\
 Every run is compared with the first. Runs with the same seed and the same eddies are compared
-replicate by replicate, which shows small differences; others by Welch's t.
+replicate by replicate, which shows small differences; others by Welch's t. Webs, laid by `spunlaid web`
+or scanned (`spunlaid analyse --pixel`), are compared patch by patch.
 
 The results folder holds
   report.html       for the browser: a table for each pair, and the curves in one picture each
@@ -223,7 +231,8 @@ The results folder holds
 
 Examples:
   spunlaid compare results/table1 results/faster
-  spunlaid compare results/a results/b results/c --out results/three --json";
+  spunlaid compare results/a results/b results/c --out results/three --json
+  spunlaid compare results/web results/scan";
 
 const CHECK_HELP: &str = "\
 Prints the case with every default, the mesh, the limits of the time step, and the expected time,
@@ -390,10 +399,12 @@ pub(crate) struct Reproduce {
 
 #[derive(Debug, Args)]
 pub(crate) struct Analyse {
-    /// Velocity record (CSV or Parquet)
-    #[arg(value_name = "RECORD", value_hint = ValueHint::FilePath)]
+    /// Velocity record (CSV or Parquet), or scan or map of a web (PNG, TIFF, .npy, CSV)
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) record: PathBuf,
-    /// Folder for the results [default: results/<name of the record>]
+    #[command(flatten)]
+    pub(crate) scan: Scan,
+    /// Folder for the results [default: results/<name of the file>]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) out: Option<PathBuf>,
     /// Sampling rate, as "20 kHz"; a time column is then ignored
@@ -438,12 +449,72 @@ pub(crate) struct Analyse {
     /// No table; warnings and errors are still shown
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// Print analysis.json instead of the table
+    /// Print analysis.json, or summary.json of a web, instead of the table
     #[arg(long)]
     pub(crate) json: bool,
     /// Replace the results in the output folder
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+/// How a scan of a web is read.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Scan or map of a web")]
+pub(crate) struct Scan {
+    /// Side of a pixel, as "0.1 mm"
+    #[arg(long, value_name = "LENGTH", value_parser = |t: &str| quantity(Dimension::Length, t), conflicts_with_all = [
+        "rate", "time_unit", "velocity_unit", "columns", "time_column", "skip", "max_gap", "mean_velocity", "integral",
+        "segment", "window", "overlap", "flat_until",
+    ])]
+    pub(crate) pixel: Option<f64>,
+    /// Mean basis weight of the sheet, as "15 g/m²" or "15 gsm"
+    #[arg(long, value_name = "WEIGHT", requires = "pixel", value_parser = |t: &str| quantity(Dimension::BasisWeight, t))]
+    pub(crate) weight: Option<f64>,
+    /// What the values are [default: transmitted for PNG and TIFF, weight for .npy and CSV]
+    #[arg(long, value_enum, requires = "pixel")]
+    pub(crate) light: Option<LightName>,
+    /// Picture of the lamp without web, at the same exposure; it takes out any shading
+    #[arg(long, value_name = "FILE", requires = "pixel", value_hint = ValueHint::FilePath)]
+    pub(crate) lamp: Option<PathBuf>,
+    /// Grey level of the lamp without web [default: the largest that the file can hold]
+    #[arg(long, value_name = "LEVEL", requires = "pixel", conflicts_with = "lamp", value_parser = above_zero)]
+    pub(crate) white: Option<f64>,
+    /// Take the lamp as even; without --lamp, its shading is else taken out as a polynomial
+    #[arg(long, requires = "pixel")]
+    pub(crate) keep_shading: bool,
+    /// Standard deviation of the noise of a single pixel, which is then taken out
+    #[arg(long, value_name = "LEVELS", requires = "pixel", value_parser = above_zero)]
+    pub(crate) noise: Option<f64>,
+    /// Where the machine direction runs in the picture
+    #[arg(long, value_enum, requires = "pixel", default_value = "columns", hide_possible_values = false)]
+    pub(crate) md: Direction,
+    /// Sides of the patches, as "1 mm,5 mm,10 mm" [default: from 0.5 mm to a fifth of the picture]
+    #[arg(long, value_name = "LENGTHS", requires = "pixel", value_delimiter = ',',
+          value_parser = |t: &str| quantity(Dimension::Length, t))]
+    pub(crate) patches: Vec<f64>,
+}
+
+/// What the values of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum LightName {
+    /// Light that has come through the web
+    Transmitted,
+    /// Basis weights, in kg/m² or, with --weight, in any unit
+    Weight,
+}
+
+/// Where the machine direction runs in a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Direction {
+    /// Along the columns, downwards
+    Columns,
+    /// Along the rows, to the right
+    Rows,
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
+    value.ok_or_else(|| "write a number above zero, like 240".to_owned())
 }
 
 /// A scheme by its name in a case file.
@@ -482,7 +553,7 @@ fn overlap(text: &str) -> Result<f64, String> {
 
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
-    /// Results folders of runs, the one to compare with first
+    /// Results folders of runs, or of webs, the one to compare with first
     #[arg(value_name = "RUN", value_hint = ValueHint::DirPath, num_args = 2.., required = true)]
     pub(crate) runs: Vec<PathBuf>,
     /// Folder for the report [default: results/<name>_against_<name>]

@@ -2,7 +2,7 @@
 
 use parquet::errors::ParquetError;
 use spunlaid::error::{
-    Error, Fault, FileError, FileFault, FileKind, JournalError, RecordFault, StudyFault, WebFault,
+    Error, Fault, FileError, FileFault, FileKind, JournalError, RecordFault, ScanFault, StudyFault, WebFault,
 };
 use std::fmt;
 use std::io;
@@ -42,6 +42,10 @@ pub(crate) enum Failure {
     NotARun { folder: PathBuf, reason: String },
     /// A finished run cannot be flown for longer.
     NotContinued { folder: PathBuf, reason: String },
+    /// Results that cannot be compared.
+    NotCompared { folder: PathBuf, reason: String },
+    /// The size of the pixels of a scan is not given.
+    NoPixel { path: PathBuf },
     /// More runs than a picture can show.
     TooManyRuns { runs: usize, most: usize },
     /// The paper has no such figure.
@@ -91,6 +95,8 @@ impl Failure {
             | Self::FewerReplicates { .. }
             | Self::NotARun { .. }
             | Self::NotContinued { .. }
+            | Self::NoPixel { .. }
+            | Self::NotCompared { .. }
             | Self::TooManyRuns { .. }
             | Self::NoSuchFigure { .. }
             | Self::NoSuchKey { .. }
@@ -193,6 +199,15 @@ impl fmt::Display for Failure {
             Self::NotContinued { folder, reason } => {
                 write!(f, "{}: cannot be continued: {reason}", folder.display())
             }
+            Self::NotCompared { folder, reason } => {
+                write!(f, "{}: cannot be compared: {reason}", folder.display())
+            }
+            Self::NoPixel { path } => write!(
+                f,
+                "{}: is the scan or the map of a web, and does not say how large its pixels are; give the side of a pixel, as in \
+                 --pixel \"0.1 mm\"",
+                path.display()
+            ),
             Self::NothingToLay { of, reason } => write!(f, "{}: {reason}", of.display()),
             Self::TooManyRuns { runs, most } => {
                 write!(f, "{runs} runs are named, and at most {most} are compared at a time; name fewer")
@@ -274,6 +289,13 @@ fn record_options(fault: &FileFault) -> &'static str {
             RecordFault::Segment { .. } => " (--segment)",
             _ => "",
         },
+        FileFault::Scan(fault) => match fault {
+            ScanFault::NotDarker { .. } => " (--white, --lamp, --light weight)",
+            ScanFault::OtherLamp { .. } => " (--lamp)",
+            ScanFault::Patch { .. } => " (--patches)",
+            ScanFault::NoiseTooLarge { .. } => " (--noise)",
+            _ => "",
+        },
         _ => "",
     }
 }
@@ -326,6 +348,8 @@ mod tests {
             Failure::NotContinued { folder: path(), reason: "it is longer".to_owned() },
             Failure::NoSuchFigure { name: "12".to_owned(), known: "2".to_owned() },
             Failure::NoSuchPoint { point: 3, points: 2 },
+            Failure::NoPixel { path: path() },
+            Failure::NotCompared { folder: path(), reason: "it holds no web".to_owned() },
             Failure::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() },
             Error::Flight(FlightFault::Empty).into(),
             Error::Rejected(Vec::new()).into(),

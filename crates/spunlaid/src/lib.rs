@@ -82,6 +82,7 @@ pub mod surrogate;
 pub mod web;
 
 pub mod record;
+pub mod scan;
 
 pub mod case;
 

@@ -23,6 +23,7 @@ const ROOMS: &[&[&str]] = &[
     &["statistics"],
     &["laydown", "surrogate"],
     &["record", "web"],
+    &["scan"],
     &["case"],
     &["flight"],
     &["observe"],

@@ -1,5 +1,6 @@
-//! `spunlaid analyse` makes the air of a case from a velocity record.
+//! `spunlaid analyse` makes the air of a case from a velocity record; a scan of a web goes to `scan`.
 
+use super::scan::{is_picture, scan};
 use super::stem;
 use crate::args::Analyse;
 use crate::failure::Failure;
@@ -12,6 +13,14 @@ use crate::say;
 use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
 
 pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
+    match analyse.scan.pixel {
+        Some(pixel) => scan(analyse, pixel),
+        None if is_picture(&analyse.record) => Err(Failure::NoPixel { path: analyse.record.clone() }),
+        None => record(analyse),
+    }
+}
+
+fn record(analyse: &Analyse) -> Result<(), Failure> {
     let name = stem(&analyse.record, "record");
     let folder = super::folder(analyse.out.as_ref(), name);
     let staging = Staging::new(&folder, ENTRIES, analyse.force, super::interrupt::stop_on_ctrl_c())?;

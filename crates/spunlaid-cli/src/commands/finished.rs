@@ -15,11 +15,24 @@ const SUMMARY: &str = "summary.json";
 /// The option of `run` that asks for a longer flight.
 const UNTIL: &str = "--until";
 
-/// Reads the summary of a results folder.
+/// Reads the summary of a results folder of a run.
 ///
 /// # Errors
 /// If the folder does not hold the results of a run.
 pub(super) fn summary(folder: &Path) -> Result<Json, Failure> {
+    let summary = any_summary(folder)?;
+    if summary.get("end_node").or_else(|| summary.get("laydown")).is_none() {
+        let reason = format!("{SUMMARY} is not that of a run");
+        return Err(Failure::NotARun { folder: folder.to_owned(), reason });
+    }
+    Ok(summary)
+}
+
+/// Reads the summary of a results folder of a run or of a web.
+///
+/// # Errors
+/// If the folder has none.
+pub(super) fn any_summary(folder: &Path) -> Result<Json, Failure> {
     let not_a_run = |reason: String| Failure::NotARun { folder: folder.to_owned(), reason };
     if folder.is_file() {
         return Err(not_a_run("it is a file".to_owned()));
@@ -32,12 +45,7 @@ pub(super) fn summary(folder: &Path) -> Result<Json, Failure> {
     }
     let path = folder.join(SUMMARY);
     let text = fs::read_to_string(&path).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
-    let summary: Json =
-        serde_json::from_str(&text).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
-    if summary.get("end_node").or_else(|| summary.get("laydown")).is_none() {
-        return Err(not_a_run(format!("{SUMMARY} is not that of a run")));
-    }
-    Ok(summary)
+    serde_json::from_str(&text).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))
 }
 
 /// The case of a finished run with a longer duration, and the notes about it, which have been told.

@@ -8,6 +8,7 @@ mod interrupt;
 mod keys;
 mod reproduce;
 mod run;
+mod scan;
 mod small;
 mod sweep;
 mod web;

@@ -11,7 +11,8 @@ use std::collections::BTreeMap;
 /// Most runs in one picture.
 pub(crate) const MOST: usize = 6;
 
-const COLOURS: [&str; MOST] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
+/// Colours of the runs.
+pub(super) const COLOURS: [&str; MOST] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 /// Dashes of the series of one run.
 const DASHES: [Option<&str>; 4] = [None, Some("8 4"), Some("2 3"), Some("8 3 2 3")];
 

@@ -18,5 +18,6 @@ mod web;
 pub(crate) use compare::{Curves, MOST as MOST_COMPARED, Row, overlaid_figures};
 pub(crate) use record::record_figures;
 pub(crate) use run::{run_figures, swing_frequency};
+pub(crate) use spunlaid::web::uniformity::Unevenness;
 pub(crate) use study::{name_of_key, study_figures};
-pub(crate) use web::web_figures;
+pub(crate) use web::{SEEN, overlaid_webs, scan_figures, web_figures};

@@ -3,7 +3,6 @@
 use super::summary::InOrder;
 use crate::numbers::{decimals, plus_minus, to_decimals};
 use serde::Serialize;
-use spunlaid::observe::Measure;
 use spunlaid::statistics::{Difference, Estimate};
 use std::fmt::Write;
 
@@ -20,16 +19,23 @@ pub(crate) struct Comparison {
     pub(crate) pairs: Option<usize>,
     /// Why so, in words.
     pub(crate) reason: String,
+    /// What the errors in the table are.
+    pub(crate) errors: &'static str,
     pub(crate) measures: Vec<Compared>,
 }
 
 /// A measure of two runs.
 #[derive(Clone, Debug)]
 pub(crate) struct Compared {
-    pub(crate) measure: &'static Measure,
+    pub(crate) label: String,
+    /// Its name in `comparison.json`.
+    pub(crate) column: String,
+    /// The unit in which it is shown, and how many of it are in the SI unit.
+    pub(crate) unit: &'static str,
+    pub(crate) per_si: f64,
     /// Of the run that is compared with, and of the other.
     pub(crate) means: [Estimate; 2],
-    /// None where there are too few replicates.
+    /// None where there are too few replicates, or too small a web, for an error.
     pub(crate) difference: Option<Difference>,
 }
 
@@ -65,13 +71,16 @@ struct Numbers {
 struct Mean {
     mean: f64,
     standard_error: Option<f64>,
-    n: usize,
+    /// Number of replicates; none for a web.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    n: Option<usize>,
 }
 
 /// The comparisons as JSON, in SI units.
 pub(crate) fn json(comparisons: &[Comparison]) -> String {
     let mean = |of: &Estimate| {
-        let n = of.values.iter().filter(|value| value.is_finite()).count();
+        let finite = of.values.iter().filter(|value| value.is_finite()).count();
+        let n = (!of.values.is_empty()).then_some(finite);
         Mean { mean: of.mean, standard_error: of.standard_error, n }
     };
     let numbers = |of: &Compared| {
@@ -84,7 +93,7 @@ pub(crate) fn json(comparisons: &[Comparison]) -> String {
             half_width: of.difference.map(|d| d.half_width()),
             beyond_chance: of.difference.map(|d| d.is_beyond_chance()),
         };
-        (of.measure.column.to_owned(), numbers)
+        (of.column.clone(), numbers)
     };
     let one = |of: &'_ Comparison| InOrder(of.measures.iter().map(numbers).collect());
     let comparisons = comparisons.iter().map(|of| One {
@@ -118,7 +127,7 @@ impl Comparison {
 impl Compared {
     /// Both means, the difference with its sign, and the verdict, in the unit of the measure.
     pub(crate) fn cells(&self) -> [String; 4] {
-        let factor = self.measure.unit.per_si;
+        let factor = self.per_si;
         let mean =
             |of: &Estimate| plus_minus(of.mean * factor, of.standard_error.map(|error| error * factor));
         let difference = self.difference.map_or_else(
@@ -133,7 +142,7 @@ impl Compared {
             },
         );
         let verdict = match self.difference {
-            None => "too few replicates",
+            None => "too few data",
             Some(d) if d.value == 0.0 && d.standard_error == 0.0 => "the same",
             Some(d) if d.is_beyond_chance() => "beyond chance",
             Some(_) => "within chance",
@@ -154,8 +163,8 @@ pub(crate) fn table(of: &Comparison) -> String {
     ]];
     for one in &of.measures {
         let [against, run, difference, verdict] = one.cells();
-        let unit = one.measure.unit.shown.to_owned();
-        rows.push([one.measure.label.to_owned(), against, run, difference, unit, verdict]);
+        let unit = one.unit.to_owned();
+        rows.push([one.label.clone(), against, run, difference, unit, verdict]);
     }
     let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..6).map(width).collect();

@@ -26,31 +26,33 @@ struct Page<'a> {
 
 struct Table<'a> {
     of: &'a Comparison,
-    rows: Vec<Row>,
+    rows: Vec<Row<'a>>,
     beyond: usize,
     all: usize,
 }
 
-struct Row {
-    name: &'static str,
+struct Row<'a> {
+    name: &'a str,
     unit: &'static str,
     cells: [String; 4],
     /// Whether the difference is within chance.
     faint: bool,
 }
 
-/// The report as one HTML file.
-pub(crate) fn comparison_html(input: &ComparisonReport<'_>) -> String {
-    let row = |of: &Compared| Row {
-        name: of.measure.label,
-        unit: of.measure.unit.shown,
+fn row(of: &Compared) -> Row<'_> {
+    Row {
+        name: &of.label,
+        unit: of.unit,
         cells: of.cells(),
         faint: !of.difference.is_some_and(|difference| difference.is_beyond_chance()),
-    };
-    let table = |of: &'_ Comparison| of.measures.iter().map(row).collect();
+    }
+}
+
+/// The report as one HTML file.
+pub(crate) fn comparison_html(input: &ComparisonReport<'_>) -> String {
     let tables = input.comparisons.iter().map(|of| {
         let (beyond, all) = of.beyond_chance();
-        Table { of, rows: table(of), beyond, all }
+        Table { of, rows: of.measures.iter().map(row).collect(), beyond, all }
     });
     let first = input.comparisons.first().map_or("", |of| of.against.as_str());
     let others: Vec<&str> = input.comparisons.iter().map(|of| of.run.as_str()).collect();

@@ -10,6 +10,7 @@ mod comparison;
 mod frames;
 mod page;
 mod paper;
+mod scan;
 mod study;
 mod table;
 #[cfg(test)]
@@ -20,6 +21,7 @@ mod words;
 pub(crate) use analysis::{AnalysisReport, analysis_html};
 pub(crate) use comparison::{ComparisonReport, comparison_html};
 pub(crate) use paper::{PaperReport, paper_html};
+pub(crate) use scan::{ScanReport, scan_html};
 pub(crate) use study::{StudyReport, study_html};
 pub(crate) use web::{WebReport, web_html};
 

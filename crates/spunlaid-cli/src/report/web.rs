@@ -9,7 +9,8 @@ use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
-use spunlaid::web::{Fibres as WebFibres, Findings, Lever, Sensitivity, Strand, Web, Window};
+use spunlaid::web::uniformity::Unevenness;
+use spunlaid::web::{Clouds, Fibres as WebFibres, Findings, Lever, Map, Sensitivity, Strand, Web, Window};
 use spunlaid_charts::Figure;
 
 const MM: f64 = 1e3;
@@ -43,25 +44,37 @@ pub(crate) struct WebReport<'a> {
 /// Content of `assets/web.html`, which escapes everything that is not marked safe.
 #[derive(Template)]
 #[template(path = "web.html")]
-struct Page<'a> {
-    name: &'a str,
-    headline: String,
-    summary: String,
-    notes: &'a [String],
-    caption: String,
+pub(super) struct Page<'a> {
+    /// The command that wrote it.
+    pub(super) command: &'static str,
+    pub(super) name: &'a str,
+    pub(super) headline: String,
+    pub(super) summary: String,
+    pub(super) notes: &'a [String],
+    pub(super) caption: String,
     /// Numbers and base64 only: nothing in it can end the script element it stands in.
-    data: String,
-    verdict: Vec<String>,
-    patches: Vec<Vec<String>>,
-    /// Heading of the column of the other description of the filaments.
-    compared: Option<&'static str>,
-    lever_heads: Vec<String>,
-    levers: Vec<(&'static str, Vec<String>)>,
-    layers: Vec<[String; 6]>,
-    figures: &'a [Figure],
-    toml: &'a str,
-    cost: String,
-    version: &'static str,
+    pub(super) data: String,
+    /// Whether there are single fibres to be seen.
+    pub(super) fibres: bool,
+    pub(super) verdict: Vec<String>,
+    pub(super) heads: Vec<&'static str>,
+    pub(super) patches: Vec<Vec<String>>,
+    pub(super) about_patches: &'static str,
+    pub(super) lever_heads: Vec<String>,
+    pub(super) levers: Vec<(&'static str, Vec<String>)>,
+    pub(super) figures: &'a [Figure],
+    pub(super) file: File<'a>,
+    pub(super) cost: String,
+    pub(super) version: &'static str,
+}
+
+/// What the web was made from.
+pub(super) struct File<'a> {
+    pub(super) title: &'static str,
+    pub(super) heads: &'static [&'static str],
+    pub(super) rows: Vec<Vec<String>>,
+    pub(super) toml: &'a str,
+    pub(super) caption: &'static str,
 }
 
 /// What the script of the light table gets; lengths in mm.
@@ -73,11 +86,11 @@ struct Data {
     length: f64,
     /// Side of a pixel of the picture.
     pixel: f64,
-    window: Fibres,
+    window: Option<Fibres>,
 }
 
 #[derive(Serialize)]
-struct Fibres {
+pub(super) struct Fibres {
     corner: [f64; 2],
     sides: [f64; 2],
     diameter: f64,
@@ -90,42 +103,66 @@ struct Fibres {
 /// The report as one HTML file.
 pub(crate) fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let of = input.findings;
-    let map = &of.laid.map;
-    let failed = |reason| Failure::Figure { name: "web".to_owned(), reason };
-    let (picture, each) = light_table(map, PICTURE).map_err(failed)?;
-    let data = Data {
-        image: STANDARD.encode(picture),
-        width: map.columns as f64 * map.cell * MM,
-        length: map.rows as f64 * map.cell * MM,
-        pixel: each as f64 * map.cell * MM,
-        window: fibres(input),
-    };
+    let (data, pixel) = light_table_data(&of.laid.map, Some(fibres(input)))?;
+    let compared = compared(input.web);
+    let mut heads = vec!["Patch", "CV of this map", "CV expected, from single fibres"];
+    heads.extend(compared);
+    heads.push("Straight fibres");
     let page = Page {
+        command: "web",
         name: input.name,
-        headline: headline(of),
+        headline: headline(Some(of.laid.map.basis_weight()), seen(of).map(|i| &of.patches[i].map)),
         summary: summary(input.web),
         notes: input.notes,
-        caption: caption(input, each),
-        data: serde_json::to_string(&data).map_err(|error| failed(error.to_string()))?,
+        caption: caption(input, pixel),
+        data,
+        fibres: true,
         verdict: verdict(of),
+        heads,
         patches: patches(of),
-        compared: compared(input.web),
+        about_patches: match compared {
+            Some(_) => {
+                "How well the surrogate speaks for the flown fibres is seen from the two expected columns."
+            }
+            None => "",
+        },
         lever_heads: of.patches.iter().map(|patch| millimetres(patch.map.patch)).collect(),
         levers: of.sensitivities.iter().map(levers).collect(),
-        layers: input.layers.iter().map(layer).collect(),
         figures: input.figures,
-        toml: input.toml,
-        cost: format!(
-            "computed in {} on {}",
-            time(input.performance.wall_s),
-            count(input.performance.threads as u64, "thread")
-        ),
+        file: File {
+            title: "The web file",
+            heads: &["Layer", "Filaments", "Basis weight", "σ MD", "σ CD", "A"],
+            rows: input.layers.iter().map(layer).collect(),
+            toml: input.toml,
+            caption: "The map is in map.npy (kg/m², a row of the web after the other), map.png (16 bit) and map.parquet, the fibres of \
+                      the window in fibres.vtp, all numbers in summary.json, beside this page.",
+        },
+        cost: cost(input.performance),
         version: env!("CARGO_PKG_VERSION"),
     };
     Ok(rendered(&page))
 }
 
-fn millimetres(length: f64) -> String {
+pub(super) fn cost(of: Performance) -> String {
+    format!("computed in {} on {}", time(of.wall_s), count(of.threads as u64, "thread"))
+}
+
+/// What the script of the light table gets, and the side of a pixel of its picture [m].
+pub(super) fn light_table_data(map: &Map, window: Option<Fibres>) -> Result<(String, f64), Failure> {
+    let failed = |reason| Failure::Figure { name: "web".to_owned(), reason };
+    let (picture, each) = light_table(map, PICTURE).map_err(failed)?;
+    let pixel = each as f64 * map.cell;
+    let data = Data {
+        image: STANDARD.encode(picture),
+        width: map.columns as f64 * map.cell * MM,
+        length: map.rows as f64 * map.cell * MM,
+        pixel: pixel * MM,
+        window,
+    };
+    Ok((serde_json::to_string(&data).map_err(|error| failed(error.to_string()))?, pixel))
+}
+
+pub(super) fn millimetres(length: f64) -> String {
     format!("{}{THIN}mm", significant(length * MM, 3))
 }
 
@@ -135,20 +172,30 @@ fn grams(weight: f64) -> String {
 
 /// The patch nearest to what the eye judges first.
 fn seen(of: &Findings) -> Option<usize> {
-    let far = |i: &usize| (of.patches[*i].map.patch / SEEN).ln().abs();
-    (0..of.patches.len()).min_by(|a, b| far(a).total_cmp(&far(b)))
+    nearest(of.patches.iter().map(|patch| patch.map.patch))
 }
 
-fn headline(of: &Findings) -> String {
-    let weight = grams(of.laid.map.basis_weight());
-    match seen(of).map(|i| &of.patches[i]) {
-        Some(patch) => format!(
-            "A web of {weight} that varies by {}{THIN}% over patches of {}.",
-            plus_minus(patch.map.cv * PER_CENT, patch.map.standard_error.map(|error| error * PER_CENT)),
-            millimetres(patch.map.patch)
+/// Which of the sides of patches is nearest to what the eye judges first.
+pub(super) fn nearest(patches: impl Iterator<Item = f64>) -> Option<usize> {
+    let far = |patch: f64| (patch / SEEN).ln().abs();
+    patches.map(far).enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
+}
+
+/// * `weight` – mean basis weight, if it is known [kg/m²]
+pub(super) fn headline(weight: Option<f64>, seen: Option<&Unevenness>) -> String {
+    let web = weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams(weight)));
+    match seen {
+        Some(of) => format!(
+            "{web} that varies by {} over patches of {}.",
+            per_cent(of.cv, of.standard_error),
+            millimetres(of.patch)
         ),
-        None => format!("A web of {weight}."),
+        None => format!("{web}."),
     }
+}
+
+pub(super) fn per_cent(cv: f64, error: Option<f64>) -> String {
+    format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
 }
 
 fn summary(web: &Web) -> String {
@@ -168,17 +215,24 @@ fn summary(web: &Web) -> String {
     )
 }
 
-fn metres(length: f64) -> String {
+pub(super) fn metres(length: f64) -> String {
     if length < 1.0 { millimetres(length) } else { format!("{}{THIN}m", significant(length, 3)) }
 }
 
-fn caption(input: &WebReport<'_>, each: usize) -> String {
-    let map = &input.findings.laid.map;
+/// * `pixel` – side of a pixel of the picture [m]
+pub(super) fn about_light_table(pixel: f64) -> String {
     format!(
         "Lighter where there is less fibre; black and white are three standard deviations apart from the mean. The machine \
-         direction runs downwards. A pixel is {} wide. In the frame, {} by {}, the single fibres are drawn in their true width: zoom in with \
+         direction runs downwards. A pixel is {} wide.",
+        millimetres(pixel)
+    )
+}
+
+fn caption(input: &WebReport<'_>, pixel: f64) -> String {
+    format!(
+        "{} In the frame, {} by {}, the single fibres are drawn in their true width: zoom in with \
          the wheel, the buttons or + and −.",
-        millimetres(each as f64 * map.cell),
+        about_light_table(pixel),
         millimetres(input.window.sides[0]),
         millimetres(input.window.sides[1])
     )
@@ -212,9 +266,6 @@ fn compared(web: &Web) -> Option<&'static str> {
 }
 
 fn patches(of: &Findings) -> Vec<Vec<String>> {
-    let per_cent = |cv: f64, error: Option<f64>| {
-        format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
-    };
     let row = |patch: &spunlaid::web::PatchFindings| {
         let mut cells = vec![
             millimetres(patch.map.patch),
@@ -245,9 +296,9 @@ fn levers(of: &Sensitivity) -> (&'static str, Vec<String>) {
     (words(of.lever), of.elasticity.iter().map(cell).collect())
 }
 
-fn layer(of: &Layer) -> [String; 6] {
+fn layer(of: &Layer) -> Vec<String> {
     let spread = |sigma: Option<f64>| sigma.map_or("–".to_owned(), millimetres);
-    [
+    vec![
         of.name.clone(),
         of.filaments.to_string(),
         grams(of.basis_weight_kg_m2),
@@ -257,23 +308,24 @@ fn layer(of: &Layer) -> [String; 6] {
     ]
 }
 
+/// Which clouds hold most of the variance, in a sentence.
+pub(super) fn largest_clouds(clouds: &Clouds) -> Option<String> {
+    let octaves = clouds.octaves();
+    let whole: f64 = octaves.iter().map(|(_, variance)| variance.mean).sum();
+    let (waves, variance) = octaves.iter().max_by(|a, b| a.1.mean.total_cmp(&b.1.mean))?;
+    Some(format!(
+        "Clouds with wavelengths of {} to {} hold the most: {} % of the variance between {} and {}.",
+        millimetres(waves[0]),
+        millimetres(waves[1]),
+        significant(PER_CENT * variance.mean / whole, 2),
+        millimetres(clouds.shortest()),
+        millimetres(clouds.longest())
+    ))
+}
+
 /// What makes the web uneven, and what would make it more even, in sentences.
 fn verdict(of: &Findings) -> Vec<String> {
-    let mut sentences = Vec::new();
-    if let Some(clouds) = &of.clouds {
-        let octaves = clouds.octaves();
-        let whole: f64 = octaves.iter().map(|(_, variance)| variance.mean).sum();
-        if let Some((waves, variance)) = octaves.iter().max_by(|a, b| a.1.mean.total_cmp(&b.1.mean)) {
-            sentences.push(format!(
-                "Clouds with wavelengths of {} to {} hold the most: {} % of the variance between {} and {}.",
-                millimetres(waves[0]),
-                millimetres(waves[1]),
-                significant(PER_CENT * variance.mean / whole, 2),
-                millimetres(clouds.shortest()),
-                millimetres(clouds.longest())
-            ));
-        }
-    }
+    let mut sentences: Vec<String> = of.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
     let Some(i) = seen(of) else { return sentences };
     let patch = &of.patches[i];
     let ratio = patch.one_fibre.0 / patch.straight_fibres;

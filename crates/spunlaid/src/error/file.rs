@@ -1,6 +1,6 @@
 //! Errors that any file can have: case, study, record, field, table.
 
-use super::{FieldFault, ProfileFault, RecordFault, memory};
+use super::{FieldFault, ProfileFault, RecordFault, ScanFault, memory};
 use crate::units::{Dimension, Printable, Wanted, excerpt, shortest};
 use std::fmt::{self, Write};
 use std::path::Path;
@@ -20,6 +20,8 @@ pub enum FileKind {
     Field,
     /// A profile or a spectrum.
     Table,
+    /// A scan or a map of a web.
+    Scan,
 }
 
 impl FileKind {
@@ -31,6 +33,7 @@ impl FileKind {
             Self::Record => "velocity record",
             Self::Field => "field of air",
             Self::Table => "table",
+            Self::Scan => "scan of a web",
         }
     }
 
@@ -42,6 +45,7 @@ impl FileKind {
                 "VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of its files (.vtm, .pvtu) or a table (.csv)"
             }
             Self::Table => "CSV in UTF-8 or Latin-1",
+            Self::Scan => "a picture (PNG or TIFF), a NumPy array (.npy) or a table (.csv)",
         }
     }
 
@@ -51,7 +55,7 @@ impl FileKind {
             Self::Study => "name a study file".to_owned(),
             Self::Web => "name the file of a web".to_owned(),
             Self::Table => "a path in a case counts from the folder of the case file".to_owned(),
-            Self::Record | Self::Field => format!("name a {}, {}", self.name(), self.formats()),
+            Self::Record | Self::Field | Self::Scan => format!("name a {}, {}", self.name(), self.formats()),
         }
     }
 }
@@ -277,6 +281,9 @@ pub enum FileFault {
     /// A fault of a profile or a spectrum.
     #[error(transparent)]
     Profile(#[from] ProfileFault),
+    /// A fault of a scan of a web.
+    #[error(transparent)]
+    Scan(#[from] ScanFault),
 }
 
 impl FileFault {

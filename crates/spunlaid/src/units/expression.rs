@@ -41,6 +41,7 @@ impl Powers {
             Dimension::Frequency | Dimension::Rate => Self::new(0.0, 0.0, -1.0),
             Dimension::Density => Self::new(-3.0, 1.0, 0.0),
             Dimension::LinearDensity => Self::new(-1.0, 1.0, 0.0),
+            Dimension::BasisWeight => Self::new(-2.0, 1.0, 0.0),
             Dimension::Pressure => Self::new(-1.0, 1.0, -2.0),
             Dimension::KinematicViscosity => Self::new(2.0, 0.0, -1.0),
             Dimension::Acceleration => Self::new(1.0, 0.0, -2.0),

@@ -25,6 +25,8 @@ pub enum Dimension {
     Density,
     /// [kg/m]
     LinearDensity,
+    /// [kg/m²]
+    BasisWeight,
     /// [Pa]
     Pressure,
     /// [m²/s]
@@ -40,7 +42,7 @@ pub enum Dimension {
 }
 
 /// Every dimension.
-const ALL: [Dimension; 13] = [
+const ALL: [Dimension; 14] = [
     Dimension::Length,
     Dimension::Velocity,
     Dimension::Time,
@@ -48,6 +50,7 @@ const ALL: [Dimension; 13] = [
     Dimension::Rate,
     Dimension::Density,
     Dimension::LinearDensity,
+    Dimension::BasisWeight,
     Dimension::Pressure,
     Dimension::KinematicViscosity,
     Dimension::Acceleration,
@@ -148,6 +151,7 @@ impl Dimension {
             Self::Rate => "a rate",
             Self::Density => "a density",
             Self::LinearDensity => "a linear density",
+            Self::BasisWeight => "a basis weight",
             Self::Pressure => "a pressure",
             Self::KinematicViscosity => "a kinematic viscosity",
             Self::Acceleration => "an acceleration",

@@ -66,6 +66,8 @@ const LINEAR_DENSITY: &[Unit] = &[
     // A denier is a gram per 9 km.
     also("den", "den", Over(9e6)),
 ];
+const BASIS_WEIGHT: &[Unit] =
+    &[unit("kg/m²", "kg/m2", Ten(0)), unit("g/m²", "g/m2", Ten(-3)), also("gsm", "gsm", Ten(-3))];
 const PRESSURE: &[Unit] = &[
     unit("Pa", "Pa", Ten(0)),
     unit("kPa", "kPa", Ten(3)),
@@ -91,6 +93,7 @@ impl Dimension {
             Self::Rate => RATE,
             Self::Density => DENSITY,
             Self::LinearDensity => LINEAR_DENSITY,
+            Self::BasisWeight => BASIS_WEIGHT,
             Self::Pressure => PRESSURE,
             Self::KinematicViscosity => KINEMATIC_VISCOSITY,
             Self::Acceleration => ACCELERATION,

@@ -1,6 +1,7 @@
-//! `spunlaid compare`: the results of several runs side by side.
+//! `spunlaid compare`: the results of several runs, or of several webs, side by side.
 
 mod read;
+mod webs;
 
 use super::interrupt::stop_on_ctrl_c;
 use crate::args::Compare;
@@ -14,6 +15,7 @@ use crate::say;
 use read::Run;
 use spunlaid::observe::MEASURES;
 use spunlaid::statistics::{Difference, Estimate};
+use spunlaid_charts::Figure;
 use std::path::{Path, PathBuf};
 
 /// The files of a comparison; the last one marks it as complete.
@@ -43,17 +45,12 @@ pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
     let files = (!compare.json || compare.out.is_some())
         .then(|| Staging::new(&folder, FILES, compare.force, stop_on_ctrl_c()))
         .transpose()?;
-    let runs = compare.runs.iter().zip(names).map(|(folder, name)| Run::read(folder, name));
-    let runs: Vec<Run> = runs.collect::<Result<_, _>>()?;
-    let (first, others) = match runs.split_first() {
-        Some((first, others)) if !others.is_empty() => (first, others),
-        _ => return Ok(()),
+    let (comparisons, figures) = match webs::read(&compare.runs, &names)? {
+        Some(webs) => webs::compared(&webs)?,
+        None => of_runs(&compare.runs, names)?,
     };
-    let comparisons: Vec<Comparison> = others.iter().map(|other| compared(first, other)).collect();
     let json = comparison::json(&comparisons);
     if let Some(staging) = files {
-        let curves: Vec<_> = runs.iter().map(|run| run.curves.clone()).collect();
-        let figures = overlaid_figures(&curves);
         pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
         let version = env!("CARGO_PKG_VERSION");
         let report =
@@ -69,6 +66,15 @@ pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
         say::line(&format!("open {}", folder.join("report.html").display()));
     }
     Ok(())
+}
+
+/// Every run against the first, and their curves in one picture each.
+fn of_runs(folders: &[PathBuf], names: Vec<String>) -> Result<(Vec<Comparison>, Vec<Figure>), Failure> {
+    let runs = folders.iter().zip(names).map(|(folder, name)| Run::read(folder, name));
+    let runs: Vec<Run> = runs.collect::<Result<_, _>>()?;
+    let comparisons = runs.iter().skip(1).map(|other| compared(&runs[0], other)).collect();
+    let curves: Vec<_> = runs.into_iter().map(|run| run.curves).collect();
+    Ok((comparisons, overlaid_figures(&curves)))
 }
 
 /// The names of the folders; the whole paths where two names are equal.
@@ -103,7 +109,14 @@ fn compared(first: &Run, other: &Run) -> Comparison {
         let finite =
             |values: &Vec<f64>| Estimate::of(values.iter().copied().filter(|v| v.is_finite()).collect());
         let means = [finite(&values[0]), finite(&values[1])];
-        means.iter().all(|of| of.mean.is_finite()).then_some(Compared { measure, means, difference })
+        means.iter().all(|of| of.mean.is_finite()).then(|| Compared {
+            label: measure.label.to_owned(),
+            column: measure.column.to_owned(),
+            unit: measure.unit.shown,
+            per_si: measure.unit.per_si,
+            means,
+            difference,
+        })
     };
     let reason = match (pairs, differs) {
         (Some(pairs), _) => format!(
@@ -116,5 +129,13 @@ fn compared(first: &Run, other: &Run) -> Comparison {
         (None, None) => "as independent samples (Welch’s t)".to_owned(),
     };
     let measures = MEASURES.iter().filter_map(measure).collect();
-    Comparison { run: other.name().to_owned(), against: first.name().to_owned(), pairs, reason, measures }
+    let errors = "Mean ± one standard error of the mean over the replicates.";
+    Comparison {
+        run: other.name().to_owned(),
+        against: first.name().to_owned(),
+        pairs,
+        reason,
+        errors,
+        measures,
+    }
 }

@@ -2,15 +2,23 @@
 
 use super::{MM, PER_CENT};
 use crate::numbers::significant;
-use crate::output::web::SEEN;
-use spunlaid::web::{Clouds, Findings};
+use spunlaid::web::Clouds;
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{BLUE, VERMILION},
 };
 
+/// Waves of clouds that the eye sees, for the cloudiness index [m].
+pub(crate) const SEEN: [f64; 2] = [5e-3, 50e-3];
+
+/// The figures about clouds, in the order of the report.
+pub(super) fn figures(clouds: Option<&Clouds>, coefficients: &[Vec<f64>; 2], cell: f64) -> Vec<Figure> {
+    let of_clouds = clouds.map(|clouds| [octaves(clouds, cell), spectrum(clouds)]);
+    of_clouds.into_iter().flatten().chain([autocorrelation(coefficients, cell)]).collect()
+}
+
 /// The variance by octaves of wavelength.
-pub(super) fn octaves(clouds: &Clouds, of: &Findings) -> Figure {
+fn octaves(clouds: &Clouds, cell: f64) -> Figure {
     let points: Vec<(f64, f64, Option<f64>)> = clouds
         .octaves()
         .iter()
@@ -33,7 +41,6 @@ pub(super) fn octaves(clouds: &Clouds, of: &Findings) -> Figure {
     .line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line)
     .scatter(Series::spots("octaves", BLUE).unlabelled(), &points);
     let (index, error) = clouds.cloudiness(SEEN[0], SEEN[1]);
-    let cell = of.laid.map.cell;
     let caption = format!(
         "The variance of the basis weight over its mean, split by the wavelength of the clouds: each point holds wavelengths from \
          0.7 to 1.4 times its own, with one standard error over tiles of the sheet. Waves below two cells ({} mm) and \
@@ -49,7 +56,7 @@ pub(super) fn octaves(clouds: &Clouds, of: &Findings) -> Figure {
 }
 
 /// The power spectrum in both directions.
-pub(super) fn spectrum(clouds: &Clouds) -> Figure {
+fn spectrum(clouds: &Clouds) -> Figure {
     let points = |direction: usize| -> Vec<(f64, f64)> {
         let of = clouds.spectrum(direction).into_iter();
         let mut points: Vec<(f64, f64)> = of.map(|(wave, density)| (wave * MM, density * MM)).collect();
@@ -73,14 +80,9 @@ pub(super) fn spectrum(clouds: &Clouds) -> Figure {
 }
 
 /// The autocorrelation in both directions.
-pub(super) fn autocorrelation(of: &Findings) -> Figure {
-    let cell = of.laid.map.cell;
+fn autocorrelation(coefficients: &[Vec<f64>; 2], cell: f64) -> Figure {
     let points = |direction: usize| -> Vec<(f64, f64)> {
-        of.autocorrelation[direction]
-            .iter()
-            .enumerate()
-            .map(|(lag, c)| (lag as f64 * cell * MM, *c))
-            .collect()
+        coefficients[direction].iter().enumerate().map(|(lag, c)| (lag as f64 * cell * MM, *c)).collect()
     };
     let chart = Chart::new(
         "web_autocorrelation",

@@ -3,6 +3,10 @@
 mod clouds;
 mod unevenness;
 
+pub(crate) use clouds::SEEN;
+pub(crate) use unevenness::overlaid_webs;
+
+use spunlaid::scan;
 use spunlaid::web::{Findings, Map, Web};
 use spunlaid_charts::{
     Axis, Chart, Figure, Rose, Series,
@@ -11,30 +15,59 @@ use spunlaid_charts::{
 
 const MM: f64 = 1e3;
 const PER_CENT: f64 = 100.0;
-/// Grams in a kilogram.
-const GRAMS: f64 = 1e3;
+
+/// How the basis weights of a map are told.
+#[derive(Clone, Copy, Debug)]
+struct Weights {
+    /// Heading of an axis.
+    axis: &'static str,
+    unit: &'static str,
+    /// Units in a kg/m².
+    factor: f64,
+}
+
+const GRAMS: Weights = Weights { axis: "Basis weight (g/m^{2})", unit: "g/m²", factor: 1e3 };
+/// For a map whose mean of one stands for an unknown one.
+const SHARES: Weights =
+    Weights { axis: "Basis weight over its mean (%)", unit: "% of the mean", factor: 100.0 };
 
 /// All figures, in the order of the report.
 pub(crate) fn web_figures(web: &Web, of: &Findings) -> Vec<Figure> {
-    let mut figures = vec![unevenness::over_patches(web, of), unevenness::histogram(&of.laid.map)];
-    figures.push(profiles(&of.laid.map));
-    figures.extend(of.clouds.as_ref().map(|clouds| clouds::octaves(clouds, of)));
-    figures.extend(of.clouds.as_ref().map(clouds::spectrum));
-    figures.push(clouds::autocorrelation(of));
+    let map = &of.laid.map;
+    let mut figures = vec![
+        unevenness::over_patches(web, of),
+        unevenness::histogram(map, GRAMS),
+        profiles(map, GRAMS, STREAKS),
+    ];
+    figures.extend(clouds::figures(of.clouds.as_ref(), &of.autocorrelation, map.cell));
     figures.push(directions(of));
     figures
 }
 
+/// All figures of a scanned web, in the order of the report.
+pub(crate) fn scan_figures(of: &scan::Findings) -> Vec<Figure> {
+    let map = &of.map;
+    let weights = if of.mean_known { GRAMS } else { SHARES };
+    let streaks = "These are streaks, as far as the lamp was even.";
+    let mut figures =
+        vec![unevenness::scanned(of), unevenness::histogram(map, weights), profiles(map, weights, streaks)];
+    figures.extend(clouds::figures(of.clouds.as_ref(), &of.autocorrelation, map.cell));
+    figures
+}
+
+/// What the profile across a laid web shows.
+const STREAKS: &str = "These are streaks, which filaments at fixed places leave in the web; they are weaker where nozzles stand at an even \
+                       pitch (line.rows).";
 /// Most points of a profile; more cells are averaged.
 const POINTS: usize = 1000;
 
 /// Basis weight across the web and along it.
-fn profiles(map: &Map) -> Figure {
-    let mean = map.basis_weight() * GRAMS;
+fn profiles(map: &Map, weights: Weights, streaks: &str) -> Figure {
+    let mean = map.basis_weight() * weights.factor;
     let points = |profile: Vec<f64>| -> Vec<(f64, f64)> {
         let each = profile.len().div_ceil(POINTS).max(1);
         let parts = profile.chunks(each).enumerate();
-        let value = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64 * GRAMS;
+        let value = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64 * weights.factor;
         parts
             .map(|(i, part)| (((i * each) as f64 + 0.5 * part.len() as f64) * map.cell * MM, value(part)))
             .collect()
@@ -42,7 +75,7 @@ fn profiles(map: &Map) -> Figure {
     let chart = |name: &str, direction: &str, points: &[(f64, f64)], colour| {
         let x = Axis::linear(&format!("{direction} direction (mm)")).tight();
         let ends = [points.first(), points.last()].map(|end| (end.map_or(0.0, |end| end.0), mean));
-        Chart::new(name, "", x, Axis::linear("Basis weight (g/m^{2})"))
+        Chart::new(name, "", x, Axis::linear(weights.axis))
             .line(Series::new("", GREY).unlabelled().adorning().width(1.0), &ends)
             .line(Series::new(&format!("mean along {direction}"), colour).unlabelled().width(1.4), points)
     };
@@ -52,8 +85,8 @@ fn profiles(map: &Map) -> Figure {
         crate::numbers::significant(PER_CENT * (squares / points.len() as f64).sqrt(), 2)
     };
     let caption = format!(
-        "Above: the basis weight at a place across the web, averaged over the whole length of the sheet; it varies by {} %. These \
-         are streaks, which filaments at fixed places leave in the web; they are weaker where nozzles stand at an even pitch (line.rows). Below: the basis weight at a place along the web, \
+        "Above: the basis weight at a place across the web, averaged over the whole length of the sheet; it varies by {} %. \
+         {streaks} Below: the basis weight at a place along the web, \
          averaged over the whole width; it varies by {} %. The grey lines are the mean.",
         cv(&across),
         cv(&along)

@@ -12,10 +12,7 @@ use std::io::{self, BufWriter, Write};
 const ROWS: usize = 1 << 18;
 
 pub(super) fn write(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
-    let (now, later) = staging.place("map.npy");
-    File::create(now)
-        .and_then(|file| array(map, BufWriter::new(file)))
-        .map_err(Failure::unwritable(&later))?;
+    write_array(staging, map)?;
     if map.cells.len() > MOST_CELLS {
         return Ok(());
     }
@@ -24,6 +21,12 @@ pub(super) fn write(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
         picture(map).map_err(|reason| Failure::Figure { name: "map".to_owned(), reason })?,
     )?;
     table(staging, map)
+}
+
+/// `map.npy`.
+pub(super) fn write_array(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
+    let (now, later) = staging.place("map.npy");
+    File::create(now).and_then(|file| array(map, BufWriter::new(file))).map_err(Failure::unwritable(&later))
 }
 
 /// A NumPy array of 32-bit numbers, a row of the web after the other [kg/m²].

@@ -5,11 +5,11 @@ mod strands;
 mod summary;
 
 pub(crate) use map::light_table;
-pub(crate) use summary::{Layer, Performance, SEEN, Summary};
+pub(crate) use summary::{Layer, Performance, Summary};
 
 use super::folder::Staging;
 use crate::failure::Failure;
-use spunlaid::web::{Findings, Strand};
+use spunlaid::web::{Findings, Map, Strand};
 
 /// The contents of the folder. The last entry marks it as complete.
 pub(crate) const ENTRIES: &[&str] = &[
@@ -30,4 +30,9 @@ pub(crate) const MOST_CELLS: usize = 20_000_000;
 pub(crate) fn write(staging: &Staging<'_>, of: &Findings, strands: &[Strand]) -> Result<(), Failure> {
     map::write(staging, &of.laid.map)?;
     strands::write(staging, strands)
+}
+
+/// Writes the map of a scan, as an array only.
+pub(crate) fn write_scan(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
+    map::write_array(staging, map)
 }

@@ -1,0 +1,174 @@
+//! Webs side by side, laid or scanned: their CV at the patches that they have in common.
+
+use super::super::finished::any_summary;
+use crate::failure::Failure;
+use crate::figures::{Unevenness, overlaid_webs};
+use crate::numbers::significant;
+use crate::output::comparison::{Compared, Comparison};
+use serde_json::Value as Json;
+use spunlaid::statistics::{Difference, Estimate};
+use spunlaid_charts::Figure;
+use std::path::PathBuf;
+
+/// The results of a web.
+#[derive(Clone, Debug)]
+pub(super) struct Web {
+    folder: PathBuf,
+    name: String,
+    /// Mean basis weight, if it is known [kg/m²].
+    weight: Option<f64>,
+    /// By the side of the patches.
+    patches: Vec<Unevenness>,
+    /// Cloudiness index and share of the texture along the machine direction, with their standard errors.
+    clouds: [Option<(f64, Option<f64>)>; 2],
+}
+
+/// Patches whose sides differ by no more than this share are compared.
+const ALIKE: f64 = 0.05;
+
+/// Reads the folders if the first holds a web.
+///
+/// # Errors
+/// If a folder cannot be read, or not all hold webs.
+pub(super) fn read(folders: &[PathBuf], names: &[String]) -> Result<Option<Vec<Web>>, Failure> {
+    let mut webs = Vec::new();
+    for (folder, name) in folders.iter().zip(names) {
+        match web(folder, name, &any_summary(folder)?) {
+            Some(web) => webs.push(web),
+            None if webs.is_empty() => return Ok(None),
+            None => {
+                let reason =
+                    format!("it holds no web, and {} does; compare webs with webs", folders[0].display());
+                return Err(Failure::NotCompared { folder: folder.clone(), reason });
+            }
+        }
+    }
+    Ok(Some(webs))
+}
+
+fn web(folder: &std::path::Path, name: &str, summary: &Json) -> Option<Web> {
+    let web = summary.get("web")?;
+    let patch = |of: &Json| {
+        let number = |name: &str| of[name].as_f64();
+        Some(Unevenness {
+            patch: number("patch_m")?,
+            cv: number("cv")?,
+            standard_error: number("cv_standard_error"),
+        })
+    };
+    let patches: Vec<Unevenness> = web["patches"].as_array()?.iter().filter_map(patch).collect();
+    let clouds = [("cloudiness", "index"), ("texture_md", "mean")]
+        .map(|(group, value)| Some((web[group][value].as_f64()?, web[group]["standard_error"].as_f64())));
+    let weight = web["basis_weight_kg_m2"].as_f64();
+    Some(Web { folder: folder.to_owned(), name: name.to_owned(), weight, patches, clouds })
+}
+
+/// Every web against the first, and all curves in one picture.
+///
+/// # Errors
+/// If a web has no patches like those of the first.
+pub(super) fn compared(webs: &[Web]) -> Result<(Vec<Comparison>, Vec<Figure>), Failure> {
+    let comparisons = webs.iter().skip(1).map(|other| against(&webs[0], other)).collect::<Result<_, _>>()?;
+    let curves: Vec<_> = webs.iter().map(|web| (web.name.clone(), web.patches.clone())).collect();
+    Ok((comparisons, vec![overlaid_webs(&curves)]))
+}
+
+fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
+    let of_patch = |of: &Unevenness| {
+        let found = at(&other.patches, of.patch)?;
+        let side = significant(of.patch * 1e3, 3);
+        let values = [(of.cv, of.standard_error), (found.cv, found.standard_error)];
+        let (label, column) = (format!("CV over patches of {side} mm"), format!("cv_{side}_mm"));
+        Some(measure(label, column, ("%", 100.0), values))
+    };
+    let mut measures: Vec<Compared> = first.patches.iter().filter_map(of_patch).collect();
+    if measures.is_empty() {
+        let sides = |web: &Web| {
+            let sides: Vec<String> = web.patches.iter().map(|of| significant(of.patch * 1e3, 3)).collect();
+            format!("{} mm", sides.join(", "))
+        };
+        let reason = format!(
+            "it has no patches of the same size as {}: {} there, {} here; name the same with web.patches or --patches",
+            first.name,
+            sides(first),
+            sides(other)
+        );
+        return Err(Failure::NotCompared { folder: other.folder.clone(), reason });
+    }
+    let names =
+        [("cloudiness index", "cloudiness", ("%", 100.0)), ("texture along MD", "texture_md", ("", 1.0))];
+    for (i, (label, column, unit)) in names.into_iter().enumerate() {
+        if let (Some(a), Some(b)) = (first.clouds[i], other.clouds[i]) {
+            measures.push(measure(label.to_owned(), column.to_owned(), unit, [a, b]));
+        }
+    }
+    let weight = |web: &Web| {
+        web.weight
+            .map_or_else(|| "unknown".to_owned(), |weight| format!("{} g/m²", significant(weight * 1e3, 3)))
+    };
+    Ok(Comparison {
+        run: other.name.clone(),
+        against: first.name.clone(),
+        pairs: None,
+        reason: format!(
+            "as independent pieces of web; basis weight {} against {}",
+            weight(other),
+            weight(first)
+        ),
+        errors: "CV of the basis weight over square patches, ± one standard error from the scatter within each piece of web.",
+        measures,
+    })
+}
+
+fn measure(
+    label: String,
+    column: String,
+    (unit, per_si): (&'static str, f64),
+    values: [(f64, Option<f64>); 2],
+) -> Compared {
+    let [a, b] = values;
+    // Each error is from some hundred parts: a normal distribution serves.
+    let difference = a.1.zip(b.1).map(|(one, other)| Difference {
+        value: b.0 - a.0,
+        standard_error: one.hypot(other),
+        degrees: f64::INFINITY,
+    });
+    let means = values.map(|(mean, standard_error)| Estimate { mean, standard_error, values: Vec::new() });
+    Compared { label, column, unit, per_si, means, difference }
+}
+
+/// The unevenness at a patch of nearly the same size, moved to that size along the slope to its neighbour.
+fn at(patches: &[Unevenness], side: f64) -> Option<Unevenness> {
+    let far = |of: &Unevenness| (of.patch / side).ln().abs();
+    let (i, nearest) = patches.iter().enumerate().min_by(|a, b| far(a.1).total_cmp(&far(b.1)))?;
+    if far(nearest) > ALIKE {
+        return None;
+    }
+    let next =
+        if i + 1 < patches.len() { Some(&patches[i + 1]) } else { i.checked_sub(1).map(|i| &patches[i]) };
+    let slope = next.map_or(0.0, |next| (next.cv / nearest.cv).ln() / (next.patch / nearest.patch).ln());
+    let factor = (slope * (side / nearest.patch).ln()).exp();
+    let factor = if factor.is_finite() { factor } else { 1.0 };
+    Some(Unevenness {
+        patch: side,
+        cv: nearest.cv * factor,
+        standard_error: nearest.standard_error.map(|error| error * factor),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_law_is_moved_to_the_other_size_of_patch() {
+        let law = |patch: f64| Unevenness { patch, cv: 0.1 * patch.powf(-0.4), standard_error: Some(0.01) };
+        let patches = [0.0051, 0.0102, 0.0204].map(law);
+        for side in [0.005, 0.010, 0.020] {
+            let found = at(&patches, side).unwrap();
+            assert!((found.cv / law(side).cv - 1.0).abs() < 1e-12, "{found:?}");
+        }
+        assert_eq!(at(&patches, 0.0075), None);
+        assert_eq!(at(&[], 0.01), None);
+    }
+}

@@ -1,0 +1,107 @@
+//! `spunlaid analyse` of a scan or a map of a web.
+
+use super::interrupt::stop_on_ctrl_c;
+use super::stem;
+use crate::args::{Analyse, Direction, LightName};
+use crate::failure::Failure;
+use crate::figures::scan_figures;
+use crate::numbers::{plus_minus, significant};
+use crate::output::folder::Staging;
+use crate::output::pictures;
+use crate::output::web::{self, ENTRIES, Performance, Summary};
+use crate::report::{ScanReport, scan_html};
+use crate::say;
+use spunlaid::lanes::Isa;
+use spunlaid::scan::{Findings, Light, Picture, Settings, analyse, read};
+use std::path::Path;
+use std::time::Instant;
+
+/// Whether a file is the scan of a web by its name.
+pub(super) fn is_picture(file: &Path) -> bool {
+    let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    matches!(extension.as_str(), "png" | "tif" | "tiff" | "npy")
+}
+
+/// * `pixel` – side of a pixel [m]
+pub(super) fn scan(asked: &Analyse, pixel: f64) -> Result<(), Failure> {
+    let name = stem(&asked.record, "scan").to_string_lossy().into_owned();
+    let folder = super::folder(asked.out.as_ref(), &name);
+    let staging = Staging::new(&folder, ENTRIES, asked.force, stop_on_ctrl_c())?;
+    let started = Instant::now();
+    let picture = turned(read(&asked.record, pixel)?, asked);
+    let of = analyse(&picture, &settings(asked, &picture)?)?;
+    let performance = Performance {
+        wall_s: started.elapsed().as_secs_f64(),
+        threads: 1,
+        instruction_set: Isa::detect().name(),
+    };
+    let notes: Vec<String> = of.notes.iter().map(ToString::to_string).collect();
+    let summary = Summary::of_scan(&picture.file, &of, performance, &notes).to_json();
+    web::write_scan(&staging, &of.map)?;
+    let figures = scan_figures(&of);
+    pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+    let (name, file, notes) = (&name, &picture.file, &notes);
+    let report = ScanReport { name, file, findings: &of, figures: &figures, notes, performance };
+    staging.write("report.html", scan_html(&report)?)?;
+    staging.write("summary.json", &summary)?;
+    staging.publish()?;
+    if asked.json {
+        say::text(&summary);
+    } else if !asked.quiet {
+        say::text(&told(&of));
+        notes.iter().for_each(|note| say::remark(false, note));
+        say::line(&format!("open {}", folder.join("report.html").display()));
+    }
+    Ok(())
+}
+
+/// The picture with the machine direction downwards.
+fn turned(picture: Picture, asked: &Analyse) -> Picture {
+    if asked.scan.md == Direction::Rows { picture.turned() } else { picture }
+}
+
+fn settings(asked: &Analyse, picture: &Picture) -> Result<Settings, Failure> {
+    let of = &asked.scan;
+    let usual = if picture.format.holds_light() { LightName::Transmitted } else { LightName::Weight };
+    let light = match of.light.unwrap_or(usual) {
+        LightName::Transmitted => Light::Transmitted { mean: of.weight, white: of.white },
+        LightName::Weight => Light::Weight { mean: of.weight },
+    };
+    let lamp = of.lamp.as_ref().map(|lamp| Ok::<_, Failure>(turned(read(lamp, picture.pixel)?, asked)));
+    Ok(Settings {
+        lamp: lamp.transpose()?,
+        keep_shading: of.keep_shading,
+        noise: of.noise,
+        patches: of.patches.clone(),
+        ..Settings::of(light)
+    })
+}
+
+/// The table for the terminal.
+fn told(of: &Findings) -> String {
+    let mut text = String::new();
+    if of.mean_known {
+        text.push_str(&format!("basis weight {} g/m²\n", significant(of.map.basis_weight() * 1e3, 4)));
+    }
+    let heads = ["patch", "CV", "95 % interval", "noise of the camera", "lost by a pixel of blur"];
+    let line = |cells: [&str; 5]| {
+        let [patch, cv, interval, noise, blur] = cells;
+        format!("  {patch:>9}  {cv:>16}  {interval:>16}  {noise:>20}  {blur:>23}\n")
+    };
+    text.push_str("unevenness, CV in % ± standard error\n");
+    text.push_str(&line(heads));
+    for patch in &of.patches {
+        let found = patch.unevenness;
+        let interval = patch
+            .interval()
+            .map_or_else(|| "–".to_owned(), |ends| ends.map(|end| significant(100.0 * end, 3)).join(" to "));
+        text.push_str(&line([
+            &format!("{} mm", significant(found.patch * 1e3, 3)),
+            &plus_minus(100.0 * found.cv, found.standard_error.map(|error| 100.0 * error)),
+            &interval,
+            &significant(100.0 * patch.noise, 2),
+            &format!("{} %", significant(100.0 * patch.blur, 2)),
+        ]));
+    }
+    text
+}

@@ -1,0 +1,55 @@
+//! Webs as they are made: how even is a fabric of which there is a scan or a map of basis weight?
+//!
+//! file (PNG, TIFF, NumPy, CSV) → [`Picture`] → [`analyse`] → [`Findings`], with a [`Map`](crate::web::Map) as that of a simulated web
+//!
+//! **The input** is a picture in transmitted light, whose grey levels are proportional to the light that comes through, or a map
+//! of the basis weight itself.
+//!
+//! | format | what is read |
+//! |---|---|
+//! | PNG | 8 or 16 bits; colours become luminance; transparency is left out |
+//! | TIFF | the first page; 8, 16 or 32 bits or floating point, plain, Deflate, LZW or PackBits |
+//! | NumPy | an array of two dimensions in C order, of numbers of 1 to 8 bytes, but no half floats |
+//! | CSV | a line for each row of the map, as [`crate::table`] describes; an empty cell is a missing pixel |
+//!
+//! **From light to basis weight**, by the law of Beer and Lambert: the optical density `ln(white/level)` is proportional to the
+//! mass that the light has passed. Only ratios of densities count, so the absorption of the polymer need not be known, and a
+//! camera that raises all levels to a power does no harm. A lamp that is brighter in the middle is taken out with a picture of the lamp without web.
+//! Without one, a polynomial of second order is fitted to the logarithm of the level and taken out: that is right for the fall of light towards the corners of a lens,
+//! but a web of little density shows every rest of a lamp of another form, enlarged by the inverse of the density.
+//!
+//! **The results** are those of a simulated map: CV over patches with standard errors, clouds, autocorrelation. For each patch they also tell how much
+//! the noise of the camera and the blur of its optics count there.
+//!
+//! **Limits.** At most [`MOST_PIXELS`] pixels and at least [`LEAST_SIDE`] either way. Up to one pixel in a hundred may say nothing;
+//! it is filled in from its row.
+//!
+//! ```
+//! use spunlaid::scan::{Light, Settings, analyse, parse};
+//!
+//! # fn main() -> Result<(), spunlaid::error::FileError> {
+//! // A map of 40 by 40 pixels of 1 mm, in g/m².
+//! let row = |y: u32| (0..40).map(|x| format!("{}", 14 + (x * x + 3 * x * y) % 5)).collect::<Vec<_>>().join(",");
+//! let text: String = (0..40).map(|y| row(y) + "\n").collect();
+//! let picture = parse(text.as_bytes(), "gauge.csv", 1e-3)?;
+//! let light = Light::Weight { mean: Some(16e-3) };
+//! let found = analyse(&picture, &Settings { patches: vec![2e-3], ..Settings::of(light) })?;
+//! assert!((found.map.basis_weight() / 16e-3 - 1.0).abs() < 1e-12);
+//! assert!(found.patches[0].unevenness.cv < 0.1);
+//! # Ok(())
+//! # }
+//! ```
+
+mod findings;
+mod note;
+mod optics;
+mod picture;
+mod read;
+mod shading;
+mod weigh;
+
+pub use findings::{Findings, PatchFindings, Settings, analyse};
+pub use note::Note;
+pub use picture::{Format, Picture};
+pub use read::{LEAST_SIDE, MOST_PIXELS, parse, read};
+pub use weigh::{Light, Pixels};

@@ -1,0 +1,180 @@
+//! What a reader of the results must know about the picture.
+
+use super::findings::{PatchFindings, Settings};
+use super::picture::Picture;
+use super::weigh::{Light, Weighed};
+use crate::units::{Dimension, shortest};
+use std::fmt;
+
+/// Something that was assumed, corrected or left out.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Note {
+    /// Only the luminance of a picture in colours was used.
+    Colour,
+    /// The file has more pictures than the first.
+    OnlyTheFirst,
+    /// The lamp was not given.
+    White {
+        /// Level that was taken in its place.
+        white: f64,
+        /// Whether it is the largest that the file can hold, or else the largest that it holds.
+        full_scale: bool,
+    },
+    /// The mean weight was not given.
+    Relative,
+    /// Values were taken as basis weights in kg/m².
+    Kilograms {
+        /// Their mean [kg/m²].
+        mean: f64,
+    },
+    /// The lamp was found uneven and corrected.
+    Shading {
+        /// How much brighter its brightest place is than its darkest, as a share.
+        share: f64,
+    },
+    /// Pixels without a value were filled in.
+    Filled {
+        /// How many.
+        pixels: usize,
+    },
+    /// Some pixels are as light as can be.
+    Saturated {
+        /// How many.
+        pixels: usize,
+        /// As a share of all.
+        share: f64,
+    },
+    /// Some pixels are lighter than the lamp without web.
+    Lighter {
+        /// How many.
+        pixels: usize,
+        /// As a share of all.
+        share: f64,
+    },
+    /// Small patches are lowered by the blur of the optics.
+    Blur {
+        /// The smallest patch for which a pixel of blur does not matter, if there is one [m].
+        from: Option<f64>,
+    },
+}
+
+/// Heaviest web that is believed [kg/m²].
+const HEAVIEST: f64 = 2.0;
+/// A smaller shading is not worth a note.
+const SHADED: f64 = 0.01;
+/// A larger share of pixels changes the CV.
+const MANY: f64 = 1e-3;
+
+/// The notes on a picture, in the order of their use.
+pub(super) fn notes(
+    picture: &Picture,
+    settings: &Settings,
+    of: &Weighed,
+    patches: &[PatchFindings],
+) -> Vec<Note> {
+    let share = |pixels: usize| pixels as f64 / picture.values.len() as f64;
+    let pixels = of.pixels;
+    let white = match (settings.light, of.white) {
+        (Light::Transmitted { white: None, .. }, Some(white)) => {
+            Some(Note::White { white, full_scale: picture.full_scale.is_some() })
+        }
+        _ => None,
+    };
+    let in_kilograms = settings.light == Light::Weight { mean: None };
+    let lamp = of.shading.as_ref().map(|shading| libm::expm1(shading.range()));
+    let blurred = patches.first().is_some_and(|patch| !patch.is_sharp());
+    let sharp = || patches.iter().find(|patch| patch.is_sharp()).map(|patch| patch.unevenness.patch);
+    let told = [
+        picture.colour.then_some(Note::Colour),
+        picture.more.then_some(Note::OnlyTheFirst),
+        white,
+        (!of.mean_known).then_some(Note::Relative),
+        in_kilograms.then(|| Note::Kilograms { mean: of.map.basis_weight() }),
+        lamp.filter(|share| *share > SHADED).map(|share| Note::Shading { share }),
+        (pixels.filled > 0).then_some(Note::Filled { pixels: pixels.filled }),
+        (pixels.saturated > 0)
+            .then(|| Note::Saturated { pixels: pixels.saturated, share: share(pixels.saturated) }),
+        (pixels.lighter > 0).then(|| Note::Lighter { pixels: pixels.lighter, share: share(pixels.lighter) }),
+        blurred.then(|| Note::Blur { from: sharp() }),
+    ];
+    told.into_iter().flatten().collect()
+}
+
+/// `0.25 %`.
+fn per_cent(share: f64) -> String {
+    let digits: f64 = format!("{:.1e}", 100.0 * share).parse().unwrap_or(f64::NAN);
+    format!("{} %", shortest(digits))
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Colour => f.write_str("the picture has colours, and only its luminance is used"),
+            Self::OnlyTheFirst => f.write_str("the file has several pictures, and only the first is used"),
+            Self::White { white, full_scale } => write!(
+                f,
+                "the lamp without web is taken to have the grey level {}, the largest that the file {}; if it has not, every CV is \
+                 wrong by the same factor, so measure it at the same exposure",
+                shortest(*white),
+                if *full_scale { "can hold" } else { "holds" }
+            ),
+            Self::Relative => f.write_str(
+                "the mean basis weight is not known, so all basis weights are told as parts of it",
+            ),
+            Self::Kilograms { mean } => {
+                write!(
+                    f,
+                    "the values are taken as basis weights in kg/m², with a mean of {}",
+                    Dimension::BasisWeight.pretty(*mean)
+                )?;
+                if *mean > HEAVIEST {
+                    f.write_str("; that is too much for a web, so give the mean basis weight of the sheet")?;
+                }
+                Ok(())
+            }
+            Self::Shading { share } => write!(
+                f,
+                "the lamp is brighter by {} at its brightest than at its darkest place, which was taken out as a polynomial of second \
+                 order. What the web itself varies so smoothly over the whole picture went with it, and what the polynomial does not follow has stayed: a picture \
+                 of the lamp without web is better",
+                per_cent(*share)
+            ),
+            Self::Filled { pixels } => {
+                write!(f, "{pixels} pixels are black or have no value; they were filled in along their row")
+            }
+            Self::Saturated { pixels, share } => {
+                write!(f, "{pixels} pixels ({}) have the largest grey level", per_cent(*share))?;
+                if *share > MANY {
+                    f.write_str(
+                        "; the thinnest places may be thinner than they look, so expose for less long",
+                    )?;
+                }
+                Ok(())
+            }
+            Self::Lighter { pixels, share } => {
+                write!(
+                    f,
+                    "{pixels} pixels ({}) are lighter than the lamp without web and count as empty",
+                    per_cent(*share)
+                )?;
+                if *share > MANY {
+                    f.write_str("; is the level of the lamp right?")?;
+                }
+                Ok(())
+            }
+            Self::Blur { from } => {
+                f.write_str("one more pixel of blur would lower the CV of small patches by more than 1 %, so the blur of the camera has lowered \
+                             it too; ")?;
+                match from {
+                    Some(from) => write!(
+                        f,
+                        "from patches of {} on this does not matter",
+                        Dimension::Length.pretty(*from)
+                    ),
+                    None => f.write_str("it matters at all sizes of patch here, so scan with smaller pixels"),
+                }
+            }
+        }
+    }
+}

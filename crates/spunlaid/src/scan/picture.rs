@@ -1,0 +1,59 @@
+//! A picture or a map, as it was read.
+
+/// Values on a lattice of square pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// The path of the file as given; messages use it.
+    pub file: String,
+    /// The format of the file.
+    pub format: Format,
+    /// Row by row from the top: grey levels, or basis weights. NaN where there is none.
+    pub values: Vec<f64>,
+    /// Pixels in a row.
+    pub columns: usize,
+    /// Number of rows.
+    pub rows: usize,
+    /// Side of a pixel [m].
+    pub pixel: f64,
+    /// The largest grey level that the file can hold, 255 or 65535; none for other numbers.
+    pub full_scale: Option<f64>,
+    /// Whether the file has colours, of which only the luminance was kept.
+    pub colour: bool,
+    /// Whether the file has further pictures, which were not read.
+    pub more: bool,
+}
+
+/// The format of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Portable network graphics.
+    Png,
+    /// Tagged image file format.
+    Tiff,
+    /// An array of NumPy.
+    Npy,
+    /// A text table.
+    Table,
+}
+
+impl Format {
+    /// Whether files of this format usually hold grey levels; others hold basis weights.
+    pub const fn holds_light(self) -> bool {
+        matches!(self, Self::Png | Self::Tiff)
+    }
+}
+
+impl Picture {
+    /// The picture with rows and columns exchanged, for a web that lies across it.
+    #[must_use]
+    pub fn turned(self) -> Self {
+        let (columns, rows) = (self.rows, self.columns);
+        let value = |i: usize| self.values[(i % columns) * self.columns + i / columns];
+        Self { values: (0..self.values.len()).map(value).collect(), columns, rows, ..self }
+    }
+
+    /// Shorter side [m].
+    pub(super) fn shorter(&self) -> f64 {
+        self.columns.min(self.rows) as f64 * self.pixel
+    }
+}

@@ -1,0 +1,133 @@
+//! Pictures from files. Memory is taken only for a picture whose size is within the limits.
+
+mod npy;
+mod png;
+mod text;
+mod tiff;
+
+use super::picture::{Format, Picture};
+use crate::error::{FileError, FileFault, FileKind, ScanFault};
+use crate::file;
+use std::path::Path;
+
+/// Most pixels of a picture.
+pub const MOST_PIXELS: usize = 1 << 26;
+/// Least number of pixels either way.
+pub const LEAST_SIDE: usize = 16;
+/// Largest file [bytes]: 32 bytes of text for each pixel.
+const MOST_BYTES: u64 = 32 * MOST_PIXELS as u64;
+
+/// What a reader finds in a file.
+struct Raw {
+    values: Vec<f64>,
+    columns: usize,
+    rows: usize,
+    full_scale: Option<f64>,
+    colour: bool,
+    more: bool,
+}
+
+impl Raw {
+    /// Plain values without a largest one.
+    fn plain(values: Vec<f64>, columns: usize, rows: usize) -> Self {
+        Self { values, columns, rows, full_scale: None, colour: false, more: false }
+    }
+}
+
+/// Reads a picture or a map. The format is recognised from the content of the file.
+///
+/// * `pixel` – side of a pixel [m]
+///
+/// # Errors
+/// When the file cannot be read or holds no picture within the limits; the message says where and why.
+pub fn read(path: &Path, pixel: f64) -> Result<Picture, FileError> {
+    let bytes = file::read(path, FileKind::Scan, MOST_BYTES)?;
+    parse(&bytes, &path.display().to_string(), pixel)
+}
+
+/// Reads the bytes of a file; messages call it `name`.
+///
+/// # Errors
+/// The errors of [`read`].
+pub fn parse(bytes: &[u8], name: &str, pixel: f64) -> Result<Picture, FileError> {
+    parsed(bytes, name, pixel).map_err(|error| error.file(name))
+}
+
+fn parsed(bytes: &[u8], name: &str, pixel: f64) -> Result<Picture, FileError> {
+    if !(pixel.is_finite() && pixel > 0.0) {
+        return Err(ScanFault::Pixel { pixel }.into());
+    }
+    let format = format(bytes)?;
+    let raw = match format {
+        Format::Png => png::parse(bytes)?,
+        Format::Tiff => tiff::parse(bytes)?,
+        Format::Npy => npy::parse(bytes)?,
+        Format::Table => text::parse(bytes)?,
+    };
+    let Raw { values, columns, rows, full_scale, colour, more } = raw;
+    if columns.min(rows) < LEAST_SIDE {
+        return Err(ScanFault::TooFewPixels { columns, rows, least: LEAST_SIDE }.into());
+    }
+    Ok(Picture { file: name.to_owned(), format, values, columns, rows, pixel, full_scale, colour, more })
+}
+
+/// The format, by how a file begins.
+fn format(bytes: &[u8]) -> Result<Format, FileFault> {
+    const OTHERS: [(&[u8], &str); 7] = [
+        (b"\xff\xd8\xff", "a JPEG picture, which loses the fine structure"),
+        (b"GIF8", "a GIF picture"),
+        (b"BM", "a BMP picture"),
+        (b"RIFF", "a RIFF file (WebP?)"),
+        (b"%PDF", "a PDF document"),
+        (b"PAR1", "a Parquet table"),
+        (b"PK", "a ZIP archive (an Excel table, .npz?)"),
+    ];
+    if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+        Ok(Format::Png)
+    } else if [&b"II*\0"[..], b"MM\0*", b"II+\0", b"MM\0+"].iter().any(|start| bytes.starts_with(start)) {
+        Ok(Format::Tiff)
+    } else if bytes.starts_with(b"\x93NUMPY") {
+        Ok(Format::Npy)
+    } else if let Some((_, found)) = OTHERS.iter().find(|(start, _)| bytes.starts_with(start)) {
+        Err(ScanFault::Format { found }.into())
+    } else {
+        Ok(Format::Table)
+    }
+}
+
+/// Refuses a picture that is too large, before memory is taken for it.
+fn within_limits(columns: u64, rows: u64) -> Result<[usize; 2], ScanFault> {
+    let too_many = ScanFault::TooManyPixels { columns, rows, most: MOST_PIXELS };
+    let sides = [columns, rows].map(|side| usize::try_from(side).ok());
+    match sides {
+        [Some(columns), Some(rows)] if columns.checked_mul(rows).is_some_and(|of| of <= MOST_PIXELS) => {
+            Ok([columns, rows])
+        }
+        _ => Err(too_many),
+    }
+}
+
+/// The luminance of pixels of some channels: one is grey, two are grey and transparency, three and four colours without and with it.
+///
+/// Source: Recommendation ITU-R BT.709, 3.2.
+fn luminance(values: impl Iterator<Item = f64>, channels: usize) -> Vec<f64> {
+    let weights: &[f64] = match channels {
+        1 => &[1.0],
+        2 => &[1.0, 0.0],
+        3 => &[0.2126, 0.7152, 0.0722],
+        _ => &[0.2126, 0.7152, 0.0722, 0.0],
+    };
+    let (mut pixels, mut sum) = (Vec::new(), 0.0);
+    for (value, channel) in values.zip((0..weights.len()).cycle()) {
+        sum += weights[channel] * value;
+        if channel + 1 == weights.len() {
+            pixels.push(sum);
+            sum = 0.0;
+        }
+    }
+    pixels
+}
+
+fn broken(message: &impl ToString) -> ScanFault {
+    ScanFault::Broken { message: crate::units::excerpt(&message.to_string(), 120) }
+}

@@ -1,0 +1,35 @@
+//! Portable network graphics.
+
+use super::{MOST_PIXELS, Raw, broken, luminance, within_limits};
+use crate::error::ScanFault;
+use png::{BitDepth, Decoder, Limits, Transformations};
+use std::io::Cursor;
+
+pub(super) fn parse(bytes: &[u8]) -> Result<Raw, ScanFault> {
+    let failed = |error: png::DecodingError| broken(&error);
+    // Four channels of two bytes, and as much for decoding.
+    let limits = Limits { bytes: 16 * MOST_PIXELS };
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
+    // Palettes and few bits become eight bits a channel.
+    decoder.set_transformations(Transformations::EXPAND);
+    let info = decoder.read_header_info().map_err(failed)?;
+    let [columns, rows] = within_limits(info.width.into(), info.height.into())?;
+    let mut reader = decoder.read_info().map_err(failed)?;
+    let (colour, depth) = reader.output_color_type();
+    let size = reader.output_buffer_size().ok_or_else(|| broken(&"its size is unknown"))?;
+    let mut buffer = vec![0; size];
+    let frame = reader.next_frame(&mut buffer).map_err(failed)?;
+    let levels = &buffer[..frame.buffer_size()];
+    let channels = colour.samples();
+    let (values, full_scale) = if depth == BitDepth::Sixteen {
+        let level = |pair: &[u8]| f64::from(u16::from_be_bytes([pair[0], pair[1]]));
+        (luminance(levels.chunks_exact(2).map(level), channels), u16::MAX.into())
+    } else {
+        (luminance(levels.iter().map(|level| f64::from(*level)), channels), u8::MAX.into())
+    };
+    if values.len() != columns * rows {
+        return Err(broken(&"it has fewer pixels than it says"));
+    }
+    let more = reader.info().is_animated();
+    Ok(Raw { values, columns, rows, full_scale: Some(full_scale), colour: channels > 2, more })
+}

@@ -1,0 +1,51 @@
+//! Tagged image file format.
+
+use super::{MOST_PIXELS, Raw, broken, luminance, within_limits};
+use crate::error::ScanFault;
+use std::io::Cursor;
+use tiff::ColorType;
+use tiff::decoder::{Decoder, DecodingResult, Limits};
+
+pub(super) fn parse(bytes: &[u8]) -> Result<Raw, ScanFault> {
+    let failed = |error: tiff::TiffError| broken(&error);
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = 8 * MOST_PIXELS;
+    limits.intermediate_buffer_size = 8 * MOST_PIXELS;
+    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(failed)?.with_limits(limits);
+    let (columns, rows) = decoder.dimensions().map_err(failed)?;
+    let [columns, rows] = within_limits(columns.into(), rows.into())?;
+    let colour = decoder.colortype().map_err(failed)?;
+    let channels = match colour {
+        ColorType::Gray(8 | 16 | 32 | 64) => 1,
+        ColorType::GrayA(8 | 16 | 32 | 64) => 2,
+        ColorType::RGB(8 | 16 | 32 | 64) => 3,
+        ColorType::RGBA(8 | 16 | 32 | 64) => 4,
+        other => {
+            let found = format!("pixels of the kind {other:?}");
+            let advice = "save the scan in shades of grey, with 8 or 16 bits each";
+            return Err(ScanFault::Unsupported { found, advice });
+        }
+    };
+    let more = decoder.more_images();
+    let (values, full_scale) = match decoder.read_image().map_err(failed)? {
+        DecodingResult::U8(of) => (luminance(of.into_iter().map(f64::from), channels), Some(u8::MAX.into())),
+        DecodingResult::U16(of) => {
+            (luminance(of.into_iter().map(f64::from), channels), Some(u16::MAX.into()))
+        }
+        DecodingResult::U32(of) => {
+            (luminance(of.into_iter().map(f64::from), channels), Some(u32::MAX.into()))
+        }
+        DecodingResult::F32(of) => (luminance(of.into_iter().map(f64::from), channels), None),
+        DecodingResult::F64(of) => (luminance(of.into_iter(), channels), None),
+        _ => {
+            let found = "signed numbers, half floats or numbers of 8 bytes".to_owned();
+            let advice = "save it with 8, 16 or 32 bits without sign, or as floating point of 32 bits";
+            return Err(ScanFault::Unsupported { found, advice });
+        }
+    };
+    if values.len() != columns * rows {
+        let found = "each colour in a plane of its own".to_owned();
+        return Err(ScanFault::Unsupported { found, advice: "save the scan in shades of grey" });
+    }
+    Ok(Raw { values, columns, rows, full_scale, colour: channels > 2, more })
+}

@@ -1,0 +1,246 @@
+//! From a picture to a map of basis weight.
+
+use super::picture::Picture;
+use super::shading::Shading;
+use crate::error::ScanFault;
+use crate::web::Map;
+
+/// What the values of a picture mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Light {
+    /// Light that has come through the web.
+    Transmitted {
+        /// Mean basis weight of the sheet, if it is known [kg/m²].
+        mean: Option<f64>,
+        /// Grey level of the lamp without web; by default the largest level that the file can hold.
+        white: Option<f64>,
+    },
+    /// Basis weights.
+    Weight {
+        /// Mean basis weight of the sheet; by default the values are in kg/m² [kg/m²].
+        mean: Option<f64>,
+    },
+}
+
+/// Pixels that needed care.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Pixels {
+    /// Pixels without a value, black ones included: filled in along their row.
+    pub filled: usize,
+    /// Pixels of the largest grey level, where the light may have been more.
+    pub saturated: usize,
+    /// Pixels lighter than the lamp without web: they count as empty.
+    pub lighter: usize,
+}
+
+/// A picture turned into a map.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Weighed {
+    /// The map; its edges are cut, not closed. Without a known mean, the mean is 1 kg/m².
+    pub(super) map: Map,
+    /// Whether the mean of the map is that of the sheet.
+    pub(super) mean_known: bool,
+    /// Grey level of the lamp without web; none for basis weights, and where there is a picture of the lamp.
+    pub(super) white: Option<f64>,
+    /// Mean optical density `ln(white/level)`; none for basis weights.
+    pub(super) density: Option<f64>,
+    /// Logarithm of the lamp over the picture, as far as it was taken out.
+    pub(super) shading: Option<Shading>,
+    /// Pixels that needed care.
+    pub(super) pixels: Pixels,
+    /// Standard deviation of the relative basis weight of a pixel for a noise of one level.
+    pub(super) per_noise: f64,
+}
+
+/// Quanta of a cell of the mean weight.
+const QUANTA: f64 = 1e6;
+/// One pixel in so many may be filled in.
+const FILLED: usize = 100;
+
+/// How an uneven lamp is taken out.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Correction<'a> {
+    /// The lamp without web.
+    pub(super) lamp: Option<&'a Picture>,
+    /// Whether the lamp is taken as even.
+    pub(super) keep_shading: bool,
+}
+
+/// Turns a picture into a map.
+pub(super) fn weigh(
+    picture: &Picture,
+    light: Light,
+    correction: Correction<'_>,
+) -> Result<Weighed, ScanFault> {
+    let (Light::Transmitted { mean, .. } | Light::Weight { mean }) = light;
+    above_zero("a mean basis weight [kg/m²]", mean)?;
+    match light {
+        Light::Transmitted { white, .. } => transmitted(picture, mean, white, correction),
+        Light::Weight { .. } => weights(picture, mean),
+    }
+}
+
+/// Refuses a setting that is not above zero.
+pub(super) fn above_zero(name: &'static str, value: Option<f64>) -> Result<(), ScanFault> {
+    match value {
+        Some(value) if !(value.is_finite() && value > 0.0) => Err(ScanFault::Setting { name, value }),
+        _ => Ok(()),
+    }
+}
+
+/// The logarithm of the light that comes through, over that of the lamp if there is a picture of it; NaN where there is none.
+fn logs(picture: &Picture, lamp: Option<&Picture>) -> Result<Vec<f64>, ScanFault> {
+    let log = |level: &f64| if level.is_finite() && *level > 0.0 { libm::log(*level) } else { f64::NAN };
+    let mut logs: Vec<f64> = picture.values.iter().map(log).collect();
+    if let Some(lamp) = lamp {
+        let [found, wanted] = [lamp, picture].map(|of| [of.columns, of.rows]);
+        if found != wanted {
+            return Err(ScanFault::OtherLamp { found, wanted });
+        }
+        logs.iter_mut().zip(&lamp.values).for_each(|(light, lamp)| *light -= log(lamp));
+    }
+    Ok(logs)
+}
+
+fn transmitted(
+    picture: &Picture,
+    mean: Option<f64>,
+    white: Option<f64>,
+    Correction { lamp, keep_shading }: Correction<'_>,
+) -> Result<Weighed, ScanFault> {
+    above_zero("a level of the lamp", white)?;
+    let levels = || picture.values.iter().copied().filter(|level| level.is_finite());
+    let white = white.or(picture.full_scale).unwrap_or_else(|| levels().fold(0.0, f64::max));
+    // Over a picture of the lamp, all light is one.
+    let white = if lamp.is_some() { 1.0 } else { white };
+    let mut logs = logs(picture, lamp)?;
+    let advice = "let more light through, or expose for longer";
+    let filled = unusable(&logs, "black or without a value", advice)?;
+    let mean_log = mean_of(&logs);
+    let density = libm::log(white) - mean_log;
+    // What is left of rounding is no web.
+    if density.is_nan() || density <= 1e-9 {
+        return Err(ScanFault::NotDarker { level: libm::exp(mean_log), white });
+    }
+    let inverse = levels().filter(|level| *level > 0.0).map(|level| level.powi(-2)).sum::<f64>();
+    let per_noise = (inverse / (logs.len() - filled) as f64).sqrt() / density;
+    let shading = (!keep_shading && lamp.is_none()).then(|| Shading::of(&logs, picture.columns));
+    for (row, logs) in logs.chunks_exact_mut(picture.columns).enumerate() {
+        match &shading {
+            Some(shading) => logs.iter_mut().zip(shading.row(row)).for_each(|(log, lamp)| *log -= lamp),
+            None => logs.iter_mut().for_each(|log| *log -= mean_log),
+        }
+    }
+    logs.iter_mut().for_each(|log| *log = 1.0 - *log / density);
+    let saturated = picture.full_scale.map_or(0, |most| levels().filter(|level| *level >= most).count());
+    let (map, lighter) = map(picture, logs, mean.unwrap_or(1.0))?;
+    Ok(Weighed {
+        map,
+        mean_known: mean.is_some(),
+        white: lamp.is_none().then_some(white),
+        density: Some(density),
+        shading,
+        pixels: Pixels { filled, saturated, lighter },
+        per_noise,
+    })
+}
+
+fn weights(picture: &Picture, mean: Option<f64>) -> Result<Weighed, ScanFault> {
+    let usable = |weight: &f64| if weight.is_finite() && *weight >= 0.0 { *weight } else { f64::NAN };
+    let mut weights: Vec<f64> = picture.values.iter().map(usable).collect();
+    let advice = "cut out a part of the map where the gauge has seen the web";
+    let filled = unusable(&weights, "negative or without a value", advice)?;
+    let found = mean_of(&weights);
+    if !found.is_finite() || found <= 0.0 {
+        return Err(ScanFault::NoWeight { mean: found });
+    }
+    weights.iter_mut().for_each(|weight| *weight /= found);
+    let (map, _) = map(picture, weights, mean.unwrap_or(found))?;
+    Ok(Weighed {
+        map,
+        mean_known: true,
+        white: None,
+        density: None,
+        shading: None,
+        pixels: Pixels { filled, ..Pixels::default() },
+        per_noise: 1.0 / found,
+    })
+}
+
+/// How many values are missing, if they are few enough to be filled in.
+fn unusable(values: &[f64], what: &'static str, advice: &'static str) -> Result<usize, ScanFault> {
+    let unusable = values.iter().filter(|value| value.is_nan()).count();
+    if unusable > values.len() / FILLED {
+        return Err(ScanFault::Unusable { unusable, pixels: values.len(), what, advice });
+    }
+    let first = values.iter().copied().find(|value| !value.is_nan());
+    if values.iter().all(|value| value.is_nan() || Some(*value) == first) {
+        return Err(ScanFault::Flat);
+    }
+    Ok(unusable)
+}
+
+/// The mean of the values that are there.
+fn mean_of(values: &[f64]) -> f64 {
+    let there = || values.iter().filter(|value| !value.is_nan());
+    there().sum::<f64>() / there().count() as f64
+}
+
+/// The map of relative weights, and how many were below zero.
+fn map(picture: &Picture, mut weights: Vec<f64>, mean: f64) -> Result<(Map, usize), ScanFault> {
+    weights.chunks_exact_mut(picture.columns).for_each(fill);
+    let lighter = weights.iter().filter(|weight| **weight < 0.0).count();
+    // A cast takes what is below zero as zero.
+    let cells: Vec<u32> = weights.iter().map(|weight| (weight * QUANTA).round() as u32).collect();
+    let mut map = Map {
+        columns: picture.columns,
+        rows: picture.rows,
+        cell: picture.pixel,
+        quantum: 1.0,
+        closed: [false; 2],
+        cells,
+    };
+    if map.total() == 0 {
+        return Err(ScanFault::NoWeight { mean: 0.0 });
+    }
+    map.quantum = mean / map.basis_weight();
+    Ok((map, lighter))
+}
+
+/// Fills in the missing values of a row, on a straight line between their neighbours; a row without any is of the mean weight.
+fn fill(row: &mut [f64]) {
+    let mut before = None;
+    let mut at = 0;
+    while at < row.len() {
+        if !row[at].is_nan() {
+            (before, at) = (Some(at), at + 1);
+            continue;
+        }
+        let after = (at..row.len()).find(|i| !row[*i].is_nan());
+        let end = after.unwrap_or(row.len());
+        let value = |i: Option<usize>| i.map(|i| row[i]);
+        let (left, right) = match (value(before), value(after)) {
+            (Some(left), Some(right)) => (left, right),
+            (None, None) => (1.0, 1.0),
+            (Some(one), None) | (None, Some(one)) => (one, one),
+        };
+        let gap = (end - at + 1) as f64;
+        for (i, missing) in row[at..end].iter_mut().enumerate() {
+            *missing = left + (right - left) * (i + 1) as f64 / gap;
+        }
+        at = end;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn missing_pixels_lie_on_the_line_between_their_neighbours() {
+        const NONE: f64 = f64::NAN;
+        let mut rows = [[NONE, 2.0, NONE, NONE, 5.0, NONE], [NONE; 6], [1.0, NONE, 2.0, 3.0, NONE, NONE]];
+        rows.iter_mut().for_each(|row| fill(row));
+        assert_eq!(rows, [[2.0, 2.0, 3.0, 4.0, 5.0, 5.0], [1.0; 6], [1.0, 1.5, 2.0, 3.0, 3.0, 3.0]]);
+    }
+}
