@@ -220,7 +220,7 @@ fn a_cell_holds_what_independent_clipping_gives_it() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
     #[test]
     fn no_fibre_is_lost_or_made(
         seed in 0u64..1000, columns in 20usize..120, rows in 10usize..120, cell in 0.2e-3f64..5e-3,

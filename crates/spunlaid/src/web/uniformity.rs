@@ -18,6 +18,8 @@ pub struct Unevenness {
 const PARTS: f64 = 100.0;
 /// Fewest parts that say something.
 const FEWEST: usize = 8;
+/// Fewest rows or columns of parts whose scatter counts.
+const FEWEST_ROWS: usize = 4;
 /// Shortest side of a part [sides of a patch].
 const SHORTEST: usize = 2;
 
@@ -118,7 +120,7 @@ impl Sums {
         let rows = (0..along).map(|j| mean_of(&mut (0..across).map(|i| j * across + i))).collect();
         let all = self.sums.iter().map(value).collect();
         let large_enough =
-            [all, columns, rows].into_iter().filter(|values: &Vec<f64>| values.len() >= FEWEST);
+            [all, columns, rows].into_iter().filter(|values: &Vec<f64>| values.len() >= FEWEST_ROWS);
         let squares = large_enough.map(|values| Estimate::of(values).standard_error.unwrap_or(0.0).powi(2));
         squares.fold(0.0, f64::max)
     }
