@@ -98,7 +98,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     ] {
         assert!(page.contains(part), "{part}");
     }
-    assert!(!page.contains("Single fibres") && !page.contains("map.parquet"));
+    assert!(!page.contains("id=\"fibres\"") && !page.contains("map.parquet"));
 
     // A picture that lies on its side, without its weight.
     let turned: Vec<f64> = (0..laid.len()).map(|i| laid[i % 300 * 200 + i / 300]).collect();

@@ -141,10 +141,10 @@ impl fmt::Display for Note {
                 per_cent(*share)
             ),
             Self::Filled { pixels } => {
-                write!(f, "{pixels} pixels are black or have no value; they were filled in along their row")
+                write!(f, "black pixels, or without a value: {pixels}; they were filled in along their row")
             }
             Self::Saturated { pixels, share } => {
-                write!(f, "{pixels} pixels ({}) have the largest grey level", per_cent(*share))?;
+                write!(f, "pixels of the largest grey level: {pixels} ({})", per_cent(*share))?;
                 if *share > MANY {
                     f.write_str(
                         "; the thinnest places may be thinner than they look, so expose for less long",
@@ -155,7 +155,7 @@ impl fmt::Display for Note {
             Self::Lighter { pixels, share } => {
                 write!(
                     f,
-                    "{pixels} pixels ({}) are lighter than the lamp without web and count as empty",
+                    "pixels lighter than the lamp without web: {pixels} ({}), which count as empty",
                     per_cent(*share)
                 )?;
                 if *share > MANY {

@@ -79,7 +79,6 @@ struct WebSummary {
     texture_md: Option<Number>,
     cloudiness: Option<Cloudiness>,
     clouds: Vec<Octave>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     sensitivities: Vec<Levers>,
 }
 
