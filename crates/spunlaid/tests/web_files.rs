@@ -174,7 +174,10 @@ fn cells_grow_with_the_web_and_divide_it() {
 
 #[test]
 fn spreads_that_are_known_only_after_the_flight_are_checked_too() {
-    let spec = read_web(FLOWN.as_ref(), &set("web.width", "140 mm")).unwrap().spec;
+    // A row as wide as the narrow web.
+    let narrow = [("web.width", "140 mm"), ("line.rows.1.filaments", "700")];
+    let narrow = narrow.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let spec = read_web(FLOWN.as_ref(), &narrow).unwrap().spec;
     spec.check_spreads([18e-3, 17e-3]).unwrap();
     let said = spec.check_spreads([18e-3, 18e-3]).unwrap_err().to_string();
     assert!(
