@@ -1,0 +1,145 @@
+//! `spunlaid analyse`: how a velocity record, or a scan of a web, is read.
+
+use super::quantity;
+use clap::{Args, ValueHint};
+use spunlaid::record::IntegralRule;
+use spunlaid::statistics::Window;
+use spunlaid::units::Dimension;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct Analyse {
+    /// Velocity record (CSV or Parquet), or scan or map of a web (PNG, TIFF, .npy, CSV)
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) record: PathBuf,
+    #[command(flatten)]
+    pub(crate) scan: Scan,
+    /// Folder for the results [default: results/<name of the file>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Sampling rate, as "20 kHz"; a time column is then ignored
+    #[arg(long, value_name = "RATE", value_parser = |t: &str| quantity(Dimension::Frequency, t))]
+    pub(crate) rate: Option<f64>,
+    /// Unit of the time if the header has none: s, ms, us
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) time_unit: Option<String>,
+    /// Unit of the velocities if the header has none: m/s, cm/s, km/h
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) velocity_unit: Option<String>,
+    /// Velocity columns by name or number, the one along the flow first, as u,v
+    #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
+    pub(crate) columns: Vec<String>,
+    /// Time column by name or number
+    #[arg(long, value_name = "COLUMN")]
+    pub(crate) time_column: Option<String>,
+    /// Lines to skip at the start of a CSV file
+    #[arg(long, value_name = "LINES", default_value_t = 0)]
+    pub(crate) skip: u64,
+    /// Most missing samples in a row that are interpolated
+    #[arg(long, value_name = "SAMPLES", default_value_t = spunlaid::record::LONGEST_GAP)]
+    pub(crate) max_gap: usize,
+    /// Mean velocity, as "10 m/s", if the record holds the fluctuation only
+    #[arg(long, value_name = "SPEED", value_parser = |t: &str| quantity(Dimension::Velocity, t))]
+    pub(crate) mean_velocity: Option<f64>,
+    /// End of the integral of the autocorrelation: first-zero, e-fold or fixed="50 ms"
+    #[arg(long, value_name = "RULE", default_value = "first-zero", value_parser = integral)]
+    pub(crate) integral: IntegralRule,
+    /// Samples in a segment of the spectrum, a power of two [default: from the integral time]
+    #[arg(long, value_name = "SAMPLES")]
+    pub(crate) segment: Option<usize>,
+    /// Window of the segments: hann, hamming or rectangular
+    #[arg(long, value_name = "NAME", default_value = "hann", value_parser = window)]
+    pub(crate) window: Window,
+    /// Overlap of neighbouring segments, 0 to 0.9
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, value_parser = overlap)]
+    pub(crate) overlap: f64,
+    /// End of the flat part of the spectrum, as "20 Hz" [default: an eighth of the cut-off]
+    #[arg(long, value_name = "FREQUENCY", value_parser = |t: &str| quantity(Dimension::Frequency, t))]
+    pub(crate) flat_until: Option<f64>,
+    /// No table; warnings and errors are still shown
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Print analysis.json, or summary.json of a web, instead of the table
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace the results in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// How a scan of a web is read.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Scan or map of a web")]
+pub(crate) struct Scan {
+    /// Side of a pixel, as "0.1 mm"
+    #[arg(long, value_name = "LENGTH", value_parser = |t: &str| quantity(Dimension::Length, t), conflicts_with_all = [
+        "rate", "time_unit", "velocity_unit", "columns", "time_column", "skip", "max_gap", "mean_velocity", "integral",
+        "segment", "window", "overlap", "flat_until",
+    ])]
+    pub(crate) pixel: Option<f64>,
+    /// Mean basis weight of the sheet, as "15 g/m²" or "15 gsm"
+    #[arg(long, value_name = "WEIGHT", requires = "pixel", value_parser = |t: &str| quantity(Dimension::BasisWeight, t))]
+    pub(crate) weight: Option<f64>,
+    /// What the values are [default: transmitted for PNG and TIFF, weight for .npy and CSV]
+    #[arg(long, value_enum, requires = "pixel")]
+    pub(crate) light: Option<LightName>,
+    /// Picture of the lamp without web, at the same exposure; it takes out any shading
+    #[arg(long, value_name = "FILE", requires = "pixel", value_hint = ValueHint::FilePath)]
+    pub(crate) lamp: Option<PathBuf>,
+    /// Grey level of the lamp without web [default: the largest that the file can hold]
+    #[arg(long, value_name = "LEVEL", requires = "pixel", conflicts_with = "lamp", value_parser = above_zero)]
+    pub(crate) white: Option<f64>,
+    /// Take the lamp as even; without --lamp, its shading is else taken out as a polynomial
+    #[arg(long, requires = "pixel")]
+    pub(crate) keep_shading: bool,
+    /// Standard deviation of the noise of a single pixel, which is then taken out
+    #[arg(long, value_name = "LEVELS", requires = "pixel", value_parser = above_zero)]
+    pub(crate) noise: Option<f64>,
+    /// Where the machine direction runs in the picture
+    #[arg(long, value_enum, requires = "pixel", default_value = "columns", hide_possible_values = false)]
+    pub(crate) md: Direction,
+    /// Sides of the patches, as "1 mm,5 mm,10 mm" [default: from 0.5 mm to a fifth of the picture]
+    #[arg(long, value_name = "LENGTHS", requires = "pixel", value_delimiter = ',',
+          value_parser = |t: &str| quantity(Dimension::Length, t))]
+    pub(crate) patches: Vec<f64>,
+}
+
+/// What the values of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum LightName {
+    /// Light that has come through the web
+    Transmitted,
+    /// Basis weights, in kg/m² or, with --weight, in any unit
+    Weight,
+}
+
+/// Where the machine direction runs in a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Direction {
+    /// Along the columns, downwards
+    Columns,
+    /// Along the rows, to the right
+    Rows,
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
+    value.ok_or_else(|| "write a number above zero, like 240".to_owned())
+}
+
+fn integral(text: &str) -> Result<IntegralRule, String> {
+    match IntegralRule::parse(text) {
+        Some(rule) => rule.map_err(|fault| fault.to_string()),
+        None => Err("write first-zero, e-fold or fixed=\"50 ms\"".to_owned()),
+    }
+}
+
+fn window(text: &str) -> Result<Window, String> {
+    let known = Window::ALL.into_iter().find(|window| window.name() == text);
+    known.ok_or_else(|| "write hann, hamming or rectangular".to_owned())
+}
+
+fn overlap(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share| (0.0..=0.9).contains(share));
+    share.ok_or_else(|| "write a number from 0 to 0.9, like 0.5".to_owned())
+}

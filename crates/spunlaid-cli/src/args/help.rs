@@ -1,0 +1,186 @@
+//! What `--help` says beyond the options: examples, files, what is written into them.
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  spunlaid new my.toml                              write a commented case to start from
+  spunlaid new --fed line.toml                      one of a fibre that is laid on a moving belt
+  spunlaid keys field                               explain the keys about a field
+  spunlaid check my.toml                            show mesh, limits, expected time and memory
+  spunlaid run my.toml                              fly it; then open results/my/report.html
+  spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
+  spunlaid sweep my_study.toml                      fly it with many values of some keys
+  spunlaid web my_web.toml                          lay a fabric of many such filaments
+  spunlaid run results/my --until \"20 s\"             fly it for longer, in the same turbulence
+  spunlaid web cases/web.toml                       lay thousands of filaments: how even is the fabric?
+  spunlaid compare results/my results/faster        say what differs between two runs
+  spunlaid analyse wire.csv                         make the air of a case from a velocity record
+  spunlaid analyse scan.png --pixel \"0.1 mm\"       say how even your own web is
+
+A case is a small text file that describes fibre, air and run, and feed and belt of a fibre that is
+laid. Quantities have a unit:
+\"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\".
+
+Exit codes: 0 done; 1 the input is wrong (arguments, case, study, record, or the named folder);
+2 another failure (a file cannot be written, a flight diverged); 130 interrupted.";
+
+pub(super) const KEYS_HELP: &str = "\
+Examples:
+  spunlaid keys                        every key
+  spunlaid keys field                  the keys with this word in their name or meaning
+  spunlaid keys run.spin_up            one of them
+  spunlaid keys --markdown > keys.md   the same as a Markdown document
+  spunlaid keys --web                  the keys of the file of a web";
+
+pub(super) const RUN_HELP: &str = "\
+The results folder holds
+  report.html          for the browser: the moving fibre, figures, table; works offline
+  summary.json         every result with mean, standard error and the replicates' values
+  case.toml            the case with every default; running it gives the same bits
+  case_files/          copies of the files that the case names
+  end_node.parquet     the free end over time      energy.parquet   both energy ledgers over time
+  shape.pvd, shape/    the fibre over time, for ParaView (open shape.pvd)
+  laid.parquet         of a fed fibre, in place of end_node.parquet: where each point lies on the belt
+  laid.vtp             the same of the first fibres as curves, for ParaView
+  figures/             the report's figures as SVG and PNG, and their numbers as CSV
+
+With --until, a finished run is flown for longer, again from the start: everything but the duration
+is as in its case.toml, harmonics of the turbulence and time step too, and the first part has the
+same bits. The new results replace the old ones when they are complete, or go to --out.
+
+Examples:
+  spunlaid run cases/table1.toml
+  spunlaid run cases/table1.toml --set fibre.diameter=\"18 um\" --replicates 40 --out results/fine
+  spunlaid run results/table1 --until \"20 s\"";
+
+pub(super) const SWEEP_HELP: &str = "\
+A study is a small text file beside the case it varies:
+
+  case = \"table1.toml\"
+  design = \"grid\"           # or \"one-at-a-time\", \"paired\", \"latin-hypercube\", \"sobol\"
+  # points = 64              # how many a latin-hypercube or sobol design draws
+  replicates = 10            # fibres per point; or a table:
+                             #   [replicates] at_most = 100, until = { amplitude_y = \"3 %\" }
+  # common_phases = true     # the same random phases of turbulence at all points
+  # seed = 1
+  [vary]                     # any key of a case with a number or one of a few words as value
+  \"air.velocity\"   = [\"5 m/s\", \"10 m/s\", \"20 m/s\"]
+  \"fibre.diameter\" = { from = \"20 um\", to = \"200 um\", steps = 4, spacing = \"log\" }
+  \"drag.along\"     = [\"matsui\", \"sakiadis\"]
+  [link]                     # keys that follow from others
+  \"air.cutoff_frequency\" = \"air.velocity / (4 * air.length_scale)\"    # or just \"taylor\"
+
+If a sweep is interrupted, the same command continues it and gives the same bits. The results
+folder holds
+  report.html          for the browser: the study, table, figures, ranking
+  results.csv          a row per point: seed, inputs, n, lost, then mean and standard error (_se) of every result
+  results.json         the same with the ranking
+  results.parquet      the same            replicates.parquet   a row per fibre
+  figures/             the report's figures as SVG and PNG, and their numbers as CSV
+  study.toml, case.toml   the study as it was run; sweeping it again gives the same bits
+  case_files/          copies of the files that the case names
+  journal              the results of every fibre; with it the study can be continued
+
+Examples:
+  spunlaid sweep cases/studies/velocity.toml
+  spunlaid sweep cases/studies/velocity.toml --replicates 16       adds replicates to the same
+  spunlaid sweep my_study.toml --print-point 7 > point7.toml && spunlaid run point7.toml";
+
+pub(super) const WEB_HELP: &str = "\
+A web is a small text file:
+
+  [laydown]                       # how a filament lies; one of these three:
+  case = \"spunbond.toml\"          #   a case with [feed] and [belt], which is flown first
+  # results = \"results/spunbond\"  #   the results folder of such a case
+  # sigma_md = \"18.4 mm\"          #   the numbers of the surrogate, with [fibre] and both speeds
+  # sigma_cd = \"18.3 mm\"
+  # noise = \"12.4 m^-0.5\"
+  [line]
+  filaments_per_metre = 5000      # at random places, or the rows of nozzles of a beam:
+  # rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]
+  # feed_speed = \"50 m/s\"         # with a case, these are the case's
+  # belt_speed = \"3 m/s\"
+  [web]
+  width = \"1 m\"
+  length = \"1 m\"
+  # method = \"dynamics\"           # lay the flown curves themselves, in place of the surrogate's
+
+Several beams are [[layer]] tables, each with its own [layer.laydown], [layer.line] and
+[layer.fibre]. `spunlaid keys --web` explains every key. The results folder holds
+  report.html    for the browser: the web on a light table, what makes it uneven, figures
+  summary.json   basis weight, CV over patches with errors, directions, clouds, sensitivities
+  map.npy, map.parquet, map.png   the basis weight of each cell
+  fibres.vtp     the single fibres of a window, for ParaView
+  figures/       every figure as SVG, PNG and CSV
+  web.toml       the file with every default; laying it again gives the same bits
+
+Examples:
+  spunlaid web cases/web.toml
+  spunlaid web cases/web_known.toml --set line.belt_speed=\"6 m/s\" --out results/faster
+  spunlaid web two_beams.toml --set layer.2.line.filaments_per_metre=4000";
+
+pub(super) const REPRODUCE_HELP: &str = "\
+The results folder holds
+  report.html   the paper's claims with evidence and verdict, its open questions, the figures
+  figures/      every figure as SVG and PNG, and its numbers as CSV
+  summary.json  the claims, their evidence and verdicts      case.toml  the base case, Table 1
+
+It flies the studies cases/paper/*.toml of the repository, which are built into the program.
+
+Examples:
+  spunlaid reproduce                                       with the paper's scheme
+  spunlaid reproduce --scheme implicit-tension --replicates 40   faster, with smaller errors
+  spunlaid reproduce --figures 9,11a --out results/two";
+
+pub(super) const ANALYSE_HELP: &str = "\
+A record is an evenly sampled CSV or Parquet file with one time column and one to three velocity
+columns. CSV cells are separated by comma, semicolon, tab or blanks:
+
+  time_s,u_m_s,v_m_s          Zeit [ms];u [m/s]          (or no time column and --rate \"20 kHz\")
+  0.00000,10.12,-0.31         0,00;10,12
+  0.00005,10.25,-0.28         0,05;10,25
+
+The first velocity column, or the one called u, is along the mean flow. Missing samples are
+interpolated, up to --max-gap in a row.
+
+The results folder holds
+  report.html          for the browser: record, histogram, spectrum, autocorrelation, table
+  analysis.json        every result as {value, low, high} with a 95 % confidence interval
+  air.toml             the [air] table of a case, to be pasted into a case file
+  spectrum.csv, autocorrelation.csv      the curves          figures/   the figures as SVG, PNG, CSV
+
+The integral time is the integral of the autocorrelation up to
+  first-zero           its first zero (the usual choice)
+  e-fold               the lag where it falls to 1/e (63 % of the integral of an exponential)
+  fixed=\"50 ms\"        a given lag
+
+With --pixel, the file is the scan of a web in transmitted light (PNG or TIFF) or the map of its
+basis weight (.npy or CSV, a line for each row of the map). The results folder then holds what that
+of `spunlaid web` holds: report.html, summary.json, map.npy and figures/.
+
+Examples:
+  spunlaid analyse cases/records/probe.csv
+  spunlaid analyse scan.png --pixel \"0.1 mm\" --weight \"15 g/m²\" --lamp empty.png
+  spunlaid analyse gauge.csv --pixel \"2 mm\" --md rows --patches \"4 mm,10 mm,20 mm\"
+  spunlaid analyse wire.csv --rate \"20 kHz\" --velocity-unit m/s --integral e-fold --out results/wire";
+
+pub(super) const COMPARE_HELP: &str = "\
+Every run is compared with the first. Runs with the same seed and the same eddies are compared
+replicate by replicate, which shows small differences; others by Welch's t. Webs, laid by `spunlaid web`
+or scanned (`spunlaid analyse --pixel`), are compared patch by patch.
+
+The results folder holds
+  report.html       for the browser: a table for each pair, and the curves in one picture each
+  comparison.json   every measure with both means, the difference and its error
+  figures/          the figures as SVG and PNG, and their numbers as CSV
+
+Examples:
+  spunlaid compare results/table1 results/faster
+  spunlaid compare results/a results/b results/c --out results/three --json
+  spunlaid compare results/web results/scan";
+
+pub(super) const CHECK_HELP: &str = "\
+Prints the case with every default, the mesh, the limits of the time step, and the expected time,
+memory and size of the results. The output is itself a case file.
+
+Example:
+  spunlaid check cases/table1.toml --set fibre.element_length=\"5 mm\"";

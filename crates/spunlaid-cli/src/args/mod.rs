@@ -1,0 +1,293 @@
+//! The command line.
+
+mod analyse;
+mod help;
+
+pub(crate) use analyse::{Analyse, Direction, LightName};
+
+use clap::{Args, Parser, Subcommand, ValueHint};
+use clap_complete::Shell;
+use help::{
+    ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, REPRODUCE_HELP, RUN_HELP, SWEEP_HELP,
+    WEB_HELP,
+};
+use spunlaid::case::{Case, Note};
+use spunlaid::error::Error;
+use spunlaid::input::{Overrides, read_case};
+use spunlaid::units::Dimension;
+use std::path::PathBuf;
+
+/// Simulate fibres in turbulent air: how they swing, how they lie on the belt, how even the web is
+#[derive(Debug, Parser)]
+#[command(name = "spunlaid", version, about, after_help = EXAMPLES, propagate_version = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Fly the fibres of a case and write table, data, figures and report
+    #[command(after_help = RUN_HELP)]
+    Run(Run),
+    /// Fly a case with many values of its keys, and rank which keys matter
+    #[command(after_help = SWEEP_HELP)]
+    Sweep(Sweep),
+    /// Lay a web of many filaments: map of its basis weight, how uneven it is, directions
+    #[command(after_help = WEB_HELP)]
+    Web(Web),
+    /// Reproduce every result figure of the paper and test its claims
+    #[command(after_help = REPRODUCE_HELP)]
+    Reproduce(Reproduce),
+    /// Make the air of a case from a velocity record, or say how even the web of a scan is
+    #[command(after_help = ANALYSE_HELP)]
+    Analyse(Box<Analyse>),
+    /// Compare the results of runs or of webs: differences, whether they are beyond chance, curves in one picture
+    #[command(after_help = COMPARE_HELP)]
+    Compare(Compare),
+    /// Show a case with all defaults, its mesh, limits and expected cost, without flying it
+    #[command(after_help = CHECK_HELP)]
+    Check(Check),
+    /// Explain the keys of a case or of a web: meaning, allowed values, default
+    #[command(after_help = KEYS_HELP)]
+    Keys(Keys),
+    /// Write a commented case file to start from
+    #[command(after_help = "Examples:\n  spunlaid new my.toml && spunlaid run my.toml\n  \
+        spunlaid new --fed line.toml        a fibre that is fed and laid on a moving belt")]
+    New(New),
+    /// Print a script that completes commands and options in your shell
+    #[command(
+        after_help = "Example:\n  spunlaid completions bash > ~/.local/share/bash-completion/completions/spunlaid"
+    )]
+    Completions(Completions),
+}
+
+/// A case and changes to it.
+#[derive(Debug, Args)]
+pub(crate) struct CaseSource {
+    /// Case file (TOML)
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub(crate) case: PathBuf,
+    /// Set a key of the case for this run, as air.velocity="20 m/s"; can be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
+    pub(crate) set: Vec<(String, String)>,
+}
+
+impl CaseSource {
+    /// Reads the case with the values of `--set` and these.
+    pub(crate) fn read(&self, more: &[(&str, String)]) -> Result<(Case, Vec<Note>), Error> {
+        let more = more.iter().map(|(key, value)| ((*key).to_owned(), value.clone()));
+        let values: Vec<_> = self.set.iter().cloned().chain(more).collect();
+        read_case(&self.case, Overrides { values: &values, word: "--set" })
+    }
+
+    /// The same as arguments of a command line.
+    pub(crate) fn words(&self) -> String {
+        let set = self.set.iter().map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))));
+        quoted(&self.case.to_string_lossy()) + &set.collect::<String>()
+    }
+}
+
+/// A word of a command line, in quotes if the shell would not take it as one word. It stays in its line.
+fn quoted(word: &str) -> String {
+    if word.chars().all(|c| c.is_alphanumeric() || "-_./=:,+%".contains(c)) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace(char::is_control, "?").replace('\'', "'\\''"))
+}
+
+fn key_and_value(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=').map(|(key, value)| (key.trim(), value.trim())) {
+        Some((key, value)) if !key.is_empty() => Ok((key.to_owned(), value.to_owned())),
+        _ => Err("write a key and a value, as air.velocity=\"20 m/s\"".to_owned()),
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Run {
+    #[command(flatten)]
+    pub(crate) source: CaseSource,
+    /// Folder for the results [default: results/<name of the case>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Number of fibres, each in its own turbulence; replaces run.replicates
+    #[arg(long, value_name = "N")]
+    pub(crate) replicates: Option<u64>,
+    /// Seed of the turbulence; replaces run.seed
+    #[arg(long, value_name = "S")]
+    pub(crate) seed: Option<u64>,
+    /// Fly a finished run again for longer, to this time, as "20 s"; CASE is its results folder
+    #[arg(long, value_name = "TIME", value_parser = |t: &str| quantity(Dimension::Time, t),
+          conflicts_with_all = ["set", "replicates", "seed"])]
+    pub(crate) until: Option<f64>,
+    /// Number of threads [default: all cores]; it does not change the results
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// No progress bar and no table; warnings and errors are still shown
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Print summary.json instead of the table; without --out or --until, write no files
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace the results in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Sweep {
+    /// Study file (TOML)
+    #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath)]
+    pub(crate) study: PathBuf,
+    /// Folder for the results [default: results/<name of the study>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Number of threads [default: all cores]; it does not change the results
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// No progress and no table; warnings and errors are still shown
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Start again; deletes the study in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Set a key of the case for all points, as run.duration="2 s"; can be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Fibres at each point, in place of the study's; with more than before, a finished study goes on
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) replicates: Option<u64>,
+    /// Print results.json instead of the table
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Confirm the number of points; needed above 10000 points
+    #[arg(long, value_name = "N")]
+    pub(crate) points: Option<u64>,
+    /// Print the case of point K, counted from 1, and fly nothing
+    #[arg(long, value_name = "K")]
+    pub(crate) print_point: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Web {
+    /// File of the web (TOML)
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// Folder for the results [default: results/<name of the file>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Set a key of the web, as line.belt_speed="6 m/s"; can be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Number of threads [default: all cores]; it does not change the results
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// No progress bar and no table; warnings and errors are still shown
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Print summary.json instead of the table; without --out, write no files
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace the results in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Reproduce {
+    /// Folder for the results [default: results/paper]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Figures to draw, as 9,10,11a [default: all]
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub(crate) figures: Vec<String>,
+    /// Fibres at each point; the paper has ten
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) replicates: u64,
+    /// Time integration: the paper's with 1 µs, or another with a suitable step
+    #[arg(long, value_enum, default_value = "semi-implicit-euler")]
+    pub(crate) scheme: SchemeName,
+    /// Number of threads [default: all cores]; it does not change the results
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// No progress bar and no list of claims; errors are still shown
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Replace the results in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// A scheme by its name in a case file.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(crate) enum SchemeName {
+    /// First order, the paper's
+    SemiImplicitEuler,
+    /// Second order
+    Leapfrog,
+    /// Long steps, hundreds of times faster
+    ImplicitTension,
+}
+
+fn quantity(dimension: Dimension, text: &str) -> Result<f64, String> {
+    let value = dimension.parse(text).map_err(|fault| fault.to_string())?;
+    let signed = dimension == Dimension::Velocity;
+    if value > 0.0 || (signed && value < 0.0) { Ok(value) } else { Err("is not above zero".to_owned()) }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Compare {
+    /// Results folders of runs, or of webs, the one to compare with first
+    #[arg(value_name = "RUN", value_hint = ValueHint::DirPath, num_args = 2.., required = true)]
+    pub(crate) runs: Vec<PathBuf>,
+    /// Folder for the report [default: results/<name>_against_<name>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// No table; warnings and errors are still shown
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Print comparison.json instead of the table; without --out, write no files
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace the comparison in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    #[command(flatten)]
+    pub(crate) source: CaseSource,
+    /// Print the same as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Keys {
+    /// Show only keys with this word in their name or meaning
+    pub(crate) pattern: Option<String>,
+    /// Print Markdown; docs/keys.md is made this way
+    #[arg(long)]
+    pub(crate) markdown: bool,
+    /// Show the keys of the file of a web in place of those of a case
+    #[arg(long)]
+    pub(crate) web: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct New {
+    /// File to write; it must not exist yet
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// A fibre that is fed at an inlet and laid on a moving belt, in place of one of fixed length
+    #[arg(long)]
+    pub(crate) fed: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Completions {
+    /// The shell
+    pub(crate) shell: Shell,
+}
