@@ -3,37 +3,16 @@
 #![allow(clippy::panic)]
 #![allow(clippy::unwrap_used)]
 
+mod messages;
+
 use spunlaid::error::{Error, FileFault, FileKind};
 use spunlaid::input::{parse_case, parse_web, read_web};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 #[test]
 fn rejects_every_bad_web_with_its_message() {
-    let entries = fs::read_dir("tests/bad_webs").unwrap();
-    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
-    paths.sort();
-    assert!(paths.len() > 50);
-    let mut wrong = Vec::new();
-    for path in paths {
-        let said = match read_web(&path, &[]) {
-            Ok(_) => "nothing\n".to_owned(),
-            Err(error) => {
-                assert_eq!(error.exit_code(), 1);
-                format!("{error}\n").replace("bad_webs\\", "bad_webs/")
-            }
-        };
-        let kept = path.with_extension("txt");
-        if std::env::var_os("BLESS").is_some() {
-            fs::write(&kept, &said).unwrap();
-        }
-        let meant = fs::read_to_string(&kept).unwrap_or_default();
-        if said != meant {
-            wrong.push(format!("{} says\n{said}and should say\n{meant}", path.display()));
-        }
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    messages::are_as_meant("bad_webs", 50, |path| read_web(path, &[]));
 }
 
 #[test]

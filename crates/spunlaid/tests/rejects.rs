@@ -3,10 +3,12 @@
 #![allow(clippy::panic)]
 #![allow(clippy::unwrap_used)]
 
+mod messages;
+
 use spunlaid::error::{Error, FileFault, FileKind};
 use spunlaid::input::{LARGEST_FILE, parse_case, read_case, starter_case};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 fn refusal(path: &Path, overrides: &[(&str, &str)]) -> Error {
     let overrides: Vec<_> = (overrides.iter()).map(|(k, v)| (k.to_string(), v.to_string())).collect();
@@ -33,30 +35,7 @@ fn no_control_character_of_a_name_reaches_the_terminal() {
 
 #[test]
 fn rejects_every_bad_case_with_its_message() {
-    let mut paths: Vec<PathBuf> =
-        fs::read_dir("tests/bad_cases").unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
-    paths.sort();
-    assert!(paths.len() > 40);
-    let mut wrong = Vec::new();
-    for path in paths {
-        let said = match read_case(&path, &[]) {
-            Ok(_) => "nothing\n".to_owned(),
-            Err(error) => {
-                assert_eq!(error.exit_code(), 1);
-                format!("{error}\n").replace("bad_cases\\", "bad_cases/")
-            }
-        };
-        let kept = path.with_extension("txt");
-        if std::env::var_os("BLESS").is_some() {
-            fs::write(&kept, &said).unwrap();
-        }
-        let meant = fs::read_to_string(&kept).unwrap_or_default();
-        if said != meant {
-            wrong.push(format!("{} says\n{said}and should say\n{meant}", path.display()));
-        }
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    messages::are_as_meant("bad_cases", 40, |path| read_case(path, &[]));
 }
 
 #[test]

@@ -82,7 +82,6 @@ fn straight_fibres_at_random_have_the_unevenness_of_the_law() {
         let found = unevenness(&map, side).expect("an unevenness");
         let law = straight_fibres(tau, found.patch);
         let error = found.standard_error.expect("an error");
-        eprintln!("{side} {} {law} {error} {}", found.cv, (found.cv / law).powi(2) * 0.9464);
         assert!((found.cv - law).abs() < 4.0 * error, "{found:?} where {law} is wanted");
     }
 }
@@ -91,9 +90,7 @@ fn straight_fibres_at_random_have_the_unevenness_of_the_law() {
 fn one_fibre_says_how_uneven_the_web_is() {
     let by_surrogate = layer(Fibres::Surrogate(SPUNBOND), 5000.0);
     let web = Web { sheet: sheet(1.0, 1.0, 1e-3), layers: vec![by_surrogate.clone()], seed: 3 };
-    let start = std::time::Instant::now();
     let map = laid(&web).map;
-    eprintln!("{:?} for {} km", start.elapsed(), web.fibre_length() / 1e3);
     close(map.basis_weight(), web.basis_weight(), 1e-9);
     let tau = web.basis_weight() / LINEAR_DENSITY;
     let sides = [1, 2, 5, 10, 20, 50];
@@ -106,11 +103,6 @@ fn one_fibre_says_how_uneven_the_web_is() {
         let wanted = (alone.mean / tau).sqrt();
         let own = alone.standard_error.expect("an error") / alone.mean / 2.0 * wanted;
         let error = found.standard_error.expect("an error");
-        eprintln!(
-            "{side} map {:.5} ± {error:.5} one fibre {wanted:.5} ± {own:.5} straight {:.5}",
-            found.cv,
-            straight_fibres(tau, found.patch)
-        );
         assert!((found.cv - wanted).abs() < 4.0 * error.hypot(own), "{found:?} where {wanted} is wanted");
     }
 }

@@ -63,7 +63,6 @@ fn intervals_of_the_unevenness_hold() {
                 mean += found.cv / FIELDS as f64;
             }
             let share = held as f64 / FIELDS as f64;
-            eprintln!("closed {closed}, patch {patch}: {share:.3} held, mean over truth {:.4}", mean / truth);
             assert!(
                 (0.90..=0.995).contains(&share),
                 "{share} of the intervals hold at {patch}, closed {closed}"
