@@ -1,0 +1,294 @@
+//! The case as text: keys are changed in it, comments stay, and it is saved.
+
+use super::message::Complaint;
+use crate::args::quoted;
+use spunlaid::case::Case;
+use spunlaid::case::keys::{self, Key, Kind};
+use spunlaid::error::{Error, Place};
+use spunlaid::input::{LARGEST_FILE, parse_case};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use toml_edit::{DocumentMut, Item, Value, value};
+
+/// A case as text, and where it came from.
+#[derive(Clone, Debug)]
+pub(super) struct Document {
+    text: String,
+    /// The file as it is on disk, and its text there; none if the program itself had the case.
+    file: Option<(PathBuf, String)>,
+    /// What messages call it, and from where the paths in it are read.
+    name: PathBuf,
+    /// The files that the case named when the program was started. No page can make it name others.
+    files: BTreeSet<String>,
+}
+
+/// A case that has been read, with notes about it.
+pub(super) struct Read {
+    pub(super) case: Case,
+    pub(super) notes: Vec<String>,
+}
+
+impl Document {
+    /// * `file` – the file that the text was read from
+    pub(super) fn new(text: String, file: Option<PathBuf>) -> Self {
+        let files = text.parse().map_or_else(|_| BTreeSet::new(), |document| files_of(&document));
+        let name = file.clone().unwrap_or_else(|| PathBuf::from("live.toml"));
+        Self { file: file.map(|path| (path, text.clone())), text, name, files }
+    }
+
+    pub(super) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The name of the case, for headings.
+    pub(super) fn title(&self) -> String {
+        self.name.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+    }
+
+    /// Reads the case.
+    ///
+    /// # Errors
+    /// What is wrong with it, by line.
+    pub(super) fn read(&self) -> Result<Read, Vec<Complaint>> {
+        if self.text.len() as u64 > LARGEST_FILE {
+            return Err(complaint("the case is larger than a case file may be"));
+        }
+        if let Ok(document) = self.text.parse::<DocumentMut>()
+            && let Some(other) = files_of(&document).difference(&self.files).next()
+        {
+            let text = format!(
+                "\"{other}\": a page may not name other files than the case that the program was started with; start \
+                 `spunlaid live` with a case that names it"
+            );
+            return Err(complaint(text));
+        }
+        let (case, notes) =
+            parse_case(&self.text, &self.name.to_string_lossy(), &[]).map_err(|error| complaints(&error))?;
+        Ok(Read { case, notes: notes.iter().map(ToString::to_string).collect() })
+    }
+
+    /// The same document with another text.
+    pub(super) fn with_text(&self, text: String) -> Self {
+        Self { text, ..self.clone() }
+    }
+
+    /// The same document with another value of a key; with none, the default applies.
+    ///
+    /// # Errors
+    /// The text is not TOML.
+    pub(super) fn with(&self, key: &Key, to: Option<Value>) -> Result<Self, Vec<Complaint>> {
+        let mut document: DocumentMut = self.text.parse().map_err(|error: toml_edit::TomlError| {
+            complaint(format!("the case is not valid TOML: {}", error.message()))
+        })?;
+        let table = document.entry(key.table()).or_insert(toml_edit::table());
+        let Some(table) = table.as_table_like_mut() else {
+            return Err(complaint(format!("{} is not a table", key.table())));
+        };
+        match (to, table.get_mut(key.short()).and_then(Item::as_value_mut)) {
+            (Some(new), Some(old)) => {
+                // The comment at the end of the line stays.
+                let around = old.decor().clone();
+                *old = new;
+                *old.decor_mut() = around;
+            }
+            (Some(new), None) => drop(table.insert(key.short(), value(new))),
+            (None, _) => drop(table.remove(key.short())),
+        }
+        Ok(self.with_text(document.to_string()))
+    }
+
+    /// The command that does the same run.
+    pub(super) fn command(&self, replicates: usize) -> String {
+        let Some((path, original)) = &self.file else {
+            return "save the case first; then this is the command that runs it".to_owned();
+        };
+        let set: String = differences(original, &self.text)
+            .into_iter()
+            .map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))))
+            .collect();
+        format!("spunlaid run {}{set} --replicates {replicates}", quoted(&path.to_string_lossy()))
+    }
+
+    /// The text for a file in the present folder: the paths in it are read from there.
+    pub(super) fn to_save(&self) -> String {
+        let folder = self.name.parent().unwrap_or(Path::new(""));
+        let Ok(mut document) = self.text.parse::<DocumentMut>() else {
+            return self.text.clone();
+        };
+        if folder == Path::new("") {
+            return self.text.clone();
+        }
+        for key in keys::all() {
+            let words = key.kind.words();
+            let item = document.get_mut(key.table()).and_then(Item::as_table_like_mut);
+            let Some(old) = item.and_then(|table| table.get_mut(key.short())).and_then(Item::as_value_mut) else {
+                continue;
+            };
+            if matches!(key.kind, Kind::File(_)) {
+                for_each_text(old, &mut |text| {
+                    let here = folder.join(text.value());
+                    if !words.contains(&text.value().as_str()) {
+                        *text = toml_edit::Formatted::new(here.to_string_lossy().into_owned());
+                    }
+                });
+            }
+        }
+        document.to_string()
+    }
+
+    /// The document after it has been saved under a name in the present folder.
+    pub(super) fn saved(&self, name: &str, text: String) -> Self {
+        let files = text.parse().map_or_else(|_| BTreeSet::new(), |document| files_of(&document));
+        Self { text: text.clone(), file: Some((PathBuf::from(name), text)), name: PathBuf::from(name), files }
+    }
+}
+
+/// The texts of a value or of the list that it is.
+fn for_each_text(of: &mut Value, act: &mut impl FnMut(&mut toml_edit::Formatted<String>)) {
+    match of {
+        Value::String(text) => act(text),
+        Value::Array(all) => all.iter_mut().for_each(|one| for_each_text(one, act)),
+        _ => {}
+    }
+}
+
+/// The files that a case names.
+fn files_of(document: &DocumentMut) -> BTreeSet<String> {
+    let mut files = BTreeSet::new();
+    for key in keys::all().iter().filter(|key| matches!(key.kind, Kind::File(_))) {
+        let table = document.get(key.table()).and_then(Item::as_table_like);
+        let Some(found) = table.and_then(|table| table.get(key.short())).and_then(Item::as_value) else {
+            continue;
+        };
+        for_each_text(&mut found.clone(), &mut |text| {
+            if !key.kind.words().contains(&text.value().as_str()) {
+                files.insert(text.value().clone());
+            }
+        });
+    }
+    files
+}
+
+/// Keys whose values differ between two cases, with the new value as an option takes it; `auto` for one that is gone.
+fn differences(old: &str, new: &str) -> Vec<(&'static str, String)> {
+    let (Ok(old), Ok(new)) = (old.parse::<DocumentMut>(), new.parse::<DocumentMut>()) else {
+        return Vec::new();
+    };
+    let written = |document: &DocumentMut, key: &Key| {
+        let table = document.get(key.table()).and_then(Item::as_table_like)?;
+        let mut found = table.get(key.short())?.as_value()?.clone();
+        found.decor_mut().clear();
+        Some(found.as_str().map_or_else(|| found.to_string(), str::to_owned))
+    };
+    let differs = |key: &'static Key| match (written(&old, key), written(&new, key)) {
+        (old, Some(new)) => (old.as_ref() != Some(&new)).then_some((key.name, new)),
+        (Some(_), None) => Some((key.name, "auto".to_owned())),
+        (None, None) => None,
+    };
+    keys::all().iter().filter_map(differs).collect()
+}
+
+fn complaint(text: impl Into<String>) -> Vec<Complaint> {
+    vec![Complaint { line: None, text: text.into() }]
+}
+
+/// The problems of an error, each with its line.
+pub(super) fn complaints(error: &Error) -> Vec<Complaint> {
+    let Error::Rejected(problems) = error else {
+        return complaint(error.to_string());
+    };
+    let of = |problem: &spunlaid::error::Problem| {
+        let line = match &problem.place {
+            Place::File { line, .. } => *line,
+            _ => None,
+        };
+        let mut problem = problem.clone();
+        problem.place = Place::Code;
+        Complaint { line, text: problem.to_string() }
+    };
+    problems.iter().take(20).map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CASE: &str = "# a case\n[fibre]\nlength = \"1 m\"\ndiameter = \"50 µm\" # fine\n\
+        density = \"950 kg/m³\"\nyoungs_modulus = \"2 GPa\"\n\n[air]\nvelocity = \"10 m/s\"\n\
+        turbulence_intensity = 0.1\nlength_scale = \"50 mm\"\ncutoff_frequency = \"100 Hz\"\n\n[run]\nduration = \"1 s\"\n";
+
+    fn document() -> Document {
+        Document::new(CASE.to_owned(), Some(PathBuf::from("some where/a.toml")))
+    }
+
+    fn key(name: &str) -> &'static Key {
+        keys::find(name).unwrap()
+    }
+
+    #[test]
+    fn a_key_changes_in_its_line_and_comments_stay() {
+        let new = document().with(key("fibre.diameter"), Some("20 µm".into())).unwrap();
+        assert_eq!(new.text(), CASE.replace("50 µm", "20 µm"));
+        let new = new.with(key("run.seed"), Some(7.into())).unwrap();
+        assert!(new.text().ends_with("duration = \"1 s\"\nseed = 7\n"), "{}", new.text());
+        assert_eq!(new.read().ok().unwrap().case.run.seed, 7);
+        let back = new.with(key("run.seed"), None).unwrap().with(key("fibre.diameter"), Some("50 µm".into()));
+        assert_eq!(back.unwrap().text(), CASE);
+    }
+
+    #[test]
+    fn the_command_names_what_differs_from_the_file() {
+        assert_eq!(document().command(8), "spunlaid run 'some where/a.toml' --replicates 8");
+        let new = document().with(key("fibre.diameter"), Some("20 µm".into())).unwrap();
+        let new = new.with(key("air.turbulence_intensity"), Some(0.2.into())).unwrap();
+        let new = new.with(key("run.duration"), None).unwrap();
+        assert_eq!(
+            new.command(8),
+            "spunlaid run 'some where/a.toml' --set 'fibre.diameter=20 µm' --set air.turbulence_intensity=0.2 \
+             --set run.duration=auto --replicates 8"
+        );
+        let saved = new.saved("b.toml", new.to_save());
+        assert_eq!(saved.command(8), "spunlaid run b.toml --replicates 8");
+        assert!(Document::new(CASE.to_owned(), None).command(8).starts_with("save the case first"));
+    }
+
+    #[test]
+    fn rejects_by_line() {
+        let Err(wrong) = document().with_text(CASE.replace("50 mm", "50 mms")).read() else {
+            panic!("it is read");
+        };
+        assert_eq!((wrong.len(), wrong[0].line), (1, Some(11)));
+        assert!(wrong[0].text.starts_with("air.length_scale = \"50 mms\" "), "{}", wrong[0].text);
+        let Err(wrong) = document().with_text("[fibre\n".to_owned()).read() else {
+            panic!("it is read");
+        };
+        assert_eq!(wrong[0].line, Some(1));
+    }
+
+    #[test]
+    fn rejects_files_that_the_case_did_not_name() {
+        for (line, file) in [
+            ("velocity = \"10 m/s\"", "profile = '/etc/passwd'"),
+            ("velocity = \"10 m/s\"", "record = ['probe.csv', '/etc/passwd']"),
+            ("turbulence_intensity = 0.1", "spectrum = '../../etc/passwd'"),
+        ] {
+            let Err(wrong) = document().with_text(CASE.replace(line, file)).read() else {
+                panic!("{file} is read");
+            };
+            assert!(wrong[0].text.contains("may not name other files"), "{}", wrong[0].text);
+        }
+        // Written another way.
+        let inline = CASE.replace("[air]\n", "[air]\n\"field\" = \"\"\"/etc/passwd\"\"\"\n");
+        assert!(document().with_text(inline).read().is_err_and(|e| e[0].text.contains("may not name")));
+        let word = CASE.replace("length_scale", "spectrum = 'von-karman'\nlength_scale");
+        assert!(document().with_text(word).read().is_ok());
+    }
+
+    #[test]
+    fn saved_paths_are_read_from_the_present_folder() {
+        let text = "[air]\nrecord = [\"a.csv\", \"b/c.csv\"]\nspectrum = \"von-karman\"\n";
+        let of = Document::new(text.to_owned(), Some(PathBuf::from("cases/x.toml")));
+        let wanted = "[air]\nrecord = [\"cases/a.csv\", \"cases/b/c.csv\"]\nspectrum = \"von-karman\"\n";
+        assert_eq!(of.to_save(), wanted);
+    }
+}

@@ -1,0 +1,169 @@
+//! What fed fibres have laid on the belt since the last change.
+
+use super::fibres::Instant;
+use super::measured::Number;
+use serde::Serialize;
+use spunlaid::case::Case;
+use spunlaid::lanes::WIDTH;
+use spunlaid::laydown::{self, Footprint, Trace, Tracing};
+use spunlaid::statistics::Estimate;
+use spunlaid::surrogate::identify;
+use std::array::from_fn;
+
+/// Points of each fibre from one fit of the surrogate to the next, as a share of those that it had.
+const FIT_AGAIN: f64 = 0.25;
+
+/// The laid curves of eight fibres.
+#[derive(Debug)]
+pub(super) struct Laid {
+    traces: [Trace; WIDTH],
+    /// Points of the first fibre at the last fit of the surrogate, and the noises found.
+    fitted: (u64, Vec<f64>),
+}
+
+/// Where the fibres came down, about the mean of each: counts on a lattice.
+#[derive(Debug, Serialize, PartialEq)]
+pub(super) struct Map {
+    /// Side of a cell [mm].
+    cell: f64,
+    /// Cells in machine direction.
+    columns: usize,
+    /// Smallest coordinates, in machine and cross direction [mm].
+    corner: [f64; 2],
+    /// Row after row in cross direction.
+    counts: Vec<u64>,
+}
+
+impl Laid {
+    /// No points yet; `None` for fibres of fixed length.
+    pub(super) fn of(case: &Case) -> Option<Self> {
+        let line = case.line?;
+        let belt_ratio = line.belt_speed / line.feed_speed;
+        let tracing = Tracing { spacing: case.fibre.rest_length(), belt_ratio, skip: 0, reach: line.distance };
+        Some(Self { traces: from_fn(|_| Trace::new(tracing)), fitted: (0, Vec::new()) })
+    }
+
+    pub(super) fn see(&mut self, instant: &Instant<'_>) {
+        for (trace, points) in self.traces.iter_mut().zip(instant.laid) {
+            points.iter().for_each(|point| trace.add(point.md, point.cd));
+        }
+    }
+
+    /// Spreads, correlation lengths and the surrogate. The errors are those over the eight fibres.
+    pub(super) fn numbers(&mut self) -> Vec<Number> {
+        let laid = self.traces.each_ref().map(Trace::finish);
+        let points = self.traces[0].points();
+        // A fit takes longer than all else.
+        if points as f64 > (1.0 + FIT_AGAIN) * self.fitted.0 as f64 {
+            let noises = laid.iter().filter_map(|of| {
+                let sigmas = [of.sigma_md, of.sigma_cd];
+                let found = identify(sigmas, of.lag_step, [&of.correlation_md, &of.correlation_cd]);
+                Some(found.ok()?.surrogate.noise)
+            });
+            self.fitted = (points, noises.collect());
+        }
+        let over = |of: fn(&laydown::Laid) -> f64| laid.iter().map(of).collect::<Vec<f64>>();
+        let all = [
+            ("sigma_md", over(|of| of.sigma_md)),
+            ("sigma_cd", over(|of| of.sigma_cd)),
+            ("noise", self.fitted.1.clone()),
+            ("half_correlation_length_md", over(|of| of.half_correlation_length_md)),
+            ("half_correlation_length_cd", over(|of| of.half_correlation_length_cd)),
+            ("orientation_md", over(|of| of.orientation_md)),
+        ];
+        all.into_iter()
+            .filter_map(|(name, values)| {
+                let finite: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
+                let of = Estimate::of(finite);
+                Number::of(name, of.mean, of.standard_error)
+            })
+            .collect()
+    }
+
+    /// Where the fibres came down; `None` before they have.
+    pub(super) fn map(&self) -> Option<Map> {
+        let laid = self.traces.each_ref().map(Trace::finish);
+        let with_points = || laid.iter().filter(|of| of.mean[0].is_finite());
+        let cell = with_points().map(|of| of.footprint.cell).fold(0.0, f64::max);
+        let mut counted = Vec::new();
+        for of in with_points() {
+            counted.extend(cells(&of.footprint, of.mean).map(|(at, count)| (at.map(|x| (x / cell).floor()), count)));
+        }
+        let range = |axis: usize| {
+            let of = || counted.iter().map(|(place, _)| place[axis]);
+            (of().fold(f64::INFINITY, f64::min), of().fold(f64::NEG_INFINITY, f64::max))
+        };
+        let ((left, right), (bottom, top)) = (range(0), range(1));
+        let [columns, rows] = [right - left, top - bottom].map(|cells| cells as usize + 1);
+        if counted.is_empty() || columns.saturating_mul(rows) > 1 << 16 {
+            return None;
+        }
+        let mut counts = vec![0; columns * rows];
+        for ([column, row], count) in counted {
+            counts[(row - bottom) as usize * columns + (column - left) as usize] += count;
+        }
+        Some(Map { cell: 1e3 * cell, columns, corner: [left, bottom].map(|x| 1e3 * cell * x), counts })
+    }
+}
+
+/// The middles of the cells that hold points, relative to a place [m], and their counts.
+fn cells(of: &Footprint, mean: [f64; 2]) -> impl Iterator<Item = ([f64; 2], u64)> {
+    let (corner, cell) = (of.corner(), of.cell);
+    of.rows().enumerate().flat_map(move |(row, counts)| {
+        counts.iter().enumerate().filter(|(_, count)| **count > 0).map(move |(column, count)| {
+            let middle = |index: usize, axis: usize| corner[axis] + (index as f64 + 0.5) * cell - mean[axis];
+            ([middle(column, 0), middle(row, 1)], *count)
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fibres::Fibres;
+    use super::super::measured::Measured;
+    use super::*;
+    use spunlaid::input::{parse_case, starter_case, starter_case_of_fed};
+
+    #[test]
+    fn the_map_holds_every_point_and_the_spread_is_that_of_the_points() {
+        let (case, _) = parse_case(starter_case_of_fed(), "fed.toml", &[]).unwrap();
+        let mut laid = Laid::of(&case).unwrap();
+        let mut fibres = Fibres::new(case.clone()).unwrap();
+        let mut points: Vec<f64> = Vec::new();
+        let mut all = 0;
+        fibres
+            .fly((0.2 / case.run.time_step) as u64, |instant| {
+                laid.see(&instant);
+                points.extend(instant.laid[2].iter().map(|point| point.cd));
+                all += instant.laid.iter().map(Vec::len).sum::<usize>() as u64;
+            })
+            .unwrap();
+        let n = points.len() as f64;
+        let mean = points.iter().sum::<f64>() / n;
+        let sigma = (points.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
+        assert!((laid.traces[2].finish().sigma_cd / sigma - 1.0).abs() < 1e-9);
+        let map = laid.map().unwrap();
+        assert_eq!(map.counts.iter().sum::<u64>(), all);
+        assert_eq!(map.counts.len() % map.columns, 0);
+        assert!(map.corner.iter().all(|corner| *corner < 0.0), "{map:?}");
+    }
+
+    #[test]
+    fn spreads_are_told_with_errors_after_the_fibres_have_come_down() {
+        let (case, _) = parse_case(starter_case_of_fed(), "fed.toml", &[]).unwrap();
+        let mut measured = Measured::new(&case, 0.0);
+        let mut fibres = Fibres::new(case.clone()).unwrap();
+        fibres.fly((0.5 / case.run.time_step) as u64, |instant| measured.see(instant)).unwrap();
+        let told = serde_json::to_value(measured.told(3, fibres.flight())).unwrap();
+        assert_eq!(told["numbers"][0]["name"], "sigma_md");
+        let sigma = told["numbers"][0]["value"].as_f64().unwrap();
+        let error = told["numbers"][0]["error"].as_f64().unwrap();
+        assert!(sigma > 1.0 && error > 0.0 && error < sigma, "{told}");
+    }
+
+    #[test]
+    fn fibres_of_fixed_length_lay_nothing() {
+        let (case, _) = parse_case(starter_case(), "a.toml", &[]).unwrap();
+        assert!(Laid::of(&case).is_none());
+    }
+}

@@ -1,0 +1,306 @@
+//! What the fibres are found to do while they fly, since the last change.
+
+use super::batches::{Batches, Settling};
+use super::fibres::Instant;
+use super::laid::Laid;
+use serde::Serialize;
+use spunlaid::case::Case;
+use spunlaid::flight::{EndNodeMotion, Flight};
+use spunlaid::lanes::WIDTH;
+use spunlaid::observe::{DECLARED, Measure, Observer, Sample, Seen, Value};
+use spunlaid::statistics::{Welch, Window};
+use std::array::from_fn;
+
+/// Duration of a batch to begin with [s].
+const BATCH: f64 = 0.05;
+/// Time after a change that the statistics of a fibre of fixed length leave out, if the case has no longer spin-up [s].
+const SETTLING: f64 = 0.5;
+/// Samples in a segment of the spectrum.
+const SEGMENT: usize = 512;
+
+/// Statistics since the last change.
+#[derive(Debug)]
+pub(super) struct Measured {
+    /// From this time of the flight on [s].
+    from: f64,
+    /// Time over which they are taken so far [s].
+    duration: f64,
+    /// Start of the present batch [s].
+    batch: Option<f64>,
+    of: Of,
+}
+
+#[derive(Debug)]
+enum Of {
+    Fixed(Box<Swinging>),
+    Fed(Box<Laid>),
+}
+
+/// Of fibres of fixed length.
+#[derive(Debug)]
+struct Swinging {
+    y: Batches,
+    z: Batches,
+    along: Box<dyn Observer>,
+    /// The last positions of each free end in y and z [m], one segment at most.
+    recent: [[Vec<f64>; 2]; WIDTH],
+    spectrum: [Welch; 2],
+}
+
+/// The statistics as they are told to a page.
+#[derive(Debug, Serialize)]
+#[serde(tag = "is", rename = "measured")]
+pub(super) struct Told {
+    pub(super) generation: u32,
+    /// Time over which they were taken [s].
+    duration: f64,
+    /// Time that is still left out [s].
+    settling: f64,
+    numbers: Vec<Number>,
+    curves: Option<Curves>,
+    footprint: Option<super::laid::Map>,
+}
+
+/// A number with its standard error, in the unit in which it is shown.
+#[derive(Debug, Serialize)]
+pub(super) struct Number {
+    name: &'static str,
+    label: &'static str,
+    meaning: &'static str,
+    unit: &'static str,
+    value: Option<f64>,
+    error: Option<f64>,
+}
+
+impl Number {
+    /// * `value`, `error` – in SI units
+    pub(super) fn of(name: &str, value: f64, error: Option<f64>) -> Option<Self> {
+        let Measure { name, label, meaning, unit, .. } = *measure(name)?;
+        let finite = |x: f64| x.is_finite().then_some(x * unit.per_si);
+        Some(Self { name, label, meaning, unit: unit.shown, value: finite(value), error: error.and_then(finite) })
+    }
+}
+
+/// Curves, averaged over the fibres.
+#[derive(Debug, Serialize)]
+struct Curves {
+    /// Distance from the root [mm]; amplitudes in y and z there [mm].
+    along: [Vec<f64>; 3],
+    /// Frequency [Hz]; spectra of y and z [mm²/Hz].
+    spectrum: [Vec<f64>; 3],
+}
+
+fn measure(name: &str) -> Option<&'static Measure> {
+    DECLARED.iter().flat_map(|declared| declared.measures).find(|measure| measure.name == name)
+}
+
+impl Measured {
+    /// Statistics of a case from now on, as soon as what was before is forgotten.
+    ///
+    /// * `now` – time of the flight [s]
+    pub(super) fn new(case: &Case, now: f64) -> Self {
+        let spin_up = case.run.spin_up();
+        let settling = match case.line {
+            Some(line) => spin_up.max(4.0 * line.distance / line.feed_speed),
+            None => spin_up.max(SETTLING),
+        };
+        let of = match Laid::of(case) {
+            Some(laid) => Of::Fed(Box::new(laid)),
+            None => Of::Fixed(Box::new(Swinging::of(case))),
+        };
+        Self { from: now + settling, duration: 0.0, batch: None, of }
+    }
+
+    /// Sees a recorded instant.
+    pub(super) fn see(&mut self, instant: Instant<'_>) {
+        let now = instant.snapshot.time;
+        if now < self.from {
+            return;
+        }
+        let Some(start) = self.batch else {
+            self.batch = Some(now);
+            // The flight is one step further.
+            instant.flight.forget_statistics();
+            return;
+        };
+        self.duration = now - self.from;
+        match &mut self.of {
+            Of::Fed(laid) => laid.see(&instant),
+            Of::Fixed(swinging) => {
+                swinging.see(&instant);
+                let duration = now - start;
+                if duration >= BATCH * (1.0 - 1e-9) {
+                    let motions = from_fn(|lane| instant.flight.end_node().motion(lane, duration));
+                    swinging.end_batch(&motions);
+                    instant.flight.forget_statistics();
+                    self.batch = Some(now);
+                }
+            }
+        }
+    }
+
+    /// What has been found so far.
+    pub(super) fn told(&mut self, generation: u32, flight: &Flight) -> Told {
+        let settling = (self.from - flight.time()).max(0.0);
+        let mut told =
+            Told { generation, duration: self.duration, settling, numbers: Vec::new(), curves: None, footprint: None };
+        match &mut self.of {
+            Of::Fed(laid) => {
+                told.numbers = laid.numbers();
+                told.footprint = laid.map();
+            }
+            Of::Fixed(swinging) => {
+                told.numbers = swinging.numbers();
+                told.curves = (self.duration > 0.0).then(|| swinging.curves(flight));
+            }
+        }
+        told
+    }
+}
+
+impl Swinging {
+    fn of(case: &Case) -> Self {
+        let observer = DECLARED.iter().find(|d| d.measures.iter().any(|m| m.name == "amplitude_y_along_fibre"));
+        let welch = Welch::new(case.run.output_interval(), SEGMENT, Window::Hann, 0.5);
+        Self {
+            y: Batches::default(),
+            z: Batches::default(),
+            along: observer.map_or_else(|| Box::new(Blind) as Box<dyn Observer>, |found| (found.observer)(case)),
+            recent: from_fn(|_| Default::default()),
+            spectrum: [welch.clone(), welch],
+        }
+    }
+
+    fn see(&mut self, instant: &Instant<'_>) {
+        let samples = [Sample::default(); WIDTH];
+        let seen = Seen { snapshot: instant.snapshot, samples: &samples, settled: true, laid: instant.laid };
+        self.along.see(&seen);
+        let Some(end) = instant.snapshot.position.last() else {
+            return;
+        };
+        for (lane, recent) in self.recent.iter_mut().enumerate() {
+            for ((values, x), welch) in recent.iter_mut().zip([end.y, end.z]).zip(&mut self.spectrum) {
+                values.push(x.0[lane]);
+                if values.len() == SEGMENT {
+                    welch.add(values, None);
+                    values.drain(..SEGMENT / 2);
+                }
+            }
+        }
+    }
+
+    fn end_batch(&mut self, motions: &[EndNodeMotion; WIDTH]) {
+        self.y.add(motions, |m| [m.amplitude_y, m.frequency_y, m.mean.y]);
+        self.z.add(motions, |m| [m.amplitude_z, m.frequency_z, m.mean.z]);
+    }
+
+    fn numbers(&self) -> Vec<Number> {
+        let of = |name, Settling { value, error }| Number::of(name, value, error);
+        [
+            of("amplitude_y", self.y.amplitude()),
+            of("amplitude_z", self.z.amplitude()),
+            of("frequency_y", self.y.frequency()),
+            of("frequency_z", self.z.frequency()),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    fn curves(&self, flight: &Flight) -> Curves {
+        let mut along = [Vec::new(), Vec::new(), Vec::new()];
+        for lane in 0..WIDTH {
+            for (axis, value) in self.along.finish(lane, flight).into_iter().enumerate() {
+                if let Value::Curve(distance, values) = value {
+                    along[0] = distance;
+                    let mean = &mut along[axis + 1];
+                    mean.resize(values.len(), 0.0);
+                    mean.iter_mut().zip(values).for_each(|(sum, value)| *sum += value / WIDTH as f64);
+                }
+            }
+        }
+        for curve in &mut along {
+            curve.iter_mut().for_each(|x| *x *= 1e3);
+        }
+        let [y, z] = self.spectrum.each_ref().map(|welch| welch.clone().finish());
+        let frequency = y.points().map(|(frequency, _)| frequency).collect();
+        let density = |of: &spunlaid::statistics::Spectrum| of.density.iter().map(|p| p * 1e6).collect();
+        Curves { along, spectrum: [frequency, density(&y), density(&z)] }
+    }
+}
+
+/// Sees nothing, in place of an observer that is not declared.
+#[derive(Debug)]
+struct Blind;
+
+impl Observer for Blind {
+    fn see(&mut self, _: &Seen<'_>) {}
+
+    fn finish(&self, _: usize, _: &Flight) -> Vec<Value> {
+        Vec::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fibres::Fibres;
+    use super::*;
+    use spunlaid::input::{parse_case, starter_case};
+
+    #[test]
+    fn stat_amplitude_and_curves_agree_with_those_of_a_run() {
+        use spunlaid::ensemble::{Computing, Keep, Results, fly};
+        use spunlaid::error::Error;
+        use spunlaid::lanes::Isa;
+        use std::sync::atomic::{AtomicBool, AtomicU64};
+        // The same flight over the same time: 0.5 s of settling, two seconds of statistics.
+        let values = [
+            ("run.scheme", "implicit-tension"),
+            ("run.time_step", "200 µs"),
+            ("run.duration", "2.5 s"),
+            ("run.spin_up", "0.5 s"),
+            ("run.replicates", "8"),
+        ];
+        let values = values.map(|(k, v)| (k.to_owned(), v.to_owned()));
+        let (case, _) = parse_case(starter_case(), "starter.toml", &values).unwrap();
+        let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
+        let computing =
+            Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, laid: None };
+        let mut results = Results::collector(0);
+        fly::<Error>(&case, Keep::NUMBERS, computing, |flown| {
+            results.take(&flown);
+            Ok(())
+        })
+        .unwrap();
+        let results = results.finish();
+
+        let mut fibres = Fibres::new(case.clone()).unwrap();
+        let mut measured = Measured::new(&case, 0.0);
+        fibres.fly(case.run.steps + 1, |instant| measured.see(instant)).unwrap();
+        let told = measured.told(1, fibres.flight());
+        assert!((told.duration - 2.0).abs() < 1e-9 && told.settling == 0.0);
+        for number in &told.numbers {
+            let run = results.estimate(number.name).mean * measure(number.name).unwrap().unit.per_si;
+            // The batches begin and end within a step of the run's; a crossing at their seams may be missed, at most one of
+            // 70 in each.
+            let tolerance = if number.name.starts_with("amplitude") { 1e-3 } else { 0.03 };
+            assert!((number.value.unwrap() / run - 1.0).abs() < tolerance, "{number:?}: {run}");
+            assert!(number.error.is_some_and(|e| e > 0.0 && e < 0.3 * run), "{number:?}");
+        }
+        let curves = told.curves.unwrap();
+        let amplitude = told.numbers[0].value.unwrap();
+        // The end of the curve is taken at recorded instants, the amplitude at all steps.
+        assert!((curves.along[1].last().unwrap() / amplitude - 1.0).abs() < 0.01);
+        let variance: f64 = curves.spectrum[1].iter().sum::<f64>() * curves.spectrum[0][0];
+        // Each segment of 0.5 s has its own mean taken out, and weighs its middle most.
+        assert!((variance.sqrt() / amplitude - 1.0).abs() < 0.2, "{} {amplitude}", variance.sqrt());
+    }
+
+    #[test]
+    fn nothing_is_told_before_the_fibres_have_settled() {
+        let (case, _) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
+        let fibres = Fibres::new(case.clone()).unwrap();
+        let told = Measured::new(&case, 0.0).told(1, fibres.flight());
+        assert!(told.settling > 0.4 && told.curves.is_none() && told.numbers[0].value.is_none());
+    }
+}

@@ -1,0 +1,152 @@
+//! What a page asks, as JSON. What is told to the pages is written where it is known.
+
+use serde::{Deserialize, Serialize};
+
+/// Size of the largest message that is read [bytes].
+pub(super) const LARGEST: usize = 1 << 18;
+
+/// Something that a page asks for.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(tag = "do", rename_all = "snake_case", deny_unknown_fields)]
+pub(super) enum Asked {
+    /// Change a key. The answer repeats the stamp.
+    Set { key: String, value: Given, stamp: u64 },
+    /// Fly this case.
+    Case { text: String },
+    /// Fly at another pace.
+    Pace { pace: Pace },
+    /// Stop the time.
+    Pause {},
+    /// Let the time go on.
+    Go {},
+    /// Go on by one recorded instant and stop.
+    Step {},
+    /// Start the fibres anew, straight and at rest.
+    Reset {},
+    /// Begin the statistics anew.
+    Forget {},
+    /// Whether the page can be seen.
+    Look { visible: bool },
+    /// Write the case as a file into the folder where the program was started.
+    Save { name: String, replace: bool },
+}
+
+/// The value of a key: a number in SI units, or a text as in a case file.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(untagged)]
+pub(super) enum Given {
+    Number(f64),
+    Text(String),
+}
+
+/// How fast the time of the fibres goes.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Pace {
+    Real,
+    Tenth,
+    Hundredth,
+    /// As fast as it goes.
+    Free,
+}
+
+impl Pace {
+    /// Time of the fibres over time of the clock; `None` as fast as it goes.
+    pub(super) const fn ratio(self) -> Option<f64> {
+        match self {
+            Self::Real => Some(1.0),
+            Self::Tenth => Some(0.1),
+            Self::Hundredth => Some(0.01),
+            Self::Free => None,
+        }
+    }
+}
+
+/// Something that is told to the one page that asked.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+#[serde(tag = "is", rename_all = "snake_case")]
+pub(super) enum Answer {
+    /// A change was made; frames of this generation or later show it.
+    Applied { stamp: u64, generation: u32 },
+    /// The case was saved under this name.
+    Saved { name: String },
+    /// There is a file of this name already.
+    Exists { name: String },
+    /// What was asked cannot be done.
+    Refused { problems: Vec<Complaint> },
+}
+
+/// Why something cannot be done.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub(super) struct Complaint {
+    /// Line of the case, counted from 1, if it is about one.
+    pub(super) line: Option<usize>,
+    /// In words.
+    pub(super) text: String,
+}
+
+impl Answer {
+    pub(super) fn refused(text: impl Into<String>) -> Self {
+        Self::Refused { problems: vec![Complaint { line: None, text: text.into() }] }
+    }
+
+    pub(super) fn json(&self) -> String {
+        // A value of this type always has a text.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+/// Reads a message.
+///
+/// # Errors
+/// The answer to a message that is none.
+pub(super) fn read(text: &str) -> Result<Asked, Answer> {
+    serde_json::from_str(text).map_err(|error| Answer::refused(format!("this message is not understood: {error}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_message_of_the_page_is_understood() {
+        let set = |value| Asked::Set { key: "air.velocity".to_owned(), value, stamp: 7 };
+        for (text, wanted) in [
+            (r#"{"do":"set","key":"air.velocity","value":20,"stamp":7}"#, set(Given::Number(20.0))),
+            (r#"{"do":"set","key":"air.velocity","value":"20 m/s","stamp":7}"#, set(Given::Text("20 m/s".to_owned()))),
+            (r#"{"do":"case","text":"[fibre]"}"#, Asked::Case { text: "[fibre]".to_owned() }),
+            (r#"{"do":"pace","pace":"hundredth"}"#, Asked::Pace { pace: Pace::Hundredth }),
+            (r#"{"do":"pause"}"#, Asked::Pause {}),
+            (r#"{"do":"go"}"#, Asked::Go {}),
+            (r#"{"do":"step"}"#, Asked::Step {}),
+            (r#"{"do":"reset"}"#, Asked::Reset {}),
+            (r#"{"do":"forget"}"#, Asked::Forget {}),
+            (r#"{"do":"look","visible":false}"#, Asked::Look { visible: false }),
+            (r#"{"do":"save","name":"a","replace":true}"#, Asked::Save { name: "a".to_owned(), replace: true }),
+        ] {
+            assert_eq!(read(text), Ok(wanted), "{text}");
+        }
+    }
+
+    #[test]
+    fn rejects_messages_that_are_none() {
+        let deep = "[".repeat(100_000);
+        for text in [
+            "",
+            "null",
+            "{}",
+            r#"{"do":"fly"}"#,
+            r#"{"do":"pause","now":true}"#,
+            r#"{"do":"set","key":"air.velocity","value":null,"stamp":7}"#,
+            r#"{"do":"set","key":"air.velocity","value":1e999,"stamp":7}"#,
+            r#"{"do":"set","key":"air.velocity","value":1,"stamp":-7}"#,
+            r#"{"do":"pace","pace":"double"}"#,
+            &deep,
+        ] {
+            let Err(Answer::Refused { problems }) = read(text) else {
+                panic!("{text} is understood");
+            };
+            assert!(problems[0].text.starts_with("this message is not understood: "), "{problems:?}");
+        }
+    }
+}

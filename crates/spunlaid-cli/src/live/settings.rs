@@ -1,0 +1,162 @@
+//! What a page can change, out of the table of keys.
+
+use serde::Serialize;
+use spunlaid::case::Case;
+use spunlaid::case::keys::{self, Key, Kind, LeftOut, Value};
+use spunlaid::units::Dimension;
+
+/// Keys of the run that have no meaning while a page looks on: how long it lasts, what is recorded.
+const OF_RUNS: [&str; 7] = [
+    "run.duration",
+    "run.error_tolerance",
+    "run.output_interval",
+    "run.replicates",
+    "run.shapes",
+    "run.spin_up",
+    "run.time_step",
+];
+
+/// A slider or a choice.
+#[derive(Debug, Serialize, PartialEq)]
+pub(super) struct Setting {
+    key: &'static str,
+    table: &'static str,
+    /// With `*italics*` and `_{subscripts}`.
+    label: &'static str,
+    meaning: &'static str,
+    /// What applies if it is left out, and the values that it takes.
+    about: String,
+    /// Whether it changes at once; otherwise the fibres start anew, from the present shape where they can.
+    in_flight: bool,
+    /// Whether it is one of the first to look at.
+    first: bool,
+    #[serde(flatten)]
+    takes: Takes,
+}
+
+#[derive(Debug, Serialize, PartialEq)]
+#[serde(tag = "takes", rename_all = "snake_case")]
+enum Takes {
+    /// A quantity; the ends of the slider in SI units, and whether it is logarithmic.
+    Quantity { low: f64, high: f64, logarithmic: bool },
+    /// A word.
+    Word { words: Vec<&'static str> },
+    /// A whole number.
+    Whole { low: u64 },
+}
+
+/// The present value of a setting.
+#[derive(Debug, Serialize, PartialEq)]
+pub(super) struct Present {
+    key: &'static str,
+    /// In SI units, if it is a quantity.
+    si: Option<f64>,
+    /// For people.
+    text: String,
+}
+
+/// Everything that can be changed in a case.
+pub(super) fn settings(case: &Case) -> Vec<Setting> {
+    shown(case).filter_map(|(key, value)| setting(key, &value)).collect()
+}
+
+/// The present values, in the same order.
+pub(super) fn present(case: &Case) -> Vec<Present> {
+    shown(case)
+        .filter(|(key, value)| setting(key, value).is_some())
+        .map(|(key, value)| {
+            let text = match (&value, key.kind.dimension()) {
+                (Value::Number(number), Some(dimension)) => dimension.pretty_to(*number, 4),
+                (Value::Whole(number), _) => number.to_string(),
+                (Value::Text(text), _) => text.clone(),
+                _ => String::new(),
+            };
+            Present { key: key.name, si: value.number(), text }
+        })
+        .collect()
+}
+
+fn shown(case: &Case) -> impl Iterator<Item = (&'static Key, Value)> {
+    keys::all()
+        .iter()
+        .filter(|key| !OF_RUNS.contains(&key.name) && !told(key, case))
+        .filter_map(move |key| Some((key, key.get(case)?)))
+}
+
+/// Whether the flow gives the value.
+fn told(key: &Key, case: &Case) -> bool {
+    let from_flow = &case.air.from_flow;
+    match key.name {
+        "air.velocity" => !case.air.is_uniform(),
+        "air.turbulence_intensity" => from_flow.turbulence_intensity,
+        "air.length_scale" => from_flow.length_scale,
+        "air.cutoff_frequency" => from_flow.cutoff_frequency,
+        "fibre.length" => case.line.is_some(),
+        _ => false,
+    }
+}
+
+fn setting(key: &'static Key, value: &Value) -> Option<Setting> {
+    let takes = match (&key.kind, key.slider, value) {
+        (Kind::Quantity(..), Some((low, high)), Value::Number(now)) => {
+            // A slider reaches to the value of the case.
+            let (low, high) = (low.min(*now), high.max(*now));
+            Takes::Quantity { low, high, logarithmic: low > 0.0 && high / low >= 50.0 }
+        }
+        (Kind::Choice(_), _, Value::Text(_)) => Takes::Word { words: key.kind.words() },
+        (Kind::Whole(low, _), _, Value::Whole(_)) if key.name == "run.seed" => Takes::Whole { low: *low },
+        _ => return None,
+    };
+    let left_out = match key.left_out {
+        LeftOut::Required(_) => String::new(),
+        LeftOut::Value(value) => format!(" Default: {value}."),
+        LeftOut::Follows(words) => format!(" If it is left out: {words}."),
+    };
+    let unit = match key.kind.dimension() {
+        Some(Dimension::Ratio) | None => String::new(),
+        Some(dimension) => format!(", in {} for example", dimension.si_unit()),
+    };
+    let first = matches!(key.left_out, LeftOut::Required(_)) || ["feed", "belt"].contains(&key.table());
+    Some(Setting {
+        key: key.name,
+        table: key.table(),
+        label: key.label,
+        meaning: key.meaning,
+        about: format!("Takes {}{unit}.{left_out}", key.allowed()),
+        in_flight: key.in_flight,
+        first: first && !matches!(takes, Takes::Word { .. }),
+        takes,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spunlaid::input::{parse_case, starter_case, starter_case_of_fed};
+
+    #[test]
+    fn sliders_and_choices_come_from_the_table_of_keys() {
+        let (case, _) = parse_case(starter_case(), "a.toml", &[]).unwrap();
+        let all = settings(&case);
+        assert_eq!(all.iter().map(|s| s.key).collect::<Vec<_>>(), present(&case).iter().map(|p| p.key).collect::<Vec<_>>());
+        let of = |name: &str| all.iter().find(|s| s.key == name).unwrap();
+        assert_eq!(of("air.velocity").takes, Takes::Quantity { low: 0.0, high: 60.0, logarithmic: false });
+        assert_eq!(of("fibre.diameter").takes, Takes::Quantity { low: 5e-6, high: 2e-4, logarithmic: false });
+        assert_eq!(of("fibre.youngs_modulus").takes, Takes::Quantity { low: 1e7, high: 1e10, logarithmic: true });
+        assert!(of("air.velocity").in_flight && of("air.velocity").first && !of("air.length_scale").in_flight);
+        assert_eq!(of("fibre.root").takes, Takes::Word { words: vec!["pinned", "clamped", "free"] });
+        assert!(of("run.seed").about.contains("Default: 1."));
+        let first: Vec<&str> = all.iter().filter(|s| s.first).map(|s| s.key).collect();
+        assert_eq!(first.len(), 8, "{first:?}");
+        assert_eq!(present(&case).iter().find(|p| p.key == "fibre.diameter").unwrap().text, "50 µm");
+    }
+
+    #[test]
+    fn a_fed_fibre_has_feed_and_belt_and_no_length() {
+        let (case, _) = parse_case(starter_case_of_fed(), "a.toml", &[]).unwrap();
+        let all = settings(&case);
+        for (key, there) in [("feed.speed", true), ("belt.speed", true), ("fibre.length", false)] {
+            assert_eq!(all.iter().any(|s| s.key == key && s.first), there, "{key}");
+        }
+    }
+}
