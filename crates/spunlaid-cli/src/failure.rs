@@ -44,6 +44,10 @@ pub(crate) enum Failure {
     NoSuchPoint { point: u64, points: u64 },
     /// What fibres have laid cannot make a web.
     NothingToLay { of: PathBuf, reason: String },
+    /// A case that `live` cannot fly.
+    NotFlown { name: String, why: Vec<String> },
+    /// The page of `live` cannot be served.
+    NotServed { source: io::Error },
     /// The positions of fibres became infinite or NaN.
     FibresLost { lost: u64, of: u64, first: Vec<String> },
     /// The program panicked; the message has been printed.
@@ -78,8 +82,13 @@ impl Failure {
             | Self::NoSuchFigure { .. }
             | Self::NoSuchKey { .. }
             | Self::NothingToLay { .. }
+            | Self::NotFlown { .. }
             | Self::NoSuchPoint { .. } => 1,
-            Self::NotWritten { .. } | Self::Unheard { .. } | Self::FibresLost { .. } | Self::Panicked => 2,
+            Self::NotWritten { .. }
+            | Self::NotServed { .. }
+            | Self::Unheard { .. }
+            | Self::FibresLost { .. }
+            | Self::Panicked => 2,
         }
     }
 
@@ -122,6 +131,16 @@ impl fmt::Display for Failure {
             Self::Results(failure) => write!(f, "{failure}{}", folder_options(failure)),
             Self::NotWritten { path, source } => {
                 write!(f, "{}: cannot be written: {source}; name another file", path.display())
+            }
+            Self::NotFlown { name, why } => write!(f, "{name}: {}", why.join("\n")),
+            Self::NotServed { source } => {
+                write!(f, "the page cannot be served: {source}")?;
+                match source.kind() {
+                    io::ErrorKind::AddrInUse | io::ErrorKind::PermissionDenied => {
+                        f.write_str("; name another port with --port, or leave it out")
+                    }
+                    _ => Ok(()),
+                }
             }
             Self::NoSuchFigure { name, known } => {
                 write!(f, "--figures {name}: there is no such result figure; write some of {known}")
@@ -284,6 +303,7 @@ mod tests {
             Failure::NoPixel { path: path() },
             Failure::NotCompared { folder: path(), reason: "it holds no web".to_owned() },
             Failure::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() },
+            Failure::NotFlown { name: "a.toml".to_owned(), why: Vec::new() },
             Error::Flight(FlightFault::Empty).into(),
             Error::Rejected(Vec::new()).into(),
             Error::from(JournalError::InUse { path: path() }).into(),
@@ -295,6 +315,7 @@ mod tests {
             Failure::unwritable(&path())(full()),
             Failure::NotWritten { path: path(), source: full() },
             Unwritten::Figure { name: "9".to_owned(), reason: "no".to_owned() }.into(),
+            Failure::NotServed { source: full() },
             Failure::Unheard { why: &FULL },
             Failure::FibresLost { lost: 1, of: 2, first: Vec::new() },
             Failure::Panicked,

@@ -3,6 +3,7 @@
 mod args;
 mod commands;
 mod failure;
+mod live;
 mod progress;
 mod say;
 
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
         Command::Run(run) => commands::run(&run),
         Command::Sweep(sweep) => commands::sweep(&sweep),
         Command::Web(web) => commands::web(&web),
+        Command::Live(live) => commands::live(&live),
         Command::Reproduce(asked) => commands::reproduce(&asked),
         Command::Analyse(analyse) => commands::analyse(&analyse),
         Command::Compare(compare) => commands::compare(&compare),

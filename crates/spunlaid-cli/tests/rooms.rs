@@ -7,7 +7,7 @@ use rooms_of::faults;
 use std::path::Path;
 
 /// The rooms of the program from left to right; those of one group may not import one another.
-const PROGRAM: &[&[&str]] = &[&["args", "failure", "progress", "say"], &["commands"]];
+const PROGRAM: &[&[&str]] = &[&["args", "failure", "progress", "say"], &["live"], &["commands"]];
 
 const RESULTS: &[&[&str]] = &[&["failure", "numbers"], &["figures"], &["output"], &["report"], &["folders"]];
 

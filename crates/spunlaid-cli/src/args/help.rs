@@ -8,6 +8,7 @@ Examples:
   spunlaid check my.toml                            show mesh, limits, expected time and memory
   spunlaid run my.toml                              fly it; then open results/my/report.html
   spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
+  spunlaid live my.toml                             change it while it flies, on a page
   spunlaid sweep my_study.toml                      fly it with many values of some keys
   spunlaid web my_web.toml                          lay a fabric of many such filaments
   spunlaid run results/my --until \"20 s\"             fly it for longer, in the same turbulence
@@ -30,6 +31,18 @@ Examples:
   spunlaid keys run.spin_up            one of them
   spunlaid keys --markdown > keys.md   the same as a Markdown document
   spunlaid keys --web                  the keys of the file of a web";
+
+pub(super) const LIVE_HELP: &str = "\
+The page shows eight fibres of the case in flight. Sliders change air and fibre while they fly;
+amplitude, frequency, their errors and spectra follow. A fed fibre is laid while you look. The page
+works offline; only programs of this machine that know its address can reach it. The program reads
+no other files than those of the case, and writes only what you save on the page by name, into the
+folder where it was started. Ctrl-C ends it.
+
+Examples:
+  spunlaid live                        the fibre of Table 1 of the paper
+  spunlaid live cases/spunbond.toml    a fibre that is laid on a moving belt
+  spunlaid live my.toml --no-open      print the address only";
 
 pub(super) const RUN_HELP: &str = "\
 The results folder holds

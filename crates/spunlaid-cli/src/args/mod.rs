@@ -8,8 +8,8 @@ pub(crate) use analyse::{Analyse, Direction, LightName};
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use help::{
-    ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, REPRODUCE_HELP, RUN_HELP, SWEEP_HELP,
-    WEB_HELP,
+    ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, REPRODUCE_HELP, RUN_HELP,
+    SWEEP_HELP, WEB_HELP,
 };
 use spunlaid::case::{Case, Note};
 use spunlaid::error::Error;
@@ -37,6 +37,9 @@ pub(crate) enum Command {
     /// Lay a web of many filaments: map of its basis weight, how uneven it is, directions
     #[command(after_help = WEB_HELP)]
     Web(Web),
+    /// Open a page on which eight fibres fly, and change while you look: real or slowed time
+    #[command(after_help = LIVE_HELP)]
+    Live(Live),
     /// Reproduce every result figure of the paper and test its claims
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(Reproduce),
@@ -90,7 +93,7 @@ impl CaseSource {
 }
 
 /// A word of a command line, in quotes if the shell would not take it as one word. It stays in its line.
-fn quoted(word: &str) -> String {
+pub(crate) fn quoted(word: &str) -> String {
     if word.chars().all(|c| c.is_alphanumeric() || "-_./=:,+%".contains(c)) {
         return word.to_owned();
     }
@@ -192,6 +195,19 @@ pub(crate) struct Web {
     /// Replace the results in the output folder
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Live {
+    /// Case file (TOML) [default: the fibre of Table 1 of the paper]
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub(crate) case: Option<PathBuf>,
+    /// Port of the page on this machine [default: any that is free]
+    #[arg(long, value_name = "N")]
+    pub(crate) port: Option<u16>,
+    /// Print the address, and open no browser
+    #[arg(long)]
+    pub(crate) no_open: bool,
 }
 
 #[derive(Debug, Args)]

@@ -43,8 +43,9 @@ impl Batch {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Batches {
     batches: Vec<Batch>,
-    /// How many batches of the first duration make one of now, less one that is being filled.
+    /// The batch that is being put together from those of the first duration.
     filling: Option<Filling>,
+    /// How often neighbours have become one.
     merged: u32,
 }
 
@@ -67,7 +68,6 @@ impl Batches {
             variance: motions.map(|[amplitude, ..]| amplitude * amplitude),
             frequency: motions.map(|[_, frequency, _]| frequency),
         };
-        // Batches of unequal duration are not joined: a larger one is put together first, weight by weight.
         let wanted = 1 << self.merged;
         let filling = match self.filling.take() {
             None => Filling { so_far: batch, holds: 1 },
@@ -82,11 +82,6 @@ impl Batches {
             self.batches = self.batches.chunks_exact(2).map(|two| Batch::joined(&two[0], &two[1])).collect();
             self.merged += 1;
         }
-    }
-
-    /// Number of batches of the first duration that count.
-    pub(super) fn counted(&self) -> u64 {
-        (self.batches.len() as u64) << self.merged
     }
 
     /// The standard deviation over all the time, as a run computes it, averaged over the fibres.
@@ -120,7 +115,8 @@ impl Filling {
         let a = &self.so_far;
         let mix = |a: f64, b: f64| a + share * (b - a);
         let variance = |i: usize| {
-            mix(a.variance[i], batch.variance[i]) + share * (1.0 - share) * (batch.mean[i] - a.mean[i]).powi(2)
+            mix(a.variance[i], batch.variance[i])
+                + share * (1.0 - share) * (batch.mean[i] - a.mean[i]).powi(2)
         };
         let so_far = Batch {
             mean: from_fn(|i| mix(a.mean[i], batch.mean[i])),
@@ -144,7 +140,7 @@ fn standard_error(mut values: Vec<[f64; WIDTH]>) -> Option<f64> {
     let mut largest = of_independent(&over_fibres(&values));
     while values.len() >= LEAST {
         let error = of_independent(&values.iter().flatten().copied().collect::<Vec<f64>>());
-        largest = largest.max(error);
+        largest = largest.into_iter().chain(error).reduce(f64::max);
         values = values.chunks_exact(2).map(|two| from_fn(|i| 0.5 * (two[0][i] + two[1][i]))).collect();
     }
     largest
@@ -190,7 +186,8 @@ mod tests {
         let n = piece.len() as f64;
         let mean = piece.iter().sum::<f64>() / n;
         let variance = piece.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n;
-        let mut motion = EndNodeMotion { amplitude_y: variance.sqrt(), frequency_y: piece[0], ..Default::default() };
+        let mut motion =
+            EndNodeMotion { amplitude_y: variance.sqrt(), frequency_y: piece[0], ..Default::default() };
         motion.mean.y = mean;
         motion
     }
@@ -212,14 +209,23 @@ mod tests {
         (batches, signals.each_ref().map(|signal| motion(signal).amplitude_y))
     }
 
+    /// Number of batches of the first duration that count.
+    fn counted(of: &Batches) -> u64 {
+        (of.batches.len() as u64) << of.merged
+    }
+
     #[test]
     fn analytic_amplitude_is_that_of_all_the_time_however_it_is_cut() {
         // 8 · 64 pieces are joined four times; rounding only.
         for pieces in [1, 5, 63, 64, 512] {
             let (of, whole) = batches(&mut Chance(1), 0.9, pieces, 20);
             let wanted = whole.iter().sum::<f64>() / WIDTH as f64;
-            assert_eq!(of.counted(), pieces as u64);
-            assert!((of.amplitude().value / wanted - 1.0).abs() < 1e-12, "{pieces}: {:?}, {wanted}", of.amplitude());
+            assert_eq!(counted(&of), pieces as u64);
+            assert!(
+                (of.amplitude().value / wanted - 1.0).abs() < 1e-12,
+                "{pieces}: {:?}, {wanted}",
+                of.amplitude()
+            );
             assert!(of.batches.len() < MOST);
         }
     }
@@ -227,7 +233,7 @@ mod tests {
     #[test]
     fn an_unfinished_batch_does_not_count_yet() {
         let (of, _) = batches(&mut Chance(1), 0.9, 65, 20);
-        assert_eq!((of.counted(), of.filling.map(|f| f.holds)), (64, Some(1)));
+        assert_eq!((counted(&of), of.filling.map(|f| f.holds)), (64, Some(1)));
     }
 
     #[test]

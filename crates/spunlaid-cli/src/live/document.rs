@@ -121,7 +121,8 @@ impl Document {
         for key in keys::all() {
             let words = key.kind.words();
             let item = document.get_mut(key.table()).and_then(Item::as_table_like_mut);
-            let Some(old) = item.and_then(|table| table.get_mut(key.short())).and_then(Item::as_value_mut) else {
+            let Some(old) = item.and_then(|table| table.get_mut(key.short())).and_then(Item::as_value_mut)
+            else {
                 continue;
             };
             if matches!(key.kind, Kind::File(_)) {

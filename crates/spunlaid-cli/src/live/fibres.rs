@@ -125,11 +125,7 @@ impl Fibres {
 
 /// Positions and velocities of the nodes of another case at which fibres of fixed length go on. Their directions stay, along
 /// the share of the length; strain stays as well.
-fn carried_over(
-    old: &Case,
-    seen: &Snapshot,
-    new: &Case,
-) -> Option<(Vec<Vec3<Lanes>>, Vec<Vec3<Lanes>>)> {
+fn carried_over(old: &Case, seen: &Snapshot, new: &Case) -> Option<(Vec<Vec3<Lanes>>, Vec<Vec3<Lanes>>)> {
     let same_hold = (old.fibre.root, old.fibre.direction) == (new.fibre.root, new.fibre.direction);
     if old.line.is_some() || new.line.is_some() || !same_hold {
         return None;
@@ -180,7 +176,10 @@ mod tests {
             fibres.fly(steps, |instant| times.push(instant.snapshot.time)).unwrap();
         }
         let wanted: Vec<f64> = (0..times.len()).map(|i| i as f64 * run.output_interval()).collect();
-        assert!(times.len() > 70 && times.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-12), "{times:?}");
+        assert!(
+            times.len() > 70 && times.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-12),
+            "{times:?}"
+        );
         let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job { case: &case, replicate }).collect();
         let mut other = Flight::new(&jobs, Isa::detect()).unwrap();
         other.step_to(fibres.flight().time()).unwrap();
@@ -198,7 +197,12 @@ mod tests {
         assert_eq!((fibres.case(), end(&fibres)), (&faster, before));
         // Other eddies: the flight starts anew, with the fibre where it was.
         let time = fibres.flight().time();
-        assert!(time > 0.1 && fibres.become_of(case(&[("air.length_scale", "60 mm"), ("fibre.element_length", "50 mm")])).unwrap());
+        assert!(
+            time > 0.1
+                && fibres
+                    .become_of(case(&[("air.length_scale", "60 mm"), ("fibre.element_length", "50 mm")]))
+                    .unwrap()
+        );
         assert!(fibres.flight().time() < time);
         for lane in 0..WIDTH {
             assert!((end(&fibres).lane(lane) - before.lane(lane)).norm() < 1e-9);
@@ -240,7 +244,9 @@ mod tests {
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let steps = (0.06 / case.run.time_step) as u64;
         let mut laid = [0; WIDTH];
-        fibres.fly(steps, |instant| (0..WIDTH).for_each(|lane| laid[lane] += instant.laid[lane].len())).unwrap();
+        fibres
+            .fly(steps, |instant| (0..WIDTH).for_each(|lane| laid[lane] += instant.laid[lane].len()))
+            .unwrap();
         assert!(laid.iter().all(|points| *points > 100), "{laid:?}");
         let mut slower = case;
         slower.run.seed = 5;

@@ -39,7 +39,8 @@ impl Laid {
     pub(super) fn of(case: &Case) -> Option<Self> {
         let line = case.line?;
         let belt_ratio = line.belt_speed / line.feed_speed;
-        let tracing = Tracing { spacing: case.fibre.rest_length(), belt_ratio, skip: 0, reach: line.distance };
+        let tracing =
+            Tracing { spacing: case.fibre.rest_length(), belt_ratio, skip: 0, reach: line.distance };
         Some(Self { traces: from_fn(|_| Trace::new(tracing)), fitted: (0, Vec::new()) })
     }
 
@@ -87,7 +88,9 @@ impl Laid {
         let cell = with_points().map(|of| of.footprint.cell).fold(0.0, f64::max);
         let mut counted = Vec::new();
         for of in with_points() {
-            counted.extend(cells(&of.footprint, of.mean).map(|(at, count)| (at.map(|x| (x / cell).floor()), count)));
+            counted.extend(
+                cells(&of.footprint, of.mean).map(|(at, count)| (at.map(|x| (x / cell).floor()), count)),
+            );
         }
         let range = |axis: usize| {
             let of = || counted.iter().map(|(place, _)| place[axis]);

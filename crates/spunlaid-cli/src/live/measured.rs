@@ -77,7 +77,14 @@ impl Number {
     pub(super) fn of(name: &str, value: f64, error: Option<f64>) -> Option<Self> {
         let Measure { name, label, meaning, unit, .. } = *measure(name)?;
         let finite = |x: f64| x.is_finite().then_some(x * unit.per_si);
-        Some(Self { name, label, meaning, unit: unit.shown, value: finite(value), error: error.and_then(finite) })
+        Some(Self {
+            name,
+            label,
+            meaning,
+            unit: unit.shown,
+            value: finite(value),
+            error: error.and_then(finite),
+        })
     }
 }
 
@@ -142,8 +149,14 @@ impl Measured {
     /// What has been found so far.
     pub(super) fn told(&mut self, generation: u32, flight: &Flight) -> Told {
         let settling = (self.from - flight.time()).max(0.0);
-        let mut told =
-            Told { generation, duration: self.duration, settling, numbers: Vec::new(), curves: None, footprint: None };
+        let mut told = Told {
+            generation,
+            duration: self.duration,
+            settling,
+            numbers: Vec::new(),
+            curves: None,
+            footprint: None,
+        };
         match &mut self.of {
             Of::Fed(laid) => {
                 told.numbers = laid.numbers();
@@ -160,12 +173,14 @@ impl Measured {
 
 impl Swinging {
     fn of(case: &Case) -> Self {
-        let observer = DECLARED.iter().find(|d| d.measures.iter().any(|m| m.name == "amplitude_y_along_fibre"));
+        let observer =
+            DECLARED.iter().find(|d| d.measures.iter().any(|m| m.name == "amplitude_y_along_fibre"));
         let welch = Welch::new(case.run.output_interval(), SEGMENT, Window::Hann, 0.5);
         Self {
             y: Batches::default(),
             z: Batches::default(),
-            along: observer.map_or_else(|| Box::new(Blind) as Box<dyn Observer>, |found| (found.observer)(case)),
+            along: observer
+                .map_or_else(|| Box::new(Blind) as Box<dyn Observer>, |found| (found.observer)(case)),
             recent: from_fn(|_| Default::default()),
             spectrum: [welch.clone(), welch],
         }

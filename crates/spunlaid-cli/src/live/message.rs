@@ -101,7 +101,8 @@ impl Answer {
 /// # Errors
 /// The answer to a message that is none.
 pub(super) fn read(text: &str) -> Result<Asked, Answer> {
-    serde_json::from_str(text).map_err(|error| Answer::refused(format!("this message is not understood: {error}")))
+    serde_json::from_str(text)
+        .map_err(|error| Answer::refused(format!("this message is not understood: {error}")))
 }
 
 #[cfg(test)]
@@ -113,7 +114,10 @@ mod tests {
         let set = |value| Asked::Set { key: "air.velocity".to_owned(), value, stamp: 7 };
         for (text, wanted) in [
             (r#"{"do":"set","key":"air.velocity","value":20,"stamp":7}"#, set(Given::Number(20.0))),
-            (r#"{"do":"set","key":"air.velocity","value":"20 m/s","stamp":7}"#, set(Given::Text("20 m/s".to_owned()))),
+            (
+                r#"{"do":"set","key":"air.velocity","value":"20 m/s","stamp":7}"#,
+                set(Given::Text("20 m/s".to_owned())),
+            ),
             (r#"{"do":"case","text":"[fibre]"}"#, Asked::Case { text: "[fibre]".to_owned() }),
             (r#"{"do":"pace","pace":"hundredth"}"#, Asked::Pace { pace: Pace::Hundredth }),
             (r#"{"do":"pause"}"#, Asked::Pause {}),
@@ -122,7 +126,10 @@ mod tests {
             (r#"{"do":"reset"}"#, Asked::Reset {}),
             (r#"{"do":"forget"}"#, Asked::Forget {}),
             (r#"{"do":"look","visible":false}"#, Asked::Look { visible: false }),
-            (r#"{"do":"save","name":"a","replace":true}"#, Asked::Save { name: "a".to_owned(), replace: true }),
+            (
+                r#"{"do":"save","name":"a","replace":true}"#,
+                Asked::Save { name: "a".to_owned(), replace: true },
+            ),
         ] {
             assert_eq!(read(text), Ok(wanted), "{text}");
         }

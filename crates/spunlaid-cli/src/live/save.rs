@@ -16,7 +16,12 @@ pub(super) fn plain_name(given: &str) -> Result<String, String> {
     let given = given.trim();
     let name = if given.ends_with(".toml") { given.to_owned() } else { format!("{given}.toml") };
     let plain = |c: char| c.is_alphanumeric() || "-_ .".contains(c);
-    if given.is_empty() || given == ".toml" || name.starts_with('.') || name.len() > LONGEST || !name.chars().all(plain) {
+    if given.is_empty()
+        || given == ".toml"
+        || name.starts_with('.')
+        || name.len() > LONGEST
+        || !name.chars().all(plain)
+    {
         return Err(format!(
             "\"{}\" is no plain name of a file; write letters, digits, - and _, at most {LONGEST} of them",
             given.chars().take(LONGEST).map(|c| if c.is_control() { '?' } else { c }).collect::<String>()
@@ -58,9 +63,20 @@ mod tests {
         assert_eq!(plain_name(" my fibre").as_deref(), Ok("my fibre.toml"));
         assert_eq!(plain_name("größer_2.toml").as_deref(), Ok("größer_2.toml"));
         let long = "a".repeat(100);
-        for wrong in
-            ["", ".toml", "..", "../a", "a/b", "a\\b", "/etc/passwd", ".bashrc", "c:a", "a\0", "a\n.toml", &long]
-        {
+        for wrong in [
+            "",
+            ".toml",
+            "..",
+            "../a",
+            "a/b",
+            "a\\b",
+            "/etc/passwd",
+            ".bashrc",
+            "c:a",
+            "a\0",
+            "a\n.toml",
+            &long,
+        ] {
             assert!(plain_name(wrong).is_err(), "{wrong:?}");
         }
     }
@@ -70,7 +86,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let read = || fs::read_to_string(folder.path().join("a.toml")).unwrap();
         assert_eq!(save(folder.path(), "a.toml", "long text", false), Ok(()));
-        assert_eq!(save(folder.path(), "a.toml", "2", false), Err(Answer::Exists { name: "a.toml".to_owned() }));
+        assert_eq!(
+            save(folder.path(), "a.toml", "2", false),
+            Err(Answer::Exists { name: "a.toml".to_owned() })
+        );
         assert_eq!(read(), "long text");
         assert_eq!(save(folder.path(), "a.toml", "2", true), Ok(()));
         assert_eq!(read(), "2");

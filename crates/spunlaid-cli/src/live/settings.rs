@@ -138,12 +138,20 @@ mod tests {
     fn sliders_and_choices_come_from_the_table_of_keys() {
         let (case, _) = parse_case(starter_case(), "a.toml", &[]).unwrap();
         let all = settings(&case);
-        assert_eq!(all.iter().map(|s| s.key).collect::<Vec<_>>(), present(&case).iter().map(|p| p.key).collect::<Vec<_>>());
+        assert_eq!(
+            all.iter().map(|s| s.key).collect::<Vec<_>>(),
+            present(&case).iter().map(|p| p.key).collect::<Vec<_>>()
+        );
         let of = |name: &str| all.iter().find(|s| s.key == name).unwrap();
         assert_eq!(of("air.velocity").takes, Takes::Quantity { low: 0.0, high: 60.0, logarithmic: false });
         assert_eq!(of("fibre.diameter").takes, Takes::Quantity { low: 5e-6, high: 2e-4, logarithmic: false });
-        assert_eq!(of("fibre.youngs_modulus").takes, Takes::Quantity { low: 1e7, high: 1e10, logarithmic: true });
-        assert!(of("air.velocity").in_flight && of("air.velocity").first && !of("air.length_scale").in_flight);
+        assert_eq!(
+            of("fibre.youngs_modulus").takes,
+            Takes::Quantity { low: 1e7, high: 1e10, logarithmic: true }
+        );
+        assert!(
+            of("air.velocity").in_flight && of("air.velocity").first && !of("air.length_scale").in_flight
+        );
         assert_eq!(of("fibre.root").takes, Takes::Word { words: vec!["pinned", "clamped", "free"] });
         assert!(of("run.seed").about.contains("Default: 1."));
         let first: Vec<&str> = all.iter().filter(|s| s.first).map(|s| s.key).collect();

@@ -1,0 +1,30 @@
+//! `spunlaid live`: fibres that fly on a page while their case is changed.
+
+use crate::args::Live;
+use crate::failure::Failure;
+use crate::live::{Start, live as fly};
+use crate::say;
+use spunlaid::input::{read_case, starter_case};
+
+/// Serves the page until the program is ended.
+pub(crate) fn live(live: &Live) -> Result<(), Failure> {
+    let text = match &live.case {
+        Some(path) => {
+            // Its mistakes are told as by all commands.
+            read_case(path, &[])?;
+            std::fs::read_to_string(path).map_err(|source| Failure::NotServed { source })?
+        }
+        None => starter_case().to_owned(),
+    };
+    let start = Start { text, file: live.case.clone(), port: live.port.unwrap_or(0) };
+    fly(start, |address, notes| {
+        notes.iter().for_each(|note| say::remark(false, note));
+        say::line(address);
+        say::aside("Open this address in a browser of this machine; Ctrl-C ends the program.");
+        if !live.no_open
+            && let Err(error) = open::that_detached(address)
+        {
+            say::warning(&format!("no browser could be opened: {error}"));
+        }
+    })
+}

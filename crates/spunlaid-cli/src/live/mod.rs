@@ -1,0 +1,117 @@
+//! `spunlaid live`: a page on which fibres fly, and change while they do.
+//!
+//! ```text
+//! page ←→ server (loopback only, token) ← frames, statistics ← session, a thread of its own: clock → fibres → measured
+//!                                        → messages          →
+//! ```
+//!
+//! ```text
+//! message                     what pages ask and are answered
+//! document, settings, save    the case as text; what can be changed; files
+//! fibres, clock               eight fibres in one flight; how much time goes by
+//! batches, laid, measured     statistics since the last change
+//! frame                       the moving picture
+//! session                     the thread
+//! guard, page, server         the server
+//! ```
+
+mod batches;
+mod clock;
+mod document;
+mod fibres;
+mod frame;
+mod guard;
+mod laid;
+mod measured;
+mod message;
+mod page;
+mod save;
+mod server;
+mod session;
+mod settings;
+
+use crate::failure::Failure;
+use document::Document;
+use guard::Guard;
+use message::Complaint;
+use session::Session;
+use spunlaid::case::keys;
+use spunlaid::chain::schemes::Scheme;
+use std::net::{Ipv4Addr, TcpListener};
+use std::path::PathBuf;
+use tokio::sync::{mpsc, oneshot};
+
+/// Messages that wait for the flight; then pages wait.
+const WAITING: usize = 64;
+
+/// A case to be flown.
+pub(crate) struct Start {
+    /// The case as text.
+    pub(crate) text: String,
+    /// The file that it was read from.
+    pub(crate) file: Option<PathBuf>,
+    /// The port; 0 for any that is free.
+    pub(crate) port: u16,
+}
+
+/// Flies a case for pages, until the program is ended.
+///
+/// * `ready` – is told the address of the page, and notes about the case
+///
+/// # Errors
+/// The case cannot be flown, or the server cannot start.
+pub(crate) fn live(start: Start, ready: impl FnOnce(&str, &[String])) -> Result<(), Failure> {
+    let name = start.file.as_ref().map_or_else(|| "the case".to_owned(), |file| file.display().to_string());
+    let rejected =
+        |complaints: Vec<Complaint>| Failure::NotFlown { name: name.clone(), why: in_words(&complaints) };
+    let (document, note) = at_real_time(Document::new(start.text, start.file)).map_err(rejected)?;
+    let not_served = |source| Failure::NotServed { source };
+    let folder = std::env::current_dir().map_err(not_served)?;
+    let (session, shown) = Session::new(document, folder).map_err(rejected)?;
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, start.port)).map_err(not_served)?;
+    let guard = Guard::new(listener.local_addr().map_err(not_served)?.port())?;
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().map_err(not_served)?;
+
+    let (asks, asked) = mpsc::channel(WAITING);
+    let (ends, ended) = oneshot::channel();
+    let thread = std::thread::Builder::new().name("flight".to_owned());
+    let flight = thread.spawn(move || {
+        // When the flight ends, by a fault of the program, so does the server.
+        let _ends: oneshot::Sender<()> = ends;
+        session.fly(asked);
+    });
+    let flight = flight.map_err(not_served)?;
+    ready(&guard.address(), &note);
+    runtime.block_on(server::serve(listener, guard, asks, shown, ended)).map_err(not_served)?;
+    drop(runtime);
+    flight.join().map_err(|_| Failure::Panicked)
+}
+
+/// The case with the scheme and the step that keep up with the clock, and what is to be said of it.
+fn at_real_time(document: Document) -> Result<(Document, Vec<String>), Vec<Complaint>> {
+    let asked = document.read()?.case.run;
+    if asked.scheme == Scheme::ImplicitTension {
+        return Ok((document, Vec::new()));
+    }
+    let mut other = document;
+    for (name, value) in [("run.scheme", Some(Scheme::ImplicitTension.name())), ("run.time_step", None)] {
+        if let Some(key) = keys::find(name) {
+            other = other.with(key, value.map(Into::into))?;
+        }
+    }
+    let step = other.read()?.case.run.time_step;
+    let [asked_step, step] =
+        [asked.time_step, step].map(|step| spunlaid::units::Dimension::Time.pretty_to(step, 3));
+    let note = format!(
+        "the case asks for run.scheme = \"{}\" and steps of {asked_step}; to keep up with the clock, the fibres fly with \
+         \"{}\" and {step}",
+        asked.scheme.name(),
+        Scheme::ImplicitTension.name()
+    );
+    Ok((other, vec![note]))
+}
+
+fn in_words(complaints: &[Complaint]) -> Vec<String> {
+    let line = |line: Option<usize>| line.map_or_else(String::new, |line| format!("line {line}: "));
+    complaints.iter().map(|complaint| format!("{}{}", line(complaint.line), complaint.text)).collect()
+}

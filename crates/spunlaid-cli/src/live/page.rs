@@ -1,0 +1,70 @@
+//! The page and its files, which are part of the program.
+
+use axum::http::{HeaderName, HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+
+const HTML: &str = "text/html; charset=utf-8";
+const CSS: &str = "text/css; charset=utf-8";
+const SCRIPT: &str = "text/javascript; charset=utf-8";
+
+/// Name, kind and text of each file. The page itself has no name.
+const FILES: [(&str, &str, &str); 11] = [
+    ("", HTML, include_str!("../../assets/live/live.html")),
+    ("live.css", CSS, include_str!("../../assets/live/live.css")),
+    ("uPlot.min.css", CSS, include_str!("../../assets/uplot/uPlot.min.css")),
+    ("uPlot.iife.min.js", SCRIPT, include_str!("../../assets/uplot/uPlot.iife.min.js")),
+    ("camera.js", SCRIPT, spunlaid_results::report::CAMERA),
+    ("scene.js", SCRIPT, spunlaid_results::report::SCENE),
+    ("link.js", SCRIPT, include_str!("../../assets/live/link.js")),
+    ("view.js", SCRIPT, include_str!("../../assets/live/view.js")),
+    ("plots.js", SCRIPT, include_str!("../../assets/live/plots.js")),
+    ("controls.js", SCRIPT, include_str!("../../assets/live/controls.js")),
+    ("live.js", SCRIPT, include_str!("../../assets/live/live.js")),
+];
+
+/// The answer with a file.
+pub(super) fn file(name: &str) -> Response {
+    match FILES.iter().find(|(other, ..)| *other == name) {
+        Some((_, kind, text)) => {
+            // Page and program are of one version.
+            let text = text.replace("{{ version }}", env!("CARGO_PKG_VERSION"));
+            ([(header::CONTENT_TYPE, *kind)], text).into_response()
+        }
+        None => (StatusCode::NOT_FOUND, "There is no such file.\n").into_response(),
+    }
+}
+
+/// What every answer says: nothing is stored, nothing from elsewhere is loaded, no other page may show this one.
+pub(super) fn headers() -> [(HeaderName, HeaderValue); 5] {
+    [
+        (header::CACHE_CONTROL, "no-store"),
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::REFERRER_POLICY, "no-referrer"),
+        (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
+        (
+            header::CONTENT_SECURITY_POLICY,
+            "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data: blob:; \
+             base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+        ),
+    ]
+    .map(|(name, value)| (name, HeaderValue::from_static(value)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_page_asks_for_files_that_are_there_and_for_nothing_elsewhere() {
+        let html = FILES[0].2;
+        for part in html.split(['"']).filter(|part| part.ends_with(".js") || part.ends_with(".css")) {
+            assert!(FILES.iter().any(|(name, ..)| *name == part), "{part}");
+        }
+        for (name, _, text) in FILES {
+            // uPlot's licence line names its place.
+            let foreign = text.match_indices("://").filter(|(at, _)| !text[..*at].ends_with("ws"));
+            let allowed = if name.starts_with("uPlot") { 1 } else { 0 };
+            assert!(foreign.count() <= allowed, "{name}");
+        }
+    }
+}
