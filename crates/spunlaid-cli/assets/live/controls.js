@@ -1,0 +1,124 @@
+// The sliders and choices, made from the table of keys.
+
+const NOTCHES = 1000;
+
+/** A label of the table of keys: `*italics*`, `_{subscripts}`. */
+function labelled(element, label) {
+  for (const part of label.split(/(\*[^*]+\*|_\{[^}]+\})/)) {
+    if (!part) continue;
+    const tag = part.startsWith("*") ? "i" : part.startsWith("_{") ? "sub" : null;
+    if (!tag) {
+      element.append(part);
+      continue;
+    }
+    const inner = document.createElement(tag);
+    inner.textContent = tag === "i" ? part.slice(1, -1) : part.slice(2, -1);
+    element.append(inner);
+  }
+}
+
+const TITLES = { fibre: "Fibre", feed: "Feed", belt: "Belt", air: "Air", drag: "Drag", run: "Computation" };
+
+class Controls {
+  /** `set(key, value)` is called when something is changed. */
+  constructor(form, set) {
+    Object.assign(this, { form, set, controls: new Map() });
+    form.addEventListener("submit", (e) => e.preventDefault());
+  }
+
+  /** Makes the controls for these settings, those to look at first on top. */
+  build(settings) {
+    this.controls.clear();
+    this.form.replaceChildren();
+    this.group(this.form, "What matters most", settings.filter((s) => s.first));
+    const rest = settings.filter((s) => !s.first);
+    for (const table of new Set(rest.map((s) => s.table))) {
+      const more = document.createElement("details");
+      const summary = document.createElement("summary");
+      summary.textContent = `More: ${TITLES[table].toLowerCase()}`;
+      more.append(summary);
+      this.group(more, TITLES[table], rest.filter((s) => s.table === table));
+      this.form.append(more);
+    }
+  }
+
+  group(place, title, settings) {
+    const set = document.createElement("fieldset");
+    const legend = document.createElement("legend");
+    legend.textContent = title;
+    set.append(legend, ...settings.map((s) => this.control(s)));
+    place.append(set);
+  }
+
+  control(setting) {
+    const row = document.createElement("div");
+    row.className = "setting";
+    const id = `key-${setting.key.replace(".", "-")}`;
+    const about = document.createElement("details");
+    const name = document.createElement("summary");
+    name.id = `${id}-name`;
+    labelled(name, setting.label === setting.key ? this.plain(setting.key) : setting.label);
+    name.title = `${setting.meaning} ${setting.about}`;
+    const meaning = document.createElement("p");
+    meaning.textContent = `${setting.meaning.replace(/`/g, "")} ${setting.about} ${setting.in_flight ? "It changes at once." : "The fibres start anew with it."}`;
+    about.append(name, meaning);
+    const head = document.createElement("div");
+    head.className = "head";
+    row.append(head);
+    const control = { setting };
+    const text = document.createElement(setting.takes === "word" ? "select" : "input");
+    text.setAttribute("aria-labelledby", name.id);
+    text.dataset.key = setting.key;
+    if (setting.takes === "word") setting.words.forEach((word) => text.add(new Option(word)));
+    else text.autocomplete = "off";
+    text.addEventListener("change", () => this.set(setting.key, text.value));
+    head.append(about, text);
+    control.text = text;
+    if (setting.takes === "quantity") {
+      const slider = Object.assign(document.createElement("input"), { type: "range", min: 0, max: NOTCHES, step: 1, id });
+      slider.setAttribute("aria-labelledby", name.id);
+      slider.dataset.key = setting.key;
+      slider.addEventListener("input", () => this.set(setting.key, this.value(setting, Number(slider.value))));
+      row.append(slider);
+      control.slider = slider;
+    }
+    this.controls.set(setting.key, control);
+    return row;
+  }
+
+  /** A key without a label: `run.seed` → `Seed`. */
+  plain(key) {
+    const name = key.split(".")[1].replaceAll("_", " ");
+    return name[0].toUpperCase() + name.slice(1);
+  }
+
+  /** The value at a notch, with three digits. */
+  value({ low, high, logarithmic }, notch) {
+    const share = notch / NOTCHES;
+    const value = logarithmic ? low * (high / low) ** share : low + share * (high - low);
+    return Number(value.toPrecision(3));
+  }
+
+  notch({ low, high, logarithmic }, value) {
+    const share = logarithmic ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
+    return Math.round(NOTCHES * share);
+  }
+
+  /** Shows the present values, but leaves alone what is being changed. */
+  show(values) {
+    for (const { key, si, text } of values) {
+      const control = this.controls.get(key);
+      if (!control) continue;
+      if (control.text !== document.activeElement || control.setting.takes === "word") control.text.value = text;
+      if (!control.slider) continue;
+      control.slider.setAttribute("aria-valuetext", text);
+      if (control.slider !== this.held) control.slider.value = this.notch(control.setting, si);
+    }
+  }
+
+  /** Remembers the slider under a pointer: it is not moved by what the program says. */
+  watch() {
+    this.form.addEventListener("pointerdown", (e) => (this.held = e.target.type === "range" ? e.target : null));
+    addEventListener("pointerup", () => (this.held = null));
+  }
+}

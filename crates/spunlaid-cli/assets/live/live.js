@@ -1,0 +1,309 @@
+// Puts the parts of the page together.
+
+const byId = (id) => document.getElementById(id);
+
+const page = { state: null, frame: null, drawn: null, numbers: null, measured: null, before: null, connected: false, dirty: false };
+/** For checks: how it goes. */
+const seen = { frames: 0, drawn: 0, latency: [], errors: [] };
+
+const view = new View(byId("fibre"));
+const plots = new Plots(byId);
+const controls = new Controls(byId("settings"), change);
+controls.watch();
+const asked = new Map();
+
+/** Asks for a change and remembers when. */
+function change(key, value) {
+  asked.set(link.set(key, value), { at: performance.now(), generation: null });
+  if (asked.size > 100) asked.delete(asked.keys().next().value);
+}
+
+const link = new Link({
+  open() {
+    page.connected = true;
+    status();
+  },
+  closed() {
+    page.connected = false;
+    page.frame = null;
+    status();
+  },
+  settings: ({ settings }) => controls.build(settings),
+  state,
+  measured,
+  frame(frame) {
+    seen.frames += 1;
+    view.take(frame);
+    plots.take(frame);
+    page.frame = frame;
+  },
+  applied({ stamp, generation }) {
+    const change = asked.get(stamp);
+    if (change) change.generation = generation;
+    problems([]);
+  },
+  refused({ problems: all }) {
+    edited(byId("text").value !== page.state?.text);
+    problems(all);
+  },
+  saved({ name }) {
+    byId("saved").textContent = `saved as ${name}`;
+  },
+  exists({ name }) {
+    if (confirm(`${name} is there already. Replace it?`)) link.ask({ do: "save", name, replace: true });
+  },
+});
+
+/** The case and its settings, as they are now. */
+function state(told) {
+  const other = page.state?.generation !== told.generation;
+  const fed = Boolean(told.belt);
+  if (Boolean(page.state?.belt) !== fed || !page.state) {
+    document.querySelectorAll(".of-fixed").forEach((e) => (e.hidden = fed));
+    document.querySelectorAll(".of-fed").forEach((e) => (e.hidden = !fed));
+    byId("settling-title").textContent = `${fed ? "Spread σ" : "Amplitude"} as it settles, ± one standard error`;
+    page.before = null;
+  }
+  if (other) {
+    keepBefore();
+    // The program begins its time anew, or has been started again.
+    if (page.frame && told.generation < page.state?.generation) page.before = null;
+  }
+  page.state = told;
+  view.setState(told);
+  plots.cutoff = told.cutoff;
+  controls.show(told.values);
+  byId("title").textContent = `· ${told.title}`;
+  document.title = `${told.title} – spunlaid live`;
+  byId("command").textContent = told.command;
+  byId("pace").value = told.pace;
+  byId("step").title = `Go on by one recorded instant (${told.instant})`;
+  const play = byId("play");
+  play.textContent = told.stands ? "Go" : "Pause";
+  play.setAttribute("aria-pressed", String(!told.stands));
+  const notes = [...(told.trouble ? [`The fibres were lost and have started anew: ${told.trouble}`] : []), ...told.notes];
+  byId("notes").hidden = notes.length === 0;
+  byId("notes").replaceChildren(...notes.map((note) => Object.assign(document.createElement("li"), { textContent: note })));
+  if (!page.dirty) editor(told.text);
+  status();
+}
+
+/** Keeps the numbers and curves of the setting that ends, if they had been taken for a while. */
+function keepBefore() {
+  const { measured } = page;
+  const least = page.state?.belt ? 0.05 : 0.5;
+  if (measured && measured.duration >= least) {
+    page.before = new Map(measured.numbers.map((n) => [n.name, n]));
+    plots.keep();
+  }
+  page.measured = null;
+  plots.clear();
+  if (page.state?.belt) view.laid.clear();
+}
+
+const shown = (value, digits) => (value == null ? "–" : Number(value.toPrecision(digits)).toString().replace("-", "−"));
+
+/** A value and its error, with the digits that the error allows. */
+function withError({ value, error, unit }) {
+  if (value == null) return "–";
+  if (!(error > 0)) return `${shown(value, 3)} ${unit}`;
+  const decimals = Math.max(0, Math.min(6, 1 - Math.floor(Math.log10(error))));
+  return `${value.toFixed(decimals)} ± ${error.toFixed(decimals)} ${unit}`;
+}
+
+function measured(told) {
+  if (!page.state || told.generation !== page.state.generation) return;
+  page.measured = told;
+  const since = byId("since");
+  since.textContent =
+    told.settling > 0
+      ? `The fibres settle: ${told.settling.toFixed(2)} s are left out.`
+      : `${told.duration.toFixed(2)} s of eight fibres.`;
+  const list = byId("numbers");
+  if (list.children.length !== told.numbers.length) {
+    list.replaceChildren(
+      ...told.numbers.map(({ label, meaning }) => {
+        const card = document.createElement("div");
+        card.title = meaning;
+        const name = Object.assign(document.createElement("dt"), { textContent: label });
+        const now = Object.assign(document.createElement("dd"), { className: "now" });
+        const old = Object.assign(document.createElement("dd"), { className: "before" });
+        card.append(name, now, old);
+        return card;
+      }),
+    );
+  }
+  told.numbers.forEach((number, i) => {
+    const [, now, old] = list.children[i].children;
+    now.textContent = withError(number);
+    const last = page.before?.get(number.name);
+    old.textContent = last ? `before: ${withError(last)}` : "";
+  });
+  plots.measured(told, page.before);
+}
+
+function status() {
+  const { state, frame, connected } = page;
+  const line = byId("status");
+  line.classList.toggle("trouble", !connected || Boolean(frame?.behind));
+  if (!connected) {
+    line.textContent = "The program does not answer. It may have ended; the page tries again.";
+  } else if (!state) {
+    line.textContent = "Connecting …";
+  } else if (state.stands) {
+    line.textContent = `The time stands. Steps of ${state.step}, ${state.scheme}.`;
+  } else if (frame) {
+    const speed = shown(frame.speed, 2);
+    const pace = frame.behind ? `${speed} of real time: this machine cannot keep the pace` : `${speed} × real time`;
+    line.textContent = `Eight fibres, steps of ${state.step}, ${state.scheme}. ${pace}.`;
+  }
+}
+
+// The case as text
+
+/** Shows a text with the numbers of its lines, those with problems marked. */
+function editor(text, wrong = new Map()) {
+  const area = byId("text");
+  if (text !== null && area.value !== text) area.value = text;
+  const lines = byId("lines");
+  lines.replaceChildren(
+    ...area.value.split("\n").map((_, i) => {
+      const line = document.createElement("span");
+      line.textContent = `${wrong.has(i + 1) ? "▸ " : ""}${i + 1}\n`;
+      if (wrong.has(i + 1)) Object.assign(line, { className: "wrong", title: wrong.get(i + 1) });
+      return line;
+    }),
+  );
+  lines.scrollTop = area.scrollTop;
+}
+
+function problems(all) {
+  const list = byId("problems");
+  list.hidden = all.length === 0;
+  list.replaceChildren(
+    ...all.map(({ line, text }) => {
+      const item = document.createElement("li");
+      if (line) {
+        const go = Object.assign(document.createElement("button"), { type: "button", textContent: `line ${line}` });
+        go.addEventListener("click", () => mark(line));
+        item.append(go);
+      }
+      item.append(text);
+      return item;
+    }),
+  );
+  byId("text").setAttribute("aria-invalid", String(all.length > 0));
+  editor(null, new Map(all.filter((p) => p.line).map((p) => [p.line, p.text])));
+}
+
+/** Marks a line of the case. */
+function mark(line) {
+  const area = byId("text");
+  const lines = area.value.split("\n");
+  const start = lines.slice(0, line - 1).reduce((sum, l) => sum + l.length + 1, 0);
+  area.focus();
+  area.setSelectionRange(start, start + lines[line - 1].length);
+}
+
+function edited(dirty) {
+  page.dirty = dirty;
+  byId("fly").disabled = byId("undo").disabled = !dirty;
+}
+
+byId("text").addEventListener("input", () => {
+  edited(byId("text").value !== page.state?.text);
+  editor(null);
+});
+byId("text").addEventListener("scroll", () => (byId("lines").scrollTop = byId("text").scrollTop));
+byId("fly").addEventListener("click", () => {
+  edited(false);
+  problems([]);
+  link.ask({ do: "case", text: byId("text").value });
+});
+byId("undo").addEventListener("click", () => {
+  edited(false);
+  problems([]);
+  editor(page.state.text);
+});
+byId("save").addEventListener("click", () => {
+  byId("saved").textContent = "";
+  link.ask({ do: "save", name: byId("name").value, replace: false });
+});
+byId("copy").addEventListener("click", async () => {
+  const command = byId("command");
+  try {
+    await navigator.clipboard.writeText(command.textContent);
+    byId("copy").textContent = "Copied";
+  } catch {
+    getSelection().selectAllChildren(command);
+    byId("copy").textContent = "Marked: press Ctrl+C";
+  }
+  setTimeout(() => (byId("copy").textContent = "Copy"), 2500);
+});
+
+// Time
+
+const play = () => link.ask({ do: page.state?.stands ? "go" : "pause" });
+const step = () => link.ask({ do: "step" });
+byId("play").addEventListener("click", play);
+byId("step").addEventListener("click", step);
+byId("pace").addEventListener("change", (e) => link.ask({ do: "pace", pace: e.target.value }));
+byId("reset").addEventListener("click", () => link.ask({ do: "reset" }));
+byId("forget").addEventListener("click", () => link.ask({ do: "forget" }));
+byId("seed").addEventListener("click", () => {
+  const now = page.state?.values.find((v) => v.key === "run.seed");
+  change("run.seed", (Number(now?.si) || 0) + 1);
+});
+
+let stale = false;
+view.listen({ play, step, changed: () => (stale = true) });
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+  view.scene.readColours();
+  plots.redraw();
+  stale = true;
+});
+
+/** Those who want less motion get a picture a second. */
+const still = matchMedia("(prefers-reduced-motion: reduce)");
+let last = 0;
+let counted = { at: performance.now(), drawn: 0, rate: 0 };
+
+function tick(now) {
+  requestAnimationFrame(tick);
+  const { frame } = page;
+  if (!frame || (frame === page.drawn && !stale)) return;
+  if (still.matches && frame !== page.drawn && !frame.stands && now - last < 1000) return;
+  last = now;
+  const isNew = frame !== page.drawn;
+  stale = false;
+  view.draw(frame);
+  if (isNew) {
+    seen.drawn += 1;
+    counted.drawn += 1;
+    for (const [stamp, change] of asked) {
+      if (change.generation === null || frame.generation < change.generation) continue;
+      seen.latency.push(performance.now() - change.at);
+      asked.delete(stamp);
+    }
+    // Curves every second frame: the eye does not follow them faster.
+    if (seen.drawn % 2 === 0 || frame.stands) plots.drawMoving(frame, view.laid);
+    byId("clock").textContent = `t = ${frame.time.toFixed(3)} s`;
+  }
+  page.drawn = frame;
+  if (now - counted.at > 1000) {
+    counted = { at: now, drawn: 0, rate: (1000 * counted.drawn) / (now - counted.at) };
+    const delay = seen.latency.length ? `, ${Math.round(seen.latency.at(-1))} ms from a slider to the picture` : "";
+    byId("cost").textContent = `${Math.round(counted.rate)} pictures a second${delay}`;
+    status();
+  }
+}
+requestAnimationFrame(tick);
+
+addEventListener("error", (e) => seen.errors.push(String(e.message)));
+window.spunlaidLive = {
+  seen,
+  get state() { return page.state; },
+  get measured() { return page.measured; },
+  get frame() { return page.frame; },
+  get rate() { return counted.rate; },
+};

@@ -15,7 +15,7 @@
 //! 40  u32     number of the first sample, counted from the start of the program
 //! 44  u32     number of the first laid point, likewise
 //! 48  f32     x, y, z of each node, fibre after fibre
-//!     f32     of each sample: its time before that of the frame [s], y and z of the free end of the first fibre
+//!     f32     of each sample: its time before that of the frame [s]; x, y and z of the free end of the first fibre
 //!     f32     of each laid point of the first fibre: y and z where it is now, the belt having moved
 //! ```
 //!
@@ -64,8 +64,8 @@ impl<T: Copy> Tail<T> {
 /// What has happened lately: motion of the first fibre's free end, points that it laid.
 #[derive(Clone, Debug)]
 pub(super) struct Lately {
-    /// Time [s], y and z [m].
-    samples: Tail<[f64; 3]>,
+    /// Time [s]; x, y and z [m].
+    samples: Tail<[f64; 4]>,
     /// md and cd [m].
     laid: Tail<[f64; 2]>,
 }
@@ -80,7 +80,7 @@ impl Lately {
     /// * `time` – on the clock of the pages [s]
     pub(super) fn add(&mut self, time: f64, snapshot: &Snapshot, laid: &[LaidPoint]) {
         if let Some(end) = snapshot.position.get(snapshot.nodes[0] - 1) {
-            self.samples.push([time, end.y.0[0], end.z.0[0]]);
+            self.samples.push([time, end.x.0[0], end.y.0[0], end.z.0[0]]);
         }
         laid.iter().for_each(|point| self.laid.push([point.md, point.cd]));
     }
@@ -148,13 +148,13 @@ impl Frame {
     pub(super) fn bytes(&self, had: &mut Had) -> Vec<u8> {
         let (first_sample, samples) = self.lately.samples.since(had.samples);
         let (first_point, points) = self.lately.laid.since(had.laid);
-        let samples: Vec<[f64; 3]> = samples.collect();
+        let samples: Vec<[f64; 4]> = samples.collect();
         let points: Vec<[f64; 2]> = points.collect();
         *had = Had { samples: self.lately.samples.count, laid: self.lately.laid.count };
 
         let bits = u8::from(self.stands) | u8::from(self.behind) << 1 | u8::from(self.fed) << 2;
         let mut bytes =
-            Vec::with_capacity(48 + 4 * self.positions.len() + 12 * samples.len() + 8 * points.len());
+            Vec::with_capacity(48 + 4 * self.positions.len() + 16 * samples.len() + 8 * points.len());
         bytes.extend(self.generation.to_le_bytes());
         bytes.extend([bits, WIDTH as u8]);
         bytes.extend((samples.len() as u16).to_le_bytes());
@@ -167,8 +167,8 @@ impl Frame {
         bytes.extend(first_point.to_le_bytes());
         let mut put = |x: f32| bytes.extend(x.to_le_bytes());
         self.positions.iter().copied().for_each(&mut put);
-        for [time, y, z] in samples {
-            [self.time - time, 1e3 * y, 1e3 * z].into_iter().for_each(|x| put(x as f32));
+        for [time, x, y, z] in samples {
+            [self.time - time, 1e3 * x, 1e3 * y, 1e3 * z].into_iter().for_each(|x| put(x as f32));
         }
         for [md, cd] in points {
             [1e3 * (md + self.belt_run), 1e3 * cd].into_iter().for_each(|x| put(x as f32));
@@ -215,7 +215,7 @@ mod tests {
         assert_eq!(bytes[..6], [7, 0, 0, 0, 2, 8]);
         let (samples, nodes) = (u16_at(&bytes, 6), u16_at(&bytes, 22));
         assert_eq!((samples, nodes, number(&bytes, 16)), (5, 21, 0.5));
-        assert_eq!(bytes.len(), 48 + 12 * 8 * nodes + 12 * samples);
+        assert_eq!(bytes.len(), 48 + 12 * 8 * nodes + 16 * samples);
         assert_eq!(f64::from_le_bytes(bytes[8..16].try_into().unwrap()), fibres.seen().time);
         // The last node of the third fibre.
         let third = fibres.seen().position[20].lane(2);
@@ -224,7 +224,7 @@ mod tests {
             assert_eq!(number(&bytes, at + 4 * i), (1e3 * x) as f32);
         }
         // The fourth sample is of 3 ms.
-        let at = 48 + 12 * 8 * nodes + 12 * 3;
+        let at = 48 + 12 * 8 * nodes + 16 * 3;
         assert!((number(&bytes, at) - (fibres.seen().time - 3e-3) as f32).abs() < 1e-7);
 
         see(&mut fibres, &mut lately, 2000);
