@@ -82,6 +82,7 @@ function state(told) {
   play.textContent = told.stands ? "Go" : "Pause";
   play.setAttribute("aria-pressed", String(!told.stands));
   const notes = [...(told.trouble ? [`The fibres were lost and have started anew: ${told.trouble}`] : []), ...told.notes];
+  byId("remark").textContent = told.remark ?? "";
   byId("notes").hidden = notes.length === 0;
   byId("notes").replaceChildren(...notes.map((note) => Object.assign(document.createElement("li"), { textContent: note })));
   if (!page.dirty) editor(told.text);
@@ -104,7 +105,8 @@ function keepBefore() {
 const shown = (value, digits) => (value == null ? "–" : Number(value.toPrecision(digits)).toString().replace("-", "−"));
 
 /** A value and its error, with the digits that the error allows. */
-function withError({ value, error, unit }) {
+function withError({ value, error, unit: of }) {
+  const unit = of === "m^-0.5" ? "1/√m" : of;
   if (value == null) return "–";
   if (!(error > 0)) return `${shown(value, 3)} ${unit}`;
   const decimals = Math.max(0, Math.min(6, 1 - Math.floor(Math.log10(error))));

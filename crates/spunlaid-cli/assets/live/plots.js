@@ -34,19 +34,19 @@ const line = (colour, more = {}) => ({ stroke: () => colours[colour], width: 1.6
 const before = (dash) => line("before", { width: 1.2, dash });
 
 /** A plot that fills its place. */
-function plot(place, { x, y, series, scales = {}, bands, hooks }) {
+function plot(place, { x, y, series, scales = {}, axes = [{}, {}], bands, hooks }) {
   const size = () => ({ width: Math.max(place.clientWidth, 120), height: Math.max(place.clientHeight, 120) });
   const chart = new uPlot(
     {
       ...size(),
       scales: { x: { time: false }, ...scales },
-      axes: [axis(x), axis(y, { size: 56 })],
+      axes: [axis(x, axes[0]), axis(y, { size: 56, ...axes[1] })],
       series: [{}, ...series],
       bands,
       hooks,
       legend: { show: false },
       cursor: { drag: { x: false, y: false }, points: { show: false } },
-      padding: [8, 12, 0, 0],
+      padding: [8, 26, 0, 0],
     },
     [[], ...series.map(() => [])],
     place,
@@ -54,6 +54,12 @@ function plot(place, { x, y, series, scales = {}, bands, hooks }) {
   new ResizeObserver(() => chart.setSize(size())).observe(place);
   return chart;
 }
+
+/** Only powers of ten, every so many, on a logarithmic axis. */
+const powers = (every) => ({
+  filter: (_, splits) => splits.map((v) => (v !== null && Math.abs(Math.log10(v) % every) < 1e-6 ? v : null)),
+  values: (_, splits) => splits.map((v) => (v === null ? null : v >= 1 && v <= 1000 ? `${v}` : `10${[...`${Math.round(Math.log10(v))}`].map((d) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(d)]).join("")}`)),
+});
 
 /** Range from zero to a little above the largest value. */
 const fromZero = (_, low, high) => [0, high > 0 ? 1.1 * high : 1];
@@ -160,6 +166,7 @@ class Plots {
       x: "Frequency / Hz",
       y: "mm²/Hz",
       scales: { x: { time: false, distr: 3 }, y: { distr: 3, range: decades } },
+      axes: [powers(1), powers(2)],
       series: [line("y"), line("z"), before([6, 4]), before([2, 3])],
       hooks: { draw: [(chart) => this.markCutoff(chart)] },
     });

@@ -52,7 +52,8 @@ class View {
     this.reach = Math.max(wide, this.reach * 0.9995);
     const side = roundUp(Math.max(1.05 * this.reach, (belt ? 0.1 : 1e-3) * length));
     const xs = held || belt ? [0, length] : this.around(shapes, length);
-    const box = { low: [xs[0], -side, -side], high: [xs[1], side, side] };
+    // What is laid runs out of the picture with the belt.
+    const box = { low: [xs[0], -side, -side], high: [xs[1], belt ? 3 * side : side, side] };
     const stretch = belt ? 1 : (STRETCHES.filter((s) => s <= (0.5 * length) / side).at(-1) ?? 1);
     const name = JSON.stringify([box, stretch]);
     if (name !== this.framed) {

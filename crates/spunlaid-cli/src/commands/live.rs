@@ -17,8 +17,8 @@ pub(crate) fn live(live: &Live) -> Result<(), Failure> {
         None => starter_case().to_owned(),
     };
     let start = Start { text, file: live.case.clone(), port: live.port.unwrap_or(0) };
-    fly(start, |address, notes| {
-        notes.iter().for_each(|note| say::remark(false, note));
+    fly(start, |address, remark| {
+        remark.iter().for_each(|remark| say::remark(false, remark));
         say::line(address);
         say::aside("Open this address in a browser of this machine; Ctrl-C ends the program.");
         if !live.no_open

@@ -22,10 +22,10 @@ pub(super) struct Document {
     files: BTreeSet<String>,
 }
 
-/// A case that has been read, with notes about it.
+/// A case that has been read, with warnings about it.
 pub(super) struct Read {
     pub(super) case: Case,
-    pub(super) notes: Vec<String>,
+    pub(super) warnings: Vec<String>,
 }
 
 impl Document {
@@ -64,7 +64,11 @@ impl Document {
         }
         let (case, notes) =
             parse_case(&self.text, &self.name.to_string_lossy(), &[]).map_err(|error| complaints(&error))?;
-        Ok(Read { case, notes: notes.iter().map(ToString::to_string).collect() })
+        let warnings = notes.into_iter().filter(|note| note.what.is_warning()).map(|mut note| {
+            note.place = Place::Code;
+            note.to_string()
+        });
+        Ok(Read { case, warnings: warnings.collect() })
     }
 
     /// The same document with another text.

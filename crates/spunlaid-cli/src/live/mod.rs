@@ -37,6 +37,7 @@ use message::Complaint;
 use session::Session;
 use spunlaid::case::keys;
 use spunlaid::chain::schemes::Scheme;
+use spunlaid::units::Dimension;
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::PathBuf;
 use tokio::sync::{mpsc, oneshot};
@@ -56,18 +57,18 @@ pub(crate) struct Start {
 
 /// Flies a case for pages, until the program is ended.
 ///
-/// * `ready` – is told the address of the page, and notes about the case
+/// * `ready` – is told the address of the page, and what is to be said of the scheme
 ///
 /// # Errors
 /// The case cannot be flown, or the server cannot start.
-pub(crate) fn live(start: Start, ready: impl FnOnce(&str, &[String])) -> Result<(), Failure> {
+pub(crate) fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), Failure> {
     let name = start.file.as_ref().map_or_else(|| "the case".to_owned(), |file| file.display().to_string());
     let rejected =
         |complaints: Vec<Complaint>| Failure::NotFlown { name: name.clone(), why: in_words(&complaints) };
-    let (document, note) = at_real_time(Document::new(start.text, start.file)).map_err(rejected)?;
+    let (document, remark) = at_real_time(Document::new(start.text, start.file)).map_err(rejected)?;
     let not_served = |source| Failure::NotServed { source };
     let folder = std::env::current_dir().map_err(not_served)?;
-    let (session, shown) = Session::new(document, folder).map_err(rejected)?;
+    let (session, shown) = Session::new(document, remark.clone(), folder).map_err(rejected)?;
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, start.port)).map_err(not_served)?;
     let guard = Guard::new(listener.local_addr().map_err(not_served)?.port())?;
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().map_err(not_served)?;
@@ -81,34 +82,36 @@ pub(crate) fn live(start: Start, ready: impl FnOnce(&str, &[String])) -> Result<
         session.fly(asked);
     });
     let flight = flight.map_err(not_served)?;
-    ready(&guard.address(), &note);
+    ready(&guard.address(), remark.as_deref());
     runtime.block_on(server::serve(listener, guard, asks, shown, ended)).map_err(not_served)?;
     drop(runtime);
     flight.join().map_err(|_| Failure::Panicked)
 }
 
 /// The case with the scheme and the step that keep up with the clock, and what is to be said of it.
-fn at_real_time(document: Document) -> Result<(Document, Vec<String>), Vec<Complaint>> {
+fn at_real_time(document: Document) -> Result<(Document, Option<String>), Vec<Complaint>> {
     let asked = document.read()?.case.run;
     if asked.scheme == Scheme::ImplicitTension {
-        return Ok((document, Vec::new()));
+        return Ok((document, None));
     }
-    let mut other = document;
+    let mut other = document.clone();
     for (name, value) in [("run.scheme", Some(Scheme::ImplicitTension.name())), ("run.time_step", None)] {
         if let Some(key) = keys::find(name) {
             other = other.with(key, value.map(Into::into))?;
         }
     }
-    let step = other.read()?.case.run.time_step;
-    let [asked_step, step] =
-        [asked.time_step, step].map(|step| spunlaid::units::Dimension::Time.pretty_to(step, 3));
+    let Ok(read) = other.read() else {
+        return Ok((document, None));
+    };
+    let step = read.case.run.time_step;
+    let [asked_step, step] = [asked.time_step, step].map(|step| Dimension::Time.pretty_to(step, 3));
     let note = format!(
         "the case asks for run.scheme = \"{}\" and steps of {asked_step}; to keep up with the clock, the fibres fly with \
          \"{}\" and {step}",
         asked.scheme.name(),
         Scheme::ImplicitTension.name()
     );
-    Ok((other, vec![note]))
+    Ok((other, Some(note)))
 }
 
 fn in_words(complaints: &[Complaint]) -> Vec<String> {

@@ -11,6 +11,7 @@ use super::settings::{Present, Setting, present, settings};
 use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Key, Kind};
+use spunlaid::chain::schemes::Scheme;
 use spunlaid::lanes::WIDTH;
 use spunlaid::units::Dimension;
 use std::collections::BTreeSet;
@@ -48,7 +49,10 @@ pub(super) struct Shown {
 /// A flight that pages look at.
 pub(super) struct Session {
     document: Document,
+    /// Warnings about the case.
     notes: Vec<String>,
+    /// What is to be said of the scheme, as long as it is not the one of the file.
+    remark: Option<String>,
     fibres: Fibres,
     measured: Measured,
     lately: Lately,
@@ -76,6 +80,7 @@ struct State<'a> {
     command: String,
     values: Vec<Present>,
     notes: &'a [String],
+    remark: Option<&'a String>,
     trouble: &'a Option<String>,
     pace: Pace,
     stands: bool,
@@ -109,11 +114,16 @@ fn json(value: &impl Serialize) -> Arc<String> {
 }
 
 impl Session {
+    /// * `remark` – what is to be said of the scheme
     /// * `folder` – where cases are saved
     ///
     /// # Errors
     /// The case cannot be read or flown.
-    pub(super) fn new(document: Document, folder: PathBuf) -> Result<(Self, Shown), Vec<Complaint>> {
+    pub(super) fn new(
+        document: Document,
+        remark: Option<String>,
+        folder: PathBuf,
+    ) -> Result<(Self, Shown), Vec<Complaint>> {
         let read = document.read()?;
         let fibres = Fibres::new(read.case).map_err(|error| complaints(&error))?;
         let lately = Lately::new();
@@ -121,13 +131,19 @@ impl Session {
         let channels: [_; 3] = std::array::from_fn(|_| watch::channel(Arc::new(String::new())));
         let shown = Shown { frame, texts: channels.each_ref().map(|(_, shown)| shown.clone()) };
         let now = Instant::now();
+        let mut clock = Clock::new(now);
+        if fibres.case().line.is_some() {
+            // It comes down in some hundredths of a second, too fast for an eye.
+            clock.pace = Pace::Tenth;
+        }
         let mut session = Self {
             measured: Measured::new(fibres.case(), 0.0),
             document,
-            notes: read.notes,
+            notes: read.warnings,
+            remark,
             fibres,
             lately,
-            clock: Clock::new(now),
+            clock,
             stands: false,
             generation: 0,
             since: 0.0,
@@ -145,8 +161,7 @@ impl Session {
     /// Flies until there is nobody any more who could ask.
     pub(super) fn fly(mut self, mut asks: mpsc::Receiver<Ask>) {
         loop {
-            let idle = self.stands || self.pages.is_empty();
-            if idle {
+            if self.is_idle() {
                 let Some(ask) = asks.blocking_recv() else { return };
                 self.hear(ask, &mut asks);
                 self.clock.begin(Instant::now());
@@ -158,9 +173,16 @@ impl Session {
                 Err(mpsc::error::TryRecvError::Empty) => {}
                 Err(mpsc::error::TryRecvError::Disconnected) => return,
             }
-            self.tick();
-            std::thread::sleep(self.clock.rest());
+            if !self.is_idle() {
+                self.tick();
+                std::thread::sleep(self.clock.rest());
+            }
         }
+    }
+
+    /// Whether the time stands, or nobody looks.
+    fn is_idle(&self) -> bool {
+        self.stands || self.pages.is_empty()
     }
 
     /// Hears a message, and all that have come after it.
@@ -265,7 +287,7 @@ impl Session {
         let read = document.read().map_err(refused)?;
         let since = self.now();
         let anew = self.fibres.become_of(read.case).map_err(|error| refused(complaints(&error)))?;
-        (self.document, self.notes, self.trouble) = (document, read.notes, None);
+        (self.document, self.notes, self.trouble) = (document, read.warnings, None);
         if anew {
             self.since = since;
             self.began_anew();
@@ -379,6 +401,7 @@ impl Session {
             command: self.document.command(WIDTH),
             values: present(case),
             notes: &self.notes,
+            remark: self.remark.as_ref().filter(|_| case.run.scheme == Scheme::ImplicitTension),
             trouble: &self.trouble,
             pace: self.clock.pace,
             stands: self.stands,
