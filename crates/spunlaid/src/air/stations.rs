@@ -11,7 +11,7 @@ use super::surroundings::{AirAtElements, Surroundings};
 use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Wind};
 use crate::error::FlightFault;
 use crate::field::Hint;
-use crate::lanes::{Lanes, Register, WIDTH, Wide};
+use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
@@ -209,11 +209,12 @@ impl Stations {
     ) -> AlongTheWay<'_, S> {
         let since = step % self.every;
         if since == 0 {
-            self.look::<S>(t, wind, position);
+            S::ISA.run(Look { stations: self, t, wind, position });
         }
         AlongTheWay { elements: &self.elements, steps: Wide::splat(since as f64) }
     }
 
+    /// Looks up the air at the elements at the time `t` [s].
     #[inline(always)]
     fn look<S: Register>(&mut self, t: f64, wind: &mut Wind, position: &[Vec3<Lanes>]) {
         let signal = wind.blow::<S>(t);
@@ -263,6 +264,23 @@ impl Stations {
             here.value = value.store();
         }
         self.looked = true;
+    }
+}
+
+/// [`Stations::look`].
+struct Look<'a> {
+    stations: &'a mut Stations,
+    t: f64,
+    wind: &'a mut Wind,
+    position: &'a [Vec3<Lanes>],
+}
+
+impl Task for Look<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<S: Register>(self) {
+        self.stations.look::<S>(self.t, self.wind, self.position);
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Air, EddyVelocities};
 use crate::error::FlightFault;
 use crate::field::{Around, Hint};
-use crate::lanes::{Lanes, Register, WIDTH, Wide};
+use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
@@ -173,8 +173,14 @@ impl Surroundings {
         self.hints.truncate(elements);
     }
 
+    /// Looks up the flow at the elements.
     #[inline(always)]
     pub(super) fn look<S: Register>(&mut self, position: &[Vec3<Lanes>]) {
+        S::ISA.run(Look { surroundings: self, position });
+    }
+
+    #[inline(always)]
+    fn look_here<S: Register>(&mut self, position: &[Vec3<Lanes>]) {
         let half = Wide::<S>::splat(0.5);
         // The first look has none before it to extrapolate from.
         let per_step = Wide::splat(if self.looked { 1.0 / self.every as f64 } else { 0.0 });
@@ -221,6 +227,21 @@ impl Surroundings {
                 (0..3).for_each(|axis| nearby.gradients[axis][i].0[lane] = gradients[axis][i]);
             }
         }
+    }
+}
+
+/// [`Surroundings::look`].
+struct Look<'a> {
+    surroundings: &'a mut Surroundings,
+    position: &'a [Vec3<Lanes>],
+}
+
+impl Task for Look<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<S: Register>(self) {
+        self.surroundings.look_here::<S>(self.position);
     }
 }
 

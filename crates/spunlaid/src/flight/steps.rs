@@ -1,9 +1,11 @@
 //! Steps of a flight, and what is seen of it between them.
 
 use super::{Flight, Snapshot};
-use crate::air::InEddies;
+use crate::air::{AirAtElements, InEddies};
+use crate::chain::Chain;
 use crate::chain::force_pass::ElementBlock;
 use crate::chain::schemes::Scheme;
+use crate::chain::work::WorkDone;
 use crate::chain::{explicit, implicit};
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
@@ -121,18 +123,30 @@ impl Flight {
     }
 
     pub(super) fn run(&mut self, steps: u64, kick_and_drift: (f64, f64), split: bool) {
-        let isa = self.isa;
         // The very first step always stores the work separately, because the sums begin with it.
         let first = steps.min(u64::from(self.steps_done == 0));
         for (steps, split) in [(first, true), (steps - first, split)] {
-            if steps > 0 {
-                isa.run(Advance { flight: self, steps, kick_and_drift, split });
+            let how = How { steps, kick_and_drift, split };
+            match self.scheme {
+                _ if steps == 0 => {}
+                Scheme::SemiImplicitEuler => self.run_in_air::<{ Scheme::SemiImplicitEuler as u8 }>(how),
+                Scheme::Leapfrog => self.run_in_air::<{ Scheme::Leapfrog as u8 }>(how),
+                Scheme::ImplicitTension => self.run_in_air::<{ Scheme::ImplicitTension as u8 }>(how),
             }
         }
     }
 
+    fn run_in_air<const SCHEME: u8>(&mut self, how: How) {
+        let isa = self.isa;
+        match (&self.stations, &self.surroundings) {
+            (Some(_), _) => isa.run(Advance::<SCHEME, ALONG_THE_WAY> { flight: self, how }),
+            (None, Some(_)) => isa.run(Advance::<SCHEME, IN_FLOW> { flight: self, how }),
+            (None, None) => isa.run(Advance::<SCHEME, UNIFORM> { flight: self, how }),
+        }
+    }
+
     /// What a step changes besides the motion: fibre is fed and laid down.
-    #[inline(always)]
+    #[inline(never)]
     fn feed_and_lay(&mut self) {
         if let Some(stations) = &mut self.stations {
             let fed = self.chain.fed();
@@ -158,73 +172,83 @@ impl Flight {
     }
 }
 
-/// Advances a flight by a number of steps in its wind. This is a macro because a closure would not be inlined.
-macro_rules! in_wind {
-    ($steps:expr, $b:ident, $moves:expr, |$wind:ident, $fed:ident| $step:block) => {
-        for _ in 0..$steps {
-            let time = $b.steps_done as f64 * $b.h;
-            if let Some(stations) = &mut $b.stations {
-                const $fed: bool = true;
-                let $wind = stations.around::<S>($b.steps_done, time, &mut $b.wind, &$b.chain.position);
-                $step
-            } else {
-                const $fed: bool = false;
-                let eddies = InEddies { now: $b.wind.blow::<S>(time), of_element: $b.eddies.of_element() };
-                if let Some(surroundings) = &mut $b.surroundings {
-                    let $wind = surroundings.around::<S>($b.steps_done, &$b.chain.position, eddies);
-                    $step
-                } else {
-                    let $wind = eddies;
-                    $step
-                }
-            }
-            $b.count_step::<S>();
-            if $moves {
-                $b.feed_and_lay();
-            }
-        }
-    };
-}
+/// The kinds of air: that of fed fibres, a flow that differs from place to place, and the same everywhere but for eddies.
+const ALONG_THE_WAY: u8 = 0;
+const IN_FLOW: u8 = 1;
+const UNIFORM: u8 = 2;
 
-/// Steps of a flight. With `split`, the work of the velocities before each kick is stored separately.
-struct Advance<'a> {
-    flight: &'a mut Flight,
+/// How a flight is advanced.
+#[derive(Clone, Copy)]
+struct How {
     steps: u64,
     kick_and_drift: (f64, f64),
+    /// Whether the work of the velocities before each kick is stored separately.
     split: bool,
 }
 
-impl Task for Advance<'_> {
+/// Steps of a flight with one scheme in one kind of air. Each is compiled by itself: compilers take far longer for one
+/// large function than for many small ones.
+struct Advance<'a, const SCHEME: u8, const AIR: u8> {
+    flight: &'a mut Flight,
+    how: How,
+}
+
+impl<const SCHEME: u8, const AIR: u8> Task for Advance<'_, SCHEME, AIR> {
     type Output = ();
 
     #[inline(always)]
     fn call<S: Register>(self) {
-        match self.flight.scheme {
-            Scheme::SemiImplicitEuler => self.steps::<S, false>(),
-            Scheme::Leapfrog => self.steps::<S, true>(),
-            Scheme::ImplicitTension => self.implicit_steps::<S>(),
+        let Self { flight, how } = self;
+        let mut block = ElementBlock::<S>::new();
+        for _ in 0..how.steps {
+            let (step, time) = (flight.steps_done, flight.steps_done as f64 * flight.h);
+            let Flight { stations, surroundings, wind, eddies, chain, work, h, damped, .. } = flight;
+            let moved = Moved { chain, work, block: &mut block, h: *h, damped: *damped, how };
+            match (stations, surroundings) {
+                (Some(stations), _) if AIR == ALONG_THE_WAY => {
+                    let air = stations.around::<S>(step, time, wind, &moved.chain.position);
+                    moved.step::<SCHEME, true>(air);
+                }
+                (_, Some(flow)) if AIR == IN_FLOW => {
+                    let eddies = InEddies { now: wind.blow::<S>(time), of_element: eddies.of_element() };
+                    let air = flow.around::<S>(step, &moved.chain.position, eddies);
+                    moved.step::<SCHEME, false>(air);
+                }
+                _ => {
+                    let eddies = InEddies { now: wind.blow::<S>(time), of_element: eddies.of_element() };
+                    moved.step::<SCHEME, false>(eddies);
+                }
+            }
+            flight.count_step::<S>();
+            let moves = SCHEME == Scheme::ImplicitTension as u8 || how.kick_and_drift.1 != 0.0;
+            if AIR == ALONG_THE_WAY && moves {
+                flight.feed_and_lay();
+            }
         }
     }
 }
 
-impl Advance<'_> {
-    #[inline(always)]
-    fn steps<S: Register, const LEAPFROG: bool>(self) {
-        let (b, by) = (self.flight, self.kick_and_drift);
-        let how = (b.damped, self.split);
-        let mut block = ElementBlock::new();
-        in_wind!(self.steps, b, by.1 != 0.0, |wind, FED| {
-            explicit::step::<S, LEAPFROG, FED>(&mut b.chain, wind, by, how, &mut b.work, &mut block);
-        });
-    }
+/// What a step changes.
+struct Moved<'a, S: Register> {
+    chain: &'a mut Chain,
+    work: &'a mut WorkDone,
+    block: &'a mut ElementBlock<S>,
+    h: f64,
+    damped: bool,
+    how: How,
+}
 
+impl<S: Register> Moved<'_, S> {
     #[inline(always)]
-    fn implicit_steps<S: Register>(self) {
-        let b = self.flight;
-        let how = (b.damped, self.split);
-        let mut block = ElementBlock::new();
-        in_wind!(self.steps, b, true, |wind, FED| {
-            implicit::step::<S, FED>(&mut b.chain, wind, b.h, how, &mut b.work, &mut block);
-        });
+    fn step<const SCHEME: u8, const FED: bool>(self, air: impl AirAtElements<S>) {
+        let Self { chain, work, block, h, damped, how: How { kick_and_drift, split, .. } } = self;
+        let how = (damped, split);
+        if SCHEME == Scheme::ImplicitTension as u8 {
+            implicit::step::<S, FED>(chain, air, h, how, work, block);
+        } else if SCHEME == Scheme::Leapfrog as u8 {
+            explicit::step::<S, true, FED>(chain, air, kick_and_drift, how, work, block);
+        } else {
+            explicit::step::<S, false, FED>(chain, air, kick_and_drift, how, work, block);
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Run-time choice of the instruction set.
 
-use super::{Plain, Register};
+use super::Register;
+use super::simd::Baseline;
 
 /// An instruction set for which the kernel is compiled. All give the same bits; they differ in speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,22 +18,24 @@ pub enum Isa {
 impl Isa {
     /// Every instruction set that this machine can run, the fastest first.
     pub fn available() -> Vec<Self> {
-        let mut found = Vec::new();
+        [Self::Avx512, Self::Avx2, Self::Baseline].into_iter().filter(|isa| isa.is_available()).collect()
+    }
+
+    /// Whether this machine has the instructions. The answer is kept, so asking is cheap.
+    fn is_available(self) -> bool {
         #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx512f")
-                && is_x86_feature_detected!("avx512dq")
-                && is_x86_feature_detected!("avx512vl")
-                && is_x86_feature_detected!("fma")
-            {
-                found.push(Self::Avx512);
+        match self {
+            Self::Avx512 => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("fma")
             }
-            if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-                found.push(Self::Avx2);
-            }
+            Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
+            Self::Baseline => true,
         }
-        found.push(Self::Baseline);
-        found
+        #[cfg(not(target_arch = "x86_64"))]
+        matches!(self, Self::Baseline)
     }
 
     /// The fastest instruction set that this machine can run.
@@ -56,7 +59,7 @@ impl Isa {
     pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
         #[cfg(target_arch = "x86_64")]
         {
-            if self != Self::Baseline && Self::available().contains(&self) {
+            if self != Self::Baseline && self.is_available() {
                 // SAFETY: the features each function is compiled for were just found on this machine.
                 return unsafe {
                     match self {
@@ -66,7 +69,7 @@ impl Isa {
                 };
             }
         }
-        task.call::<Plain>()
+        task.call::<Baseline>()
     }
 }
 

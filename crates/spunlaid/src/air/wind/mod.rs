@@ -20,7 +20,7 @@ use self::taper::{SPREAD, Taper};
 use self::windows::Windows;
 use super::Air;
 use crate::error::FlightFault;
-use crate::lanes::{Isa, Lanes, Plain, Register, WIDTH, Wide};
+use crate::lanes::{Isa, Lanes, Plain, Register, Task, WIDTH, Wide};
 use crate::vec3::Vec3;
 
 /// Cubics per sample spacing of a synthesised signal. A record has one per spacing.
@@ -182,11 +182,12 @@ impl Wind {
         let cells = t / self.spacing * self.cells_per_sample as f64;
         let cell = cells as u64;
         if self.cell != Some(cell) {
-            self.enter::<S>(cell);
+            S::ISA.run(Enter { wind: self, cell });
         }
         EddyVelocities { cubic: &self.cubic, s: Wide::splat(cells - cell as f64) }
     }
 
+    /// Makes the cubics of a cell.
     #[inline(always)]
     fn enter<S: Register>(&mut self, cell: u64) {
         if cell == 0 || self.cell != Some(cell - 1) {
@@ -234,6 +235,21 @@ impl Wind {
             }
             *end = (value.store(), slope.store());
         }
+    }
+}
+
+/// [`Wind::enter`].
+struct Enter<'a> {
+    wind: &'a mut Wind,
+    cell: u64,
+}
+
+impl Task for Enter<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<S: Register>(self) {
+        self.wind.enter::<S>(self.cell);
     }
 }
 

@@ -1,0 +1,143 @@
+//! AVX2 and FMA.
+//!
+//! SAFETY of every block here: the instructions were found on the machine before [`super::super::Isa::run`] picked the
+//! type, and loads and stores go through references.
+
+use super::{Register, Simd};
+use crate::lanes::{Isa, Lanes};
+use std::arch::x86_64::*;
+
+/// Two 256-bit registers.
+#[derive(Clone, Copy)]
+pub(crate) struct Avx2(__m256d, __m256d);
+
+/// The same instruction on both halves. This is a macro because a closure would not be compiled for it.
+macro_rules! halves {
+    ($instruction:ident, $a:expr $(, $other:expr)*) => {
+        unsafe { Avx2($instruction($a.0 $(, $other.0)*), $instruction($a.1 $(, $other.1)*)) }
+    };
+}
+
+impl Register for Avx2 {
+    const ISA: Isa = Isa::Avx2;
+
+    #[inline(always)]
+    fn store(self) -> Lanes {
+        let mut lanes = Lanes::ZERO;
+        let start = lanes.0.as_mut_ptr();
+        unsafe {
+            _mm256_store_pd(start, self.0);
+            _mm256_store_pd(start.add(4), self.1);
+        }
+        lanes
+    }
+}
+
+impl Simd for Avx2 {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        unsafe { Self(_mm256_set1_pd(value), _mm256_set1_pd(value)) }
+    }
+    #[inline(always)]
+    fn load(lanes: &Lanes) -> Self {
+        let start = lanes.0.as_ptr();
+        unsafe { Self(_mm256_load_pd(start), _mm256_load_pd(start.add(4))) }
+    }
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        halves!(_mm256_add_pd, self, other)
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        halves!(_mm256_sub_pd, self, other)
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        halves!(_mm256_mul_pd, self, other)
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        halves!(_mm256_div_pd, self, other)
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        halves!(_mm256_fmadd_pd, self, factor, addend)
+    }
+    #[inline(always)]
+    fn neg_mul_add(self, factor: Self, addend: Self) -> Self {
+        halves!(_mm256_fnmadd_pd, self, factor, addend)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        halves!(_mm256_sqrt_pd, self)
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        halves!(_mm256_max_pd, self, other)
+    }
+    #[inline(always)]
+    fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
+        unsafe {
+            let low = _mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0);
+            let high = _mm256_cmp_pd::<_CMP_LT_OQ>(a.1, b.1);
+            Self(_mm256_blendv_pd(no.0, yes.0, low), _mm256_blendv_pd(no.1, yes.1, high))
+        }
+    }
+    #[inline(always)]
+    fn any_above(self, other: Self) -> bool {
+        unsafe {
+            let low = _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0);
+            let high = _mm256_cmp_pd::<_CMP_GT_OQ>(self.1, other.1);
+            _mm256_movemask_pd(_mm256_or_pd(low, high)) != 0
+        }
+    }
+    #[inline(always)]
+    fn and_bits(self, bits: u64) -> Self {
+        let mask = Self::splat(f64::from_bits(bits));
+        halves!(_mm256_and_pd, self, mask)
+    }
+    #[inline(always)]
+    fn or_bits(self, bits: u64) -> Self {
+        let mask = Self::splat(f64::from_bits(bits));
+        halves!(_mm256_or_pd, self, mask)
+    }
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        halves!(_mm256_xor_pd, self, other)
+    }
+    #[inline(always)]
+    fn add_as_integers(self, other: Self) -> Self {
+        unsafe {
+            let low = _mm256_add_epi64(_mm256_castpd_si256(self.0), _mm256_castpd_si256(other.0));
+            let high = _mm256_add_epi64(_mm256_castpd_si256(self.1), _mm256_castpd_si256(other.1));
+            Self(_mm256_castsi256_pd(low), _mm256_castsi256_pd(high))
+        }
+    }
+    #[inline(always)]
+    fn add_bits(self, bits: u64) -> Self {
+        unsafe {
+            let bits = _mm256_set1_epi64x(bits as i64);
+            let low = _mm256_add_epi64(_mm256_castpd_si256(self.0), bits);
+            let high = _mm256_add_epi64(_mm256_castpd_si256(self.1), bits);
+            Self(_mm256_castsi256_pd(low), _mm256_castsi256_pd(high))
+        }
+    }
+    #[inline(always)]
+    fn shift_right<const N: u32>(self) -> Self {
+        unsafe {
+            let count = _mm_cvtsi32_si128(N as i32);
+            let low = _mm256_srl_epi64(_mm256_castpd_si256(self.0), count);
+            let high = _mm256_srl_epi64(_mm256_castpd_si256(self.1), count);
+            Self(_mm256_castsi256_pd(low), _mm256_castsi256_pd(high))
+        }
+    }
+    #[inline(always)]
+    fn shift_left<const N: u32>(self) -> Self {
+        unsafe {
+            let count = _mm_cvtsi32_si128(N as i32);
+            let low = _mm256_sll_epi64(_mm256_castpd_si256(self.0), count);
+            let high = _mm256_sll_epi64(_mm256_castpd_si256(self.1), count);
+            Self(_mm256_castsi256_pd(low), _mm256_castsi256_pd(high))
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The operations of the kernel for each instruction set.
+//!
+//! Every operation rounds exactly as IEEE 754 says or moves bits, and so gives the same bits on each of them.
+//!
+//! ```text
+//! plain    plain Rust, for any machine
+//! sse2     what every x86-64 machine has
+//! avx2     AVX2 and FMA
+//! avx512   AVX-512 F, DQ and VL
+//! ```
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod plain;
+#[cfg(target_arch = "x86_64")]
+mod sse2;
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx2::Avx2;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx512::Avx512;
+pub(crate) use plain::Plain;
+
+/// The instructions that every machine of the target has.
+#[cfg(not(target_arch = "x86_64"))]
+pub(crate) type Baseline = Plain;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use sse2::Sse2 as Baseline;
+
+use super::{Isa, Lanes};
+
+/// Eight numbers in registers, or several times eight, with the operations that the kernel needs.
+///
+/// Only [`super::Isa::run`] chooses one of the types that implement it, after it has found the instructions on the
+/// machine.
+pub(crate) trait Simd: Copy {
+    fn splat(value: f64) -> Self;
+    fn load(lanes: &Lanes) -> Self;
+    fn add(self, other: Self) -> Self;
+    fn sub(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    fn div(self, other: Self) -> Self;
+    /// `self · factor + addend`, rounded once.
+    fn mul_add(self, factor: Self, addend: Self) -> Self;
+    /// `addend − self · factor`, rounded once.
+    fn neg_mul_add(self, factor: Self, addend: Self) -> Self;
+    fn sqrt(self) -> Self;
+    /// The larger of the two; `other` if one of them is NaN.
+    fn max(self, other: Self) -> Self;
+    /// `a < b ? yes : no`.
+    fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self;
+    /// Whether `self > other` in any lane.
+    fn any_above(self, other: Self) -> bool;
+    fn and_bits(self, bits: u64) -> Self;
+    fn or_bits(self, bits: u64) -> Self;
+    fn xor(self, other: Self) -> Self;
+    /// Adds the bits of both as integers, with wrap-around.
+    fn add_as_integers(self, other: Self) -> Self;
+    /// Adds an integer to the bits, with wrap-around.
+    fn add_bits(self, bits: u64) -> Self;
+    fn shift_right<const N: u32>(self) -> Self;
+    fn shift_left<const N: u32>(self) -> Self;
+}
+
+/// [`Simd`] of exactly the eight lanes of a flight.
+pub(crate) trait Register: Simd {
+    /// The instruction set. Work that is seldom done leaves the kernel with it, as a task of its own: what is inlined is
+    /// compiled once for every kernel.
+    const ISA: Isa;
+    fn store(self) -> Lanes;
+}

@@ -1,0 +1,114 @@
+//! Plain Rust, for any machine.
+
+use super::{Register, Simd};
+use crate::lanes::{Isa, Lanes, WIDTH};
+
+/// Plain Rust.
+#[derive(Clone, Copy)]
+#[repr(C, align(64))]
+pub(crate) struct Plain([f64; WIDTH]);
+
+impl Plain {
+    #[inline(always)]
+    fn each(self, of: impl Fn(f64) -> f64) -> Self {
+        Self(self.0.map(of))
+    }
+
+    #[inline(always)]
+    fn pairs(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        Self(std::array::from_fn(|i| of(self.0[i], other.0[i])))
+    }
+
+    #[inline(always)]
+    fn bits(self, of: impl Fn(u64) -> u64) -> Self {
+        self.each(|x| f64::from_bits(of(x.to_bits())))
+    }
+}
+
+impl Register for Plain {
+    const ISA: Isa = Isa::Baseline;
+
+    #[inline(always)]
+    fn store(self) -> Lanes {
+        Lanes(self.0)
+    }
+}
+
+impl Simd for Plain {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self([value; WIDTH])
+    }
+    #[inline(always)]
+    fn load(lanes: &Lanes) -> Self {
+        Self(lanes.0)
+    }
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.pairs(other, |a, b| a + b)
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.pairs(other, |a, b| a - b)
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.pairs(other, |a, b| a * b)
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.pairs(other, |a, b| a / b)
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i].mul_add(factor.0[i], addend.0[i])))
+    }
+    #[inline(always)]
+    fn neg_mul_add(self, factor: Self, addend: Self) -> Self {
+        self.each(|x| -x).mul_add(factor, addend)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.each(f64::sqrt)
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.pairs(other, |a, b| if a > b { a } else { b })
+    }
+    #[inline(always)]
+    fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
+        Self(std::array::from_fn(|i| if a.0[i] < b.0[i] { yes.0[i] } else { no.0[i] }))
+    }
+    #[inline(always)]
+    fn any_above(self, other: Self) -> bool {
+        (0..WIDTH).any(|i| self.0[i] > other.0[i])
+    }
+    #[inline(always)]
+    fn and_bits(self, bits: u64) -> Self {
+        self.bits(|x| x & bits)
+    }
+    #[inline(always)]
+    fn or_bits(self, bits: u64) -> Self {
+        self.bits(|x| x | bits)
+    }
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        self.pairs(other, |a, b| f64::from_bits(a.to_bits() ^ b.to_bits()))
+    }
+    #[inline(always)]
+    fn add_as_integers(self, other: Self) -> Self {
+        self.pairs(other, |a, b| f64::from_bits(a.to_bits().wrapping_add(b.to_bits())))
+    }
+    #[inline(always)]
+    fn add_bits(self, bits: u64) -> Self {
+        self.bits(|x| x.wrapping_add(bits))
+    }
+    #[inline(always)]
+    fn shift_right<const N: u32>(self) -> Self {
+        self.bits(|x| x >> N)
+    }
+    #[inline(always)]
+    fn shift_left<const N: u32>(self) -> Self {
+        self.bits(|x| x << N)
+    }
+}
