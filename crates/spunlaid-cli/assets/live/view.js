@@ -24,7 +24,7 @@ class View {
     this.reach = 0;
     this.laid = new Belt();
     this.draws = 0;
-    new ResizeObserver(() => this.scene.resize()).observe(canvas);
+    new ResizeObserver(() => this.scene.resize() && this.changed?.()).observe(canvas);
     this.scene.resize();
   }
 
@@ -73,7 +73,6 @@ class View {
 
   draw(frame) {
     if (!this.state) return;
-    this.scene.resize();
     const shapes = frame.shapes.map(nodesOf);
     const box = this.box(shapes);
     const { belt, length_mm: height } = this.state;
@@ -115,6 +114,7 @@ class View {
 
   /** Turning and zooming with mouse, touch and keys; `act` has further keys. */
   listen(act) {
+    this.changed = act.changed;
     const { canvas } = this.scene;
     const pointers = new Map();
     const apart = () => {

@@ -20,6 +20,8 @@ pub(super) struct Clock {
     last: Instant,
     /// Time of the fibres that is still to be flown [s].
     owed: f64,
+    /// Steps that are flown at once: pieces of a tick, so that its end is kept.
+    piece: u64,
     /// Ticks of the last second: when, and how much time of the fibres had gone by since the start of the program [s].
     past: VecDeque<(Instant, f64)>,
     flown: f64,
@@ -27,7 +29,7 @@ pub(super) struct Clock {
 
 impl Clock {
     pub(super) fn new(now: Instant) -> Self {
-        Self { pace: Pace::Real, last: now, owed: 0.0, past: VecDeque::new(), flown: 0.0 }
+        Self { pace: Pace::Real, last: now, owed: 0.0, piece: 1, past: VecDeque::new(), flown: 0.0 }
     }
 
     /// Begins to count now: after a pause, or at another pace.
@@ -52,16 +54,18 @@ impl Clock {
             Some(ratio) => (self.owed + ratio * gone).min((ratio * LONGEST_DEBT.as_secs_f64()).max(step)),
             None => f64::INFINITY,
         };
-        // Small pieces, so that the end of the tick is kept.
-        let mut piece = 1;
         while self.owed >= step && Instant::now() < until {
-            let steps = if self.owed.is_finite() { ((self.owed / step) as u64).min(piece) } else { piece };
+            let steps =
+                if self.owed.is_finite() { ((self.owed / step) as u64).min(self.piece) } else { self.piece };
             let begun = Instant::now();
             fly(steps)?;
             self.owed -= steps as f64 * step;
             self.flown += steps as f64 * step;
-            if begun.elapsed() < TICK.mul_f64(0.05) {
-                piece *= 2;
+            let took = begun.elapsed();
+            if took > TICK.mul_f64(0.3) {
+                self.piece = (self.piece / 2).max(1);
+            } else if took < TICK.mul_f64(0.1) && steps == self.piece {
+                self.piece *= 2;
             }
         }
         if !self.owed.is_finite() {

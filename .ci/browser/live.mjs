@@ -1,0 +1,240 @@
+// What a person must see on the page of `spunlaid live`: fibres that move, a slider that changes them, numbers that follow
+// and agree with a run. Prints how fast it is and what it costs.
+// Started by `check`, which says where Chromium and playwright-core are.
+
+import { execFileSync, spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { parseArgs } from "node:util";
+
+const { chromium } = createRequire(join(process.env.PACKAGES, "package.json"))("playwright-core");
+const { values: options, positionals } = parseArgs({
+  allowPositionals: true,
+  options: {
+    /** How long the fibres fly as fast as they can, for the memory. */
+    seconds: { type: "string", default: "10" },
+    screenshots: { type: "string" },
+  },
+});
+const program = resolve(positionals[0]);
+const cases = join(dirname(fileURLToPath(import.meta.url)), "../../cases");
+const folder = mkdtempSync(join(tmpdir(), "spunlaid-live-"));
+
+const failures = [];
+const expect = (holds, message) => {
+  if (!holds) failures.push(message);
+};
+const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+
+/** Amplitudes in y of a run that flies as the page does, over 20 s and with other turbulence [mm]: mean, standard error. */
+function ofRun(velocity) {
+  const set = ["run.scheme=implicit-tension", "run.time_step=auto", "run.duration=20 s", "run.spin_up=0.5 s", `air.velocity=${velocity}`];
+  const options = ["--replicates", "16", "--seed", "2", "--json", "--quiet"];
+  const summary = JSON.parse(
+    execFileSync(program, ["run", join(cases, "table1.toml"), ...set.flatMap((s) => ["--set", s]), ...options], {
+      cwd: folder,
+      maxBuffer: 1 << 28,
+    }),
+  );
+  const { mean, standard_error: error } = summary.end_node.amplitude_y_m;
+  return [1e3 * mean, 1e3 * error];
+}
+
+/** Starts the program; returns its process and the address of its page. */
+async function start(name) {
+  const live = spawn(program, ["live", join(cases, name), "--no-open"], { cwd: folder });
+  const address = await new Promise((found, lost) => {
+    live.stdout.once("data", (text) => found(String(text).trim()));
+    live.once("exit", (code) => lost(new Error(`spunlaid live ${name} ended with code ${code}`)));
+  });
+  return { live, address };
+}
+
+/** Computing time of a process so far [s]. */
+function computed(pid) {
+  const numbers = readFileSync(`/proc/${pid}/stat`, "utf8").split(") ")[1].split(" ");
+  return (Number(numbers[11]) + Number(numbers[12])) / 100;
+}
+
+/** Resident memory [MB]. */
+const resident = (pid) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, "utf8"))[1]) / 1024;
+
+async function open(browser, address, { scheme = "light", width = 1280 } = {}) {
+  const where = `${scheme}, ${width} px`;
+  const page = await browser.newPage({ viewport: { width, height: 860 }, colorScheme: scheme });
+  page.on("pageerror", (error) => failures.push(`${where}: script error: ${error.message}`));
+  page.on("console", (message) => {
+    if (message.type() === "error") failures.push(`${where}: console error: ${message.text()}`);
+  });
+  page.on("request", (request) => {
+    const { protocol, host } = new URL(request.url());
+    const own = host === new URL(address).host || ["data:", "blob:"].includes(protocol);
+    expect(own, `${where}: asks for ${request.url()}`);
+  });
+  await page.goto(address, { waitUntil: "load" });
+  await page.waitForFunction(() => window.spunlaidLive?.seen.drawn > 0);
+  return page;
+}
+
+/** Moves a slider to a notch, as a hand does. */
+const slide = (page, key, notch) =>
+  page.locator(`input[type=range][data-key="${key}"]`).evaluate((slider, notch) => {
+    slider.value = notch;
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+  }, notch);
+
+/** A fingerprint of a canvas. */
+const print = (page, id) =>
+  page.evaluate((id) => {
+    const canvas = document.getElementById(id);
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return data.reduce((hash, byte) => (Math.imul(hash, 31) + byte) | 0, 7);
+  }, id);
+
+async function shot(page, name) {
+  if (!options.screenshots) return;
+  mkdirSync(options.screenshots, { recursive: true });
+  await page.screenshot({ path: join(options.screenshots, `live-${name}.png`), fullPage: true });
+}
+
+/** Amplitude in y when it has been measured for a time: value, standard error [mm]. */
+async function settled(page, seconds) {
+  await page.waitForFunction((least) => window.spunlaidLive.measured?.duration >= least, seconds, { timeout: 0 });
+  return page.evaluate(() => {
+    const { value, error } = window.spunlaidLive.measured.numbers.find((n) => n.name === "amplitude_y");
+    return [value, error];
+  });
+}
+
+async function checkFixed(browser) {
+  const { live, address } = await start("table1.toml");
+  const page = await open(browser, address);
+  const first = await print(page, "fibre");
+  await wait(300);
+  expect((await print(page, "fibre")) !== first, "the fibres do not move");
+
+  // What it costs at real time.
+  const [before, since, drawn] = [computed(live.pid), performance.now(), await page.evaluate(() => spunlaidLive.seen.drawn)];
+  await wait(5000);
+  const wall = (performance.now() - since) / 1000;
+  const share = (computed(live.pid) - before) / wall;
+  const rate = ((await page.evaluate(() => spunlaidLive.seen.drawn)) - drawn) / wall;
+  const speed = await page.evaluate(() => spunlaidLive.frame.speed);
+
+  // How soon the motion follows a slider.
+  for (let i = 0; i < 20; i++) {
+    await slide(page, "air.velocity", 167 + (i % 2));
+    await wait(150);
+  }
+  const latency = await page.evaluate(() => [...spunlaidLive.seen.latency].sort((a, b) => a - b));
+  expect(latency.length >= 15, `only ${latency.length} of 20 changes were answered`);
+
+  // The amplitude follows the air.
+  await page.locator("#pace").selectOption("free");
+  const velocities = [[10, 167], [20, 333]];
+  const lines = [];
+  for (const [velocity, notch] of velocities) {
+    await slide(page, "air.velocity", notch);
+    await page.waitForFunction((v) => spunlaidLive.state.air === v && spunlaidLive.measured?.generation === spunlaidLive.state.generation, velocity);
+    const [value, error] = await settled(page, 20);
+    const [wanted, of] = ofRun(`${velocity} m/s`);
+    const apart = Math.abs(value - wanted) / Math.hypot(error, of);
+    lines.push(`${velocity} m/s: ${value.toFixed(2)} ± ${error.toFixed(2)} mm, a run ${wanted.toFixed(2)} ± ${of.toFixed(2)} mm`);
+    expect(apart < 4, `the amplitude is ${apart.toFixed(1)} standard errors off, ${lines.at(-1)}`);
+  }
+  expect((await page.locator("#numbers .before").first().innerText()).startsWith("before: "), "the setting before is not shown");
+  await shot(page, "light");
+
+  // Memory at full speed: nothing grows once every list is full.
+  const memory = [];
+  for (let i = 0; i < Number(options.seconds); i++) {
+    await wait(1000);
+    memory.push(resident(live.pid));
+  }
+  const half = Math.floor(memory.length / 2);
+  const growth = Math.max(...memory.slice(half)) - Math.max(...memory.slice(0, half));
+  expect(growth < 4, `the memory grew by ${growth.toFixed(1)} MB within ${options.seconds} s`);
+
+  // The keyboard, and a case that is wrong.
+  await page.locator("#fibre").focus();
+  await page.keyboard.press("Space");
+  await page.waitForFunction(() => spunlaidLive.state.stands);
+  const stood = await print(page, "fibre");
+  await page.keyboard.press("ArrowLeft");
+  await wait(300);
+  expect((await print(page, "fibre")) !== stood, "the arrow keys do not turn the picture");
+  const text = page.locator("#text");
+  await text.fill((await text.inputValue()).replace('"1 m"', '"1 mouse"'));
+  await page.locator("#fly").click();
+  await page.locator("#problems li").first().waitFor();
+  expect((await page.locator("#problems").innerText()).includes("line 5"), "a mistake is not shown at its line");
+  await page.locator("#undo").click();
+
+  // Phone and dark scheme: nothing is cut off.
+  const phone = await open(browser, address, { scheme: "dark", width: 360 });
+  await wait(500);
+  const wide = await phone.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  expect(wide <= 1, `the page is ${wide} px wider than a phone`);
+  const unnamed = await phone.evaluate(() =>
+    [...document.querySelectorAll("input, select, button, textarea, canvas")]
+      .filter((e) => !e.getAttribute("aria-label") && !e.getAttribute("aria-labelledby") && !e.labels?.length && !e.innerText?.trim())
+      .filter((e) => !e.closest(".uplot"))
+      .map((e) => e.outerHTML),
+  );
+  expect(unnamed.length === 0, `without a name for a screen reader: ${unnamed.join(", ")}`);
+  await shot(phone, "phone");
+  await phone.close();
+  await page.close();
+  live.kill();
+  const between = (q) => latency[Math.floor(q * (latency.length - 1))].toFixed(0);
+  return [
+    ...lines,
+    `real time: ${(100 * share).toFixed(1)} % of a core at ${speed.toFixed(2)} × real time, ${rate.toFixed(0)} pictures a second`,
+    `from the slider to changed motion: median ${between(0.5)} ms, nine of ten within ${between(0.9)} ms`,
+    `memory as fast as it goes: ${memory.at(-1).toFixed(1)} MB, grew by ${growth.toFixed(1)} MB in the second half of ${options.seconds} s`,
+  ];
+}
+
+/** A fed fibre lays its loops, and the spread settles. */
+async function checkFed(browser) {
+  const { live, address } = await start("spunbond.toml");
+  const page = await open(browser, address);
+  await page.locator("#pace").selectOption("free");
+  await page.waitForFunction(() => window.spunlaidLive.measured?.duration >= 0.2, null, { timeout: 0 });
+  const numbers = await page.evaluate(() => spunlaidLive.measured.numbers);
+  const sigma = numbers.find((n) => n.name === "sigma_md");
+  expect(sigma?.value > 1 && sigma.error > 0, `the spread is ${JSON.stringify(sigma)}`);
+  const laid = await print(page, "trace");
+  await wait(400);
+  expect((await print(page, "trace")) !== laid, "the laid fibre does not move");
+  expect((await page.evaluate(() => spunlaidLive.measured.footprint.counts.length)) > 100, "the footprint is empty");
+  await shot(page, "fed");
+  await page.close();
+  live.kill();
+  return [`a fed fibre: σ ${sigma?.value?.toFixed(1)} ± ${sigma?.error?.toFixed(1)} mm in machine direction`];
+}
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM,
+  headless: false, // the flag below asks for the new headless mode
+  args: ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+});
+let lines = [];
+try {
+  lines = [...(await checkFixed(browser)), ...(await checkFed(browser))];
+} catch (error) {
+  failures.push(`the check itself: ${error.message}`);
+} finally {
+  await browser.close();
+  rmSync(folder, { recursive: true, force: true });
+}
+console.log(lines.map((line) => `  ${line}`).join("\n"));
+if (failures.length > 0) {
+  console.error(`spunlaid live:\n${failures.map((f) => `  ${f}`).join("\n")}`);
+  process.exit(1);
+}
+console.log("spunlaid live: the fibres fly, and follow the sliders");
+process.exit(0);
