@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::protocol::Role;
-use tungstenite::{Message, WebSocket};
+use tungstenite::{HandshakeError, Message, WebSocket};
 
 /// The program in a folder of its own, ended when dropped.
 struct Live {
@@ -58,12 +58,21 @@ impl Live {
         self.request(&[format!("GET /{}/{file} HTTP/1.1", self.token), self.host()])
     }
 
+    /// A new page. If too many are open, it waits until some are gone.
     fn page(&self) -> Page {
-        let mut request =
-            format!("ws://127.0.0.1:{}/{}/flight", self.port, self.token).into_client_request().unwrap();
-        let origin = format!("http://127.0.0.1:{}", self.port).parse().unwrap();
-        request.headers_mut().insert("Origin", origin);
-        Page(tungstenite::client(request, self.connect()).unwrap().0)
+        loop {
+            let address = format!("ws://127.0.0.1:{}/{}/flight", self.port, self.token);
+            let mut request = address.into_client_request().unwrap();
+            let origin = format!("http://127.0.0.1:{}", self.port).parse().unwrap();
+            request.headers_mut().insert("Origin", origin);
+            match tungstenite::client(request, self.connect()) {
+                Ok((socket, _)) => return Page(socket),
+                Err(HandshakeError::Failure(tungstenite::Error::Http(answer))) if answer.status() == 503 => {
+                    std::thread::sleep(std::time::Duration::from_millis(20));
+                }
+                Err(error) => panic!("{error}"),
+            }
+        }
     }
 
     /// What the program has said besides the address.
@@ -412,6 +421,21 @@ impl Chance {
     }
 }
 
+/// Whether a text comes out of a stream before it ends.
+fn contains(stream: &mut TcpStream, text: &[u8]) -> bool {
+    let (mut kept, mut bytes) = (Vec::new(), [0; 1 << 16]);
+    loop {
+        match stream.read(&mut bytes) {
+            Ok(read) if read > 0 => kept.extend_from_slice(&bytes[..read]),
+            _ => return false,
+        }
+        if kept.windows(text.len()).any(|window| window == text) {
+            return true;
+        }
+        kept.drain(..kept.len().saturating_sub(text.len()));
+    }
+}
+
 /// `SPUNLAID_LIVE_MESSAGES` sets how many; 1000000 take some minutes.
 #[test]
 fn whatever_comes_through_the_socket_the_program_goes_on() {
@@ -421,17 +445,22 @@ fn whatever_comes_through_the_socket_the_program_goes_on() {
     let case = live.page().told("state")["text"].as_str().unwrap().to_owned();
     let mut sent = 0;
     while sent < messages {
-        // Frames and answers are read by a thread, so that the program can send them.
+        // Frames and answers are read by a thread, so that the program can send them. The answer to the last message comes
+        // when the program has read all others.
         let Page(socket) = live.page();
         let stream = socket.get_ref().try_clone().unwrap();
-        let mut reader = stream.try_clone().unwrap();
-        let reading =
-            std::thread::spawn(move || while reader.read(&mut [0; 1 << 16]).is_ok_and(|read| read > 0) {});
+        let last = format!("last-{sent}");
+        let reading = std::thread::spawn({
+            let (mut reader, last) = (stream.try_clone().unwrap(), last.clone().into_bytes());
+            move || contains(&mut reader, &last)
+        });
         let mut socket = WebSocket::from_raw_socket(stream.try_clone().unwrap(), Role::Client, None);
         for _ in 0..5000.min(messages - sent) {
             socket.send(chance.message(&case)).unwrap();
             sent += 1;
         }
+        socket.send(Message::text(json!({ "do": last }).to_string())).unwrap();
+        assert!(reading.join().unwrap(), "{sent}: {}", live.said());
         // And what is no message: raw bytes after them, headers that do not end, halves of requests.
         let mut stream = stream;
         let noise: Vec<u8> = (0..500).map(|_| chance.below(256) as u8).collect();
@@ -439,8 +468,6 @@ fn whatever_comes_through_the_socket_the_program_goes_on() {
         let _ = live.connect().write_all(&noise);
         let _ = live.connect().write_all(format!("GET /{}/flight HTTP/1.1\r\nHost: ", live.token).as_bytes());
         let _ = stream.shutdown(std::net::Shutdown::Both);
-        drop(socket);
-        reading.join().unwrap();
     }
     assert!(live.program.try_wait().unwrap().is_none(), "{}", live.said());
     assert!(!live.said().contains("panicked"), "{}", live.said());
@@ -459,7 +486,8 @@ fn whatever_comes_through_the_socket_the_program_goes_on() {
         },
     );
     assert!(second >= first);
-    assert_eq!(live.files(), Vec::<String>::new());
+    // A message that has become right by chance may save a case, and nothing else.
+    assert!(live.files().iter().all(|name| name.ends_with(".toml")), "{:?}", live.files());
 }
 
 #[test]
