@@ -1,4 +1,5 @@
 //! `spunlaid live` as a browser meets it: addresses, messages, frames, files; and what no browser sends.
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use serde_json::{Value, json};
 use std::fs;

@@ -73,7 +73,7 @@ impl Fibres {
             }
         }
         let mut other = Self::new(case)?;
-        if let Some((position, velocity)) = carried_over(&self.case, &self.seen, &other.case) {
+        if let Some([position, velocity]) = carried_over(&self.case, &self.seen, &other.case) {
             other.flight.restart_from(position, velocity)?;
             other.seen = other.flight.snapshot();
         }
@@ -127,7 +127,7 @@ impl Fibres {
 
 /// Positions and velocities of the nodes of another case at which fibres of fixed length go on. Their directions stay, along
 /// the share of the length; strain stays as well.
-fn carried_over(old: &Case, seen: &Snapshot, new: &Case) -> Option<(Vec<Vec3<Lanes>>, Vec<Vec3<Lanes>>)> {
+fn carried_over(old: &Case, seen: &Snapshot, new: &Case) -> Option<[Vec<Vec3<Lanes>>; 2]> {
     let same_hold = (old.fibre.root, old.fibre.direction) == (new.fibre.root, new.fibre.direction);
     if old.line.is_some() || new.line.is_some() || !same_hold {
         return None;
@@ -140,7 +140,7 @@ fn carried_over(old: &Case, seen: &Snapshot, new: &Case) -> Option<(Vec<Vec3<Lan
     for i in 0..to {
         // The old element at the middle of the new one.
         let place = (2 * i + 1) * from / (2 * to);
-        at = at + element(place.min(from - 1)) * Lanes::splat(longer);
+        at += element(place.min(from - 1)) * Lanes::splat(longer);
         position.push(at);
     }
     let velocity = (0..=to)
@@ -150,7 +150,7 @@ fn carried_over(old: &Case, seen: &Snapshot, new: &Case) -> Option<(Vec<Vec3<Lan
             a + (b - a) * Lanes::splat(share)
         })
         .collect();
-    Some((position, velocity))
+    Some([position, velocity])
 }
 
 #[cfg(test)]

@@ -204,7 +204,7 @@ mod tests {
         let (case, _) = parse_case(starter_case(), "a.toml", &[]).unwrap();
         let mut fibres = Fibres::new(case).unwrap();
         let mut lately = Lately::new();
-        let mut see = |fibres: &mut Fibres, lately: &mut Lately, steps| {
+        let see = |fibres: &mut Fibres, lately: &mut Lately, steps| {
             fibres.fly(steps, |i| lately.add(i.snapshot.time, i.snapshot, &i.laid[0])).unwrap();
         };
         see(&mut fibres, &mut lately, 4001);

@@ -213,7 +213,7 @@ impl Session {
                 }
                 asked => {
                     changed = true;
-                    self.obey(asked).unwrap_or_else(|answer| Some(answer))
+                    self.obey(asked).unwrap_or_else(Some)
                 }
             };
             if let Some(answer) = answer {
