@@ -32,9 +32,9 @@ impl Clock {
         Self { pace: Pace::Real, last: now, owed: 0.0, piece: 1, past: VecDeque::new(), flown: 0.0 }
     }
 
-    /// Begins to count now: after a pause, or at another pace.
+    /// Begins to count now: after a pause, at another pace, or with fibres that may take longer for a step.
     pub(super) fn begin(&mut self, now: Instant) {
-        (self.last, self.owed) = (now, 0.0);
+        (self.last, self.owed, self.piece) = (now, 0.0, 1);
         self.past.clear();
     }
 

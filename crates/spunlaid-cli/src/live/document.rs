@@ -10,6 +10,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, Value, value};
 
+/// Most memory of a flight [bytes]. A larger one would answer too slowly.
+const MOST_MEMORY: f64 = 256e6;
+
 /// A case as text, and where it came from.
 #[derive(Clone, Debug)]
 pub(super) struct Document {
@@ -64,6 +67,16 @@ impl Document {
         }
         let (case, notes) =
             parse_case(&self.text, &self.name.to_string_lossy(), &[]).map_err(|error| complaints(&error))?;
+        let memory = case.flight_memory();
+        let memory = memory.chain + memory.turbulence + memory.synthesis;
+        if memory > MOST_MEMORY {
+            return Err(complaint(format!(
+                "eight fibres of this case take {:.0} MB of memory, and a page flies up to {:.0} MB; give longer elements, longer \
+                 eddies or fewer harmonics",
+                memory * 1e-6,
+                MOST_MEMORY * 1e-6
+            )));
+        }
         let warnings = notes.into_iter().filter(|note| note.what.is_warning()).map(|mut note| {
             note.place = Place::Code;
             note.to_string()
@@ -268,6 +281,14 @@ mod tests {
             panic!("it is read");
         };
         assert_eq!(wrong[0].line, Some(1));
+    }
+
+    #[test]
+    fn rejects_what_is_too_large_for_a_page() {
+        let Err(wrong) = document().with_text(CASE.replace("50 mm", "0.1 mm")).read() else {
+            panic!("it is read");
+        };
+        assert!(wrong[0].text.contains(" MB of memory, and a page flies up to 256 MB"), "{}", wrong[0].text);
     }
 
     #[test]

@@ -23,6 +23,11 @@ use tokio::sync::{mpsc, watch};
 /// Time between two tellings of the statistics.
 const TELLING: Duration = Duration::from_millis(250);
 
+/// A step that takes longer than this ends before its time.
+const LONGEST_STEP: Duration = Duration::from_millis(200);
+/// Steps of the flight between two looks at the clock, within such a step.
+const PIECE: u64 = 16;
+
 /// Messages that are heard between two ticks.
 const MOST_HEARD: usize = 256;
 
@@ -249,7 +254,7 @@ impl Session {
             }
             Asked::Step {} => {
                 self.stands = true;
-                self.advance(self.fibres.case().run.output_steps);
+                self.step();
             }
             Asked::Reset {} => {
                 self.fibres.reset().map_err(|error| Answer::Refused { problems: complaints(&error) })?;
@@ -307,6 +312,7 @@ impl Session {
     fn changed(&mut self) {
         self.generation = self.generation.wrapping_add(1);
         self.measured = Measured::new(self.fibres.case(), self.fibres.flight().time());
+        self.clock.begin(Instant::now());
     }
 
     /// Time on the clock of the pages [s].
@@ -332,14 +338,20 @@ impl Session {
         }
     }
 
-    fn advance(&mut self, steps: u64) {
+    /// Flies on by a recorded instant, as far as it goes without letting anybody wait.
+    fn step(&mut self) {
         let Self { fibres, measured, lately, since, .. } = self;
-        let flown = fibres.fly(steps, |instant| {
-            lately.add(*since + instant.snapshot.time, instant.snapshot, &instant.laid[0]);
-            measured.see(instant);
-        });
-        if let Err(error) = flown {
-            self.lost(error.to_string());
+        let (begun, mut left) = (Instant::now(), fibres.case().run.output_steps);
+        while left > 0 && begun.elapsed() < LONGEST_STEP {
+            let steps = left.min(PIECE);
+            left -= steps;
+            let flown = fibres.fly(steps, |instant| {
+                lately.add(*since + instant.snapshot.time, instant.snapshot, &instant.laid[0]);
+                measured.see(instant);
+            });
+            if let Err(error) = flown {
+                return self.lost(error.to_string());
+            }
         }
     }
 
