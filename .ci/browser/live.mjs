@@ -176,7 +176,7 @@ async function checkFixed(browser) {
   // Phone and dark scheme: nothing is cut off.
   const phone = await open(browser, address, { scheme: "dark", width: 360 });
   await wait(500);
-  const wide = await phone.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  const wide = await phone.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
   expect(wide <= 1, `the page is ${wide} px wider than a phone`);
   const unnamed = await phone.evaluate(() =>
     [...document.querySelectorAll("input, select, button, textarea, canvas")]
@@ -220,7 +220,7 @@ async function checkFed(browser) {
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM,
   headless: false, // the flag below asks for the new headless mode
-  args: ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+  args: ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--hide-scrollbars"],
 });
 let lines = [];
 try {

@@ -82,7 +82,7 @@ function state(told) {
   play.textContent = told.stands ? "Go" : "Pause";
   play.setAttribute("aria-pressed", String(!told.stands));
   const notes = [...(told.trouble ? [`The fibres were lost and have started anew: ${told.trouble}`] : []), ...told.notes];
-  byId("remark").textContent = told.remark ?? "";
+  byId("remark").textContent = told.remark ? `${told.remark[0].toUpperCase()}${told.remark.slice(1)}.` : "";
   byId("notes").hidden = notes.length === 0;
   byId("notes").replaceChildren(...notes.map((note) => Object.assign(document.createElement("li"), { textContent: note })));
   if (!page.dirty) editor(told.text);

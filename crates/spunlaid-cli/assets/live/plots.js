@@ -56,8 +56,11 @@ function plot(place, { x, y, series, scales = {}, axes = [{}, {}], bands, hooks 
 }
 
 /** Only powers of ten, every so many, on a logarithmic axis. */
+const decades = (every) => (_, splits) => splits.map((v) => (v !== null && Math.abs(Math.log10(v) % every) < 1e-6 ? v : null));
 const powers = (every) => ({
-  filter: (_, splits) => splits.map((v) => (v !== null && Math.abs(Math.log10(v) % every) < 1e-6 ? v : null)),
+  filter: decades(every),
+  grid: { stroke: () => colours.rule, width: 1, filter: decades(every) },
+  ticks: { stroke: () => colours.rule, width: 1, filter: decades(every) },
   values: (_, splits) => splits.map((v) => (v === null ? null : v >= 1 && v <= 1000 ? `${v}` : `10${[...`${Math.round(Math.log10(v))}`].map((d) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(d)]).join("")}`)),
 });
 
@@ -161,11 +164,11 @@ class Plots {
       scales: { y: { range: fromZero } },
       series: [line("y"), line("z"), before([6, 4]), before([2, 3])],
     });
-    const decades = (_, low, high) => [low > 0 ? Math.max(low, high * 1e-9) : 1e-9, high > 0 ? 2 * high : 1];
+    const range = (_, low, high) => [low > 0 ? Math.max(low, high * 1e-9) : 1e-9, high > 0 ? 2 * high : 1];
     this.spectrum = plot(byId("spectrum"), {
       x: "Frequency / Hz",
       y: "mm²/Hz",
-      scales: { x: { time: false, distr: 3 }, y: { distr: 3, range: decades } },
+      scales: { x: { time: false, distr: 3 }, y: { distr: 3, range } },
       axes: [powers(1), powers(2)],
       series: [line("y"), line("z"), before([6, 4]), before([2, 3])],
       hooks: { draw: [(chart) => this.markCutoff(chart)] },
