@@ -16,8 +16,9 @@ mod write;
 mod written;
 
 pub use study::{
-    MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
-    read_changed_study, read_study,
+    MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, WebPoint, WebStudy, WebStudyFile, differences,
+    parse_changed_study, parse_study, parse_web_study, read_changed_study, read_study, read_web_study,
+    varies_a_web,
 };
 pub use web::{
     LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebFile, WebKey, WebSpec, parse_web, read_web,
