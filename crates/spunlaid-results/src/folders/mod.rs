@@ -4,8 +4,10 @@
 //! run     flies a case: tables while it flies, then figures, shapes, report, summary
 //! study   the folder of a study: its journal, and what is made from it
 //! web     map, single fibres, figures, report, summary
+//! webs    the folder of a study of webs
 //! ```
 
 pub mod run;
 pub mod study;
 pub mod web;
+pub mod webs;
