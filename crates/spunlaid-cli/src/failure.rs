@@ -1,9 +1,9 @@
 //! The errors of the program, their messages and exit codes.
 
-use parquet::errors::ParquetError;
 use spunlaid::error::{
     Error, Fault, FileError, FileFault, FileKind, JournalError, RecordFault, ScanFault, StudyFault, WebFault,
 };
+use spunlaid_results::Failure as Unwritten;
 use std::fmt;
 use std::io;
 use std::panic::{self, AssertUnwindSafe};
@@ -16,28 +16,16 @@ pub(crate) enum Failure {
     Library(Error),
     /// The record for `analyse` cannot be used.
     Record(Box<FileError>),
-    /// A file or folder cannot be written.
-    Unwritable { path: PathBuf, source: io::Error },
+    /// Results cannot be written.
+    Results(spunlaid_results::Failure),
     /// The file of `new` cannot be written.
     NotWritten { path: PathBuf, source: io::Error },
-    /// The output folder holds results already.
-    HoldsResults { folder: PathBuf, found: String },
-    /// The output folder is a file.
-    NotAFolder { path: PathBuf },
     /// `new` would overwrite a file.
     Exists { path: PathBuf },
-    /// A figure cannot be drawn.
-    Figure { name: String, reason: String },
     /// Standard output cannot be written.
     Unheard { why: &'static io::Error },
     /// A study was interrupted.
     Paused { done: u64, of: u64 },
-    /// The output folder holds another study.
-    OtherStudy { folder: PathBuf, differences: Vec<String> },
-    /// The output folder holds a study of another version.
-    OtherVersion { folder: PathBuf, version: String },
-    /// The output folder holds a study with more replicates.
-    FewerReplicates { folder: PathBuf, held: u64, asked: u64 },
     /// A folder does not hold the results of a run.
     NotARun { folder: PathBuf, reason: String },
     /// A finished run cannot be flown for longer.
@@ -58,27 +46,14 @@ pub(crate) enum Failure {
     NothingToLay { of: PathBuf, reason: String },
     /// The positions of fibres became infinite or NaN.
     FibresLost { lost: u64, of: u64, first: Vec<String> },
-    /// A table cannot be encoded.
-    Table { path: PathBuf, source: ParquetError },
     /// The program panicked; the message has been printed.
     Panicked,
 }
 
 impl Failure {
+    /// A file or folder of results that cannot be written.
     pub(crate) fn unwritable(path: &Path) -> impl Fn(io::Error) -> Self + '_ {
-        |source| Self::Unwritable { path: path.to_owned(), source }
-    }
-
-    /// A table that cannot be written. If the operating system refused, its message is used.
-    pub(crate) fn table(path: &Path, error: ParquetError) -> Self {
-        let path = path.to_owned();
-        match error {
-            ParquetError::External(cause) => match cause.downcast::<io::Error>() {
-                Ok(source) => Self::Unwritable { path, source: *source },
-                Err(cause) => Self::Table { path, source: ParquetError::External(cause) },
-            },
-            source => Self::Table { path, source },
-        }
+        |source| spunlaid_results::Failure::unwritable(path)(source).into()
     }
 
     /// 1 if the input is wrong, 130 if interrupted, 2 otherwise.
@@ -86,13 +61,15 @@ impl Failure {
         match self {
             Self::Library(Error::Interrupted) | Self::Paused { .. } => 130,
             Self::Library(error) => error.exit_code(),
+            Self::Results(failure) => {
+                if failure.is_wrong_input() {
+                    1
+                } else {
+                    2
+                }
+            }
             Self::Record(_)
-            | Self::HoldsResults { .. }
-            | Self::NotAFolder { .. }
             | Self::Exists { .. }
-            | Self::OtherStudy { .. }
-            | Self::OtherVersion { .. }
-            | Self::FewerReplicates { .. }
             | Self::NotARun { .. }
             | Self::NotContinued { .. }
             | Self::NoPixel { .. }
@@ -102,13 +79,7 @@ impl Failure {
             | Self::NoSuchKey { .. }
             | Self::NothingToLay { .. }
             | Self::NoSuchPoint { .. } => 1,
-            Self::Unwritable { .. }
-            | Self::NotWritten { .. }
-            | Self::Table { .. }
-            | Self::Figure { .. }
-            | Self::Unheard { .. }
-            | Self::FibresLost { .. }
-            | Self::Panicked => 2,
+            Self::NotWritten { .. } | Self::Unheard { .. } | Self::FibresLost { .. } | Self::Panicked => 2,
         }
     }
 
@@ -122,6 +93,15 @@ impl Failure {
 impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
         Self::Record(Box::new(error))
+    }
+}
+
+impl From<Unwritten> for Failure {
+    fn from(failure: Unwritten) -> Self {
+        match failure {
+            Unwritten::Simulation(error) => Self::Library(error),
+            failure => Self::Results(failure),
+        }
     }
 }
 
@@ -139,23 +119,10 @@ impl fmt::Display for Failure {
             }
             Self::Library(error) => write!(f, "{error}{}", options(error)),
             Self::Record(error) => write!(f, "{error}{}", record_options(&error.fault)),
-            Self::Unwritable { path, source } => {
-                write!(f, "{}: cannot be written: {source}; ", path.display())?;
-                match source.kind() {
-                    io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
-                        write!(f, "free some space, or name another folder with --out")
-                    }
-                    _ => write!(f, "name another folder with --out"),
-                }
-            }
+            Self::Results(failure) => write!(f, "{failure}{}", folder_options(failure)),
             Self::NotWritten { path, source } => {
                 write!(f, "{}: cannot be written: {source}; name another file", path.display())
             }
-            Self::HoldsResults { folder, found } => write!(
-                f,
-                "{}: holds results already ({found}); name another folder with --out, or replace them with --force",
-                folder.display()
-            ),
             Self::NoSuchFigure { name, known } => {
                 write!(f, "--figures {name}: there is no such result figure; write some of {known}")
             }
@@ -166,13 +133,9 @@ impl fmt::Display for Failure {
                     keys => write!(f, "did you mean {}?", keys.join(" or ")),
                 }
             }
-            Self::NotAFolder { path } => {
-                write!(f, "{}: is a file; name a folder with --out", path.display())
-            }
             Self::Exists { path } => {
                 write!(f, "{}: exists already and is not overwritten; name another file", path.display())
             }
-            Self::Figure { name, reason } => write!(f, "figure {name} cannot be drawn: {reason}"),
             Self::Unheard { why } => {
                 write!(f, "standard output: cannot be written: {why}; everything else is done")
             }
@@ -182,15 +145,6 @@ impl fmt::Display for Failure {
                     "interrupted; {done} of {of} fibres are done and kept. Repeat the command to continue"
                 )
             }
-            Self::OtherStudy { folder, differences } => other_study(f, folder, differences),
-            Self::OtherVersion { folder, version } => write!(
-                f,
-                "{}: holds a study of spunlaid {version}, and this is {}; their numbers may differ in the last bits and \
-                 are not mixed. The results there can still be read. Continue with spunlaid {version}, name another \
-                 folder with --out, or start again with --force",
-                folder.display(),
-                env!("CARGO_PKG_VERSION")
-            ),
             Self::NotARun { folder, reason } => write!(
                 f,
                 "{}: does not hold the results of a run: {reason}; name folders that `spunlaid run` has written",
@@ -212,12 +166,6 @@ impl fmt::Display for Failure {
             Self::TooManyRuns { runs, most } => {
                 write!(f, "{runs} runs are named, and at most {most} are compared at a time; name fewer")
             }
-            Self::FewerReplicates { folder, held, asked } => write!(
-                f,
-                "{}: holds {held} replicates of a point, more than the {asked} of this study; ask for {held} or more, as in \
-                 --replicates {held}, name another folder with --out, or start again with --force",
-                folder.display()
-            ),
             Self::NoSuchPoint { point, points } => {
                 write!(f, "--print-point {point}: the study has {points} points, counted from 1")
             }
@@ -228,12 +176,21 @@ impl fmt::Display for Failure {
                 )?;
                 first.iter().try_for_each(|line| write!(f, "\n{line}"))
             }
-            Self::Table { path, source } => write!(f, "{}: cannot be written: {source}", path.display()),
             Self::Panicked => write!(
                 f,
                 "the program has a fault, see above; please report it with the case or study that shows it"
             ),
         }
+    }
+}
+
+/// The options that help where results cannot be written.
+fn folder_options(failure: &Unwritten) -> &'static str {
+    match failure {
+        Unwritten::HoldsResults { .. } | Unwritten::OtherVersion { .. } => " (--out, --force)",
+        Unwritten::FewerReplicates { .. } => " (--replicates, --out, --force)",
+        Unwritten::Unwritable { .. } | Unwritten::NotAFolder { .. } => " (--out)",
+        _ => "",
     }
 }
 
@@ -300,30 +257,6 @@ fn record_options(fault: &FileFault) -> &'static str {
     }
 }
 
-/// Largest number of differences that are listed.
-const MOST_TOLD: usize = 20;
-
-fn other_study(f: &mut fmt::Formatter<'_>, folder: &Path, differences: &[String]) -> fmt::Result {
-    let folder = folder.display();
-    if differences.is_empty() {
-        return write!(
-            f,
-            "{folder}: holds results of this study, but its points have changed because the program has changed. Name \
-             another folder with --out, or start again with --force"
-        );
-    }
-    write!(
-        f,
-        "{folder}: holds results of another study; name another folder with --out, start again with --force, or undo \
-         these differences:"
-    )?;
-    differences.iter().take(MOST_TOLD).try_for_each(|line| write!(f, "\n{line}"))?;
-    match differences.len().checked_sub(MOST_TOLD) {
-        Some(more @ 1..) => write!(f, "\nand {more} more"),
-        _ => Ok(()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -338,12 +271,12 @@ mod tests {
         let path = || PathBuf::from("there");
         let full = || io::Error::from(io::ErrorKind::StorageFull);
         for wrong_input in [
-            Failure::HoldsResults { folder: path(), found: "figures".to_owned() },
-            Failure::NotAFolder { path: path() },
+            Unwritten::HoldsResults { folder: path(), found: "figures".to_owned() }.into(),
+            Unwritten::NotAFolder { path: path() }.into(),
+            Unwritten::OtherStudy { folder: path(), differences: Vec::new() }.into(),
+            Unwritten::OtherVersion { folder: path(), version: "0".to_owned() }.into(),
+            Unwritten::FewerReplicates { folder: path(), held: 8, asked: 4 }.into(),
             Failure::Exists { path: path() },
-            Failure::OtherStudy { folder: path(), differences: Vec::new() },
-            Failure::OtherVersion { folder: path(), version: "0".to_owned() },
-            Failure::FewerReplicates { folder: path(), held: 8, asked: 4 },
             Failure::NotARun { folder: path(), reason: "it is a file".to_owned() },
             Failure::NotContinued { folder: path(), reason: "it is longer".to_owned() },
             Failure::NoSuchFigure { name: "12".to_owned(), known: "2".to_owned() },
@@ -361,9 +294,7 @@ mod tests {
         for not_the_inputs_fault in [
             Failure::unwritable(&path())(full()),
             Failure::NotWritten { path: path(), source: full() },
-            Failure::table(&path(), ParquetError::External(Box::new(full()))),
-            Failure::table(&path(), ParquetError::General("no".to_owned())),
-            Failure::Figure { name: "9".to_owned(), reason: "no".to_owned() },
+            Unwritten::Figure { name: "9".to_owned(), reason: "no".to_owned() }.into(),
             Failure::Unheard { why: &FULL },
             Failure::FibresLost { lost: 1, of: 2, first: Vec::new() },
             Failure::Panicked,
@@ -374,7 +305,11 @@ mod tests {
         ] {
             assert_eq!(not_the_inputs_fault.exit_code(), 2, "{not_the_inputs_fault:?}");
         }
-        for interrupted in [Failure::Paused { done: 1, of: 2 }, Error::Interrupted.into()] {
+        for interrupted in [
+            Failure::Paused { done: 1, of: 2 },
+            Error::Interrupted.into(),
+            Unwritten::Simulation(Error::Interrupted).into(),
+        ] {
             assert_eq!(interrupted.exit_code(), 130, "{interrupted:?}");
         }
     }

@@ -3,11 +3,7 @@
 mod args;
 mod commands;
 mod failure;
-mod figures;
-mod numbers;
-mod output;
 mod progress;
-mod report;
 mod say;
 
 use args::{Arguments, Command};

@@ -117,7 +117,9 @@ fn refuses_results_that_are_there_without_force() {
         fs::create_dir(&alone).unwrap();
         fs::write(alone.join(entry), "mine").unwrap();
         let said = refusal(&mut desk.spunlaid("run brief.toml --out alone --seed 8"), 1);
-        let wanted = format!("error: alone: holds results already ({entry}); name another folder with --out");
+        let wanted = format!(
+            "error: alone: holds results already ({entry}); name another folder, or replace them (--out, "
+        );
         assert!(said.starts_with(&wanted) && said.contains("--force"), "{said}");
         assert_eq!(desk.entries("alone"), names(&[entry]));
         assert_eq!(desk.read(&format!("alone/{entry}")), b"mine");
@@ -159,10 +161,10 @@ fn results_go_beside_files_of_others_without_force() {
 fn refuses_folders_that_cannot_be_written() {
     let desk = Desk::new();
     let said = refusal(&mut desk.spunlaid("run brief.toml --out brief.toml"), 1);
-    assert_eq!(said, "error: brief.toml: is a file; name a folder with --out\n");
+    assert_eq!(said, "error: brief.toml: is a file; name a folder (--out)\n");
     let said = refusal(&mut desk.spunlaid("run brief.toml --out brief.toml/below/it"), 2);
     assert!(said.starts_with("error: brief.toml/below/it: cannot be written: "), "{said}");
-    assert!(said.ends_with("name another folder with --out\n"), "{said}");
+    assert!(said.ends_with("name another folder (--out)\n"), "{said}");
     if cfg!(target_os = "linux") {
         let said = refusal(&mut desk.spunlaid("run brief.toml --out /proc/spunlaid/r"), 2);
         assert!(said.starts_with("error: /proc/spunlaid/r: cannot be written: "), "{said}");

@@ -144,7 +144,7 @@ fn a_disk_that_takes_no_more_leaves_nothing() {
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{said}");
         assert!(said.starts_with("error: a/b/") && said.contains(": cannot be written: "), "{said}");
-        assert!(said.ends_with("name another folder with --out\n"), "{said}");
+        assert!(said.ends_with("name another folder (--out)\n"), "{said}");
         assert_eq!(desk.entries(""), names(&["brief.toml"]));
     }
 }

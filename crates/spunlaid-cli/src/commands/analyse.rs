@@ -4,13 +4,15 @@ use super::scan::{is_picture, scan};
 use super::stem;
 use crate::args::Analyse;
 use crate::failure::Failure;
-use crate::figures::record_figures;
-use crate::output::analysis::{air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv};
-use crate::output::folder::{ENTRIES, Staging};
-use crate::output::pictures;
-use crate::report::{AnalysisReport, analysis_html};
 use crate::say;
 use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
+use spunlaid_results::figures::record_figures;
+use spunlaid_results::output::analysis::{
+    air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv,
+};
+use spunlaid_results::output::folder::{ENTRIES, Staging};
+use spunlaid_results::output::pictures;
+use spunlaid_results::report::{AnalysisReport, analysis_html};
 
 pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
     match analyse.scan.pixel {
@@ -106,5 +108,5 @@ fn write(
     staging.write("spectrum.csv", spectrum_csv(of))?;
     staging.write("autocorrelation.csv", autocorrelation_csv(of))?;
     staging.write("air.toml", air)?;
-    staging.write("analysis.json", json)
+    Ok(staging.write("analysis.json", json)?)
 }

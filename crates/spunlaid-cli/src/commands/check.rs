@@ -1,11 +1,8 @@
 //! `spunlaid check`: shows a case with all defaults, its mesh, limits and expected cost.
 
-use super::run::POSITIONS;
 use super::threads;
 use crate::args::Check;
 use crate::failure::Failure;
-use crate::output::json_text;
-use crate::output::summary::{InOrder, resolved};
 use crate::say;
 use serde::Serialize;
 use serde_json::Value as Json;
@@ -16,6 +13,9 @@ use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::line::Line;
 use spunlaid::units::Dimension;
+use spunlaid_results::folders::run::POSITIONS;
+use spunlaid_results::output::json_text;
+use spunlaid_results::output::summary::{InOrder, resolved};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;

@@ -4,11 +4,6 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
 use crate::args::{Reproduce, SchemeName};
 use crate::failure::Failure;
-use crate::figures::paper as draw;
-use crate::output::folder::{ENTRIES, Staging};
-use crate::output::study::shown;
-use crate::output::{json_text, pictures};
-use crate::report::{PaperReport, paper_html};
 use crate::{progress, say};
 use serde::Serialize;
 use spunlaid::case::Case;
@@ -25,6 +20,11 @@ use spunlaid::paper::{
 };
 use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, results_of_point, run};
 use spunlaid_charts::Figure;
+use spunlaid_results::figures::paper as draw;
+use spunlaid_results::output::folder::{ENTRIES, Staging};
+use spunlaid_results::output::study::shown;
+use spunlaid_results::output::{json_text, pictures};
+use spunlaid_results::report::{PaperReport, paper_html};
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 

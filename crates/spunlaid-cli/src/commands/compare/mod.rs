@@ -6,16 +6,16 @@ mod webs;
 use super::interrupt::stop_on_ctrl_c;
 use crate::args::Compare;
 use crate::failure::Failure;
-use crate::figures::{MOST_COMPARED, overlaid_figures};
-use crate::output::comparison::{self, Compared, Comparison};
-use crate::output::folder::Staging;
-use crate::output::pictures;
-use crate::report::{ComparisonReport, comparison_html};
 use crate::say;
 use read::Run;
 use spunlaid::observe::MEASURES;
 use spunlaid::statistics::{Difference, Estimate};
 use spunlaid_charts::Figure;
+use spunlaid_results::figures::{MOST_COMPARED, overlaid_figures};
+use spunlaid_results::output::comparison::{self, Compared, Comparison};
+use spunlaid_results::output::folder::Staging;
+use spunlaid_results::output::pictures;
+use spunlaid_results::report::{ComparisonReport, comparison_html};
 use std::path::{Path, PathBuf};
 
 /// The files of a comparison; the last one marks it as complete.

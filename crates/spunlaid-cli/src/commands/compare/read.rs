@@ -2,8 +2,8 @@
 
 use super::super::finished::summary;
 use crate::failure::Failure;
-use crate::figures::{Curves, Row};
 use serde_json::Value as Json;
+use spunlaid_results::figures::{Curves, Row};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,12 +2,12 @@
 
 use super::super::finished::any_summary;
 use crate::failure::Failure;
-use crate::figures::{Unevenness, overlaid_webs};
-use crate::numbers::significant;
-use crate::output::comparison::{Compared, Comparison};
 use serde_json::Value as Json;
 use spunlaid::statistics::{Difference, Estimate};
 use spunlaid_charts::Figure;
+use spunlaid_results::figures::{Unevenness, overlaid_webs};
+use spunlaid_results::numbers::significant;
+use spunlaid_results::output::comparison::{Compared, Comparison};
 use std::path::PathBuf;
 
 /// The results of a web.

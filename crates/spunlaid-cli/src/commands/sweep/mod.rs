@@ -1,6 +1,5 @@
 //! `spunlaid sweep`: flies a study and writes its results.
 
-mod folder;
 mod progress;
 mod table;
 
@@ -8,16 +7,13 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{plural, stem, threads};
 use crate::args::Sweep;
 use crate::failure::Failure;
-use crate::figures::study_figures;
-use crate::output;
-use crate::report::{StudyReport, study_html};
 use crate::say;
-use folder::StudyFolder;
 use spunlaid::ensemble::Computing;
 use spunlaid::error::Error;
 use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, write_case};
 use spunlaid::lanes::Isa;
-use spunlaid::study::{Journal, Landing, Progress, Study, rankings, run};
+use spunlaid::study::{Journal, Landing, Progress, Study, run};
+use spunlaid_results::folders::study::{State, StudyFolder, Written};
 use std::fs;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
@@ -34,7 +30,7 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     }
     file.notes.iter().for_each(say::study_note);
     let path = super::folder(sweep.out.as_ref(), stem(&sweep.study, "study"));
-    let (folder, journal, found) = StudyFolder::open(&path, &file, sweep.force)?;
+    let (folder, journal, found) = StudyFolder::open(&path, &file, sweep.force, stop_on_ctrl_c())?;
     report_found(sweep, &file.study, &found);
 
     let journal = Mutex::new(journal);
@@ -59,16 +55,16 @@ fn print_point(study: &Study, number: u64) -> Result<(), Failure> {
     Ok(())
 }
 
-fn report_found(sweep: &Sweep, study: &Study, found: &folder::State) {
+fn report_found(sweep: &Sweep, study: &Study, found: &State) {
     match found {
-        folder::State::New => {
+        State::New => {
             let phases = if study.common_phases { "common phases" } else { "independent phases" };
             let points = plural(study.points.len() as u64, "point");
             if !sweep.quiet {
                 say::aside(&format!("{points}, each with {}, {phases}", times(study)));
             }
         }
-        folder::State::Begun(found) => {
+        State::Begun(found) => {
             let done = plural(found.fibres, "fibre");
             if !sweep.quiet {
                 say::aside(&format!("continuing: {done} of {} already done", study.most_fibres()));
@@ -118,32 +114,13 @@ fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Err
 fn write(
     sweep: &Sweep,
     file: &StudyFile,
-    folder: &StudyFolder,
+    folder: &StudyFolder<'_>,
     journal: &mut Journal,
     before: u64,
 ) -> Result<(), Failure> {
     let study = &file.study;
-    let staging = folder.staging()?;
-    let results = output::study::write(&staging, study, journal)?;
-    let rankings = rankings(study, journal)?;
-    let figures = study_figures(study, &results, &rankings.of_measures);
-    output::study::write_json(&staging, study, &results, &rankings)?;
-    let refusal = rankings.refusal.filter(|_| study.factors.len() > 1).map(|refusal| refusal.to_string());
-    output::pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
-    let report = study_html(&StudyReport {
-        name: &stem(&sweep.study, "study").to_string_lossy(),
-        study,
-        results: &results,
-        rankings: &rankings.of_measures,
-        refusal: refusal.as_deref(),
-        figures: &figures,
-        notes: &file.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        study_toml: &file.text,
-        case_toml: &file.case_text,
-        version: env!("CARGO_PKG_VERSION"),
-    });
-    staging.write("report.html", report)?;
-    staging.publish()?;
+    let name = stem(&sweep.study, "study").to_string_lossy();
+    let Written { results, refusal } = folder.write(&name, file, journal)?;
     let flown: u64 = results.iter().map(|point| point.n + point.lost).sum();
     if sweep.json {
         let path = folder.path().join("results.json");

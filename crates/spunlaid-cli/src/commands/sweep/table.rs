@@ -1,7 +1,7 @@
 //! The table of a study on the terminal.
 
-use crate::output::study::shown;
 use spunlaid::study::{PointResults, Study};
+use spunlaid_results::output::study::shown;
 use std::fmt::Write;
 
 /// Largest number of points that are listed.

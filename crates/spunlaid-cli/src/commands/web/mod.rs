@@ -7,17 +7,16 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{stem, threads};
 use crate::args;
 use crate::failure::Failure;
-use crate::figures::web_figures;
-use crate::numbers::{plus_minus, significant};
-use crate::output::folder::Staging;
-use crate::output::pictures;
-use crate::output::web::{self, ENTRIES, Layer, Performance, Summary};
-use crate::report::{WebReport, web_html};
 use crate::{progress, say};
 use fibres::{Flyer, OfLayer};
-use spunlaid::input::{LayerSpec, Method, Overrides, WebFile, WebSpec, read_web};
+use spunlaid::input::{LayerSpec, Method, Overrides, WebSpec, read_web};
 use spunlaid::lanes::Isa;
-use spunlaid::web::{Fibres, Findings, Laying, Strand, Web, Window, find, pieces, strands};
+use spunlaid::web::{Fibres, Findings, Laying, Web, find, pieces};
+use spunlaid_results::folders;
+use spunlaid_results::folders::web::WebFolder;
+use spunlaid_results::numbers::{plus_minus, significant};
+use spunlaid_results::output::folder::Staging;
+use spunlaid_results::output::web::{ENTRIES, Performance};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
@@ -47,29 +46,17 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
         threads: by.threads,
         instruction_set: by.isa.name(),
     };
-    let found = notes(&findings);
+    let found = folders::web::notes(&findings);
     let notes: Vec<String> =
         file.notes.iter().map(ToString::to_string).chain(found.iter().cloned()).collect();
-    let rows = rows(&file.spec, &web);
-    let summary = Summary::new(&web, &findings, &rows, performance, &notes).to_json();
+    let written =
+        WebFolder { name: &name, file: &file, web: &web, findings: &findings, notes: &notes, performance };
     if let Some(staging) = staging {
-        let window = window(&file.spec);
-        let strands = strands(&web, window, by)?;
-        let written = Written {
-            name: &name,
-            file: &file,
-            web: &web,
-            findings: &findings,
-            rows: &rows,
-            notes: &notes,
-            performance,
-        };
-        written.to(&staging, &strands, window)?;
-        staging.write("summary.json", &summary)?;
+        written.write(&staging, by)?;
         staging.publish()?;
     }
     if asked.json {
-        say::text(&summary);
+        say::text(&written.summary());
     } else if !asked.quiet {
         say::text(&told(&findings));
         say::line(&format!("\n{label} took {:.2} s", performance.wall_s));
@@ -102,54 +89,6 @@ fn source(layer: &LayerSpec) -> &Path {
     }
 }
 
-/// The square in the middle of the sheet whose single fibres are shown.
-fn window(spec: &WebSpec) -> Window {
-    let side = spec.window;
-    Window { corner: [spec.sheet.width, spec.sheet.length].map(|size| 0.5 * (size - side)), sides: [side; 2] }
-}
-
-/// What layers were laid from, for the files.
-fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
-    let row = |(i, (layer, of)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
-        let surrogate =
-            [Some(&of.fibres), of.compared.as_ref()].into_iter().flatten().find_map(|fibres| match fibres {
-                Fibres::Surrogate(surrogate) => Some(*surrogate),
-                Fibres::Curves(_) => None,
-            });
-        Layer {
-            name: layer.name.clone().unwrap_or_else(|| (i + 1).to_string()),
-            linear_density_kg_m: of.linear_density,
-            feed_speed_m_s: of.feed_speed,
-            belt_speed_m_s: of.belt_speed,
-            filaments: of.count(&web.sheet),
-            basis_weight_kg_m2: of.basis_weight(&web.sheet),
-            sigma_md_m: surrogate.map(|of| of.sigma_md),
-            sigma_cd_m: surrogate.map(|of| of.sigma_cd),
-            noise_per_sqrt_m: surrogate.map(|of| of.noise),
-        }
-    };
-    spec.layers.iter().zip(&web.layers).enumerate().map(row).collect()
-}
-
-/// What a reader must know of what was found.
-fn notes(of: &Findings) -> Vec<String> {
-    let mut notes = Vec::new();
-    let map = &of.laid.map;
-    if of.laid.cut > 0.0 {
-        let whole = map.total() as f64 * map.quantum + of.laid.cut;
-        notes.push(format!(
-            "{} % of the fibre lies beyond the edges of the sheet and is cut off",
-            significant(100.0 * of.laid.cut / whole, 2)
-        ));
-    }
-    if map.cells.len() > web::MOST_CELLS {
-        notes.push(
-            "the map is only in map.npy, for it has more cells than a table or a picture takes".to_owned(),
-        );
-    }
-    notes
-}
-
 /// The table for the terminal.
 fn told(of: &Findings) -> String {
     let per_cent = |cv: f64, error: Option<f64>| plus_minus(100.0 * cv, error.map(|error| 100.0 * error));
@@ -169,38 +108,4 @@ fn told(of: &Findings) -> String {
         text.push_str(&format!("  {side:>9}  {map:>16}  {alone:>24}  {straight:>16}\n"));
     }
     text
-}
-
-/// Everything that goes into the files.
-struct Written<'a> {
-    name: &'a str,
-    file: &'a WebFile,
-    web: &'a Web,
-    findings: &'a Findings,
-    rows: &'a [Layer],
-    notes: &'a [String],
-    performance: Performance,
-}
-
-impl Written<'_> {
-    fn to(&self, staging: &Staging<'_>, strands: &[Strand], window: Window) -> Result<(), Failure> {
-        web::write(staging, self.findings, strands)?;
-        let figures = web_figures(self.web, self.findings);
-        pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
-        let report = web_html(&WebReport {
-            name: self.name,
-            web: self.web,
-            findings: self.findings,
-            layers: self.rows,
-            strands,
-            window,
-            diameter: self.file.spec.layers.first().map_or(0.0, |layer| layer.diameter),
-            figures: &figures,
-            notes: self.notes,
-            toml: &self.file.text,
-            performance: self.performance,
-        })?;
-        staging.write("web.toml", &self.file.text)?;
-        staging.write("report.html", report)
-    }
 }

@@ -1,0 +1,88 @@
+//! The measured curves of several runs in one picture each.
+
+use super::run::measured::axes;
+use spunlaid::observe::{DECLARED, Kind, Measure};
+use spunlaid_charts::{
+    Chart, Figure, Series,
+    palette::{BLUE, GREEN, INK, ORANGE, PURPLE, VERMILION},
+};
+use std::collections::BTreeMap;
+
+/// Most runs in one picture.
+pub const MOST: usize = 6;
+
+/// Colours of the runs.
+pub(super) const COLOURS: [&str; MOST] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
+/// Dashes of the series of one run.
+const DASHES: [Option<&str>; 4] = [None, Some("8 4"), Some("2 3"), Some("8 3 2 3")];
+
+/// A point of a curve, in the units of the axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Name of the run or web.
+    pub series: String,
+    /// Place on the abscissa.
+    pub at: f64,
+    /// Value there.
+    pub value: f64,
+    /// One standard error.
+    pub error: Option<f64>,
+}
+
+/// The curves of a run, by the names of their figures.
+#[derive(Clone, Debug)]
+pub struct Curves {
+    /// Name of the run.
+    pub name: String,
+    /// The rows of each curve, by the curve’s name.
+    pub of: BTreeMap<String, Vec<Row>>,
+}
+
+/// A figure for each declared curve that all runs have.
+pub fn overlaid_figures(runs: &[Curves]) -> Vec<Figure> {
+    let mut declared: Vec<Vec<&Measure>> = Vec::new();
+    for measure in DECLARED.iter().flat_map(|declaration| declaration.measures) {
+        if measure.kind == Kind::Number {
+            continue;
+        }
+        match declared.iter_mut().find(|of| of[0].figure.name == measure.figure.name) {
+            Some(of) => of.push(measure),
+            None => declared.push(vec![measure]),
+        }
+    }
+    let in_all = |of: &&Vec<&Measure>| runs.iter().all(|run| run.of.contains_key(of[0].figure.name));
+    declared.iter().filter(in_all).map(|of| overlaid(runs, of)).collect()
+}
+
+fn overlaid(runs: &[Curves], measures: &[&Measure]) -> Figure {
+    let figure = measures[0].figure;
+    let (along, up) = axes(measures[0], measures.len() == 1);
+    let mut chart = Chart::new(figure.name, figure.title, along, up).when_empty("nothing to compare");
+    let mut with_errors = false;
+    for (run, colour) in runs.iter().zip(COLOURS) {
+        let rows = run.of.get(figure.name).map_or(&[][..], Vec::as_slice);
+        let mut names: Vec<&str> = Vec::new();
+        // Largest values over time belong to single fibres, and lines across at a frequency are no curves.
+        let is_curve = |row: &&Row| row.value.is_finite() && !row.series.ends_with(" largest");
+        for row in rows.iter().filter(is_curve) {
+            if !names.contains(&row.series.as_str()) {
+                names.push(&row.series);
+            }
+        }
+        for (name, dash) in names.iter().zip(DASHES) {
+            let of = || rows.iter().filter(is_curve).filter(|row| row.series == *name);
+            let label = if names.len() == 1 { run.name.clone() } else { format!("{}, {name}", run.name) };
+            let band: Vec<_> = of()
+                .filter_map(|row| Some((row.at, row.value - row.error?, row.value + row.error?)))
+                .collect();
+            with_errors |= !band.is_empty();
+            if !band.is_empty() {
+                chart = chart.band(Series::new(&label, colour).unlabelled(), &band);
+            }
+            let line: Vec<_> = of().map(|row| (row.at, row.value)).collect();
+            chart = chart.line(Series { dash, ..Series::new(&label, colour) }.width(1.3), &line);
+        }
+    }
+    let bands = if with_errors { " The bands are ± one standard error of the mean." } else { "" };
+    Figure::of(&chart, format!("{} Means over the replicates of each run.{bands}", figure.caption))
+}

@@ -1,0 +1,23 @@
+//! The figures of a run, a study, a record and the paper, drawn with `spunlaid-charts`.
+
+mod compare;
+#[cfg(test)]
+mod drag_laws;
+pub mod paper;
+mod record;
+#[cfg(test)]
+pub mod record_sample;
+mod run;
+#[cfg(test)]
+pub mod sample;
+mod study;
+#[cfg(test)]
+mod tests;
+mod web;
+
+pub use compare::{Curves, MOST as MOST_COMPARED, Row, overlaid_figures};
+pub use record::record_figures;
+pub use run::{run_figures, swing_frequency};
+pub use spunlaid::web::uniformity::Unevenness;
+pub use study::{name_of_key, study_figures};
+pub use web::{SEEN, overlaid_webs, scan_figures, web_figures};

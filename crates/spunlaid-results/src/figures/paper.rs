@@ -1,0 +1,169 @@
+//! The figures of the paper, drawn anew: circles for y, triangles for z, with the error bars it lacks.
+
+use spunlaid::ensemble::{Place, SpectrumPoint};
+use spunlaid::paper::{Both, Parameter, TrendPoint};
+use spunlaid::vec3::Vec3;
+use spunlaid_charts::{
+    Axis, Chart, Figure, Series,
+    palette::{BLUE, GREEN, VERMILION},
+};
+
+/// Millimetres per metre.
+const MM: f64 = 1e3;
+
+/// Figure 2: the air velocity along x at one place over time.
+pub fn velocity_history(record: &[(f64, f64)], mean: f64) -> Figure {
+    let chart = Chart::new(
+        "figure_2",
+        "Air velocity over time",
+        Axis::linear("Time *t* (s)").tight(),
+        Axis::linear("Velocity *U* (m/s)"),
+    )
+    .line(Series::new("velocity along x in one eddy", BLUE).width(1.0), record)
+    .line(
+        Series::reference("mean").dashed("6 4"),
+        &[(record.first().map_or(0.0, |r| r.0), mean), (record.last().map_or(1.0, |r| r.0), mean)],
+    );
+    Figure::of(
+        &chart,
+        format!(
+            "Figure 2. The synthesised velocity in the first eddy of the first replicate, mean {mean} m/s."
+        ),
+    )
+}
+
+/// Figure 3: the energy spectrum of the velocity.
+pub fn spectrum(points: &[SpectrumPoint]) -> Figure {
+    let realised: Vec<(f64, f64)> = points.iter().map(|p| (p.frequency, p.realised)).collect();
+    let wanted: Vec<(f64, f64)> =
+        points.iter().filter(|p| p.wanted > 0.0).map(|p| (p.frequency, p.wanted)).collect();
+    let chart = Chart::new(
+        "figure_3",
+        "Energy spectrum of the air velocity",
+        Axis::logarithmic("Frequency *f* (Hz)").tight(),
+        Axis::logarithmic("Energy *E* ((m/s)^{2}/Hz)").decades(6),
+    )
+    .line(Series::new("synthesised", BLUE).width(1.3), &realised)
+    .line(Series::reference("flat model").dashed("6 4").width(1.6), &wanted);
+    Figure::of(
+        &chart,
+        "Figure 3. The spectrum of the synthesised velocity (Welch’s estimate over components, eddies and \
+         replicates) and the flat model it is made from: constant up to the cut-off and zero above. What is \
+         seen above the cut-off comes from the window of the estimate."
+            .to_owned(),
+    )
+}
+
+/// Figure 8a: the fibre at the end, magnified across.
+pub fn final_shape(shape: &[Vec3<f64>]) -> Figure {
+    let along = |of: fn(&Vec3<f64>) -> f64| -> Vec<(f64, f64)> {
+        shape.iter().map(|p| (p.x * MM, of(p) * MM)).collect()
+    };
+    let chart = Chart::new(
+        "figure_8a",
+        "The fibre at the end of the run",
+        Axis::linear("*x* (mm)"),
+        Axis::linear("*y*, *z* (mm)"),
+    )
+    .line(Series::circles("y"), &along(|p| p.y))
+    .line(Series::triangles("z"), &along(|p| p.z))
+    .scatter(Series::circles("y").adorning(), &with_no_error(&along(|p| p.y)))
+    .scatter(Series::triangles("z").adorning(), &with_no_error(&along(|p| p.z)));
+    Figure::of(
+        &chart,
+        "Figure 8a. The first replicate after one second, seen from two sides; the axes across are magnified. \
+         Markers are the nodes."
+            .to_owned(),
+    )
+}
+
+fn with_no_error(points: &[(f64, f64)]) -> Vec<(f64, f64, Option<f64>)> {
+    points.iter().map(|&(x, y)| (x, y, None)).collect()
+}
+
+/// Figure 8b: the work check over time for several time steps [s].
+pub fn step_errors(runs: &[(f64, Vec<Place>)]) -> Figure {
+    let mut chart = Chart::new(
+        "figure_8b",
+        "Error of the work for three time steps",
+        Axis::linear("Time *t* (s)").tight(),
+        Axis::logarithmic("Error *ε* (%)").steady(),
+    )
+    .sized(640.0, 380.0);
+    for ((step, errors), colour) in runs.iter().zip([BLUE, GREEN, VERMILION]) {
+        let each = errors.len().div_ceil(250).max(1);
+        let means: Vec<(f64, f64)> = errors
+            .chunks(each)
+            .map(|some| {
+                let known: Vec<f64> = some.iter().map(|e| e.mean).filter(|e| e.is_finite()).collect();
+                (some[some.len() / 2].at, known.iter().sum::<f64>() / known.len() as f64)
+            })
+            .collect();
+        let all = errors.iter().map(|e| (e.at, e.mean, None)).collect();
+        let series = Series::new(&format!("{:.0} µs", step * 1e6), colour).width(1.2);
+        chart = chart.line(series.thinned_from(all), &means);
+    }
+    Figure::of(
+        &chart,
+        "Figure 8b. Work of all forces against the kinetic energy (Eq 36), mean over the replicates, for three \
+         time steps."
+            .to_owned(),
+    )
+}
+
+/// Figures 9 to 11: amplitude, and for 9 and 10 frequency, over a parameter.
+pub fn trend(parameter: Parameter, points: &[TrendPoint]) -> Vec<Figure> {
+    let number = parameter.figure();
+    let with_frequency = matches!(parameter, Parameter::Velocity | Parameter::Intensity);
+    let name = if with_frequency { format!("figure_{number}a") } else { format!("figure_{number}") };
+    let amplitude = chart(parameter, points, &name, "Amplitude", "Amplitude (mm)", |p| p.amplitude, MM);
+    let mut figures = vec![amplitude];
+    if with_frequency {
+        let name = format!("figure_{number}b");
+        figures.push(chart(parameter, points, &name, "Frequency", "Frequency (Hz)", |p| p.frequency, 1.0));
+    }
+    figures
+}
+
+fn chart(
+    parameter: Parameter,
+    points: &[TrendPoint],
+    name: &str,
+    what: &str,
+    label: &str,
+    of: fn(&TrendPoint) -> Both,
+    scale: f64,
+) -> Figure {
+    let (symbol, unit, to_unit) = parameter.unit();
+    let symbol = symbol.replace("L_T", "L_{T}");
+    let words = parameter.name();
+    let mut first = words.chars();
+    let words_up =
+        first.next().map_or_else(String::new, |c| c.to_uppercase().collect::<String>() + first.as_str());
+    let title = format!("{what} over the {words}");
+    let mut chart = Chart::new(
+        name,
+        &title,
+        Axis::linear(&format!("{words_up} *{symbol}* ({unit})")),
+        Axis::linear(label).zero_based(),
+    );
+    for (i, series) in [Series::circles("y"), Series::triangles("z")].into_iter().enumerate() {
+        let spots: Vec<(f64, f64, Option<f64>)> = points
+            .iter()
+            .map(|p| {
+                let (mean, error) = of(p)[i];
+                (p.value * to_unit, mean * scale, error.map(|e| e * scale))
+            })
+            .collect();
+        chart = chart.scatter(series, &spots);
+    }
+    let n = points.iter().map(|p| p.n).min().unwrap_or(0);
+    let paper = name.trim_start_matches("figure_");
+    Figure::of(
+        &chart,
+        format!(
+            "Figure {paper}. {what} of the free end in y (circles) and z (triangles), mean over {n} replicates; \
+             bars are one standard error of the mean."
+        ),
+    )
+}

@@ -1,0 +1,66 @@
+//! The figures of a study: curves over one factor, families of curves over two factors, main effects over more.
+
+mod curves;
+mod heat;
+mod main_effects;
+mod quantity;
+mod ranking;
+#[cfg(test)]
+mod tests;
+
+use quantity::Group;
+use spunlaid::study::{Design, PointResults, Ranking, Study};
+use spunlaid_charts::Figure;
+
+pub use quantity::name_of_key;
+
+/// Largest number of values of a factor that are drawn as curves; more are drawn as a map.
+const FAMILY: usize = 6;
+
+/// The figures of a study, the most important first.
+pub fn study_figures(study: &Study, results: &[PointResults], rankings: &[Ranking]) -> Vec<Figure> {
+    let groups: Vec<_> = quantity::groups().into_iter().filter_map(|group| group.applying(results)).collect();
+    let mut figures = Vec::new();
+    match (study.design, study.factors.len()) {
+        (_, 0) => {}
+        (Design::Grid | Design::OneAtATime | Design::Paired, 1) | (Design::Paired, _) => {
+            figures.extend(groups.iter().map(|group| curves::one(study, results, group)));
+        }
+        (Design::Grid, 2) => {
+            let counts = [0, 1].map(|i| study.factors[i].values().len());
+            // Numbers are on the axis rather than words, and the factor with more values rather than the other.
+            let rank = |i: usize| (study.factors[i].words.is_empty(), counts[i]);
+            let (along, family) = if rank(0) > rank(1) { (0, 1) } else { (1, 0) };
+            for group in &groups {
+                if counts[family] <= FAMILY {
+                    figures.push(curves::family(study, results, group, along, family));
+                } else {
+                    figures.extend(heat::maps(study, results, group));
+                }
+            }
+        }
+        (Design::OneAtATime, _) => {
+            for group in groups.iter().filter(|group| group.is_motion()) {
+                let alone = |factor| curves::alone(study, results, group, factor);
+                figures.extend((0..study.factors.len()).map(alone));
+            }
+        }
+        _ => {
+            for group in groups.iter().filter(|group| group.is_motion()) {
+                let of = |factor| main_effects::of(study, results, rankings, group, factor);
+                figures.extend((0..study.factors.len()).map(of));
+            }
+        }
+    }
+    if study.factors.len() > 1 && !rankings.is_empty() {
+        let motion = groups.iter().filter(|group| group.is_motion());
+        let ranks: Vec<Figure> = motion.map(|group| ranking::of(study, rankings, group)).collect();
+        figures.splice(0..0, ranks);
+    }
+    figures
+}
+
+/// Part of a file name: `air.velocity` to `air_velocity`.
+fn file_name(group: &Group, key: &str) -> String {
+    format!("{}_over_{}", group.figure.name, key.replace('.', "_"))
+}

@@ -1,0 +1,138 @@
+//! How uneven the web is: over patches, and cell by cell.
+
+use super::super::compare::COLOURS;
+use super::{MM, PER_CENT, Weights};
+use crate::numbers::significant;
+use spunlaid::scan;
+use spunlaid::web::uniformity::Unevenness;
+use spunlaid::web::{Edges, Filaments, Findings, Map, Web, straight_fibres};
+use spunlaid_charts::{
+    Axis, Chart, Figure, Series,
+    palette::{BLUE, GREY, VERMILION},
+};
+
+fn empty_chart() -> Chart {
+    Chart::new(
+        "web_cv",
+        "Unevenness over the size of the patches",
+        Axis::logarithmic("Side of a patch (mm)").in_column("patch_mm"),
+        Axis::logarithmic("Coefficient of variation CV (%)").in_column("cv_percent"),
+    )
+}
+
+/// Side [mm], CV and its standard error [%].
+fn point(of: &Unevenness) -> (f64, f64, Option<f64>) {
+    (of.patch * MM, of.cv * PER_CENT, of.standard_error.map(|error| error * PER_CENT))
+}
+
+/// The coefficient of variation of several webs, by their names, over the size of the patches.
+pub fn overlaid_webs(webs: &[(String, Vec<Unevenness>)]) -> Figure {
+    let mut chart = empty_chart();
+    for ((name, patches), colour) in webs.iter().zip(COLOURS) {
+        let spots: Vec<_> = patches.iter().map(point).collect();
+        let line: Vec<(f64, f64)> = spots.iter().map(|(patch, cv, _)| (*patch, *cv)).collect();
+        chart = chart
+            .line(Series::new("", colour).unlabelled().adorning().width(1.0), &line)
+            .scatter(Series::spots(name, colour), &spots);
+    }
+    Figure::of(
+        &chart,
+        "Standard deviation of the basis weight of square patches over its mean, for each web. Bars are one standard error, \
+         from the scatter of the parts of each.",
+    )
+}
+
+/// The coefficient of variation of a scanned web over the size of the patches.
+pub(super) fn scanned(of: &scan::Findings) -> Figure {
+    let found: Vec<_> = of.patches.iter().map(|patch| point(&patch.unevenness)).collect();
+    let line: Vec<(f64, f64)> = found.iter().map(|(patch, cv, _)| (*patch, *cv)).collect();
+    let noise: Vec<(f64, f64)> =
+        of.patches.iter().map(|patch| (patch.unevenness.patch * MM, patch.noise * PER_CENT)).collect();
+    let chart = empty_chart()
+        .line(Series::new("noise of the camera", GREY).dashed("6 4"), &noise)
+        .line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line)
+        .scatter(Series::spots("this scan", BLUE), &found);
+    Figure::of(
+        &chart,
+        "Standard deviation of the basis weight of square patches over its mean. Bars are one standard error, from the scatter of the \
+         parts of the picture. Dashed: the CV of the camera’s noise alone, as it was given, or else the most that neighbouring pixels \
+         allow; the finest structure of the web is in it.",
+    )
+}
+
+/// The coefficient of variation over the size of the patches.
+pub(super) fn over_patches(web: &Web, of: &Findings) -> Figure {
+    let map: Vec<_> = of.patches.iter().map(|patch| point(&patch.map)).collect();
+    let single: Vec<(f64, f64)> =
+        of.patches.iter().map(|patch| (patch.map.patch * MM, patch.one_fibre.0 * PER_CENT)).collect();
+    let straight: Vec<(f64, f64)> =
+        of.patches.iter().map(|patch| (patch.map.patch * MM, patch.straight_fibres * PER_CENT)).collect();
+    let chart = empty_chart()
+        .line(Series::new("straight fibres at random", GREY).dashed("6 4"), &straight)
+        .line(Series::new("expected, from single fibres", VERMILION).width(1.8), &single)
+        .scatter(Series::spots("this map", BLUE), &map);
+    let rows = web.layers.iter().any(|layer| matches!(layer.filaments, Filaments::Rows(_)));
+    let places = if rows { "in their rows" } else { "at random places" };
+    let cut = if web.sheet.edges == Edges::Cut {
+        "cut off at the edges in cross direction"
+    } else {
+        "closed to a ring both ways"
+    };
+    let tau = web.basis_weight() / web.layers.first().map_or(f64::NAN, |layer| layer.linear_density);
+    let tenth = straight_fibres(tau, 0.01) * PER_CENT;
+    let caption = format!(
+        "Standard deviation of the basis weight of square patches over its mean; the sheet is {cut}. Bars are one standard error of \
+         the map, from the scatter of its parts. The expected curve is that of independent filaments {places}, from the \
+         lengths that one fibre leaves in each patch. Straight fibres of the same mass in all directions would give \
+         CV² = 0.946 line density/(basis weight · side), {} % at 10 mm for the first layer’s fibre: the distance to them is what the loops of the lay-down \
+         cost.",
+        significant(tenth, 2)
+    );
+    Figure::of(&chart, caption)
+}
+
+/// Most classes of a histogram.
+const CLASSES: usize = 60;
+
+/// How often each basis weight occurs.
+pub(super) fn histogram(map: &Map, weights: Weights) -> Figure {
+    let largest = map.cells.iter().copied().max().unwrap_or(0);
+    let width = (largest / CLASSES as u32).max(1);
+    let mut counts = vec![0u64; (largest / width) as usize + 1];
+    map.cells.iter().for_each(|quanta| counts[(quanta / width) as usize] += 1);
+    let grams = map.weight_of_quantum() * weights.factor;
+    let scale = PER_CENT / (map.cells.len() as f64 * f64::from(width) * grams);
+    // A line with a step at each end of a class.
+    let steps = counts.iter().enumerate().flat_map(|(i, count)| {
+        let ends = [i, i + 1].map(|end| end as f64 * f64::from(width) * grams);
+        ends.map(|end| (end, *count as f64 * scale))
+    });
+    let steps: Vec<(f64, f64)> = steps.collect();
+    let mean = map.basis_weight() * weights.factor;
+    let squares = map.cells.iter().map(|quanta| (f64::from(*quanta) * grams - mean).powi(2));
+    let deviation = (squares.sum::<f64>() / map.cells.len() as f64).sqrt();
+    let normal = |i: usize| {
+        let at = steps.last().map_or(0.0, |last| last.0) * i as f64 / 200.0;
+        let height =
+            (-0.5 * ((at - mean) / deviation).powi(2)).exp() / (deviation * std::f64::consts::TAU.sqrt());
+        (at, PER_CENT * height)
+    };
+    let normal: Vec<(f64, f64)> = (0..=200).map(normal).collect();
+    let chart = Chart::new(
+        "web_histogram",
+        "Basis weight, cell by cell",
+        Axis::linear(weights.axis).tight(),
+        Axis::linear(&format!("Share of the cells (% per {})", weights.unit.replace('²', "^{2}")))
+            .zero_based(),
+    )
+    .path(Series::new("normal distribution", GREY).dashed("6 4").adorning(), &normal)
+    .path(Series::new("web", BLUE).unlabelled().width(1.8), &steps);
+    let caption = format!(
+        "Cells of {} mm: mean {} {unit}, standard deviation {} {unit}. Dashed: the normal distribution with both.",
+        significant(map.cell * MM, 3),
+        significant(mean, 3),
+        significant(deviation, 3),
+        unit = weights.unit
+    );
+    Figure::of(&chart, caption)
+}

@@ -1,0 +1,216 @@
+//! The folder of a run: tables that grow while the fibres fly, and everything that is made of the results.
+
+use crate::Failure;
+use crate::figures::run_figures;
+use crate::numbers::significant;
+use crate::output::folder::Staging;
+use crate::output::laid::{LaidTable, Spill};
+use crate::output::summary::{Performance, Summary};
+use crate::output::tables::{self, Table};
+use crate::output::{beside, paraview, pictures};
+use crate::report::{self, ReportInput};
+use spunlaid::case::Case;
+use spunlaid::ensemble::{
+    Computing, Keep, KeepShapes, Results, StepCheck, StepCheckPlan, TakeLaid, fly_and_check_step,
+    turbulence_spectrum,
+};
+use spunlaid::input::write_case;
+use spunlaid::lanes::WIDTH;
+use spunlaid_charts::Figure;
+
+/// Number of replicates whose shapes are kept for the report and ParaView.
+const KEPT: usize = WIDTH;
+/// Fewest shapes in a period of the free end that follow its motion.
+const PER_PERIOD: f64 = 8.0;
+/// Number of node positions kept for the report and ParaView. Each takes 24 bytes.
+pub const POSITIONS: u64 = 4_000_000;
+
+/// Flies all replicates. If there is a results folder, the tables are written during the flights.
+///
+/// * `plan` – also compares with half the time step
+///
+/// # Errors
+/// If a fibre is lost, a table cannot be written, or the flights are interrupted.
+pub fn fly(
+    case: &Case,
+    plan: Option<StepCheckPlan>,
+    computing: Computing<'_>,
+    staging: Option<&Staging<'_>>,
+) -> Result<(Results, Option<StepCheck>), Failure> {
+    let mut tables = Vec::new();
+    if let Some(staging) = staging {
+        for (name, columns) in tables::tables(case.line.is_some()) {
+            tables.push(Table::create(staging.place(name), columns)?);
+        }
+    }
+    let fed = staging.filter(|_| case.line.is_some());
+    let spill = fed.map(Spill::new);
+    let mut laid =
+        fed.zip(spill.as_ref()).map(|(staging, spill)| LaidTable::create(staging, spill)).transpose()?;
+    let computing = Computing { laid: spill.as_ref().map(|spill| spill as &dyn TakeLaid), ..computing };
+    let mut collector = Results::collector(KEPT);
+    let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
+    let check = fly_and_check_step(case, plan, Keep { curves: true, shapes }, computing, |trajectory| {
+        tables.iter_mut().try_for_each(|table| table.add(&trajectory))?;
+        laid.iter_mut().try_for_each(|table| table.add(trajectory.replicate))?;
+        collector.take(&trajectory);
+        Ok::<(), Failure>(())
+    })
+    .map_err(|ended| match &spill {
+        Some(spill) => spill.failure(ended),
+        None => ended,
+    })?;
+    tables.into_iter().try_for_each(Table::finish)?;
+    laid.map_or(Ok(()), LaidTable::finish)?;
+    Ok((collector.finish(), check))
+}
+
+/// Everything of a run that goes into the files.
+#[derive(Clone, Copy, Debug)]
+pub struct Run<'a> {
+    /// What the run is called: the name of the case file.
+    pub name: &'a str,
+    /// The case.
+    pub case: &'a Case,
+    /// The results of [`fly`].
+    pub results: &'a Results,
+    /// What half the time step changes, if it was computed.
+    pub check: Option<&'a StepCheck>,
+    /// Warnings and remarks for the reader.
+    pub notes: &'a [String],
+    /// What the run cost.
+    pub performance: Performance,
+}
+
+impl Run<'_> {
+    /// The text of `summary.json`.
+    pub fn summary(&self) -> String {
+        Summary::new(self.case, self.results, self.check, self.performance, self.notes.to_vec()).to_json()
+    }
+
+    /// Writes the figures, the shapes for ParaView, the report, the case and the summary. The tables are those of [`fly`].
+    ///
+    /// # Errors
+    /// If a file cannot be written, or the computation is interrupted.
+    pub fn write(&self, staging: &Staging<'_>, computing: Computing<'_>) -> Result<(), Failure> {
+        let copied = beside::copy([self.case], &staging.place(beside::CASE_FILES).0)?;
+        let case_toml = write_case(&beside::relocated(self.case, &copied));
+        let figures = self.figures(computing)?;
+        // Writing a thousand small files waits for the disk, so the figures are drawn at the same time.
+        std::thread::scope(|scope| {
+            let (case, trajectories) = (self.case, &self.results.trajectories);
+            let shapes = scope.spawn(move || {
+                paraview::write(staging, case, trajectories)?;
+                paraview::write_laid(staging, trajectories)
+            });
+            pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+            shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        })?;
+        let report = self.page(&case_toml, &figures);
+        staging.write("case.toml", case_toml)?;
+        staging.write("report.html", report)?;
+        staging.write("summary.json", self.summary())
+    }
+
+    /// The report as one HTML file of less than 6 MB.
+    ///
+    /// # Errors
+    /// If the computation is interrupted.
+    pub fn report(&self, computing: Computing<'_>) -> Result<String, Failure> {
+        Ok(self.page(&write_case(self.case), &self.figures(computing)?))
+    }
+
+    fn figures(&self, computing: Computing<'_>) -> Result<Vec<Figure>, Failure> {
+        Ok(run_figures(self.case, self.results, &turbulence_spectrum(self.case, computing)?))
+    }
+
+    fn page(&self, case_toml: &str, figures: &[Figure]) -> String {
+        report::html(&ReportInput {
+            name: self.name,
+            case: self.case,
+            case_toml,
+            results: self.results,
+            step_check: self.check,
+            figures,
+            notes: self.notes,
+            performance: self.performance,
+            version: env!("CARGO_PKG_VERSION"),
+        })
+    }
+}
+
+/// A warning about fibres that leave the region where the flow is known.
+pub fn outside(results: &Results) -> Option<String> {
+    let share = 100.0
+        * results
+            .number("share_outside_flow")
+            .map(|number| number.estimate.mean)
+            .filter(|share| *share > 0.0)?;
+    Some(format!(
+        "the fibres’ elements are outside the region where the flow is known for {} % of the time, beyond its walls or \
+         its ends; there, the air at the nearest known point acts on them. Check the position of the root and the length \
+         of the fibre",
+        significant(share, 2)
+    ))
+}
+
+/// A note about shapes for ParaView that are too far apart in time to follow the free end.
+pub fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
+    let shapes = &results.trajectories.first()?.shapes;
+    let [first, second, ..] = shapes.as_slice() else {
+        return None;
+    };
+    let thinned = paraview::thinned(case, shapes.len());
+    let interval = (second.time - first.time) * thinned as f64;
+    let frequency = ["frequency_y", "frequency_z"].map(|name| results.estimate(name).mean);
+    let frequency = frequency[0].max(frequency[1]);
+    let each = 1.0 / (frequency * interval);
+    // A frequency from a crossing or two is no frequency.
+    let is_known = frequency * (case.run.duration() - case.run.spin_up()) > 2.0;
+    (is_known && each < PER_PERIOD).then(|| {
+        let wanted = (case.run.duration() * frequency * PER_PERIOD).ceil() + 1.0;
+        let longest = 1.0 / (frequency * PER_PERIOD);
+        let finer = if case.run.output_interval() > longest {
+            // Rounded down to one digit.
+            let power = 10f64.powf((longest * 1e3).log10().floor());
+            let rounded = (longest * 1e3 / power).floor() * power;
+            format!(" and run.output_interval = \"{} ms\" or less", significant(rounded, 1))
+        } else {
+            String::new()
+        };
+        format!(
+            "the shapes for ParaView are {} ms apart, {} in a period of the free end ({} Hz): too few to follow it; write \
+             run.shapes = {wanted}{finer}",
+            significant(interval * 1e3, 3),
+            significant(each, 2),
+            significant(frequency, 3)
+        )
+    })
+}
+
+/// What the flights cost.
+///
+/// * `wall_s` – time that they took [s]
+pub fn performance(
+    case: &Case,
+    results: &Results,
+    plan: Option<StepCheckPlan>,
+    computing: Computing<'_>,
+    wall_s: f64,
+) -> Performance {
+    let flights = case.run.replicates.div_ceil(WIDTH as u64) as usize + usize::from(plan.is_some());
+    let threads = computing.threads.min(flights);
+    let again = plan.map_or(0, |plan| plan.fibre_steps());
+    // Of a fed fibre, as many as there are in the air on average.
+    let elements =
+        results.number("nodes_in_air").map_or(case.fibre.elements as f64, |nodes| nodes.estimate.mean);
+    let fibre_steps = case.run.steps * case.run.replicates + again;
+    let element_steps = (elements * fibre_steps as f64).round() as u64;
+    Performance {
+        wall_s,
+        threads,
+        element_steps,
+        ns_per_element_step: wall_s * threads as f64 / element_steps as f64 * 1e9,
+        instruction_set: computing.isa.name(),
+    }
+}

@@ -1,0 +1,219 @@
+//! The results folder of a study: checks its content, and writes the files.
+
+use crate::Failure;
+use crate::figures::study_figures;
+use crate::output::beside::{self, CASE_FILES};
+use crate::output::folder::Staging;
+use crate::output::leftovers;
+use crate::output::{self};
+use crate::report::{StudyReport, study_html};
+use spunlaid::case::MOST_REPLICATES;
+use spunlaid::error::{Error, JournalError};
+use spunlaid::input::{StudyFile, differences};
+use spunlaid::study::{Found, Header, Journal, PointResults, rankings};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+const JOURNAL: &str = "journal";
+const STUDY: &str = "study.toml";
+const CASE: &str = "case.toml";
+/// Files that describe the study.
+const DESCRIPTION: &[&str] = &[CASE_FILES, CASE, STUDY];
+/// Files that are made from the journal.
+const MADE: &[&str] =
+    &["results.csv", "results.json", "results.parquet", "replicates.parquet", "figures", "report.html"];
+/// Files that only `spunlaid run` writes.
+const OF_A_RUN: &[&str] = &["summary.json", "end_node.parquet", "energy.parquet"];
+
+/// A results folder that this process has locked.
+#[derive(Debug)]
+pub struct StudyFolder<'a> {
+    path: PathBuf,
+    /// If this is set, nothing more is written.
+    stop: &'a AtomicBool,
+}
+
+/// What was made from the journal.
+#[derive(Debug)]
+pub struct Written {
+    /// The results of each point.
+    pub results: Vec<PointResults>,
+    /// Why the keys are not ranked, if there are several.
+    pub refusal: Option<String>,
+}
+
+/// The content of the folder when it was opened.
+#[derive(Debug)]
+pub enum State {
+    /// Nothing of this study.
+    New,
+    /// Its journal.
+    Begun(Found),
+}
+
+impl<'a> StudyFolder<'a> {
+    /// Opens the folder to begin a study, or to continue the same study.
+    ///
+    /// * `force` – what the folder holds is replaced
+    /// * `stop` – if this is set, nothing more is written
+    ///
+    /// # Errors
+    /// If it cannot be written, or holds something else.
+    pub fn open(
+        path: &Path,
+        file: &StudyFile,
+        force: bool,
+        stop: &'a AtomicBool,
+    ) -> Result<(Self, Journal, State), Failure> {
+        if path.exists() && !path.is_dir() {
+            return Err(Failure::NotAFolder { path: path.to_owned() });
+        }
+        let at = path.join(JOURNAL);
+        if !force && !at.exists() {
+            holds_nothing_else(path)?;
+        }
+        fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
+        let folder = Self { path: path.to_owned(), stop };
+        let (mut journal, header) = match Journal::open(&at) {
+            Err(JournalError::Foreign { .. } | JournalError::Format { .. }) if force => {
+                fs::remove_file(&at).map_err(Failure::unwritable(&at))?;
+                Journal::open(&at).map_err(Error::from)?
+            }
+            opened => opened.map_err(Error::from)?,
+        };
+        leftovers::remove_unclaimed(path);
+        let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
+        let state = match header.filter(|_| !force) {
+            None => {
+                if !force {
+                    holds_nothing_else(path)?;
+                }
+                folder.begin(file)?;
+                journal.begin(&wanted, file.study.points.len()).map_err(Error::from)?;
+                // The new file must survive a power cut. Some systems cannot sync folders, so an error is ignored.
+                let _ = fs::File::open(path).and_then(|folder| folder.sync_all());
+                State::New
+            }
+            Some(found) if found.version != wanted.version => {
+                return Err(Failure::OtherVersion { folder: folder.path, version: found.version });
+            }
+            Some(found) if found != wanted => return Err(folder.other(file)),
+            Some(_) => {
+                let points = file.study.points.len();
+                let found = journal.go_on(points, MOST_REPLICATES).map_err(Error::from)?;
+                let (held, asked) = (journal.most_held(), file.study.replicates.at_most);
+                if held > asked {
+                    return Err(Failure::FewerReplicates { folder: folder.path, held, asked });
+                }
+                // These files follow from the study, so they are restored if someone has removed them. They are
+                // renewed for more replicates.
+                let was = fs::read_to_string(folder.path.join(STUDY)).unwrap_or_default();
+                if was != file.text || !folder.path.join(CASE).exists() {
+                    folder.describe(file)?;
+                }
+                State::Begun(found)
+            }
+        };
+        Ok((folder, journal, state))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Collects the files that are made from the journal.
+    fn staging(&self) -> Result<Staging<'a>, Failure> {
+        Staging::new(&self.path, MADE, true, self.stop)
+    }
+
+    /// Makes the tables, the figures and the report from the journal.
+    ///
+    /// * `name` – what the study is called
+    ///
+    /// # Errors
+    /// If a file cannot be written, or the journal cannot be read.
+    pub fn write(&self, name: &str, file: &StudyFile, journal: &mut Journal) -> Result<Written, Failure> {
+        let study = &file.study;
+        let staging = self.staging()?;
+        let results = output::study::write(&staging, study, journal)?;
+        let rankings = rankings(study, journal)?;
+        let figures = study_figures(study, &results, &rankings.of_measures);
+        output::study::write_json(&staging, study, &results, &rankings)?;
+        let refusal = rankings.refusal.filter(|_| study.factors.len() > 1).map(|refusal| refusal.to_string());
+        output::pictures::write(&figures, |name, content| {
+            staging.write(&format!("figures/{name}"), content)
+        })?;
+        let report = study_html(&StudyReport {
+            name,
+            study,
+            results: &results,
+            rankings: &rankings.of_measures,
+            refusal: refusal.as_deref(),
+            figures: &figures,
+            notes: &file.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            study_toml: &file.text,
+            case_toml: &file.case_text,
+            version: env!("CARGO_PKG_VERSION"),
+        });
+        staging.write("report.html", report)?;
+        staging.publish()?;
+        Ok(Written { results, refusal })
+    }
+
+    /// Removes the files of an earlier study, and describes this one.
+    fn begin(&self, file: &StudyFile) -> Result<(), Failure> {
+        for name in MADE.iter().chain(OF_A_RUN) {
+            remove(&self.path.join(name))?;
+        }
+        self.describe(file)
+    }
+
+    fn describe(&self, file: &StudyFile) -> Result<(), Failure> {
+        let staging = Staging::new(&self.path, DESCRIPTION, true, self.stop)?;
+        staging.write(CASE, keep_files(file, &staging)?)?;
+        staging.write(STUDY, &file.text)?;
+        staging.publish()
+    }
+
+    /// The error that lists how the study in this folder differs.
+    fn other(self, file: &StudyFile) -> Failure {
+        let mut all = Vec::new();
+        for (name, now) in [(STUDY, &file.text), (CASE, &file.case_text)] {
+            let was = fs::read_to_string(self.path.join(name)).unwrap_or_default();
+            all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
+        }
+        Failure::OtherStudy { folder: self.path, differences: all }
+    }
+}
+
+/// Copies the files that the case names, and returns the text of the case with the paths of the copies.
+fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure> {
+    let cases = file.study.points.iter().map(|point| &point.case);
+    let copied = beside::copy(cases, &staging.place(CASE_FILES).0)?;
+    let folder = file.case_path.parent().unwrap_or(Path::new(""));
+    Ok(copied.iter().fold(file.case_text.clone(), |text, (from, to)| {
+        let written = from.strip_prefix(folder).unwrap_or(from);
+        let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());
+        text.replace(&quoted(written), &quoted(to))
+    }))
+}
+
+/// Refuses a folder with results but without a journal. A study that was killed before its journal existed has
+/// left no more than the files that describe it.
+fn holds_nothing_else(path: &Path) -> Result<(), Failure> {
+    match MADE.iter().chain(OF_A_RUN).find(|name| path.join(name).exists()) {
+        Some(found) => Err(Failure::HoldsResults { folder: path.to_owned(), found: (*found).to_owned() }),
+        None => Ok(()),
+    }
+}
+
+fn remove(path: &Path) -> Result<(), Failure> {
+    let removed = match path.symlink_metadata() {
+        Err(_) => return Ok(()),
+        Ok(about) if about.is_dir() => fs::remove_dir_all(path),
+        Ok(_) => fs::remove_file(path),
+    };
+    removed.map_err(Failure::unwritable(path))
+}

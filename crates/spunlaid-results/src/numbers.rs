@@ -1,0 +1,146 @@
+//! Numbers as a person reads them, by the same rules on the terminal, in reports and in captions.
+//!
+//! An error has two significant digits, and its value has as many decimals: `9.54 ± 0.44`, `31200 ± 1500`. A number
+//! without an error has three digits, a mean whose error is not known four, far from one with a power of ten.
+
+pub use spunlaid_charts::{signed, significant};
+
+/// A space that neither breaks nor stretches, between a number and its unit.
+pub const THIN: char = '\u{202f}';
+/// A space that does not break, around a sign.
+pub const HARD: char = '\u{a0}';
+
+/// Most decimals that are written out; smaller errors have a power of ten.
+const DECIMALS: i32 = 6;
+/// Most digits of a value.
+const DIGITS: i32 = 9;
+
+/// Number of decimals that shows an error with two digits. Negative if zeros stand before the decimal point. `None`
+/// if there is no error.
+pub fn decimals(error: f64) -> Option<i32> {
+    // The exponent is read after rounding: 0.0996 is 0.10.
+    let known = error.is_finite() && error > 0.0;
+    let exponent: i32 = format!("{error:.1e}").rsplit('e').next()?.parse().ok().filter(|_| known)?;
+    Some(1 - exponent)
+}
+
+/// A value with this number of decimals (see [`decimals`]). If that would be too long, with six digits.
+pub fn to_decimals(value: f64, decimals: i32) -> String {
+    let size = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
+    if !value.is_finite() || !(-DECIMALS..=DECIMALS).contains(&decimals) || size as i32 + decimals >= DIGITS {
+        return number_to(value, 6);
+    }
+    let power = 10f64.powi(-decimals.min(0));
+    let value = if decimals < 0 { (value / power).round() * power } else { value };
+    signed(value, decimals.max(0) as usize)
+}
+
+/// A mean and its error, apart: the error to two digits, the mean to as many decimals.
+pub fn rounded(mean: f64, error: Option<f64>) -> (String, Option<String>) {
+    let Some((error, decimals)) = error.and_then(|error| Some((error, decimals(error)?))) else {
+        return (number_to(mean, 4), None);
+    };
+    let error_text = if (-DECIMALS..=DECIMALS).contains(&decimals) {
+        to_decimals(error, decimals)
+    } else {
+        number_to(error, 2)
+    };
+    (to_decimals(mean, decimals), Some(error_text))
+}
+
+/// `9.54 ± 0.44`; a mean without an error to four digits.
+pub fn plus_minus(mean: f64, error: Option<f64>) -> String {
+    match rounded(mean, error) {
+        (mean, Some(error)) => format!("{mean}{HARD}±{HARD}{error}"),
+        (mean, None) => mean,
+    }
+}
+
+/// A number to three digits, with a power of ten where it is far from one; a dash if it is not finite.
+pub fn number(value: f64) -> String {
+    number_to(value, 3)
+}
+
+/// A number to so many digits, with a power of ten where it is far from one; a dash if it is not finite.
+fn number_to(value: f64, digits: i32) -> String {
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    let magnitude = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
+    if (-3..6).contains(&magnitude) {
+        return significant(value, digits);
+    }
+    let mantissa = significant(value / 10f64.powi(magnitude), digits);
+    format!("{mantissa}{THIN}×{THIN}10{}", superscript(magnitude))
+}
+
+/// `50 to 52.3`: to three digits, more where the ends would look alike; one number where they are.
+pub fn range(low: f64, high: f64) -> String {
+    let ends = |digits| (significant(low, digits), significant(high, digits));
+    match (3..=9).map(ends).find(|(low, high)| low != high) {
+        Some((low, high)) => format!("{low} to {high}"),
+        None => significant(high, 3),
+    }
+}
+
+fn superscript(exponent: i32) -> String {
+    let raised = |c: char| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        '9' => '⁹',
+        _ => '⁰',
+    };
+    exponent.to_string().chars().map(raised).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_have_two_digits_and_means_as_many_decimals() {
+        for (mean, error, wanted) in [
+            (9.541, 0.438, "9.54 ± 0.44"),
+            (17.612, 0.123, "17.61 ± 0.12"),
+            (9.541, 0.0996, "9.54 ± 0.10"),
+            (812.3, 31.4, "812 ± 31"),
+            (31_234.0, 1_520.0, "31200 ± 1500"),
+            (-0.0004, 0.02, "0.000 ± 0.020"),
+            (-12.34, 0.5, "−12.34 ± 0.50"),
+            (997.54, 1.23e-9, "997.54 ± 1.2 × 10⁻⁹"),
+            (3e12, 2.5e11, "3 × 10¹² ± 2.5 × 10¹¹"),
+        ] {
+            assert_eq!(plus_minus(mean, Some(error)).replace([HARD, THIN], " "), wanted);
+        }
+    }
+
+    #[test]
+    fn means_without_an_error_have_four_digits() {
+        for error in [None, Some(0.0), Some(f64::NAN), Some(f64::INFINITY), Some(-1.0)] {
+            assert_eq!(plus_minus(9.812_345_678_901_23, error), "9.812");
+        }
+        assert_eq!(plus_minus(f64::NAN, Some(0.1)).replace(HARD, " "), "– ± 0.10");
+        assert_eq!(plus_minus(f64::NAN, None), "–");
+    }
+
+    #[test]
+    fn numbers_far_from_one_have_a_power_of_ten() {
+        assert_eq!(number(1.5e-9), "1.5\u{202f}×\u{202f}10⁻⁹");
+        assert_eq!(number(0.0), "0");
+        assert_eq!(number(-0.25), "−0.25");
+    }
+
+    #[test]
+    fn the_ends_of_a_range_differ() {
+        assert_eq!(range(50.0, 52.34), "50 to 52.3");
+        assert_eq!(range(52.311, 52.312), "52.311 to 52.312");
+        assert_eq!(range(52.3, 52.3), "52.3");
+    }
+}

@@ -1,0 +1,18 @@
+//! Writes the files of an analysis.
+
+mod air;
+mod curves;
+mod json;
+mod table;
+
+pub use air::air_block;
+pub use curves::{autocorrelation_csv, spectrum_csv};
+pub use json::analysis_json;
+pub use table::{ResultRow, result_table, results};
+
+use spunlaid::record::Interval;
+
+/// Half the width of an interval: the error of the value.
+pub fn half_width(of: &Interval) -> f64 {
+    0.5 * (of.high - of.low)
+}

@@ -1,0 +1,190 @@
+//! `comparison.json` and its table: what differs between two runs, and whether it is beyond chance.
+
+use super::summary::InOrder;
+use crate::numbers::{decimals, plus_minus, to_decimals};
+use serde::Serialize;
+use spunlaid::statistics::{Difference, Estimate};
+use std::fmt::Write;
+
+/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
+const SCHEMA_VERSION: u32 = 1;
+
+/// Two runs, measure by measure.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// Names of the runs: what is compared, and with what.
+    pub run: String,
+    /// Name of the result that the others are compared with.
+    pub against: String,
+    /// How many pairs of replicates there are, if the runs are compared pair by pair.
+    pub pairs: Option<usize>,
+    /// Why so, in words.
+    pub reason: String,
+    /// What the errors in the table are.
+    pub errors: &'static str,
+    /// Measure by measure.
+    pub measures: Vec<Compared>,
+}
+
+/// A measure of two runs.
+#[derive(Clone, Debug)]
+pub struct Compared {
+    /// Its name for the reader.
+    pub label: String,
+    /// Its name in `comparison.json`.
+    pub column: String,
+    /// The unit in which it is shown, and how many of it are in the SI unit.
+    pub unit: &'static str,
+    /// Factor from SI to the unit that is shown.
+    pub per_si: f64,
+    /// Of the run that is compared with, and of the other.
+    pub means: [Estimate; 2],
+    /// None where there are too few replicates, or too small a web, for an error.
+    pub difference: Option<Difference>,
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema_version: u32,
+    spunlaid_version: &'static str,
+    comparisons: Vec<One<'a>>,
+}
+
+#[derive(Serialize)]
+struct One<'a> {
+    run: &'a str,
+    against: &'a str,
+    paired: bool,
+    pairs: Option<usize>,
+    reason: &'a str,
+    measures: InOrder<Numbers>,
+}
+
+#[derive(Serialize)]
+struct Numbers {
+    against: Mean,
+    run: Mean,
+    difference: Option<f64>,
+    standard_error: Option<f64>,
+    /// Half the width of the 95 % interval.
+    half_width: Option<f64>,
+    beyond_chance: Option<bool>,
+}
+
+#[derive(Serialize)]
+struct Mean {
+    mean: f64,
+    standard_error: Option<f64>,
+    /// Number of replicates; none for a web.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    n: Option<usize>,
+}
+
+/// The comparisons as JSON, in SI units.
+pub fn json(comparisons: &[Comparison]) -> String {
+    let mean = |of: &Estimate| {
+        let finite = of.values.iter().filter(|value| value.is_finite()).count();
+        let n = (!of.values.is_empty()).then_some(finite);
+        Mean { mean: of.mean, standard_error: of.standard_error, n }
+    };
+    let numbers = |of: &Compared| {
+        let [against, run] = &of.means;
+        let numbers = Numbers {
+            against: mean(against),
+            run: mean(run),
+            difference: of.difference.map(|d| d.value),
+            standard_error: of.difference.map(|d| d.standard_error),
+            half_width: of.difference.map(|d| d.half_width()),
+            beyond_chance: of.difference.map(|d| d.is_beyond_chance()),
+        };
+        (of.column.clone(), numbers)
+    };
+    let one = |of: &'_ Comparison| InOrder(of.measures.iter().map(numbers).collect());
+    let comparisons = comparisons.iter().map(|of| One {
+        run: &of.run,
+        against: &of.against,
+        paired: of.pairs.is_some(),
+        pairs: of.pairs,
+        reason: &of.reason,
+        measures: one(of),
+    });
+    let document = Document {
+        schema_version: SCHEMA_VERSION,
+        spunlaid_version: env!("CARGO_PKG_VERSION"),
+        comparisons: comparisons.collect(),
+    };
+    // Serialising plain numbers and strings into memory cannot fail.
+    let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+impl Comparison {
+    /// How many measures differ beyond chance, of how many.
+    pub fn beyond_chance(&self) -> (usize, usize) {
+        let known: Vec<bool> =
+            self.measures.iter().filter_map(|of| of.difference.map(|d| d.is_beyond_chance())).collect();
+        (known.iter().filter(|is| **is).count(), known.len())
+    }
+}
+
+impl Compared {
+    /// Both means, the difference with its sign, and the verdict, in the unit of the measure.
+    pub fn cells(&self) -> [String; 4] {
+        let factor = self.per_si;
+        let mean =
+            |of: &Estimate| plus_minus(of.mean * factor, of.standard_error.map(|error| error * factor));
+        let difference = self.difference.map_or_else(
+            || "–".to_owned(),
+            |d| {
+                let (value, error) = (d.value * factor, d.standard_error * factor);
+                let is_above = value > 0.0
+                    && decimals(error).is_none_or(|digits| {
+                        to_decimals(value, digits).contains(|c| ('1'..='9').contains(&c))
+                    });
+                format!("{}{}", if is_above { "+" } else { "" }, plus_minus(value, Some(error)))
+            },
+        );
+        let verdict = match self.difference {
+            None => "too few data",
+            Some(d) if d.value == 0.0 && d.standard_error == 0.0 => "the same",
+            Some(d) if d.is_beyond_chance() => "beyond chance",
+            Some(_) => "within chance",
+        };
+        [mean(&self.means[0]), mean(&self.means[1]), difference, verdict.to_owned()]
+    }
+}
+
+/// A comparison for the terminal.
+pub fn table(of: &Comparison) -> String {
+    let mut rows = vec![[
+        String::new(),
+        of.against.clone(),
+        of.run.clone(),
+        "difference".to_owned(),
+        String::new(),
+        String::new(),
+    ]];
+    for one in &of.measures {
+        let [against, run, difference, verdict] = one.cells();
+        let unit = one.unit.to_owned();
+        rows.push([one.label.clone(), against, run, difference, unit, verdict]);
+    }
+    let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..6).map(width).collect();
+    let mut text = format!("{} against {}: {}\n", of.run, of.against, of.reason);
+    for row in &rows {
+        let mut line = format!("  {:<1$}", row[0], widths[0]);
+        for i in 1..4 {
+            let _ = write!(line, "  {:>1$}", row[i], widths[i]);
+        }
+        let _ = write!(line, "  {:<1$}  {2}", row[4], widths[4], row[5]);
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+    let (beyond, all) = of.beyond_chance();
+    let _ = writeln!(
+        text,
+        "  {beyond} of {all} measures differ beyond chance (95 % interval); one in twenty would by chance alone"
+    );
+    text
+}

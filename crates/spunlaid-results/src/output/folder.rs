@@ -1,0 +1,184 @@
+//! A results folder that is written completely or not at all.
+
+use super::beside::CASE_FILES;
+use super::leftovers::{self, Claim};
+use crate::Failure;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The contents of a results folder of `run`, `analyse` or `reproduce`. The last entry marks it as complete.
+pub const ENTRIES: &[&str] = &[
+    "case.toml",
+    CASE_FILES,
+    "end_node.parquet",
+    "energy.parquet",
+    "laid.parquet",
+    "laid.vtp",
+    "shape.pvd",
+    "shape",
+    "figures",
+    "report.html",
+    "air.toml",
+    "spectrum.csv",
+    "autocorrelation.csv",
+    "analysis.json",
+    COMPLETE,
+];
+const COMPLETE: &str = "summary.json";
+/// Folders in the staging folder: the new results, and the old ones while they are replaced.
+const NEW: &str = "new";
+const OLD: &str = "old";
+/// Files that are needed only while the results are made.
+const SCRATCH: &str = "scratch";
+
+/// A hidden folder, in or beside the results folder, that collects the files. It is removed unless
+/// [`Staging::publish`] is called.
+#[derive(Debug)]
+pub struct Staging<'a> {
+    folder: PathBuf,
+    staging: PathBuf,
+    /// The entries that are moved to the results folder, in this order.
+    entries: &'static [&'static str],
+    replace: bool,
+    /// A lock that shows other runs that this one is alive.
+    claim: Option<Claim>,
+    /// Parent folders that were created for it, the deepest first. They are removed if nothing is published.
+    made: Vec<PathBuf>,
+    stop: &'a AtomicBool,
+}
+
+impl<'a> Staging<'a> {
+    /// Prepares to write results to `folder`, and checks now whether this is possible.
+    ///
+    /// * `entries` – the possible files and folders of these results, in the order in which they are moved
+    /// * `stop` – if this is set, nothing more is written
+    pub fn new(
+        folder: &Path,
+        entries: &'static [&'static str],
+        replace: bool,
+        stop: &'a AtomicBool,
+    ) -> Result<Self, Failure> {
+        let exists = folder.symlink_metadata().is_ok();
+        if exists && !folder.is_dir() {
+            return Err(Failure::NotAFolder { path: folder.to_owned() });
+        }
+        refuse_results(folder, entries, replace)?;
+        let unwritable = |source| Failure::Unwritable { path: folder.to_owned(), source };
+        let above = match folder.parent() {
+            Some(above) if above.as_os_str().is_empty() => Path::new("."),
+            Some(above) => above,
+            None => folder,
+        };
+        leftovers::remove(above);
+        // For an existing folder, staging happens inside it, so that publishing never crosses file systems.
+        let home = if exists { folder } else { above };
+        if exists {
+            leftovers::remove(folder);
+        }
+        let made: Vec<PathBuf> =
+            above.ancestors().take_while(|above| !above.exists()).map(Path::to_owned).collect();
+        let staging = fs::create_dir_all(home)
+            .and_then(|()| leftovers::hidden_folder(home))
+            .inspect_err(|_| remove_empty(&made))
+            .map_err(unwritable)?;
+        let claim = Claim::on(&staging);
+        let staging = Self { folder: folder.to_owned(), staging, entries, replace, claim, made, stop };
+        fs::create_dir(staging.staging.join(NEW)).map_err(unwritable)?;
+        Ok(staging)
+    }
+
+    /// The present and the final path of a file of the results.
+    pub fn place(&self, name: &str) -> (PathBuf, PathBuf) {
+        (self.staging.join(NEW).join(name), self.folder.join(name))
+    }
+
+    /// A folder for files that are needed only while the results are made. It may not exist yet.
+    pub fn scratch(&self) -> PathBuf {
+        self.staging.join(SCRATCH)
+    }
+
+    /// Writes a file and creates its parent folders.
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), Failure> {
+        self.go_on()?;
+        let (now, later) = self.place(name);
+        now.parent()
+            .map_or(Ok(()), fs::create_dir_all)
+            .and_then(|()| fs::write(&now, content))
+            .map_err(|source| Failure::Unwritable { path: later, source })
+    }
+
+    /// Moves the results to their folder. If there was no folder, this is one renaming; otherwise the entries are
+    /// moved one by one, and the one that marks the results as complete comes last.
+    pub fn publish(mut self) -> Result<(), Failure> {
+        self.go_on()?;
+        // Another run may have written results in the meantime.
+        refuse_results(&self.folder, self.entries, self.replace)?;
+        let (new, folder) = (self.staging.join(NEW), self.folder.clone());
+        let moved = if folder.exists() { self.swap(&new, &folder) } else { fs::rename(&new, &folder) };
+        moved.map_err(Failure::unwritable(&folder))?;
+        self.made.clear();
+        Ok(())
+    }
+
+    /// Replaces the old entries by the new ones. If this fails, the old entries are moved back.
+    fn swap(&self, new: &Path, folder: &Path) -> std::io::Result<()> {
+        let old = self.staging.join(OLD);
+        fs::create_dir(&old)?;
+        let there = |path: &Path| path.symlink_metadata().is_ok();
+        let mut moved: Vec<(PathBuf, PathBuf)> = Vec::new();
+        let mut step = |from: PathBuf, to: PathBuf| {
+            if !there(&from) {
+                return Ok(());
+            }
+            fs::rename(&from, &to)?;
+            moved.push((from, to));
+            Ok(())
+        };
+        let swapped =
+            (self.entries.iter().rev().try_for_each(|name| step(folder.join(name), old.join(name))))
+                .and_then(|()| {
+                    self.entries.iter().try_for_each(|name| step(new.join(name), folder.join(name)))
+                });
+        if swapped.is_err() {
+            for (from, to) in moved.iter().rev() {
+                let _ = fs::rename(to, from);
+            }
+        }
+        swapped
+    }
+
+    fn go_on(&self) -> Result<(), Failure> {
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(spunlaid::error::Error::Interrupted.into());
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Staging<'_> {
+    fn drop(&mut self) {
+        // Some operating systems cannot remove open files.
+        self.claim = None;
+        let _ = fs::remove_dir_all(&self.staging);
+        remove_empty(&self.made);
+    }
+}
+
+/// Rejects a folder that contains any part of results, unless these may be replaced.
+fn refuse_results(folder: &Path, entries: &[&str], replace: bool) -> Result<(), Failure> {
+    let holds = |entry: &&&str| folder.join(entry).symlink_metadata().is_ok();
+    match entries.iter().find(holds) {
+        Some(found) if !replace => {
+            Err(Failure::HoldsResults { folder: folder.to_owned(), found: (*found).to_owned() })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Removes those of the folders that are empty, the deepest first.
+fn remove_empty(folders: &[PathBuf]) {
+    for folder in folders {
+        let _ = fs::remove_dir(folder);
+    }
+}

@@ -1,0 +1,25 @@
+//! The files of a results folder.
+
+pub mod analysis;
+pub mod beside;
+pub mod comparison;
+pub mod folder;
+pub mod laid;
+pub mod leftovers;
+pub mod paraview;
+mod parquet;
+pub mod pictures;
+pub mod step_check;
+pub mod study;
+pub mod summary;
+pub mod table;
+pub mod tables;
+pub mod web;
+
+use serde::Serialize;
+
+/// The text of a JSON file.
+pub fn json_text(of: &impl Serialize) -> String {
+    // Serialising plain numbers and strings into memory cannot fail.
+    serde_json::to_string_pretty(of).unwrap_or_default() + "\n"
+}

@@ -1,0 +1,114 @@
+//! The shapes of the fibres over time for ParaView, and what fed fibres have laid. `shape.pvd` opens the whole series.
+
+use super::folder::Staging;
+use crate::Failure;
+use spunlaid::case::Case;
+use spunlaid::ensemble::Trajectory;
+use spunlaid::vec3::Vec3;
+use std::fmt::Write;
+
+/// Largest number of instants in a series if the case does not say how many. Each instant is a file.
+const MOST_INSTANTS: usize = 500;
+
+/// One of this number of kept shapes is written.
+pub fn thinned(case: &Case, shapes: usize) -> usize {
+    if case.run.shapes.is_some() { 1 } else { shapes.div_ceil(MOST_INSTANTS).max(1) }
+}
+
+/// Writes the kept shapes, [`thinned`]. Each instant is a VTK PolyData file with one
+/// line for each replicate; a collection file gives their times.
+pub fn write(staging: &Staging<'_>, case: &Case, trajectories: &[Trajectory]) -> Result<(), Failure> {
+    let rest_length = case.fibre.rest_length();
+    let trajectories: Vec<&Trajectory> = trajectories.iter().filter(|t| !t.shapes.is_empty()).collect();
+    let Some(first) = trajectories.first() else { return Ok(()) };
+    let mut collection = String::from(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
+    );
+    let every = thinned(case, first.shapes.len());
+    let digits = first.shapes.len().div_ceil(every).to_string().len();
+    for (number, (k, shape)) in first.shapes.iter().enumerate().step_by(every).enumerate() {
+        let name = format!("shape/fibre_{number:0digits$}.vtp");
+        let lines: Vec<Line> = trajectories.iter().filter_map(|of| shape_line(of, k, rest_length)).collect();
+        staging.write(&name, poly_data("replicate", &["distance_m"], &lines))?;
+        let _ = writeln!(collection, "<DataSet timestep=\"{:?}\" part=\"0\" file=\"{name}\"/>", shape.time);
+    }
+    collection.push_str("</Collection>\n</VTKFile>\n");
+    staging.write("shape.pvd", collection)
+}
+
+/// Writes what fed fibres have laid, a line for each kept replicate, in the coordinates of the belt.
+pub fn write_laid(staging: &Staging<'_>, trajectories: &[Trajectory]) -> Result<(), Failure> {
+    let laid: Vec<Line> = trajectories.iter().filter(|t| !t.laid.is_empty()).map(laid_line).collect();
+    if laid.is_empty() {
+        Ok(())
+    } else {
+        staging.write("laid.vtp", poly_data("replicate", &["fed_m", "time_s"], &laid))
+    }
+}
+
+fn laid_line(of: &Trajectory) -> Line {
+    let points = of.laid.iter();
+    Line {
+        number: of.replicate + 1,
+        points: points.clone().map(|p| Vec3::new(0.0, p.md, p.cd)).collect(),
+        data: vec![points.clone().map(|p| p.fed).collect(), points.map(|p| p.time).collect()],
+    }
+}
+
+fn shape_line(of: &Trajectory, k: usize, rest_length: f64) -> Option<Line> {
+    let points = &of.shapes.get(k)?.position;
+    let distance = (0..points.len()).map(|i| i as f64 * rest_length).collect();
+    Some(Line { number: of.replicate + 1, points: points.clone(), data: vec![distance] })
+}
+
+/// A line of a VTK file.
+pub(super) struct Line {
+    /// Of the replicate, counted from 1, or of the layer.
+    pub(super) number: u64,
+    /// [m]
+    pub(super) points: Vec<Vec3<f64>>,
+    /// Numbers at the points, a list for each name.
+    pub(super) data: Vec<Vec<f64>>,
+}
+
+/// VTK XML PolyData of lines: points [m], what is numbered, and the data with these names.
+pub(super) fn poly_data(numbered: &str, names: &[&str], lines: &[Line]) -> String {
+    let count: usize = lines.iter().map(|line| line.points.len()).sum();
+    let mut points = String::with_capacity(count * 48);
+    let mut data = vec![String::new(); names.len()];
+    let (mut number, mut connectivity, mut offsets) = (String::new(), String::new(), String::new());
+    let mut before = 0;
+    for line in lines {
+        for (i, p) in line.points.iter().enumerate() {
+            let _ = writeln!(points, "{:e} {:e} {:e}", p.x, p.y, p.z);
+            let _ = write!(number, "{} ", line.number);
+            let _ = write!(connectivity, "{} ", before + i);
+        }
+        for (text, values) in data.iter_mut().zip(&line.data) {
+            for value in values {
+                let _ = write!(text, "{value:e} ");
+            }
+        }
+        before += line.points.len();
+        let _ = write!(offsets, "{before} ");
+    }
+    let array = |(name, values): (&&str, &String)| {
+        format!("<DataArray type=\"Float64\" Name=\"{name}\" format=\"ascii\">\n{values}\n</DataArray>\n")
+    };
+    let data: String = names.iter().zip(&data).map(array).collect();
+    format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n\
+         <Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n\
+         <PointData Scalars=\"{numbered}\">\n\
+         <DataArray type=\"Int32\" Name=\"{numbered}\" format=\"ascii\">\n{number}\n</DataArray>\n\
+         {data}\
+         </PointData>\n\
+         <Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n{points}</DataArray>\n</Points>\n\
+         <Lines>\n\
+         <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n{connectivity}\n</DataArray>\n\
+         <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n{offsets}\n</DataArray>\n\
+         </Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n",
+        lines.len()
+    )
+}

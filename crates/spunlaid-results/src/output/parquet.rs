@@ -1,0 +1,181 @@
+//! Writes Parquet tables in groups of rows.
+
+use crate::Failure;
+use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as PhysicalType};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::Type;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A column of a table.
+#[derive(Clone, Debug)]
+pub(super) struct Column {
+    /// Its name with the unit.
+    pub(super) name: String,
+    pub(super) holds: Holds,
+}
+
+/// The values of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Holds {
+    /// Whole numbers.
+    Whole,
+    /// Words.
+    Text,
+    /// Numbers, which may be NaN.
+    Number,
+    /// Finite numbers; other values are missing.
+    Optional,
+}
+
+/// A table that is being written. All columns must have the same number of rows when
+/// [`Parquet::flush_when_full`] or [`Parquet::finish`] is called.
+pub(super) struct Parquet {
+    /// Its final path.
+    path: PathBuf,
+    writer: SerializedFileWriter<BufWriter<File>>,
+    columns: Vec<Gathered>,
+    group: usize,
+    /// Number of rows since the last group.
+    rows: usize,
+}
+
+/// The values of a column since the last group of rows.
+enum Gathered {
+    Whole(Vec<i64>),
+    Text(Vec<ByteArray>),
+    Number(Vec<f64>),
+    /// The known values, and for each row 1 if its value is known.
+    Optional(Vec<f64>, Vec<i16>),
+}
+
+impl Parquet {
+    /// * `now`, `later` – present and final path of the table
+    /// * `group` – number of rows in a group
+    pub(super) fn create(
+        (now, later): (PathBuf, PathBuf),
+        columns: &[Column],
+        group: usize,
+    ) -> Result<Self, Failure> {
+        let path = later;
+        let file = File::create(now).map_err(Failure::unwritable(&path))?;
+        let field = |column: &Column| {
+            let (physical, repetition) = match column.holds {
+                Holds::Whole => (PhysicalType::INT64, Repetition::REQUIRED),
+                Holds::Text => (PhysicalType::BYTE_ARRAY, Repetition::REQUIRED),
+                Holds::Number => (PhysicalType::DOUBLE, Repetition::REQUIRED),
+                Holds::Optional => (PhysicalType::DOUBLE, Repetition::OPTIONAL),
+            };
+            let field = Type::primitive_type_builder(&column.name, physical);
+            let logical = (column.holds == Holds::Text).then_some(LogicalType::String);
+            field.with_repetition(repetition).with_logical_type(logical).build().map(Arc::new)
+        };
+        let fields = columns.iter().map(field).collect::<Result<Vec<_>, _>>();
+        let writer = fields
+            .and_then(|fields| Type::group_type_builder("spunlaid").with_fields(fields).build())
+            .and_then(|schema| {
+                let properties = WriterProperties::builder()
+                    .set_compression(Compression::SNAPPY)
+                    .set_dictionary_enabled(false)
+                    .set_encoding(Encoding::PLAIN)
+                    .set_created_by(concat!("spunlaid ", env!("CARGO_PKG_VERSION")).to_owned())
+                    .build();
+                SerializedFileWriter::new(BufWriter::new(file), Arc::new(schema), Arc::new(properties))
+            })
+            .map_err(|error| Failure::table(&path, error))?;
+        let empty = |column: &Column| match column.holds {
+            Holds::Whole => Gathered::Whole(Vec::new()),
+            Holds::Text => Gathered::Text(Vec::new()),
+            Holds::Number => Gathered::Number(Vec::new()),
+            Holds::Optional => Gathered::Optional(Vec::new(), Vec::new()),
+        };
+        Ok(Self { path, writer, columns: columns.iter().map(empty).collect(), group, rows: 0 })
+    }
+
+    /// Adds values to a column of whole numbers.
+    pub(super) fn extend_whole(&mut self, column: usize, values: impl IntoIterator<Item = i64>) {
+        if let Some(Gathered::Whole(gathered)) = self.columns.get_mut(column) {
+            gathered.extend(values);
+            self.rows = gathered.len();
+        }
+    }
+
+    /// Adds a word to a column of words.
+    pub(super) fn push_text(&mut self, column: usize, word: &str) {
+        if let Some(Gathered::Text(gathered)) = self.columns.get_mut(column) {
+            gathered.push(word.into());
+        }
+    }
+
+    /// Adds values to a column of numbers.
+    pub(super) fn extend(&mut self, column: usize, values: impl IntoIterator<Item = f64>) {
+        match self.columns.get_mut(column) {
+            Some(Gathered::Number(gathered)) => {
+                gathered.extend(values);
+                self.rows = gathered.len();
+            }
+            Some(Gathered::Optional(gathered, known)) => {
+                for value in values {
+                    gathered.extend(value.is_finite().then_some(value));
+                    known.push(i16::from(value.is_finite()));
+                }
+            }
+            Some(Gathered::Whole(_) | Gathered::Text(_)) | None => {}
+        }
+    }
+
+    /// Writes the rows if they fill a group.
+    pub(super) fn flush_when_full(&mut self) -> Result<(), Failure> {
+        if self.rows >= self.group { self.flush() } else { Ok(()) }
+    }
+
+    /// Writes the remaining rows and returns the file.
+    pub(super) fn finish(mut self) -> Result<File, Failure> {
+        self.flush()?;
+        let Self { path, writer, .. } = self;
+        let file = writer.into_inner().map_err(|error| Failure::table(&path, error))?;
+        file.into_inner().map_err(|error| Failure::unwritable(&path)(error.into_error()))
+    }
+
+    fn flush(&mut self) -> Result<(), Failure> {
+        if self.rows == 0 {
+            return Ok(());
+        }
+        self.write_group().map_err(|error| Failure::table(&self.path, error))?;
+        for gathered in &mut self.columns {
+            match gathered {
+                Gathered::Whole(values) => values.clear(),
+                Gathered::Text(values) => values.clear(),
+                Gathered::Number(values) => values.clear(),
+                Gathered::Optional(values, known) => {
+                    values.clear();
+                    known.clear();
+                }
+            }
+        }
+        self.rows = 0;
+        Ok(())
+    }
+
+    fn write_group(&mut self) -> Result<(), ParquetError> {
+        let mut group = self.writer.next_row_group()?;
+        for gathered in &self.columns {
+            let Some(mut column) = group.next_column()? else { break };
+            match gathered {
+                Gathered::Whole(values) => column.typed::<Int64Type>().write_batch(values, None, None)?,
+                Gathered::Text(values) => column.typed::<ByteArrayType>().write_batch(values, None, None)?,
+                Gathered::Number(values) => column.typed::<DoubleType>().write_batch(values, None, None)?,
+                Gathered::Optional(values, known) => {
+                    column.typed::<DoubleType>().write_batch(values, Some(known), None)?
+                }
+            };
+            column.close()?;
+        }
+        group.close().map(drop)
+    }
+}

@@ -1,0 +1,128 @@
+//! `results.json`: the points with their results, and the ranking.
+
+use super::super::folder::Staging;
+use super::super::summary::InOrder;
+use super::columns::{Value, values};
+use crate::Failure;
+use serde::Serialize;
+use serde_json::Value as Json;
+use spunlaid::study::{Effect, MEASURES, PointResults, Ranking, Rankings, Study};
+use std::fs::File;
+use std::io::{BufWriter, Write};
+
+/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
+const SCHEMA_VERSION: u32 = 1;
+
+#[derive(Serialize)]
+struct Point {
+    point: usize,
+    seed: u64,
+    inputs: InOrder<Json>,
+    n: u64,
+    lost: u64,
+    results: InOrder<Mean>,
+}
+
+#[derive(Serialize)]
+struct Mean {
+    mean: f64,
+    standard_error: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct RankingOf {
+    /// Share of the variation between points that straight lines explain.
+    explained: Option<f64>,
+    effects: Vec<EffectOf>,
+}
+
+#[derive(Serialize)]
+struct EffectOf {
+    factor: &'static str,
+    from: Json,
+    to: Json,
+    change: f64,
+    /// Half the width of the 95 % interval.
+    half_width: Option<f64>,
+}
+
+/// Writes `results.json`, numbers in SI units, a line per point. It is written as it is made, so that memory does not
+/// grow with the number of points.
+pub fn write_json(
+    staging: &Staging<'_>,
+    study: &Study,
+    results: &[PointResults],
+    rankings: &Rankings,
+) -> Result<(), Failure> {
+    let (now, later) = staging.place("results.json");
+    let file = File::create(now).map_err(Failure::unwritable(&later))?;
+    let mut out = BufWriter::new(file);
+    let written = document(&mut out, study, results, rankings).and_then(|()| out.flush());
+    written.map_err(Failure::unwritable(&later))
+}
+
+fn document(
+    out: &mut impl Write,
+    study: &Study,
+    results: &[PointResults],
+    rankings: &Rankings,
+) -> std::io::Result<()> {
+    let ranking = |of: &Ranking| {
+        let explained = Some(of.explained).filter(|share| share.is_finite());
+        let effects = of.effects.iter().map(|effect| effect_of(study, effect)).collect();
+        (MEASURES[of.measure].column.to_owned(), RankingOf { explained, effects })
+    };
+    // By the columns of the results; empty if the factors cannot be ranked.
+    let ranking = InOrder(rankings.of_measures.iter().map(ranking).collect());
+    let refusal = rankings.refusal.as_ref().map(ToString::to_string);
+    let (version, design, common) = (env!("CARGO_PKG_VERSION"), study.design.name(), study.common_phases);
+    writeln!(out, "{{\n\"schema_version\": {SCHEMA_VERSION},\n\"spunlaid_version\": \"{version}\",")?;
+    write!(out, "\"design\": \"{design}\",\n\"common_phases\": {common},\n\"points\": [")?;
+    for (index, of) in results.iter().enumerate() {
+        out.write_all(if index == 0 { b"\n" } else { b",\n" })?;
+        serde_json::to_writer(&mut *out, &point(study, index, of))?;
+    }
+    out.write_all(b"\n],\n\"ranking\": ")?;
+    serde_json::to_writer(&mut *out, &ranking)?;
+    out.write_all(b",\n\"refusal\": ")?;
+    serde_json::to_writer(&mut *out, &refusal)?;
+    out.write_all(b"\n}\n")
+}
+
+fn point(study: &Study, index: usize, of: &PointResults) -> Point {
+    let inputs = study.inputs().zip(values(study, index));
+    let inputs = inputs.map(|(input, value)| (input.column(), plain(value))).collect();
+    let result = |i: usize| {
+        let mean = Mean { mean: of.mean[i], standard_error: of.standard_error(i) };
+        (MEASURES[i].column.to_owned(), mean)
+    };
+    let results = (0..MEASURES.len()).filter(|&i| of.mean[i].is_finite()).map(result).collect();
+    Point {
+        point: index + 1,
+        seed: study.points[index].case.run.seed,
+        inputs: InOrder(inputs),
+        n: of.n,
+        lost: of.lost,
+        results: InOrder(results),
+    }
+}
+
+fn effect_of(study: &Study, effect: &Effect) -> EffectOf {
+    let factor = &study.factors[effect.factor];
+    let end = |value: f64| factor.input().word(value).map_or_else(|| value.into(), Json::from);
+    EffectOf {
+        factor: factor.key,
+        from: end(effect.from),
+        to: end(effect.to),
+        change: effect.change,
+        half_width: effect.half_width,
+    }
+}
+
+fn plain(value: Value) -> Json {
+    match value {
+        Value::Whole(value) => value.into(),
+        Value::Number(value) => value.into(),
+        Value::Word(word) => word.into(),
+    }
+}

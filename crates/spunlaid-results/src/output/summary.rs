@@ -1,0 +1,186 @@
+//! `summary.json`: all results of a run.
+
+use serde::{Serialize, Serializer};
+use serde_json::Value as Json;
+use spunlaid::case::Case;
+use spunlaid::case::keys::{self, Content, Key, Value};
+use spunlaid::ensemble::{Number, Results, StepCheck};
+use spunlaid::observe::Over;
+use spunlaid::statistics::Estimate;
+use spunlaid::units::Dimension;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
+const SCHEMA_VERSION: u32 = 2;
+
+/// The content of `summary.json` of a run.
+#[derive(Debug, Serialize)]
+pub struct Summary<'a> {
+    schema_version: u32,
+    spunlaid_version: &'static str,
+    case: InOrder<InOrder<Json>>,
+    elements: usize,
+    steps: u64,
+    replicates: u64,
+    /// `end_node`, `fibre`, `energy`, `laydown`: the measures by group.
+    #[serde(flatten)]
+    measures: GroupSummary<'a>,
+    /// Null if the run is too short for it, or if the fibres do not move across the flow.
+    step_check: Option<StepCheckSummary<'a>>,
+    performance: Performance,
+    notes: Vec<String>,
+}
+
+/// Change of the free end's motion from half the time step to the step of the run, in the same turbulence.
+#[derive(Debug, Serialize)]
+struct StepCheckSummary<'a> {
+    /// Time from the start over which both are compared.
+    duration_s: f64,
+    /// Computing time as a share of the run, counted in steps.
+    share_of_run: f64,
+    /// Rms distance between the two paths, divided by the amplitude.
+    path_difference: NumberSummary<'a>,
+    /// Relative change of the amplitude.
+    amplitude_difference: NumberSummary<'a>,
+}
+
+/// A result over the replicates: mean, standard error and the values of the replicates. Some results also have a
+/// median or a largest value, which then represents all replicates.
+#[derive(Debug, Serialize)]
+struct NumberSummary<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    median: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    largest: Option<f64>,
+    mean: f64,
+    standard_error: Option<f64>,
+    values: &'a [f64],
+}
+
+/// The measures of a group by the names of their columns, and the groups within it by theirs.
+type GroupSummary<'a> = BTreeMap<&'static str, Member<'a>>;
+
+/// What a group consists of.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Member<'a> {
+    Number(NumberSummary<'a>),
+    Group(GroupSummary<'a>),
+}
+
+/// The speed of the run. This is the only part that differs when a run is repeated.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Performance {
+    /// Wall-clock time of the flights [s].
+    pub wall_s: f64,
+    /// Number of threads.
+    pub threads: usize,
+    /// Number of steps of single elements.
+    pub element_steps: u64,
+    /// Time that one thread needs for one element and one step of one fibre.
+    pub ns_per_element_step: f64,
+    /// Name of the instruction set.
+    pub instruction_set: &'static str,
+}
+
+/// An object whose entries keep their order.
+#[derive(Debug)]
+pub struct InOrder<T>(pub Vec<(String, T)>);
+
+impl<T: Serialize> Serialize for InOrder<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+impl<'a> Summary<'a> {
+    /// Gathers everything.
+    pub fn new(
+        case: &Case,
+        results: &'a Results,
+        check: Option<&'a StepCheck>,
+        performance: Performance,
+        notes: Vec<String>,
+    ) -> Self {
+        let mut measures = GroupSummary::new();
+        for number in &results.numbers {
+            insert(&mut measures, number.measure.group.name, number);
+        }
+        Self {
+            schema_version: SCHEMA_VERSION,
+            spunlaid_version: env!("CARGO_PKG_VERSION"),
+            case: resolved(case),
+            elements: case.fibre.elements,
+            steps: case.run.steps,
+            replicates: case.run.replicates,
+            measures,
+            step_check: check.map(|check| StepCheckSummary {
+                duration_s: check.duration,
+                share_of_run: check.share_of_run,
+                path_difference: of_mean(&check.path),
+                amplitude_difference: of_mean(&check.amplitude),
+            }),
+            performance,
+            notes,
+        }
+    }
+
+    /// The text of the file.
+    pub fn to_json(&self) -> String {
+        super::json_text(self)
+    }
+}
+
+/// Puts a number into its group. The name of a group within another one has a point: `laydown.surrogate`.
+fn insert<'a>(into: &mut GroupSummary<'a>, group: &'static str, number: &'a Number) {
+    let (outer, inner) = group.split_once('.').map_or((group, None), |(outer, inner)| (outer, Some(inner)));
+    let member = into.entry(outer).or_insert_with(|| Member::Group(BTreeMap::new()));
+    let Member::Group(members) = member else { return };
+    match inner {
+        Some(inner) => insert(members, inner, number),
+        None => drop(members.insert(number.measure.column, Member::Number(summary_of(number)))),
+    }
+}
+
+fn summary_of(number: &Number) -> NumberSummary<'_> {
+    let over = |over| (number.measure.over_replicates == over).then(|| number.value());
+    NumberSummary { median: over(Over::Median), largest: over(Over::Largest), ..of_mean(&number.estimate) }
+}
+
+fn of_mean(estimate: &Estimate) -> NumberSummary<'_> {
+    let Estimate { mean, standard_error, values } = estimate;
+    NumberSummary { median: None, largest: None, mean: *mean, standard_error: *standard_error, values }
+}
+
+/// The resolved case: every key, with its SI unit in the name. A key without a meaning for the case is null. If the
+/// flow is not uniform, the numbers are averages along the fibre.
+pub fn resolved(case: &Case) -> InOrder<InOrder<Json>> {
+    let table = |name: &'static str| {
+        let entry = |key: &Key| {
+            let unit = key.dimension().map(Dimension::suffix).unwrap_or_default();
+            (format!("{}{unit}", key.short()), key.get(case).map_or(Json::Null, json))
+        };
+        let mut entries: Vec<(String, Json)> = keys::of_table(name).map(entry).collect();
+        if name == "air" {
+            entries.push(("flow".to_owned(), case.air.flow.name().into()));
+            entries.push(("records".to_owned(), case.air.records.len().into()));
+        }
+        (name.to_owned(), InOrder(entries))
+    };
+    InOrder(keys::TABLES.map(table).into())
+}
+
+/// A value as JSON. Files are given by their names without folders.
+fn json(value: Value) -> Json {
+    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    match value {
+        Value::Number(value) => value.into(),
+        Value::Whole(value) => value.into(),
+        Value::Text(text) => text.into(),
+        Value::Vector(v) => vec![v.x, v.y, v.z].into(),
+        Value::Content(Content::Spectrum(_)) => "measured".into(),
+        Value::Content(content) => content.paths().into_iter().map(name).collect(),
+        _ => Json::Null,
+    }
+}

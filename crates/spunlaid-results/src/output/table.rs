@@ -1,0 +1,54 @@
+//! The table of results on the terminal.
+
+use super::step_check::StepCheckWords;
+use crate::numbers::{number, rounded};
+use spunlaid::case::Case;
+use spunlaid::ensemble::{Number, Results, StepCheck};
+use spunlaid::observe::{Group, Over};
+use std::fmt::Write;
+
+/// The results of a run, with a heading for each group of measures and a row for each result.
+pub fn results(case: &Case, results: &Results) -> String {
+    let n = case.run.replicates;
+    let mut text = format!("mean ± standard error over {n} replicate{}\n", if n == 1 { "" } else { "s" });
+    let widest = results.numbers.iter().map(|number| number.measure.label.chars().count()).max().unwrap_or(0);
+    let mut heading: Option<Group> = None;
+    for one in &results.numbers {
+        let measure = one.measure;
+        if heading != Some(measure.group) {
+            let _ = writeln!(text, "{}", measure.group.title);
+            heading = Some(measure.group);
+        }
+        let row = format!("  {:<widest$}  {}", measure.label, value(one));
+        let _ = writeln!(text, "{} {}{}", row, measure.unit.shown, remark(measure.over_replicates, n));
+    }
+    text
+}
+
+/// What half the time step changes.
+pub fn step_check(check: &StepCheck, results: &Results) -> String {
+    let StepCheckWords { path, amplitude, extent, advice } = StepCheckWords::of(check, results);
+    format!(
+        "time step, compared with half of it in the same turbulence\n  Path of the free end differs by {path} of its amplitude\n  \
+         Amplitude differs by {amplitude}\n  Compared: {extent}\n  {advice}\n"
+    )
+}
+
+/// The mean and its error, aligned at the sign ±. A median or a largest value has no error.
+fn value(of: &Number) -> String {
+    let factor = of.measure.unit.per_si;
+    if of.measure.over_replicates != Over::Mean {
+        return format!("{:>10}", number(of.value() * factor));
+    }
+    let (mean, error) =
+        rounded(of.estimate.mean * factor, of.estimate.standard_error.map(|error| error * factor));
+    error.map_or_else(|| format!("{mean:>10}"), |error| format!("{mean:>10} ± {error}"))
+}
+
+fn remark(over: Over, replicates: u64) -> &'static str {
+    match over {
+        Over::Median if replicates > 1 => "  (median)",
+        Over::Largest if replicates > 1 => "  (largest)",
+        Over::Mean | Over::Median | Over::Largest => "",
+    }
+}

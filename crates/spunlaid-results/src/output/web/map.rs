@@ -1,0 +1,132 @@
+//! The map of the basis weight as array, table and picture.
+
+use super::MOST_CELLS;
+use crate::Failure;
+use crate::output::folder::Staging;
+use crate::output::parquet::{Column, Holds, Parquet};
+use spunlaid::web::Map;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+
+/// Number of rows in a row group.
+const ROWS: usize = 1 << 18;
+
+pub(super) fn write(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
+    write_array(staging, map)?;
+    if map.cells.len() > MOST_CELLS {
+        return Ok(());
+    }
+    staging.write(
+        "map.png",
+        picture(map).map_err(|reason| Failure::Figure { name: "map".to_owned(), reason })?,
+    )?;
+    table(staging, map)
+}
+
+/// `map.npy`.
+pub(super) fn write_array(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
+    let (now, later) = staging.place("map.npy");
+    File::create(now).and_then(|file| array(map, BufWriter::new(file))).map_err(Failure::unwritable(&later))
+}
+
+/// A NumPy array of 32-bit numbers, a row of the web after the other [kg/m²].
+fn array(map: &Map, mut to: impl Write) -> io::Result<()> {
+    let mut head =
+        format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}), }}", map.rows, map.columns);
+    // The numbers begin at a multiple of 64 bytes.
+    while !(10 + head.len() + 1).is_multiple_of(64) {
+        head.push(' ');
+    }
+    head.push('\n');
+    to.write_all(b"\x93NUMPY\x01\x00")?;
+    to.write_all(&(head.len() as u16).to_le_bytes())?;
+    to.write_all(head.as_bytes())?;
+    let weight = map.weight_of_quantum();
+    for row in 0..map.rows {
+        let numbers = map.row(row).iter().map(|quanta| (f64::from(*quanta) * weight) as f32);
+        to.write_all(&numbers.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())?;
+    }
+    to.flush()
+}
+
+/// `map.parquet`: a row for each cell, with its middle.
+fn table(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
+    let names = ["md_m", "cd_m", "basis_weight_kg_m2"];
+    let columns = names.map(|name| Column { name: name.to_owned(), holds: Holds::Number });
+    let mut writer = Parquet::create(staging.place("map.parquet"), &columns, ROWS)?;
+    let middle = |i: usize| (i as f64 + 0.5) * map.cell;
+    let weight = map.weight_of_quantum();
+    // All columns of a group of rows have as many values, and the first says how many.
+    for row in 0..map.rows {
+        writer.extend(0, (0..map.columns).map(|_| middle(row)));
+        writer.extend(1, (0..map.columns).map(middle));
+        writer.extend(2, map.row(row).iter().map(|quanta| f64::from(*quanta) * weight));
+        writer.flush_when_full()?;
+    }
+    writer.finish().map(drop)
+}
+
+/// A 16-bit grey picture of the web, lighter where there is less; the file tells the basis weight of black and white.
+fn picture(map: &Map) -> Result<Vec<u8>, String> {
+    let most = map.cells.iter().copied().max().unwrap_or(0).max(1);
+    let level = |quanta: u32| 65535 - (f64::from(quanta) / f64::from(most) * 65535.0).round() as u16;
+    let levels: Vec<u8> = map.cells.iter().flat_map(|quanta| level(*quanta).to_be_bytes()).collect();
+    let black = f64::from(most) * map.weight_of_quantum();
+    let words = [
+        (
+            "Description",
+            "Basis weight of a web; white is zero, black the value given, linear between".to_owned(),
+        ),
+        ("basis_weight_of_black_kg_m2", format!("{black:e}")),
+        ("cell_m", format!("{:e}", map.cell)),
+    ];
+    let per_metre = (1.0 / map.cell).round() as u32;
+    png([map.columns, map.rows], png::BitDepth::Sixteen, &levels, &words, Some(per_metre))
+}
+
+/// The web as on a light table, at most so many pixels either way: 8-bit grey, and the sides of a pixel [cells].
+pub fn light_table(map: &Map, most: usize) -> Result<(Vec<u8>, usize), String> {
+    let each = map.columns.max(map.rows).div_ceil(most).max(1);
+    let [width, height] = [map.columns, map.rows].map(|size| size / each);
+    let mut sums = vec![0u64; width * height];
+    for row in 0..height * each {
+        let into = &mut sums[row / each * width..][..width];
+        for (pixel, cells) in into.iter_mut().zip(map.row(row).chunks_exact(each)) {
+            *pixel += cells.iter().map(|quanta| u64::from(*quanta)).sum::<u64>();
+        }
+    }
+    let count = sums.len() as f64;
+    let mean = sums.iter().map(|sum| *sum as f64).sum::<f64>() / count;
+    let variance = sums.iter().map(|sum| (*sum as f64 - mean).powi(2)).sum::<f64>() / count;
+    // Three standard deviations either way from dark to light.
+    let deviation = variance.sqrt().max(1e-9 * mean).max(f64::MIN_POSITIVE);
+    let level = |sum: u64| (128.0 - (sum as f64 - mean) / deviation * 42.0).round().clamp(0.0, 255.0) as u8;
+    let levels: Vec<u8> = sums.into_iter().map(level).collect();
+    png([width, height], png::BitDepth::Eight, &levels, &[], None).map(|png| (png, each))
+}
+
+/// A grey picture.
+fn png(
+    [width, height]: [usize; 2],
+    depth: png::BitDepth,
+    levels: &[u8],
+    words: &[(&str, String)],
+    per_metre: Option<u32>,
+) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(depth);
+    encoder.set_compression(png::Compression::Fast);
+    if let Some(of) = per_metre {
+        encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: of, yppu: of, unit: png::Unit::Meter }));
+    }
+    let told = |error: png::EncodingError| error.to_string();
+    for (key, text) in words {
+        encoder.add_text_chunk((*key).to_owned(), text.clone()).map_err(told)?;
+    }
+    let mut writer = encoder.write_header().map_err(told)?;
+    writer.write_image_data(levels).map_err(told)?;
+    writer.finish().map_err(told)?;
+    Ok(bytes)
+}

@@ -1,0 +1,276 @@
+//! `summary.json`: all results of a web.
+
+use crate::figures::SEEN;
+use serde::Serialize;
+use spunlaid::scan;
+use spunlaid::statistics::Estimate;
+use spunlaid::web::{Clouds, Findings, Map, Web};
+
+/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
+const SCHEMA_VERSION: u32 = 1;
+
+/// The content of `summary.json` of a web.
+#[derive(Debug, Serialize)]
+pub struct Summary<'a> {
+    schema_version: u32,
+    spunlaid_version: &'static str,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    layers: &'a [Layer],
+    web: WebSummary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scan: Option<Scan<'a>>,
+    performance: Performance,
+    notes: &'a [String],
+}
+
+/// How a scan was read.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct Scan<'a> {
+    file: &'a str,
+    /// Grey level of the lamp without web.
+    white: Option<f64>,
+    mean_density: Option<f64>,
+    /// How much brighter the lamp was at its brightest than at its darkest place, before this was taken out.
+    shading: Option<f64>,
+    filled_pixels: usize,
+    saturated_pixels: usize,
+    lighter_pixels: usize,
+}
+
+/// What a layer was laid from.
+#[derive(Clone, Debug, Serialize)]
+pub struct Layer {
+    /// Its name.
+    pub name: String,
+    /// Line density of a filament [kg/m].
+    pub linear_density_kg_m: f64,
+    /// Speed of the filaments [m/s].
+    pub feed_speed_m_s: f64,
+    /// Speed of the belt [m/s].
+    pub belt_speed_m_s: f64,
+    /// Number of filaments.
+    pub filaments: u64,
+    /// Basis weight [kg/m²].
+    pub basis_weight_kg_m2: f64,
+    /// Of the surrogate, if the filaments were laid by one.
+    pub sigma_md_m: Option<f64>,
+    /// Spread in cross direction [m].
+    pub sigma_cd_m: Option<f64>,
+    /// Noise of the surrogate [m^-½].
+    pub noise_per_sqrt_m: Option<f64>,
+}
+
+/// The speed of the work. This is the only part that differs when it is repeated.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Performance {
+    /// Wall-clock time [s].
+    pub wall_s: f64,
+    /// Number of threads.
+    pub threads: usize,
+    /// Name of the instruction set.
+    pub instruction_set: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct WebSummary {
+    /// None if it is not known.
+    basis_weight_kg_m2: Option<f64>,
+    /// Cells in machine and in cross direction.
+    cells: [usize; 2],
+    cell_m: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fibre_length_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cut_off_kg: Option<f64>,
+    patches: Vec<Patch>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    orientation_md: Option<Number>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    md_cd_ratio: Option<f64>,
+    /// Share of the texture along the machine direction, ½ without orientation.
+    texture_md: Option<Number>,
+    cloudiness: Option<Cloudiness>,
+    clouds: Vec<Octave>,
+    sensitivities: Vec<Levers>,
+}
+
+#[derive(Debug, Default, Serialize)]
+struct Patch {
+    patch_m: f64,
+    cv: f64,
+    cv_standard_error: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_one_fibre: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_one_fibre_standard_error: Option<f64>,
+    /// Of the flown curves if a surrogate was laid, and the other way round.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_compared: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_compared_standard_error: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_straight_fibres: Option<f64>,
+    /// Of the noise of the camera alone, at most or as given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_noise: Option<f64>,
+    /// Share by which one more pixel of blur lowers the CV.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    blur_of_a_pixel: Option<f64>,
+}
+
+#[derive(Debug, Serialize)]
+struct Number {
+    mean: f64,
+    standard_error: Option<f64>,
+}
+
+#[derive(Debug, Serialize)]
+struct Cloudiness {
+    from_m: f64,
+    to_m: f64,
+    index: f64,
+    standard_error: Option<f64>,
+}
+
+/// The relative variance in waves of some lengths.
+#[derive(Debug, Serialize)]
+struct Octave {
+    from_m: f64,
+    to_m: f64,
+    variance: f64,
+    standard_error: Option<f64>,
+}
+
+/// Per cent of the CV for one per cent of a number.
+#[derive(Debug, Serialize)]
+struct Levers {
+    number: &'static str,
+    patch_m: f64,
+    elasticity: f64,
+    standard_error: Option<f64>,
+}
+
+impl WebSummary {
+    /// What any map says.
+    fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<Patch>) -> Self {
+        let cloudiness = clouds.map(|clouds| {
+            let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
+            Cloudiness { from_m: SEEN[0], to_m: SEEN[1], index, standard_error }
+        });
+        let octave = |([from_m, to_m], of): ([f64; 2], Estimate)| Octave {
+            from_m,
+            to_m,
+            variance: of.mean,
+            standard_error: of.standard_error,
+        };
+        Self {
+            basis_weight_kg_m2: Some(map.basis_weight()),
+            cells: [map.rows, map.columns],
+            cell_m: map.cell,
+            fibre_length_m: None,
+            cut_off_kg: None,
+            patches,
+            orientation_md: None,
+            md_cd_ratio: None,
+            texture_md: clouds.map(|clouds| Number::of(&clouds.texture_md())),
+            cloudiness,
+            clouds: clouds.into_iter().flat_map(Clouds::octaves).map(octave).collect(),
+            sensitivities: Vec::new(),
+        }
+    }
+}
+
+impl Number {
+    fn of(of: &Estimate) -> Self {
+        Self { mean: of.mean, standard_error: of.standard_error }
+    }
+}
+
+impl<'a> Summary<'a> {
+    /// Gathers everything.
+    pub fn new(
+        web: &Web,
+        of: &Findings,
+        layers: &'a [Layer],
+        performance: Performance,
+        notes: &'a [String],
+    ) -> Self {
+        let patches = of.patches.iter().map(|patch| Patch {
+            patch_m: patch.map.patch,
+            cv: patch.map.cv,
+            cv_standard_error: patch.map.standard_error,
+            cv_one_fibre: Some(patch.one_fibre.0),
+            cv_one_fibre_standard_error: Some(patch.one_fibre.1),
+            cv_compared: patch.compared.map(|of| of.0),
+            cv_compared_standard_error: patch.compared.map(|of| of.1),
+            cv_straight_fibres: Some(patch.straight_fibres),
+            ..Patch::default()
+        });
+        let levers = of.sensitivities.iter().flat_map(|sensitivity| {
+            let each = sensitivity.elasticity.iter().zip(&of.patches);
+            each.map(|(elasticity, patch)| Levers {
+                number: sensitivity.lever.name(),
+                patch_m: patch.map.patch,
+                elasticity: elasticity.mean,
+                standard_error: elasticity.standard_error,
+            })
+        });
+        Self {
+            schema_version: SCHEMA_VERSION,
+            spunlaid_version: env!("CARGO_PKG_VERSION"),
+            layers,
+            web: WebSummary {
+                fibre_length_m: Some(web.fibre_length()),
+                cut_off_kg: Some(of.laid.cut),
+                orientation_md: Some(Number::of(&of.orientation.cos_squared)),
+                md_cd_ratio: Some(of.orientation.md_cd_ratio()),
+                sensitivities: levers.collect(),
+                ..WebSummary::of_map(&of.laid.map, of.clouds.as_ref(), patches.collect())
+            },
+            scan: None,
+            performance,
+            notes,
+        }
+    }
+
+    /// Of a scanned web, which was read from a file.
+    pub fn of_scan(
+        file: &'a str,
+        of: &scan::Findings,
+        performance: Performance,
+        notes: &'a [String],
+    ) -> Self {
+        let patches = of.patches.iter().map(|patch| Patch {
+            patch_m: patch.unevenness.patch,
+            cv: patch.unevenness.cv,
+            cv_standard_error: patch.unevenness.standard_error,
+            cv_noise: Some(patch.noise),
+            blur_of_a_pixel: Some(patch.blur),
+            ..Patch::default()
+        });
+        let web = WebSummary::of_map(&of.map, of.clouds.as_ref(), patches.collect());
+        let basis_weight_kg_m2 = web.basis_weight_kg_m2.filter(|_| of.mean_known);
+        Self {
+            schema_version: SCHEMA_VERSION,
+            spunlaid_version: env!("CARGO_PKG_VERSION"),
+            layers: &[],
+            web: WebSummary { basis_weight_kg_m2, ..web },
+            scan: Some(Scan {
+                file,
+                white: of.white,
+                mean_density: of.density,
+                shading: of.shading,
+                filled_pixels: of.pixels.filled,
+                saturated_pixels: of.pixels.saturated,
+                lighter_pixels: of.pixels.lighter,
+            }),
+            performance,
+            notes,
+        }
+    }
+
+    /// The text of the file.
+    pub fn to_json(&self) -> String {
+        crate::output::json_text(self)
+    }
+}

@@ -1,0 +1,215 @@
+//! Writes `report.html` of the analysis of a velocity record.
+
+use super::rendered;
+use super::words::{count, time};
+use crate::numbers::{THIN, plus_minus, significant};
+use crate::output::analysis::{ResultRow, half_width, results};
+use askama::Template;
+use spunlaid::record::{Analysis, Interval, Record};
+use spunlaid::units::Dimension;
+use spunlaid_charts::Figure;
+
+/// Input of the report.
+#[derive(Clone, Copy, Debug)]
+pub struct AnalysisReport<'a> {
+    /// Name of the record: that of its file.
+    pub name: &'a str,
+    /// The record.
+    pub record: &'a Record,
+    /// What was found in it.
+    pub analysis: &'a Analysis,
+    /// The figures.
+    pub figures: &'a [Figure],
+    /// Notes about the reading of the record.
+    pub remarks: &'a [String],
+    /// The [air] of a case.
+    pub air: &'a str,
+}
+
+/// Values of the template `assets/analysis.html`. It escapes everything that is not marked as safe.
+#[derive(Template)]
+#[template(path = "analysis.html")]
+struct Page<'a> {
+    name: &'a str,
+    headline: String,
+    summary: String,
+    notes: Vec<String>,
+    remarks: &'a [String],
+    air_rows: Vec<ResultRow>,
+    components: Vec<(String, Vec<ResultRow>)>,
+    durations: String,
+    figures: &'a [Figure],
+    air: &'a str,
+    methods: Vec<(&'static str, String)>,
+    version: &'static str,
+}
+
+/// Makes the report as one HTML file.
+pub fn analysis_html(input: &AnalysisReport<'_>) -> String {
+    let of = input.analysis;
+    let (air_rows, components) = results(of);
+    let page = Page {
+        name: input.name,
+        headline: headline(of),
+        summary: summary(input.record, of),
+        notes: of.warnings.iter().map(ToString::to_string).collect(),
+        remarks: input.remarks,
+        air_rows,
+        components,
+        durations: durations(of),
+        figures: input.figures,
+        air: input.air,
+        methods: methods(of),
+        version: env!("CARGO_PKG_VERSION"),
+    };
+    rendered(&page)
+}
+
+/// `10.02 ± 0.04 m/s`; half the width of the interval follows the sign.
+fn around(of: &Interval, factor: f64, unit: &str) -> String {
+    format!("{}{THIN}{unit}", plus_minus(of.value * factor, Some(half_width(of) * factor)))
+}
+
+fn headline(of: &Analysis) -> String {
+    format!(
+        "The air flows at {} with a turbulence intensity of {} and a length scale of {}.",
+        around(&of.mean_velocity, 1.0, "m/s"),
+        around(&of.turbulence_intensity, 100.0, "%"),
+        around(&of.length_scale, 1e3, "mm"),
+    )
+}
+
+fn summary(record: &Record, of: &Analysis) -> String {
+    let names: Vec<&str> = of.components.iter().map(|c| c.name.as_str()).collect();
+    format!(
+        "From {}: {} of {} at {} over {}, {} integral times. The values after ± and the ranges in the tables are \
+         95{THIN}% confidence intervals.",
+        record.file,
+        count(of.samples as u64, "sample"),
+        names.join(", "),
+        Dimension::Frequency.pretty(1.0 / of.interval),
+        time(of.duration),
+        significant((of.duration / of.integral_time.value).round(), 3),
+    )
+}
+
+fn durations(of: &Analysis) -> String {
+    let long = |interval: &Interval| time(of.duration_for(interval, 0.05));
+    format!(
+        "Intervals shrink with the square root of the length of the record. An interval of ±{THIN}5{THIN}% needs a record of \
+         {} for the turbulence intensity, {} for the integral time and the length scale, and {} for the cut-off.",
+        long(&of.turbulence_intensity),
+        long(&of.integral_time),
+        long(&of.cutoff_frequency),
+    )
+}
+
+fn methods(of: &Analysis) -> Vec<(&'static str, String)> {
+    let Some(along) = of.components.first() else { return Vec::new() };
+    let (spectrum, flat) = (&along.spectrum, &along.flat);
+    let hertz = |f: f64| Dimension::Frequency.pretty_to(f, 3);
+    vec![
+        (
+            "Intervals",
+            format!(
+                "The record is cut into {} blocks, each many integral times long, and every result is computed again with \
+                 each block left out; the scatter of these gives the interval, by Student’s distribution (block jackknife). \
+                 For plateau and cut-off the number of independent values averaged, here {}, gives it.",
+                of.blocks,
+                flat.independent.round()
+            ),
+        ),
+        (
+            "Autocorrelation",
+            "The mean product of two fluctuations one lag apart, over the variance. The sum is divided by the number of pairs \
+             at that lag (the unbiased estimate)."
+                .to_owned(),
+        ),
+        (
+            "Integral time",
+            format!(
+                "The autocorrelation of {} is integrated by the trapezoidal rule {}, here a lag of {}. The option --integral \
+                 chooses the first zero, 1/e or a fixed lag. An integral to the first zero leaves out negative values \
+                 after it: for a flat spectrum it is 18{THIN}% too long.",
+                along.name,
+                of.integral.words(),
+                time(along.autocorrelation.limit)
+            ),
+        ),
+        (
+            "Spectrum",
+            format!(
+                "Welch’s method: {} of {}, {} window, overlapping by {}{THIN}%, about the mean of the whole record; one-sided, \
+                 so that its integral over frequency is the variance.",
+                count(spectrum.segments as u64, "segment"),
+                count(spectrum.segment as u64, "sample"),
+                spectrum.window.name(),
+                (100.0 * spectrum.overlap).round()
+            ),
+        ),
+        (
+            "Plateau and cut-off",
+            format!(
+                "The mean density up to {}. The cut-off is the variance over this plateau: a flat spectrum that ends at \
+                 the cut-off has the same variance and the same plateau. {}",
+                hertz(flat.until),
+                if flat.from < spectrum.step {
+                    "The record is too short for segments, so that the mean is that of the Fourier components of the \
+                     whole record, at least ten if they lie below a third of the cut-off; it is corrected by half of \
+                     what the spectra of an exponential correlation and of von Kármán have fallen there."
+                } else {
+                    "The mean ends at an eighth of the cut-off unless --flat-until gives another frequency. There most \
+                     spectra have begun to fall, which makes the plateau one to two per cent too low and the cut-off as \
+                     much too high."
+                }
+            ),
+        ),
+        (
+            "Length scale",
+            "Integral time times mean velocity, by Taylor’s hypothesis: the flow carries the turbulence past the probe \
+             faster than the turbulence changes."
+                .to_owned(),
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::{record_figures, record_sample};
+
+    fn page(name: &str, components: usize, samples: usize) -> String {
+        let (record, of) = record_sample::autoregression(components, samples);
+        let figures = record_figures(&record, &of);
+        let remarks = [format!("{name} remark")];
+        analysis_html(&AnalysisReport {
+            name,
+            record: &record,
+            analysis: &of,
+            figures: &figures,
+            remarks: &remarks,
+            air: "[air]\n",
+        })
+    }
+
+    #[test]
+    fn holds_what_it_should_and_asks_nothing_of_the_network() {
+        for (components, samples) in [(1, 64), (3, 20_000)] {
+            let page = page("wire", components, samples);
+            assert!(page.len() < 2_000_000 && !page.contains("NaN"), "{} bytes", page.len());
+            assert_eq!(page.matches("<svg").count(), 4);
+            for word in ["Mean velocity", "Cut-off frequency", "Flatness", "[air]", "Student"] {
+                assert!(page.contains(word), "{word}");
+            }
+            for word in ["src=\"", "href=\"http", "@import", "url(http", "<script src"] {
+                assert!(!page.contains(word), "{word}");
+            }
+        }
+    }
+
+    #[test]
+    fn escapes_what_the_user_wrote() {
+        let page = page("<script>alert('x')</script>", 1, 300);
+        assert!(!page.contains("<script>alert"));
+    }
+}

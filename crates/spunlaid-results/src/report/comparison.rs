@@ -1,0 +1,68 @@
+//! `report.html` of a comparison: a table for each pair of runs, and their curves in one picture each.
+
+use super::rendered;
+use crate::output::comparison::{Compared, Comparison};
+use askama::Template;
+use spunlaid_charts::Figure;
+
+/// Content of the report.
+#[derive(Clone, Copy, Debug)]
+pub struct ComparisonReport<'a> {
+    /// The comparisons.
+    pub comparisons: &'a [Comparison],
+    /// The figures.
+    pub figures: &'a [Figure],
+    /// Version of the program.
+    pub version: &'a str,
+}
+
+/// Content of `assets/comparison.html`, which escapes everything that is not marked safe.
+#[derive(Template)]
+#[template(path = "comparison.html")]
+struct Page<'a> {
+    title: String,
+    tables: Vec<Table<'a>>,
+    figures: &'a [Figure],
+    version: &'a str,
+}
+
+struct Table<'a> {
+    of: &'a Comparison,
+    rows: Vec<Row<'a>>,
+    beyond: usize,
+    all: usize,
+}
+
+struct Row<'a> {
+    name: &'a str,
+    unit: &'static str,
+    cells: [String; 4],
+    /// Whether the difference is within chance.
+    faint: bool,
+}
+
+fn row(of: &Compared) -> Row<'_> {
+    Row {
+        name: &of.label,
+        unit: of.unit,
+        cells: of.cells(),
+        faint: !of.difference.is_some_and(|difference| difference.is_beyond_chance()),
+    }
+}
+
+/// The report as one HTML file.
+pub fn comparison_html(input: &ComparisonReport<'_>) -> String {
+    let tables = input.comparisons.iter().map(|of| {
+        let (beyond, all) = of.beyond_chance();
+        Table { of, rows: of.measures.iter().map(row).collect(), beyond, all }
+    });
+    let first = input.comparisons.first().map_or("", |of| of.against.as_str());
+    let others: Vec<&str> = input.comparisons.iter().map(|of| of.run.as_str()).collect();
+    let page = Page {
+        title: format!("{} against {first}", others.join(", ")),
+        tables: tables.collect(),
+        figures: input.figures,
+        version: input.version,
+    };
+    rendered(&page)
+}

@@ -1,0 +1,66 @@
+//! `report.html`: one file that shows a run to whoever opens it, offline.
+//!
+//! ```text
+//! Results → words (headline, numbers), table (rows), frames (the moving fibre) → page (assets/report.html)
+//! ```
+
+mod analysis;
+mod belt;
+mod comparison;
+mod frames;
+mod page;
+mod paper;
+mod scan;
+mod study;
+mod table;
+#[cfg(test)]
+mod tests;
+mod web;
+mod words;
+
+pub use analysis::{AnalysisReport, analysis_html};
+pub use comparison::{ComparisonReport, comparison_html};
+pub use paper::{PaperReport, paper_html};
+pub use scan::{ScanReport, scan_html};
+pub use study::{StudyReport, study_html};
+pub use web::{WebReport, web_html};
+
+use crate::output::summary::Performance;
+use askama::Template;
+use spunlaid::case::Case;
+use spunlaid::ensemble::{Results, StepCheck};
+use spunlaid_charts::Figure;
+
+/// Everything the report shows.
+#[derive(Clone, Copy, Debug)]
+pub struct ReportInput<'a> {
+    /// What the run is called: the name of the case file.
+    pub name: &'a str,
+    /// The case.
+    pub case: &'a Case,
+    /// The resolved case as a case file.
+    pub case_toml: &'a str,
+    /// The results, with the trajectories that are to be seen moving.
+    pub results: &'a Results,
+    /// What half the time step changes, if it was computed.
+    pub step_check: Option<&'a StepCheck>,
+    /// The figures, see [`crate::figures::run_figures`].
+    pub figures: &'a [Figure],
+    /// Warnings and remarks for the reader.
+    pub notes: &'a [String],
+    /// What the run cost.
+    pub performance: Performance,
+    /// Version of the program.
+    pub version: &'a str,
+}
+
+/// The report as one HTML file of less than 6 MB.
+pub fn html(input: &ReportInput<'_>) -> String {
+    page::render(input)
+}
+
+/// A page as HTML.
+fn rendered(page: &impl Template) -> String {
+    // Writing to a string fails only where a value's own formatting does, and none here can.
+    page.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
+}

@@ -1,0 +1,69 @@
+//! The page of `spunlaid reproduce`: the paper's claims with evidence and verdict, its figures, its choices.
+
+use super::rendered;
+use askama::Template;
+use spunlaid::paper::{Claim, Verdict};
+use spunlaid_charts::Figure;
+
+/// Everything the page shows.
+#[derive(Clone, Copy, Debug)]
+pub struct PaperReport<'a> {
+    /// What the paper claims, and what was found.
+    pub claims: &'a [Claim],
+    /// The figures.
+    pub figures: &'a [Figure],
+    /// Name of a choice, then amplitude y, z and frequency y, z as text.
+    pub choices: &'a [(String, Vec<String>)],
+    /// How it was computed, in a sentence.
+    pub how: &'a str,
+    /// The case as a case file.
+    pub case_toml: &'a str,
+    /// Version of the program.
+    pub version: &'a str,
+}
+
+#[derive(Template)]
+#[template(path = "paper.html")]
+struct Page<'a> {
+    headline: String,
+    claims: Vec<Row<'a>>,
+    figures: &'a [Figure],
+    choices: &'a [(String, Vec<String>)],
+    how: &'a str,
+    case_toml: &'a str,
+    version: &'a str,
+}
+
+struct Row<'a> {
+    claim: &'a Claim,
+    class: &'static str,
+    verdict: &'static str,
+}
+
+/// The page as one HTML file.
+pub fn paper_html(input: &PaperReport<'_>) -> String {
+    let held = input.claims.iter().filter(|c| c.verdict == Verdict::Holds).count();
+    let headline = match input.claims.len() {
+        0 => "The paper’s figures, drawn anew".to_owned(),
+        all => format!("{held} of the paper’s {all} claims hold"),
+    };
+    let rows = input.claims.iter().map(|claim| Row {
+        claim,
+        class: match claim.verdict {
+            Verdict::Holds => "holds",
+            Verdict::Fails => "fails",
+            Verdict::Open => "open",
+        },
+        verdict: claim.verdict.name(),
+    });
+    let page = Page {
+        headline,
+        claims: rows.collect(),
+        figures: input.figures,
+        choices: input.choices,
+        how: input.how,
+        case_toml: input.case_toml,
+        version: input.version,
+    };
+    rendered(&page)
+}

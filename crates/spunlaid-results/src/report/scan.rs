@@ -1,0 +1,123 @@
+//! `report.html` of a scanned web: the web on a light table, how uneven it is, and the figures.
+
+use super::rendered;
+use super::web::{
+    File, Page, about_light_table, cost, headline, largest_clouds, light_table_data, metres, millimetres,
+    nearest, per_cent,
+};
+use crate::Failure;
+use crate::figures::SEEN;
+use crate::numbers::{THIN, plus_minus, significant};
+use crate::output::web::Performance;
+use spunlaid::scan::{Findings, PatchFindings};
+use spunlaid_charts::Figure;
+
+/// Content of the report.
+#[derive(Clone, Copy, Debug)]
+pub struct ScanReport<'a> {
+    /// What the scan is called.
+    pub name: &'a str,
+    /// Path of its file.
+    pub file: &'a str,
+    /// What was found.
+    pub findings: &'a Findings,
+    /// The figures.
+    pub figures: &'a [Figure],
+    /// Notes for the reader.
+    pub notes: &'a [String],
+    /// What it cost.
+    pub performance: Performance,
+}
+
+/// The report as one HTML file.
+pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
+    let of = input.findings;
+    let (data, pixel) = light_table_data(&of.map, None)?;
+    let seen = nearest(of.patches.iter().map(|patch| patch.unevenness.patch));
+    let weight = of.mean_known.then(|| of.map.basis_weight());
+    let page = Page {
+        command: "analyse",
+        name: input.name,
+        headline: headline(weight, seen.map(|i| &of.patches[i].unevenness)),
+        summary: format!(
+            "A scan of {} across and {} along the web.",
+            metres(of.map.columns as f64 * of.map.cell),
+            metres(of.map.rows as f64 * of.map.cell)
+        ),
+        notes: input.notes,
+        caption: about_light_table(pixel),
+        data,
+        fibres: false,
+        verdict: verdict(of),
+        heads: vec!["Patch", "CV", "95 % interval", "Noise of the camera", "Lost by one more pixel of blur"],
+        patches: of.patches.iter().map(row).collect(),
+        about_patches: "The noise of the camera is as it was given, and then taken out of the CV, or the most that it can be. Where one \
+                        more pixel of blur changes little, the blur of the camera has changed little too.",
+        lever_heads: Vec::new(),
+        levers: Vec::new(),
+        figures: input.figures,
+        file: File {
+            title: "The scan",
+            heads: &[],
+            rows: facts(input),
+            toml: "",
+            caption: "The map is in map.npy (kg/m², or parts of the mean where that is not known; a row of the web after the other), all \
+                      numbers in summary.json, beside this page.",
+        },
+        cost: cost(input.performance),
+        version: env!("CARGO_PKG_VERSION"),
+    };
+    Ok(rendered(&page))
+}
+
+fn row(of: &PatchFindings) -> Vec<String> {
+    let share = |share: f64| format!("{}{THIN}%", significant(100.0 * share, 2));
+    vec![
+        millimetres(of.unevenness.patch),
+        per_cent(of.unevenness.cv, of.unevenness.standard_error),
+        of.interval().map_or_else(
+            || "–".to_owned(),
+            |[low, high]| {
+                format!("{} to {}{THIN}%", significant(100.0 * low, 3), significant(100.0 * high, 3))
+            },
+        ),
+        share(of.noise),
+        share(of.blur),
+    ]
+}
+
+fn verdict(of: &Findings) -> Vec<String> {
+    let Some(clouds) = &of.clouds else { return Vec::new() };
+    let (index, error) = clouds.cloudiness(SEEN[0], SEEN[1]);
+    let texture = clouds.texture_md();
+    let mut sentences: Vec<String> = largest_clouds(clouds).into_iter().collect();
+    sentences.push(format!(
+        "Cloudiness index, wavelengths from {} to {}: {}.",
+        millimetres(SEEN[0]),
+        millimetres(SEEN[1]),
+        per_cent(index, error)
+    ));
+    sentences.push(format!(
+        "Texture along the machine direction: {}; ½ is no direction, 1 is all fine streaks along the machine direction, 0 all across.",
+        plus_minus(texture.mean, texture.standard_error)
+    ));
+    sentences
+}
+
+/// How the scan was read: a name and a value each.
+fn facts(input: &ScanReport<'_>) -> Vec<Vec<String>> {
+    let of = input.findings;
+    let mut facts = vec![
+        ("File", input.file.to_owned()),
+        ("Pixels", format!("{} × {} of {}", of.map.columns, of.map.rows, millimetres(of.map.cell))),
+    ];
+    facts.extend(of.white.map(|white| ("Grey level of the lamp without web", significant(white, 5))));
+    facts.extend(of.density.map(|density| ("Mean optical density ln(white/level)", significant(density, 3))));
+    facts.extend(of.shading.map(|share| {
+        (
+            "Shading that was taken out, brightest over darkest",
+            format!("{}{THIN}%", significant(100.0 * share, 2)),
+        )
+    }));
+    facts.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect()
+}

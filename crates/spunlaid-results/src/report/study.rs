@@ -1,0 +1,223 @@
+//! `report.html` of a study: question, ranking, figures and points. It does not depend on the time of computation.
+
+use super::rendered;
+use super::words::count;
+use crate::figures::name_of_key;
+use crate::numbers::{THIN, number};
+use crate::output::study::shown;
+use askama::Template;
+use spunlaid::study::{Design, Effect, PointResults, Ranking, Study, measure};
+use spunlaid_charts::Figure;
+
+/// Largest number of points that are listed.
+const LISTED: usize = 500;
+
+/// Content of the report.
+#[derive(Clone, Copy, Debug)]
+pub struct StudyReport<'a> {
+    /// Name of the study: the name of its file.
+    pub name: &'a str,
+    /// The study.
+    pub study: &'a Study,
+    /// Of every point.
+    pub results: &'a [PointResults],
+    /// Main effects; empty if the study cannot tell them.
+    pub rankings: &'a [Ranking],
+    /// Why there are no main effects.
+    pub refusal: Option<&'a str>,
+    /// The figures.
+    pub figures: &'a [Figure],
+    /// Warnings and remarks for the reader.
+    pub notes: &'a [String],
+    /// The study and its base case as files.
+    pub study_toml: &'a str,
+    /// The case that the study varies, as text.
+    pub case_toml: &'a str,
+    /// Version of the program.
+    pub version: &'a str,
+}
+
+/// Content of `assets/study.html`, which escapes everything that is not marked safe.
+#[derive(Template)]
+#[template(path = "study.html")]
+struct Page<'a> {
+    name: &'a str,
+    question: String,
+    summary: String,
+    phases: &'static str,
+    notes: &'a [String],
+    ranking_heads: Vec<String>,
+    rankings: Vec<RankingRow>,
+    refusal: Option<&'a str>,
+    explained: Vec<String>,
+    figures: &'a [Figure],
+    heads: Vec<String>,
+    rows: Vec<Row>,
+    unlisted: usize,
+    study_toml: &'a str,
+    case_toml: &'a str,
+    version: &'a str,
+}
+
+struct Row {
+    number: usize,
+    cells: Vec<String>,
+}
+
+struct RankingRow {
+    name: String,
+    range: String,
+    cells: Vec<Cell>,
+}
+
+struct Cell {
+    text: String,
+    /// Whether the interval contains zero.
+    faint: bool,
+}
+
+/// The report as one HTML file.
+pub fn study_html(input: &StudyReport<'_>) -> String {
+    let study = input.study;
+    let shown = if study.factors.len() > 1 { input.rankings } else { &[] };
+    let page = Page {
+        name: input.name,
+        question: question(study),
+        summary: summary(study, input.results),
+        phases: phases(study),
+        notes: input.notes,
+        ranking_heads: shown::measures(study).map(shown::head).to_vec(),
+        rankings: ranking_rows(study, shown),
+        refusal: input.refusal,
+        explained: explained(study, shown),
+        figures: input.figures,
+        heads: heads(study),
+        rows: rows(study, input.results),
+        unlisted: input.results.len().saturating_sub(LISTED),
+        study_toml: input.study_toml,
+        case_toml: input.case_toml,
+        version: input.version,
+    };
+    rendered(&page)
+}
+
+fn question(study: &Study) -> String {
+    let names: Vec<String> = study.factors.iter().map(|factor| name_of_key(factor.key)).collect();
+    let fed = study.points.first().is_some_and(|point| point.case.line.is_some());
+    let what = if fed { "laid fibre" } else { "fibre’s motion" };
+    match names.as_slice() {
+        [] => "How does the fibre move?".to_owned(),
+        [one] => format!("How does the {what} depend on the {one}?"),
+        [one, two] => format!("How does the {what} depend on the {one} and the {two}?"),
+        [first @ .., last] => {
+            format!("Which matters most for the {what}: the {} or the {last}?", first.join(", the "))
+        }
+    }
+}
+
+fn summary(study: &Study, results: &[PointResults]) -> String {
+    let how = match study.design {
+        Design::Grid => "every combination of values",
+        Design::OneAtATime => "the base case, and points in which one factor differs from it",
+        Design::Paired => "the first values of all lists, then the second values, and so on",
+        Design::LatinHypercube(_) => {
+            "a Latin hypercube, in which the range of each factor has as many slices as there are points, and each slice holds one point"
+        }
+        Design::Sobol(_) => "the first points of Sobol’s sequence, which fills all ranges evenly",
+    };
+    let fibres: u64 = results.iter().map(|point| point.n).sum();
+    let least = results.iter().map(|point| point.n).min().unwrap_or(0);
+    let most = results.iter().map(|point| point.n).max().unwrap_or(0);
+    let each = if least == most { least.to_string() } else { format!("{least} to {most}") };
+    let mut text = format!(
+        "{}: {how}. Each point has {}; the study has {} in total.",
+        count(results.len() as u64, "point"),
+        if most == 1 { "1 replicate".to_owned() } else { format!("{each} replicates") },
+        count(fibres, "fibre")
+    );
+    for link in &study.links {
+        let (name, formula) = (name_of_key(link.key), link.expression.text());
+        text += &format!(" The {name} follows from the others: {} = {formula}.", link.key);
+    }
+    let lost: u64 = results.iter().map(|point| point.lost).sum();
+    if lost > 0 {
+        text += &format!(
+            " {} lost, because the positions became infinite; all means leave them out.",
+            if lost == 1 { "1 fibre was".to_owned() } else { format!("{lost} fibres were") }
+        );
+    }
+    text
+}
+
+fn phases(study: &Study) -> &'static str {
+    if study.common_phases {
+        "Common phases: replicate 1 of every point has the same random phases of the turbulence, and likewise replicate 2 \
+         and so on. Differences between points are therefore more certain than their error bars suggest, while the \
+         errors of all points have a common part."
+    } else {
+        "Every point has its own random phases, so the points are independent."
+    }
+}
+
+fn heads(study: &Study) -> Vec<String> {
+    let inputs = study.inputs().map(|input| input.key.to_owned());
+    inputs.chain(shown::measures(study).map(shown::head)).chain(["n".to_owned()]).collect()
+}
+
+fn rows(study: &Study, results: &[PointResults]) -> Vec<Row> {
+    let row = |(index, point): (usize, &PointResults)| {
+        let values = study.points[index].values.iter().zip(study.inputs());
+        let inputs = values.map(|(value, input)| input.pretty(*value));
+        let results = shown::measures(study).map(|name| shown::cell(point, name));
+        Row { number: index + 1, cells: inputs.chain(results).chain([point.n.to_string()]).collect() }
+    };
+    results.iter().enumerate().take(LISTED).map(row).collect()
+}
+
+fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
+    let Some(first) = rankings.first() else {
+        return Vec::new();
+    };
+    let row = |effect: &Effect| {
+        let factor = &study.factors[effect.factor];
+        let [from, to] = [effect.from, effect.to].map(|value| factor.input().pretty(value));
+        RankingRow {
+            name: name_of_key(factor.key),
+            range: if factor.words.is_empty() {
+                format!("{from} to {to}")
+            } else {
+                format!("{to} instead of {from}")
+            },
+            cells: shown::measures(study).iter().map(|name| cell(rankings, name, effect)).collect(),
+        }
+    };
+    // The rows have the order of the effects on the amplitude.
+    first.effects.iter().map(row).collect()
+}
+
+fn ranking_of<'a>(rankings: &'a [Ranking], name: &str) -> Option<&'a Ranking> {
+    let (index, _) = measure(name)?;
+    rankings.iter().find(|ranking| ranking.measure == index)
+}
+
+fn cell(rankings: &[Ranking], name: &str, of: &Effect) -> Cell {
+    let ranking = ranking_of(rankings, name);
+    let effect = ranking.and_then(|ranking| ranking.effects.iter().find(|effect| effect.is_like(of)));
+    effect.map_or_else(
+        || Cell { text: "–".to_owned(), faint: true },
+        |effect| {
+            let faint = effect.half_width.is_none_or(|half| half.is_nan() || half >= effect.change.abs());
+            Cell { text: shown::in_unit(name, effect.change, effect.half_width), faint }
+        },
+    )
+}
+
+fn explained(study: &Study, rankings: &[Ranking]) -> Vec<String> {
+    let of = |name: &&str| {
+        ranking_of(rankings, name).filter(|ranking| ranking.explained.is_finite()).map_or_else(
+            || "–".to_owned(),
+            |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())),
+        )
+    };
+    shown::measures(study).iter().map(of).collect()
+}
