@@ -42,11 +42,13 @@ mod _spunlaid {
     #[pymodule_export]
     use super::record::analyse;
     #[pymodule_export]
-    use super::run::{Flown, fly};
+    use super::run::{Flown, fly, measures};
     #[pymodule_export]
     use super::state::flown_from;
     #[pymodule_export]
     use super::study::Study;
+    #[pymodule_export]
+    use super::table::read_table;
     use super::{Bound, PyModule, PyModuleMethods, PyResult};
 
     #[pymodule_init]

@@ -13,7 +13,7 @@ use spunlaid::ensemble::{
 use spunlaid::error::Error;
 use spunlaid::flight::LaidPoint;
 use spunlaid::lanes::{Isa, WIDTH};
-use spunlaid::observe::Measure;
+use spunlaid::observe::{MEASURES, Measure};
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
 use spunlaid_results::output::folder::{ENTRIES, Staging};
 use spunlaid_results::output::laid::{LaidTable, Spill};
@@ -284,4 +284,14 @@ fn described<'py>(py: Python<'py>, measure: &Measure) -> PyResult<Bound<'py, PyD
     of.set_item("unit", measure.unit.shown)?;
     of.set_item("per_si", measure.unit.per_si)?;
     Ok(of)
+}
+
+/// The measures that are numbers: a dict for each.
+#[pyfunction]
+pub(crate) fn measures(py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
+    let all = PyList::empty(py);
+    for measure in MEASURES {
+        all.append(described(py, measure)?)?;
+    }
+    Ok(all)
 }

@@ -149,7 +149,8 @@ pub(crate) fn number(value: &Bound<'_, PyAny>) -> PyResult<Option<Number>> {
         return Ok(Some(digits.map_or(Number::Float(f64::INFINITY), Number::Whole)));
     }
     // Numbers of NumPy; arrays with one element are meant too, but not longer ones.
-    let is_number = value.hasattr("dtype")? && value.getattr("ndim").is_ok_and(|n| n.extract::<usize>().is_ok_and(|n| n == 0));
+    let is_number = value.hasattr("dtype")?
+        && value.getattr("ndim").is_ok_and(|n| n.extract::<usize>().is_ok_and(|n| n == 0));
     Ok(if is_number { value.extract::<f64>().ok().map(Number::Float) } else { None })
 }
 

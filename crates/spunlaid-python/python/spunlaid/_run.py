@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
     from ._spunlaid import Case
 
-Array = "NDArray[np.float64]"
-
 
 class Measure(NamedTuple):
     """A number that is measured of every fibre, over the replicates; in SI units."""
