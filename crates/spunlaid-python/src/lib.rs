@@ -25,6 +25,8 @@ mod state;
 
 mod bundle;
 mod study;
+mod table;
+mod web;
 
 use pyo3::prelude::*;
 
@@ -49,6 +51,8 @@ mod _spunlaid {
     use super::study::Study;
     #[pymodule_export]
     use super::table::read_table;
+    #[pymodule_export]
+    use super::web::{LaidWeb, lay_web};
     use super::{Bound, PyModule, PyModuleMethods, PyResult};
 
     #[pymodule_init]

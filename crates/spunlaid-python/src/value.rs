@@ -4,6 +4,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyMapping, PyString};
 use spunlaid::case::keys::{self, Kind, Value};
+use spunlaid::input::WEB_KEYS;
 use spunlaid::units::Dimension;
 use spunlaid::vec3::Vec3;
 use std::path::PathBuf;
@@ -11,6 +12,24 @@ use std::path::PathBuf;
 /// Keys and values as overrides of a case file, in their order: `{"air.velocity": "20 m/s"}`, or `{"air": {"velocity":
 /// 20.0}}`. Numbers are in SI units; `None` takes a key out.
 pub(crate) fn overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, String)>> {
+    overrides_of(values, |name| keys::find(name).map(|key| key.kind))
+}
+
+/// The same for the file of a web; of a layer with its number, `layer.2.line.belt_speed`.
+pub(crate) fn web_overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, String)>> {
+    overrides_of(values, |name| {
+        let mut keys = WEB_KEYS.iter();
+        keys.find(|key| {
+            name.strip_suffix(key.name).is_some_and(|before| before.is_empty() || before.ends_with('.'))
+        })
+        .map(|key| key.kind)
+    })
+}
+
+fn overrides_of(
+    values: &Bound<'_, PyAny>,
+    kind: impl Fn(&str) -> Option<Kind>,
+) -> PyResult<Vec<(String, String)>> {
     let values = values.cast::<PyMapping>().map_err(|_| {
         let found = type_name(values);
         PyTypeError::new_err(format!(
@@ -25,12 +44,12 @@ pub(crate) fn overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, Stri
             Ok(table) if !name.contains('.') => {
                 for (key, value) in table.iter() {
                     let key = format!("{name}.{}", name_of(&key)?);
-                    let text = text_of(&key, &value)?;
+                    let text = text_of(&key, kind(&key), &value)?;
                     all.push((key, text));
                 }
             }
             _ => {
-                let text = text_of(&name, &value)?;
+                let text = text_of(&name, kind(&name), &value)?;
                 all.push((name, text));
             }
         }
@@ -52,8 +71,7 @@ fn name_of(name: &Bound<'_, PyAny>) -> PyResult<String> {
 }
 
 /// A value as it stands after `key =` in a case file.
-fn text_of(key: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
-    let kind = keys::find(key).map(|key| key.kind);
+fn text_of(key: &str, kind: Option<Kind>, value: &Bound<'_, PyAny>) -> PyResult<String> {
     if value.is_none() {
         return Ok("auto".to_owned());
     }
