@@ -1,5 +1,6 @@
 //! `Case`: a case file with changes, read and checked.
 
+use crate::merged::merged;
 use crate::value::{overrides, to_python};
 use crate::watched::guarded;
 use pyo3::exceptions::PyKeyError;
@@ -50,9 +51,11 @@ impl Case {
         path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// Text, name and changes, for a study of this case.
-    pub(crate) fn source(&self) -> (&str, &str, &[(String, String)]) {
-        (&self.text, &self.file, &self.changes)
+    /// Text and name of a case file with all changes, for a study of this case.
+    pub(crate) fn source(&self) -> (String, &str) {
+        let text =
+            if self.changes.is_empty() { self.text.to_string() } else { merged(&self.text, &self.changes) };
+        (text, &self.file)
     }
 }
 
@@ -69,9 +72,9 @@ impl Case {
 
     /// A case from the text of a case file (TOML). Files that it names are looked for beside `name`.
     #[classmethod]
-    #[pyo3(signature = (text, name = NAME.to_owned()))]
-    fn from_text(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str, name: String) -> PyResult<Self> {
-        Self::parsed(py, text.into(), name, Vec::new())
+    #[pyo3(signature = (text, name = "Case"))]
+    fn from_text(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+        Self::parsed(py, text.into(), name.to_owned(), Vec::new())
     }
 
     /// A case from a dict of its tables, {"fibre": {"diameter": 50e-6, ...}, ...}, or of full keys,

@@ -16,6 +16,7 @@ mod watched;
 
 mod case;
 mod keys;
+mod merged;
 mod record;
 
 mod flight;

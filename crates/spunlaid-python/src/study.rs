@@ -54,19 +54,15 @@ impl Study {
         replicates: Option<u64>,
         set: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let mut changed = set.map_or_else(|| Ok(Vec::new()), overrides)?;
+        let changed = set.map_or_else(|| Ok(Vec::new()), overrides)?;
         let (name, file) = match case {
             Some(case) => {
                 let text: String = study.extract()?;
-                let (case_text, case_name, own) = case.source();
-                // What the study sets replaces what the case changes.
-                let own = own.iter().filter(|(key, _)| !changed.iter().any(|(other, _)| other == key));
-                let own: Vec<_> = own.cloned().collect();
-                changed.splice(0..0, own);
+                let (case_text, case_name) = case.source();
                 let set = Overrides { values: &changed, word: "sweep:" };
                 let changes = StudyChanges { points, replicates, set };
                 let file = guarded(py, || {
-                    let named = (case_text.to_owned(), case_name.to_owned());
+                    let named = (case_text, case_name.to_owned());
                     Ok(parse_changed_study(&text, "study", &changes, |_| Ok(named))?)
                 })?;
                 ("study".to_owned(), file)

@@ -1,6 +1,6 @@
 //! `lay_web`: lays a web of many filaments, and `LaidWeb`, what is found of it.
 
-use crate::value::{web_overrides};
+use crate::value::web_overrides;
 use crate::watched::{Watch, guarded, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;

@@ -18,12 +18,12 @@ PACKAGE = Path(__file__).resolve().parents[1]
 
 def test_types_hold() -> None:
     mypy = pytest.importorskip("mypy.api")
-    out, errors, code = mypy.run(["--strict", "--ignore-missing-imports", str(PACKAGE / "python" / "spunlaid")])
+    out, errors, code = mypy.run(["--config-file", str(PACKAGE / "pyproject.toml"), str(PACKAGE / "python" / "spunlaid")])
     assert code == 0, out + errors
 
 
 def test_the_stub_has_what_the_module_has() -> None:
-    command = [sys.executable, "-m", "mypy.stubtest", "spunlaid._spunlaid", "--ignore-missing-stub"]
+    command = [sys.executable, "-m", "mypy.stubtest", "spunlaid._spunlaid", "--mypy-config-file", "pyproject.toml"]
     checked = subprocess.run(command, capture_output=True, text=True, cwd=PACKAGE)
     assert checked.returncode == 0, checked.stdout + checked.stderr
 

@@ -18,15 +18,15 @@ def shown(progress: Progress, label: str) -> Iterator[Callable[[int, int], objec
         return
     if progress is None:
         progress = "ipykernel" in sys.modules or bool(sys.stderr and sys.stderr.isatty())
-    bars = None
-    if progress:
-        with contextlib.suppress(ImportError):
-            from tqdm.auto import tqdm as bars
-    if bars is None:
+    try:
+        if not progress:
+            raise ImportError
+        from tqdm.auto import tqdm
+    except ImportError:
         yield None
         return
     # Short work shows nothing.
-    with bars(desc=label, total=100, unit="%", delay=0.5, leave=False, bar_format="{l_bar}{bar}| {elapsed}<{remaining}") as bar:
+    with tqdm(desc=label, total=100, unit="%", delay=0.5, leave=False, bar_format="{l_bar}{bar}| {elapsed}<{remaining}") as bar:
 
         def show(done: int, of: int) -> None:
             bar.update(round(100 * done / of, 1) - bar.n if of else 0)

@@ -2,17 +2,19 @@
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__all__: list[str]
 __version__: str
 
 _Floats = NDArray[np.float64]
 _Progress = Callable[[int, int], object] | None
 _Part = tuple[int, str, int, int, int]
 
+@final
 class Case:
     """A fibre, the air around it and how its flight is computed: a case file, read and checked, that can be run."""
 
@@ -35,7 +37,7 @@ class Case:
     def with_(self, values: Mapping[str, Any]) -> Case:
         """The same case with other values."""
 
-    def __getitem__(self, key: str) -> Any:
+    def __getitem__(self, key: str, /) -> Any:
         """The value of a key in SI units."""
 
     def to_dict(self) -> dict[str, dict[str, Any]]:
@@ -60,10 +62,11 @@ class Case:
     def step_limits(self) -> dict[str, float]:
         """The limits on the time step [s] and what sets them."""
 
+@final
 class Flight:
     """Fibres in flight, which you step."""
 
-    def __init__(self, case: Case, replicates: int | None = None) -> None: ...
+    def __new__(cls, case: Case, replicates: int | None = None) -> Flight: ...
     def step(self, duration: float) -> None:
         """Advances all fibres by a time [s], to the nearest whole step."""
 
@@ -104,6 +107,7 @@ class Flight:
     def energies(self) -> dict[str, _Floats]:
         """Energies and works now [J], a number for each fibre."""
 
+@final
 class Flown:
     """Results of a run."""
 
@@ -128,11 +132,12 @@ class Flown:
     def report(self) -> str: ...
     def save(self, path: str, force: bool) -> None: ...
 
+@final
 class Study:
     """A study: its points, its journal and its results."""
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         study: str,
         case: Case | None = None,
         out: str | None = None,
@@ -140,7 +145,7 @@ class Study:
         points: int | None = None,
         replicates: int | None = None,
         set: Mapping[str, Any] | None = None,  # noqa: A002
-    ) -> None: ...
+    ) -> Study: ...
     def __len__(self) -> int: ...
     def fly(self, threads: int | None = None, progress: _Progress = None) -> None: ...
     def begin_round(self, flights: int) -> int: ...
@@ -170,6 +175,7 @@ class Study:
     @property
     def measures(self) -> list[tuple[str, str, str, str]]: ...
 
+@final
 class LaidWeb:
     """What is found of a web."""
 

@@ -142,7 +142,8 @@ def sweep(
     """Flies a study: the same bits as `spunlaid sweep`, on any machine and any number of them.
 
     study: the path of a study file; or a dict with what such a file says, `{"case": case, "vary": {"air.velocity": [5, 10]},
-        "replicates": 8}`, where `case` is a Case, a dict or the path of a case file, and numbers are in SI units
+        "replicates": 8}`, where `case` is a Case, a dict or the path of a case file, numbers are in SI units, and the design
+        is a grid if it is left out
     client: a client of dask.distributed, whose workers then fly the fibres
     out: the folder for journal, tables, figures and report, as `spunlaid sweep` writes it; a study that was stopped goes
         on from there. Without it, results are kept in memory only
