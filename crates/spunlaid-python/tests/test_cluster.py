@@ -26,7 +26,7 @@ TABLES = ("results.csv", "results.parquet", "replicates.parquet", "results.json"
 def study() -> dict[str, object]:
     """Twelve points of 24 fibres, in two groups that cannot fly together."""
     case = Case.starter().with_(
-        {"run.duration": 0.2, "run.time_step": "20 us", "run.output_interval": "1 ms", "run.spin_up": 0}
+        {"run.duration": 0.1, "run.time_step": "10 us", "run.output_interval": "1 ms", "run.spin_up": 0}
     )
     vary = {"air.velocity": [5.0, 8.0, 10.0, 12.0, 15.0, 20.0], "fibre.element_length": ["50 mm", "25 mm"]}
     return {"case": case, "replicates": 23, "vary": vary}
@@ -137,7 +137,7 @@ def test_a_cancelled_sweep_leaves_no_work_behind(study: dict[str, object], clust
 def test_other_content_of_a_file_on_a_worker_is_seen(cluster: Any) -> None:
     from spunlaid import _spunlaid
 
-    study = _spunlaid.Study('case = "case.toml"\nreplicates = 1\n[vary]\n"air.velocity" = ["10 m/s"]\n', Case.starter())
+    study = _spunlaid.Study('case = "case.toml"\ndesign = "grid"\nreplicates = 1\n[vary]\n"air.velocity" = ["10 m/s"]\n', Case.starter())
     study.begin_round(1)
     ((point, text, checksum, first, last),) = study.bundle(0)
     with pytest.raises(spunlaid.ClusterError, match="another one on this machine"):
