@@ -42,8 +42,6 @@ pub(crate) enum Failure {
     NoSuchKey { pattern: String, nearest: Vec<&'static str> },
     /// The study has fewer points.
     NoSuchPoint { point: u64, points: u64 },
-    /// What fibres have laid cannot make a web.
-    NothingToLay { of: PathBuf, reason: String },
     /// The positions of fibres became infinite or NaN.
     FibresLost { lost: u64, of: u64, first: Vec<String> },
     /// The program panicked; the message has been printed.
@@ -77,7 +75,6 @@ impl Failure {
             | Self::TooManyRuns { .. }
             | Self::NoSuchFigure { .. }
             | Self::NoSuchKey { .. }
-            | Self::NothingToLay { .. }
             | Self::NoSuchPoint { .. } => 1,
             Self::NotWritten { .. } | Self::Unheard { .. } | Self::FibresLost { .. } | Self::Panicked => 2,
         }
@@ -100,6 +97,7 @@ impl From<Unwritten> for Failure {
     fn from(failure: Unwritten) -> Self {
         match failure {
             Unwritten::Simulation(error) => Self::Library(error),
+            Unwritten::NotARun { folder, reason } => Self::NotARun { folder, reason },
             failure => Self::Results(failure),
         }
     }
@@ -162,7 +160,6 @@ impl fmt::Display for Failure {
                  --pixel \"0.1 mm\"",
                 path.display()
             ),
-            Self::NothingToLay { of, reason } => write!(f, "{}: {reason}", of.display()),
             Self::TooManyRuns { runs, most } => {
                 write!(f, "{runs} runs are named, and at most {most} are compared at a time; name fewer")
             }
@@ -283,7 +280,7 @@ mod tests {
             Failure::NoSuchPoint { point: 3, points: 2 },
             Failure::NoPixel { path: path() },
             Failure::NotCompared { folder: path(), reason: "it holds no web".to_owned() },
-            Failure::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() },
+            Unwritten::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() }.into(),
             Error::Flight(FlightFault::Empty).into(),
             Error::Rejected(Vec::new()).into(),
             Error::from(JournalError::InUse { path: path() }).into(),

@@ -77,6 +77,14 @@ pub fn read_case<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result
     parse_case(&text, &path.display().to_string(), overrides)
 }
 
+/// Reads the text of a file of this library, which is no larger than [`LARGEST_FILE`].
+///
+/// # Errors
+/// If the file cannot be read, or is no UTF-8 text.
+pub fn read_text(path: &Path, kind: FileKind) -> Result<String, Error> {
+    Ok(file::read(path, kind)?)
+}
+
 /// Reads and checks the text of a case file. Messages call the file `name`.
 ///
 /// # Errors
