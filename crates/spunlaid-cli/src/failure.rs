@@ -42,8 +42,6 @@ pub(crate) enum Failure {
     NoSuchKey { pattern: String, nearest: Vec<&'static str> },
     /// The study has fewer points.
     NoSuchPoint { point: u64, points: u64 },
-    /// What fibres have laid cannot make a web.
-    NothingToLay { of: PathBuf, reason: String },
     /// A case that `live` cannot fly.
     NotFlown { name: String, why: Vec<String> },
     /// The page of `live` cannot be served.
@@ -81,7 +79,6 @@ impl Failure {
             | Self::TooManyRuns { .. }
             | Self::NoSuchFigure { .. }
             | Self::NoSuchKey { .. }
-            | Self::NothingToLay { .. }
             | Self::NotFlown { .. }
             | Self::NoSuchPoint { .. } => 1,
             Self::NotWritten { .. }
@@ -109,6 +106,7 @@ impl From<Unwritten> for Failure {
     fn from(failure: Unwritten) -> Self {
         match failure {
             Unwritten::Simulation(error) => Self::Library(error),
+            Unwritten::NotARun { folder, reason } => Self::NotARun { folder, reason },
             failure => Self::Results(failure),
         }
     }
@@ -181,7 +179,6 @@ impl fmt::Display for Failure {
                  --pixel \"0.1 mm\"",
                 path.display()
             ),
-            Self::NothingToLay { of, reason } => write!(f, "{}: {reason}", of.display()),
             Self::TooManyRuns { runs, most } => {
                 write!(f, "{runs} runs are named, and at most {most} are compared at a time; name fewer")
             }
@@ -302,8 +299,8 @@ mod tests {
             Failure::NoSuchPoint { point: 3, points: 2 },
             Failure::NoPixel { path: path() },
             Failure::NotCompared { folder: path(), reason: "it holds no web".to_owned() },
-            Failure::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() },
             Failure::NotFlown { name: "a.toml".to_owned(), why: Vec::new() },
+            Unwritten::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() }.into(),
             Error::Flight(FlightFault::Empty).into(),
             Error::Rejected(Vec::new()).into(),
             Error::from(JournalError::InUse { path: path() }).into(),

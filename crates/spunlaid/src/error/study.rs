@@ -24,6 +24,9 @@ pub enum StudyFault {
         "is a table of a case file; a study names its case, as in case = \"table1.toml\". To fly a single case, name the case itself"
     )]
     TableOfCase,
+    /// A study of a case and of a web at once.
+    #[error("stands beside web; a study varies a case or a web, keep one")]
+    CaseAndWeb,
     /// A study cannot vary or link this key.
     #[error("cannot be set by a study; {advice}")]
     NotVaried {

@@ -16,8 +16,9 @@ mod write;
 mod written;
 
 pub use study::{
-    MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
-    read_changed_study, read_study,
+    MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, WebPoint, WebStudy, WebStudyFile, differences,
+    parse_changed_study, parse_study, parse_web_study, read_changed_study, read_study, read_web_study,
+    varies_a_web,
 };
 pub use web::{
     LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebFile, WebKey, WebSpec, parse_web, read_web,
@@ -74,6 +75,14 @@ impl<'a> From<&'a Vec<(String, String)>> for Overrides<'a> {
 pub fn read_case<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<(Case, Vec<Note>), Error> {
     let text = file::read(path, FileKind::Case)?;
     parse_case(&text, &path.display().to_string(), overrides)
+}
+
+/// Reads the text of a file of this library, which is no larger than [`LARGEST_FILE`].
+///
+/// # Errors
+/// If the file cannot be read, or is no UTF-8 text.
+pub fn read_text(path: &Path, kind: FileKind) -> Result<String, Error> {
+    Ok(file::read(path, kind)?)
 }
 
 /// Reads and checks the text of a case file. Messages call the file `name`.

@@ -1,7 +1,7 @@
 //! [`Lanes`] in registers, with operators.
 
-use super::Lanes;
 use super::simd::{Register, Simd};
+use super::{Lanes, WIDTH};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 /// Eight numbers in registers, or several times eight.
@@ -73,6 +73,12 @@ impl<S: Register> Wide<S> {
     #[inline(always)]
     pub(crate) fn store(self) -> Lanes {
         self.0.store()
+    }
+
+    /// Writes the bits of the lanes in which `a < b` to the start of `into`, and returns their number.
+    #[inline(always)]
+    pub(crate) fn store_less(self, a: Self, b: Self, into: &mut [u64; WIDTH]) -> usize {
+        self.0.store_less(a.0, b.0, into)
     }
 }
 

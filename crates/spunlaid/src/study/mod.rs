@@ -14,6 +14,7 @@ mod effects;
 mod journal;
 mod measures;
 mod pack;
+mod rounds;
 mod run;
 mod sobol;
 
@@ -22,8 +23,9 @@ pub use design::{Design, Factor, Levels, Spacing};
 pub use effects::{Effect, Ranking, Rankings, Refusal, Term, rankings};
 pub use journal::{Found, Header, Journal};
 pub use measures::{Landing, Measured, Record, measure, measured};
-pub use pack::{Batch, fly_batches};
-pub use run::{PointResults, Progress, results_of_point, run};
+pub use pack::{Batch, Bundles, fly_batches};
+pub use rounds::{PointResults, Rounds, results_of_point};
+pub use run::{Progress, fly_bundle, run};
 
 use crate::case::Case;
 use crate::units::{Dimension, Expression};

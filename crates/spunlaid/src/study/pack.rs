@@ -77,6 +77,42 @@ impl Packing {
     }
 }
 
+/// Batches cut into bundles of whole flights, which can be flown apart from each other, on any machine.
+#[derive(Debug)]
+pub struct Bundles {
+    packing: Packing,
+    /// Number of flights of a bundle.
+    flights: usize,
+}
+
+impl Bundles {
+    /// * `flights` – number of flights of a bundle, at least one
+    pub fn of(points: &[Point], batches: &[Batch], flights: usize) -> Self {
+        Self { packing: Packing::new(points, batches), flights: flights.max(1) }
+    }
+
+    /// Number of bundles.
+    pub fn count(&self) -> usize {
+        self.packing.count.div_ceil(self.flights)
+    }
+
+    /// The batches of a bundle; none after the last bundle.
+    pub fn batches(&self, bundle: usize) -> Vec<Batch> {
+        let first = bundle.saturating_mul(self.flights);
+        let last = first.saturating_add(self.flights).min(self.packing.count);
+        let mut batches: Vec<Batch> = Vec::new();
+        for (point, replicate) in (first..last).flat_map(|flight| self.packing.jobs(flight)) {
+            match batches.last_mut() {
+                Some(batch) if batch.point == point && batch.replicates.end == replicate => {
+                    batch.replicates.end += 1;
+                }
+                _ => batches.push(Batch { point, replicates: replicate..replicate + 1 }),
+            }
+        }
+        batches
+    }
+}
+
 fn length(batch: &Batch) -> u64 {
     batch.replicates.end - batch.replicates.start
 }
@@ -185,6 +221,29 @@ mod tests {
             jobs.iter().all(|job| common(job) == common(&jobs[0]))
         };
         assert!((0..packing.count).all(in_group));
+    }
+
+    #[test]
+    fn bundles_hold_every_job_once_and_only_whole_flights() {
+        let points = points(&[5.0, 10.0, 20.0], &[0.05, 0.1]);
+        let batches: Vec<Batch> = (0..6).map(|point| Batch { point, replicates: 3..14 }).collect();
+        for flights in [1, 2, 3, 100] {
+            let bundles = Bundles::of(&points, &batches, flights);
+            // 33 jobs in 5 flights for each of the two meshes of eddies.
+            assert_eq!(bundles.count(), 10usize.div_ceil(flights));
+            let mut jobs = Vec::new();
+            for bundle in 0..bundles.count() {
+                let of = bundles.batches(bundle);
+                let here: u64 = of.iter().map(length).sum();
+                assert!(here <= 8 * flights as u64);
+                assert!(Packing::new(&points, &of).count <= flights, "a bundle flies in as many flights");
+                jobs.extend(of.iter().flat_map(|b| b.replicates.clone().map(|r| (b.point, r))));
+            }
+            jobs.sort_unstable();
+            let all: Vec<_> = (0..6).flat_map(|point| (3..14).map(move |r| (point, r))).collect();
+            assert_eq!(jobs, all);
+            assert!(bundles.batches(bundles.count()).is_empty());
+        }
     }
 
     #[test]

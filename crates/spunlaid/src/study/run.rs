@@ -1,13 +1,12 @@
-//! Flies the missing fibres of a study, and computes the statistics of its points.
+//! Flies the missing fibres of a study.
 
 use super::journal::Journal;
-use super::measures::{Landing, Record, measure, measured};
+use super::measures::{Landing, Record, measured};
 use super::pack::{Batch, Lost, fly_and_land};
-use super::{Replicates, Study};
+use super::rounds::Rounds;
+use super::{Point, Study};
 use crate::ensemble::{Computing, Keep, Trajectory};
 use crate::error::{Error, JournalError};
-use crate::observe::MEASURES;
-use crate::statistics::Estimate;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -28,32 +27,6 @@ pub struct Progress {
     pub steps: AtomicU64,
 }
 
-/// Statistics of a point over its replicates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointResults {
-    /// Fibres measured.
-    pub n: u64,
-    /// Fibres lost because their positions became infinite or NaN.
-    pub lost: u64,
-    /// Mean of each of the [`MEASURES`]; NaN without any fibre.
-    pub mean: [f64; MEASURES.len()],
-    /// Standard error of each mean; of no use from a single fibre. Kept without `Option`, which would take twice the
-    /// memory: a study has many points.
-    pub errors: [f64; MEASURES.len()],
-}
-
-impl PointResults {
-    /// Mean and standard error of a measure. None without a measure of this name.
-    pub fn of(&self, name: &str) -> Option<(f64, Option<f64>)> {
-        measure(name).map(|(index, _)| (self.mean[index], self.standard_error(index)))
-    }
-
-    /// Standard error of the mean of a measure, by its index into the [`MEASURES`]; `None` from a single fibre.
-    pub fn standard_error(&self, measure: usize) -> Option<f64> {
-        (self.n > 1).then(|| self.errors[measure])
-    }
-}
-
 /// Flies the fibres that the journal does not hold yet.
 ///
 /// With [`Replicates::until`], more replicates are flown in rounds. The decision for a point depends on its own
@@ -68,75 +41,44 @@ pub fn run(
     computing: Computing<'_>,
     progress: &Progress,
 ) -> Result<(), Error> {
-    let mut wanted = vec![study.replicates.at_least; study.points.len()];
-    let mut open = vec![!study.replicates.until.is_empty(); study.points.len()];
+    let mut rounds = Rounds::of(study);
     loop {
-        fly_missing(study, journal, &wanted, computing, progress)?;
-        let mut more = false;
-        for point in 0..study.points.len() {
-            if open[point] {
-                let results = results_of(&mut lock(journal), point, wanted[point])?;
-                let next = more_replicates(&study.replicates, &results, wanted[point]);
-                open[point] = next.is_some();
-                wanted[point] = next.unwrap_or(wanted[point]);
-                more |= open[point];
-            }
-        }
-        if !more {
+        fly_missing(study, journal, &rounds, computing, progress)?;
+        if !rounds.next(study, &mut lock(journal))? {
             return Ok(());
         }
     }
 }
 
-/// Statistics of a point over all its replicates.
+/// Flies a bundle of a study, wherever that is; the records are what [`run`] would add to the journal.
+///
+/// * `points` – those to which the bundle's batches refer
 ///
 /// # Errors
-/// When the journal cannot be read.
-pub fn results_of_point(journal: &mut Journal, point: usize) -> Result<PointResults, Error> {
-    results_of(journal, point, u64::MAX)
-}
-
-fn results_of(journal: &mut Journal, point: usize, replicates: u64) -> Result<PointResults, Error> {
-    let records = journal.records(point, replicates)?;
-    let measured: Vec<_> = records.iter().filter_map(|record| record.landing.measured()).collect();
-    let estimates: [Estimate; MEASURES.len()] =
-        std::array::from_fn(|i| Estimate::of(measured.iter().map(|values| values[i]).collect()));
-    Ok(PointResults {
-        n: measured.len() as u64,
-        lost: (records.len() - measured.len()) as u64,
-        mean: std::array::from_fn(|i| estimates[i].mean),
-        errors: std::array::from_fn(|i| estimates[i].standard_error.unwrap_or(f64::NAN)),
-    })
-}
-
-/// The number of replicates that a point needs instead of `flown`; `None` if these are enough.
-fn more_replicates(replicates: &Replicates, results: &PointResults, flown: u64) -> Option<u64> {
-    // A point that loses its fibres would lose more of them.
-    if flown >= replicates.at_most || results.lost > 0 && results.n < 2 {
-        return None;
-    }
-    let needed = |&(measure, fraction): &(usize, f64)| {
-        let error = results.standard_error(measure).unwrap_or(f64::INFINITY);
-        let allowed = fraction * results.mean[measure].abs();
-        if error <= allowed { 0.0 } else { results.n as f64 * (error / allowed).powi(2) }
-    };
-    let needed = replicates.until.iter().map(needed).fold(0.0, f64::max);
-    // An estimate from few fibres is rough, so the number at most doubles in a round.
-    (needed > 0.0).then(|| {
-        let most = flown.saturating_mul(2).min(replicates.at_most);
-        (needed.ceil() as u64).clamp((flown + 1).min(most), most)
-    })
+/// When the computation is stopped, and when a case cannot be flown. A lost fibre is a record.
+pub fn fly_bundle(
+    points: &[Point],
+    bundle: &[Batch],
+    computing: Computing<'_>,
+) -> Result<Vec<Record>, Error> {
+    let mut all = Vec::new();
+    let land = |trajectories, lost| Ok(records(trajectories, lost));
+    fly_and_land(points, bundle, Keep::NUMBERS, computing, land, |records| {
+        all.extend(records);
+        Ok::<(), Error>(())
+    })?;
+    Ok(all)
 }
 
 fn fly_missing(
     study: &Study,
     journal: &Mutex<Journal>,
-    wanted: &[u64],
+    rounds: &Rounds,
     computing: Computing<'_>,
     progress: &Progress,
 ) -> Result<(), Error> {
-    let batches = missing(&lock(journal), wanted);
-    let lacking = Lacking::new(study, wanted, &batches, progress);
+    let batches = rounds.missing(&lock(journal));
+    let lacking = Lacking::new(study, rounds.wanted(), &batches, progress);
     if batches.is_empty() {
         return Ok(());
     }
@@ -200,26 +142,6 @@ impl<F: FnMut()> Drop for OnDrop<F> {
     }
 }
 
-/// The missing replicates of every point, as ranges.
-fn missing(journal: &Journal, wanted: &[u64]) -> Vec<Batch> {
-    let mut batches = Vec::new();
-    for (point, &wanted) in wanted.iter().enumerate() {
-        let mut start = None;
-        for replicate in 0..=wanted {
-            let lacks = replicate < wanted && !journal.holds(point, replicate);
-            match (lacks, start) {
-                (true, None) => start = Some(replicate),
-                (false, Some(first)) => {
-                    batches.push(Batch { point, replicates: first..replicate });
-                    start = None;
-                }
-                _ => {}
-            }
-        }
-    }
-    batches
-}
-
 /// Number of fibres that each point still lacks.
 struct Lacking(Vec<AtomicU64>);
 
@@ -270,31 +192,4 @@ fn records(trajectories: Vec<(usize, Trajectory)>, lost: Vec<Lost>) -> Vec<Recor
 /// Locks the journal. A panic of another thread leaves it whole, because records are added one at a time.
 fn lock(journal: &Mutex<Journal>) -> MutexGuard<'_, Journal> {
     journal.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn replicates_grow_to_what_the_error_asks_for() {
-        let replicates = Replicates { at_least: 4, at_most: 100, until: vec![(0, 0.1)] };
-        let results = |n: u64, mean: f64, error: f64| PointResults {
-            n,
-            lost: 0,
-            mean: [mean; MEASURES.len()],
-            errors: [error; MEASURES.len()],
-        };
-        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.1), 4), None);
-        assert_eq!(more_replicates(&replicates, &results(4, -1.0, 0.1), 4), None);
-        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.12), 4), Some(6));
-        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.1000001), 4), Some(5));
-        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 5.0), 4), Some(8));
-        assert_eq!(more_replicates(&replicates, &results(4, 0.0, 5.0), 4), Some(8));
-        assert_eq!(more_replicates(&replicates, &results(80, 1.0, 5.0), 80), Some(100));
-        assert_eq!(more_replicates(&replicates, &results(100, 1.0, 5.0), 100), None);
-        assert_eq!(more_replicates(&replicates, &results(4, 0.0, 0.0), 4), None);
-        let nothing = PointResults { n: 0, lost: 4, ..results(0, f64::NAN, f64::NAN) };
-        assert_eq!(more_replicates(&replicates, &nothing, 4), None);
-    }
 }

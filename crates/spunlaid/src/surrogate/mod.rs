@@ -20,6 +20,7 @@ mod identify;
 mod paths;
 
 pub use identify::{Identified, Unidentified, identify};
+pub(crate) use paths::BLOCK as PATH_POINTS;
 pub use paths::{PathKey, Paths};
 
 use generator::{Correlations, Size};

@@ -8,7 +8,7 @@ use super::threads::each;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::{Error, LayingFault};
 use crate::lanes::{Isa, Lanes, WIDTH};
-use crate::surrogate::{PathKey, Paths};
+use crate::surrogate::{PATH_POINTS, PathKey, Paths};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::ops::Range;
@@ -42,7 +42,7 @@ const TOGETHER: usize = 8 * WIDTH;
 /// Longest piece of a path: of the smaller standard deviation, and of the length 1/A² in which the direction is forgotten.
 const LONGEST_PIECE: [f64; 2] = [0.06, 0.2];
 /// Points that are drawn at once.
-const BLOCK: usize = 65;
+const BLOCK: usize = PATH_POINTS + 1;
 /// Last word of the keys of the places of filaments, and of the choice of stretches. Paths and winds have others.
 const PLACES: u64 = 4;
 const STRETCHES: u64 = 5;
@@ -54,6 +54,11 @@ pub(super) trait Points {
     /// Fills `points` with the ends of at most so many pieces: the first is where the next piece begins, the others where
     /// pieces end. Returns the number of points.
     fn next(&mut self, pieces: usize, points: &mut [[Lanes; 2]]) -> usize;
+
+    /// The paths that they follow, if they are paths of the surrogate.
+    fn paths(&mut self) -> Option<&mut Paths> {
+        None
+    }
 }
 
 /// Paths of the surrogate.
@@ -65,16 +70,25 @@ struct Wandering {
 impl Points for Wandering {
     fn next(&mut self, pieces: usize, points: &mut [[Lanes; 2]]) -> usize {
         let count = points.len().min(pieces + 1);
-        let points = &mut points[..count];
-        match self.last {
+        let points = match self.last {
             Some(last) => {
                 points[0] = last;
-                self.paths.fill(&mut points[1..]);
+                self.paths.fill(&mut points[1..count]);
+                &points[..count]
             }
-            None => self.paths.fill(points),
-        }
+            // After these, the paths need new points whenever some are asked for.
+            None => {
+                let points = &mut points[..count.min(PATH_POINTS)];
+                self.paths.fill(points);
+                points
+            }
+        };
         self.last = points.last().copied();
-        count
+        points.len()
+    }
+
+    fn paths(&mut self) -> Option<&mut Paths> {
+        Some(&mut self.paths)
     }
 }
 
@@ -179,19 +193,19 @@ impl<'a> Plan<'a> {
         let reach = self.layer.fibres.reach() + 2.0 * web.sheet.cell;
         let first = ((low - reach) * per_cell).floor();
         strip.take(first as i64, ((high + reach) * per_cell - first).ceil() as usize + 1);
-        for start in which.clone().step_by(WIDTH) {
+        let pens = |start: usize| {
             let count = WIDTH.min(which.end - start);
-            let mut pens = Pens {
-                curves: count,
-                per_cell,
-                advance: self.layer.belt_ratio() * self.piece * per_cell,
-                parts: self.parts,
-                quanta: self.quanta,
-                at: self.start(web, start, count).map(|at| Lanes(at.0.map(|at| at * per_cell))),
-            };
-            pens.at[0] = Lanes(pens.at[0].0.map(|at| at - first));
-            self.walk(web, start, count, by, |points| {
-                by.isa.run(Draw { pens: &mut pens, strip, points });
+            let mut at = self.start(web, start, count).map(|at| Lanes(at.0.map(|at| at * per_cell)));
+            at[0] = Lanes(at[0].0.map(|at| at - first));
+            let advance = self.layer.belt_ratio() * self.piece * per_cell;
+            Pens { curves: count, per_cell, advance, parts: self.parts, quanta: self.quanta, at }
+        };
+        for start in which.clone().step_by(2 * WIDTH) {
+            let starts: Vec<usize> = (start..which.end).step_by(WIDTH).take(2).collect();
+            let mut pens: Vec<Pens> = starts.iter().map(|start| pens(*start)).collect();
+            let sets = starts.iter().zip(&pens).map(|(start, pens)| (*start, pens.curves)).collect();
+            self.walk_together(web, sets, by, |set, points| {
+                by.isa.run(Draw { pens: &mut pens[set], strip, points });
             })?;
         }
         Ok(())
@@ -216,17 +230,41 @@ impl<'a> Plan<'a> {
         by: Laying<'_>,
         mut take: impl FnMut(&[[Lanes; 2]]),
     ) -> Result<(), Error> {
+        self.walk_together(web, vec![(first, count)], by, |_, points| take(points))
+    }
+
+    /// [`Plan::walk`] for one or two sets of filaments at once.
+    ///
+    /// * `sets` – first filament and number of filaments of each
+    /// * `take` – is given the number of the set and its points
+    fn walk_together(
+        &self,
+        web: &Web,
+        sets: Vec<(usize, usize)>,
+        by: Laying<'_>,
+        mut take: impl FnMut(usize, &[[Lanes; 2]]),
+    ) -> Result<(), Error> {
         let mut points = [[Lanes::ZERO; 2]; BLOCK];
-        let mut curves = self.points(web, by.isa, first, count)?;
-        let mut left = self.pieces;
-        while left > 0 {
+        let curves = sets.iter().map(|(first, count)| self.points(web, by.isa, *first, *count));
+        let mut curves: Vec<Box<dyn Points>> = curves.collect::<Result<_, _>>()?;
+        let mut left = vec![self.pieces; sets.len()];
+        while left.iter().any(|left| *left > 0) {
             if by.stop.load(Ordering::Relaxed) {
                 return Err(Error::Interrupted);
             }
-            let given = curves.next(left, &mut points);
-            take(&points[..given]);
-            left -= given - 1;
-            by.laid.fetch_add(((given - 1) * count) as u64, Ordering::Relaxed);
+            if let [one, other] = &mut curves[..]
+                && let (Some(one), Some(other)) = (one.paths(), other.paths())
+            {
+                one.go_on_together(other);
+            }
+            for ((set, curves), left) in curves.iter_mut().enumerate().zip(&mut left) {
+                if *left > 0 {
+                    let given = curves.next(*left, &mut points);
+                    take(set, &points[..given]);
+                    *left -= given - 1;
+                    by.laid.fetch_add(((given - 1) * sets[set].1) as u64, Ordering::Relaxed);
+                }
+            }
         }
         Ok(())
     }

@@ -167,23 +167,16 @@ impl<S: Register> Ink<S> {
         let between = start + Wide::select_less(x.share, y.share, x.to, down);
         self.cell = start + (x.to + down);
         let sum = self.gathered + until_first;
-        let entries = entry(start, sum + shift).store();
+        let entries = entry(start, sum + shift);
         let sum = Wide::select_less(first, one, zero, sum) + (until_last - until_first);
-        let next_entries = entry(between, sum + shift).store();
+        let next_entries = entry(between, sum + shift);
         self.gathered = Wide::select_less(last, one, zero, sum) + (self.all - until_last);
-        let goes = Wide::select_less(first, one, one, zero);
-        let goes_on = Wide::select_less(last, one, one, zero);
-        let (goes, goes_on) = ((goes + shift).store(), (goes_on + shift).store());
-        let mut listed = self.listed;
-        for i in 0..WIDTH {
-            // An entry that is not wanted is written over by the next.
-            self.list[listed % LIST] = entries.0[i].to_bits();
-            listed += goes.0[i].to_bits() as u32 as usize;
-            self.list[listed % LIST] = next_entries.0[i].to_bits();
-            listed += goes_on.0[i].to_bits() as u32 as usize;
+        for (entries, share) in [(entries, first), (next_entries, last)] {
+            if let Some(free) = self.list.get_mut(self.listed..).and_then(<[u64]>::first_chunk_mut) {
+                self.listed += entries.store_less(share, one, free);
+            }
         }
-        self.listed = listed;
-        if listed > LIST - 2 * WIDTH {
+        if self.listed > LIST - 2 * WIDTH {
             self.add(strip);
         }
     }

@@ -62,7 +62,16 @@ impl Group {
 
 /// Label of a key with its letter: `Mean velocity *U*`.
 pub(super) fn label_of_key(key: &str) -> &str {
-    keys::find(key).map_or(key, |key| key.label)
+    let of_web = |key| match key {
+        "line.belt_speed" => "Belt speed",
+        "line.feed_speed" => "Feed speed",
+        "line.filaments_per_metre" => "Filaments per metre",
+        "laydown.sigma_md" => "Spread in machine direction",
+        "laydown.sigma_cd" => "Spread in cross direction",
+        "laydown.noise" => "Noise of the direction *A*",
+        other => other,
+    };
+    keys::find(key).map_or_else(|| of_web(key), |key| key.label)
 }
 
 /// Name of a key within a sentence: `mean velocity`.
@@ -82,8 +91,8 @@ pub fn name_of_key(key: &str) -> String {
 
 /// The axis of a factor.
 #[derive(Clone, Debug)]
-pub(super) struct Along {
-    pub(super) axis: Axis,
+pub(in crate::figures) struct Along {
+    pub(in crate::figures) axis: Axis,
     /// Converts SI units to the units of the axis.
     scale: f64,
     pub(super) unit: &'static str,
@@ -93,7 +102,7 @@ pub(super) struct Along {
 
 impl Along {
     /// * `base` – a word that comes before those of the factor
-    pub(super) fn new(factor: &Factor, base: Option<f64>) -> Self {
+    pub(in crate::figures) fn new(factor: &Factor, base: Option<f64>) -> Self {
         let mut words = if factor.words.is_empty() { Vec::new() } else { factor.levels() };
         if let Some(base) = base.filter(|base| !words.is_empty() && !words.contains(base)) {
             words.insert(0, base);
@@ -122,17 +131,17 @@ impl Along {
         Self::new(&study.factors[factor], base.map(|point| point.values[factor]))
     }
 
-    pub(super) fn place(&self, value: f64) -> f64 {
+    pub(in crate::figures) fn place(&self, value: f64) -> f64 {
         self.words.iter().position(|word| *word == value).map_or(value * self.scale, |place| place as f64)
     }
 
     /// Whether the values have an order and a distance, so that a line may join them.
-    pub(super) fn is_joined(&self) -> bool {
+    pub(in crate::figures) fn is_joined(&self) -> bool {
         self.words.is_empty()
     }
 
     /// How far the points of one of several series stand aside, so that those of a word do not hide each other.
-    pub(super) fn aside(&self, series: usize, of: usize) -> f64 {
+    pub(in crate::figures) fn aside(&self, series: usize, of: usize) -> f64 {
         if self.is_joined() { 0.0 } else { 0.5 * ((series as f64 + 0.5) / of as f64 - 0.5) }
     }
 }

@@ -2,9 +2,9 @@
 
 use super::super::entry::{Entry, in_order, kind};
 use super::super::values::{integer, number};
-use super::dimension;
+use super::Varied;
 use super::reader::Reader;
-use crate::case::keys::{Key, Value, nearest_word};
+use crate::case::keys::{Value, nearest_word};
 use crate::error::{Fault, StudyFault};
 use crate::study::{Design, Levels, Spacing};
 use toml::de::DeValue;
@@ -14,7 +14,7 @@ const MOST_VALUES: u64 = 10_000_000;
 
 impl<'a> Reader<'a> {
     /// The values of a factor; `None` if they cannot be read, after noting the problems.
-    pub(super) fn levels(&mut self, varied: &Key, entry: Entry<'a>, design: Design) -> Option<Levels> {
+    pub(super) fn levels(&mut self, varied: Varied, entry: Entry<'a>, design: Design) -> Option<Levels> {
         match entry.value {
             DeValue::Array(list) => {
                 let mut values = Vec::with_capacity(list.len());
@@ -35,8 +35,8 @@ impl<'a> Reader<'a> {
                 }
                 sound.then_some(Levels::List(values))
             }
-            DeValue::Table(_) if !varied.kind.words().is_empty() => {
-                self.reject(&entry, varied.name, StudyFault::WordsInRange { words: varied.kind.words() });
+            DeValue::Table(_) if !varied.words().is_empty() => {
+                self.reject(&entry, varied.name, StudyFault::WordsInRange { words: varied.words() });
                 None
             }
             DeValue::Table(_) => self.range(varied, entry, design),
@@ -50,8 +50,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn value(&mut self, varied: &Key, key: &str, entry: &Entry<'_>) -> Option<f64> {
-        let words = varied.kind.words();
+    fn value(&mut self, varied: Varied, key: &str, entry: &Entry<'_>) -> Option<f64> {
+        let words = varied.words();
         let read = match &entry.value {
             DeValue::String(word) if !words.is_empty() => {
                 words.iter().position(|one| one == word).map(|i| i as f64).ok_or_else(|| {
@@ -63,7 +63,7 @@ impl<'a> Reader<'a> {
                 let wanted = format!("one of the words {}", words.join(", "));
                 Err(Fault::WrongType { found: kind(value), wanted })
             }
-            value if !varied.is_whole() => number(dimension(varied), value)
+            value if !varied.is_whole() => number(varied.dimension(), value)
                 .and_then(|value| varied.kind.fault(&Value::Number(value)).map_or(Ok(value), Err)),
             DeValue::Integer(number) => match integer(number) {
                 Some(number) if (1..=1 << 50).contains(&number) => Ok(number as f64),
@@ -77,7 +77,7 @@ impl<'a> Reader<'a> {
         read.map_err(|fault| self.reject(entry, key, fault)).ok()
     }
 
-    fn range(&mut self, varied: &Key, entry: Entry<'a>, design: Design) -> Option<Levels> {
+    fn range(&mut self, varied: Varied, entry: Entry<'a>, design: Design) -> Option<Levels> {
         const KEYS: [&str; 4] = ["from", "to", "steps", "spacing"];
         let mut whole = entry;
         let DeValue::Table(table) = std::mem::replace(&mut whole.value, DeValue::Boolean(true)) else {

@@ -6,18 +6,21 @@ mod links;
 mod plan;
 mod points;
 mod reader;
+mod webs;
 mod write;
 
 pub use differences::differences;
 pub use points::StudyNote;
+pub use webs::{WebPoint, WebStudy, WebStudyFile, parse_web_study, read_web_study, varies_a_web};
 
 use super::data::DataFiles;
 use super::document::Document;
+use super::web::WebKey;
 use super::{Overrides, file, resolve};
 use crate::case::Remark;
-use crate::case::keys::{self, Key, Value};
+use crate::case::keys::{self, Key, Kind, Value};
 use crate::error::{Error, FileKind, Finding, Place};
-use crate::study::{Replicates, Study};
+use crate::study::{Factor, Levels, Replicates, Study};
 use crate::units::Dimension;
 use std::path::{Path, PathBuf};
 
@@ -147,6 +150,58 @@ pub fn parse_changed_study(
     Ok(StudyFile { study, notes, case_path: PathBuf::from(&case_name), case_text, text })
 }
 
+/// What a study needs to know of a key that it varies, of a case or of a web.
+#[derive(Clone, Copy)]
+struct Varied {
+    name: &'static str,
+    kind: &'static Kind,
+}
+
+impl Varied {
+    fn is_whole(self) -> bool {
+        matches!(self.kind, Kind::Whole(..))
+    }
+
+    fn words(self) -> Vec<&'static str> {
+        self.kind.words()
+    }
+
+    fn dimension(self) -> Dimension {
+        self.kind.dimension().unwrap_or(Dimension::Ratio)
+    }
+
+    /// A value in the form of a study file, without rounding.
+    fn exact(self, value: f64) -> String {
+        match self.words().get(value as usize) {
+            Some(word) => format!("\"{word}\""),
+            None if self.is_whole() => format!("{value:.0}"),
+            None => format!("\"{}\"", self.dimension().exact(value)),
+        }
+    }
+
+    fn factor(self, levels: Levels) -> Factor {
+        Factor {
+            key: self.name,
+            dimension: self.dimension(),
+            whole: self.is_whole(),
+            words: self.words(),
+            levels,
+        }
+    }
+}
+
+impl From<&'static Key> for Varied {
+    fn from(key: &'static Key) -> Self {
+        Self { name: key.name, kind: &key.kind }
+    }
+}
+
+impl From<&'static WebKey> for Varied {
+    fn from(key: &'static WebKey) -> Self {
+        Self { name: key.name, kind: &key.kind }
+    }
+}
+
 /// The key with this name, if a study may vary it.
 fn varied(name: &str) -> Option<&'static Key> {
     keys::find(name).filter(|key| key.varies)
@@ -168,15 +223,6 @@ fn level(key: &Key, value: &Value) -> Option<f64> {
 /// Physical dimension of a key's values.
 fn dimension(key: &Key) -> Dimension {
     key.dimension().unwrap_or(Dimension::Ratio)
-}
-
-/// A value in the form of a study file, without rounding.
-fn exact(key: &Key, value: f64) -> String {
-    match key.kind.words().get(value as usize) {
-        Some(word) => format!("\"{word}\""),
-        None if key.is_whole() => format!("{value:.0}"),
-        None => format!("\"{}\"", dimension(key).exact(value)),
-    }
 }
 
 /// Advice for a name that a study cannot vary.

@@ -8,7 +8,7 @@ use super::super::write::quoted;
 use super::super::{FORMAT_VERSION, Overrides};
 use super::reader::Reader;
 use super::{
-    MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, StudyChanges, dimension, level, links, numeric, varied,
+    MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, StudyChanges, Varied, level, links, numeric, varied,
 };
 use crate::case::keys::{self, Key, Kind, nearest_word};
 use crate::error::{Fault, Finding, StudyFault};
@@ -41,21 +41,8 @@ impl Plan {
 impl<'a> Reader<'a> {
     /// The name of the case; `None` if it is missing or the file is newer, after noting the problem.
     pub(super) fn case(&mut self) -> Option<String> {
-        if let Some(version) = self.entries.remove("version") {
-            let known = FORMAT_VERSION;
-            let number = match &version.value {
-                DeValue::Integer(number) => integer(number),
-                _ => None,
-            };
-            match number {
-                Some(number) if (1..=u64::from(known)).contains(&number) => {}
-                Some(number) if number > u64::from(known) => {
-                    self.problems.clear();
-                    self.reject(&version, "version", Fault::NewerVersion { known });
-                    return None;
-                }
-                _ => self.reject(&version, "version", Fault::OutOfRange { least: 1, most: u64::from(known) }),
-            }
+        if !self.version() {
+            return None;
         }
         let line = "case = \"table1.toml\" (the case to vary, beside this file)";
         let Some(entry) = self.entries.remove("case") else {
@@ -69,6 +56,27 @@ impl<'a> Reader<'a> {
                 None
             }
         }
+    }
+
+    /// Checks the version; false if the file is newer, after noting the problem.
+    pub(super) fn version(&mut self) -> bool {
+        if let Some(version) = self.entries.remove("version") {
+            let known = FORMAT_VERSION;
+            let number = match &version.value {
+                DeValue::Integer(number) => integer(number),
+                _ => None,
+            };
+            match number {
+                Some(number) if (1..=u64::from(known)).contains(&number) => {}
+                Some(number) if number > u64::from(known) => {
+                    self.problems.clear();
+                    self.reject(&version, "version", Fault::NewerVersion { known });
+                    return false;
+                }
+                _ => self.reject(&version, "version", Fault::OutOfRange { least: 1, most: u64::from(known) }),
+            }
+        }
+        true
     }
 
     /// The keys that are the same at all points, with their values as text: those of the file, and then those asked for
@@ -138,18 +146,21 @@ impl<'a> Reader<'a> {
             }
             replicates = Replicates::fixed(asked);
         }
-        let factors = self.factors(design);
+        let factors =
+            self.factors(design, |reader, entry, name| reader.varied(entry, name).map(Varied::from));
         let links = self.links(&factors, base);
         self.check_once(set, &factors, &links);
         if !self.problems.is_empty() {
             return None;
         }
         let order = links::order(&links).ok()?;
-        if let Some(design_entry) = &design_entry {
-            self.combination(design_entry, design, &factors, base);
-        }
-        if self.problems.is_empty() {
-            self.size(design_entry.as_ref(), design, &factors, base, changes.points, &replicates);
+        if let Some(entry) = &design_entry {
+            let base: Vec<f64> = factors.iter().map(|factor| of_base(base, factor)).collect();
+            self.combination(entry, design, &factors, &base);
+            if self.problems.is_empty() {
+                let count = design.count(&factors, &base);
+                self.size(entry, count, changes.points, replicates.at_most);
+            }
         }
         self.problems.is_empty().then_some(Plan {
             factors,
@@ -162,7 +173,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn design(&mut self, entry: Option<&Entry<'_>>) -> Design {
+    pub(super) fn design(&mut self, entry: Option<&Entry<'_>>) -> Design {
         const NAMES: [&str; 5] = ["grid", "one-at-a-time", "paired", "latin-hypercube", "sobol"];
         let points_entry = self.entries.remove("points");
         let points = points_entry.as_ref().and_then(|entry| self.whole_in(entry, "points", 1, MOST_POINTS));
@@ -337,7 +348,7 @@ impl<'a> Reader<'a> {
         links
     }
 
-    /// The key; `None` if a study cannot vary it, after noting the problem.
+    /// The key of a case; `None` if a study cannot vary it, after noting the problem.
     fn varied(&mut self, entry: &Entry<'_>, name: &str) -> Option<&'static Key> {
         let key = varied(name);
         if key.is_none() {
@@ -346,7 +357,14 @@ impl<'a> Reader<'a> {
         key
     }
 
-    fn factors(&mut self, design: Design) -> Vec<Factor> {
+    /// The keys that vary.
+    ///
+    /// * `find` – a key by its name; `None` if it cannot vary, after noting the problem
+    pub(super) fn factors(
+        &mut self,
+        design: Design,
+        mut find: impl FnMut(&mut Self, &Entry<'_>, &str) -> Option<Varied>,
+    ) -> Vec<Factor> {
         let Some(entry) = self.entries.remove("vary") else {
             let line =
                 "[vary] and below it a key and its values, like \"air.velocity\" = [\"5 m/s\", \"10 m/s\"]";
@@ -364,7 +382,7 @@ impl<'a> Reader<'a> {
         }
         let mut factors = Vec::new();
         for (key, entry) in flat {
-            let Some(varied) = self.varied(&entry, &key) else {
+            let Some(varied) = find(self, &entry, &key) else {
                 continue;
             };
             if factors.iter().any(|factor: &Factor| factor.key == varied.name) {
@@ -373,21 +391,22 @@ impl<'a> Reader<'a> {
                 continue;
             }
             if let Some(levels) = self.levels(varied, entry, design) {
-                let (dimension, whole) = (dimension(varied), varied.is_whole());
-                factors.push(Factor {
-                    key: varied.name,
-                    dimension,
-                    whole,
-                    words: varied.kind.words(),
-                    levels,
-                });
+                factors.push(varied.factor(levels));
             }
         }
         factors
     }
 
     /// Checks the factors together.
-    fn combination(&mut self, entry: &Entry<'_>, design: Design, factors: &[Factor], base: &Open) {
+    ///
+    /// * `base` – values of the factors before they vary; NaN for none
+    pub(super) fn combination(
+        &mut self,
+        entry: &Entry<'_>,
+        design: Design,
+        factors: &[Factor],
+        base: &[f64],
+    ) {
         let (found, most) = (factors.len(), design.most_factors());
         if found > most {
             self.reject(entry, "design", StudyFault::TooManyFactors { found, design: design.name(), most });
@@ -400,8 +419,8 @@ impl<'a> Reader<'a> {
             }
         }
         if design == Design::OneAtATime {
-            for factor in factors {
-                if of_base(base, factor).is_nan() {
+            for (factor, base) in factors.iter().zip(base) {
+                if base.is_nan() {
                     let purpose = "vary it around this value";
                     self.reject_whole(factor.key, StudyFault::NotWritten { purpose });
                 }
@@ -409,20 +428,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn size(
-        &mut self,
-        entry: Option<&Entry<'_>>,
-        design: Design,
-        factors: &[Factor],
-        base: &Open,
-        asked: Option<u64>,
-        replicates: &Replicates,
-    ) {
-        let Some(entry) = entry else {
-            return;
-        };
-        let values: Vec<f64> = factors.iter().map(|factor| of_base(base, factor)).collect();
-        let count = design.count(factors, &values);
+    /// Checks the number of points, and that of fibres.
+    pub(super) fn size(&mut self, entry: &Entry<'_>, count: f64, asked: Option<u64>, replicates: u64) {
         let exact = count as u64;
         if count > MOST_POINTS as f64 {
             let points = if count < 1e15 { exact.to_string() } else { format!("{count:.1e}") };
@@ -438,7 +445,7 @@ impl<'a> Reader<'a> {
             let (points, most) = (exact.to_string(), MOST_POINTS_UNASKED);
             self.reject(entry, "design", StudyFault::TooManyPoints { points, most, advice });
         }
-        let fibres = count * replicates.at_most as f64;
+        let fibres = count * replicates as f64;
         if fibres > MOST_FIBRES as f64 && count <= MOST_POINTS as f64 {
             let most = MOST_FIBRES as f64;
             self.reject(entry, "design", StudyFault::TooManyFibres { fibres, most });

@@ -171,10 +171,10 @@ fn value_of(key: &Key, value: f64) -> Result<Value, Fault> {
 
 /// The remarks on all points; remarks of the same kind on the same key are merged.
 #[derive(Default)]
-struct Notes(Vec<(Discriminant<Remark>, StudyNote)>);
+pub(super) struct Notes(Vec<(Discriminant<Remark>, StudyNote)>);
 
 impl Notes {
-    fn add(&mut self, note: Note) {
+    pub(super) fn add(&mut self, note: Note) {
         let kind = discriminant(&note.what);
         let same =
             |(of, told): &&mut (Discriminant<Remark>, StudyNote)| *of == kind && told.note.key == note.key;
@@ -184,7 +184,7 @@ impl Notes {
         }
     }
 
-    fn finish(self, points: u64) -> Vec<StudyNote> {
+    pub(super) fn finish(self, points: u64) -> Vec<StudyNote> {
         let told = |(_, note): (_, StudyNote)| StudyNote { all: note.points == points, ..note };
         self.0.into_iter().map(told).collect()
     }

@@ -4,14 +4,26 @@ use super::super::document::table_named;
 use super::super::entry::{Entry, in_order, kind, root};
 use super::super::source::Source;
 use super::super::values::integer;
+use super::super::web::WEB_TABLES;
 use crate::case::keys::nearest_word;
 use crate::error::{Error, Fault, Finding, Problem, StudyFault};
 use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-const KEYS: [&str; 10] =
-    ["version", "case", "design", "points", "replicates", "common_phases", "seed", "set", "vary", "link"];
+const KEYS: [&str; 11] = [
+    "version",
+    "case",
+    "design",
+    "points",
+    "replicates",
+    "common_phases",
+    "seed",
+    "set",
+    "vary",
+    "link",
+    "web",
+];
 
 /// Reads a study file and collects its problems.
 pub(super) struct Reader<'a> {
@@ -129,7 +141,9 @@ impl<'a> Reader<'a> {
         for ((at, key), value) in in_order(table) {
             let entry = self.entry(at, value);
             match entry.value {
-                DeValue::Table(inner) if table_named(&key).is_some() => {
+                DeValue::Table(inner)
+                    if table_named(&key).is_some() || WEB_TABLES.contains(&key.as_str()) =>
+                {
                     for ((at, inner_key), value) in in_order(inner) {
                         flat.push((format!("{key}.{inner_key}"), self.entry(at, value)));
                     }

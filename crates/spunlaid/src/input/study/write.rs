@@ -1,8 +1,8 @@
 //! Writes a study as a file, with every default.
 
 use super::super::FORMAT_VERSION;
-use super::{exact, varied};
-use crate::study::{Design, Levels, MEASURES, Study};
+use super::{Varied, varied};
+use crate::study::{Design, Factor, Levels, MEASURES, Study};
 use crate::units::shortest;
 use std::fmt::Write;
 
@@ -33,6 +33,26 @@ pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
             let _ = writeln!(text, "{} = {}", MEASURES[*measure].name, shortest(*fraction));
         }
     }
+    let key = |name: &str| varied(name).map(Varied::from);
+    write_values(&mut text, set, &study.factors, key);
+    if !study.links.is_empty() {
+        text.push_str("\n[link]\n");
+        for link in &study.links {
+            let _ = writeln!(text, "\"{}\" = \"{}\"", link.key, link.expression.text());
+        }
+    }
+    text
+}
+
+/// Writes the tables `[set]` and `[vary]`.
+///
+/// * `key` – a key by its name
+pub(super) fn write_values(
+    text: &mut String,
+    set: &[(String, String)],
+    factors: &[Factor],
+    key: impl Fn(&str) -> Option<Varied>,
+) {
     if !set.is_empty() {
         text.push_str("\n[set]\n");
         for (key, value) in set {
@@ -40,8 +60,8 @@ pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
         }
     }
     text.push_str("\n[vary]\n");
-    for factor in &study.factors {
-        let exact = |value: f64| varied(factor.key).map_or_else(String::new, |key| exact(key, value));
+    for factor in factors {
+        let exact = |value: f64| key(factor.key).map_or_else(String::new, |key| key.exact(value));
         let _ = match &factor.levels {
             Levels::List(values) => {
                 let values: Vec<String> = values.iter().map(|value| exact(*value)).collect();
@@ -58,11 +78,4 @@ pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
             }
         };
     }
-    if !study.links.is_empty() {
-        text.push_str("\n[link]\n");
-        for link in &study.links {
-            let _ = writeln!(text, "\"{}\" = \"{}\"", link.key, link.expression.text());
-        }
-    }
-    text
 }

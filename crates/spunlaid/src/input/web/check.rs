@@ -7,7 +7,7 @@ use crate::units::Dimension;
 use crate::web::{Edges, Filaments, Row, Sheet};
 use std::collections::BTreeMap;
 
-impl Reading {
+impl Reading<'_> {
     /// Refuses two layers of one name.
     pub(super) fn check_names(&mut self, prefixes: &[String]) {
         let mut seen: BTreeMap<String, usize> = BTreeMap::new();

@@ -19,10 +19,10 @@ const OF_THE_WEB: &str = "web";
 const OF_A_CASE: [&str; 5] = ["feed", "belt", "air", "drag", "run"];
 
 /// What is written in the file of a web and in overrides.
-pub(super) struct WebDocument {
+pub(in crate::input) struct WebDocument {
     /// The values by full name: `line.belt_speed`; `layer.2.line.belt_speed` in a file with `[[layer]]`. The rows of nozzles
     /// are `line.rows.1.pitch` and so on, and `line.rows` is their number.
-    pub(super) written: Written,
+    pub(in crate::input) written: Written,
     /// What comes before the names of a layer's keys: `layer.2.`, or nothing in a file without `[[layer]]`.
     pub(super) layers: Vec<String>,
 }
@@ -44,7 +44,7 @@ pub(super) struct Entries<'a> {
 ///
 /// # Errors
 /// If the text is not TOML, is no web, or has a newer format.
-pub(super) fn read(text: &str, name: &str, overrides: Overrides<'_>) -> Result<WebDocument, Error> {
+pub(in crate::input) fn read(text: &str, name: &str, overrides: Overrides<'_>) -> Result<WebDocument, Error> {
     let source = Source::new(text, name);
     let written = Written::new(source.whole());
     let root = root(&source, text)?;

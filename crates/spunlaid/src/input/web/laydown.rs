@@ -1,6 +1,6 @@
 //! What tells how the filaments of a layer lie.
 
-use super::super::read_case;
+use super::super::{Overrides, read_case};
 use super::LaydownSource;
 use super::read::{Reading, table_of};
 use crate::case::Case;
@@ -22,7 +22,7 @@ const RESULTS: &str = "laydown.results";
 const SUMMARY: &str = "summary.json";
 const CASE_OF_RESULTS: &str = "case.toml";
 
-impl Reading {
+impl Reading<'_> {
     /// What tells how the filaments of a layer lie; none if there is a problem with it, which is noted.
     ///
     /// # Errors
@@ -60,7 +60,7 @@ impl Reading {
 
     fn case(&mut self, key: &str) -> Result<Option<LaydownSource>, Error> {
         let Some(path) = self.path(key) else { return Ok(None) };
-        let case = self.fed_case(key, &path)?;
+        let case = self.fed_case(key, &path, self.of_case)?;
         Ok(case.map(|case| LaydownSource::Case { path, case }))
     }
 
@@ -72,7 +72,7 @@ impl Reading {
             self.written.reject(key, WebFault::NotARun { missing }.into());
             return Ok(None);
         }
-        let case = self.fed_case(key, &folder.join(CASE_OF_RESULTS))?;
+        let case = self.fed_case(key, &folder.join(CASE_OF_RESULTS), (&[]).into())?;
         Ok(case.map(|case| LaydownSource::Results { folder, case }))
     }
 
@@ -87,8 +87,13 @@ impl Reading {
     }
 
     /// A case whose fibres are laid down on a moving belt.
-    fn fed_case(&mut self, key: &str, path: &Path) -> Result<Option<Arc<Case>>, Error> {
-        let (case, notes) = match read_case(path, &[]) {
+    fn fed_case(
+        &mut self,
+        key: &str,
+        path: &Path,
+        changes: Overrides<'_>,
+    ) -> Result<Option<Arc<Case>>, Error> {
+        let (case, notes) = match read_case(path, changes) {
             Ok(read) => read,
             Err(Error::File(error)) => {
                 self.written.reject(key, Fault::File(error));

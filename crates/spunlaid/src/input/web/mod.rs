@@ -1,7 +1,7 @@
 //! Files of webs: reads a file to what is to be laid, and writes it back.
 
 mod check;
-mod document;
+pub(super) mod document;
 mod keys;
 mod laydown;
 mod overrides;
@@ -185,8 +185,18 @@ pub fn read_web<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<
 /// # Errors
 /// As [`read_web`].
 pub fn parse_web<'a>(text: &str, name: &str, overrides: impl Into<Overrides<'a>>) -> Result<WebFile, Error> {
-    let written = document::read(text, name, overrides.into())?;
-    let (spec, notes) = read::spec(written, name)?;
+    parse_web_of_case(text, name, overrides.into(), (&[]).into())
+}
+
+/// [`parse_web`], with changes to the cases that it flies.
+pub(super) fn parse_web_of_case(
+    text: &str,
+    name: &str,
+    overrides: Overrides<'_>,
+    of_case: Overrides<'_>,
+) -> Result<WebFile, Error> {
+    let written = document::read(text, name, overrides)?;
+    let (spec, notes) = read::spec(written, name, of_case)?;
     let text = write_web(&spec);
     Ok(WebFile { spec, notes, text })
 }

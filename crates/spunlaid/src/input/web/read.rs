@@ -1,5 +1,6 @@
 //! Makes the web from the written values, with the defaults.
 
+use super::super::Overrides;
 use super::super::written::{Written, sorted};
 use super::document::WebDocument;
 use super::keys::{self, METHODS};
@@ -16,10 +17,12 @@ use std::path::{Path, PathBuf};
 pub(super) const SAME: f64 = 1e-9;
 
 /// A file while it is read.
-pub(super) struct Reading {
+pub(super) struct Reading<'a> {
     pub(super) written: Written,
     /// The folder of the file.
     pub(super) folder: PathBuf,
+    /// Changes to the cases that are flown.
+    pub(super) of_case: Overrides<'a>,
     notes: Vec<Note>,
 }
 
@@ -27,10 +30,14 @@ pub(super) struct Reading {
 ///
 /// # Errors
 /// Every problem with any key.
-pub(super) fn spec(document: WebDocument, name: &str) -> Result<(WebSpec, Vec<Note>), Error> {
+pub(super) fn spec(
+    document: WebDocument,
+    name: &str,
+    of_case: Overrides<'_>,
+) -> Result<(WebSpec, Vec<Note>), Error> {
     let WebDocument { written, layers: prefixes } = document;
     let folder = Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
-    let mut reading = Reading { written, folder, notes: Vec::new() };
+    let mut reading = Reading { written, folder, of_case, notes: Vec::new() };
     let mut layers = Vec::new();
     for prefix in &prefixes {
         layers.push(reading.layer(prefix)?);
@@ -55,7 +62,7 @@ pub(super) fn spec(document: WebDocument, name: &str) -> Result<(WebSpec, Vec<No
     }
 }
 
-impl Reading {
+impl Reading<'_> {
     /// Keeps the notes about a case, each once.
     pub(super) fn note(&mut self, notes: Vec<Note>) {
         for note in notes {

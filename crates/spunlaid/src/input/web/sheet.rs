@@ -19,7 +19,7 @@ const MOST_PATCHES: usize = 100;
 /// The window that is chosen [m].
 const WINDOW: f64 = 20e-3;
 
-impl Reading {
+impl Reading<'_> {
     /// The sheet; none if there is a problem with it, which is noted.
     pub(super) fn sheet(&mut self) -> Option<Sheet> {
         let (width, length) = (self.number("", "web.width"), self.number("", "web.length"));

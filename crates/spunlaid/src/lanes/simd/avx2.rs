@@ -4,7 +4,7 @@
 //! type, and loads and stores go through references.
 
 use super::{Register, Simd};
-use crate::lanes::{Isa, Lanes};
+use crate::lanes::{Isa, Lanes, WIDTH};
 use std::arch::x86_64::*;
 
 /// Two 256-bit registers.
@@ -16,6 +16,34 @@ macro_rules! halves {
     ($instruction:ident, $a:expr $(, $other:expr)*) => {
         unsafe { Avx2($instruction($a.0 $(, $other.0)*), $instruction($a.1 $(, $other.1)*)) }
     };
+}
+
+/// Which halves of a register's numbers come first if those in a mask are moved to its start, by the mask.
+const PACKED: [[i32; 8]; 16] = {
+    let mut all = [[0; 8]; 16];
+    let mut mask = 0;
+    while mask < 16 {
+        let (mut from, mut to) = (0, 0);
+        while from < 4 {
+            if mask >> from & 1 == 1 {
+                all[mask][2 * to] = 2 * from as i32;
+                all[mask][2 * to + 1] = 2 * from as i32 + 1;
+                to += 1;
+            }
+            from += 1;
+        }
+        mask += 1;
+    }
+    all
+};
+
+/// The numbers of a mask, moved to the start.
+#[inline(always)]
+unsafe fn packed(of: __m256d, mask: usize) -> __m256i {
+    unsafe {
+        let order = _mm256_loadu_si256(PACKED[mask & 15].as_ptr().cast());
+        _mm256_permutevar8x32_epi32(_mm256_castpd_si256(of), order)
+    }
 }
 
 impl Register for Avx2 {
@@ -30,6 +58,20 @@ impl Register for Avx2 {
             _mm256_store_pd(start.add(4), self.1);
         }
         lanes
+    }
+
+    #[inline(always)]
+    fn store_less(self, a: Self, b: Self, into: &mut [u64; WIDTH]) -> usize {
+        unsafe {
+            let masks = [_mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0), _mm256_cmp_pd::<_CMP_LT_OQ>(a.1, b.1)];
+            let [low, high] = masks.map(|mask| _mm256_movemask_pd(mask) as usize);
+            let count = low.count_ones() as usize;
+            let start = into.as_mut_ptr();
+            // The second half begins within the first four, so it ends within the eight.
+            _mm256_storeu_si256(start.cast(), packed(self.0, low));
+            _mm256_storeu_si256(start.add(count).cast(), packed(self.1, high));
+            count + high.count_ones() as usize
+        }
     }
 }
 

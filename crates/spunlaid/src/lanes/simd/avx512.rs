@@ -4,7 +4,7 @@
 //! type, and loads and stores go through references.
 
 use super::{Register, Simd};
-use crate::lanes::{Isa, Lanes};
+use crate::lanes::{Isa, Lanes, WIDTH};
 use std::arch::x86_64::*;
 
 /// One 512-bit register.
@@ -19,6 +19,16 @@ impl Register for Avx512 {
         let mut lanes = Lanes::ZERO;
         unsafe { _mm512_store_pd(lanes.0.as_mut_ptr(), self.0) };
         lanes
+    }
+
+    #[inline(always)]
+    fn store_less(self, a: Self, b: Self, into: &mut [u64; WIDTH]) -> usize {
+        unsafe {
+            let less = _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a.0, b.0);
+            let packed = _mm512_maskz_compress_epi64(less, _mm512_castpd_si512(self.0));
+            _mm512_storeu_si512(into.as_mut_ptr().cast(), packed);
+            less.count_ones() as usize
+        }
     }
 }
 

@@ -29,7 +29,7 @@ pub(crate) type Baseline = Plain;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use sse2::Sse2 as Baseline;
 
-use super::{Isa, Lanes};
+use super::{Isa, Lanes, WIDTH};
 
 /// Eight numbers in registers, or several times eight, with the operations that the kernel needs.
 ///
@@ -70,4 +70,18 @@ pub(crate) trait Register: Simd {
     /// compiled once for every kernel.
     const ISA: Isa;
     fn store(self) -> Lanes;
+
+    /// Writes the bits of the lanes in which `a < b` to the start of `into`, one after the other, and returns their number.
+    /// What follows them there is left undefined.
+    #[inline(always)]
+    fn store_less(self, a: Self, b: Self, into: &mut [u64; WIDTH]) -> usize {
+        let [bits, a, b] = [self, a, b].map(Self::store);
+        let mut count = 0;
+        for i in 0..WIDTH {
+            // An entry that is not wanted is written over by the next.
+            into[count % WIDTH] = bits.0[i].to_bits();
+            count += usize::from(a.0[i] < b.0[i]);
+        }
+        count
+    }
 }

@@ -9,7 +9,7 @@ use crate::statistics::student_t_95_at;
 use crate::study::PointResults;
 use crate::study::journal::Journal;
 use crate::study::measures::Record;
-use crate::study::run::results_of_point;
+use crate::study::rounds::results_of_point;
 
 /// The solution of a fit for all measures.
 pub(super) struct Solution {

@@ -1,10 +1,10 @@
 //! Reads back what the fibres of a finished run have laid.
 
-use crate::failure::Failure;
+use crate::Failure;
+use crate::output::laid::LAID;
 use parquet::column::reader::ColumnReader;
 use parquet::errors::{ParquetError, Result as Decoded};
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use spunlaid_results::output::laid::LAID;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;

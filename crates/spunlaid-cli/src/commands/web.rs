@@ -1,24 +1,20 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
-mod fibres;
-mod laid;
-
 use super::interrupt::stop_on_ctrl_c;
-use super::{stem, threads};
+use super::{plural, stem, threads};
 use crate::args;
 use crate::failure::Failure;
 use crate::{progress, say};
-use fibres::{Flyer, OfLayer};
-use spunlaid::input::{LayerSpec, Method, Overrides, WebSpec, read_web};
+use spunlaid::input::{Overrides, read_web};
 use spunlaid::lanes::Isa;
-use spunlaid::web::{Fibres, Findings, Laying, Web, find, pieces};
+use spunlaid::web::{Findings, Laying, find, pieces};
 use spunlaid_results::folders;
+use spunlaid_results::folders::fibres::{Flyer, OfLayer, to_lay};
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::{plus_minus, significant};
 use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::web::{ENTRIES, Performance};
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
@@ -32,10 +28,16 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
         folder.as_ref().map(|folder| Staging::new(folder, ENTRIES, asked.force, stop)).transpose()?;
 
     let started = Instant::now();
-    let mut flyer = Flyer::new(threads(asked.threads), stop, asked.quiet);
+    let follow =
+        |path: &Path, fibres: u64, (done, of): (&AtomicU64, u64), work: &mut (dyn FnMut() + Send)| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let label = format!("flying {} of {name}", plural(fibres, "fibre"));
+            progress::follow(done, of, &label, asked.quiet, work);
+        };
+    let mut flyer = Flyer::new(threads(asked.threads), stop, &follow);
     let layers = file.spec.layers.iter().map(|layer| flyer.fibres(&file.spec, layer));
     let layers: Vec<OfLayer> = layers.collect::<Result<_, _>>()?;
-    let web = to_lay(&file.spec, &layers)?;
+    let web = to_lay(&file.spec, &layers);
 
     let laid = AtomicU64::new(0);
     let by = Laying { threads: threads(asked.threads), isa: Isa::detect(), stop, laid: &laid };
@@ -66,27 +68,6 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-/// The web with the fibres of its layers. Beside flown curves stands their surrogate, and the other way round.
-fn to_lay(spec: &WebSpec, layers: &[OfLayer]) -> Result<Web, Failure> {
-    let mut web = spec.web(layers.iter().map(|layer| layer.fibres.clone()));
-    for ((layer, of), named) in web.layers.iter_mut().zip(layers).zip(&spec.layers) {
-        layer.compared = of.flown.as_ref().and_then(|flown| match spec.method {
-            Method::Surrogate => Some(Fibres::Curves(Arc::clone(&flown.curves))),
-            Method::Dynamics => flown.surrogate(source(named)).ok().map(Fibres::Surrogate),
-        });
-    }
-    Ok(web)
-}
-
-/// What a layer's fibres come from, for messages.
-fn source(layer: &LayerSpec) -> &Path {
-    use spunlaid::input::LaydownSource::{Case, Results, Surrogate};
-    match &layer.source {
-        Case { path, .. } | Results { folder: path, .. } => path,
-        Surrogate(_) => Path::new(""),
-    }
 }
 
 /// The table for the terminal.

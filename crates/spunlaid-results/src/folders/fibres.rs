@@ -6,10 +6,8 @@
 //! results folder ┘
 //! ```
 
-use super::super::plural;
 use super::laid;
-use crate::failure::Failure;
-use crate::progress;
+use crate::Failure;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Computing, Keep, TakeLaid, fly};
 use spunlaid::error::Error;
@@ -19,7 +17,7 @@ use spunlaid::lanes::Isa;
 use spunlaid::laydown::{Trace, Tracing};
 use spunlaid::statistics::Estimate;
 use spunlaid::surrogate::{Surrogate, Unidentified, identify};
-use spunlaid::web::{Curves, Fibres};
+use spunlaid::web::{Curves, Fibres, Web};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -27,34 +25,49 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The fibres of a layer.
 #[derive(Clone, Debug)]
-pub(super) struct OfLayer {
-    pub(super) fibres: Fibres,
+pub struct OfLayer {
+    /// What is laid.
+    pub fibres: Fibres,
     /// What the flown fibres have laid, unless the numbers of the surrogate were known.
-    pub(super) flown: Option<Arc<Flown>>,
+    pub flown: Option<Arc<Flown>>,
 }
 
 /// What flown fibres have laid, and the surrogate of it.
 #[derive(Clone, Debug)]
-pub(super) struct Flown {
-    pub(super) curves: Arc<Curves>,
+pub struct Flown {
+    /// The curves on the belt, without the spin-up.
+    pub curves: Arc<Curves>,
     /// σ₁ and σ₂ [m] and A [m^-½] over the replicates for which they are known.
-    pub(super) numbers: [Estimate; 3],
+    pub numbers: [Estimate; 3],
     /// Why the first replicate without a surrogate has none.
-    pub(super) unidentified: Option<Unidentified>,
+    pub unidentified: Option<Unidentified>,
 }
 
+/// Shows the progress of a case's flights while it does the work that it is given: the path of the case, the number of
+/// fibres, the steps done and their number.
+pub type Follow<'a> = &'a dyn Fn(&Path, u64, (&AtomicU64, u64), &mut (dyn FnMut() + Send));
+
 /// Makes the fibres of the layers, those of one case or folder once for all layers.
-#[derive(Debug)]
-pub(super) struct Flyer<'a> {
+pub struct Flyer<'a> {
     threads: usize,
     stop: &'a AtomicBool,
-    quiet: bool,
+    follow: Follow<'a>,
     flown: BTreeMap<PathBuf, Arc<Flown>>,
 }
 
+impl std::fmt::Debug for Flyer<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Flyer")
+            .field("threads", &self.threads)
+            .field("flown", &self.flown)
+            .finish_non_exhaustive()
+    }
+}
+
 impl<'a> Flyer<'a> {
-    pub(super) const fn new(threads: usize, stop: &'a AtomicBool, quiet: bool) -> Self {
-        Self { threads, stop, quiet, flown: BTreeMap::new() }
+    /// * `stop` – set from elsewhere to stop early
+    pub const fn new(threads: usize, stop: &'a AtomicBool, follow: Follow<'a>) -> Self {
+        Self { threads, stop, follow, flown: BTreeMap::new() }
     }
 
     /// The fibres of a layer.
@@ -62,7 +75,7 @@ impl<'a> Flyer<'a> {
     /// # Errors
     /// If the fibres cannot be flown or read, have laid nothing, or spread too far for the sheet; and if no surrogate is
     /// found where one is to be laid.
-    pub(super) fn fibres(&mut self, spec: &WebSpec, layer: &LayerSpec) -> Result<OfLayer, Failure> {
+    pub fn fibres(&mut self, spec: &WebSpec, layer: &LayerSpec) -> Result<OfLayer, Failure> {
         let (path, case) = match &layer.source {
             LaydownSource::Surrogate(surrogate) => {
                 return Ok(OfLayer { fibres: Fibres::Surrogate(*surrogate), flown: None });
@@ -103,11 +116,11 @@ impl<'a> Flyer<'a> {
             laid: Some(&laid),
         };
         let replicates = case.run.replicates;
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let label = format!("flying {} of {name}", plural(replicates, "fibre"));
-        progress::follow(&fibre_steps, case.run.steps * replicates, &label, self.quiet, || {
-            fly::<Error>(case, Keep::NUMBERS, computing, |_| Ok(()))
-        })?;
+        let mut flown = Ok(());
+        (self.follow)(path, replicates, (&fibre_steps, case.run.steps * replicates), &mut || {
+            flown = fly::<Error>(case, Keep::NUMBERS, computing, |_| Ok(()));
+        });
+        flown?;
         let mut curves = laid.0.into_inner().unwrap_or_else(PoisonError::into_inner);
         // A replicate that has laid nothing is missed by its number.
         Ok((0..replicates).map(|replicate| curves.remove(&replicate).unwrap_or_default()).collect())
@@ -156,7 +169,7 @@ impl Flown {
     }
 
     /// The surrogate with the mean numbers of the replicates.
-    pub(super) fn surrogate(&self, path: &Path) -> Result<Surrogate, Failure> {
+    pub fn surrogate(&self, path: &Path) -> Result<Surrogate, Failure> {
         let [sigma_md, sigma_cd, noise] = [0, 1, 2].map(|number| self.numbers[number].mean);
         if noise.is_finite() {
             return Ok(Surrogate { sigma_md, sigma_cd, noise });
@@ -170,8 +183,27 @@ impl Flown {
     }
 }
 
+/// The web with the fibres of its layers. Beside flown curves stands their surrogate, and the other way round.
+pub fn to_lay(spec: &WebSpec, layers: &[OfLayer]) -> Web {
+    let mut web = spec.web(layers.iter().map(|layer| layer.fibres.clone()));
+    for ((layer, of), named) in web.layers.iter_mut().zip(layers).zip(&spec.layers) {
+        layer.compared = of.flown.as_ref().and_then(|flown| match spec.method {
+            Method::Surrogate => Some(Fibres::Curves(Arc::clone(&flown.curves))),
+            Method::Dynamics => flown.surrogate(source(named)).ok().map(Fibres::Surrogate),
+        });
+    }
+    web
+}
+
+/// What a layer's fibres come from, for messages.
+fn source(layer: &LayerSpec) -> &Path {
+    match &layer.source {
+        LaydownSource::Case { path, .. } | LaydownSource::Results { folder: path, .. } => path,
+        LaydownSource::Surrogate(_) => Path::new(""),
+    }
+}
+
 #[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::panic)]
 mod tests {
     use super::*;
     use spunlaid::ensemble::Results;
@@ -203,7 +235,7 @@ mod tests {
     fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
         static STOP: AtomicBool = AtomicBool::new(false);
         let (mut spec, case) = web("4 mm", "surrogate");
-        let mut flyer = Flyer::new(2, &STOP, true);
+        let mut flyer = Flyer::new(2, &STOP, &|_, _, _, work| work());
         let of_case = flyer.fibres(&spec, &spec.layers[0]).unwrap();
         let Fibres::Surrogate(surrogate) = of_case.fibres else { panic!("{of_case:?}") };
 
@@ -250,11 +282,11 @@ mod tests {
     #[test]
     fn rejects_fibres_that_make_no_web() {
         static STOP: AtomicBool = AtomicBool::new(false);
-        let mut flyer = Flyer::new(1, &STOP, true);
+        let mut flyer = Flyer::new(1, &STOP, &|_, _, _, work| work());
         // So long elements show too little of the autocorrelation to see a surrogate in it.
         let (spec, _) = web("25 mm", "surrogate");
         let said = flyer.fibres(&spec, &spec.layers[0]).unwrap_err();
-        assert_eq!(said.exit_code(), 1);
+        assert!(said.is_wrong_input());
         let said = said.to_string();
         assert!(
             said.starts_with("short.toml: no surrogate was identified in what its fibres lay: "),
@@ -272,7 +304,7 @@ mod tests {
         // A folder without a table.
         let desk = tempfile::tempdir().unwrap();
         let said = laid::read(desk.path()).unwrap_err().to_string();
-        assert!(said.contains("does not hold the results of a run: laid.parquet: "), "{said}");
+        assert!(said.contains("laid.parquet: "), "{said}");
         std::fs::write(desk.path().join("laid.parquet"), "PAR1 not at all PAR1").unwrap();
         assert!(laid::read(desk.path()).unwrap_err().to_string().contains("laid.parquet: "));
     }

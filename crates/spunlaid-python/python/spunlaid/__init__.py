@@ -1,0 +1,90 @@
+"""Fibres in turbulent air: NumPy in, NumPy out.
+
+    import spunlaid
+
+    case = spunlaid.Case.starter().with_({"air.velocity": "20 m/s", "fibre.diameter": 18e-6})
+    run = spunlaid.run(case, replicates=8)
+    run.measures["amplitude_y_m"].mean          # [m]
+    run.end_node["y_m"]                         # replicates x times [m]
+
+Numbers are in SI units, and the names of columns carry theirs: `y_m`, `frequency_y_hz`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ._errors import (
+    CaseError,
+    ClusterError,
+    Error,
+    FibreLost,
+    FileError,
+    FlightError,
+    FolderError,
+    InternalError,
+    Interrupted,
+    Problem,
+)
+from ._keys import Key, keys
+from ._run import Curve, Measure, Run, Shapes, load, run
+from ._spunlaid import Case, Flight, __version__
+
+if TYPE_CHECKING:
+    from ._analysis import Analysis, analyse
+    from ._study import Study, sweep
+    from ._web import Web, web
+
+__all__ = [
+    "Analysis",
+    "Case",
+    "CaseError",
+    "ClusterError",
+    "Curve",
+    "Error",
+    "FibreLost",
+    "FileError",
+    "Flight",
+    "FlightError",
+    "FolderError",
+    "InternalError",
+    "Interrupted",
+    "Key",
+    "Measure",
+    "Problem",
+    "Run",
+    "Shapes",
+    "Study",
+    "Web",
+    "__version__",
+    "analyse",
+    "keys",
+    "load",
+    "run",
+    "sweep",
+    "web",
+]
+
+_LATER = {
+    "Analysis": "_analysis",
+    "analyse": "_analysis",
+    "Study": "_study",
+    "sweep": "_study",
+    "Web": "_web",
+    "web": "_web",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """What is needed less often is imported when it is first used."""
+    if name in _LATER:
+        from importlib import import_module
+
+        value = getattr(import_module(f".{_LATER[name]}", __name__), name)
+        globals()[name] = value
+        return value
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *_LATER])

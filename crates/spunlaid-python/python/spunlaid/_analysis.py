@@ -1,0 +1,118 @@
+"""The air in a velocity record."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from . import _spunlaid
+from ._spunlaid import Case
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+
+class Interval(NamedTuple):
+    """A result with its interval of 95 % confidence."""
+
+    value: float
+    low: float
+    high: float
+
+
+class Analysis:
+    """The statistics of the air in a record, in SI units."""
+
+    def __init__(self, told: dict[str, Any]) -> None:
+        self.results: dict[str, Any] = json.loads(told["json"])
+        """What `analysis.json` of `spunlaid analyse` holds."""
+        self.air_toml: str = told["air_toml"]
+        """The `[air]` of a case file."""
+        self._curves: list[dict[str, Any]] = told["curves"]
+
+    def _interval(self, name: str) -> Interval:
+        of = self.results[name]
+        return Interval(of["value"], of["low"], of["high"])
+
+    @property
+    def mean_velocity(self) -> Interval:
+        """Mean velocity [m/s]."""
+        return self._interval("mean_velocity_m_s")
+
+    @property
+    def turbulence_intensity(self) -> Interval:
+        """Rms of a fluctuating component over the mean velocity [-]."""
+        return self._interval("turbulence_intensity")
+
+    @property
+    def integral_time(self) -> Interval:
+        """Integral time of the component along the flow [s]."""
+        return self._interval("integral_time_s")
+
+    @property
+    def length_scale(self) -> Interval:
+        """Integral length scale by Taylor's hypothesis [m]."""
+        return self._interval("length_scale_m")
+
+    @property
+    def cutoff_frequency(self) -> Interval:
+        """Cut-off frequency of the flat spectrum with the same variance and plateau [Hz]."""
+        return self._interval("cutoff_frequency_hz")
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings about the record and the results."""
+        return list(self.results["warnings"])
+
+    def spectrum(self, component: int = 0) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Frequencies [Hz] and one-sided spectral density [(m/s)²/Hz] of a component."""
+        curve = self._curves[component]
+        return curve["frequency_hz"], curve["density"]
+
+    def autocorrelation(self, component: int = 0) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lags [s] and autocorrelation coefficients [-] of a component."""
+        curve = self._curves[component]
+        return curve["lag_s"], curve["autocorrelation"]
+
+    def air(self) -> dict[str, float]:
+        """The four keys of a case that the record tells; `case.with_(analysis.air())` is the case in this air."""
+        return {
+            "air.velocity": self.mean_velocity.value,
+            "air.turbulence_intensity": self.turbulence_intensity.value,
+            "air.length_scale": self.length_scale.value,
+            "air.cutoff_frequency": self.cutoff_frequency.value,
+        }
+
+    def apply(self, case: Case) -> Case:
+        """The case in this air."""
+        return case.with_(self.air())
+
+    def __repr__(self) -> str:
+        u, tu, scale = self.mean_velocity, self.turbulence_intensity, self.length_scale
+        return f"<Analysis: {u.value:.4g} m/s, turbulence {100 * tu.value:.3g} %, length scale {1e3 * scale.value:.3g} mm>"
+
+
+def analyse(
+    record: ArrayLike | str | os.PathLike[str],
+    rate: float | None = None,
+    *,
+    mean_velocity: float | None = None,
+    flat_until: float | None = None,
+    integral: str | None = None,
+    columns: tuple[str, ...] = (),
+) -> Analysis:
+    """The statistics of the air in a velocity record, as `spunlaid analyse` finds them.
+
+    record: velocities [m/s] as an array, samples or samples × components with the one along the flow first; or the path
+        of a file
+    rate: sampling rate [Hz]; an array needs it
+    mean_velocity: replaces the mean of the record [m/s]
+    flat_until: end of the flat part of the spectrum [Hz]
+    integral: the limit of the integral of the autocorrelation: "first-zero", "e-fold" or "fixed=20 ms"
+    columns: of a file, the columns of velocity by name or number
+    """
+    if isinstance(record, os.PathLike):
+        record = os.fspath(record)
+    return Analysis(_spunlaid.analyse(record, rate, mean_velocity, flat_until, integral, list(columns)))

@@ -1,0 +1,143 @@
+"""Results folders of runs, read back."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+
+from ._errors import FolderError
+from ._spunlaid import Case
+
+
+class Folder:
+    """The files of a run, in place of what was flown."""
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(path)
+        try:
+            self.summary = (self.path / "summary.json").read_text("utf-8")
+            self._read: dict[str, Any] = json.loads(self.summary)
+        except (OSError, ValueError) as error:
+            raise FolderError(f"{self.path}: is not the results of a run: summary.json: {error}") from error
+        if not isinstance(self._read, dict) or not {"end_node", "laydown"} & set(self._read):
+            raise FolderError(f"{self.path}: is not the results of a run: summary.json is that of something else")
+        self.case = Case.read(self.path / "case.toml")
+        self.notes: list[str] = self._read["notes"]
+        self.curves: list[dict[str, Any]] = []
+
+    @property
+    def numbers(self) -> list[dict[str, Any]]:
+        """The measures of summary.json."""
+        from ._spunlaid import measures
+
+        found: list[dict[str, Any]] = []
+        for of in measures():
+            group: Any = self._read
+            for name in of["group"].split("."):
+                group = group.get(name, {})
+            if of["column"] in group:
+                number = group[of["column"]]
+                values = np.array([np.nan if value is None else value for value in number["values"]], dtype=float)
+                values.setflags(write=False)
+                mean = np.nan if number["mean"] is None else number["mean"]
+                shown = number.get("median", number.get("largest", mean))
+                found.append({**of, "mean": mean, "standard_error": number["standard_error"], "shown": shown, "values": values})
+        return found
+
+    @property
+    def step_check(self) -> dict[str, float] | None:
+        """As `Flown.step_check`."""
+        check = self._read["step_check"]
+        if check is None:
+            return None
+        differences = {name: check[name]["mean"] for name in ("path_difference", "amplitude_difference")}
+        return {"duration_s": check["duration_s"], "share_of_run": check["share_of_run"], **differences}
+
+    @property
+    def end_node(self) -> dict[str, Any]:
+        """Columns of end_node.parquet."""
+        return self._over_time("end_node.parquet")
+
+    @property
+    def energy(self) -> dict[str, Any]:
+        """Columns of energy.parquet."""
+        return self._over_time("energy.parquet")
+
+    @property
+    def laid(self) -> list[dict[str, Any]]:
+        """Columns of laid.parquet by replicate."""
+        table = self._table("laid.parquet")
+        if not table:
+            return []
+        replicate = table.pop("replicate")
+        count = self._read["replicates"]
+        ends = np.searchsorted(replicate, np.arange(1, count + 2))
+        return [{name: of[ends[i] : ends[i + 1]] for name, of in table.items()} for i in range(count)]
+
+    @property
+    def shapes(self) -> tuple[Any, Any]:
+        """The shapes for ParaView."""
+        try:
+            series = ElementTree.parse(self.path / "shape.pvd").getroot().iter("DataSet")
+        except OSError:
+            return np.empty(0), np.empty((0, 0, 0, 3))
+        times: list[float] = []
+        shapes: list[list[Any]] = []
+        for entry in series:
+            times.append(float(entry.attrib["timestep"]))
+            shapes.append(_lines(self.path / entry.attrib["file"]))
+        nodes = max((len(line) for shape in shapes for line in shape), default=0)
+        positions = np.full((len(shapes[0]) if shapes else 0, len(times), nodes, 3), np.nan)
+        for instant, shape in enumerate(shapes):
+            for replicate, line in enumerate(shape):
+                positions[replicate, instant, : len(line)] = line
+        return np.array(times), positions
+
+    def report(self) -> str:
+        """Text of report.html."""
+        return (self.path / "report.html").read_text("utf-8")
+
+    def save(self, path: str, force: bool) -> None:
+        """Copies the folder."""
+        if os.path.exists(path) and not force:
+            raise FolderError(f"{path}: is there already; name another folder, or replace it with force=True")
+        try:
+            shutil.copytree(self.path, path, dirs_exist_ok=True)
+        except (OSError, shutil.Error) as error:
+            raise FolderError(f"{path}: cannot be written: {error}") from error
+
+    def _over_time(self, name: str) -> dict[str, Any]:
+        table = self._table(name)
+        if not table:
+            return {}
+        replicate, times = table.pop("replicate"), table.pop("time_s")
+        instants = int(np.searchsorted(replicate, 2)) or len(times)
+        shaped = {name: of.reshape(-1, instants) for name, of in table.items()}
+        return {"time_s": times[:instants], **shaped}
+
+    def _table(self, name: str) -> dict[str, Any]:
+        if not (self.path / name).exists():
+            return {}
+        from ._spunlaid import read_table
+
+        return read_table(self.path / name)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Folder, (self.path.absolute(),)
+
+
+def _lines(path: Path) -> list[Any]:
+    """The points of each line of a VTK PolyData file."""
+    root = ElementTree.parse(path).getroot()
+    points = root.find(".//Points/DataArray")
+    offsets = root.find(".//Lines/DataArray[@Name='offsets']")
+    if points is None or offsets is None:
+        raise FolderError(f"{path}: has no lines")
+    numbers = np.array((points.text or "").split(), dtype=float).reshape(-1, 3)
+    return np.split(numbers, np.array((offsets.text or "").split(), dtype=int)[:-1])

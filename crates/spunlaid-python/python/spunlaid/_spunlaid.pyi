@@ -1,0 +1,221 @@
+"""The compiled part of spunlaid."""
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__: list[str]
+__version__: str
+
+_Floats = NDArray[np.float64]
+_Progress = Callable[[int, int], object] | None
+_Part = tuple[int, str, int, int, int]
+
+@final
+class Case:
+    """A fibre, the air around it and how its flight is computed: a case file, read and checked, that can be run."""
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Case:
+        """Reads and checks a case file."""
+
+    @classmethod
+    def from_text(cls, text: str, name: str = "Case") -> Case:
+        """A case from the text of a case file (TOML)."""
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> Case:
+        """A case from a dict of its tables, or of full keys."""
+
+    @classmethod
+    def starter(cls, fed: bool = False) -> Case:
+        """The case to start from."""
+
+    def with_(self, values: Mapping[str, Any]) -> Case:
+        """The same case with other values."""
+
+    def __getitem__(self, key: str, /) -> Any:
+        """The value of a key in SI units."""
+
+    def to_dict(self) -> dict[str, dict[str, Any]]:
+        """The values of all keys by table, in SI units."""
+
+    def to_toml(self) -> str:
+        """The case as a case file with every key, in SI units."""
+
+    @property
+    def notes(self) -> list[str]:
+        """Notes and warnings about the case."""
+
+    @property
+    def name(self) -> str:
+        """The name of the case file."""
+
+    @property
+    def instants(self) -> int:
+        """Number of recorded instants of a run."""
+
+    @property
+    def step_limits(self) -> dict[str, float]:
+        """The limits on the time step [s] and what sets them."""
+
+@final
+class Flight:
+    """Fibres in flight, which you step."""
+
+    def __new__(cls, case: Case, replicates: int | None = None) -> Flight: ...
+    def step(self, duration: float) -> None:
+        """Advances all fibres by a time [s], to the nearest whole step."""
+
+    def step_to(self, time: float) -> None:
+        """Advances all fibres to a time [s], to the nearest whole step."""
+
+    def set(self, key: str, value: str | float | Sequence[float]) -> None:
+        """Changes a key while the fibres fly."""
+
+    def take_laid(self) -> list[dict[str, _Floats]]:
+        """What each fed fibre has laid on the belt since the last call."""
+
+    @property
+    def time(self) -> float:
+        """Time of the positions [s]."""
+
+    @property
+    def time_step(self) -> float:
+        """The time step [s]."""
+
+    @property
+    def fibres(self) -> int:
+        """Number of fibres."""
+
+    @property
+    def positions(self) -> _Floats:
+        """Positions of the nodes now [m]: fibres × nodes × 3."""
+
+    @property
+    def velocities(self) -> _Floats:
+        """Velocities of the nodes now [m/s]: fibres × nodes × 3."""
+
+    @property
+    def tensions(self) -> _Floats:
+        """Tensions of the elements now [N]: fibres × elements."""
+
+    @property
+    def energies(self) -> dict[str, _Floats]:
+        """Energies and works now [J], a number for each fibre."""
+
+@final
+class Flown:
+    """Results of a run."""
+
+    @property
+    def summary(self) -> str: ...
+    @property
+    def notes(self) -> list[str]: ...
+    @property
+    def end_node(self) -> dict[str, _Floats]: ...
+    @property
+    def energy(self) -> dict[str, _Floats]: ...
+    @property
+    def numbers(self) -> list[dict[str, Any]]: ...
+    @property
+    def curves(self) -> list[dict[str, Any]]: ...
+    @property
+    def shapes(self) -> tuple[_Floats, _Floats]: ...
+    @property
+    def laid(self) -> list[dict[str, _Floats]]: ...
+    @property
+    def step_check(self) -> dict[str, float] | None: ...
+    def report(self) -> str: ...
+    def save(self, path: str, force: bool) -> None: ...
+
+@final
+class Study:
+    """A study: its points, its journal and its results."""
+
+    def __new__(
+        cls,
+        study: str,
+        case: Case | None = None,
+        out: str | None = None,
+        force: bool = False,
+        points: int | None = None,
+        replicates: int | None = None,
+        set: Mapping[str, Any] | None = None,  # noqa: A002
+    ) -> Study: ...
+    def __len__(self) -> int: ...
+    def fly(self, threads: int | None = None, progress: _Progress = None) -> None: ...
+    def begin_round(self, flights: int) -> int: ...
+    def bundle(self, index: int) -> list[_Part]: ...
+    def add(self, rows: _Floats) -> int: ...
+    def next_round(self) -> bool: ...
+    def results(self) -> dict[str, Any]: ...
+    def replicates(self) -> _Floats: ...
+    def effects(self) -> tuple[list[dict[str, Any]], str | None]: ...
+    def write(self) -> None: ...
+    def close(self) -> None: ...
+    def case_text(self, point: int) -> str: ...
+    @property
+    def fibres(self) -> tuple[int, int]: ...
+    @property
+    def work(self) -> float: ...
+    @property
+    def inputs(self) -> list[dict[str, Any]]: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def design(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def notes(self) -> list[str]: ...
+    @property
+    def measures(self) -> list[tuple[str, str, str, str]]: ...
+
+@final
+class LaidWeb:
+    """What is found of a web."""
+
+    @property
+    def summary(self) -> str: ...
+    @property
+    def notes(self) -> list[str]: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def cell(self) -> float: ...
+    @property
+    def map(self) -> _Floats: ...
+    @property
+    def patches(self) -> dict[str, _Floats]: ...
+    def save(self, path: str, force: bool) -> None: ...
+
+def fly(
+    case: Case,
+    threads: int | None = None,
+    progress: _Progress = None,
+    check_step: bool = True,
+    samples: bool = True,
+    shapes: bool = True,
+) -> Flown: ...
+def flown_from(state: dict[str, Any]) -> Flown: ...
+def fly_bundle(parts: list[_Part], threads: int = 1) -> _Floats: ...
+def analyse(
+    record: ArrayLike | str,
+    rate: float | None = None,
+    mean_velocity: float | None = None,
+    flat_until: float | None = None,
+    integral: str | None = None,
+    columns: list[str] = ...,
+) -> dict[str, Any]: ...
+def lay_web(
+    path: str | None, changes: Mapping[str, Any], threads: int | None = None, progress: _Progress = None
+) -> LaidWeb: ...
+def keys() -> list[dict[str, Any]]: ...
+def measures() -> list[dict[str, Any]]: ...
+def read_table(path: str | os.PathLike[str]) -> dict[str, Any]: ...

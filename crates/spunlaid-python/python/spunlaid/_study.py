@@ -1,0 +1,187 @@
+"""Studies: many cases, on this machine or on a cluster."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _spunlaid
+from ._progress import Progress, shown
+from ._run import _threads
+from ._spunlaid import Case
+from ._toml import study_toml
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from numpy.typing import NDArray
+
+
+class Study:
+    """A study that has been flown. `spunlaid.sweep` returns it."""
+
+    def __init__(self, study: _spunlaid.Study) -> None:
+        self._study = study
+        self._results: dict[str, Any] = study.results()
+
+    def __len__(self) -> int:
+        """Number of points."""
+        return len(self._study)
+
+    @property
+    def inputs(self) -> dict[str, NDArray[Any]]:
+        """The keys that differ between points, in SI units: the factors, then what follows from them."""
+        return {of["key"]: np.asarray(of["values"]) for of in self._study.inputs}
+
+    @property
+    def factors(self) -> list[str]:
+        """The keys that were varied."""
+        return [of["key"] for of in self._study.inputs if of["factor"]]
+
+    @property
+    def design(self) -> str:
+        """How the factors are combined."""
+        return self._study.design
+
+    @property
+    def n(self) -> NDArray[np.int64]:
+        """Number of fibres measured at each point."""
+        return self._results["n"]  # type: ignore[no-any-return]
+
+    @property
+    def lost(self) -> NDArray[np.int64]:
+        """Number of fibres lost at each point, because their positions became infinite."""
+        return self._results["lost"]  # type: ignore[no-any-return]
+
+    @property
+    def mean(self) -> dict[str, NDArray[np.float64]]:
+        """The mean of each measure at the points, by column: `study.mean["amplitude_y_m"]`."""
+        return self._by_measure("mean")
+
+    @property
+    def standard_error(self) -> dict[str, NDArray[np.float64]]:
+        """The standard error of each mean; NaN from a single fibre."""
+        return self._by_measure("standard_error")
+
+    def _by_measure(self, name: str) -> dict[str, NDArray[np.float64]]:
+        values = self._results[name]
+        columns = [of[0] for of in self._study.measures]
+        return {column: values[:, i] for i, column in enumerate(columns) if np.isfinite(self._results["mean"][:, i]).any()}
+
+    @property
+    def notes(self) -> list[str]:
+        """Notes about the points."""
+        return self._study.notes
+
+    def case(self, point: int) -> Case:
+        """The case of a point, counted from 0."""
+        return Case.from_text(self._study.case_text(point))
+
+    def effects(self) -> list[dict[str, Any]]:
+        """How much each factor changes each measure from one end of its range to the other: `measure`, `factor`, `from`,
+        `to`, `change` and `half_width` of its interval of 95 %; empty if the design does not tell."""
+        return self._study.effects()[0]
+
+    def replicates(self) -> pandas.DataFrame:
+        """A row for each fibre: `point` and `replicate`, both counted from 1, whether it was `lost`, and its measures."""
+        import pandas as pd
+
+        columns = ["point", "replicate", "lost"] + [of[0] for of in self._study.measures]
+        table = pd.DataFrame(self._study.replicates(), columns=columns).dropna(axis="columns", how="all")
+        table[["point", "replicate"]] = table[["point", "replicate"]].astype(int) + 1
+        return table.astype({"lost": bool})
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each point, as `results.csv` has it: seed, inputs, numbers of fibres, means and standard errors (`_se`)."""
+        import pandas as pd
+
+        columns: dict[str, Any] = {"seed": self._results["seed"]}
+        columns |= {of["column"]: np.asarray(of["values"]) for of in self._study.inputs}
+        columns |= {"n": self.n, "lost": self.lost}
+        errors = self.standard_error
+        for column, mean in self.mean.items():
+            columns |= {column: mean, f"{column}_se": errors[column]}
+        return pd.DataFrame(columns, index=pd.RangeIndex(1, len(self) + 1, name="point"))
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The same with the factors as coordinates: a dimension for each factor of a grid, `point` for other designs."""
+        table = self.to_pandas()
+        factors = {of["key"]: of["column"] for of in self._study.inputs if of["factor"]}
+        if self.design == "grid" and factors:
+            columns = list(factors.values())
+            table = table.reset_index().set_index(columns)
+            if not table.index.has_duplicates:
+                return table.to_xarray().rename({column: key for key, column in factors.items()})
+            table = table.reset_index().set_index("point")
+        data = table.to_xarray()
+        return data.set_coords(list(factors.values())).rename({column: key for key, column in factors.items()})
+
+    def __repr__(self) -> str:
+        factors = ", ".join(self.factors) or "no factors"
+        return f"<Study {self._study.name}: {len(self)} points of {factors}, {int(self.n.sum())} fibres>"
+
+    def _repr_html_(self) -> str:
+        return self.to_pandas().to_html(max_rows=20)  # type: ignore[no-any-return]
+
+
+def sweep(
+    study: str | os.PathLike[str] | Mapping[str, Any],
+    *,
+    client: Any = None,
+    out: str | os.PathLike[str] | None = None,
+    force: bool = False,
+    points: int | None = None,
+    replicates: int | None = None,
+    set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of study files
+    threads: int | None = None,
+    progress: Progress = None,
+) -> Study:
+    """Flies a study: the same bits as `spunlaid sweep`, on any machine and any number of them.
+
+    study: the path of a study file; or a dict with what such a file says, `{"case": case, "vary": {"air.velocity": [5, 10]},
+        "replicates": 8}`, where `case` is a Case, a dict or the path of a case file, numbers are in SI units, and the design
+        is a grid if it is left out
+    client: a client of dask.distributed, whose workers then fly the fibres
+    out: the folder for journal, tables, figures and report, as `spunlaid sweep` writes it; a study that was stopped goes
+        on from there. Without it, results are kept in memory only
+    force: whether other results in the folder are replaced
+    points: number of points, which more than 10,000 need
+    replicates, set: as of `spunlaid sweep`
+    threads: number of threads on this machine
+    progress: None, True, False, or a function that gets the fibres done and their number
+    """
+    begun = _begin(study, out, force, points, replicates, set)
+    with shown(progress, f"{len(begun)} points") as show:
+        if client is None:
+            begun.fly(_threads(threads), show)
+        else:
+            from ._dask import fly
+
+            fly(begun, client, show)
+    if out is not None:
+        begun.write()
+    return Study(begun)
+
+
+def _begin(
+    study: Any,
+    out: Any = None,
+    force: bool = False,
+    points: int | None = None,
+    replicates: int | None = None,
+    changes: Mapping[str, Any] | None = None,
+) -> _spunlaid.Study:
+    out = None if out is None else os.fspath(out)
+    if isinstance(study, Mapping):
+        if "case" not in study:
+            raise ValueError('a study needs a case: {"case": spunlaid.Case.starter(), "vary": {...}}')
+        case = study["case"]
+        if isinstance(case, Mapping):
+            case = Case.from_dict(case)
+        elif not isinstance(case, Case):
+            case = Case.read(case)
+        return _spunlaid.Study(study_toml(study), case, out, force, points, replicates, changes)
+    return _spunlaid.Study(os.fspath(study), None, out, force, points, replicates, changes)

@@ -1,0 +1,52 @@
+"""Writes a study that is given as a dict."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ._keys import Key, keys
+
+
+def study_toml(study: Mapping[str, Any]) -> str:
+    """The text of a study file. Numbers of keys with a dimension are in SI units."""
+    known = keys()
+    lines: list[str] = [] if "design" in study else ['design = "grid"']
+    tables: list[str] = []
+    for name, value in study.items():
+        if name == "case":
+            lines.append('case = "case.toml"')
+        elif isinstance(value, Mapping) and name in ("vary", "link", "set"):
+            tables.append(f"\n[{name}]")
+            for key, of in value.items():
+                tables.append(f"{_text(key)} = {_value(of, known.get(key))}")
+        else:
+            lines.append(f"{_text(name)} = {_value(value, None)}")
+    return "\n".join(lines + tables) + "\n"
+
+
+def _text(text: Any) -> str:
+    if not isinstance(text, str):
+        raise TypeError(f"the names in a study must be str, not {type(text).__name__}")
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def _value(value: Any, key: Key | None) -> str:
+    if isinstance(value, str):
+        return _text(value)
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (int, float, np.integer, np.floating)):
+        if key is not None and key.unit:
+            return f'"{float(value)!r} {key.unit}"'
+        return str(int(value)) if isinstance(value, (int, np.integer)) else repr(float(value))
+    if isinstance(value, Mapping):
+        # The number of levels of a range has no unit.
+        parts = (f"{_text(name)} = {_value(of, None if name == 'steps' else key)}" for name, of in value.items())
+        return "{ " + ", ".join(parts) + " }"
+    if isinstance(value, (list, tuple, np.ndarray, range)):
+        return "[" + ", ".join(_value(part, key) for part in value) + "]"
+    raise TypeError(f"a study takes texts, numbers, lists and dicts, not {type(value).__name__}")

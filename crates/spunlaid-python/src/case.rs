@@ -1,0 +1,215 @@
+//! `Case`: a case file with changes, read and checked.
+
+use crate::merged::merged;
+use crate::value::{overrides, to_python};
+use crate::watched::guarded;
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyTuple, PyType};
+use spunlaid::case::keys::{self, TABLES};
+use spunlaid::case::{self, Note};
+use spunlaid::error::FileKind;
+use spunlaid::input::{Overrides, parse_case, read_text, starter_case, starter_case_of_fed, write_case};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What messages write before the key of a change, and in place of the name of a file.
+const WORD: &str = "Case:";
+const NAME: &str = "Case";
+
+/// A fibre, the air around it and how its flight is computed: a case file, read and checked, that can be run.
+///
+/// Make one with Case.read(path), Case.from_dict({...}), Case.from_text(text) or Case.starter(). It does not change;
+/// with_() returns another one. case["air.velocity"] is the value of a key in SI units.
+#[pyclass(frozen, module = "spunlaid", name = "Case")]
+#[derive(Debug)]
+pub(crate) struct Case {
+    pub(crate) case: Arc<case::Case>,
+    pub(crate) notes: Vec<String>,
+    /// The text of the case file, what messages call it, and what is changed in it.
+    text: Arc<str>,
+    file: String,
+    changes: Vec<(String, String)>,
+}
+
+impl Case {
+    fn parsed(
+        py: Python<'_>,
+        text: Arc<str>,
+        file: String,
+        changes: Vec<(String, String)>,
+    ) -> PyResult<Self> {
+        let (case, notes) =
+            guarded(py, || Ok(parse_case(&text, &file, Overrides { values: &changes, word: WORD })?))?;
+        let notes = notes.iter().map(Note::to_string).collect();
+        Ok(Self { case: Arc::new(case), notes, text, file, changes })
+    }
+
+    /// What results of it are called.
+    pub(crate) fn stem(&self) -> String {
+        let path = Path::new(&self.file);
+        path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    /// Text and name of a case file with all changes, for a study of this case.
+    pub(crate) fn source(&self) -> (String, &str) {
+        let text =
+            if self.changes.is_empty() { self.text.to_string() } else { merged(&self.text, &self.changes) };
+        (text, &self.file)
+    }
+}
+
+#[pymethods]
+impl Case {
+    /// Reads and checks a case file.
+    ///
+    /// Raises FileError if the file cannot be read, and CaseError with every problem if the case cannot be run.
+    #[classmethod]
+    fn read(_class: &Bound<'_, PyType>, py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let text = guarded(py, || Ok(read_text(&path, FileKind::Case)?))?;
+        Self::parsed(py, text.into(), path.display().to_string(), Vec::new())
+    }
+
+    /// A case from the text of a case file (TOML). Files that it names are looked for beside `name`.
+    #[classmethod]
+    #[pyo3(signature = (text, name = "Case"))]
+    fn from_text(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+        Self::parsed(py, text.into(), name.to_owned(), Vec::new())
+    }
+
+    /// A case from a dict of its tables, {"fibre": {"diameter": 50e-6, ...}, ...}, or of full keys,
+    /// {"fibre.diameter": "50 um", ...}. Texts have a unit, numbers are in SI units.
+    #[classmethod]
+    fn from_dict(_class: &Bound<'_, PyType>, py: Python<'_>, values: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Self::parsed(py, "".into(), NAME.to_owned(), overrides(values)?)
+    }
+
+    /// The case to start from: Table 1 of the paper, ten fibres of 1 m and 50 um in air of 10 m/s. With fed=True a
+    /// fibre that is fed and laid on a moving belt.
+    #[classmethod]
+    #[pyo3(signature = (fed = false))]
+    fn starter(_class: &Bound<'_, PyType>, py: Python<'_>, fed: bool) -> PyResult<Self> {
+        let text = if fed { starter_case_of_fed() } else { starter_case() };
+        Self::parsed(py, text.into(), "starter.toml".to_owned(), Vec::new())
+    }
+
+    /// The same case with other values: with_({"air.velocity": "20 m/s", "fibre.diameter": 18e-6}).
+    ///
+    /// A text has a unit, a number is in SI units, and None takes a key out, so that its default applies. What follows
+    /// from the changed keys follows anew.
+    fn with_(&self, py: Python<'_>, values: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let mut changes = self.changes.clone();
+        for (key, text) in overrides(values)? {
+            changes.retain(|(other, _)| *other != key);
+            changes.push((key, text));
+        }
+        Self::parsed(py, Arc::clone(&self.text), self.file.clone(), changes)
+    }
+
+    /// The value of a key in SI units; None if it has no meaning for this case.
+    fn __getitem__(&self, py: Python<'_>, key: &str) -> PyResult<Py<PyAny>> {
+        let found = keys::named(key).map_err(|problem| PyKeyError::new_err(problem.to_string()))?;
+        to_python(py, found.get(&self.case))
+    }
+
+    /// The values of all keys by table, in SI units, without those that have no meaning for this case or that a file of
+    /// the case gives. Case.from_dict() takes it.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (all, text) = (PyDict::new(py), write_case(&self.case));
+        for table in TABLES {
+            let of = PyDict::new(py);
+            let head = format!("\n[{table}]\n");
+            let written = text.split_once(&head).map_or("", |(_, rest)| rest);
+            let written = written.split_once("\n[").map_or(written, |(own, _)| own);
+            for key in keys::of_table(table) {
+                let start = format!("{} = ", key.short());
+                if written.lines().any(|line| line.starts_with(&start)) {
+                    of.set_item(key.short(), to_python(py, key.get(&self.case))?)?;
+                }
+            }
+            if !of.is_empty() {
+                all.set_item(table, of)?;
+            }
+        }
+        Ok(all)
+    }
+
+    /// The case as a case file with every key, in SI units: reading it gives the same case to the last bit.
+    fn to_toml(&self) -> String {
+        write_case(&self.case)
+    }
+
+    /// Notes and warnings about the case.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+
+    /// The name of the case file.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.file
+    }
+
+    /// The times of a run that its results are recorded at: their number.
+    #[getter]
+    fn instants(&self) -> u64 {
+        let run = &self.case.run;
+        run.steps.div_ceil(run.output_steps.max(1)) + 1
+    }
+
+    /// The limits on the time step [s] and what sets them.
+    #[getter]
+    fn step_limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let limits = PyDict::new(py);
+        for limit in self.case.step_limits() {
+            limits.set_item(limit.cause, limit.limit)?;
+        }
+        Ok(limits)
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| other.get().case == self.case)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        // Files that the case names are found from another folder too.
+        let file = std::path::absolute(&self.file).unwrap_or_else(|_| PathBuf::from(&self.file));
+        let make = py.get_type::<Self>().getattr("_unpickled")?;
+        let file = if self.file == NAME { self.file.clone() } else { file.display().to_string() };
+        (make, (&*self.text, file, self.changes.clone())).into_pyobject(py)
+    }
+
+    #[classmethod]
+    fn _unpickled(
+        _class: &Bound<'_, PyType>,
+        py: Python<'_>,
+        text: &str,
+        file: String,
+        changes: Vec<(String, String)>,
+    ) -> PyResult<Self> {
+        Self::parsed(py, text.into(), file, changes)
+    }
+
+    /// Bytes that are the same for cases whose fibres fly to the same bits.
+    fn _identity<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, format!("{:?}", self.case).as_bytes())
+    }
+
+    fn __repr__(&self) -> String {
+        let case = &self.case;
+        let shown = |key: &str| -> String {
+            let value = keys::find(key).and_then(|key| Some((key.dimension()?, key.get(case)?.number()?)));
+            value.map_or_else(String::new, |(dimension, value)| dimension.pretty(value))
+        };
+        format!(
+            "<Case {}: fibre of {} and {}, air of {}, {} replicates of {}>",
+            self.file,
+            shown("fibre.length"),
+            shown("fibre.diameter"),
+            shown("air.velocity"),
+            case.run.replicates,
+            shown("run.duration")
+        )
+    }
+}

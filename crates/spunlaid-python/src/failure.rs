@@ -1,0 +1,78 @@
+//! Errors of the library as exceptions of Python; their classes are in `python/spunlaid/_errors.py`.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use spunlaid::error::{Error, Place, Problem};
+use spunlaid_results::Failure;
+use std::any::Any;
+
+/// An error as the exception that a Python user gets.
+pub(crate) fn raised(py: Python<'_>, failure: impl Into<Failure>) -> PyErr {
+    let failure = failure.into();
+    let text = failure.to_string();
+    let made = match &failure {
+        Failure::Simulation(Error::Rejected(problems)) => {
+            listed(py, problems).and_then(|problems| instance(py, "CaseError", (text, problems)))
+        }
+        Failure::Simulation(Error::File(_)) => instance(py, "FileError", (text,)),
+        Failure::Simulation(Error::NotFinite { .. } | Error::NotLanding { .. }) => {
+            instance(py, "FibreLost", (text,))
+        }
+        Failure::Simulation(Error::Flight(_)) => instance(py, "FlightError", (text,)),
+        Failure::Simulation(Error::Interrupted) => instance(py, "Interrupted", (text,)),
+        Failure::Simulation(Error::Laying(_)) => instance(py, "CaseError", (text,)),
+        Failure::Simulation(_) => instance(py, "FolderError", (text,)),
+        _ => instance(py, "FolderError", (text,)),
+    };
+    made.unwrap_or_else(|error| error)
+}
+
+/// A panic, which is a fault of the library: an exception too, so that no session is lost.
+pub(crate) fn raised_of_panic(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
+    let told = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let told = told.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
+    let text = format!("a fault of spunlaid itself: {told}; please report it with the case");
+    instance(py, "InternalError", (text,)).unwrap_or_else(|error| error)
+}
+
+/// An exception of this package by the name of its class.
+pub(crate) fn raised_as(py: Python<'_>, class: &str, text: String) -> PyErr {
+    instance(py, class, (text,)).unwrap_or_else(|error| error)
+}
+
+fn instance<'py, A>(py: Python<'py>, class: &str, arguments: A) -> PyResult<PyErr>
+where
+    A: pyo3::call::PyCallArgs<'py>,
+{
+    let class = py.import("spunlaid._errors")?.getattr(class)?;
+    Ok(PyErr::from_value(class.call1(arguments)?))
+}
+
+/// Problems as dictionaries, from which `CaseError` makes its own.
+fn listed<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Bound<'py, PyList>> {
+    let list = PyList::empty(py);
+    for problem in problems {
+        let what = problem.what.to_string();
+        // Messages say what is wrong, then after a semicolon the way out.
+        let (message, remedy) = match what.split_once("; ") {
+            Some((message, remedy)) => (message, Some(remedy)),
+            None => (what.as_str(), None),
+        };
+        let (file, line, column) = match &problem.place {
+            Place::File { file, line, column } => (Some(file), *line, *column),
+            Place::Point { study, .. } => (Some(study), None, None),
+            _ => (None, None, None),
+        };
+        let of = PyDict::new(py);
+        of.set_item("key", Some(&problem.key).filter(|key| !key.is_empty()))?;
+        of.set_item("value", &problem.value)?;
+        of.set_item("message", message)?;
+        of.set_item("remedy", remedy)?;
+        of.set_item("file", file)?;
+        of.set_item("line", line)?;
+        of.set_item("column", column)?;
+        of.set_item("text", problem.to_string())?;
+        list.append(of)?;
+    }
+    Ok(list)
+}

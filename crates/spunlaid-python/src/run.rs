@@ -1,0 +1,297 @@
+//! `fly`: flies a case, and `Flown`, its results.
+
+use crate::case::Case;
+use crate::flight::laid_columns;
+use crate::samples::{Collected, Samples, locked};
+use crate::watched::{Watch, threads, watched};
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use spunlaid::ensemble::{
+    Computing, Keep, KeepShapes, Results, StepCheck, StepCheckPlan, TakeLaid, Trajectory, fly_and_check_step,
+};
+use spunlaid::error::Error;
+use spunlaid::flight::LaidPoint;
+use spunlaid::lanes::{Isa, WIDTH};
+use spunlaid::observe::{MEASURES, Measure};
+use spunlaid_results::folders::run::{self as folder, POSITIONS};
+use spunlaid_results::output::folder::{ENTRIES, Staging};
+use spunlaid_results::output::laid::{LaidTable, Spill};
+use spunlaid_results::output::summary::Performance;
+use spunlaid_results::output::tables::{Table, tables};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+
+/// Number of trajectories that are kept whole, for the report.
+const KEPT: usize = WIDTH;
+
+/// What the fibres of a run laid, by replicate.
+#[derive(Debug, Default)]
+struct Belt(Mutex<BTreeMap<u64, Vec<LaidPoint>>>);
+
+impl TakeLaid for Belt {
+    fn take(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
+        let mut laid = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        laid.entry(replicate).or_default().extend_from_slice(points);
+        Ok(())
+    }
+}
+
+/// Results of a run. `spunlaid.Run` shows them.
+#[pyclass(frozen, module = "spunlaid._spunlaid")]
+#[derive(Debug)]
+pub(crate) struct Flown {
+    pub(crate) name: String,
+    pub(crate) case: Arc<spunlaid::case::Case>,
+    pub(crate) results: Results,
+    pub(crate) check: Option<StepCheck>,
+    pub(crate) notes: Vec<String>,
+    pub(crate) performance: Performance,
+    pub(crate) samples: Option<Samples>,
+    pub(crate) laid: Vec<Vec<LaidPoint>>,
+}
+
+/// Flies a case. See spunlaid.run, which calls it.
+#[pyfunction]
+#[pyo3(signature = (case, threads = None, progress = None, check_step = true, samples = true, shapes = true))]
+pub(crate) fn fly(
+    py: Python<'_>,
+    case: &Case,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+    check_step: bool,
+    samples: bool,
+    shapes: bool,
+) -> PyResult<Flown> {
+    let (of, run) = (Arc::clone(&case.case), case.case.run);
+    let plan = if check_step { StepCheckPlan::of(&of) } else { None };
+    let again = plan.map_or(0, |plan| plan.fibre_steps());
+    let watch = Watch::of(run.steps.saturating_mul(run.replicates).saturating_add(again));
+    let belt = Belt::default();
+    let computing = Computing {
+        threads: self::threads(threads),
+        isa: Isa::detect(),
+        stop: &watch.stop,
+        fibre_steps: &watch.done,
+        laid: of.line.is_some().then_some(&belt as &dyn TakeLaid),
+    };
+    let started = Instant::now();
+    let (results, check, collected) = watched(py, &watch, progress.as_ref(), || {
+        let shapes = if shapes { KeepShapes::within(&of, POSITIONS) } else { KeepShapes::NONE };
+        let (mut collector, mut collected) = (Results::collector(KEPT), Collected::default());
+        let take = |trajectory: Trajectory| {
+            if samples {
+                collected.take(&trajectory.samples);
+            }
+            collector.take(&trajectory);
+            Ok::<(), Error>(())
+        };
+        let check = fly_and_check_step(&of, plan, Keep { curves: true, shapes }, computing, take)?;
+        Ok((collector.finish(), check, collected))
+    })?;
+    let performance = folder::performance(&of, &results, plan, computing, started.elapsed().as_secs_f64());
+    let mut notes = case.notes.clone();
+    notes.extend(folder::outside(&results));
+    notes.extend(folder::coarse_shapes(&of, &results));
+    let mut laid = belt.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let laid = (0..if of.line.is_some() { run.replicates } else { 0 })
+        .map(|replicate| laid.remove(&replicate).unwrap_or_default())
+        .collect();
+    let samples = if samples { Some(collected.to_numpy(py)?) } else { None };
+    Ok(Flown { name: case.stem(), case: of, results, check, notes, performance, samples, laid })
+}
+
+impl Flown {
+    fn folder(&self) -> folder::Run<'_> {
+        folder::Run {
+            name: &self.name,
+            case: &self.case,
+            results: &self.results,
+            check: self.check.as_ref(),
+            notes: &self.notes,
+            performance: self.performance,
+        }
+    }
+
+    fn table<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
+        let columns = PyDict::new(py);
+        if let Some(samples) = &self.samples {
+            for (column, values) in samples.table(py, name, self.case.line.is_some())? {
+                columns.set_item(column, values)?;
+            }
+        }
+        Ok(columns)
+    }
+}
+
+#[pymethods]
+impl Flown {
+    /// Text of summary.json.
+    #[getter]
+    fn summary(&self) -> String {
+        self.folder().summary()
+    }
+
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+
+    /// Columns of the free ends: times, or replicates x times.
+    #[getter]
+    fn end_node<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.table(py, "end_node.parquet")
+    }
+
+    /// Columns of the energies, likewise.
+    #[getter]
+    fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.table(py, "energy.parquet")
+    }
+
+    /// The measures that are numbers: a dict for each.
+    #[getter]
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let all = PyList::empty(py);
+        for number in &self.results.numbers {
+            let of = described(py, number.measure)?;
+            of.set_item("mean", number.estimate.mean)?;
+            of.set_item("standard_error", number.estimate.standard_error)?;
+            of.set_item("shown", number.value())?;
+            let values = PyArray1::from_slice(py, &number.estimate.values);
+            of.set_item("values", locked(values.as_any())?)?;
+            all.append(of)?;
+        }
+        Ok(all)
+    }
+
+    /// The measures that are curves: a dict for each.
+    #[getter]
+    fn curves<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let all = PyList::empty(py);
+        for curve in &self.results.curves {
+            let of = described(py, curve.measure)?;
+            let column = |of: &dyn Fn(&spunlaid::ensemble::Place) -> f64| {
+                locked(PyArray1::from_vec(py, curve.places.iter().map(of).collect()).as_any())
+            };
+            of.set_item("at", column(&|place| place.at)?)?;
+            of.set_item("mean", column(&|place| place.mean)?)?;
+            of.set_item("standard_error", column(&|place| place.standard_error.unwrap_or(f64::NAN))?)?;
+            of.set_item("largest", column(&|place| place.largest)?)?;
+            all.append(of)?;
+        }
+        Ok(all)
+    }
+
+    /// Times, and positions of all nodes: replicates x times x nodes x 3, NaN where a fibre has fewer nodes.
+    #[getter]
+    fn shapes<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let kept: Vec<&Trajectory> =
+            self.results.trajectories.iter().filter(|of| !of.shapes.is_empty()).collect();
+        let times: Vec<f64> =
+            kept.first().map_or_else(Vec::new, |of| of.shapes.iter().map(|shape| shape.time).collect());
+        let shapes = || kept.iter().flat_map(|of| &of.shapes);
+        let nodes = shapes().map(|shape| shape.position.len()).max().unwrap_or(0);
+        let mut flat = Vec::with_capacity(kept.len() * times.len() * nodes * 3);
+        for shape in shapes() {
+            flat.extend(shape.position.iter().flat_map(|p| [p.x, p.y, p.z]));
+            flat.extend(std::iter::repeat_n(f64::NAN, 3 * (nodes - shape.position.len())));
+        }
+        let shape = [kept.len(), times.len(), nodes, 3];
+        let positions = PyArray1::from_vec(py, flat).reshape(shape)?;
+        Ok((locked(PyArray1::from_vec(py, times).as_any())?, locked(positions.as_any())?))
+    }
+
+    /// What each replicate laid on the belt: fed length, time, place along and across the belt.
+    #[getter]
+    fn laid<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let all = PyList::empty(py);
+        for points in &self.laid {
+            all.append(laid_columns(py, points)?)?;
+        }
+        Ok(all)
+    }
+
+    /// The report, a page of HTML.
+    fn report(&self, py: Python<'_>) -> PyResult<String> {
+        let watch = Watch::default();
+        watched(py, &watch, None, || self.folder().report(self.computing(&watch.stop, &watch.done)))
+    }
+
+    /// Writes the folder that `spunlaid run` writes.
+    fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<()> {
+        let Some(samples) = &self.samples else {
+            let text = "the run was flown with samples=False, so its tables cannot be written";
+            return Err(crate::failure::raised_as(py, "FolderError", text.to_owned()));
+        };
+        let trajectories = samples.borrowed(py).trajectories();
+        let watch = Watch::default();
+        watched(py, &watch, None, || {
+            let staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
+            for (name, columns) in tables(self.case.line.is_some()) {
+                let mut table = Table::create(staging.place(name), columns)?;
+                trajectories.iter().try_for_each(|trajectory| table.add(trajectory))?;
+                table.finish()?;
+            }
+            if self.case.line.is_some() {
+                let spill = Spill::new(&staging);
+                let mut table = LaidTable::create(&staging, &spill)?;
+                for (replicate, points) in (0..).zip(&self.laid) {
+                    spill.take(replicate, points).map_err(|ended| spill.failure(ended.into()))?;
+                    table.add(replicate)?;
+                }
+                table.finish()?;
+            }
+            self.folder().write(&staging, self.computing(&watch.stop, &watch.done))?;
+            staging.publish()
+        })
+    }
+
+    /// The shares that half the time step changes.
+    #[getter]
+    fn step_check<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(check) = &self.check else { return Ok(None) };
+        let of = PyDict::new(py);
+        of.set_item("duration_s", check.duration)?;
+        of.set_item("share_of_run", check.share_of_run)?;
+        of.set_item("path_difference", check.path.mean)?;
+        of.set_item("amplitude_difference", check.amplitude.mean)?;
+        Ok(Some(of))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        crate::state::reduced(py, self)
+    }
+}
+
+impl Flown {
+    fn computing<'a>(&self, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Computing<'a> {
+        Computing { threads: threads(None), isa: Isa::detect(), stop, fibre_steps, laid: None }
+    }
+}
+
+/// Name, unit and meaning of a measure.
+fn described<'py>(py: Python<'py>, measure: &Measure) -> PyResult<Bound<'py, PyDict>> {
+    let of = PyDict::new(py);
+    of.set_item("column", measure.column)?;
+    of.set_item("name", measure.name)?;
+    of.set_item("label", measure.label)?;
+    of.set_item("meaning", measure.meaning)?;
+    of.set_item("group", measure.group.name)?;
+    of.set_item("unit", measure.unit.shown)?;
+    of.set_item("per_si", measure.unit.per_si)?;
+    Ok(of)
+}
+
+/// The measures that are numbers: a dict for each.
+#[pyfunction]
+pub(crate) fn measures(py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
+    let all = PyList::empty(py);
+    for measure in MEASURES {
+        all.append(described(py, measure)?)?;
+    }
+    Ok(all)
+}

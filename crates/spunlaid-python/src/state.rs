@@ -1,0 +1,175 @@
+//! Results of a run as plain values of Python, for pickling, and back.
+
+use crate::run::Flown;
+use crate::samples::Samples;
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use spunlaid::ensemble::{Curve, Number, Place, Results, Shape, StepCheck, Trajectory};
+use spunlaid::flight::LaidPoint;
+use spunlaid::input::{parse_case, write_case};
+use spunlaid::lanes::Isa;
+use spunlaid::observe::{DECLARED, Measure};
+use spunlaid::statistics::Estimate;
+use spunlaid::vec3::Vec3;
+use spunlaid_results::output::summary::Performance;
+use std::sync::Arc;
+
+/// The function that makes the results again, and its argument.
+pub(crate) fn reduced<'py>(py: Python<'py>, of: &Flown) -> PyResult<Bound<'py, PyAny>> {
+    let state = PyDict::new(py);
+    state.set_item("name", &of.name)?;
+    state.set_item("case", write_case(&absolute(&of.case)))?;
+    state.set_item("notes", &of.notes)?;
+    let p = of.performance;
+    state.set_item("performance", (p.wall_s, p.threads, p.element_steps, p.ns_per_element_step))?;
+    if let Some(check) = &of.check {
+        let (path, amplitude) = (estimate(py, &check.path), estimate(py, &check.amplitude));
+        state.set_item("check", (check.duration, check.share_of_run, path, amplitude))?;
+    }
+    let numbers = PyList::empty(py);
+    for number in &of.results.numbers {
+        numbers.append((number.measure.name, estimate(py, &number.estimate)))?;
+    }
+    state.set_item("numbers", numbers)?;
+    let curves = PyList::empty(py);
+    for curve in &of.results.curves {
+        let flat = curve.places.iter().flat_map(|place| {
+            [place.at, place.mean, place.standard_error.unwrap_or(f64::NAN), place.largest]
+        });
+        curves.append((curve.measure.name, PyArray1::from_vec(py, flat.collect())))?;
+    }
+    state.set_item("curves", curves)?;
+    let trajectories = PyList::empty(py);
+    for trajectory in &of.results.trajectories {
+        let shapes = PyList::empty(py);
+        for shape in &trajectory.shapes {
+            let flat = shape.position.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
+            shapes.append((shape.time, PyArray1::from_vec(py, flat)))?;
+        }
+        trajectories.append((trajectory.replicate, shapes, points(py, &trajectory.laid)))?;
+    }
+    state.set_item("trajectories", trajectories)?;
+    let laid = of.laid.iter().map(|laid| points(py, laid)).collect::<Vec<_>>();
+    state.set_item("laid", laid)?;
+    if let Some(samples) = &of.samples {
+        let columns: Vec<_> = samples.columns.iter().map(|column| column.clone_ref(py)).collect();
+        state.set_item("samples", (samples.times.clone_ref(py), columns))?;
+    }
+    let make = py.import("spunlaid._spunlaid")?.getattr("flown_from")?;
+    Ok((make, (state,)).into_pyobject(py)?.into_any())
+}
+
+/// The results that [`reduced`] wrote.
+#[pyfunction]
+pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<Flown> {
+    let need = |key: &str| {
+        state
+            .get_item(key)?
+            .ok_or_else(|| PyValueError::new_err(format!("these are not the results of a run: no {key}")))
+    };
+    let text: String = need("case")?.extract()?;
+    let (case, _) = crate::watched::guarded(py, || Ok(parse_case(&text, "case.toml", &[])?))?;
+    let (wall_s, threads, element_steps, ns_per_element_step) = need("performance")?.extract()?;
+    let instruction_set = Isa::detect().name();
+    let performance = Performance { wall_s, threads, element_steps, ns_per_element_step, instruction_set };
+    let check = match state.get_item("check")? {
+        Some(check) => {
+            let (duration, share_of_run, path, amplitude): (f64, f64, Told, Told) = check.extract()?;
+            Some(StepCheck { duration, share_of_run, path: told(path)?, amplitude: told(amplitude)? })
+        }
+        None => None,
+    };
+    let mut results = Results { numbers: Vec::new(), curves: Vec::new(), trajectories: Vec::new() };
+    let numbers: Vec<(String, Told)> = need("numbers")?.extract()?;
+    for (name, estimate) in numbers {
+        results.numbers.push(Number { measure: measure(&name)?, estimate: told(estimate)? });
+    }
+    let curves: Vec<(String, PyReadonlyArray1<'_, f64>)> = need("curves")?.extract()?;
+    for (name, flat) in curves {
+        let places = flat.as_slice()?.chunks_exact(4).map(|of| Place {
+            at: of[0],
+            mean: of[1],
+            standard_error: Some(of[2]).filter(|error| !error.is_nan()),
+            largest: of[3],
+        });
+        results.curves.push(Curve { measure: measure(&name)?, places: places.collect() });
+    }
+    type Kept<'py> = (u64, Vec<(f64, PyReadonlyArray1<'py, f64>)>, PyReadonlyArray2<'py, f64>);
+    let trajectories: Vec<Kept<'_>> = need("trajectories")?.extract()?;
+    let samples = match state.get_item("samples")? {
+        Some(samples) => {
+            let (times, columns): (Bound<'_, PyArray1<f64>>, Vec<Bound<'_, PyArray2<f64>>>) =
+                samples.extract()?;
+            let columns = columns.into_iter().map(Bound::unbind).collect();
+            Some(Samples { times: times.unbind(), columns })
+        }
+        None => None,
+    };
+    for (replicate, shapes, laid) in trajectories {
+        let shape = |(time, flat): (f64, PyReadonlyArray1<'_, f64>)| -> PyResult<Shape> {
+            let vectors = flat.as_slice()?.chunks_exact(3).map(|of| Vec3::new(of[0], of[1], of[2]));
+            Ok(Shape { time, position: vectors.collect() })
+        };
+        let recorded = samples.as_ref().map(|samples| samples.borrowed(py).samples(replicate as usize));
+        results.trajectories.push(Trajectory {
+            replicate,
+            values: Vec::new(),
+            samples: recorded.unwrap_or_default(),
+            shapes: shapes.into_iter().map(shape).collect::<PyResult<_>>()?,
+            laid: points_of(&laid),
+        });
+    }
+    let laid: Vec<PyReadonlyArray2<'_, f64>> = need("laid")?.extract()?;
+    Ok(Flown {
+        name: need("name")?.extract()?,
+        case: Arc::new(case),
+        results,
+        check,
+        notes: need("notes")?.extract()?,
+        performance,
+        samples,
+        laid: laid.iter().map(points_of).collect(),
+    })
+}
+
+/// Mean, standard error and values.
+type Told<'py> = (f64, Option<f64>, PyReadonlyArray1<'py, f64>);
+
+fn estimate<'py>(py: Python<'py>, of: &Estimate) -> (f64, Option<f64>, Bound<'py, PyArray1<f64>>) {
+    (of.mean, of.standard_error, PyArray1::from_slice(py, &of.values))
+}
+
+fn told((mean, standard_error, values): Told<'_>) -> PyResult<Estimate> {
+    Ok(Estimate { mean, standard_error, values: values.as_slice()?.to_vec() })
+}
+
+fn measure(name: &str) -> PyResult<&'static Measure> {
+    let mut all = DECLARED.iter().flat_map(|declaration| declaration.measures);
+    all.find(|measure| measure.name == name)
+        .ok_or_else(|| PyValueError::new_err(format!("this version of spunlaid has no measure {name}")))
+}
+
+fn points<'py>(py: Python<'py>, laid: &[LaidPoint]) -> Bound<'py, PyArray2<f64>> {
+    let flat: Vec<f64> = laid.iter().flat_map(|p| [p.fed, p.time, p.md, p.cd]).collect();
+    let array = numpy::ndarray::Array2::from_shape_vec((laid.len(), 4), flat).unwrap_or_default();
+    PyArray2::from_owned_array(py, array)
+}
+
+fn points_of(array: &PyReadonlyArray2<'_, f64>) -> Vec<LaidPoint> {
+    let rows = array.as_array();
+    let of = |row: numpy::ndarray::ArrayView1<'_, f64>| LaidPoint {
+        fed: row[0],
+        time: row[1],
+        md: row[2],
+        cd: row[3],
+    };
+    if rows.ncols() == 4 { rows.rows().into_iter().map(of).collect() } else { Vec::new() }
+}
+
+/// The case with the full paths of its files, so that they are found from any folder.
+pub(crate) fn absolute(case: &spunlaid::case::Case) -> spunlaid::case::Case {
+    let place = |file: &std::path::Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    spunlaid::case::Case { air: case.air.with_files_at(place), ..case.clone() }
+}

@@ -1,0 +1,376 @@
+//! `Study`: a study file, its journal and its results.
+
+use crate::bundle::{Part, parts, records};
+use crate::case::Case;
+use crate::failure::raised_as;
+use crate::value::overrides;
+use crate::watched::{Watch, guarded, threads, watched};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use spunlaid::ensemble::Computing;
+use spunlaid::error::{Error, JournalError};
+use spunlaid::input::{Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study};
+use spunlaid::lanes::Isa;
+use spunlaid::observe::MEASURES;
+use spunlaid::study::{Bundles, Journal, Landing, Progress, Rounds, rankings, results_of_point, run};
+use spunlaid_results::Failure;
+use spunlaid_results::folders::study::StudyFolder;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Writing the files of a study is never stopped.
+static NEVER: AtomicBool = AtomicBool::new(false);
+
+/// A study: its points, its journal and, once it has been flown, its results. spunlaid.sweep makes and flies one.
+#[pyclass(frozen, module = "spunlaid._spunlaid")]
+#[derive(Debug)]
+pub(crate) struct Study {
+    name: String,
+    file: StudyFile,
+    out: Option<PathBuf>,
+    /// `None` once the folder has been let go; it is then opened again for reading.
+    journal: Mutex<Option<Journal>>,
+    /// The present round, and its fibres in bundles.
+    round: Mutex<(Rounds, Option<Bundles>)>,
+}
+
+#[pymethods]
+impl Study {
+    /// * study: the path of a study file, or its text with the case (text, name, changes) that it varies
+    /// * out: the folder of the journal and the results; without one they stay in memory
+    #[new]
+    #[pyo3(signature = (study, case = None, out = None, force = false, points = None, replicates = None, set = None))]
+    #[expect(clippy::too_many_arguments, reason = "they are those of spunlaid.sweep")]
+    fn new(
+        py: Python<'_>,
+        study: &Bound<'_, PyAny>,
+        case: Option<&Case>,
+        out: Option<PathBuf>,
+        force: bool,
+        points: Option<u64>,
+        replicates: Option<u64>,
+        set: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let changed = set.map_or_else(|| Ok(Vec::new()), overrides)?;
+        let (name, file) = match case {
+            Some(case) => {
+                let text: String = study.extract()?;
+                let (case_text, case_name) = case.source();
+                let set = Overrides { values: &changed, word: "sweep:" };
+                let changes = StudyChanges { points, replicates, set };
+                let file = guarded(py, || {
+                    let named = (case_text, case_name.to_owned());
+                    Ok(parse_changed_study(&text, "study", &changes, |_| Ok(named))?)
+                })?;
+                ("study".to_owned(), file)
+            }
+            None => {
+                let path: PathBuf = study.extract()?;
+                let set = Overrides { values: &changed, word: "sweep:" };
+                let changes = StudyChanges { points, replicates, set };
+                let file = guarded(py, || Ok(read_changed_study(&path, &changes)?))?;
+                (path.file_stem().unwrap_or_default().to_string_lossy().into_owned(), file)
+            }
+        };
+        let number = file.study.points.len();
+        let journal = guarded(py, || match &out {
+            Some(out) => Ok(StudyFolder::open(out, &file, force, &NEVER)?.1),
+            None => Ok(Journal::in_memory(number)),
+        })?;
+        let round = Mutex::new((Rounds::of(&file.study), None));
+        Ok(Self { name, file, out, journal: Mutex::new(Some(journal)), round })
+    }
+
+    /// Flies all missing fibres on this machine.
+    #[pyo3(signature = (threads = None, progress = None))]
+    fn fly(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<()> {
+        let watch = Watch::default();
+        let of = Progress::default();
+        let computing = Computing {
+            threads: self::threads(threads),
+            isa: Isa::detect(),
+            stop: &watch.stop,
+            fibre_steps: &watch.done,
+            laid: None,
+        };
+        // Progress is told in fibres, as it is on a cluster.
+        let told = Watch::default();
+        let stopped = &watch.stop;
+        let finished = AtomicBool::new(false);
+        watched(py, &told, progress.as_ref(), || {
+            std::thread::scope(|scope| {
+                scope.spawn(|| {
+                    while !finished.load(Ordering::Acquire) {
+                        told.done.store(of.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
+                        told.of.store(of.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
+                        stopped.fetch_or(told.stop.load(Ordering::Relaxed), Ordering::Relaxed);
+                        std::thread::park_timeout(std::time::Duration::from_millis(20));
+                    }
+                });
+                let flown = self.with_journal(|journal| {
+                    let lent = Mutex::new(std::mem::replace(journal, Journal::in_memory(0)));
+                    let flown = run(&self.file.study, &lent, computing, &of);
+                    *journal = lent.into_inner().unwrap_or_else(PoisonError::into_inner);
+                    Ok(flown?)
+                });
+                finished.store(true, Ordering::Release);
+                told.done.store(of.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
+                told.of.store(of.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
+                flown
+            })
+        })
+    }
+
+    /// Cuts what this round lacks into bundles of whole flights; their number.
+    fn begin_round(&self, py: Python<'_>, flights: usize) -> PyResult<usize> {
+        guarded(py, || {
+            let mut round = self.round();
+            let missing = self.with_journal(|journal| Ok(round.0.missing(journal)))?;
+            let bundles = Bundles::of(&self.file.study.points, &missing, flights);
+            let count = bundles.count();
+            round.1 = Some(bundles);
+            Ok(count)
+        })
+    }
+
+    /// What a machine needs to fly a bundle of this round.
+    fn bundle(&self, py: Python<'_>, index: usize) -> PyResult<Vec<Part>> {
+        guarded(py, || {
+            let round = self.round();
+            let batches = round.1.as_ref().map_or_else(Vec::new, |bundles| bundles.batches(index));
+            Ok(parts(&self.file.study.points, &batches))
+        })
+    }
+
+    /// Adds the records of a bundle to the journal and puts them on the disk. Fibres that it holds already are left as they
+    /// are. Returns the number of fibres added.
+    fn add(&self, py: Python<'_>, rows: PyReadonlyArray2<'_, f64>) -> PyResult<usize> {
+        let records = records(&rows)?;
+        let (points, most) = (self.file.study.points.len() as u64, self.file.study.replicates.at_most);
+        if records.iter().any(|record| record.point >= points || record.replicate >= most) {
+            return Err(PyIndexError::new_err("these records belong to another study"));
+        }
+        guarded(py, || {
+            let mut new = records;
+            let file = self.with_journal(|journal| {
+                new.retain(|record| !journal.holds(record.point as usize, record.replicate));
+                journal.add(&new).map_err(Error::from)?;
+                Ok(journal.handle().map_err(Error::from)?)
+            })?;
+            if let Some(file) = file {
+                file.sync_data().map_err(|error| Error::from(JournalError::Unsynced(error)))?;
+            }
+            Ok(new.len())
+        })
+    }
+
+    /// Goes on to the next round; false if the study is complete.
+    fn next_round(&self, py: Python<'_>) -> PyResult<bool> {
+        guarded(py, || {
+            let mut round = self.round();
+            self.with_journal(|journal| Ok(round.0.next(&self.file.study, journal)?))
+        })
+    }
+
+    /// Number of fibres in the journal, and of fibres wanted so far.
+    #[getter]
+    fn fibres(&self, py: Python<'_>) -> PyResult<(u64, u64)> {
+        guarded(py, || {
+            let points = 0..self.file.study.points.len();
+            let held = self.with_journal(|journal| Ok(points.map(|point| journal.held(point)).sum()))?;
+            Ok((held, self.round().0.wanted().iter().sum()))
+        })
+    }
+
+    /// Number of points.
+    fn __len__(&self) -> usize {
+        self.file.study.points.len()
+    }
+
+    /// Work of one flight of the dearest point: steps times elements.
+    #[getter]
+    fn work(&self) -> f64 {
+        let of = |case: &spunlaid::case::Case| case.run.steps as f64 * case.fibre.elements as f64;
+        self.file.study.points.iter().map(|point| of(&point.case)).fold(0.0, f64::max)
+    }
+
+    /// The keys that differ between points: name, SI unit, whether a factor, its words, its values at the points.
+    #[getter]
+    fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let (all, study) = (PyList::empty(py), &self.file.study);
+        for (index, input) in study.inputs().enumerate() {
+            let of = PyDict::new(py);
+            of.set_item("key", input.key)?;
+            of.set_item("column", input.column())?;
+            of.set_item("unit", input.dimension.si_unit())?;
+            of.set_item("factor", index < study.factors.len())?;
+            let values =
+                study.points.iter().map(|point| point.values.get(index).copied().unwrap_or(f64::NAN));
+            if input.words.is_empty() {
+                of.set_item("values", PyArray1::from_vec(py, values.collect()))?;
+            } else {
+                let words: Vec<&str> = values.map(|value| input.word(value).unwrap_or("")).collect();
+                of.set_item("values", words)?;
+            }
+            all.append(of)?;
+        }
+        Ok(all)
+    }
+
+    /// Mean and standard error of every measure at every point: points x measures, the numbers of fibres measured and lost,
+    /// and the seeds.
+    fn results<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let points = &self.file.study.points;
+        let results = guarded(py, || {
+            self.with_journal(|journal| {
+                let of = |point: usize| Ok(results_of_point(journal, point)?);
+                (0..points.len()).map(of).collect::<Result<Vec<_>, Failure>>()
+            })
+        })?;
+        let all = PyDict::new(py);
+        let shape = [points.len(), MEASURES.len()];
+        let mean = PyArray1::from_vec(py, results.iter().flat_map(|of| of.mean).collect()).reshape(shape)?;
+        let errors = (results.iter())
+            .flat_map(|of| (0..MEASURES.len()).map(|i| of.standard_error(i).unwrap_or(f64::NAN)));
+        all.set_item("mean", mean)?;
+        all.set_item("standard_error", PyArray1::from_vec(py, errors.collect()).reshape(shape)?)?;
+        all.set_item("n", PyArray1::from_vec(py, results.iter().map(|of| of.n as i64).collect()))?;
+        all.set_item("lost", PyArray1::from_vec(py, results.iter().map(|of| of.lost as i64).collect()))?;
+        let seeds = points.iter().map(|point| point.case.run.seed).collect();
+        all.set_item("seed", PyArray1::from_vec(py, seeds))?;
+        Ok(all)
+    }
+
+    /// Every fibre: point, replicate, whether it was lost, and its measures (NaN if lost): an array of fibres x columns.
+    fn replicates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let columns = 3 + MEASURES.len();
+        let rows = guarded(py, || {
+            self.with_journal(|journal| {
+                let mut rows = Vec::new();
+                for point in 0..self.file.study.points.len() {
+                    for record in journal.records(point, u64::MAX).map_err(Error::from)? {
+                        rows.extend([record.point as f64, record.replicate as f64]);
+                        match record.landing {
+                            Landing::Measured(values) => {
+                                rows.push(0.0);
+                                rows.extend(values);
+                            }
+                            Landing::Lost { .. } => {
+                                rows.push(1.0);
+                                rows.extend([f64::NAN; MEASURES.len()]);
+                            }
+                        }
+                    }
+                }
+                Ok(rows)
+            })
+        })?;
+        let fibres = rows.len() / columns;
+        Ok(PyArray1::from_vec(py, rows).reshape([fibres, columns])?.into_any())
+    }
+
+    /// How much each factor changes each measure: lists of measure, factor, from, to, change and half the width of its 95 %
+    /// interval; and why there is no ranking, if so.
+    fn effects<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyList>, Option<String>)> {
+        let study = &self.file.study;
+        let found = guarded(py, || self.with_journal(|journal| Ok(rankings(study, journal)?)))?;
+        let all = PyList::empty(py);
+        for ranking in &found.of_measures {
+            for effect in &ranking.effects {
+                let of = PyDict::new(py);
+                let factor = &study.factors[effect.factor];
+                of.set_item("measure", MEASURES[ranking.measure].column)?;
+                of.set_item("factor", factor.key)?;
+                of.set_item("from", effect.from)?;
+                of.set_item("to", effect.to)?;
+                of.set_item("change", effect.change)?;
+                of.set_item("half_width", effect.half_width)?;
+                of.set_item("explained", ranking.explained)?;
+                all.append(of)?;
+            }
+        }
+        Ok((all, found.refusal.map(|refusal| refusal.to_string())))
+    }
+
+    /// Makes tables, figures and report in the folder of the study, and lets go of it.
+    fn write(&self, py: Python<'_>) -> PyResult<()> {
+        let Some(out) = &self.out else {
+            let text = "the study was flown without a folder; name one: out = \"results/study\"".to_owned();
+            return Err(raised_as(py, "FolderError", text));
+        };
+        guarded(py, || {
+            // The folder is opened anew, which also sees whether it still holds this study.
+            *self.journal() = None;
+            let (folder, mut journal, _) = StudyFolder::open(out, &self.file, false, &NEVER)?;
+            folder.write(&self.name, &self.file, &mut journal).map(drop)
+        })
+    }
+
+    /// Lets go of the folder, so that other programs may use it. Results are still read from it.
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        guarded(py, || {
+            if self.out.is_some() {
+                *self.journal() = None;
+            }
+            Ok(())
+        })
+    }
+
+    /// The case of a point, counted from 0, as text.
+    fn case_text(&self, point: usize) -> PyResult<String> {
+        let of = self.file.study.points.get(point);
+        let of = of.ok_or_else(|| PyIndexError::new_err(format!("there is no point {point}")))?;
+        Ok(spunlaid::input::write_case(&crate::state::absolute(&of.case)))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// How the factors are combined.
+    #[getter]
+    fn design(&self) -> &'static str {
+        self.file.study.design.name()
+    }
+
+    /// The study with every default written out.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.file.text
+    }
+
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.file.notes.iter().map(ToString::to_string).collect()
+    }
+
+    /// The measures: column, name, label, meaning.
+    #[getter]
+    fn measures(&self) -> Vec<(&'static str, &'static str, &'static str, &'static str)> {
+        MEASURES.iter().map(|of| (of.column, of.name, of.label, of.meaning)).collect()
+    }
+}
+
+impl Study {
+    fn journal(&self) -> MutexGuard<'_, Option<Journal>> {
+        self.journal.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Does something with the journal. One that was let go of is opened for that only.
+    fn with_journal<T>(&self, work: impl FnOnce(&mut Journal) -> Result<T, Failure>) -> Result<T, Failure> {
+        let mut held = self.journal();
+        match (held.as_mut(), &self.out) {
+            (Some(journal), _) => work(journal),
+            (None, Some(out)) => work(&mut StudyFolder::open(out, &self.file, false, &NEVER)?.1),
+            (None, None) => work(&mut Journal::in_memory(self.file.study.points.len())),
+        }
+    }
+
+    fn round(&self) -> MutexGuard<'_, (Rounds, Option<Bundles>)> {
+        self.round.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

@@ -1,0 +1,246 @@
+//! Values of Python as those of keys, and back.
+
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyMapping, PyString};
+use spunlaid::case::keys::{self, Kind, Value};
+use spunlaid::input::WEB_KEYS;
+use spunlaid::units::Dimension;
+use spunlaid::vec3::Vec3;
+use std::path::PathBuf;
+
+/// Keys and values as overrides of a case file, in their order: `{"air.velocity": "20 m/s"}`, or `{"air": {"velocity":
+/// 20.0}}`. Numbers are in SI units; `None` takes a key out.
+pub(crate) fn overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, String)>> {
+    overrides_of(values, |name| keys::find(name).map(|key| key.kind))
+}
+
+/// The same for the file of a web; of a layer with its number, `layer.2.line.belt_speed`.
+pub(crate) fn web_overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, String)>> {
+    overrides_of(values, |name| {
+        let mut keys = WEB_KEYS.iter();
+        keys.find(|key| {
+            name.strip_suffix(key.name).is_some_and(|before| before.is_empty() || before.ends_with('.'))
+        })
+        .map(|key| key.kind)
+    })
+}
+
+fn overrides_of(
+    values: &Bound<'_, PyAny>,
+    kind: impl Fn(&str) -> Option<Kind>,
+) -> PyResult<Vec<(String, String)>> {
+    let values = values.cast::<PyMapping>().map_err(|_| {
+        let found = type_name(values);
+        PyTypeError::new_err(format!(
+            "keys and values must be a dict like {{\"air.velocity\": \"20 m/s\"}}, not {found}"
+        ))
+    })?;
+    let mut all = Vec::new();
+    for item in values.items()?.iter() {
+        let (name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
+        let name = name_of(&name)?;
+        match value.cast::<PyDict>() {
+            Ok(table) if !name.contains('.') => {
+                for (key, value) in table.iter() {
+                    let key = format!("{name}.{}", name_of(&key)?);
+                    let text = text_of(&key, kind(&key), &value)?;
+                    all.push((key, text));
+                }
+            }
+            _ => {
+                let text = text_of(&name, kind(&name), &value)?;
+                all.push((name, text));
+            }
+        }
+    }
+    Ok(all)
+}
+
+fn name_of(name: &Bound<'_, PyAny>) -> PyResult<String> {
+    let text = name.cast::<PyString>().map_err(|_| {
+        PyTypeError::new_err(format!(
+            "the name of a key must be a str like \"air.velocity\", not {}",
+            type_name(name)
+        ))
+    })?;
+    // A lone surrogate has no UTF-8.
+    text.to_str()
+        .map(str::to_owned)
+        .map_err(|_| PyValueError::new_err("the name of a key is not valid Unicode"))
+}
+
+/// A value as it stands after `key =` in a case file.
+fn text_of(key: &str, kind: Option<Kind>, value: &Bound<'_, PyAny>) -> PyResult<String> {
+    if value.is_none() {
+        return Ok("auto".to_owned());
+    }
+    if let Ok(flag) = value.cast::<PyBool>() {
+        return Ok(flag.is_true().to_string());
+    }
+    if let Ok(text) = value.cast::<PyString>() {
+        return text
+            .to_str()
+            .map(str::to_owned)
+            .map_err(|_| PyValueError::new_err(format!("the value of {key} is not valid Unicode")));
+    }
+    if let Some(number) = number(value)? {
+        return Ok(match &kind {
+            Some(Kind::Quantity(dimension, _)) => quantity(*dimension, &number),
+            _ => number.text(),
+        });
+    }
+    if let Some(path) = path(value)? {
+        return Ok(quoted(&path.to_string_lossy()));
+    }
+    if let Ok(parts) = value.try_iter()
+        && !value.is_instance_of::<PyDict>()
+    {
+        let dimension = match kind {
+            Some(Kind::Lengths | Kind::Point) => Dimension::Length,
+            _ => Dimension::Ratio,
+        };
+        let mut texts = Vec::new();
+        for part in parts.take(MOST_PARTS) {
+            texts.push(part_text(key, dimension, &part?)?);
+        }
+        return Ok(format!("[{}]", texts.join(", ")));
+    }
+    Err(PyTypeError::new_err(format!(
+        "{key} takes a text with a unit, a number in SI units or a list of these, not {}",
+        type_name(value)
+    )))
+}
+
+/// No key takes a longer list.
+const MOST_PARTS: usize = 100_000;
+
+fn part_text(key: &str, dimension: Dimension, part: &Bound<'_, PyAny>) -> PyResult<String> {
+    if let Ok(text) = part.cast::<PyString>() {
+        let text = text.to_str().map_err(|_| PyValueError::new_err(format!("{key}: not valid Unicode")))?;
+        return Ok(quoted(text));
+    }
+    if let Some(number) = number(part)? {
+        return Ok(quantity(dimension, &number));
+    }
+    match path(part)? {
+        Some(path) => Ok(quoted(&path.to_string_lossy())),
+        None => Err(PyTypeError::new_err(format!(
+            "the list of {key} takes texts and numbers, not {}",
+            type_name(part)
+        ))),
+    }
+}
+
+/// A number of Python.
+pub(crate) enum Number {
+    Whole(String),
+    Float(f64),
+}
+
+impl Number {
+    fn text(&self) -> String {
+        match self {
+            Self::Whole(digits) => digits.clone(),
+            Self::Float(value) if value.fract() == 0.0 && value.abs() < 9e15 => format!("{value:.0}"),
+            Self::Float(value) => toml_float(*value),
+        }
+    }
+
+    pub(crate) fn float(&self) -> f64 {
+        match self {
+            // Too many digits make infinity, which the key rejects.
+            Self::Whole(digits) => digits.parse().unwrap_or(f64::NAN),
+            Self::Float(value) => *value,
+        }
+    }
+}
+
+/// The value as a number, if it is one: of Python or NumPy.
+pub(crate) fn number(value: &Bound<'_, PyAny>) -> PyResult<Option<Number>> {
+    if value.is_instance_of::<PyFloat>() {
+        return Ok(Some(Number::Float(value.extract()?)));
+    }
+    if value.is_instance_of::<PyInt>() {
+        // Python refuses to write out integers of thousands of digits; those are too large for any key.
+        let digits = value.str().and_then(|text| text.to_str().map(str::to_owned));
+        return Ok(Some(digits.map_or(Number::Float(f64::INFINITY), Number::Whole)));
+    }
+    // Numbers of NumPy; arrays with one element are meant too, but not longer ones.
+    let is_number = value.hasattr("dtype")?
+        && value.getattr("ndim").is_ok_and(|n| n.extract::<usize>().is_ok_and(|n| n == 0));
+    Ok(if is_number { value.extract::<f64>().ok().map(Number::Float) } else { None })
+}
+
+fn path(value: &Bound<'_, PyAny>) -> PyResult<Option<PathBuf>> {
+    if value.hasattr("__fspath__")? { value.extract().map(Some) } else { Ok(None) }
+}
+
+fn quantity(dimension: Dimension, number: &Number) -> String {
+    let value = number.float();
+    if dimension == Dimension::Ratio { toml_float(value) } else { quoted(&dimension.exact(value)) }
+}
+
+fn toml_float(value: f64) -> String {
+    if value.is_nan() {
+        return "nan".to_owned();
+    }
+    if value.is_infinite() {
+        return if value > 0.0 { "inf" } else { "-inf" }.to_owned();
+    }
+    format!("{value:?}")
+}
+
+/// A text as a TOML string.
+pub(crate) fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007F")
+}
+
+pub(crate) fn type_name(value: &Bound<'_, PyAny>) -> String {
+    value.get_type().name().map_or_else(|_| "that".to_owned(), |name| name.to_string())
+}
+
+/// A value for [`spunlaid::case::keys::Key::set`] and for changes in flight.
+pub(crate) fn value_of(value: &Bound<'_, PyAny>) -> PyResult<Value> {
+    if value.is_instance_of::<PyBool>() {
+        return Err(PyTypeError::new_err(
+            "a key takes a text with a unit or a number in SI units, not a bool",
+        ));
+    }
+    if let Ok(text) = value.cast::<PyString>() {
+        let text = text.to_str().map_err(|_| PyValueError::new_err("the value is not valid Unicode"))?;
+        return Ok(text.into());
+    }
+    if let Some(number) = number(value)? {
+        return Ok(Value::Number(number.float()));
+    }
+    let parts: Vec<f64> = value.extract().map_err(|_| {
+        PyTypeError::new_err(format!(
+            "a key takes a text with a unit, a number in SI units or a vector of numbers, not {}",
+            type_name(value)
+        ))
+    })?;
+    Ok(match parts[..] {
+        [x, y, z] => Value::Vector(Vec3::new(x, y, z)),
+        _ => Value::Numbers(parts),
+    })
+}
+
+/// The value of a key for Python, in SI units.
+pub(crate) fn to_python(py: Python<'_>, value: Option<Value>) -> PyResult<Py<PyAny>> {
+    Ok(match value {
+        Some(Value::Number(value)) => value.into_pyobject(py)?.into_any().unbind(),
+        Some(Value::Whole(value)) => value.into_pyobject(py)?.into_any().unbind(),
+        Some(Value::Text(text)) => text.into_pyobject(py)?.into_any().unbind(),
+        Some(Value::Numbers(values)) => values.into_pyobject(py)?.into_any().unbind(),
+        Some(Value::Vector(v)) => (v.x, v.y, v.z).into_pyobject(py)?.into_any().unbind(),
+        Some(Value::Content(content)) => {
+            let paths: Vec<String> = content.paths().iter().map(|path| path.display().to_string()).collect();
+            match &paths[..] {
+                [one] => one.into_pyobject(py)?.into_any().unbind(),
+                _ => paths.into_pyobject(py)?.into_any().unbind(),
+            }
+        }
+        _ => py.None(),
+    })
+}

@@ -1,0 +1,175 @@
+//! `lay_web`: lays a web of many filaments, and `LaidWeb`, what is found of it.
+
+use crate::value::web_overrides;
+use crate::watched::{Watch, guarded, threads, watched};
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use spunlaid::input::{Overrides, WebFile, parse_web, read_web};
+use spunlaid::lanes::Isa;
+use spunlaid::web::{Findings, Laying, Web, find, pieces};
+use spunlaid_results::folders::fibres::{Flyer, OfLayer, to_lay};
+use spunlaid_results::folders::web::{WebFolder, notes};
+use spunlaid_results::output::folder::Staging;
+use spunlaid_results::output::web::{ENTRIES, Performance};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+/// What is found of a web. spunlaid.Web shows it.
+#[pyclass(frozen, module = "spunlaid._spunlaid")]
+#[derive(Debug)]
+pub(crate) struct LaidWeb {
+    name: String,
+    file: WebFile,
+    web: Web,
+    findings: Findings,
+    notes: Vec<String>,
+    performance: Performance,
+}
+
+/// Lays a web. See spunlaid.web, which calls it.
+#[pyfunction]
+#[pyo3(signature = (path, changes, threads = None, progress = None))]
+pub(crate) fn lay_web(
+    py: Python<'_>,
+    path: Option<PathBuf>,
+    changes: &Bound<'_, PyAny>,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<LaidWeb> {
+    let changes = web_overrides(changes)?;
+    let of = Overrides { values: &changes, word: "web:" };
+    let (name, file) = match path {
+        Some(path) => {
+            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            (name, guarded(py, || Ok(read_web(&path, of)?))?)
+        }
+        None => ("web".to_owned(), guarded(py, || Ok(parse_web("", "web", of)?))?),
+    };
+    let threads = self::threads(threads);
+    let watch = Watch::default();
+    let (web, findings, performance) = watched(py, &watch, progress.as_ref(), || {
+        let started = Instant::now();
+        // The flights have a counter of their own; it is looked at while they fly.
+        let follow = |_: &Path, _: u64, (done, of): (&AtomicU64, u64), work: &mut (dyn FnMut() + Send)| {
+            watch.of.store(of, Ordering::Relaxed);
+            copied(done, &watch.done, work);
+        };
+        let mut flyer = Flyer::new(threads, &watch.stop, &follow);
+        let layers = file.spec.layers.iter().map(|layer| flyer.fibres(&file.spec, layer));
+        let layers: Vec<OfLayer> = layers.collect::<Result<_, _>>()?;
+        let web = to_lay(&file.spec, &layers);
+        watch.done.store(0, Ordering::Relaxed);
+        watch.of.store(pieces(&web)?, Ordering::Relaxed);
+        let by = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
+        let findings = find(&web, by)?;
+        let wall_s = started.elapsed().as_secs_f64();
+        Ok((web, findings, Performance { wall_s, threads, instruction_set: by.isa.name() }))
+    })?;
+    let notes = file.notes.iter().map(ToString::to_string).chain(notes(&findings)).collect();
+    Ok(LaidWeb { name, file, web, findings, notes, performance })
+}
+
+/// Does `work` while another thread copies its counter.
+fn copied(from: &AtomicU64, to: &AtomicU64, work: &mut (dyn FnMut() + Send)) {
+    let finished = std::sync::atomic::AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let copying = scope.spawn(|| {
+            while !finished.load(Ordering::Acquire) {
+                to.store(from.load(Ordering::Relaxed), Ordering::Relaxed);
+                std::thread::park_timeout(std::time::Duration::from_millis(20));
+            }
+        });
+        work();
+        finished.store(true, Ordering::Release);
+        copying.thread().unpark();
+    });
+}
+
+impl LaidWeb {
+    fn folder(&self) -> WebFolder<'_> {
+        WebFolder {
+            name: &self.name,
+            file: &self.file,
+            web: &self.web,
+            findings: &self.findings,
+            notes: &self.notes,
+            performance: self.performance,
+        }
+    }
+}
+
+#[pymethods]
+impl LaidWeb {
+    /// Text of summary.json.
+    #[getter]
+    fn summary(&self) -> String {
+        self.folder().summary()
+    }
+
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The file of the web with every default written out.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.file.text
+    }
+
+    /// Side of a cell of the map [m].
+    #[getter]
+    const fn cell(&self) -> f64 {
+        self.findings.laid.map.cell
+    }
+
+    /// Basis weight of every cell [kg/m2]: rows in machine direction x columns in cross direction.
+    #[getter]
+    fn map<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let map = &self.findings.laid.map;
+        let weight = map.weight_of_quantum();
+        let values = map.cells.iter().map(|cell| f64::from(*cell) * weight).collect();
+        let array = PyArray1::from_vec(py, values).reshape([map.rows, map.columns])?;
+        crate::samples::locked(array.as_any())
+    }
+
+    /// The unevenness over patches: side of the patch [m], CV of the map and its standard error, CV that single fibres let
+    /// expect and its standard error, CV of straight fibres.
+    #[getter]
+    fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let of = &self.findings.patches;
+        let all = PyDict::new(py);
+        type Number = fn(&spunlaid::web::PatchFindings) -> f64;
+        let columns: [(&str, Number); 6] = [
+            ("patch_m", |of| of.map.patch),
+            ("cv", |of| of.map.cv),
+            ("cv_standard_error", |of| of.map.standard_error.unwrap_or(f64::NAN)),
+            ("cv_single_fibres", |of| of.one_fibre.0),
+            ("cv_single_fibres_standard_error", |of| of.one_fibre.1),
+            ("cv_straight_fibres", |of| of.straight_fibres),
+        ];
+        for (name, column) in columns {
+            all.set_item(name, PyArray1::from_vec(py, of.iter().map(column).collect()))?;
+        }
+        Ok(all)
+    }
+
+    /// Writes the folder that `spunlaid web` writes.
+    fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<()> {
+        let watch = Watch::default();
+        watched(py, &watch, None, || {
+            let staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
+            let threads = threads(None);
+            let by = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
+            self.folder().write(&staging, by)?;
+            staging.publish()
+        })
+    }
+}

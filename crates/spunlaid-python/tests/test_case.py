@@ -1,0 +1,116 @@
+"""Cases: read, changed, compared, pickled; and what is wrong with them."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import CASES
+
+import spunlaid
+from spunlaid import Case, CaseError
+
+ALL = sorted(path for path in CASES.glob("*.toml") if not path.name.startswith("web"))
+
+
+@pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
+def test_identical_through_text_dict_and_pickle(path: Path) -> None:
+    case = Case.read(path)
+    assert Case.from_text(case.to_toml()) == case
+    again = pickle.loads(pickle.dumps(case))
+    assert again == case and again.to_toml().count("\n") == case.to_toml().count("\n")
+    assert Case.from_dict(case.to_dict()) == case
+
+
+def test_numbers_are_in_si_units_and_texts_have_units() -> None:
+    case = Case.starter()
+    changed = case.with_({"air.velocity": "20 m/s", "fibre.diameter": 18e-6})
+    assert (changed["air.velocity"], changed["fibre.diameter"]) == (20.0, 18e-6)
+    assert case["air.velocity"] == 10.0, "the first case stays what it was"
+    for same in (
+        {"air": {"velocity": 20}, "fibre": {"diameter": "18 um"}},
+        {"air.velocity": np.float32(20.0), "fibre.diameter": np.float64(18e-6)},
+        {"air.velocity": np.array(20), "fibre.diameter": "0.018 mm"},
+    ):
+        assert case.with_(same) == changed
+    # Without a value the default applies.
+    damped = changed.with_({"run.damping": 3.0})
+    assert damped != changed and damped.with_({"run.damping": None}) == changed
+
+
+def test_what_follows_from_a_key_follows_anew() -> None:
+    # By Taylor's hypothesis the cut-off is the velocity over four length scales.
+    case = Case.starter().with_({"air.cutoff_frequency": "taylor", "air.length_scale": 0.05})
+    assert case.with_({"air.velocity": 30}).with_({"air.velocity": 40})["air.cutoff_frequency"] == 40 / (4 * 0.05)
+
+
+def test_vectors_lists_and_paths() -> None:
+    case = Case.starter().with_({"fibre.direction": [0, 3, 4]})
+    assert case["fibre.direction"] == (0.0, 0.6, 0.8)
+    record = Case.read(CASES / "record.toml")
+    moved = record.with_({"air.record": CASES / "records" / "probe.csv"})
+    assert moved == record
+
+
+def test_the_file_is_named_with_line_key_and_remedy(tmp_path: Path) -> None:
+    path = tmp_path / "bad.toml"
+    text = Case.starter().to_toml().replace('velocity = "10 m/s"', 'velocity = "10 parsec"')
+    path.write_text(text)
+    with pytest.raises(CaseError) as caught:
+        Case.read(path)
+    error = caught.value
+    line = 1 + text[: text.index("10 parsec")].count("\n")
+    assert (error.key, error.line, error.file) == ("air.velocity", line, str(path))
+    assert error.value == '"10 parsec"' and error.remedy is not None and "m/s" in error.remedy
+    assert str(error).startswith(f"{path}:{line}: air.velocity")
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.problems) == (str(error), error.problems)
+
+
+def test_every_problem_is_listed() -> None:
+    with pytest.raises(CaseError) as caught:
+        Case.starter().with_({"fibre.diameter": -1.0, "air.velocty": 3, "run.time_step": "1 s", "air.density": float("nan")})
+    assert {"fibre.diameter", "air.velocty", "air.density"} <= {problem.key for problem in caught.value.problems}
+    assert "air.velocity" in str(caught.value), "the message suggests the right name"
+
+
+@pytest.mark.parametrize(
+    ("values", "error"),
+    [
+        (3, TypeError),
+        ({3: 4}, TypeError),
+        ({"air.velocity": object()}, TypeError),
+        ({"air.velocity": b"20 m/s"}, CaseError),
+        ({"air.velocity": True}, CaseError),
+        ({"air.velocity": 10**400}, CaseError),
+        ({"air.velocity": 10**10000}, CaseError),
+        ({"air.velocity": "\ud800"}, ValueError),
+        ({"run.replicates": 2.5}, CaseError),
+        ({"run.replicates": -1}, CaseError),
+        ({"run.replicates": 2**70}, CaseError),
+        ({"fibre": 3}, CaseError),
+        ({"nonsense": {"a": 1}}, CaseError),
+        ({}, CaseError),
+    ],
+)
+def test_rejects_what_is_no_case(values: object, error: type[Exception]) -> None:
+    with pytest.raises(error):
+        Case.from_dict(values)  # type: ignore[arg-type]
+
+
+def test_rejects_files_that_are_none(tmp_path: Path) -> None:
+    (tmp_path / "binary.toml").write_bytes(bytes(range(256)))
+    for path in (tmp_path / "nowhere.toml", tmp_path, tmp_path / "binary.toml"):
+        with pytest.raises(spunlaid.FileError, match=str(path)):
+            Case.read(path)
+    with pytest.raises(KeyError, match="air.velocity"):
+        Case.starter()["air.velocty"]
+
+
+def test_the_keys_say_what_they_mean() -> None:
+    keys = spunlaid.keys()
+    assert keys["air.velocity"].unit == "m/s" and keys["air.velocity"].in_flight and keys["air.velocity"].varies
+    assert keys["fibre.root"].words and keys["run.replicates"].unit is None
+    assert all(key.meaning and key.allowed for key in keys.values())

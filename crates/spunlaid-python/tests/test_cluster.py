@@ -1,0 +1,159 @@
+"""Studies on a cluster of processes, of which some are killed."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import spunlaid
+from spunlaid import Case
+
+distributed = pytest.importorskip("distributed")
+
+TABLES = ("results.csv", "results.parquet", "replicates.parquet", "results.json")
+
+
+@pytest.fixture(scope="module")
+def study() -> dict[str, object]:
+    """Twelve points of 24 fibres, in two groups that cannot fly together."""
+    case = Case.starter().with_(
+        {"run.duration": 0.1, "run.time_step": "10 us", "run.output_interval": "1 ms", "run.spin_up": 0}
+    )
+    vary = {"air.velocity": [5.0, 8.0, 10.0, 12.0, 15.0, 20.0], "fibre.element_length": ["50 mm", "25 mm"]}
+    return {"case": case, "replicates": 23, "vary": vary}
+
+
+@pytest.fixture(scope="module")
+def alone(study: dict[str, object], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the study, flown on this machine."""
+    out = tmp_path_factory.mktemp("alone") / "s"
+    spunlaid.sweep(study, out=out)
+    return out
+
+
+@pytest.fixture
+def cluster(tmp_path: Path) -> Iterator[Any]:
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=tmp_path
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        yield client
+
+
+def assert_same(one: Path, other: Path) -> None:
+    for table in TABLES:
+        assert (one / table).read_bytes() == (other / table).read_bytes(), table
+
+
+def test_identical_with_a_worker_killed_half_way(
+    study: dict[str, object], alone: Path, cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("spunlaid._dask._MOST_FLIGHTS", 1)
+    pids = cluster.run(os.getpid)
+    killed: list[int] = []
+
+    def kill(done: int, of: int) -> None:
+        if done > of / 3 and not killed:
+            killed.append(next(iter(pids.values())))
+            os.kill(killed[0], signal.SIGKILL)
+
+    found = spunlaid.sweep(study, client=cluster, out=tmp_path / "s", progress=kill)
+    assert killed and (found.n == 23).all()
+    assert_same(alone, tmp_path / "s")
+    # Without a folder, too.
+    assert spunlaid.sweep(study, client=cluster).to_pandas().equals(found.to_pandas())
+
+
+def test_rounds_are_those_of_one_machine(cluster: Any) -> None:
+    case = Case.starter().with_({"run.duration": 0.02, "run.time_step": "20 us", "run.output_interval": "1 ms", "run.spin_up": 0})
+    until = {"at_least": 6, "at_most": 64, "until": {"amplitude_y": "15 %"}}
+    study = {"case": case, "replicates": until, "vary": {"air.velocity": [5.0, 10.0, 20.0]}}
+    here, there = spunlaid.sweep(study), spunlaid.sweep(study, client=cluster)
+    assert here.to_pandas().equals(there.to_pandas()) and here.n.max() > 6
+
+
+def test_what_a_killed_client_left_goes_on(study: dict[str, object], alone: Path, program: Path, tmp_path: Path) -> None:
+    out = tmp_path / "s"
+    # The text of the study stands in the folder of the first one.
+    path = alone / "study.toml"
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=tmp_path
+    ) as cluster:
+        command = [sys.executable, "-c", "import sys; from spunlaid._dask import main; sys.exit(main())"]
+        command += [str(path), "--scheduler", cluster.scheduler_address, "--out", str(out)]
+        # Small bundles, so that there is something to lose.
+        code = "import sys; from spunlaid import _dask; _dask._MOST_FLIGHTS = 1; sys.exit(_dask.main())"
+        command[2] = code
+        client = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+        journal = out / "journal"
+        header = 200
+        while not (journal.exists() and journal.stat().st_size > header + 8 * 200):
+            assert client.poll() is None, "the client is still at work"
+            time.sleep(0.01)
+        client.kill()
+        client.wait()
+        assert not (out / "results.csv").exists()
+        left = journal.stat().st_size
+        # The program goes on with what the cluster has begun; and is stopped, too.
+        sweep = subprocess.Popen([program, "sweep", path, "--out", out, "--threads", "1"], stderr=subprocess.DEVNULL)
+        while journal.stat().st_size <= left:
+            assert sweep.poll() is None, "the sweep is still at work"
+            time.sleep(0.005)
+        sweep.send_signal(signal.SIGINT)
+        assert sweep.wait() == 130
+        # And the cluster with what the program has left.
+        finished = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "276 fibres at 12 points" in finished.stdout
+    assert_same(alone, out)
+
+
+def test_a_cancelled_sweep_leaves_no_work_behind(study: dict[str, object], cluster: Any, tmp_path: Path) -> None:
+    class Enough(Exception):
+        pass
+
+    def stop(done: int, of: int) -> None:
+        raise Enough
+
+    with pytest.raises(Enough):
+        spunlaid.sweep(study, client=cluster, out=tmp_path / "s", progress=stop)
+    for _ in range(200):
+        if not cluster.processing() or not any(cluster.processing().values()):
+            break
+        time.sleep(0.05)
+    assert not any(cluster.processing().values())
+
+
+def test_other_content_of_a_file_on_a_worker_is_seen(cluster: Any) -> None:
+    from spunlaid import _spunlaid
+
+    study = _spunlaid.Study('case = "case.toml"\ndesign = "grid"\nreplicates = 1\n[vary]\n"air.velocity" = ["10 m/s"]\n', Case.starter())
+    study.begin_round(1)
+    ((point, text, checksum, first, last),) = study.bundle(0)
+    with pytest.raises(spunlaid.ClusterError, match="another one on this machine"):
+        _spunlaid.fly_bundle([(point, text, checksum ^ 1, first, last)])
+
+
+def test_rejects_what_is_no_client(study: dict[str, object]) -> None:
+    with pytest.raises(TypeError, match="dask"):
+        spunlaid.sweep(study, client="tcp://localhost:8786")
+
+
+def test_the_command_tells_what_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    from spunlaid._dask import main
+
+    with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as cluster:
+        address = cluster.scheduler_address
+        thread = threading.current_thread()
+        assert main([str(tmp_path / "no.toml"), "--scheduler", address, "--quiet"]) == 1 and thread.is_alive()
+    assert "there is no such file" in capsys.readouterr().err

@@ -1,0 +1,86 @@
+"""The package as such: types, help, import, memory."""
+
+from __future__ import annotations
+
+import gc
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+import spunlaid
+from spunlaid import Case
+
+PACKAGE = Path(__file__).resolve().parents[1]
+
+
+def test_types_hold() -> None:
+    mypy = pytest.importorskip("mypy.api")
+    out, errors, code = mypy.run(["--config-file", str(PACKAGE / "pyproject.toml"), str(PACKAGE / "python" / "spunlaid")])
+    assert code == 0, out + errors
+
+
+def test_the_stub_has_what_the_module_has() -> None:
+    command = [sys.executable, "-m", "mypy.stubtest", "spunlaid._spunlaid", "--mypy-config-file", "pyproject.toml"]
+    checked = subprocess.run(command, capture_output=True, text=True, cwd=PACKAGE)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
+def test_everything_has_help() -> None:
+    for name in spunlaid.__all__:
+        thing = getattr(spunlaid, name)
+        if callable(thing):
+            assert (thing.__doc__ or "").strip(), name
+            for member, value in vars(thing).items() if isinstance(thing, type) else ():
+                if not member.startswith("_") and (callable(value) or isinstance(value, property)):
+                    assert getattr(thing, member).__doc__, f"{name}.{member}"
+    with pytest.raises(AttributeError, match="nonsense"):
+        spunlaid.nonsense  # noqa: B018
+
+
+def test_import_loads_nothing_heavy() -> None:
+    code = "import sys, spunlaid; print(*sorted({'pandas', 'xarray', 'distributed', 'dask', 'scipy', 'matplotlib', 'tqdm'} & set(sys.modules)))"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert loaded == []
+
+
+def test_memory_and_references_stay_flat_over_a_thousand_runs() -> None:
+    psutil = pytest.importorskip("psutil")
+    case = Case.starter().with_(
+        {"run.duration": 0.004, "run.time_step": "20 us", "run.replicates": 2, "run.output_interval": "0.1 ms", "run.spin_up": 0}
+    )
+
+    def several(times: int) -> None:
+        for _ in range(times):
+            run = spunlaid.run(case, threads=2)
+            # All that is made of it is let go of, too.
+            assert run.end_node and run.energy and run.measures and run.shapes and run.curves
+            with pytest.raises(spunlaid.CaseError):
+                case.with_({"air.velocity": "x"})
+
+    several(100)
+    gc.collect()
+    process = psutil.Process()
+    before, blocks, references = process.memory_info().rss, sys.getallocatedblocks(), sys.getrefcount(case)
+    several(1000)
+    gc.collect()
+    assert sys.getrefcount(case) == references
+    assert abs(sys.getallocatedblocks() - blocks) < 1000, "less than a block for each run"
+    # A run of this case holds 100 kB; a thousand kept ones would be 100 MB.
+    assert process.memory_info().rss - before < 10e6
+
+
+def test_a_run_from_python_costs_little_more(program: Path) -> None:
+    # Without a limit: how long it takes is told, and that Python itself does little beside the library.
+    case = Case.starter().with_({"run.duration": 0.001, "run.time_step": "20 us", "run.replicates": 1, "run.output_interval": "0.5 ms", "run.spin_up": 0})
+    spunlaid.run(case)
+    wall, inside = 0.0, 0.0
+    for _ in range(50):
+        began = time.perf_counter()
+        run = spunlaid.run(case, threads=1, check_step=False)
+        wall += time.perf_counter() - began
+        inside += run.summary["performance"]["wall_s"]
+    print(f"overhead of a run {1e3 * (wall - inside) / 50:.3f} ms")
+    assert wall > inside > 0

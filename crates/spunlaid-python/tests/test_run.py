@@ -1,0 +1,202 @@
+"""Runs: arrays, measures, folders, pickles."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import spunlaid
+from spunlaid import Case
+
+
+def same(a: spunlaid.Run, b: spunlaid.Run) -> None:
+    """Both have the same bits, apart from what they cost."""
+    for name in ("end_node", "energy"):
+        of_a, of_b = getattr(a, name), getattr(b, name)
+        assert of_a.keys() == of_b.keys()
+        for column in of_a:
+            np.testing.assert_array_equal(of_a[column], of_b[column], err_msg=column)
+    assert a.measures.keys() == b.measures.keys()
+    for column, measure in a.measures.items():
+        np.testing.assert_array_equal(measure.values, b.measures[column].values, err_msg=column)
+        np.testing.assert_array_equal([measure.mean, measure.shown], [b.measures[column].mean, b.measures[column].shown])
+    np.testing.assert_array_equal(a.shapes.positions_m, b.shapes.positions_m)
+    assert len(a.laid) == len(b.laid)
+    for laid_a, laid_b in zip(a.laid, b.laid, strict=True):
+        for column in laid_a:
+            np.testing.assert_array_equal(laid_a[column], laid_b[column])
+    summaries = [{**run.summary, "performance": None} for run in (a, b)]
+    assert summaries[0] == summaries[1]
+
+
+def test_shapes_of_the_arrays(short: Case) -> None:
+    run = spunlaid.run(short, 11, threads=2)
+    times, replicates = short.instants, 11
+    assert run.end_node["y_m"].shape == (replicates, times) == run.energy["kinetic_j"].shape
+    np.testing.assert_allclose(run.end_node["time_s"], np.arange(times) * 1e-3, rtol=0, atol=1e-15)
+    kept, instants, nodes, three = run.shapes.positions_m.shape
+    assert (kept, instants, three) == (8, len(run.shapes.time_s), 3)
+    # The end of a shape is the free end of the same fibre at the same time.
+    at = np.searchsorted(run.end_node["time_s"], run.shapes.time_s - 1e-9)
+    for axis, column in enumerate(("x_m", "y_m", "z_m")):
+        np.testing.assert_array_equal(run.shapes.positions_m[:, :, -1, axis], run.end_node[column][:8, at])
+    assert nodes == round(short["fibre.length"] / short["fibre.element_length"]) + 1
+    with pytest.raises(ValueError, match="read-only"):
+        run.end_node["y_m"][0, 0] = 1.0
+    assert run.laid == []
+
+
+def test_measures_are_those_of_the_arrays(short: Case) -> None:
+    run = spunlaid.run(short, 8)
+    amplitude = run.measures["amplitude_y_m"]
+    assert amplitude.values.shape == (8,) and amplitude.mean == run.summary["end_node"]["amplitude_y_m"]["mean"]
+    np.testing.assert_allclose(amplitude.mean, amplitude.values.mean(), rtol=1e-14)
+    np.testing.assert_allclose(amplitude.standard_error, amplitude.values.std(ddof=1) / np.sqrt(8), rtol=1e-12)
+    # It is taken at every step, the array has every fiftieth, and neighbouring ones hardly differ.
+    np.testing.assert_allclose(run.end_node["y_m"].std(axis=1), amplitude.values, rtol=0.1)
+    with pytest.raises(KeyError, match="did you mean 'amplitude_y_m'"):
+        run.measures["amplitude_y"]
+    assert all(len(curve.at) == len(curve.mean) for curve in run.curves.values()) and run.curves
+
+
+def test_identical_for_any_threads_alone_and_together(short: Case) -> None:
+    runs = [spunlaid.run(short, 17, threads=threads) for threads in (1, 3)]
+    same(*runs)
+    few = spunlaid.run(short, 2)
+    np.testing.assert_array_equal(few.end_node["z_m"], runs[0].end_node["z_m"][:2])
+    other = spunlaid.run(short, 2, seed=99)
+    assert not np.array_equal(other.end_node["z_m"], few.end_node["z_m"])
+
+
+@pytest.mark.parametrize("kind", ["short", "fed"])
+def test_identical_through_pickle_and_folder(kind: str, tmp_path: Path, request: pytest.FixtureRequest) -> None:
+    run = spunlaid.run(request.getfixturevalue(kind))
+    again = pickle.loads(pickle.dumps(run))
+    same(run, again)
+    again.save(tmp_path / "pickled")
+    run.save(tmp_path / "r")
+    loaded = spunlaid.load(tmp_path / "r")
+    same(run, loaded)
+    assert loaded.case == run.case and loaded.step_check == run.step_check and loaded.notes == run.notes
+    for name in ("summary.json", "report.html", "energy.parquet", "case.toml"):
+        first, second = ((tmp_path / folder / name).read_bytes() for folder in ("r", "pickled"))
+        assert first == second, name
+    same(run, pickle.loads(pickle.dumps(loaded)))
+    with pytest.raises(spunlaid.FolderError, match="holds results already"):
+        run.save(tmp_path / "r")
+    run.save(tmp_path / "r", force=True)
+    loaded.save(tmp_path / "copy")
+    same(run, spunlaid.load(tmp_path / "copy"))
+    with pytest.raises(spunlaid.FolderError, match="is there already"):
+        loaded.save(tmp_path / "copy")
+
+
+def test_rejects_folders_that_are_no_runs(tmp_path: Path) -> None:
+    for text in (None, "", "[]", "{}", '{"web": 1}'):
+        if text is not None:
+            (tmp_path / "summary.json").write_text(text)
+        with pytest.raises(spunlaid.FolderError, match=r"summary\.json"):
+            spunlaid.load(tmp_path)
+
+
+def test_what_a_fed_fibre_lays(fed: Case) -> None:
+    run = spunlaid.run(fed)
+    assert run.end_node == {} and len(run.laid) == 3
+    for laid in run.laid:
+        spacing = np.diff(laid["s_m"])
+        np.testing.assert_allclose(spacing, spacing[0], rtol=1e-9)
+        # What has come down was fed before, and the way to the belt is still full of fibre, stretched by less than 1 %.
+        # A fibre begins with two elements, and points are told to one.
+        fed_by_then = fed["feed.speed"] * laid["time_s"] + 2 * spacing[0]
+        assert np.all(laid["s_m"] + 0.99 * fed["belt.distance"] <= fed_by_then + spacing[0])
+        # It does not lag behind by more than the loops that ten times the way would hold.
+        assert np.all(fed_by_then - laid["s_m"] < 10 * fed["belt.distance"])
+
+
+def test_frames(short: Case) -> None:
+    run = spunlaid.run(short)
+    table, data = run.to_pandas(), run.to_xarray()
+    assert len(table) == 3 * short.instants
+    np.testing.assert_array_equal(table.loc[2, "y_m"], run.end_node["y_m"][1])
+    np.testing.assert_array_equal(data["y_m"].sel(replicate=2), run.end_node["y_m"][1])
+    np.testing.assert_array_equal(data["amplitude_y_m"], run.measures["amplitude_y_m"].values)
+
+
+def test_a_notebook_shows_the_report(short: Case) -> None:
+    run = spunlaid.run(short)
+    shown = run._repr_html_()
+    assert shown.startswith("<iframe srcdoc=") and "&lt;html" in shown.lower() and "amplitude_y_m" in repr(run)
+
+
+def test_progress_is_told_and_its_errors_come_through(short: Case) -> None:
+    told: list[tuple[int, int]] = []
+    spunlaid.run(short, 40, progress=lambda done, of: told.append((done, of)))
+    assert told[-1][0] == told[-1][1] > 0 and told == sorted(told)
+    slow = short.with_({"run.duration": 50.0, "run.replicates": 8})
+
+    def refuse(done: int, of: int) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        spunlaid.run(slow, progress=refuse)
+
+
+def test_ctrl_c_stops_a_run(short: Case) -> None:
+    slow = short.with_({"run.duration": 100.0, "run.replicates": 8})
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        spunlaid.run(slow, threads=1)
+    timer.join()
+    assert time.monotonic() - began > 0.25, "it ran until the signal came"
+    # The next one flies.
+    assert spunlaid.run(short).measures
+
+
+def test_the_interpreter_is_free_while_fibres_fly(short: Case) -> None:
+    slow = short.with_({"run.duration": 2.0, "run.replicates": 8})
+    runs: list[spunlaid.Run] = []
+    thread = threading.Thread(target=lambda: runs.append(spunlaid.run(slow, threads=1)))
+    thread.start()
+    counted = 0
+    while thread.is_alive():
+        counted += 1
+        time.sleep(0)
+    assert counted > 100 and len(runs) == 1
+
+
+def test_threads_of_python_get_the_same_bits(short: Case) -> None:
+    runs: dict[int, spunlaid.Run] = {}
+
+    def fly(number: int) -> None:
+        runs[number] = spunlaid.run(short, threads=1)
+
+    threads = [threading.Thread(target=fly, args=(number,)) for number in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for run in runs.values():
+        np.testing.assert_array_equal(run.end_node["y_m"], runs[0].end_node["y_m"])
+
+
+def test_rejects_bad_arguments(short: Case) -> None:
+    for arguments in ({"threads": 0}, {"threads": 10**9}, {"threads": -1}):
+        with pytest.raises(ValueError, match="threads"):
+            spunlaid.run(short, **arguments)  # type: ignore[arg-type]
+    with pytest.raises(TypeError):
+        spunlaid.run(short, threads=1.5)  # type: ignore[arg-type]
+    with pytest.raises(TypeError):
+        spunlaid.run("case.toml")  # type: ignore[arg-type]
+    with pytest.raises(spunlaid.CaseError, match=r"run\.replicates"):
+        spunlaid.run(short, 0)
+    lost = short.with_({"run.scheme": "semi-implicit-euler"})
+    assert lost["run.scheme"] == "semi-implicit-euler"

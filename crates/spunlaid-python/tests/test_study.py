@@ -1,0 +1,91 @@
+"""Studies on this machine."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import spunlaid
+from spunlaid import Case
+
+FACTORS = {"air.velocity": [5.0, 10.0, 20.0], "fibre.diameter": ["20 um", "50 um"]}
+
+
+@pytest.fixture(scope="session")
+def study(short: Case) -> dict[str, object]:
+    return {"case": short, "design": "grid", "replicates": 5, "vary": FACTORS}
+
+
+def test_points_are_runs_of_their_cases(study: dict[str, object], short: Case) -> None:
+    found = spunlaid.sweep(study, threads=2)
+    assert len(found) == 6 and found.factors == list(FACTORS) and (found.n == 5).all() and not found.lost.any()
+    for point in range(6):
+        case = short.with_({key: values[point] for key, values in found.inputs.items()})
+        run = spunlaid.run(case, 5)
+        amplitude = run.measures["amplitude_y_m"]
+        assert found.mean["amplitude_y_m"][point] == amplitude.mean
+        assert found.standard_error["amplitude_y_m"][point] == amplitude.standard_error
+        assert found.case(point)["air.velocity"] == case["air.velocity"]
+
+
+def test_frames_have_the_factors(study: dict[str, object]) -> None:
+    found = spunlaid.sweep(study)
+    table, data, fibres = found.to_pandas(), found.to_xarray(), found.replicates()
+    assert data["amplitude_y_m"].dims == ("air.velocity", "fibre.diameter")
+    at = (table["air.velocity_m_s"] == 20.0) & (table["fibre.diameter_m"] == 50e-6)
+    assert data["amplitude_y_m"].sel({"air.velocity": 20.0, "fibre.diameter": 50e-6}) == table[at]["amplitude_y_m"].item()
+    assert len(fibres) == 30 and not fibres["lost"].any()
+    np.testing.assert_allclose(fibres.groupby("point")["amplitude_y_m"].mean(), table["amplitude_y_m"], rtol=1e-14)
+    drawn = spunlaid.sweep({**study, "design": "latin-hypercube", "points": 4, "vary": {"air.velocity": {"from": 5, "to": 20}}})
+    assert drawn.to_xarray()["amplitude_y_m"].dims == ("point",)
+    assert {of["factor"] for of in found.effects()} == set(FACTORS)
+
+
+def test_identical_to_the_program(study: dict[str, object], program: Path, tmp_path: Path) -> None:
+    found = spunlaid.sweep(study, out=tmp_path / "python")
+    again = spunlaid.sweep(study, out=tmp_path / "python")
+    assert again.to_pandas().equals(found.to_pandas())
+    # The folder has the study and its case, so that the program can fly the same.
+    command = [program, "sweep", tmp_path / "python" / "study.toml", "--out", tmp_path / "program", "--quiet"]
+    subprocess.run(command, check=True, capture_output=True)
+    for table in ("results.csv", "results.parquet", "replicates.parquet", "results.json"):
+        first, second = ((tmp_path / of / table).read_bytes() for of in ("python", "program"))
+        assert first == second, table
+
+
+def test_rounds_go_on_until_the_error_is_small(short: Case) -> None:
+    until = {"at_least": 4, "at_most": 64, "until": {"amplitude_y": "20 %"}}
+    found = spunlaid.sweep({"case": short, "replicates": until, "vary": {"air.velocity": [10.0, 20.0]}})
+    share = found.standard_error["amplitude_y_m"] / found.mean["amplitude_y_m"]
+    assert ((share <= 0.2) | (found.n == 64)).all() and (found.n >= 4).all()
+
+
+def test_another_study_is_not_mixed_in(study: dict[str, object], tmp_path: Path) -> None:
+    spunlaid.sweep(study, out=tmp_path / "s")
+    with pytest.raises(spunlaid.FolderError, match="another study"):
+        spunlaid.sweep({**study, "vary": {"air.velocity": [6.0]}}, out=tmp_path / "s")
+    found = spunlaid.sweep({**study, "vary": {"air.velocity": [6.0]}}, out=tmp_path / "s", force=True)
+    assert len(found) == 1
+
+
+@pytest.mark.parametrize(
+    ("study", "error"),
+    [
+        ({}, ValueError),
+        ({"case": 3}, TypeError),
+        ({"case": "nowhere.toml"}, spunlaid.FileError),
+        ({"case": Case.starter(), "vary": {"air.velocty": [1]}}, spunlaid.CaseError),
+        ({"case": Case.starter(), "vary": {"air.velocity": [object()]}}, TypeError),
+        ({"case": Case.starter(), "vary": {3: [1]}}, TypeError),
+        ({"case": Case.starter(), "vary": {"air.velocity": []}}, spunlaid.CaseError),
+        ({"case": Case.starter(), "design": "star", "vary": {"air.velocity": [1.0]}}, spunlaid.CaseError),
+        ("nowhere.toml", spunlaid.FileError),
+        (3, TypeError),
+    ],
+)
+def test_rejects_what_is_no_study(study: object, error: type[Exception]) -> None:
+    with pytest.raises(error):
+        spunlaid.sweep(study)  # type: ignore[arg-type]

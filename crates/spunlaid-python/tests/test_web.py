@@ -1,0 +1,78 @@
+"""Webs."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import CASES
+
+import spunlaid
+
+SMALL = {"web.width": 0.4, "web.length": "0.4 m", "laydown.sigma_md": "10 mm", "laydown.sigma_cd": 0.01}
+
+
+def test_identical_to_the_program(program: Path, tmp_path: Path) -> None:
+    web = spunlaid.web(CASES / "web_known.toml", set=SMALL, threads=2)
+    command = [program, "web", CASES / "web_known.toml", "--out", tmp_path / "w", "--quiet"]
+    for setting in ("web.width=400 mm", "web.length=0.4 m", "laydown.sigma_md=10 mm", "laydown.sigma_cd=10 mm"):
+        command += ["--set", setting]
+    subprocess.run(command, check=True, capture_output=True)
+    told = json.loads((tmp_path / "w" / "summary.json").read_text())
+    assert {**told, "performance": None} == {**web.summary, "performance": None}
+    web.save(tmp_path / "python")
+    for name in ("map.npy", "fibres.vtp"):
+        assert (tmp_path / "w" / name).read_bytes() == (tmp_path / "python" / name).read_bytes()
+    with pytest.raises(spunlaid.FolderError, match="holds results already"):
+        web.save(tmp_path / "python")
+
+
+def test_analytic_basis_weight() -> None:
+    web = spunlaid.web(CASES / "web_known.toml", set=SMALL)
+    line_density = np.pi / 4 * 18e-6**2 * 910
+    # Line density x filaments per width x feed speed / belt speed; the map is counted in quanta of 1e-5 of a fibre.
+    np.testing.assert_allclose(web.map.mean(), line_density * 5000 * 50 / 3.8594, rtol=1e-4)
+    rows, columns = web.map.shape
+    assert (rows * web.cell, columns * web.cell) == pytest.approx((0.4, 0.4))
+    # The CV over patches of a cell is that of the map.
+    cv = web.map.std() / web.map.mean()
+    first = np.argmin(np.abs(web.patches["patch_m"] - web.cell))
+    if np.isclose(web.patches["patch_m"][first], web.cell):
+        np.testing.assert_allclose(web.patches["cv"][first], cv, rtol=1e-3)
+    assert "iframe" in web._repr_html_()
+
+
+def test_a_dict_is_a_web() -> None:
+    web = spunlaid.web(
+        {
+            "fibre": {"diameter": 18e-6, "density": "910 kg/m^3"},
+            "laydown": {"sigma_md": 0.01, "sigma_cd": 0.01, "noise": "12.4 m^-0.5"},
+            "line": {"feed_speed": 50, "belt_speed": 3.8594, "filaments_per_metre": 5000},
+            "web": {"width": 0.4, "length": 0.4},
+        }
+    )
+    np.testing.assert_array_equal(web.map, spunlaid.web(CASES / "web_known.toml", set=SMALL).map)
+
+
+def test_flown_fibres_make_a_web(tmp_path: Path, fed: spunlaid.Case) -> None:
+    (tmp_path / "case.toml").write_text(fed.with_({"run.duration": 0.1}).to_toml())
+    web = spunlaid.web(
+        {
+            "laydown": {"case": tmp_path / "case.toml"},
+            "line": {"filaments_per_metre": 500},
+            "web": {"width": 0.5, "length": 0.5, "method": "dynamics"},
+        }
+    )
+    assert web.map.mean() > 0
+
+
+@pytest.mark.parametrize(
+    ("web", "error"),
+    [({}, spunlaid.CaseError), ("nowhere.toml", spunlaid.FileError), ({"web": 3}, spunlaid.CaseError), (3, TypeError)],
+)
+def test_rejects_what_is_no_web(web: object, error: type[Exception]) -> None:
+    with pytest.raises(error):
+        spunlaid.web(web)  # type: ignore[arg-type]

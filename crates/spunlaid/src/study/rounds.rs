@@ -1,0 +1,166 @@
+//! Statistics of the points of a study, and how many replicates each of them still needs.
+
+use super::journal::Journal;
+use super::measures::measure;
+use super::pack::Batch;
+use super::{Replicates, Study};
+use crate::error::Error;
+use crate::observe::MEASURES;
+use crate::statistics::Estimate;
+
+/// Statistics of a point over its replicates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointResults {
+    /// Fibres measured.
+    pub n: u64,
+    /// Fibres lost because their positions became infinite or NaN.
+    pub lost: u64,
+    /// Mean of each of the [`MEASURES`]; NaN without any fibre.
+    pub mean: [f64; MEASURES.len()],
+    /// Standard error of each mean; of no use from a single fibre. Kept without `Option`, which would take twice the
+    /// memory: a study has many points.
+    pub errors: [f64; MEASURES.len()],
+}
+
+impl PointResults {
+    /// Mean and standard error of a measure. None without a measure of this name.
+    pub fn of(&self, name: &str) -> Option<(f64, Option<f64>)> {
+        measure(name).map(|(index, _)| (self.mean[index], self.standard_error(index)))
+    }
+
+    /// Standard error of the mean of a measure, by its index into the [`MEASURES`]; `None` from a single fibre.
+    pub fn standard_error(&self, measure: usize) -> Option<f64> {
+        (self.n > 1).then(|| self.errors[measure])
+    }
+}
+
+/// Statistics of a point over all its replicates.
+///
+/// # Errors
+/// When the journal cannot be read.
+pub fn results_of_point(journal: &mut Journal, point: usize) -> Result<PointResults, Error> {
+    results_of(journal, point, u64::MAX)
+}
+
+fn results_of(journal: &mut Journal, point: usize, replicates: u64) -> Result<PointResults, Error> {
+    let records = journal.records(point, replicates)?;
+    let measured: Vec<_> = records.iter().filter_map(|record| record.landing.measured()).collect();
+    let estimates: [Estimate; MEASURES.len()] =
+        std::array::from_fn(|i| Estimate::of(measured.iter().map(|values| values[i]).collect()));
+    Ok(PointResults {
+        n: measured.len() as u64,
+        lost: (records.len() - measured.len()) as u64,
+        mean: std::array::from_fn(|i| estimates[i].mean),
+        errors: std::array::from_fn(|i| estimates[i].standard_error.unwrap_or(f64::NAN)),
+    })
+}
+
+/// The rounds of a study. In each round, all points get the replicates that they are known to need.
+///
+/// The decision for a point depends on its own replicates only, never on threads, machines or interruptions.
+#[derive(Clone, Debug)]
+pub struct Rounds {
+    wanted: Vec<u64>,
+    /// Points that may need more replicates.
+    open: Vec<bool>,
+}
+
+impl Rounds {
+    /// The first round of a study.
+    pub fn of(study: &Study) -> Self {
+        let points = study.points.len();
+        Self {
+            wanted: vec![study.replicates.at_least; points],
+            open: vec![!study.replicates.until.is_empty(); points],
+        }
+    }
+
+    /// Number of replicates of each point in this round.
+    pub fn wanted(&self) -> &[u64] {
+        &self.wanted
+    }
+
+    /// The replicates of every point that the journal does not hold yet.
+    pub fn missing(&self, journal: &Journal) -> Vec<Batch> {
+        let mut batches = Vec::new();
+        for (point, &wanted) in self.wanted.iter().enumerate() {
+            let mut start = None;
+            for replicate in 0..=wanted {
+                let lacks = replicate < wanted && !journal.holds(point, replicate);
+                match (lacks, start) {
+                    (true, None) => start = Some(replicate),
+                    (false, Some(first)) => {
+                        batches.push(Batch { point, replicates: first..replicate });
+                        start = None;
+                    }
+                    _ => {}
+                }
+            }
+        }
+        batches
+    }
+
+    /// Goes on to the next round, once the journal holds all fibres of this one. False if the study is complete.
+    ///
+    /// # Errors
+    /// When the journal cannot be read.
+    pub fn next(&mut self, study: &Study, journal: &mut Journal) -> Result<bool, Error> {
+        let mut more = false;
+        for point in 0..self.open.len() {
+            if self.open[point] {
+                let results = results_of(journal, point, self.wanted[point])?;
+                let next = more_replicates(&study.replicates, &results, self.wanted[point]);
+                self.open[point] = next.is_some();
+                self.wanted[point] = next.unwrap_or(self.wanted[point]);
+                more |= self.open[point];
+            }
+        }
+        Ok(more)
+    }
+}
+
+/// The number of replicates that a point needs instead of `flown`; `None` if these are enough.
+fn more_replicates(replicates: &Replicates, results: &PointResults, flown: u64) -> Option<u64> {
+    // A point that loses its fibres would lose more of them.
+    if flown >= replicates.at_most || results.lost > 0 && results.n < 2 {
+        return None;
+    }
+    let needed = |&(measure, fraction): &(usize, f64)| {
+        let error = results.standard_error(measure).unwrap_or(f64::INFINITY);
+        let allowed = fraction * results.mean[measure].abs();
+        if error <= allowed { 0.0 } else { results.n as f64 * (error / allowed).powi(2) }
+    };
+    let needed = replicates.until.iter().map(needed).fold(0.0, f64::max);
+    // An estimate from few fibres is rough, so the number at most doubles in a round.
+    (needed > 0.0).then(|| {
+        let most = flown.saturating_mul(2).min(replicates.at_most);
+        (needed.ceil() as u64).clamp((flown + 1).min(most), most)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn replicates_grow_to_what_the_error_asks_for() {
+        let replicates = Replicates { at_least: 4, at_most: 100, until: vec![(0, 0.1)] };
+        let results = |n: u64, mean: f64, error: f64| PointResults {
+            n,
+            lost: 0,
+            mean: [mean; MEASURES.len()],
+            errors: [error; MEASURES.len()],
+        };
+        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.1), 4), None);
+        assert_eq!(more_replicates(&replicates, &results(4, -1.0, 0.1), 4), None);
+        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.12), 4), Some(6));
+        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.1000001), 4), Some(5));
+        assert_eq!(more_replicates(&replicates, &results(4, 1.0, 5.0), 4), Some(8));
+        assert_eq!(more_replicates(&replicates, &results(4, 0.0, 5.0), 4), Some(8));
+        assert_eq!(more_replicates(&replicates, &results(80, 1.0, 5.0), 80), Some(100));
+        assert_eq!(more_replicates(&replicates, &results(100, 1.0, 5.0), 100), None);
+        assert_eq!(more_replicates(&replicates, &results(4, 0.0, 0.0), 4), None);
+        let nothing = PointResults { n: 0, lost: 4, ..results(0, f64::NAN, f64::NAN) };
+        assert_eq!(more_replicates(&replicates, &nothing, 4), None);
+    }
+}
