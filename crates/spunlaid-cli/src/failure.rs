@@ -25,7 +25,7 @@ pub(crate) enum Failure {
     /// Standard output cannot be written.
     Unheard { why: &'static io::Error },
     /// A study was interrupted.
-    Paused { done: u64, of: u64 },
+    Paused { done: u64, of: u64, what: &'static str },
     /// A folder does not hold the results of a run.
     NotARun { folder: PathBuf, reason: String },
     /// A finished run cannot be flown for longer.
@@ -156,10 +156,10 @@ impl fmt::Display for Failure {
             Self::Unheard { why } => {
                 write!(f, "standard output: cannot be written: {why}; everything else is done")
             }
-            Self::Paused { done, of } => {
+            Self::Paused { done, of, what } => {
                 write!(
                     f,
-                    "interrupted; {done} of {of} fibres are done and kept. Repeat the command to continue"
+                    "interrupted; {done} of {of} {what} are done and kept. Repeat the command to continue"
                 )
             }
             Self::NotARun { folder, reason } => write!(
@@ -324,7 +324,7 @@ mod tests {
             assert_eq!(not_the_inputs_fault.exit_code(), 2, "{not_the_inputs_fault:?}");
         }
         for interrupted in [
-            Failure::Paused { done: 1, of: 2 },
+            Failure::Paused { done: 1, of: 2, what: "fibres" },
             Error::Interrupted.into(),
             Unwritten::Simulation(Error::Interrupted).into(),
         ] {

@@ -93,8 +93,13 @@ folder holds
   case_files/          copies of the files that the case names
   journal              the results of every fibre; with it the study can be continued
 
+A study may vary a web in place of a case, with `web = \"web.toml\"` in place of `case`, keys of the
+web or of the case that it flies, and `replicates` webs of each point. Its results are the unevenness
+over patches; webs.jsonl keeps each web that is laid.
+
 Examples:
   spunlaid sweep cases/studies/velocity.toml
+  spunlaid sweep cases/studies/web_evenness.toml
   spunlaid sweep cases/studies/velocity.toml --replicates 16       adds replicates to the same
   spunlaid sweep my_study.toml --print-point 7 > point7.toml && spunlaid run point7.toml";
 

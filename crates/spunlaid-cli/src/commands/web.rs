@@ -28,12 +28,7 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
         folder.as_ref().map(|folder| Staging::new(folder, ENTRIES, asked.force, stop)).transpose()?;
 
     let started = Instant::now();
-    let follow =
-        |path: &Path, fibres: u64, (done, of): (&AtomicU64, u64), work: &mut (dyn FnMut() + Send)| {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let label = format!("flying {} of {name}", plural(fibres, "fibre"));
-            progress::follow(done, of, &label, asked.quiet, work);
-        };
+    let follow = flying(asked.quiet);
     let mut flyer = Flyer::new(threads(asked.threads), stop, &follow);
     let layers = file.spec.layers.iter().map(|layer| flyer.fibres(&file.spec, layer));
     let layers: Vec<OfLayer> = layers.collect::<Result<_, _>>()?;
@@ -68,6 +63,15 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// Shows the progress of the flights of a case.
+pub(super) fn flying(quiet: bool) -> impl Fn(&Path, u64, (&AtomicU64, u64), &mut (dyn FnMut() + Send)) {
+    move |path, fibres, (done, of), work| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let label = format!("flying {} of {name}", plural(fibres, "fibre"));
+        progress::follow(done, of, &label, quiet, work);
+    }
 }
 
 /// The table for the terminal.

@@ -47,12 +47,16 @@ pub struct Flown {
 /// fibres, the steps done and their number.
 pub type Follow<'a> = &'a dyn Fn(&Path, u64, (&AtomicU64, u64), &mut (dyn FnMut() + Send));
 
+/// Number of cases and folders whose curves are kept, some megabytes each.
+const KEPT: usize = 16;
+
 /// Makes the fibres of the layers, those of one case or folder once for all layers.
 pub struct Flyer<'a> {
     threads: usize,
     stop: &'a AtomicBool,
     follow: Follow<'a>,
-    flown: BTreeMap<PathBuf, Arc<Flown>>,
+    /// What the last cases and folders laid, by their paths.
+    flown: Vec<(PathBuf, Arc<Case>, Arc<Flown>)>,
 }
 
 impl std::fmt::Debug for Flyer<'_> {
@@ -67,7 +71,7 @@ impl std::fmt::Debug for Flyer<'_> {
 impl<'a> Flyer<'a> {
     /// * `stop` – set from elsewhere to stop early
     pub const fn new(threads: usize, stop: &'a AtomicBool, follow: Follow<'a>) -> Self {
-        Self { threads, stop, follow, flown: BTreeMap::new() }
+        Self { threads, stop, follow, flown: Vec::new() }
     }
 
     /// The fibres of a layer.
@@ -84,15 +88,20 @@ impl<'a> Flyer<'a> {
                 (path, case)
             }
         };
-        let flown = match self.flown.get(path) {
-            Some(flown) => Arc::clone(flown),
+        // The points of a study change a case without its path.
+        let known = self.flown.iter().find(|(of, flown, _)| of == path && flown == case);
+        let flown = match known {
+            Some((.., flown)) => Arc::clone(flown),
             None => {
                 let curves = match &layer.source {
                     LaydownSource::Results { folder, .. } => laid::read(folder)?,
                     _ => self.fly(path, case)?,
                 };
                 let flown = Arc::new(Flown::of(path, case, curves)?);
-                self.flown.insert(path.clone(), Arc::clone(&flown));
+                if self.flown.len() == KEPT {
+                    self.flown.remove(0);
+                }
+                self.flown.push((path.clone(), Arc::clone(case), Arc::clone(&flown)));
                 flown
             }
         };
@@ -206,10 +215,10 @@ fn source(layer: &LayerSpec) -> &Path {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::folder::{ENTRIES, Staging};
+    use crate::output::laid::{LaidTable, Spill};
     use spunlaid::ensemble::Results;
     use spunlaid::input::{parse_web, read_case};
-    use spunlaid_results::output::folder::{ENTRIES, Staging};
-    use spunlaid_results::output::laid::{LaidTable, Spill};
 
     /// The web of the spunbond line, with a case for a short flight.
     fn web(element_length: &str, method: &str) -> (WebSpec, Case) {
@@ -271,8 +280,8 @@ mod tests {
         let Fibres::Surrogate(again) = of_results.fibres else { panic!("{of_results:?}") };
         assert_eq!(again, surrogate);
         // The curves too.
-        let [flown, read] =
-            [Path::new("short.toml"), &desk.path().join("r")].map(|path| &flyer.flown[path].curves);
+        let curves = |path: &Path| &flyer.flown.iter().find(|(of, ..)| of == path).unwrap().2.curves;
+        let [flown, read] = [Path::new("short.toml"), &desk.path().join("r")].map(curves);
         assert_eq!(flown, read);
         spec.method = Method::Dynamics;
         let laid = flyer.fibres(&spec, &spec.layers[0]).unwrap().fibres;

@@ -6,7 +6,7 @@ use crate::output::folder::Staging;
 use crate::output::{leftovers, pictures, webs};
 use crate::report::{WebStudyReport, webs_html};
 use crate::webs::{PointOfWebs, WebJournal, results};
-use spunlaid::input::WebStudyFile;
+use spunlaid::input::{WebStudyFile, differences};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -49,7 +49,12 @@ impl<'a> WebStudyFolder<'a> {
             return Err(Failure::HoldsResults { folder: path.to_owned(), found: (*found).to_owned() });
         }
         fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
-        let journal = WebJournal::open(&journal, &file.study, force)?;
+        let journal = WebJournal::open(&journal, &file.study, force).map_err(|failure| match failure {
+            Failure::OtherStudy { folder, .. } => {
+                Failure::OtherStudy { differences: differ(&folder, file), folder }
+            }
+            other => other,
+        })?;
         leftovers::remove_unclaimed(path);
         Ok((Self { path: path.to_owned(), stop }, journal))
     }
@@ -84,4 +89,13 @@ impl<'a> WebStudyFolder<'a> {
         staging.publish()?;
         Ok(results)
     }
+}
+
+/// How the study in a folder differs, a line for each key.
+fn differ(folder: &Path, file: &WebStudyFile) -> Vec<String> {
+    let of = |(name, now): (&str, &String)| {
+        let was = fs::read_to_string(folder.join(name)).unwrap_or_default();
+        differences(&was, now).into_iter().map(move |line| format!("{name}: {line}")).collect::<Vec<_>>()
+    };
+    [("study.toml", &file.text), ("web.toml", &file.web_text)].into_iter().flat_map(of).collect()
 }

@@ -7,7 +7,7 @@ use super::orientation::{Orientation, orientation};
 use super::sensitivity::{Sensitivity, sensitivities};
 use super::threads::each;
 use super::uniformity::{Unevenness, unevenness};
-use super::{Edges, Filaments, Layer, Web};
+use super::{Edges, Filaments, Layer, Sheet, Web};
 use crate::error::Error;
 use std::sync::atomic::AtomicU64;
 
@@ -54,14 +54,31 @@ const LAGS: usize = 257;
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.
 pub fn find(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
+    let found = measure(web, by)?;
+    let sides: Vec<usize> = found.patches.iter().map(|patch| side(&web.sheet, patch.map.patch)).collect();
+    let of = OneFibre { cell: web.sheet.cell, fibres: TURNED, seed: web.seed };
+    let aside = AtomicU64::new(0);
+    let sensitivities = sensitivities(web, &sides, of, Laying { laid: &aside, ..by })?;
+    Ok(Findings { sensitivities, ..found })
+}
+
+/// Cells along the side of a patch [m].
+fn side(sheet: &Sheet, patch: f64) -> usize {
+    (patch / sheet.cell).round() as usize
+}
+
+/// [`find`] without the sensitivities, which take as long as the rest.
+///
+/// # Errors
+/// As [`find`].
+pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
     let laid = lay(web, by)?;
     // The progress is that of the web; what comes after it is short.
     let aside = AtomicU64::new(0);
     let by = Laying { laid: &aside, ..by };
     let map = &laid.map;
-    let side = |patch: &f64| (patch / sheet.cell).round() as usize;
-    let sides: Vec<usize> = sheet.patches.iter().map(side).collect();
+    let sides: Vec<usize> = sheet.patches.iter().map(|patch| side(sheet, *patch)).collect();
     let of = OneFibre { cell: sheet.cell, fibres: ALONE, seed: web.seed };
     let alone = expected(web, web.layers.clone(), &sides, of, by)?;
     let other = |layer: &Layer| Some(Layer { fibres: layer.compared.clone()?, ..layer.clone() });
@@ -81,13 +98,12 @@ pub fn find(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
         let compared = compared.as_ref().map(|compared| compared[i]);
         patches.push(PatchFindings { map, one_fibre: alone[i], compared, straight_fibres });
     }
-    let sides: Vec<usize> = patches.iter().map(|patch| side(&patch.map.patch)).collect();
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
     Ok(Findings {
         orientation: orientation(web, by)?,
         clouds: Clouds::of(map),
         autocorrelation: autocorrelation(map, lags),
-        sensitivities: sensitivities(web, &sides, OneFibre { fibres: TURNED, ..of }, by)?,
+        sensitivities: Vec::new(),
         patches,
         laid,
     })

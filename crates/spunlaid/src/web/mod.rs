@@ -22,7 +22,7 @@ pub mod uniformity;
 
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
-pub use findings::{Findings, PatchFindings, find};
+pub use findings::{Findings, PatchFindings, find, measure};
 pub use lay::{Laid, Laying, lay, pieces};
 pub use map::Map;
 pub use one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};

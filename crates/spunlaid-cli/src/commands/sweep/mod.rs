@@ -2,6 +2,7 @@
 
 mod progress;
 mod table;
+mod webs;
 
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, stem, threads};
@@ -10,7 +11,7 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::ensemble::Computing;
 use spunlaid::error::Error;
-use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, write_case};
+use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, varies_a_web, write_case};
 use spunlaid::lanes::Isa;
 use spunlaid::study::{Journal, Landing, Progress, Study, run};
 use spunlaid_results::folders::study::{State, StudyFolder, Written};
@@ -22,6 +23,9 @@ use std::sync::{Mutex, PoisonError};
 const LOST_LISTED: usize = 10;
 
 pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
+    if varies_a_web(&sweep.study) {
+        return webs::sweep(sweep);
+    }
     let (points, replicates) = (sweep.points, sweep.replicates);
     let set = Overrides { values: &sweep.set, word: "--set" };
     let file = read_changed_study(&sweep.study, &StudyChanges { points, replicates, set })?;
@@ -41,7 +45,9 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     let written =
         flown.map_err(Failure::from).and_then(|()| write(sweep, &file, &folder, &mut journal, before));
     written.map_err(|failure| match failure {
-        Failure::Library(Error::Interrupted) => Failure::Paused { done, of: file.study.most_fibres() },
+        Failure::Library(Error::Interrupted) => {
+            Failure::Paused { done, of: file.study.most_fibres(), what: "fibres" }
+        }
         other => other,
     })
 }
