@@ -206,10 +206,10 @@ fn source(layer: &LayerSpec) -> &Path {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::folder::{ENTRIES, Staging};
+    use crate::output::laid::{LaidTable, Spill};
     use spunlaid::ensemble::Results;
     use spunlaid::input::{parse_web, read_case};
-    use spunlaid_results::output::folder::{ENTRIES, Staging};
-    use spunlaid_results::output::laid::{LaidTable, Spill};
 
     /// The web of the spunbond line, with a case for a short flight.
     fn web(element_length: &str, method: &str) -> (WebSpec, Case) {
