@@ -228,7 +228,8 @@ impl Flight {
 
 /// What a fibre laid: fed length, time, place along and across the belt.
 pub(crate) fn laid_columns<'py>(py: Python<'py>, points: &[LaidPoint]) -> PyResult<Bound<'py, PyDict>> {
-    let columns: [(&str, fn(&LaidPoint) -> f64); 4] =
+    type Number = fn(&LaidPoint) -> f64;
+    let columns: [(&str, Number); 4] =
         [("s_m", |p| p.fed), ("time_s", |p| p.time), ("md_m", |p| p.md), ("cd_m", |p| p.cd)];
     let of = PyDict::new(py);
     for (name, column) in columns {
