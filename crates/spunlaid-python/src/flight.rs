@@ -19,6 +19,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 const MOST: u64 = 4096;
 /// Steps between two looks whether Python wants to stop.
 const STEPS: f64 = 4096.0;
+/// Most steps of a flight.
+const MOST_STEPS: f64 = 9e15;
 
 /// Fibres in flight, which you step: Flight(case, replicates=8).
 ///
@@ -72,12 +74,13 @@ impl Flight {
             let mut packs = self.lock();
             let Some(first) = packs.first() else { return Ok(()) };
             let (mut now, slice) = (first.time(), STEPS * first.time_step());
+            // Slices for a time that can be reached; any other goes to the library, which says what is wrong with it.
+            let is_far = time / first.time_step() < MOST_STEPS && time > now + slice;
             loop {
-                // Also if it is NaN or in the past: the library says so.
-                let next = if time > now + slice { now + slice } else { time };
+                let next = if is_far && time > now + slice { now + slice } else { time };
                 packs.iter_mut().try_for_each(|pack| pack.step_to(next))?;
                 now = next;
-                if next == time || stop.load(Ordering::Relaxed) || time.is_nan() {
+                if next == time || stop.load(Ordering::Relaxed) {
                     return Ok(());
                 }
             }
@@ -225,7 +228,8 @@ impl Flight {
 
 /// What a fibre laid: fed length, time, place along and across the belt.
 pub(crate) fn laid_columns<'py>(py: Python<'py>, points: &[LaidPoint]) -> PyResult<Bound<'py, PyDict>> {
-    let columns: [(&str, fn(&LaidPoint) -> f64); 4] =
+    type Number = fn(&LaidPoint) -> f64;
+    let columns: [(&str, Number); 4] =
         [("s_m", |p| p.fed), ("time_s", |p| p.time), ("md_m", |p| p.md), ("cd_m", |p| p.cd)];
     let of = PyDict::new(py);
     for (name, column) in columns {

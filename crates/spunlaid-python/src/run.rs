@@ -100,7 +100,7 @@ pub(crate) fn fly(
     let laid = (0..if of.line.is_some() { run.replicates } else { 0 })
         .map(|replicate| laid.remove(&replicate).unwrap_or_default())
         .collect();
-    let samples = if samples { Some(collected.to_numpy(py)?) } else { None };
+    let samples = if samples { Some(collected.into_numpy(py)?) } else { None };
     Ok(Flown { name: case.stem(), case: of, results, check, notes, performance, samples, laid })
 }
 

@@ -48,7 +48,7 @@ impl Collected {
     }
 
     /// Hands the columns over to NumPy.
-    pub(crate) fn to_numpy(self, py: Python<'_>) -> PyResult<Samples> {
+    pub(crate) fn into_numpy(self, py: Python<'_>) -> PyResult<Samples> {
         let instants = self.times.len();
         let mut columns = Vec::with_capacity(FIELDS.len());
         for column in self.columns {

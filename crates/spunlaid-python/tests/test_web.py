@@ -12,13 +12,17 @@ from conftest import CASES
 
 import spunlaid
 
-SMALL = {"web.width": 0.4, "web.length": "0.4 m", "laydown.sigma_md": "10 mm", "laydown.sigma_cd": 0.01}
+SMALL = {"web.width": 0.2, "web.length": "0.2 m", "laydown.sigma_md": "10 mm", "laydown.sigma_cd": 0.01}
 
 
-def test_identical_to_the_program(program: Path, tmp_path: Path) -> None:
-    web = spunlaid.web(CASES / "web_known.toml", set=SMALL, threads=2)
+@pytest.fixture(scope="module")
+def web() -> spunlaid.Web:
+    return spunlaid.web(CASES / "web_known.toml", set=SMALL, threads=2)
+
+
+def test_identical_to_the_program(web: spunlaid.Web, program: Path, tmp_path: Path) -> None:
     command = [program, "web", CASES / "web_known.toml", "--out", tmp_path / "w", "--quiet"]
-    for setting in ("web.width=400 mm", "web.length=0.4 m", "laydown.sigma_md=10 mm", "laydown.sigma_cd=10 mm"):
+    for setting in ("web.width=200 mm", "web.length=0.2 m", "laydown.sigma_md=10 mm", "laydown.sigma_cd=10 mm"):
         command += ["--set", setting]
     subprocess.run(command, check=True, capture_output=True)
     told = json.loads((tmp_path / "w" / "summary.json").read_text())
@@ -30,13 +34,12 @@ def test_identical_to_the_program(program: Path, tmp_path: Path) -> None:
         web.save(tmp_path / "python")
 
 
-def test_analytic_basis_weight() -> None:
-    web = spunlaid.web(CASES / "web_known.toml", set=SMALL)
+def test_analytic_basis_weight(web: spunlaid.Web) -> None:
     line_density = np.pi / 4 * 18e-6**2 * 910
     # Line density x filaments per width x feed speed / belt speed; the map is counted in quanta of 1e-5 of a fibre.
     np.testing.assert_allclose(web.map.mean(), line_density * 5000 * 50 / 3.8594, rtol=1e-4)
     rows, columns = web.map.shape
-    assert (rows * web.cell, columns * web.cell) == pytest.approx((0.4, 0.4))
+    assert (rows * web.cell, columns * web.cell) == pytest.approx((0.2, 0.2))
     # The CV over patches of a cell is that of the map.
     cv = web.map.std() / web.map.mean()
     first = np.argmin(np.abs(web.patches["patch_m"] - web.cell))
@@ -45,16 +48,16 @@ def test_analytic_basis_weight() -> None:
     assert "iframe" in web._repr_html_()
 
 
-def test_a_dict_is_a_web() -> None:
-    web = spunlaid.web(
+def test_a_dict_is_a_web(web: spunlaid.Web) -> None:
+    same = spunlaid.web(
         {
             "fibre": {"diameter": 18e-6, "density": "910 kg/m^3"},
             "laydown": {"sigma_md": 0.01, "sigma_cd": 0.01, "noise": "12.4 m^-0.5"},
             "line": {"feed_speed": 50, "belt_speed": 3.8594, "filaments_per_metre": 5000},
-            "web": {"width": 0.4, "length": 0.4},
+            "web": {"width": 0.2, "length": 0.2},
         }
     )
-    np.testing.assert_array_equal(web.map, spunlaid.web(CASES / "web_known.toml", set=SMALL).map)
+    np.testing.assert_array_equal(same.map, web.map)
 
 
 def test_flown_fibres_make_a_web(tmp_path: Path, fed: spunlaid.Case) -> None:

@@ -119,7 +119,7 @@ fn stat_autocorrelation_of_paths_is_that_of_the_generator() {
 fn stat_paths_are_stationary() {
     for ratio in [1.0, 2.0] {
         let of = surrogate(ratio, 10.0);
-        let laid: Vec<Laid> = (0..2).flat_map(|seed| laid(of, seed, 200_000)).collect();
+        let laid: Vec<Laid> = (0..8).flat_map(|seed| laid(of, seed, 200_000)).collect();
         let near = |value: fn(&Laid) -> f64, wanted: f64, bias: f64| {
             let (mean, error) = estimate(&laid.iter().map(value).collect::<Vec<_>>());
             assert!((mean - wanted).abs() < 4.0 * error + bias, "{ratio}: {mean} ± {error}, {wanted}");
@@ -303,9 +303,9 @@ fn coverage(of: Surrogate, loops: u64) -> [f64; 3] {
 #[test]
 fn stat_intervals_of_the_identified_numbers_hold() {
     for (ratio, noise) in [(1.0, 12.4), (2.5, 8.0)] {
-        let held = coverage(surrogate(ratio, noise), 200);
-        // 95 %, 1.5 % is the standard deviation of a share of 200; what is taken off with the mean of 60 m costs 2 %.
-        assert!(held.iter().all(|share| (0.89..=0.995).contains(share)), "{ratio} {noise}: {held:?}");
+        let held = coverage(surrogate(ratio, noise), 100);
+        // 95 %; 2.2 % is the standard deviation of a share of 100.
+        assert!(held.iter().all(|share| (0.88..=1.0).contains(share)), "{ratio} {noise}: {held:?}");
     }
 }
 

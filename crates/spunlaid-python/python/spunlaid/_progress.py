@@ -21,12 +21,18 @@ def shown(progress: Progress, label: str) -> Iterator[Callable[[int, int], objec
     try:
         if not progress:
             raise ImportError
-        from tqdm.auto import tqdm
+        from importlib.util import find_spec
+
+        # Without its widgets, the bar for notebooks would warn.
+        if "ipykernel" in sys.modules and find_spec("ipywidgets"):
+            from tqdm.notebook import tqdm
+        else:
+            from tqdm import tqdm
     except ImportError:
         yield None
         return
     # Short work shows nothing.
-    with tqdm(desc=label, total=100, unit="%", delay=0.5, leave=False, bar_format="{l_bar}{bar}| {elapsed}<{remaining}") as bar:
+    with tqdm(desc=label, total=100, unit="%", delay=2, leave=False, bar_format="{l_bar}{bar}| {elapsed}<{remaining}") as bar:
 
         def show(done: int, of: int) -> None:
             bar.update(round(100 * done / of, 1) - bar.n if of else 0)

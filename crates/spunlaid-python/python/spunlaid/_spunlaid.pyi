@@ -7,7 +7,23 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__: list[str]
+__all__ = [
+    "Case",
+    "Flight",
+    "Flown",
+    "LaidWeb",
+    "Study",
+    "__version__",
+    "analyse",
+    "flown_from",
+    "fly",
+    "fly_bundle",
+    "keys",
+    "lay_web",
+    "measures",
+    "read_table",
+]
+
 __version__: str
 
 _Floats = NDArray[np.float64]
