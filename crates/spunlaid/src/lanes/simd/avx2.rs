@@ -26,8 +26,8 @@ const PACKED: [[i32; 8]; 16] = {
         let (mut from, mut to) = (0, 0);
         while from < 4 {
             if mask >> from & 1 == 1 {
-                all[mask][2 * to] = 2 * from as i32;
-                all[mask][2 * to + 1] = 2 * from as i32 + 1;
+                all[mask][2 * to] = 2 * from;
+                all[mask][2 * to + 1] = 2 * from + 1;
                 to += 1;
             }
             from += 1;
