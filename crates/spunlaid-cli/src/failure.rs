@@ -239,7 +239,7 @@ fn options(error: &Error) -> &'static str {
 fn of_problem(fault: &Fault) -> &'static str {
     match fault {
         Fault::IsStudy | Fault::Web(WebFault::IsStudy) => " (`spunlaid sweep`)",
-        Fault::IsWeb => " (`spunlaid web`)",
+        Fault::IsWeb | Fault::Study(StudyFault::IsWeb) => " (`spunlaid web`)",
         Fault::Study(StudyFault::TableOfCase) | Fault::Web(WebFault::IsCase) => " (`spunlaid run`)",
         Fault::Study(StudyFault::TooManyPoints { .. } | StudyFault::OtherPoints { .. }) => " (--points)",
         _ => "",

@@ -155,10 +155,10 @@ pub(crate) struct Sweep {
     /// Start again; deletes the study in the output folder
     #[arg(long)]
     pub(crate) force: bool,
-    /// Set a key of the case for all points, as run.duration="2 s"; can be repeated
+    /// Set a key of the case or of the web for all points, as run.duration="2 s"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
-    /// Fibres at each point, in place of the study's; with more than before, a finished study goes on
+    /// Fibres or webs at each point, in place of the study's; with more than before, a finished study goes on
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) replicates: Option<u64>,
     /// Print results.json instead of the table
@@ -167,7 +167,7 @@ pub(crate) struct Sweep {
     /// Confirm the number of points; needed above 10000 points
     #[arg(long, value_name = "N")]
     pub(crate) points: Option<u64>,
-    /// Print the case of point K, counted from 1, and fly nothing
+    /// Print the case or the web of point K, counted from 1, and fly nothing
     #[arg(long, value_name = "K")]
     pub(crate) print_point: Option<u64>,
 }

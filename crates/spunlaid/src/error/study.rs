@@ -24,6 +24,11 @@ pub enum StudyFault {
         "is a table of a case file; a study names its case, as in case = \"table1.toml\". To fly a single case, name the case itself"
     )]
     TableOfCase,
+    /// The file of a web.
+    #[error(
+        "is a table of the file of a web; a study names its web, as in web = \"web.toml\". To lay a single web, name its file itself"
+    )]
+    IsWeb,
     /// A study of a case and of a web at once.
     #[error("stands beside web; a study varies a case or a web, keep one")]
     CaseAndWeb,

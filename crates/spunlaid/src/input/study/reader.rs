@@ -14,6 +14,7 @@ use toml::de::{DeTable, DeValue};
 const KEYS: [&str; 11] = [
     "version",
     "case",
+    "web",
     "design",
     "points",
     "replicates",
@@ -22,7 +23,6 @@ const KEYS: [&str; 11] = [
     "set",
     "vary",
     "link",
-    "web",
 ];
 
 /// Reads a study file and collects its problems.
@@ -42,6 +42,14 @@ impl<'a> Reader<'a> {
     pub(super) fn new(text: &'a str, name: &str) -> Result<Self, Error> {
         let source = Source::new(text, name);
         let root = root(&source, text)?;
+        // A study names its web; a web has tables.
+        let is_of_web = |key: &str, value: &DeValue<'_>| {
+            WEB_TABLES.contains(&key) && table_named(key).is_none() && value.is_table()
+        };
+        if let Some((key, _)) = root.iter().find(|(key, value)| is_of_web(key.get_ref(), value.get_ref())) {
+            let (place, key) = (source.place(key.span().start), format!("[{}]", key.get_ref()));
+            return Err(vec![Finding { place, key, value: None, what: StudyFault::IsWeb.into() }].into());
+        }
         let mut reader = Self { source, entries: BTreeMap::new(), problems: Vec::new(), excused: Vec::new() };
         let mut tables = Vec::new();
         for (key, value) in root {
@@ -59,7 +67,7 @@ impl<'a> Reader<'a> {
                         reader.excused.push(key);
                         format!("did you mean {key}?")
                     }
-                    None => format!("the keys are {} and {}", KEYS[..9].join(", "), KEYS[9]),
+                    None => format!("the keys are {} and {}", KEYS[..10].join(", "), KEYS[10]),
                 };
                 reader.reject(&entry, &name, StudyFault::UnknownKey { advice });
             }
