@@ -84,6 +84,12 @@ impl Document {
         Ok(Read { case, warnings: warnings.collect() })
     }
 
+    /// Whether the text gives a value for a key of a table.
+    pub(super) fn gives(&self, table: &str, key: &str) -> bool {
+        let document = self.text.parse::<DocumentMut>();
+        document.is_ok_and(|document| document.get(table).and_then(|table| table.get(key)).is_some())
+    }
+
     /// The same document with another text.
     pub(super) fn with_text(&self, text: String) -> Self {
         Self { text, ..self.clone() }

@@ -11,6 +11,7 @@ use axum::http::{HeaderMap, HeaderName, StatusCode, header};
 use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
+use axum::serve::ListenerExt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
@@ -44,7 +45,11 @@ pub(super) async fn serve(
     ended: oneshot::Receiver<()>,
 ) -> std::io::Result<()> {
     listener.set_nonblocking(true)?;
-    let listener = tokio::net::TcpListener::from_std(listener)?;
+    // A small message leaves at once; otherwise it waits until the page has confirmed the last one, 40 ms and more.
+    let listener = tokio::net::TcpListener::from_std(listener)?.tap_io(|stream| {
+        // It then only comes later.
+        let _ = stream.set_nodelay(true);
+    });
     let pages = Arc::new(Semaphore::new(PAGES));
     let shared = Arc::new(Shared { guard, asks, shown, pages, next_page: AtomicU64::new(0) });
     let router = Router::new()

@@ -213,11 +213,11 @@ pub(super) fn surrounded(cases: &[(Case, u64)], isa: Isa, horizon: f64) -> Resul
     let eddies = stations.as_ref().map_or_else(|| case.eddies(), |(grid, _)| grid.eddies());
     let streams =
         cases.iter().map(|(case, replicate)| Job { case, replicate: *replicate }.stream(&eddies)).collect();
-    let mut wind = Wind::along(isa, streams, horizon)?;
-    if stations.is_some() {
-        wind = wind.coarse();
-        return Ok(Surrounded { eddies, wind, surroundings: None, stations: stations.map(|(_, s)| s) });
+    let wind = Wind::along(isa, streams, horizon)?;
+    if let Some((_, stations)) = stations {
+        return Ok(Surrounded { eddies, wind: wind.coarse(), surroundings: None, stations: Some(stations) });
     }
+    let wind = wind.for_steps_of(case.run.time_step);
     let surroundings = case.surroundings(airs())?;
     Ok(Surrounded { eddies, wind, surroundings, stations: None })
 }

@@ -25,6 +25,8 @@ use crate::vec3::Vec3;
 
 /// Cubics per sample spacing of a synthesised signal. A record has one per spacing.
 const CELLS: u64 = 16;
+/// Likewise where a step is longer than one of these cells, so that each step would make cubics: error 2e-5 of the rms.
+const LONG_CELLS: u64 = 4;
 /// Likewise where an error of a few 1e-4 of the rms is small enough.
 const COARSE_CELLS: u64 = 2;
 
@@ -142,9 +144,19 @@ impl Wind {
 
     /// The same wind with fewer cubics: the error of the interpolation is `(π/4)⁴/384 · u/3 = 3e-4 u` for a flat spectrum.
     ///                                           theory.md (19)
-    pub(crate) fn coarse(mut self) -> Self {
+    pub(crate) fn coarse(self) -> Self {
+        self.with_cells(COARSE_CELLS)
+    }
+
+    /// The same wind for steps of `h` [s]. Where a step is longer than a cell there are fewer cubics: the error of the
+    /// interpolation is `(π/8)⁴/384 · u/3 = 2e-5 u`.                            theory.md (19)
+    pub(crate) fn for_steps_of(self, h: f64) -> Self {
+        if h * CELLS as f64 > self.spacing { self.with_cells(LONG_CELLS) } else { self }
+    }
+
+    fn with_cells(mut self, cells: u64) -> Self {
         if matches!(self.signal, Signal::Synthesised(_)) {
-            (self.weights, self.cells_per_sample) = (weights(COARSE_CELLS), COARSE_CELLS);
+            (self.weights, self.cells_per_sample) = (weights(cells), cells);
         }
         self
     }
