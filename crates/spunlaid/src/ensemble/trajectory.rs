@@ -4,9 +4,9 @@ use super::Computing;
 use crate::case::Case;
 use crate::error::Error;
 use crate::flight::{Flight, Job, LaidPoint};
-use crate::lanes::{Isa, Lanes, WIDTH};
+use crate::lanes::{Isa, WIDTH};
 use crate::observe::{Measure, Observers, Sample, Seen, Value};
-use crate::vec3::Vec3;
+use crate::vec3::{Vec3, all_finite};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -119,7 +119,7 @@ pub fn fly_together(
     for instant in 0.. {
         // A snapshot needs one step. The last one takes that step on a copy.
         let snapshot = if step < run.steps { flight.observe() } else { flight.snapshot() };
-        if !is_finite(&snapshot.position, jobs.len()) {
+        if !all_finite(&snapshot.position) {
             return Err(divergence(jobs, computing.isa, step - run.output_steps.min(step)));
         }
         if let Some(adrift) = flight.adrift() {
@@ -183,11 +183,6 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
         done += steps;
     }
     Ok(started.elapsed().as_secs_f64() / done as f64)
-}
-
-/// Whether all positions in the first `lanes` lanes are finite.
-fn is_finite(position: &[Vec3<Lanes>], lanes: usize) -> bool {
-    (0..lanes).all(|lane| position.iter().all(|p| p.lane(lane).norm().is_finite()))
 }
 
 /// Finds where a position stopped being finite: repeats the flight, step by step after the last good instant.

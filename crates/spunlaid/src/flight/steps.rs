@@ -12,7 +12,7 @@ use crate::error::{Error, FlightFault};
 use crate::fibre::Root;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::line::Line;
-use crate::vec3::Vec3;
+use crate::vec3::{Vec3, all_finite};
 
 /// Length of fibre in the air, in distances to the belt, above which it does not reach the belt.
 const MOST_IN_AIR: f64 = 10.0;
@@ -72,11 +72,16 @@ impl Flight {
         } else if self.scheme.is_staggered() {
             let born = (self.chain.fed() - fed) as usize;
             let after = self.chain.velocity.get(born..).unwrap_or_default();
+            let laid = self.chain.laying.is_some();
             for (i, (v, after)) in velocity.iter_mut().zip(after).enumerate() {
                 let mean = (*v + *after) * Lanes::splat(0.5);
                 // A node that lands in the step does not know of it yet.
-                let landed = |lane: usize| i > 0 && self.chain.is_held(i + born, lane);
-                (0..WIDTH).filter(|&lane| !landed(lane)).for_each(|lane| v.set_lane(lane, mean.lane(lane)));
+                let landed = |lane: usize| laid && i > 0 && self.chain.is_held(i + born, lane);
+                if (0..WIDTH).any(landed) {
+                    (0..WIDTH).filter(|&lane| !landed(lane)).for_each(|lane| v.set_lane(lane, mean.lane(lane)));
+                } else {
+                    *v = mean;
+                }
             }
         }
         let mut energy = Energy::held(self.isa, &constants, &position, &velocity, &origin);
@@ -88,6 +93,9 @@ impl Flight {
     /// The first fibre and node whose position is not finite, if there is one.
     pub(crate) fn lost(&self) -> Option<Error> {
         let position = &self.chain.position;
+        if all_finite(position) {
+            return None;
+        }
         let lost = |lane: usize| position.iter().position(|p| !p.lane(lane).norm().is_finite());
         let (lane, node) = (0..self.fibres()).find_map(|lane| Some((lane, lost(lane)?)))?;
         let case = self.cases.get(lane);
