@@ -11,7 +11,7 @@ use super::surroundings::{AirAtElements, Surroundings};
 use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Wind};
 use crate::error::FlightFault;
 use crate::field::Hint;
-use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
+use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, whole_below};
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
@@ -113,8 +113,8 @@ pub struct Stations {
     /// Steps from one look to the next.
     every: u64,
     looked: bool,
-    /// Fluctuation at the stations at the last look [m/s].
-    now: Vec<Vec3<Lanes>>,
+    /// Of each station, at the last look, in each lane: fluctuation, and mean velocity along x [m/s].
+    now: Vec<[[f64; 4]; WIDTH]>,
     elements: Nodes<Here>,
     /// The mean flow and the rms in a field.
     field: Option<Surroundings>,
@@ -160,7 +160,8 @@ impl Stations {
             Flow::Field(_) => Some(Surroundings::new(airs, elements, every)?),
             Flow::Uniform | Flow::Profile(_) => None,
         };
-        let (now, nothing) = (vec![Vec3::ZERO; grid.count], Here { value: Vec3::ZERO, rise: Vec3::ZERO });
+        let (now, nothing) =
+            (vec![[[0.0; 4]; WIDTH]; grid.count], Here { value: Vec3::ZERO, rise: Vec3::ZERO });
         let elements = vec![nothing; elements].into();
         Ok(Self { grid, still, apart, every: every.max(1), looked: false, now, elements, field })
     }
@@ -218,8 +219,11 @@ impl Stations {
     #[inline(always)]
     fn look<S: Register>(&mut self, t: f64, wind: &mut Wind, position: &[Vec3<Lanes>]) {
         let signal = wind.blow::<S>(t);
-        for (k, (now, still)) in (0..).zip(self.now.iter_mut().zip(&self.still)) {
-            *now = (signal.velocity(k) * Wide::load(&still[1])).store();
+        for (k, (now, [mean, factor])) in (0..).zip(self.now.iter_mut().zip(&self.still)) {
+            let Vec3 { x, y, z } = (signal.velocity(k) * Wide::load(factor)).store();
+            for (lane, now) in now.iter_mut().enumerate() {
+                *now = [x.0[lane], y.0[lane], z.0[lane], mean.0[lane]];
+            }
         }
         if let Some(field) = &mut self.field {
             field.look::<S>(position);
@@ -227,32 +231,29 @@ impl Stations {
         let (half, one) = (Wide::<S>::splat(0.5), Wide::splat(1.0));
         // The first look has none before it to extrapolate from.
         let per_step = Wide::splat(if self.looked { 1.0 / self.every as f64 } else { 0.0 });
-        let (per_spacing, last) = (1.0 / self.grid.spacing, (self.grid.count - 1) as f64);
+        let (per_spacing, last) = (Wide::splat(1.0 / self.grid.spacing), (self.grid.count - 1) as f64);
+        let (end, before_end) = (Wide::splat(last), Wide::splat(last - 0.25));
         for (j, (ends, here)) in position.windows(2).zip(self.elements.iter_mut()).enumerate() {
-            let centre = ((Wide::<S>::load(&ends[0].x) + Wide::load(&ends[1].x)) * half).store();
-            let mut share = Lanes::ZERO;
+            let centre = (Wide::<S>::load(&ends[0].x) + Wide::load(&ends[1].x)) * half;
+            let place = (centre * per_spacing - half).max(Wide::zero());
+            let place = Wide::select_less(place, end, place, end);
+            let (start, stations) = whole_below(Wide::select_less(place, before_end, place, before_end));
+            let mut rows = [[&[0.0; 4]; WIDTH]; 2];
             let mut apart = Lanes::ZERO;
-            let mut mean = [Lanes::ZERO; 2];
-            let mut near = [Vec3::ZERO; 2];
-            for lane in 0..WIDTH {
-                let place = (centre.0[lane] * per_spacing - 0.5).max(0.0).min(last);
-                let k = (place as usize).min(self.grid.count - 2);
-                share.0[lane] = place - k as f64;
+            for (lane, k) in stations.into_iter().enumerate() {
+                let k = k.min(self.grid.count - 2);
                 apart.0[lane] = self.apart[k].0[lane];
-                for (i, near) in near.iter_mut().enumerate() {
-                    mean[i].0[lane] = self.still[k + i][0].0[lane];
-                    near.x.0[lane] = self.now[k + i].x.0[lane];
-                    near.y.0[lane] = self.now[k + i].y.0[lane];
-                    near.z.0[lane] = self.now[k + i].z.0[lane];
-                }
+                rows[0][lane] = &self.now[k][lane];
+                rows[1][lane] = &self.now[k + 1][lane];
             }
-            let share = Wide::<S>::load(&share);
+            let share = place - start;
             let rest = one - share;
             // (1−w)² + w² + 2w(1−w)ρ = 1 − 2w(1−w)(1−ρ)
             let scale = one.over((share * rest).neg_mul_add(Wide::load(&apart), one).sqrt());
-            let [above, below] = [Vec3::load(&near[0]), Vec3::load(&near[1])];
+            let [[x, y, z, upper], [u, v, w, lower]] = [S::load_rows(rows[0]), S::load_rows(rows[1])];
+            let [above, below] = [Vec3::new(Wide(x), Wide(y), Wide(z)), Vec3::new(Wide(u), Wide(v), Wide(w))];
             let mut fluctuation = below.mul_add(share * scale, above * (rest * scale));
-            let [upper, lower] = [Wide::load(&mean[0]), Wide::load(&mean[1])];
+            let (upper, lower) = (Wide(upper), Wide(lower));
             let mut flow = Vec3::new((lower - upper).mul_add(share, upper), Wide::zero(), Wide::zero());
             if let Some(field) = &self.field {
                 let [u, v, w, rms] = field.value(j);

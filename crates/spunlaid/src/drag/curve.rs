@@ -2,7 +2,7 @@
 
 use super::boundary_layer::BoundaryLayer;
 use super::normal::{Form, NormalLaw};
-use crate::lanes::{Lanes, Register, Wide, exp2};
+use crate::lanes::{Register, WIDTH, Wide, exp2, whole_below};
 use std::sync::{LazyLock, OnceLock};
 
 /// A law as a positive function `g(s)` of one positive number [-]: the drag by the velocity.
@@ -103,20 +103,17 @@ impl Table {
         let q = q.max(Wide::splat(-FURTHEST));
         let q = Wide::select_less(q, Wide::splat(FURTHEST), q, Wide::splat(FURTHEST));
         let place = q.mul_add(Wide::splat(self.per_unit), Wide::splat(self.zero));
-        let (mut start, mut coefficients) = (Lanes::ZERO, [Lanes::ZERO; 4]);
+        let last = Wide::splat((CUBICS + 1) as f64 + 0.25);
+        let within = place.max(Wide::zero());
+        let (start, index) = whole_below(Wide::select_less(within, last, within, last));
         // No closures here: they would not be compiled for the instruction set.
-        for (i, place) in place.store().0.iter().enumerate() {
-            let cubic = (*place as usize).min(CUBICS + 1);
-            start.0[i] = cubic as f64;
-            for (lanes, coefficient) in coefficients.iter_mut().zip(&self.cubics[cubic]) {
-                lanes.0[i] = *coefficient;
-            }
+        let mut rows = [&self.cubics[0]; WIDTH];
+        for (row, index) in rows.iter_mut().zip(index) {
+            *row = &self.cubics[index.min(CUBICS + 1)];
         }
-        let t = place - Wide::load(&start);
-        let mut log_g = Wide::load(&coefficients[3]);
-        for k in [2, 1, 0] {
-            log_g = log_g.mul_add(t, Wide::load(&coefficients[k]));
-        }
+        let [c0, c1, c2, c3] = S::load_rows(rows);
+        let t = place - start;
+        let log_g = Wide(c3).mul_add(t, Wide(c2)).mul_add(t, Wide(c1)).mul_add(t, Wide(c0));
         exp2(log_g)
     }
 }

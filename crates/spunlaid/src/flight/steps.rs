@@ -78,7 +78,9 @@ impl Flight {
                 // A node that lands in the step does not know of it yet.
                 let landed = |lane: usize| laid && i > 0 && self.chain.is_held(i + born, lane);
                 if (0..WIDTH).any(landed) {
-                    (0..WIDTH).filter(|&lane| !landed(lane)).for_each(|lane| v.set_lane(lane, mean.lane(lane)));
+                    (0..WIDTH)
+                        .filter(|&lane| !landed(lane))
+                        .for_each(|lane| v.set_lane(lane, mean.lane(lane)));
                 } else {
                     *v = mean;
                 }

@@ -6,7 +6,7 @@
 // The coefficients are written as fitted, although some are close to known constants.
 #![allow(clippy::approx_constant, clippy::excessive_precision)]
 
-use super::{Lanes, Register, Simd, Wide};
+use super::{Lanes, Register, Simd, WIDTH, Wide};
 
 /// `Σ cᵢ xⁱ` by Horner's rule, which needs the fewest operations.
 #[inline(always)]
@@ -96,6 +96,17 @@ pub(crate) fn exp2<S: Simd>(x: Wide<S>) -> Wide<S> {
     // The low bits of `rounded` are the integer in two's complement. The shift removes all other bits, and adding
     // the result to the exponent multiplies by the power of two.
     Wide(polynomial(rest, &EXP2).0.add_as_integers(rounded.0.shift_left::<52>()))
+}
+
+/// A whole number `n` with `n ≤ x ≤ n + 1`, for `x` from 0 to 2³¹, as a number and as an index.
+#[inline(always)]
+pub(crate) fn whole_below<S: Register>(x: Wide<S>) -> (Wide<S>, [usize; WIDTH]) {
+    let rounded = x - Wide::splat(0.5) + Wide::splat(ROUND);
+    let mut indices = [0; WIDTH];
+    for (index, lane) in indices.iter_mut().zip(rounded.store().0) {
+        *index = lane.to_bits() as u32 as usize;
+    }
+    (rounded - Wide::splat(ROUND), indices)
 }
 
 /// `x^exponent` for `x ≥ 0` and exponents between 0 and ½, to 1e-7 relative; tends to 0 with `x`.

@@ -13,7 +13,7 @@ mod isa;
 mod simd;
 mod wide;
 
-pub(crate) use functions::{bend_ratio, cos_sin_turn, exp2, log2, power};
+pub(crate) use functions::{bend_ratio, cos_sin_turn, exp2, log2, power, whole_below};
 pub use isa::Isa;
 pub(crate) use isa::Task;
 pub(crate) use simd::{Plain, Register, Simd};
@@ -64,3 +64,46 @@ macro_rules! lane_operator {
 lane_operator!(Add, add, +);
 lane_operator!(Sub, sub, -);
 lane_operator!(Mul, mul, *);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows by index, and what [`whole_below`] makes of a number.
+    struct LookUp<'a> {
+        table: &'a [[f64; 4]],
+        at: Lanes,
+    }
+
+    impl Task for LookUp<'_> {
+        type Output = ([Lanes; 4], Lanes, [usize; WIDTH]);
+
+        #[inline(always)]
+        fn call<S: Register>(self) -> Self::Output {
+            let (start, indices) = whole_below(Wide::<S>::load(&self.at));
+            let mut rows = [&self.table[0]; WIDTH];
+            for (row, index) in rows.iter_mut().zip(indices) {
+                *row = &self.table[index];
+            }
+            let [a, b, c, d] = S::load_rows(rows);
+            ([a.store(), b.store(), c.store(), d.store()], start.store(), indices)
+        }
+    }
+
+    #[test]
+    fn identical_rows_of_a_table_on_every_instruction_set() {
+        let table: Vec<[f64; 4]> = (0..70).map(|i| from_fn(|k| f64::from(i) + 0.1 * k as f64)).collect();
+        for offset in [0.0, 0.25, 0.5, 0.75, 1.0 - f64::EPSILON] {
+            let at = Lanes([0.0, 1.0, 2.0, 33.0, 7.0, 64.0, 65.0, 12.0].map(|whole: f64| whole + offset));
+            for isa in Isa::available() {
+                let (columns, start, indices) = isa.run(LookUp { table: &table, at });
+                for lane in 0..WIDTH {
+                    let (x, n) = (at.0[lane], start.0[lane]);
+                    assert!(n <= x && x <= n + 1.0 && n as usize == indices[lane], "{isa:?}: {x} {n}");
+                    let row: [f64; 4] = from_fn(|k| columns[k].0[lane]);
+                    assert_eq!(row, table[indices[lane]], "{isa:?}");
+                }
+            }
+        }
+    }
+}

@@ -45,7 +45,7 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
         // Without the compression, the prediction does not fold elements that the correction has to unfold.
         let tension = Wide::load(&self.t.tension[j]).max(Wide::zero());
         self.t.tension[j] = tension.store();
-        self.t.tangent[j] = element.tangent.store();
+        self.t.links[j].tangent = element.tangent.store();
         let s = self.rate * tension * element.inverse_length;
         let share = (s * s).over(s + Wide::splat(1.0)) * Wide::splat(0.5);
         self.string.1 = share * Wide::load(&self.c.node.mass);
@@ -70,9 +70,6 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
         if i > 0 && self.c.friction.is_some() && self.c.may_be_held(i, nodes) {
             force += self.friction(i, node, force.x);
         }
-        self.t.force[i] = force.store();
-        self.t.drag[i] = drag.store();
-
         if i + 1 == nodes {
             self.string.1 = Wide::zero();
         }
@@ -83,8 +80,9 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
         let pivot = Wide::splat(1.0).over(above.neg_mul_add(self.above.1, here));
         let acceleration = self.above.0.mul_add(above, force * inverse_mass) * pivot;
         let slope = below * pivot;
-        self.t.acceleration[i] = acceleration.store();
-        self.t.slope[i] = slope.store();
+        let link = &mut self.t.links[i];
+        (link.force, link.drag) = (force.store(), drag.store());
+        (link.acceleration, link.slope) = (acceleration.store(), slope.store());
         self.above = (acceleration, slope);
         self.string.0 = self.string.1;
     }

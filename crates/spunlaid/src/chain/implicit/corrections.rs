@@ -30,7 +30,8 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
     let (mut below, mut here, mut wanted) = (Vec3::zero(), Vec3::zero(), Wide::zero());
     let (mut value, mut slope) = (Wide::zero(), Wide::zero());
     for i in (0..nodes).rev() {
-        acceleration = acceleration.mul_add(Wide::load(&t.slope[i]), Vec3::load(&t.acceleration[i]));
+        let link = &mut t.links[i];
+        acceleration = acceleration.mul_add(Wide::load(&link.slope), Vec3::load(&link.acceleration));
         let mut predicted = acceleration.mul_add(h, Vec3::load(&velocity[i]));
         let node = c.node(i, nodes);
         let mut free = Wide::load(&node.inverse_mass);
@@ -53,19 +54,19 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
             (free, free_x) = (free * others, free_x * others);
             predicted = Vec3::load(&landing);
         }
-        t.acceleration[i] = predicted.store();
+        link.acceleration = predicted.store();
         let weight = Weight { x: scale * free_x, across: scale * free };
         if i < elements {
             let edge = (lower.1 - predicted).mul_add(h, lower.0 - at);
             let length = edge.dot(edge).sqrt();
             let direction = edge * one.over(length);
-            t.direction[i] = direction.store();
+            link.direction = direction.store();
             // Row `i+1`, between the directions above and below it.
             if i + 1 < elements {
                 let above = -weights.0.between::<FED>(here, direction);
                 let row = Row { weights, here, below, wanted };
                 (value, slope) = row.eliminate::<FED>(above, (value, slope));
-                t.correction[i + 1] = (value.store(), slope.store());
+                t.links[i + 1].correction = (value.store(), slope.store());
             }
             (below, here) = (here, direction);
             wanted = stiffness * (length - rest_length) - Wide::load(&t.tension[i]);
@@ -75,7 +76,7 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
     }
     let row = Row { weights, here, below, wanted };
     (value, slope) = row.eliminate::<FED>(Wide::zero(), (value, slope));
-    t.correction[0] = (value.store(), slope.store());
+    t.links[0].correction = (value.store(), slope.store());
 }
 
 /// `h²k_a/m` of a node: along x, where the belt may hold it, and across.
@@ -146,18 +147,19 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
     // Forces of the element above: from the correction of its tension, and from its last tension.
     let (mut change_above, mut pull_above) = (Vec3::zero(), Vec3::zero());
     for i in 0..nodes {
+        let link = &t.links[i];
         let (mut change, mut pull) = (Vec3::zero(), Vec3::zero());
         if i + 1 < nodes {
-            let (value, slope) = &t.correction[i];
+            let (value, slope) = &link.correction;
             correction = Wide::load(slope).neg_mul_add(correction, Wide::load(value));
             let tension = Wide::load(&t.tension[i]);
-            (change, pull) = (Vec3::load(&t.direction[i]) * correction, Vec3::load(&t.tangent[i]) * tension);
+            (change, pull) = (Vec3::load(&link.direction) * correction, Vec3::load(&link.tangent) * tension);
             t.tension[i] = (tension + correction).store();
         }
         let node = c.node(i, nodes);
         let before = Vec3::load(&velocity[i]);
         let kick = h * Wide::load(&node.inverse_mass);
-        let predicted = Vec3::load(&t.acceleration[i]);
+        let predicted = Vec3::load(&link.acceleration);
         let mut after = (change - change_above).mul_add(kick, predicted);
         if FED && i > 0 && c.may_be_held(i, nodes) {
             let zero = Wide::zero();
@@ -165,7 +167,7 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
         }
         // The force that moved the node. What the other forces do not explain is the tension.
         let force = (after - before) * (Wide::load(&node.mass) * rate);
-        let mut tension = force - Vec3::load(&t.force[i]) + (pull - pull_above);
+        let mut tension = force - Vec3::load(&link.force) + (pull - pull_above);
         let mut damping = None;
         if damped {
             let v = (before - Vec3::load(&earlier[i])).mul_add(Wide::splat(0.5), before);
@@ -174,7 +176,7 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
         let mut seen = [before, after];
         if FED {
             if c.may_be_held(i, nodes) {
-                let unexplained = force - Vec3::load(&t.force[i]) - (change - change_above);
+                let unexplained = force - Vec3::load(&link.force) - (change - change_above);
                 let held = supports.add(i, Wide::load(&node.inverse_mass), unexplained, seen, c);
                 tension -= held;
                 if i > 0 && c.friction.is_some() {
@@ -185,7 +187,7 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
             seen = [before.less_y(frame), after.less_y(frame)];
         }
         let [seen_before, seen_after] = seen;
-        sums.add([force, Vec3::load(&t.drag[i])], damping, seen_before, seen_after);
+        sums.add([force, Vec3::load(&link.drag)], damping, seen_before, seen_after);
         sums.add_tension(tension, seen_before, seen_after);
         earlier[i] = before.store();
         velocity[i] = after.store();

@@ -9,20 +9,40 @@ use crate::vec3::Vec3;
 pub(crate) struct Tensions {
     /// Of each element: tension `λ` [N].
     pub(crate) tension: Nodes<Lanes>,
-    /// For each element: its direction at the start of the step, and its predicted direction at the end.
-    pub(super) tangent: Vec<Vec3<Lanes>>,
-    pub(super) direction: Vec<Vec3<Lanes>>,
-    /// For each node: force with the tensions of the last step, and the drag in it [N].
-    pub(super) force: Vec<Vec3<Lanes>>,
-    pub(super) drag: Vec<Vec3<Lanes>>,
-    /// For each node: acceleration [m/s²] minus `slope` times that of the next node; later the predicted velocity.
-    pub(super) acceleration: Vec<Vec3<Lanes>>,
-    pub(super) slope: Vec<Lanes>,
+    /// For each node: what a step knows of it and of the element below.
+    pub(super) links: Vec<Link>,
     /// For each node on the belt, if there is friction: the belt's force on it [N].
     pub(crate) belt_force: Vec<Vec3<Lanes>>,
     rubs: bool,
-    /// For each element: correction of the tension [N] minus `.1` times that of the element above.
-    pub(super) correction: Vec<(Lanes, Lanes)>,
+}
+
+/// What a step knows of a node and of the element below it. It lies together, because each pass along the chain needs most
+/// of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link {
+    /// The element's direction at the start of the step, and its predicted direction at the end.
+    pub(super) tangent: Vec3<Lanes>,
+    pub(super) direction: Vec3<Lanes>,
+    /// Force with the tensions of the last step, and the drag in it [N].
+    pub(super) force: Vec3<Lanes>,
+    pub(super) drag: Vec3<Lanes>,
+    /// Acceleration [m/s²] minus `slope` times that of the next node; later the predicted velocity.
+    pub(super) acceleration: Vec3<Lanes>,
+    pub(super) slope: Lanes,
+    /// Correction of the element's tension [N] minus `.1` times that of the element above.
+    pub(super) correction: (Lanes, Lanes),
+}
+
+impl Link {
+    const NONE: Self = Self {
+        tangent: Vec3::ZERO,
+        direction: Vec3::ZERO,
+        force: Vec3::ZERO,
+        drag: Vec3::ZERO,
+        acceleration: Vec3::ZERO,
+        slope: Lanes::ZERO,
+        correction: (Lanes::ZERO, Lanes::ZERO),
+    };
 }
 
 impl Tensions {
@@ -37,22 +57,16 @@ impl Tensions {
     /// Keeps the belt's force on each node.
     pub(crate) fn rub(&mut self) {
         self.rubs = true;
-        self.belt_force = vec![Vec3::ZERO; self.force.len()];
+        self.belt_force = vec![Vec3::ZERO; self.links.len()];
     }
 
     /// Makes room for a number of nodes.
     fn make_room(&mut self, room: usize) {
-        if self.force.len() < room {
+        if self.links.len() < room {
             if self.rubs {
                 self.belt_force.resize(room, Vec3::ZERO);
             }
-            self.tangent.resize(room, Vec3::ZERO);
-            self.direction.resize(room, Vec3::ZERO);
-            self.force.resize(room, Vec3::ZERO);
-            self.drag.resize(room, Vec3::ZERO);
-            self.acceleration.resize(room, Vec3::ZERO);
-            self.slope.resize(room, Lanes::ZERO);
-            self.correction.resize(room, Default::default());
+            self.links.resize(room, Link::NONE);
         }
     }
 
@@ -61,7 +75,7 @@ impl Tensions {
         if !self.tension.is_empty() {
             self.tension.push_root(tension);
             let nodes = self.tension.len() + 1;
-            if self.force.len() < nodes {
+            if self.links.len() < nodes {
                 // For some more, because the next element is born soon.
                 self.make_room(nodes + nodes / 4);
             }

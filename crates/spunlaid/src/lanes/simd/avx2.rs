@@ -46,6 +46,27 @@ unsafe fn packed(of: __m256d, mask: usize) -> __m256i {
     }
 }
 
+/// Four rows of four numbers as columns.
+///
+/// # Safety
+/// The machine has AVX.
+#[inline(always)]
+pub(super) unsafe fn columns(rows: [&[f64; 4]; 4]) -> [__m256d; 4] {
+    unsafe {
+        let [a, b, c, d] = rows;
+        let (a, b) = (_mm256_loadu_pd(a.as_ptr()), _mm256_loadu_pd(b.as_ptr()));
+        let (c, d) = (_mm256_loadu_pd(c.as_ptr()), _mm256_loadu_pd(d.as_ptr()));
+        let (even_ab, odd_ab) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+        let (even_cd, odd_cd) = (_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
+        [
+            _mm256_permute2f128_pd::<0x20>(even_ab, even_cd),
+            _mm256_permute2f128_pd::<0x20>(odd_ab, odd_cd),
+            _mm256_permute2f128_pd::<0x31>(even_ab, even_cd),
+            _mm256_permute2f128_pd::<0x31>(odd_ab, odd_cd),
+        ]
+    }
+}
+
 impl Register for Avx2 {
     const ISA: Isa = Isa::Avx2;
 
@@ -58,6 +79,12 @@ impl Register for Avx2 {
             _mm256_store_pd(start.add(4), self.1);
         }
         lanes
+    }
+
+    #[inline(always)]
+    fn load_rows([a, b, c, d, e, f, g, h]: [&[f64; 4]; WIDTH]) -> [Self; 4] {
+        let ([l0, l1, l2, l3], [h0, h1, h2, h3]) = unsafe { (columns([a, b, c, d]), columns([e, f, g, h])) };
+        [Self(l0, h0), Self(l1, h1), Self(l2, h2), Self(l3, h3)]
     }
 
     #[inline(always)]

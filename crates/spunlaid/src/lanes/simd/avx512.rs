@@ -3,6 +3,7 @@
 //! SAFETY of every block here: the instructions were found on the machine before [`super::super::Isa::run`] picked the
 //! type, and loads and stores go through references.
 
+use super::avx2::columns;
 use super::{Register, Simd};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use std::arch::x86_64::*;
@@ -19,6 +20,19 @@ impl Register for Avx512 {
         let mut lanes = Lanes::ZERO;
         unsafe { _mm512_store_pd(lanes.0.as_mut_ptr(), self.0) };
         lanes
+    }
+
+    #[inline(always)]
+    fn load_rows([a, b, c, d, e, f, g, h]: [&[f64; 4]; WIDTH]) -> [Self; 4] {
+        unsafe {
+            let ([l0, l1, l2, l3], [h0, h1, h2, h3]) = (columns([a, b, c, d]), columns([e, f, g, h]));
+            [
+                Self(_mm512_insertf64x4::<1>(_mm512_castpd256_pd512(l0), h0)),
+                Self(_mm512_insertf64x4::<1>(_mm512_castpd256_pd512(l1), h1)),
+                Self(_mm512_insertf64x4::<1>(_mm512_castpd256_pd512(l2), h2)),
+                Self(_mm512_insertf64x4::<1>(_mm512_castpd256_pd512(l3), h3)),
+            ]
+        }
     }
 
     #[inline(always)]

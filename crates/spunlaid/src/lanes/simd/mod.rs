@@ -71,6 +71,19 @@ pub(crate) trait Register: Simd {
     const ISA: Isa;
     fn store(self) -> Lanes;
 
+    /// Loads a row of four numbers for each lane: the first numbers of all rows, the second, and so on.
+    #[inline(always)]
+    fn load_rows(rows: [&[f64; 4]; WIDTH]) -> [Self; 4] {
+        let mut columns = [Lanes::ZERO; 4];
+        for (lane, row) in rows.into_iter().enumerate() {
+            for (column, number) in columns.iter_mut().zip(row) {
+                column.0[lane] = *number;
+            }
+        }
+        let [a, b, c, d] = &columns;
+        [Self::load(a), Self::load(b), Self::load(c), Self::load(d)]
+    }
+
     /// Writes the bits of the lanes in which `a < b` to the start of `into`, one after the other, and returns their number.
     /// What follows them there is left undefined.
     #[inline(always)]
