@@ -1,8 +1,9 @@
 //! What must hold whatever the readers are given: of the fuzzers' inputs, and of their findings in the tests.
 
 use spunlaid::field::{Field, Hint};
-use spunlaid::input::{parse_case, starter_case, write_case};
-use spunlaid::record::{Layout, Settings, analyse, parse_csv, parse_parquet};
+use spunlaid::input::{parse_case, parse_web, starter_case, write_case};
+use spunlaid::record::{self, Layout, parse_csv, parse_parquet};
+use spunlaid::scan::{self, Light};
 use std::fmt::Display;
 
 /// A message never breaks the terminal or the log that it is written to.
@@ -63,13 +64,13 @@ pub fn record(data: &[u8]) -> bool {
             parse_csv(data, "fuzz.csv", &layout)
         };
         match read {
-            Ok(record) => {
-                for component in &record.components {
-                    assert_eq!(component.values.len(), record.samples());
+            Ok(found) => {
+                for component in &found.components {
+                    assert_eq!(component.values.len(), found.samples());
                     assert!(component.values.iter().all(|x| x.is_finite()));
                 }
-                assert!(record.interval > 0.0);
-                match analyse(&record, &Settings::default()) {
+                assert!(found.interval > 0.0);
+                match record::analyse(&found, &record::Settings::default()) {
                     Ok(analysis) => analysis.warnings.iter().for_each(|warning| assert_sayable(warning, 1)),
                     Err(error) => assert_sayable(&error, 1),
                 }
@@ -103,6 +104,61 @@ pub fn field(data: &[u8]) -> bool {
         }
         Err(error) => {
             assert_sayable(&error, 1);
+            false
+        }
+    }
+}
+
+/// Pixels of a picture that is analysed, at most: larger ones take long and show nothing new.
+const PIXELS: usize = 1 << 14;
+
+/// A scan or a map of a web is read or refused, with the size of its pixels or without; what is read can be analysed or is
+/// refused for a reason. Gives whether it was read.
+pub fn scan(data: &[u8]) -> bool {
+    let mut any = false;
+    for pixel in [None, Some(1e-4)] {
+        match scan::parse(data, "fuzz.png", pixel) {
+            Ok(picture) => {
+                any = true;
+                assert_eq!(picture.values.len(), picture.columns * picture.rows);
+                assert!(picture.pixel.is_finite() && picture.pixel > 0.0);
+                if picture.values.len() > PIXELS {
+                    continue;
+                }
+                let (transmitted, weight) =
+                    (Light::Transmitted { mean: None, white: None }, Light::Weight { mean: None });
+                for light in [transmitted, weight] {
+                    match scan::analyse(&picture, &scan::Settings::of(light)) {
+                        Ok(found) => {
+                            found.notes.iter().for_each(|note| assert_sayable(note, 1));
+                            assert!(found.patches.iter().all(|patch| patch.unevenness.cv.is_finite()));
+                        }
+                        Err(error) => assert_sayable(&error, 1),
+                    }
+                }
+            }
+            Err(error) => assert_sayable(&error, 1),
+        }
+    }
+    any
+}
+
+/// The file of a web is read or refused; what is read writes and reads back to the same bits. Gives whether it was read.
+pub fn web(data: &[u8]) -> bool {
+    match parse_web(&String::from_utf8_lossy(data), "fuzz.toml", &[]) {
+        Ok(web) => {
+            web.notes.iter().for_each(|note| assert_sayable(note, 1));
+            match parse_web(&web.text, "written.toml", &[]) {
+                Ok(again) => {
+                    assert_eq!(format!("{:?}", again.spec), format!("{:?}", web.spec), "{}", web.text);
+                    assert_eq!(again.text, web.text);
+                }
+                Err(error) => panic!("{error}\n{}", web.text),
+            }
+            true
+        }
+        Err(error) => {
+            assert_sayable(&error, 21);
             false
         }
     }

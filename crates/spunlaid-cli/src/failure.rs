@@ -32,8 +32,8 @@ pub(crate) enum Failure {
     NotContinued { folder: PathBuf, reason: String },
     /// Results that cannot be compared.
     NotCompared { folder: PathBuf, reason: String },
-    /// The size of the pixels of a scan is not given.
-    NoPixel { path: PathBuf },
+    /// An option of `analyse` is for files of the other kind, velocity records or scans.
+    NotForThis { path: PathBuf, option: &'static str, is_scan: bool },
     /// More runs than a picture can show.
     TooManyRuns { runs: usize, most: usize },
     /// The paper has no such figure.
@@ -74,7 +74,7 @@ impl Failure {
             | Self::Exists { .. }
             | Self::NotARun { .. }
             | Self::NotContinued { .. }
-            | Self::NoPixel { .. }
+            | Self::NotForThis { .. }
             | Self::NotCompared { .. }
             | Self::TooManyRuns { .. }
             | Self::NoSuchFigure { .. }
@@ -173,10 +173,15 @@ impl fmt::Display for Failure {
             Self::NotCompared { folder, reason } => {
                 write!(f, "{}: cannot be compared: {reason}", folder.display())
             }
-            Self::NoPixel { path } => write!(
+            Self::NotForThis { path, option, is_scan: true } => write!(
                 f,
-                "{}: is the scan or the map of a web, and does not say how large its pixels are; give the side of a pixel, as in \
-                 --pixel \"0.1 mm\"",
+                "{}: is read as a scan or a map of a web, and {option} is for velocity records only; leave it out",
+                path.display()
+            ),
+            Self::NotForThis { path, option, is_scan: false } => write!(
+                f,
+                "{}: is read as a velocity record, and {option} is for scans and maps of a web only; if it is one, give the side of \
+                 a pixel, as in --pixel \"0.1 mm\"",
                 path.display()
             ),
             Self::TooManyRuns { runs, most } => {
@@ -265,6 +270,7 @@ fn record_options(fault: &FileFault) -> &'static str {
         },
         FileFault::Scan(fault) => match fault {
             ScanFault::NotDarker { .. } => " (--white, --lamp, --light weight)",
+            ScanFault::NoPixel | ScanFault::Oblong { .. } => " (--pixel)",
             ScanFault::OtherLamp { .. } => " (--lamp)",
             ScanFault::Patch { .. } => " (--patches)",
             ScanFault::NoiseTooLarge { .. } => " (--noise)",
@@ -298,7 +304,7 @@ mod tests {
             Failure::NotContinued { folder: path(), reason: "it is longer".to_owned() },
             Failure::NoSuchFigure { name: "12".to_owned(), known: "2".to_owned() },
             Failure::NoSuchPoint { point: 3, points: 2 },
-            Failure::NoPixel { path: path() },
+            Failure::NotForThis { path: path(), option: "--rate", is_scan: true },
             Failure::NotCompared { folder: path(), reason: "it holds no web".to_owned() },
             Failure::NotFlown { name: "a.toml".to_owned(), why: Vec::new() },
             Unwritten::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() }.into(),

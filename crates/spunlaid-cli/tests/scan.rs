@@ -136,6 +136,18 @@ fn a_map_is_read_as_basis_weights() {
     assert_eq!(said, "");
     let [web, found] = ["laid", "again"].map(|folder| desk.summary(folder)["web"].take());
     assert!((number(&found["basis_weight_kg_m2"]) / number(&web["basis_weight_kg_m2"]) - 1.0).abs() < 1e-6);
+    // The picture of the same tells its cells and its weights. A level is 1/65535 of the heaviest cell.
+    let said = success(&mut desk.spunlaid("analyse laid/map.png --out drawn"));
+    assert!(!said.contains("dots per inch") && !said.contains("lamp"), "{said}");
+    let drawn = desk.summary("drawn")["web"].take();
+    for name in ["basis_weight_kg_m2", "cell_m"] {
+        assert!((number(&drawn[name]) / number(&web[name]) - 1.0).abs() < 1e-5, "{name}: {drawn}");
+    }
+    for (a, b) in found["patches"].as_array().unwrap().iter().zip(drawn["patches"].as_array().unwrap()) {
+        assert!((number(&a["cv"]) / number(&b["cv"]) - 1.0).abs() < 1e-4, "{a} {b}");
+    }
+    // As a picture in transmitted light, its lightest cells are the lamp.
+    success(&mut desk.spunlaid("analyse laid/map.png --light transmitted --keep-shading --out light"));
     // A table of the same, in g/m².
     let rows = map(&desk, "laid");
     let rows = rows.chunks(200).map(|row| row.iter().map(|x| format!("{:.4}", 1e3 * x)).collect::<Vec<_>>());
@@ -156,7 +168,7 @@ fn rejects_scans_with_the_option_that_helps() {
     for (arguments, message) in [
         (
             "analyse scan.png",
-            "error: scan.png: is the scan or the map of a web, and does not say how large its pixels are; give the side of a pixel, as in --pixel \"0.1 mm\"\n",
+            "error: scan.png: does not say how large its pixels are; give the side of a pixel, as \"0.1 mm\" (--pixel)\n",
         ),
         (
             "analyse photo.png --pixel 1mm",
@@ -187,7 +199,11 @@ fn rejects_scans_with_the_option_that_helps() {
             "take both with the same camera from the same place (--lamp)\n",
         ),
         ("analyse scan.png --pixel 1mm --rate 1kHz", "cannot be used with"),
-        ("analyse scan.png --weight 15gsm", "--pixel"),
+        ("analyse scan.png --columns u", "and --columns is for velocity records only; leave it out\n"),
+        (
+            "analyse gauge.csv --weight 15gsm",
+            "--weight is for scans and maps of a web only; if it is one, give",
+        ),
     ] {
         let said = refusal(&mut desk.spunlaid(arguments), 1);
         assert!(said.contains(message), "{arguments}: {said}");

@@ -212,3 +212,43 @@ fn a_fed_fibre_that_is_killed_or_cannot_be_written_leaves_nothing() {
     assert!(said.contains("error: a/b/laid.parquet: cannot be written: "), "{said}");
     assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
 }
+
+const WEB: &str = "[fibre]\ndiameter = '18 µm'\ndensity = '910 kg/m³'\n[laydown]\nsigma_md = '18 mm'\nsigma_cd = '18 mm'\nnoise = '12 m^-0.5'\n\
+                   [line]\nfeed_speed = '50 m/s'\nbelt_speed = '5 m/s'\nfilaments_per_metre = 100\n\
+                   [web]\nwidth = '0.5 m'\nlength = '0.5 m'\ncell = '1 mm'\n";
+
+#[test]
+fn a_web_that_is_killed_or_cannot_be_written_leaves_nothing() {
+    let desk = Desk::new();
+    fs::write(desk.path("web.toml"), WEB).unwrap();
+    let there = names(&["brief.toml", "web.toml"]);
+    // It would take minutes.
+    let laying = || {
+        let mut command = desk.spunlaid("web web.toml --out w --set line.filaments_per_metre=10000000");
+        let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        while !hidden(&desk.path("")).iter().any(|name| desk.path(name).join("new").exists()) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        std::thread::sleep(Duration::from_millis(100));
+        child
+    };
+    let output = end(laying(), "INT");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.ends_with("nothing was written. Repeat the command to start again\n"), "{said}");
+    assert_eq!(desk.entries(""), there);
+    assert_eq!(end(laying(), "KILL").status.code(), None);
+    assert!(!desk.path("w").exists());
+    assert_eq!(hidden(&desk.path("")).len(), 1);
+    success(&mut desk.spunlaid("web web.toml --out w"));
+    assert_eq!(desk.entries(""), names(&["brief.toml", "w", "web.toml"]));
+
+    // Files may grow to so many blocks of 512 or 1024 bytes.
+    let program = env!("CARGO_BIN_EXE_spunlaid");
+    let shell = format!("trap '' XFSZ; ulimit -f 100; exec {program} web web.toml --out a/b");
+    let output = Command::new("sh").args(["-c", &shell]).current_dir(desk.folder.path()).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("error: a/b/") && said.contains(": cannot be written: "), "{said}");
+    assert!(!desk.path("a").exists());
+}

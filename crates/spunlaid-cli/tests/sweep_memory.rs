@@ -58,6 +58,11 @@ fn peak(points: u64, replicates: u64) -> Peak {
 #[test]
 fn memory_is_flat() {
     let (few, many, often) = (peak(1000, 2), peak(10_000, 2), peak(1000, 20));
+    // A look may miss the last moments of a run so short, so the largest of three counts.
+    let again = [peak(1000, 2), peak(1000, 2)];
+    let few = again
+        .into_iter()
+        .fold(few, |a, b| Peak { flying: a.flying.max(b.flying), whole: a.whole.max(b.whole) });
     // A point is a case, its values and its results: less than 1.5 KiB.
     let points = many.whole - few.whole.min(many.whole);
     assert!(points < 9000 * 3 / 2, "{} KiB for 1,000 points, {} KiB for 10,000", few.whole, many.whole);

@@ -1,5 +1,5 @@
 //! What the fuzzers found, and what they start from, put to the same checks as their inputs. A finding is kept
-//! as a file in `fuzz_findings/case`, `record` or `field`.
+//! as a file in `fuzz_findings/case`, `record`, `field`, `scan` or `web`.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 #[path = "../../../fuzz/checks.rs"]
@@ -48,4 +48,16 @@ fn fields_found_by_the_fuzzer() {
     let (read, refused) =
         replay(checks::field, &["tests/fuzz_findings/field", "tests/field_fixtures", "../../cases/fields"]);
     assert!(read >= 20 && refused >= 1, "{read} read, {refused} refused");
+}
+
+#[test]
+fn scans_found_by_the_fuzzer() {
+    let (read, refused) = replay(checks::scan, &["tests/fuzz_findings/scan", "tests/scan_fixtures"]);
+    assert!(read >= 6 && refused >= 2, "{read} read, {refused} refused");
+}
+
+#[test]
+fn webs_found_by_the_fuzzer() {
+    let (read, refused) = replay(checks::web, &["tests/fuzz_findings/web", "../../cases", "tests/bad_webs"]);
+    assert!(read >= 1 && refused >= 100, "{read} read, {refused} refused");
 }

@@ -5,12 +5,16 @@
 #[path = "common/scans.rs"]
 mod scans;
 
+use png::Unit;
 use proptest::prelude::*;
-use scans::{npy, npy_f64, png, png8, png16, tiff, tiff_f32, tiff8, tiff16};
+use scans::{
+    npy, npy_f64, png, png_of_resolution, png8, png16, tiff, tiff_f32, tiff_of_resolution, tiff8, tiff16,
+};
 use spunlaid::error::FileError;
 use spunlaid::scan::{Light, Note, Picture, Settings, analyse, parse, read};
 use std::path::Path;
 use tiff::encoder::colortype::{Gray32, GrayI16, RGB8};
+use tiff::tags::ResolutionUnit;
 
 const SIDE: usize = 24;
 
@@ -188,6 +192,10 @@ fn rejects_pictures_of_no_web_and_settings_that_do_not_fit() {
     }
 }
 
+fn light() -> Light {
+    Light::Transmitted { mean: None, white: None }
+}
+
 #[test]
 fn what_was_assumed_is_told() {
     let mut levels = levels(|x| x);
@@ -207,6 +215,55 @@ fn what_was_assumed_is_told() {
     );
     let note = heavy.unwrap().notes[0].to_string();
     assert_eq!(note, "the values are taken as basis weights in kg/m², with a mean of 1.5 kg/m²");
+}
+
+#[test]
+fn a_pixel_is_as_large_as_the_file_says() {
+    let levels = levels(|x| x);
+    let png = |sides, unit| png_of_resolution(SIDE, &levels, sides, unit);
+    let tiff = |unit, per| tiff_of_resolution(SIDE, &levels, unit, per);
+    for (name, file, wanted) in [
+        ("PNG", png([11811; 2], Unit::Meter), 25.4e-3 / 300.0),
+        ("TIFF in inches", tiff(ResolutionUnit::Inch, [600, 1]), 25.4e-3 / 600.0),
+        ("TIFF in centimetres", tiff(ResolutionUnit::Centimeter, [500, 2]), 10e-3 / 250.0),
+    ] {
+        let picture = parse(&file, "a", None).unwrap();
+        assert!((picture.pixel / wanted - 1.0).abs() < 1e-4, "{name}: {} {wanted}", picture.pixel);
+        let notes = |pixel: Option<f64>| {
+            let found = analyse(&parse(&file, "a", pixel).unwrap(), &Settings::of(light()));
+            found.unwrap().notes[0].clone()
+        };
+        assert_eq!(notes(None), Note::PixelOfFile { pixel: picture.pixel }, "{name}");
+        assert!(matches!(notes(Some(1.005 * wanted)), Note::White { .. }), "{name}");
+        let other = Note::OtherPixel { given: 0.1e-3, of_file: picture.pixel };
+        assert_eq!(notes(Some(0.1e-3)), other, "{name}");
+    }
+    let said = Note::PixelOfFile { pixel: 25.4e-3 / 96.0 }.to_string();
+    assert!(
+        said.starts_with("a pixel is 264.6 µm wide, as the file says (96 dots per inch); many"),
+        "{said}"
+    );
+
+    for (name, file, wanted) in [
+        ("no resolution", png8(SIDE, &levels), "a: does not say how large its pixels are"),
+        ("no unit", png([3; 2], Unit::Unspecified), "a: does not say how large its pixels are"),
+        ("none in TIFF", tiff(ResolutionUnit::None, [300, 1]), "a: does not say how large its pixels are"),
+        (
+            "nothing by nothing",
+            tiff(ResolutionUnit::Inch, [0, 0]),
+            "a: does not say how large its pixels are",
+        ),
+        ("no pixels to a metre", png([0; 2], Unit::Meter), "a: does not say how large its pixels are"),
+        (
+            "oblong",
+            png([4000, 8000], Unit::Meter),
+            "a: says that its pixels are 250 µm wide and 125 µm high; ",
+        ),
+    ] {
+        let said = parse(&file, "a", None).unwrap_err().to_string();
+        assert!(said.starts_with(wanted), "{name}: {said}");
+        assert!(parse(&file, "a", 1e-3).is_ok(), "{name}");
+    }
 }
 
 /// Files of all formats.

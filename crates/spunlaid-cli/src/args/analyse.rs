@@ -71,35 +71,35 @@ pub(crate) struct Analyse {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Scan or map of a web")]
 pub(crate) struct Scan {
-    /// Side of a pixel, as "0.1 mm"
+    /// Side of a pixel, as "0.1 mm" [default for PNG and TIFF: as the file says]
     #[arg(long, value_name = "LENGTH", value_parser = |t: &str| quantity(Dimension::Length, t), conflicts_with_all = [
         "rate", "time_unit", "velocity_unit", "columns", "time_column", "skip", "max_gap", "mean_velocity", "integral",
         "segment", "window", "overlap", "flat_until",
     ])]
     pub(crate) pixel: Option<f64>,
     /// Mean basis weight of the sheet, as "15 g/m²" or "15 gsm"
-    #[arg(long, value_name = "WEIGHT", requires = "pixel", value_parser = |t: &str| quantity(Dimension::BasisWeight, t))]
+    #[arg(long, value_name = "WEIGHT", value_parser = |t: &str| quantity(Dimension::BasisWeight, t))]
     pub(crate) weight: Option<f64>,
     /// What the values are [default: transmitted for PNG and TIFF, weight for .npy and CSV]
-    #[arg(long, value_enum, requires = "pixel")]
+    #[arg(long, value_enum)]
     pub(crate) light: Option<LightName>,
     /// Picture of the lamp without web, at the same exposure; it takes out any shading
-    #[arg(long, value_name = "FILE", requires = "pixel", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) lamp: Option<PathBuf>,
     /// Grey level of the lamp without web [default: the largest that the file can hold]
-    #[arg(long, value_name = "LEVEL", requires = "pixel", conflicts_with = "lamp", value_parser = above_zero)]
+    #[arg(long, value_name = "LEVEL", conflicts_with = "lamp", value_parser = above_zero)]
     pub(crate) white: Option<f64>,
     /// Take the lamp as even; without --lamp, its shading is else taken out as a polynomial
-    #[arg(long, requires = "pixel")]
+    #[arg(long)]
     pub(crate) keep_shading: bool,
     /// Standard deviation of the noise of a single pixel, which is then taken out
-    #[arg(long, value_name = "LEVELS", requires = "pixel", value_parser = above_zero)]
+    #[arg(long, value_name = "LEVELS", value_parser = above_zero)]
     pub(crate) noise: Option<f64>,
     /// Where the machine direction runs in the picture
-    #[arg(long, value_enum, requires = "pixel", default_value = "columns", hide_possible_values = false)]
+    #[arg(long, value_enum, default_value = "columns", hide_possible_values = false)]
     pub(crate) md: Direction,
     /// Sides of the patches, as "1 mm,5 mm,10 mm" [default: from 0.5 mm to a fifth of the picture]
-    #[arg(long, value_name = "LENGTHS", requires = "pixel", value_delimiter = ',',
+    #[arg(long, value_name = "LENGTHS", value_delimiter = ',',
           value_parser = |t: &str| quantity(Dimension::Length, t))]
     pub(crate) patches: Vec<f64>,
 }

@@ -171,20 +171,21 @@ The integral time is the integral of the autocorrelation up to
   e-fold               the lag where it falls to 1/e (63 % of the integral of an exponential)
   fixed=\"50 ms\"        a given lag
 
-With --pixel, the file is the scan of a web in transmitted light (PNG or TIFF) or the map of its
-basis weight (.npy or CSV, a line for each row of the map). The results folder then holds what that
-of `spunlaid web` holds: report.html, summary.json, map.npy and figures/.
+PNG and TIFF are scans of a web in transmitted light; .npy, a CSV with --pixel (a line for each row)
+and the map.png of `spunlaid web` are maps of its basis weight. The results folder then holds what
+that of `spunlaid web` holds: report.html, summary.json, map.npy and figures/. PNG and TIFF tell how
+large a pixel is by their resolution; check it, or give --pixel.
 
 Examples:
   spunlaid analyse cases/records/probe.csv
-  spunlaid analyse scan.png --pixel \"0.1 mm\" --weight \"15 g/m²\" --lamp empty.png
+  spunlaid analyse scan.tif --weight \"15 g/m²\" --lamp empty.tif
   spunlaid analyse gauge.csv --pixel \"2 mm\" --md rows --patches \"4 mm,10 mm,20 mm\"
   spunlaid analyse wire.csv --rate \"20 kHz\" --velocity-unit m/s --integral e-fold --out results/wire";
 
 pub(super) const COMPARE_HELP: &str = "\
 Every run is compared with the first. Runs with the same seed and the same eddies are compared
 replicate by replicate, which shows small differences; others by Welch's t. Webs, laid by `spunlaid web`
-or scanned (`spunlaid analyse --pixel`), are compared patch by patch.
+or scanned (`spunlaid analyse scan.png`), are compared patch by patch.
 
 The results folder holds
   report.html       for the browser: a table for each pair, and the curves in one picture each

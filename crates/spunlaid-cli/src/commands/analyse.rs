@@ -2,7 +2,7 @@
 
 use super::scan::{is_picture, scan};
 use super::stem;
-use crate::args::Analyse;
+use crate::args::{Analyse, Direction};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
@@ -15,11 +15,43 @@ use spunlaid_results::output::pictures;
 use spunlaid_results::report::{AnalysisReport, analysis_html};
 
 pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
-    match analyse.scan.pixel {
-        Some(pixel) => scan(analyse, pixel),
-        None if is_picture(&analyse.record) => Err(Failure::NoPixel { path: analyse.record.clone() }),
-        None => record(analyse),
+    let is_scan = analyse.scan.pixel.is_some() || is_picture(&analyse.record);
+    if let Some(option) = if is_scan { of_records(analyse) } else { of_scans(analyse) } {
+        return Err(Failure::NotForThis { path: analyse.record.clone(), option, is_scan });
     }
+    if is_scan { scan(analyse) } else { record(analyse) }
+}
+
+/// The first option given that only a velocity record takes.
+fn of_records(asked: &Analyse) -> Option<&'static str> {
+    let given = [
+        ("--rate", asked.rate.is_some()),
+        ("--time-unit", asked.time_unit.is_some()),
+        ("--velocity-unit", asked.velocity_unit.is_some()),
+        ("--columns", !asked.columns.is_empty()),
+        ("--time-column", asked.time_column.is_some()),
+        ("--skip", asked.skip != 0),
+        ("--mean-velocity", asked.mean_velocity.is_some()),
+        ("--segment", asked.segment.is_some()),
+        ("--flat-until", asked.flat_until.is_some()),
+    ];
+    given.into_iter().find_map(|(name, given)| given.then_some(name))
+}
+
+/// The first option given that only a scan or a map takes.
+fn of_scans(asked: &Analyse) -> Option<&'static str> {
+    let of = &asked.scan;
+    let given = [
+        ("--weight", of.weight.is_some()),
+        ("--light", of.light.is_some()),
+        ("--lamp", of.lamp.is_some()),
+        ("--white", of.white.is_some()),
+        ("--keep-shading", of.keep_shading),
+        ("--noise", of.noise.is_some()),
+        ("--md", of.md != Direction::Columns),
+        ("--patches", !of.patches.is_empty()),
+    ];
+    given.into_iter().find_map(|(name, given)| given.then_some(name))
 }
 
 fn record(analyse: &Analyse) -> Result<(), Failure> {

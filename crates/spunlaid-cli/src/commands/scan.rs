@@ -22,13 +22,12 @@ pub(super) fn is_picture(file: &Path) -> bool {
     matches!(extension.as_str(), "png" | "tif" | "tiff" | "npy")
 }
 
-/// * `pixel` – side of a pixel [m]
-pub(super) fn scan(asked: &Analyse, pixel: f64) -> Result<(), Failure> {
+pub(super) fn scan(asked: &Analyse) -> Result<(), Failure> {
     let name = stem(&asked.record, "scan").to_string_lossy().into_owned();
     let folder = super::folder(asked.out.as_ref(), &name);
     let staging = Staging::new(&folder, ENTRIES, asked.force, stop_on_ctrl_c())?;
     let started = Instant::now();
-    let picture = turned(read(&asked.record, pixel)?, asked);
+    let picture = turned(read(&asked.record, asked.scan.pixel)?, asked);
     let of = analyse(&picture, &settings(asked, &picture)?)?;
     let performance = Performance {
         wall_s: started.elapsed().as_secs_f64(),
@@ -62,7 +61,7 @@ fn turned(picture: Picture, asked: &Analyse) -> Picture {
 
 fn settings(asked: &Analyse, picture: &Picture) -> Result<Settings, Failure> {
     let of = &asked.scan;
-    let usual = if picture.format.holds_light() { LightName::Transmitted } else { LightName::Weight };
+    let usual = if picture.holds_light() { LightName::Transmitted } else { LightName::Weight };
     let light = match of.light.unwrap_or(usual) {
         LightName::Transmitted => Light::Transmitted { mean: of.weight, white: of.white },
         LightName::Weight => Light::Weight { mean: of.weight },

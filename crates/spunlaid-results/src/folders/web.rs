@@ -41,9 +41,15 @@ impl WebFolder<'_> {
     pub fn write(&self, staging: &Staging<'_>, by: Laying<'_>) -> Result<(), Failure> {
         let window = window(&self.file.spec);
         let strands = strands(self.web, window, by)?;
-        web::write(staging, self.findings, &strands)?;
         let figures = web_figures(self.web, self.findings);
-        pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+        // The map is packed while the figures are drawn.
+        let (files, drawn) = std::thread::scope(|scope| {
+            let files = scope.spawn(|| web::write(staging, self.findings, &strands));
+            let draw = |name, content: &[u8]| staging.write(&format!("figures/{name}"), content);
+            let drawn = pictures::write(&figures, draw);
+            (files.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), drawn)
+        });
+        files.and(drawn)?;
         let report = web_html(&WebReport {
             name: self.name,
             web: self.web,

@@ -66,6 +66,21 @@ pub enum ScanFault {
         /// As given [m].
         pixel: f64,
     },
+    /// Nothing tells how large a pixel is.
+    #[error("does not say how large its pixels are; give the side of a pixel, as \"0.1 mm\"")]
+    NoPixel,
+    /// The file says that its pixels are wider than high, or higher than wide.
+    #[error(
+        "says that its pixels are {} wide and {} high; scan with the same resolution both ways, or give the side of a pixel if the \
+         file is wrong",
+        Dimension::Length.pretty_to(*width, 4), Dimension::Length.pretty_to(*height, 4)
+    )]
+    Oblong {
+        /// Width of a pixel [m].
+        width: f64,
+        /// Its height [m].
+        height: f64,
+    },
     /// A setting is not above zero.
     #[error("cannot be read with {name} = {}; give a number above zero", shortest(*value))]
     Setting {

@@ -39,6 +39,7 @@ impl<S: Simd, const K: usize> Simd for [S; K] {
         mul_add(factor, addend);
         neg_mul_add(factor, addend);
         sqrt();
+        floor();
         max(other);
         xor(other);
         add_as_integers(other);

@@ -46,6 +46,12 @@ impl<S: Simd> Wide<S> {
         Self(self.0.sqrt())
     }
 
+    /// The largest whole number that is not above, for numbers within ±2⁵¹. The sign of a zero is left open.
+    #[inline(always)]
+    pub(crate) fn floor(self) -> Self {
+        Self(self.0.floor())
+    }
+
     #[inline(always)]
     pub(crate) fn abs(self) -> Self {
         Self(self.0.and_bits(!SIGN))

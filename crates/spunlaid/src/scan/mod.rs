@@ -12,6 +12,9 @@
 //! | NumPy | an array of two dimensions in C order, of numbers of 1 to 8 bytes, but no half floats |
 //! | CSV | a line for each row of the map, as [`crate::table`] describes; an empty cell is a missing pixel |
 //!
+//! PNG and TIFF tell the side of a pixel by their resolution, unless it is given. A PNG that tells the basis weight of black in a text,
+//! [`WEIGHT_OF_BLACK`], is a map of basis weight; `spunlaid web` writes such maps.
+//!
 //! **From light to basis weight**, by the law of Beer and Lambert: the optical density `ln(white/level)` is proportional to the
 //! mass that the light has passed. Only ratios of densities count, so the absorption of the polymer need not be known, and a
 //! camera that raises all levels to a power does no harm. A lamp that is brighter in the middle is taken out with a picture of the lamp without web.
@@ -51,5 +54,5 @@ mod weigh;
 pub use findings::{Findings, PatchFindings, Settings, analyse};
 pub use note::Note;
 pub use picture::{Format, Picture};
-pub use read::{LEAST_SIDE, MOST_PIXELS, parse, read};
+pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, parse, read};
 pub use weigh::{Light, Pixels};

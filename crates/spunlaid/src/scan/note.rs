@@ -10,6 +10,18 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
+    /// The side of a pixel is that of the file.
+    PixelOfFile {
+        /// It [m].
+        pixel: f64,
+    },
+    /// The file tells another side of a pixel than the given one.
+    OtherPixel {
+        /// As given [m].
+        given: f64,
+        /// As the file tells it [m].
+        of_file: f64,
+    },
     /// Only the luminance of a picture in colours was used.
     Colour,
     /// The file has more pictures than the first.
@@ -61,6 +73,10 @@ pub enum Note {
 
 /// Heaviest web that is believed [kg/m²].
 const HEAVIEST: f64 = 2.0;
+/// A larger difference between two sides of a pixel is not one of rounding.
+const OTHER: f64 = 0.01;
+/// Dots per inch that programs write into files when they do not know the resolution.
+const UNKNOWN: [f64; 2] = [72.0, 96.0];
 /// A smaller shading is not worth a note.
 const SHADED: f64 = 0.01;
 /// A larger share of pixels changes the CV.
@@ -81,11 +97,22 @@ pub(super) fn notes(
         }
         _ => None,
     };
-    let in_kilograms = settings.light == Light::Weight { mean: None };
+    let in_kilograms = settings.light == Light::Weight { mean: None } && picture.weight_of_black.is_none();
     let lamp = of.shading.as_ref().map(|shading| libm::expm1(shading.range()));
     let blurred = patches.first().is_some_and(|patch| !patch.is_sharp());
     let sharp = || patches.iter().find(|patch| patch.is_sharp()).map(|patch| patch.unevenness.patch);
+    let pixel = picture.pixel_of_file.and_then(|of_file| {
+        let given = picture.pixel;
+        if (given / of_file - 1.0).abs() > OTHER {
+            Some(Note::OtherPixel { given, of_file })
+        } else {
+            // A map tells its cells itself.
+            (given == of_file && picture.weight_of_black.is_none())
+                .then_some(Note::PixelOfFile { pixel: given })
+        }
+    });
     let told = [
+        pixel,
         picture.colour.then_some(Note::Colour),
         picture.more.then_some(Note::OnlyTheFirst),
         white,
@@ -110,6 +137,25 @@ fn per_cent(share: f64) -> String {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::PixelOfFile { pixel } => {
+                let dots = 25.4e-3 / pixel;
+                write!(
+                    f,
+                    "a pixel is {} wide, as the file says ({} dots per inch)",
+                    Dimension::Length.pretty_to(*pixel, 4),
+                    shortest((dots * 10.0).round() / 10.0)
+                )?;
+                if UNKNOWN.iter().any(|unknown| (dots / unknown - 1.0).abs() < OTHER) {
+                    f.write_str("; many programs write this when they do not know it, so measure it and give the side of a pixel")?;
+                }
+                Ok(())
+            }
+            Self::OtherPixel { given, of_file } => write!(
+                f,
+                "a pixel is taken to be {} wide as given, and the file says {}",
+                Dimension::Length.pretty_to(*given, 4),
+                Dimension::Length.pretty_to(*of_file, 4)
+            ),
             Self::Colour => f.write_str("the picture has colours, and only its luminance is used"),
             Self::OnlyTheFirst => f.write_str("the file has several pictures, and only the first is used"),
             Self::White { white, full_scale } => write!(

@@ -15,8 +15,13 @@ pub struct Picture {
     pub rows: usize,
     /// Side of a pixel [m].
     pub pixel: f64,
+    /// Side of a pixel as the file tells it, if it does [m].
+    pub pixel_of_file: Option<f64>,
     /// The largest grey level that the file can hold, 255 or 65535; none for other numbers.
     pub full_scale: Option<f64>,
+    /// Basis weight of a black pixel, if the file is a map of basis weight in shades of grey, as [`crate::web`] has it drawn: the largest
+    /// grey level is no weight at all [kg/m²].
+    pub weight_of_black: Option<f64>,
     /// Whether the file has colours, of which only the luminance was kept.
     pub colour: bool,
     /// Whether the file has further pictures, which were not read.
@@ -36,14 +41,22 @@ pub enum Format {
     Table,
 }
 
-impl Format {
-    /// Whether files of this format usually hold grey levels; others hold basis weights.
-    pub const fn holds_light(self) -> bool {
-        matches!(self, Self::Png | Self::Tiff)
-    }
-}
-
 impl Picture {
+    /// Whether its values are grey levels of the light that came through, as far as the file tells; otherwise they are basis
+    /// weights.
+    pub const fn holds_light(&self) -> bool {
+        matches!(self.format, Format::Png | Format::Tiff) && self.weight_of_black.is_none()
+    }
+
+    /// The values as basis weights [kg/m², or the unit of the file].
+    pub(super) fn weights(&self) -> impl Iterator<Item = f64> {
+        let scale = self.full_scale.zip(self.weight_of_black);
+        self.values.iter().map(move |value| match scale {
+            Some((white, of_black)) => (1.0 - value / white) * of_black,
+            None => *value,
+        })
+    }
+
     /// The picture with rows and columns exchanged, for a web that lies across it.
     #[must_use]
     pub fn turned(self) -> Self {

@@ -146,8 +146,8 @@ fn transmitted(
 }
 
 fn weights(picture: &Picture, mean: Option<f64>) -> Result<Weighed, ScanFault> {
-    let usable = |weight: &f64| if weight.is_finite() && *weight >= 0.0 { *weight } else { f64::NAN };
-    let mut weights: Vec<f64> = picture.values.iter().map(usable).collect();
+    let usable = |weight: f64| if weight.is_finite() && weight >= 0.0 { weight } else { f64::NAN };
+    let mut weights: Vec<f64> = picture.weights().map(usable).collect();
     let advice = "cut out a part of the map where the gauge has seen the web";
     let filled = unusable(&weights, "negative or without a value", advice)?;
     let found = mean_of(&weights);

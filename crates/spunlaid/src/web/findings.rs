@@ -88,8 +88,9 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
     };
     let weight = web.basis_weight();
     let mut patches = Vec::new();
-    for (i, side) in sides.iter().enumerate() {
-        let Some(map) = unevenness(map, *side) else { continue };
+    let uneven = each(by.threads, sides.len(), |i| Ok(unevenness(map, sides[i])))?;
+    for (i, map) in uneven.into_iter().enumerate() {
+        let Some(map) = map else { continue };
         let straight = |layer: &Layer| {
             let tau = layer.basis_weight(sheet) / layer.linear_density;
             (straight_fibres(tau, map.patch) * layer.basis_weight(sheet)).powi(2)

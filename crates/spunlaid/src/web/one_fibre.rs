@@ -1,6 +1,7 @@
 //! What one fibre alone says about the unevenness of a web of many.
 
 use super::lay::{Laying, lay};
+use super::threads::each;
 use super::uniformity::boxes;
 use super::{Edges, Fibres, Filaments, Layer, Row, Sheet, Web};
 use crate::error::{Error, LayingFault};
@@ -117,20 +118,24 @@ fn add(
     let map = lay(&web, by)?.map;
     let metres = map.quantum / layer.linear_density;
     let length = layer.fed_length(&web.sheet);
-    for (side, sums) in sides.iter().zip(found) {
+    let share = metres / (rows as f64);
+    let of_sides = each(by.threads, sides.len(), |i| {
         let mut squares = vec![0.0; of.fibres as usize];
         let mut profiles = vec![vec![0.0; apart]; of.fibres as usize];
-        let share = metres / (rows as f64);
-        boxes(&map, *side, [map.columns, map.rows], |_, boxes| {
+        boxes(&map, sides[i], [map.columns, map.rows], |_, boxes| {
             let fibres = squares.iter_mut().zip(&mut profiles);
             for ((squares, profile), of) in fibres.zip(boxes.chunks_exact(apart)) {
-                for (mean, quanta) in profile.iter_mut().zip(of) {
+                // Most patches hold nothing.
+                for (mean, quanta) in profile.iter_mut().zip(of).filter(|(_, quanta)| **quanta > 0) {
                     let quanta = *quanta as f64;
                     *squares += quanta * quanta;
                     *mean += quanta * share;
                 }
             }
         });
+        Ok((squares, profiles))
+    })?;
+    for ((side, sums), (squares, profiles)) in sides.iter().zip(found).zip(of_sides) {
         // All places of a patch on the lattice are looked at, of which a lattice of patches has one in `side²`.
         let each = 1.0 / ((*side * *side) as f64 * length);
         sums.squares.extend(squares.iter().map(|sum| sum * metres * metres * each));

@@ -64,7 +64,7 @@ impl Task for Draw<'_> {
             let by = [(next_cd - cd) * share, (next_md - md - advance) * share];
             let mut at = [column + cd, row + md];
             for _ in 0..pens.parts {
-                let turns = floor(at[1] * per_row);
+                let turns = (at[1] * per_row).floor();
                 let wrapped = turns.neg_mul_add(rows, at[1]);
                 ink.part([at[0], wrapped], by, strip);
                 at = [at[0] + by[0], at[1] + by[1]];
@@ -72,16 +72,8 @@ impl Task for Draw<'_> {
             row -= advance;
         }
         ink.finish(strip);
-        pens.at[1] = floor(row * per_row).neg_mul_add(rows, row).store();
+        pens.at[1] = (row * per_row).floor().neg_mul_add(rows, row).store();
     }
-}
-
-/// Largest whole number that is not above `x`, |x| < 2⁵¹.
-#[inline(always)]
-fn floor<S: Register>(x: Wide<S>) -> Wide<S> {
-    let shift = Wide::splat(1.5 * TWO_52);
-    let near = (x + shift) - shift;
-    Wide::select_less(x, near, near - Wide::splat(1.0), near)
 }
 
 /// Where a part crosses an edge of its cell in one direction.
@@ -146,7 +138,7 @@ impl<S: Register> Ink<S> {
     #[inline(always)]
     fn part(&mut self, at: [Wide<S>; 2], by: [Wide<S>; 2], strip: &mut Strip) {
         let (zero, one, shift) = (Wide::<S>::zero(), Wide::<S>::splat(1.0), Wide::<S>::splat(TWO_52));
-        let cell = [floor(at[0]), floor(at[1])];
+        let cell = [at[0].floor(), at[1].floor()];
         let x = Crossing::of(at[0], cell[0], by[0]);
         let y = Crossing::of(at[1], cell[1], by[1]);
         let first = Wide::select_less(x.share, y.share, x.share, y.share);

@@ -63,15 +63,21 @@ pub(super) fn boxes(map: &Map, side: usize, places: [usize; 2], mut take: impl F
         add(&mut columns, map.row(row % map.rows));
     }
     let mut boxes = vec![0u64; places[0]];
+    // On a closed sheet, the last patches reach beyond its edge.
+    let within = (map.columns + 1 - side).min(places[0]);
     for row in 0..places[1] {
         add(&mut columns, map.row((row + side - 1) % map.rows));
         let mut sum: u64 = columns[..side - 1].iter().sum();
-        for (column, of) in boxes.iter_mut().enumerate() {
-            let last = column + side - 1;
-            sum += columns[if last < map.columns { last } else { last - map.columns }];
-            *of = sum;
-            sum -= columns[column];
-        }
+        let mut slide = |boxes: &mut [u64], first: &[u64], last: &[u64]| {
+            for ((of, first), last) in boxes.iter_mut().zip(first).zip(last) {
+                sum += last;
+                *of = sum;
+                sum -= first;
+            }
+        };
+        let (inner, beyond) = boxes.split_at_mut(within);
+        slide(inner, &columns, &columns[side - 1..]);
+        slide(beyond, &columns[within..], &columns);
         take(row, &boxes);
         for (sum, cell) in columns.iter_mut().zip(map.row(row)) {
             *sum -= u64::from(*cell);

@@ -3,7 +3,8 @@
 
 use std::io::Cursor;
 use tiff::encoder::colortype::{ColorType, Gray8, Gray16, Gray32Float};
-use tiff::encoder::{TiffEncoder, TiffValue};
+use tiff::encoder::{Rational, TiffEncoder, TiffValue};
+use tiff::tags::ResolutionUnit;
 
 /// A grey PNG of 8 bits.
 pub fn png8(columns: usize, levels: &[u8]) -> Vec<u8> {
@@ -27,6 +28,29 @@ pub fn png(columns: usize, colour: png::ColorType, depth: png::BitDepth, bytes: 
     writer.write_image_data(bytes).unwrap();
     writer.finish().unwrap();
     file
+}
+
+/// A grey PNG of 8 bits that tells how many pixels there are to a metre across and down.
+pub fn png_of_resolution(columns: usize, levels: &[u8], [xppu, yppu]: [u32; 2], unit: png::Unit) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, columns as u32, (levels.len() / columns) as u32);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_pixel_dims(Some(png::PixelDimensions { xppu, yppu, unit }));
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(levels).unwrap();
+    writer.finish().unwrap();
+    file
+}
+
+/// A grey TIFF of 8 bits that tells its resolution, as a fraction.
+pub fn tiff_of_resolution(columns: usize, levels: &[u8], unit: ResolutionUnit, [n, d]: [u32; 2]) -> Vec<u8> {
+    let mut file = Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut file).unwrap();
+    let rows = (levels.len() / columns) as u32;
+    let mut image = encoder.new_image::<Gray8>(columns as u32, rows).unwrap();
+    image.resolution(unit, Rational { n, d });
+    image.write_data(levels).unwrap();
+    file.into_inner()
 }
 
 pub fn tiff8(columns: usize, levels: &[u8]) -> Vec<u8> {

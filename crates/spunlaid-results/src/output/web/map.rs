@@ -4,6 +4,7 @@ use super::MOST_CELLS;
 use crate::Failure;
 use crate::output::folder::Staging;
 use crate::output::parquet::{Column, Holds, Parquet};
+use spunlaid::scan::{CELL, WEIGHT_OF_BLACK};
 use spunlaid::web::Map;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -77,8 +78,8 @@ fn picture(map: &Map) -> Result<Vec<u8>, String> {
             "Description",
             "Basis weight of a web; white is zero, black the value given, linear between".to_owned(),
         ),
-        ("basis_weight_of_black_kg_m2", format!("{black:e}")),
-        ("cell_m", format!("{:e}", map.cell)),
+        (WEIGHT_OF_BLACK, format!("{black:e}")),
+        (CELL, format!("{:e}", map.cell)),
     ];
     let per_metre = (1.0 / map.cell).round() as u32;
     png([map.columns, map.rows], png::BitDepth::Sixteen, &levels, &words, Some(per_metre))

@@ -141,6 +141,10 @@ impl Simd for Avx2 {
         halves!(_mm256_sqrt_pd, self)
     }
     #[inline(always)]
+    fn floor(self) -> Self {
+        halves!(_mm256_floor_pd, self)
+    }
+    #[inline(always)]
     fn max(self, other: Self) -> Self {
         halves!(_mm256_max_pd, self, other)
     }

@@ -84,6 +84,10 @@ impl Simd for Avx512 {
         unsafe { Self(_mm512_sqrt_pd(self.0)) }
     }
     #[inline(always)]
+    fn floor(self) -> Self {
+        unsafe { Self(_mm512_roundscale_pd::<{ _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC }>(self.0)) }
+    }
+    #[inline(always)]
     fn max(self, other: Self) -> Self {
         unsafe { Self(_mm512_max_pd(self.0, other.0)) }
     }

@@ -47,6 +47,8 @@ pub(crate) trait Simd: Copy {
     /// `addend − self · factor`, rounded once.
     fn neg_mul_add(self, factor: Self, addend: Self) -> Self;
     fn sqrt(self) -> Self;
+    /// The largest whole number that is not above, for numbers within ±2⁵¹. The sign of a zero is left open.
+    fn floor(self) -> Self;
     /// The larger of the two; `other` if one of them is NaN.
     fn max(self, other: Self) -> Self;
     /// `a < b ? yes : no`.

@@ -72,6 +72,10 @@ impl Simd for Plain {
         self.each(f64::sqrt)
     }
     #[inline(always)]
+    fn floor(self) -> Self {
+        self.each(f64::floor)
+    }
+    #[inline(always)]
     fn max(self, other: Self) -> Self {
         self.pairs(other, |a, b| if a > b { a } else { b })
     }

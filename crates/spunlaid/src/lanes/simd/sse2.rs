@@ -85,6 +85,13 @@ impl Simd for Sse2 {
         quarters!(_mm_sqrt_pd, self)
     }
     #[inline(always)]
+    fn floor(self) -> Self {
+        // Adding so large a number rounds to whole ones.
+        let shift = Self::splat(6_755_399_441_055_744.0);
+        let near = self.add(shift).sub(shift);
+        Self::select_less(self, near, near.sub(Self::splat(1.0)), near)
+    }
+    #[inline(always)]
     fn max(self, other: Self) -> Self {
         quarters!(_mm_max_pd, self, other)
     }

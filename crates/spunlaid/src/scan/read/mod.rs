@@ -5,6 +5,8 @@ mod png;
 mod text;
 mod tiff;
 
+pub use self::png::{CELL, WEIGHT_OF_BLACK};
+
 use super::picture::{Format, Picture};
 use crate::error::{FileError, FileFault, FileKind, ScanFault};
 use crate::file;
@@ -14,6 +16,8 @@ use std::path::Path;
 pub const MOST_PIXELS: usize = 1 << 26;
 /// Least number of pixels either way.
 pub const LEAST_SIDE: usize = 16;
+/// The sides of a square pixel differ by less than this share.
+const SQUARE: f64 = 1e-3;
 /// Largest file [bytes]: 32 bytes of text for each pixel.
 const MOST_BYTES: u64 = 32 * MOST_PIXELS as u64;
 
@@ -23,6 +27,9 @@ struct Raw {
     columns: usize,
     rows: usize,
     full_scale: Option<f64>,
+    weight_of_black: Option<f64>,
+    /// Width and height of a pixel, if the file tells them [m].
+    pixel: Option<[f64; 2]>,
     colour: bool,
     more: bool,
 }
@@ -30,17 +37,18 @@ struct Raw {
 impl Raw {
     /// Plain values without a largest one.
     fn plain(values: Vec<f64>, columns: usize, rows: usize) -> Self {
-        Self { values, columns, rows, full_scale: None, colour: false, more: false }
+        let (full_scale, weight_of_black, pixel) = (None, None, None);
+        Self { values, columns, rows, full_scale, weight_of_black, pixel, colour: false, more: false }
     }
 }
 
 /// Reads a picture or a map. The format is recognised from the content of the file.
 ///
-/// * `pixel` – side of a pixel [m]
+/// * `pixel` – side of a pixel [m]; if none, PNG and TIFF tell it by their resolution
 ///
 /// # Errors
 /// When the file cannot be read or holds no picture within the limits; the message says where and why.
-pub fn read(path: &Path, pixel: f64) -> Result<Picture, FileError> {
+pub fn read(path: &Path, pixel: impl Into<Option<f64>>) -> Result<Picture, FileError> {
     let bytes = file::read(path, FileKind::Scan, MOST_BYTES)?;
     parse(&bytes, &path.display().to_string(), pixel)
 }
@@ -49,12 +57,12 @@ pub fn read(path: &Path, pixel: f64) -> Result<Picture, FileError> {
 ///
 /// # Errors
 /// The errors of [`read`].
-pub fn parse(bytes: &[u8], name: &str, pixel: f64) -> Result<Picture, FileError> {
-    parsed(bytes, name, pixel).map_err(|error| error.file(name))
+pub fn parse(bytes: &[u8], name: &str, pixel: impl Into<Option<f64>>) -> Result<Picture, FileError> {
+    parsed(bytes, name, pixel.into()).map_err(|error| error.file(name))
 }
 
-fn parsed(bytes: &[u8], name: &str, pixel: f64) -> Result<Picture, FileError> {
-    if !(pixel.is_finite() && pixel > 0.0) {
+fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileError> {
+    if let Some(pixel) = pixel.filter(|pixel| !is_length(*pixel)) {
         return Err(ScanFault::Pixel { pixel }.into());
     }
     let format = format(bytes)?;
@@ -64,11 +72,36 @@ fn parsed(bytes: &[u8], name: &str, pixel: f64) -> Result<Picture, FileError> {
         Format::Npy => npy::parse(bytes)?,
         Format::Table => text::parse(bytes)?,
     };
-    let Raw { values, columns, rows, full_scale, colour, more } = raw;
+    let Raw { values, columns, rows, full_scale, weight_of_black, colour, more, .. } = raw;
     if columns.min(rows) < LEAST_SIDE {
         return Err(ScanFault::TooFewPixels { columns, rows, least: LEAST_SIDE }.into());
     }
-    Ok(Picture { file: name.to_owned(), format, values, columns, rows, pixel, full_scale, colour, more })
+    let file = name.to_owned();
+    let told = raw.pixel.filter(|sides| sides.iter().copied().all(is_length));
+    let square = |[width, height]: [f64; 2]| (width / height - 1.0).abs() < SQUARE;
+    let pixel_of_file = told.filter(|sides| square(*sides)).map(|[width, _]| width);
+    let pixel = match (pixel.or(pixel_of_file), told) {
+        (Some(pixel), _) => pixel,
+        (None, Some([width, height])) => return Err(ScanFault::Oblong { width, height }.into()),
+        (None, None) => return Err(ScanFault::NoPixel.into()),
+    };
+    Ok(Picture {
+        file,
+        format,
+        values,
+        columns,
+        rows,
+        pixel,
+        pixel_of_file,
+        full_scale,
+        weight_of_black,
+        colour,
+        more,
+    })
+}
+
+fn is_length(of: f64) -> bool {
+    of.is_finite() && of > 0.0
 }
 
 /// The format, by how a file begins.

@@ -2,8 +2,13 @@
 
 use super::{MOST_PIXELS, Raw, broken, luminance, within_limits};
 use crate::error::ScanFault;
-use png::{BitDepth, Decoder, Limits, Transformations};
+use png::{BitDepth, Decoder, Limits, Transformations, Unit};
 use std::io::Cursor;
+
+/// Keyword of the text that tells the basis weight of a black pixel of a map [kg/m²].
+pub const WEIGHT_OF_BLACK: &str = "basis_weight_of_black_kg_m2";
+/// Keyword of the text that tells the side of a cell of a map [m].
+pub const CELL: &str = "cell_m";
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Raw, ScanFault> {
     let failed = |error: png::DecodingError| broken(&error);
@@ -30,6 +35,22 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, ScanFault> {
     if values.len() != columns * rows {
         return Err(broken(&"it has fewer pixels than it says"));
     }
-    let more = reader.info().is_animated();
-    Ok(Raw { values, columns, rows, full_scale: Some(full_scale), colour: channels > 2, more })
+    let info = reader.info();
+    // What this program writes beside a map; the keywords are public for that.
+    let told = |key: &str| {
+        let text = &info.uncompressed_latin1_text.iter().find(|text| text.keyword == key)?.text;
+        text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0)
+    };
+    let per_metre = info.pixel_dims.filter(|of| of.unit == Unit::Meter).map(|of| [of.xppu, of.yppu]);
+    let pixel = told(CELL).map(|cell| [cell; 2]);
+    Ok(Raw {
+        values,
+        columns,
+        rows,
+        full_scale: Some(full_scale),
+        weight_of_black: told(WEIGHT_OF_BLACK).filter(|_| channels == 1),
+        pixel: pixel.or(per_metre.map(|sides| sides.map(|count| 1.0 / f64::from(count)))),
+        colour: channels > 2,
+        more: info.is_animated(),
+    })
 }

@@ -4,7 +4,9 @@ use super::{MOST_PIXELS, Raw, broken, luminance, within_limits};
 use crate::error::ScanFault;
 use std::io::Cursor;
 use tiff::ColorType;
+use tiff::decoder::ifd::Value;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Raw, ScanFault> {
     let failed = |error: tiff::TiffError| broken(&error);
@@ -27,6 +29,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, ScanFault> {
         }
     };
     let more = decoder.more_images();
+    let pixel = resolution(&mut decoder);
     let (values, full_scale) = match decoder.read_image().map_err(failed)? {
         DecodingResult::U8(of) => (luminance(of.into_iter().map(f64::from), channels), Some(u8::MAX.into())),
         DecodingResult::U16(of) => {
@@ -47,5 +50,21 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, ScanFault> {
         let found = "each colour in a plane of its own".to_owned();
         return Err(ScanFault::Unsupported { found, advice: "save the scan in shades of grey" });
     }
-    Ok(Raw { values, columns, rows, full_scale, colour: channels > 2, more })
+    let weight_of_black = None;
+    Ok(Raw { values, columns, rows, full_scale, weight_of_black, pixel, colour: channels > 2, more })
+}
+
+/// Width and height of a pixel [m], if the file tells its resolution.
+fn resolution(decoder: &mut Decoder<Cursor<&[u8]>>) -> Option<[f64; 2]> {
+    let unit = match decoder.find_tag_unsigned::<u16>(Tag::ResolutionUnit) {
+        // Inches are the default.
+        Ok(None | Some(2)) => 25.4e-3,
+        Ok(Some(3)) => 10e-3,
+        _ => return None,
+    };
+    let mut side = |tag| match decoder.find_tag(tag) {
+        Ok(Some(Value::Rational(count, per))) => Some(unit * f64::from(per) / f64::from(count)),
+        _ => None,
+    };
+    Some([side(Tag::XResolution)?, side(Tag::YResolution)?])
 }
