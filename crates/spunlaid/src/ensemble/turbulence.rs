@@ -18,6 +18,10 @@ pub struct SpectrumPoint {
     pub wanted: f64,
 }
 
+/// Most velocities that are kept at a time; more would show nothing new.
+const MOST_VALUES: usize = 1 << 22;
+/// Samples of each of them that are needed for a spectrum.
+const FEWEST_SAMPLES: usize = 1 << 10;
 /// Most places on the way of a fed fibre whose spectra are averaged.
 const PLACES_ON_THE_WAY: usize = 12;
 
@@ -45,9 +49,10 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
         (0..lanes as u64).map(|replicate| Job { case, replicate }.stream(&eddies)).collect();
     let mut wind = Wind::along(computing.isa, streams, duration)?;
     let interval = 1.0 / (8.0 * case.air.cutoff_frequency);
-    let samples = ((duration / interval) as usize).min(1 << 16);
+    let records = eddies.count() * 3 * lanes;
+    let samples = ((duration / interval) as usize).min((MOST_VALUES / records).max(FEWEST_SAMPLES));
     let mut welch = Welch::new(interval, Welch::segment_length(samples), Window::Hann, 0.5);
-    let mut records = vec![Vec::with_capacity(samples); eddies.count() * 3 * lanes];
+    let mut records = vec![Vec::with_capacity(samples); records];
     for i in 0..samples {
         let velocities = wind.at(i as f64 * interval);
         let values = velocities.iter().flat_map(|v| [v.x, v.y, v.z]).flat_map(|c| c.0[..lanes].to_vec());

@@ -20,7 +20,7 @@ use self::taper::{SPREAD, Taper};
 use self::windows::Windows;
 use super::Air;
 use crate::error::FlightFault;
-use crate::lanes::{Isa, Lanes, Plain, Register, Task, WIDTH, Wide};
+use crate::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide};
 use crate::vec3::Vec3;
 
 /// Cubics per sample spacing of a synthesised signal. A record has one per spacing.
@@ -41,6 +41,7 @@ const COARSE_CELLS: u64 = 2;
 /// theory.md (19)
 #[derive(Clone, Debug)]
 pub struct Wind {
+    isa: Isa,
     signal: Signal,
     eddies: usize,
     /// Time between samples [s].
@@ -94,7 +95,7 @@ impl Wind {
             return Err(FlightFault::RepeatingRecord);
         }
         let windows = Windows::repeating(isa, streams, horizon);
-        Ok(Self::of(windows.spacing(), means(windows.streams()), Signal::Synthesised(windows)))
+        Ok(Self::of(isa, windows.spacing(), means(windows.streams()), Signal::Synthesised(windows)))
     }
 
     /// The wind of up to eight fibres. Lanes left over repeat the first.
@@ -118,10 +119,10 @@ impl Wind {
                 (Signal::Synthesised(windows), spacing)
             }
         };
-        Ok(Self::of(spacing, mean, signal))
+        Ok(Self::of(isa, spacing, mean, signal))
     }
 
-    fn of(spacing: f64, mean: Vec<Lanes>, signal: Signal) -> Self {
+    fn of(isa: Isa, spacing: f64, mean: Vec<Lanes>, signal: Signal) -> Self {
         let eddies = mean.len();
         let columns = 3 * eddies;
         let cells_per_sample = match signal {
@@ -129,6 +130,7 @@ impl Wind {
             Signal::Measured(_) => 1,
         };
         Self {
+            isa,
             signal,
             eddies,
             spacing,
@@ -183,9 +185,7 @@ impl Wind {
     ///
     /// Fastest when times come in order.
     pub fn at(&mut self, t: f64) -> Vec<Vec3<Lanes>> {
-        let eddies = self.eddies as u32;
-        let now = self.blow::<Plain>(t.max(0.0));
-        (0..eddies).map(|eddy| now.velocity(eddy).store()).collect()
+        self.isa.run(At { t: t.max(0.0), wind: self })
     }
 
     /// [`Wind::at`] for the kernel, to be asked eddy by eddy.
@@ -247,6 +247,26 @@ impl Wind {
             }
             *end = (value.store(), slope.store());
         }
+    }
+}
+
+/// [`Wind::at`].
+struct At<'a> {
+    wind: &'a mut Wind,
+    t: f64,
+}
+
+impl Task for At<'_> {
+    type Output = Vec<Vec3<Lanes>>;
+
+    #[inline(always)]
+    fn call<S: Register>(self) -> Self::Output {
+        let mut velocities = vec![Vec3::ZERO; self.wind.eddies];
+        let now = self.wind.blow::<S>(self.t);
+        for (eddy, velocity) in (0..).zip(&mut velocities) {
+            *velocity = now.velocity(eddy).store();
+        }
+        velocities
     }
 }
 
