@@ -9,10 +9,12 @@ use spunlaid::air::Air;
 use spunlaid::case::Case;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
+use spunlaid::ensemble::{Computing, turbulence_spectrum};
 use spunlaid::fibre::Fibre;
 use spunlaid::flight::Flight;
 use spunlaid::lanes::{Isa, Lanes};
 use spunlaid::vec3::Vec3;
+use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Elements of a fed fibre at its start.
 const AT_START: u64 = 2;
@@ -310,5 +312,21 @@ fn the_step_limit_with_bending_viscosity_is_honest() {
         };
         assert!(grown(0.97) < 3.0, "{scheme:?}, {viscosity}: {:e}", grown(0.97));
         assert!(grown(1.2) > 1e3, "{scheme:?}, {viscosity}: {:e}", grown(1.2));
+    }
+}
+
+#[test]
+fn stat_turbulence_on_the_way_has_the_spectrum_that_is_wanted() {
+    let case = spunbond(&[("run.duration", "1 s"), ("run.replicates", "8")]);
+    let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
+    let computing =
+        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, laid: None };
+    let points = turbulence_spectrum(&case, computing).unwrap();
+    // The air slows down on its way, so the cut-off falls, and the mean of all places falls in steps.
+    for (from, to) in [(20.0, 180.0), (260.0, 310.0), (460.0, 500.0), (600.0, 630.0), (800.0, 830.0)] {
+        let within = points.iter().filter(|point| (from..to).contains(&point.frequency));
+        let (realised, wanted) =
+            within.fold((0.0, 0.0), |(a, b), point| (a + point.realised, b + point.wanted));
+        assert!((realised / wanted - 1.0).abs() < 0.1, "{from} to {to} Hz: {}", realised / wanted);
     }
 }

@@ -3,7 +3,7 @@
 use super::{Computing, Job};
 use crate::air::{Spectrum, Stream, StreamKey, Wind};
 use crate::case::Case;
-use crate::error::Error;
+use crate::error::{Error, FlightFault};
 use crate::lanes::{Isa, WIDTH};
 use crate::statistics::{Welch, Window};
 
@@ -22,12 +22,13 @@ pub struct SpectrumPoint {
 const MOST_VALUES: usize = 1 << 22;
 /// Samples of each of them that are needed for a spectrum.
 const FEWEST_SAMPLES: usize = 1 << 10;
-/// Most places on the way of a fed fibre whose spectra are averaged.
-const PLACES_ON_THE_WAY: usize = 12;
+/// Most stations on the way of a fed fibre whose spectra are averaged.
+const STATIONS: usize = 12;
 
 /// One-sided spectrum of the velocity fluctuation along the first replicates, up to four times the cut-off.
 ///
-/// Averaged over components, eddies and up to eight replicates (Welch). Empty without turbulence.
+/// Averaged over components, eddies and up to eight replicates (Welch); of a fed fibre, over some stations from the inlet to
+/// the belt. Empty without turbulence.
 ///
 /// # Errors
 /// The wind of the case cannot be made, see [`Wind::along`].
@@ -36,26 +37,25 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
         return Ok(Vec::new());
     }
     let duration = case.run.duration();
-    let mut case = case.clone();
-    if case.line.is_some() {
-        // A fed fibre passes the places on its way; some of them say as much as all.
-        case.fibre.elements = case.fibre.elements.min(PLACES_ON_THE_WAY);
-    }
-    let case = &case;
     let eddies = case.eddies();
-    let turbulence = case.turbulence_along(&eddies);
     let lanes = case.run.replicates.min(WIDTH as u64) as usize;
     let streams: Vec<Stream> =
         (0..lanes as u64).map(|replicate| Job { case, replicate }.stream(&eddies)).collect();
+    let turbulence = streams.first().ok_or(FlightFault::Empty)?.eddies.clone();
+    // A fed fibre passes the stations on its way; some of them say as much as all.
+    let most = if case.line.is_some() { STATIONS } else { usize::MAX };
+    let stride = turbulence.len().div_ceil(most).max(1);
+    let seen = turbulence.len().div_ceil(stride);
     let mut wind = Wind::along(computing.isa, streams, duration)?;
     let interval = 1.0 / (8.0 * case.air.cutoff_frequency);
-    let records = eddies.count() * 3 * lanes;
+    let records = seen * 3 * lanes;
     let samples = ((duration / interval) as usize).min((MOST_VALUES / records).max(FEWEST_SAMPLES));
     let mut welch = Welch::new(interval, Welch::segment_length(samples), Window::Hann, 0.5);
     let mut records = vec![Vec::with_capacity(samples); records];
     for i in 0..samples {
         let velocities = wind.at(i as f64 * interval);
-        let values = velocities.iter().flat_map(|v| [v.x, v.y, v.z]).flat_map(|c| c.0[..lanes].to_vec());
+        let seen = velocities.iter().step_by(stride);
+        let values = seen.flat_map(|v| [v.x, v.y, v.z]).flat_map(|c| c.0[..lanes].to_vec());
         for (record, value) in records.iter_mut().zip(values) {
             record.push(value);
         }
@@ -64,8 +64,11 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
         welch.add(record, None);
     }
     // The mean over all eddies, which may differ if the mean flow is not uniform.
-    let wanted: Vec<Spectrum<'_>> =
-        turbulence.iter().flat_map(|eddy| (0..3).map(|c| eddy.spectrum(&case.air, c))).collect();
+    let wanted: Vec<Spectrum<'_>> = turbulence
+        .iter()
+        .step_by(stride)
+        .flat_map(|eddy| (0..3).map(|c| eddy.spectrum(&case.air, c)))
+        .collect();
     let spectrum = welch.finish();
     let points = spectrum
         .points()
