@@ -8,7 +8,7 @@ use spunlaid::surrogate::Surrogate;
 use spunlaid::web::uniformity::unevenness;
 use spunlaid::web::{
     Curves, Edges, Fibres, Filaments, Laid, Layer, Laying, Map, OneFibre, Row, Sheet, Strand, Web, Window,
-    find, lay, one_fibre, orientation, straight_fibres, strands,
+    find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -187,8 +187,9 @@ fn a_cell_holds_what_independent_clipping_gives_it() {
         let off = (2e-3 / cell).round() as usize;
         let mut wanted = vec![0.0; map.cells.len()];
         // All pieces have the same mass; on the belt they are longer or shorter.
-        let pieces = (web.layers[0].fed_length(&web.sheet) / (0.06 * SPUNBOND.sigma_cd)).round();
-        let mass = LINEAR_DENSITY * web.layers[0].fed_length(&web.sheet) / pieces;
+        let layer = &web.layers[0];
+        let length = layer.fed_length(&web.sheet) * layer.count(&web.sheet) as f64;
+        let mass = LINEAR_DENSITY * length / pieces(&web).expect("pieces") as f64;
         for strand in &fibres(&web, inside(&web, off)) {
             let place = |point: [f64; 2]| point.map(|x| x + off as f64 * cell);
             for pair in strand.points.windows(2) {

@@ -11,7 +11,7 @@ const SURROGATE: Surrogate = Surrogate { sigma_md: 18.4e-3, sigma_cd: 18.3e-3, n
 
 /// Processor time for a metre of fibre.
 pub fn costs() {
-    title("web: sigma 18 mm, A 12.4, pieces of 1.1 mm, one core");
+    title("web: sigma 18 mm, A 12.4, pieces of about a millimetre, one core");
     println!("  instructions   cell [mm]   paths [us/m]   paths and map [us/m]");
     for isa in Isa::available() {
         for cell in [1e-3, 0.5e-3] {

@@ -107,6 +107,20 @@ pub(super) struct Plan<'a> {
     quanta: u32,
 }
 
+/// Time of a point of a path, in times that it takes to draw a part of a piece.
+const POINT: f64 = 1.3;
+
+/// The piece that takes the least time for a length of fibre: the longest one, or the longest that fills whole parts.
+///
+/// * `part` – longest part [m]
+fn cheapest_piece(longest: f64, part: f64) -> f64 {
+    let parts = longest / part;
+    // Below a whole number by more than rounding.
+    let whole = parts.floor() * (1.0 - 1e-9);
+    let cost = |parts: f64| (POINT + parts.ceil()) / parts;
+    if whole > 0.0 && cost(whole) < cost(parts) { whole * part } else { longest }
+}
+
 impl<'a> Plan<'a> {
     fn new(web: &Web, number: usize, layer: &'a Layer) -> Result<Self, LayingFault> {
         let sheet = &web.sheet;
@@ -114,8 +128,10 @@ impl<'a> Plan<'a> {
         let (wanted, longest) = match &layer.fibres {
             Fibres::Surrogate(of) => {
                 let least = of.sigma_md.min(of.sigma_cd);
-                let wanted = (LONGEST_PIECE[0] * least).min(LONGEST_PIECE[1] / (of.noise * of.noise));
-                (wanted, None)
+                let longest = (LONGEST_PIECE[0] * least).min(LONGEST_PIECE[1] / (of.noise * of.noise));
+                // A whole number of pieces, none of them longer.
+                let wanted = cheapest_piece(longest, sheet.cell / (1.0 + layer.belt_ratio()));
+                (fed / (fed / wanted).ceil(), None)
             }
             Fibres::Curves(curves) => {
                 let [_, longest] = curves.reach();
