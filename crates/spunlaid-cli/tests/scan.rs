@@ -198,7 +198,11 @@ fn rejects_scans_with_the_option_that_helps() {
             "analyse scan.png --pixel 1mm --lamp other.png",
             "take both with the same camera from the same place (--lamp)\n",
         ),
-        ("analyse scan.png --pixel 1mm --rate 1kHz", "cannot be used with"),
+        (
+            "analyse scan.png --pixel 1mm --rate 1kHz",
+            "and --rate is for velocity records only; leave it out\n",
+        ),
+        ("analyse scan.png --window hamming", "and --window is for velocity records only; leave it out\n"),
         ("analyse scan.png --columns u", "and --columns is for velocity records only; leave it out\n"),
         (
             "analyse gauge.csv --weight 15gsm",

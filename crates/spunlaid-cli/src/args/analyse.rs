@@ -72,10 +72,7 @@ pub(crate) struct Analyse {
 #[command(next_help_heading = "Scan or map of a web")]
 pub(crate) struct Scan {
     /// Side of a pixel, as "0.1 mm" [default for PNG and TIFF: as the file says]
-    #[arg(long, value_name = "LENGTH", value_parser = |t: &str| quantity(Dimension::Length, t), conflicts_with_all = [
-        "rate", "time_unit", "velocity_unit", "columns", "time_column", "skip", "max_gap", "mean_velocity", "integral",
-        "segment", "window", "overlap", "flat_until",
-    ])]
+    #[arg(long, value_name = "LENGTH", value_parser = |t: &str| quantity(Dimension::Length, t))]
     pub(crate) pixel: Option<f64>,
     /// Mean basis weight of the sheet, as "15 g/m²" or "15 gsm"
     #[arg(long, value_name = "WEIGHT", value_parser = |t: &str| quantity(Dimension::BasisWeight, t))]

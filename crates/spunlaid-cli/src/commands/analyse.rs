@@ -5,7 +5,7 @@ use super::stem;
 use crate::args::{Analyse, Direction};
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
+use spunlaid::record::{Analysis, LONGEST_GAP, Layout, Record, Settings, SpectrumSettings, read_record};
 use spunlaid_results::figures::record_figures;
 use spunlaid_results::output::analysis::{
     air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv,
@@ -24,6 +24,7 @@ pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
 
 /// The first option given that only a velocity record takes.
 fn of_records(asked: &Analyse) -> Option<&'static str> {
+    let usual = Settings::default();
     let given = [
         ("--rate", asked.rate.is_some()),
         ("--time-unit", asked.time_unit.is_some()),
@@ -31,8 +32,12 @@ fn of_records(asked: &Analyse) -> Option<&'static str> {
         ("--columns", !asked.columns.is_empty()),
         ("--time-column", asked.time_column.is_some()),
         ("--skip", asked.skip != 0),
+        ("--max-gap", asked.max_gap != LONGEST_GAP),
         ("--mean-velocity", asked.mean_velocity.is_some()),
+        ("--integral", asked.integral != usual.integral),
         ("--segment", asked.segment.is_some()),
+        ("--window", asked.window != usual.spectrum.window),
+        ("--overlap", asked.overlap != usual.spectrum.overlap),
         ("--flat-until", asked.flat_until.is_some()),
     ];
     given.into_iter().find_map(|(name, given)| given.then_some(name))

@@ -11,7 +11,7 @@ use super::surroundings::{AirAtElements, Surroundings};
 use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Wind};
 use crate::error::FlightFault;
 use crate::field::Hint;
-use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, whole_below};
+use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, indices};
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
@@ -232,15 +232,16 @@ impl Stations {
         // The first look has none before it to extrapolate from.
         let per_step = Wide::splat(if self.looked { 1.0 / self.every as f64 } else { 0.0 });
         let (per_spacing, last) = (Wide::splat(1.0 / self.grid.spacing), (self.grid.count - 1) as f64);
-        let (end, before_end) = (Wide::splat(last), Wide::splat(last - 0.25));
+        let (end, before_end) = (Wide::splat(last), Wide::splat(last - 1.0));
         for (j, (ends, here)) in position.windows(2).zip(self.elements.iter_mut()).enumerate() {
             let centre = (Wide::<S>::load(&ends[0].x) + Wide::load(&ends[1].x)) * half;
             let place = (centre * per_spacing - half).max(Wide::zero());
             let place = Wide::select_less(place, end, place, end);
-            let (start, stations) = whole_below(Wide::select_less(place, before_end, place, before_end));
+            let start = place.floor();
+            let start = Wide::select_less(start, before_end, start, before_end);
             let mut rows = [[&[0.0; 4]; WIDTH]; 2];
             let mut apart = Lanes::ZERO;
-            for (lane, k) in stations.into_iter().enumerate() {
+            for (lane, k) in indices(start).into_iter().enumerate() {
                 let k = k.min(self.grid.count - 2);
                 apart.0[lane] = self.apart[k].0[lane];
                 rows[0][lane] = &self.now[k][lane];

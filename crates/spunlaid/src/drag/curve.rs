@@ -2,7 +2,7 @@
 
 use super::boundary_layer::BoundaryLayer;
 use super::normal::{Form, NormalLaw};
-use crate::lanes::{Register, WIDTH, Wide, exp2, whole_below};
+use crate::lanes::{Register, WIDTH, Wide, exp2, indices};
 use std::sync::{LazyLock, OnceLock};
 
 /// A law as a positive function `g(s)` of one positive number [-]: the drag by the velocity.
@@ -103,12 +103,12 @@ impl Table {
         let q = q.max(Wide::splat(-FURTHEST));
         let q = Wide::select_less(q, Wide::splat(FURTHEST), q, Wide::splat(FURTHEST));
         let place = q.mul_add(Wide::splat(self.per_unit), Wide::splat(self.zero));
-        let last = Wide::splat((CUBICS + 1) as f64 + 0.25);
-        let within = place.max(Wide::zero());
-        let (start, index) = whole_below(Wide::select_less(within, last, within, last));
+        let last = Wide::splat((CUBICS + 1) as f64);
+        let start = place.max(Wide::zero()).floor();
+        let start = Wide::select_less(start, last, start, last);
         // No closures here: they would not be compiled for the instruction set.
         let mut rows = [&self.cubics[0]; WIDTH];
-        for (row, index) in rows.iter_mut().zip(index) {
+        for (row, index) in rows.iter_mut().zip(indices(start)) {
             *row = &self.cubics[index.min(CUBICS + 1)];
         }
         let [c0, c1, c2, c3] = S::load_rows(rows);

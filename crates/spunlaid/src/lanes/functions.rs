@@ -73,7 +73,7 @@ const ONE: u64 = 0x3ff0_0000_0000_0000;
 /// 2⁵²; the low bits of `2⁵² + integer` are the integer.
 const TWO_52: f64 = 4_503_599_627_370_496.0;
 /// 1.5·2⁵²; adding it rounds a small number to the nearest integer.
-const ROUND: f64 = 6_755_399_441_055_744.0;
+pub(super) const ROUND: f64 = 6_755_399_441_055_744.0;
 
 /// Base-2 logarithm of positive, normal numbers, to 4.9e-8 absolute.
 ///
@@ -98,15 +98,15 @@ pub(crate) fn exp2<S: Simd>(x: Wide<S>) -> Wide<S> {
     Wide(polynomial(rest, &EXP2).0.add_as_integers(rounded.0.shift_left::<52>()))
 }
 
-/// A whole number `n` with `n ≤ x ≤ n + 1`, for `x` from 0 to 2³¹, as a number and as an index.
+/// Whole numbers from 0 to below 2³² as indices.
 #[inline(always)]
-pub(crate) fn whole_below<S: Register>(x: Wide<S>) -> (Wide<S>, [usize; WIDTH]) {
-    let rounded = x - Wide::splat(0.5) + Wide::splat(ROUND);
+pub(crate) fn indices<S: Register>(whole: Wide<S>) -> [usize; WIDTH] {
     let mut indices = [0; WIDTH];
-    for (index, lane) in indices.iter_mut().zip(rounded.store().0) {
+    // The low bits of 2⁵² + integer are the integer.
+    for (index, lane) in indices.iter_mut().zip((whole + Wide::splat(TWO_52)).store().0) {
         *index = lane.to_bits() as u32 as usize;
     }
-    (rounded - Wide::splat(ROUND), indices)
+    indices
 }
 
 /// `x^exponent` for `x ≥ 0` and exponents between 0 and ½, to 1e-7 relative; tends to 0 with `x`.

@@ -13,7 +13,7 @@ mod isa;
 mod simd;
 mod wide;
 
-pub(crate) use functions::{bend_ratio, cos_sin_turn, exp2, log2, power, whole_below};
+pub(crate) use functions::{bend_ratio, cos_sin_turn, exp2, indices, log2, power};
 pub use isa::Isa;
 pub(crate) use isa::Task;
 pub(crate) use simd::{Plain, Register, Simd};
@@ -69,7 +69,7 @@ lane_operator!(Mul, mul, *);
 mod tests {
     use super::*;
 
-    /// Rows by index, and what [`whole_below`] makes of a number.
+    /// Rows by the largest whole number that is not above.
     struct LookUp<'a> {
         table: &'a [[f64; 4]],
         at: Lanes,
@@ -80,7 +80,8 @@ mod tests {
 
         #[inline(always)]
         fn call<S: Register>(self) -> Self::Output {
-            let (start, indices) = whole_below(Wide::<S>::load(&self.at));
+            let start = Wide::<S>::load(&self.at).floor();
+            let indices = indices(start);
             let mut rows = [&self.table[0]; WIDTH];
             for (row, index) in rows.iter_mut().zip(indices) {
                 *row = &self.table[index];
@@ -99,7 +100,7 @@ mod tests {
                 let (columns, start, indices) = isa.run(LookUp { table: &table, at });
                 for lane in 0..WIDTH {
                     let (x, n) = (at.0[lane], start.0[lane]);
-                    assert!(n <= x && x <= n + 1.0 && n as usize == indices[lane], "{isa:?}: {x} {n}");
+                    assert!(n == x.floor() && n as usize == indices[lane], "{isa:?}: {x} {n}");
                     let row: [f64; 4] = from_fn(|k| columns[k].0[lane]);
                     assert_eq!(row, table[indices[lane]], "{isa:?}");
                 }

@@ -3,6 +3,7 @@
 //! SAFETY of every block here: every machine of this target has the instructions, and stores go through references.
 
 use super::{Register, Simd};
+use crate::lanes::functions::ROUND;
 use crate::lanes::{Isa, Lanes};
 use std::arch::x86_64::*;
 
@@ -86,8 +87,7 @@ impl Simd for Sse2 {
     }
     #[inline(always)]
     fn floor(self) -> Self {
-        // Adding so large a number rounds to whole ones.
-        let shift = Self::splat(6_755_399_441_055_744.0);
+        let shift = Self::splat(ROUND);
         let near = self.add(shift).sub(shift);
         Self::select_less(self, near, near.sub(Self::splat(1.0)), near)
     }
