@@ -43,11 +43,11 @@ impl Line {
         steps_per_element: 1,
     };
 
-    /// The fewest time steps in which an element can be fed: two, or eight if the fibre slides. Flights with sliding fibres
+    /// The fewest time steps in which an element can be fed: one, or eight if the fibre slides. Flights with sliding fibres
     /// were seen to fail with four.
     pub const fn fewest_steps(&self) -> u64 {
         match self.contact {
-            Contact::Stick => 2,
+            Contact::Stick => 1,
             Contact::Friction { .. } => 8,
         }
     }

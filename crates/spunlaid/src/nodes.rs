@@ -11,14 +11,15 @@ pub struct Nodes<T> {
     first: usize,
 }
 
-impl<T: Clone> Nodes<T> {
+impl<T: Copy> Nodes<T> {
     /// Puts an entry before the first.
     pub(crate) fn push_root(&mut self, entry: T) {
         if self.first == 0 {
-            let room = self.len() + 64;
-            let mut buffer = vec![entry.clone(); room];
-            buffer.append(&mut self.buffer);
-            (self.buffer, self.first) = (buffer, room);
+            // What the end has left free is used again.
+            let (entries, room) = (self.buffer.len(), self.buffer.len() + 64);
+            self.buffer.resize(entries + room, entry);
+            self.buffer.copy_within(..entries, room);
+            self.first = room;
         }
         self.first -= 1;
         self.buffer[self.first] = entry;

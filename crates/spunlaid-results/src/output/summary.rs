@@ -32,7 +32,8 @@ pub struct Summary<'a> {
     notes: Vec<String>,
 }
 
-/// Change of the free end's motion from half the time step to the step of the run, in the same turbulence.
+/// Change of the free end's motion, or of the laid fibre, from half the time step to the step of the run, in the same
+/// turbulence. The amplitude of a laid fibre is its spread.
 #[derive(Debug, Serialize)]
 struct StepCheckSummary<'a> {
     /// Time from the start over which both are compared.

@@ -29,8 +29,8 @@ pub fn results(case: &Case, results: &Results) -> String {
 pub fn step_check(check: &StepCheck, results: &Results) -> String {
     let StepCheckWords { path, amplitude, extent, advice } = StepCheckWords::of(check, results);
     format!(
-        "time step, compared with half of it in the same turbulence\n  Path of the free end differs by {path} of its amplitude\n  \
-         Amplitude differs by {amplitude}\n  Compared: {extent}\n  {advice}\n"
+        "time step, compared with half of it in the same turbulence\n  {} differs by {}\n  {} differs by {}\n  Compared: {extent}\n  {advice}\n",
+        path.0, path.1, amplitude.0, amplitude.1
     )
 }
 

@@ -80,6 +80,8 @@ impl Run {
 
 /// The limit that the feed sets, see [`Line::fewest_steps`].
 const FEEDING: &str = "feed of an element";
+const STRING: &str = "waves of the taut string";
+const GUSTS: &str = "gusts that turn an element";
 
 /// Factor of the root of a fed fibre on the limit of the bending waves: its largest stiffness is sixteen times that of
 /// other nodes, the bending waves are 18 % faster then.
@@ -114,10 +116,10 @@ impl Case {
                 self.fibre.rest_length() / line.feed_speed / line.fewest_steps() as f64 * (1.0 + 1e-9);
             limits.push(StepLimit { cause: FEEDING, limit });
             if self.run.scheme == Scheme::ImplicitTension && self.air.density > 0.0 && self.air.rms() > 0.0 {
-                // One iteration for the tensions finds them only where gusts turn an element little in a step. Most flights
-                // of spunbond.toml at 40 % of turbulence were seen to fail at 1.7 times this.            theory.md (63)
+                // The tensions are found where gusts turn an element little in a step. Flights of spunbond.toml at 40 %
+                // of turbulence were seen to fail at 1.7 times this.                                    theory.md (63)
                 let limit = self.fibre.rest_length() / (12.0 * self.air.rms());
-                limits.push(StepLimit { cause: "gusts that turn an element", limit });
+                limits.push(StepLimit { cause: GUSTS, limit });
             }
         }
         limits
@@ -153,7 +155,7 @@ impl Case {
             if there_is_air { strand.drag.along.force(relative, 0.5 * elements) * elements } else { 0.0 };
         let line_density = self.fibre.density * self.fibre.cross_section();
         let speed = ((weight + friction) / line_density).sqrt();
-        StepLimit { cause: "waves of the taut string", limit: 1.5 * self.fibre.rest_length() / speed }
+        StepLimit { cause: STRING, limit: 1.5 * self.fibre.rest_length() / speed }
     }
 
     /// Vector from the root to the free end of the straight fibre [m].

@@ -11,6 +11,7 @@ pub use crate::observe::Sample;
 pub use order::in_order;
 pub use results::{Collector, Curve, Number, Place, Results};
 pub use step_check::{StepCheck, StepCheckPlan};
+use trajectory::fly_with_plan;
 pub use trajectory::{Keep, KeepShapes, Shape, Trajectory, fly_together, pace};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 
@@ -61,7 +62,7 @@ pub fn fly<E: From<Error>>(
     in_order(
         flights(case),
         computing.threads,
-        |index| fly_one(case, index, keep, computing),
+        |index| fly_one(case, index, keep, None, computing),
         |trajectories| trajectories?.into_iter().try_for_each(&mut take),
     )
 }
@@ -69,7 +70,7 @@ pub fn fly<E: From<Error>>(
 /// [`fly`], and computes what half the time step changes. The check is one more flight beside the others; `plan` is
 /// that of the case.
 ///
-/// Returns `None` without a plan, and if the fibres do not move across the flow.
+/// Returns `None` without a plan, and if the fibres do not move across the flow or lay nothing down.
 ///
 /// # Errors
 /// Those of [`fly`].
@@ -91,16 +92,16 @@ pub fn fly_and_check_step<E: From<Error>>(
         computing.threads,
         |index| match plan {
             Some(plan) if index == flights => plan.fly(case, computing).map(Landed::HalfStep),
-            _ => fly_one(case, index, keep, computing).map(Landed::Flight),
+            _ => fly_one(case, index, keep, plan, computing).map(Landed::Flight),
         },
         |landed| {
             match landed? {
                 Landed::HalfStep(paths) => half = paths,
                 Landed::Flight(trajectories) => {
-                    for trajectory in trajectories {
+                    for mut trajectory in trajectories {
                         own.extend(
                             plan.filter(|plan| trajectory.replicate < plan.replicates)
-                                .map(|plan| plan.path(&trajectory)),
+                                .map(|plan| plan.path(&mut trajectory)),
                         );
                         take(trajectory)?;
                     }
@@ -122,10 +123,11 @@ fn fly_one(
     case: &Case,
     index: usize,
     keep: Keep,
+    plan: Option<StepCheckPlan>,
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
     let first = index as u64 * WIDTH as u64;
     let last = case.run.replicates.min(first + WIDTH as u64);
     let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
-    fly_together(&jobs, keep, computing)
+    fly_with_plan(&jobs, keep, plan, computing)
 }

@@ -1,12 +1,12 @@
 //! What half the time step changes.
 //!
 //! The first fibres of a run fly again, for a short time, with half the step in the same turbulence. The difference
-//! between the two paths comes from the step alone.
+//! between the two paths comes from the step alone. The path of a fed fibre is the one that it lays on the belt.
 
 use super::{Computing, Job, Trajectory};
 use crate::case::{Case, MOST_STEPS};
 use crate::error::Error;
-use crate::flight::Flight;
+use crate::flight::{Flight, LaidPoint};
 use crate::lanes::WIDTH;
 use crate::statistics::Estimate;
 use std::sync::atomic::Ordering;
@@ -24,7 +24,8 @@ const FEWEST: u64 = 20;
 /// Amplitude below which the fibre does not move but for rounding, as a share of its length.
 const ROUNDING: f64 = 1e-12;
 
-/// Change of the free end's motion across the flow, from half the time step to the step of the run.
+/// Change of the free end's motion across the flow, or of the laid fibre about its straight trace, from half the time step
+/// to the step of the run. The amplitude is the rms distance from the mean, of a laid fibre its spread.
 #[derive(Clone, Debug)]
 pub struct StepCheck {
     /// Time from the start over which both are compared [s].
@@ -37,8 +38,18 @@ pub struct StepCheck {
     pub amplitude: Estimate,
 }
 
-/// The position across the flow at the recorded instants after the start [m].
+/// The position across the flow at the recorded instants after the start [m]. Of a fed fibre: the place of each laid point
+/// about the straight trace.
 pub(super) type Path = Vec<[f64; 2]>;
+
+/// Which points of a laid fibre are compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Counted {
+    /// Those from this fed length on, after the spin-up [m].
+    from: f64,
+    /// Speed of the belt over speed of the feed.
+    belt_ratio: f64,
+}
 
 /// What is flown again.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +60,8 @@ pub struct StepCheckPlan {
     instants: u64,
     /// The number of steps of the run until then.
     steps: u64,
+    /// Of a fed fibre.
+    laid: Option<Counted>,
     /// Computing time as a share of that of the run [-].
     pub share_of_run: f64,
 }
@@ -56,10 +69,6 @@ pub struct StepCheckPlan {
 impl StepCheckPlan {
     /// The plan for a case; `None` if the run is too short for it.
     pub fn of(case: &Case) -> Option<Self> {
-        // A fed fibre has no free end whose path could be compared.
-        if case.line.is_some() {
-            return None;
-        }
         let run = &case.run;
         let flights = run.replicates.div_ceil(WIDTH as u64) as f64;
         // Half the step takes two steps for one.
@@ -69,8 +78,14 @@ impl StepCheckPlan {
         let steps = instants * run.output_steps;
         let share_of_run = 2.0 * steps as f64 / (flights * run.steps as f64);
         let replicates = run.replicates.min(WIDTH as u64);
-        let possible = instants >= FEWEST && 2 * steps <= MOST_STEPS;
-        possible.then_some(Self { replicates, instants, steps, share_of_run })
+        let laid = case.line.as_ref().map(|line| Counted {
+            from: line.feed_speed * run.spin_up(),
+            belt_ratio: line.belt_speed / line.feed_speed,
+        });
+        // A spread needs some time after the spin-up.
+        let settled = laid.is_none() || steps >= 3 * run.spin_up_steps;
+        let possible = instants >= FEWEST && settled && 2 * steps <= MOST_STEPS;
+        possible.then_some(Self { replicates, instants, steps, laid, share_of_run })
     }
 
     /// Number of fibre steps, as in [`Computing::fibre_steps`].
@@ -78,8 +93,22 @@ impl StepCheckPlan {
         2 * self.steps * self.replicates
     }
 
+    /// The part of a laid path that these points add at a recorded instant of the run.
+    ///
+    /// * `instant` – 0 at the start
+    pub(super) fn laid(&self, instant: u64, points: &[LaidPoint]) -> impl Iterator<Item = [f64; 2]> {
+        let counted = self.laid.filter(|_| instant <= self.instants);
+        points.iter().filter_map(move |point| {
+            let Counted { from, belt_ratio } = counted?;
+            (point.fed >= from).then(|| [point.md + belt_ratio * point.fed, point.cd])
+        })
+    }
+
     /// The path that is compared, of a trajectory of the run.
-    pub(super) fn path(&self, trajectory: &Trajectory) -> Path {
+    pub(super) fn path(&self, trajectory: &mut Trajectory) -> Path {
+        if self.laid.is_some() {
+            return std::mem::take(&mut trajectory.path);
+        }
         trajectory.samples.iter().skip(1).take(self.instants as usize).map(|s| [s.end.y, s.end.z]).collect()
     }
 
@@ -90,15 +119,23 @@ impl StepCheckPlan {
         half.run.steps = 2 * self.steps;
         half.run.output_steps *= 2;
         half.run.spin_up_steps = 0;
+        if let Some(line) = &mut half.line {
+            line.steps_per_element *= 2;
+        }
         let jobs: Vec<Job<'_>> =
             (0..self.replicates).map(|replicate| Job { case: &half, replicate }).collect();
         // In the air of the run: which stretches of a record a fibre gets depends on how long they have to last.
         let mut flight = Flight::in_air_until(&jobs, computing.isa, case.air_horizon())?;
         let mut paths = vec![Path::new(); jobs.len()];
-        for _ in 0..self.instants {
+        for instant in 1..=self.instants {
             flight.advance(half.run.output_steps);
             for (lane, path) in paths.iter_mut().enumerate() {
-                path.extend(flight.chain().position.last().map(|end| [end.y.0[lane], end.z.0[lane]]));
+                match self.laid {
+                    Some(_) => path.extend(self.laid(instant, &flight.take_laid(lane))),
+                    None => {
+                        path.extend(flight.chain().position.last().map(|end| [end.y.0[lane], end.z.0[lane]]));
+                    }
+                }
             }
             let steps = half.run.output_steps * self.replicates;
             computing.fibre_steps.fetch_add(steps, Ordering::Relaxed);
@@ -114,6 +151,12 @@ impl StepCheckPlan {
         let least = ROUNDING * case.fibre.length;
         let (mut paths, mut amplitudes) = (Vec::new(), Vec::new());
         for (own, half) in own.iter().zip(half) {
+            // One of two laid fibres may have come a little further.
+            let both = own.len().min(half.len());
+            let (own, half) = (&own[..both], &half[..both]);
+            if (both as u64) < FEWEST {
+                continue;
+            }
             let amplitude = amplitude(half);
             if amplitude > least {
                 paths.push(rms_distance(own, half) / amplitude);
@@ -133,13 +176,13 @@ impl StepCheckPlan {
 }
 
 /// Rms distance of a path from its mean [m].
-fn amplitude(path: &Path) -> f64 {
+fn amplitude(path: &[[f64; 2]]) -> f64 {
     let count = path.len() as f64;
     let mean = [0, 1].map(|axis| path.iter().map(|point| point[axis]).sum::<f64>() / count);
     rms_distance(path, &vec![mean; path.len()])
 }
 
-fn rms_distance(a: &Path, b: &Path) -> f64 {
+fn rms_distance(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     let squares = a.iter().zip(b).map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2));
     (squares.sum::<f64>() / a.len() as f64).sqrt()
 }

@@ -1,6 +1,7 @@
 //! The trajectory of one replicate.
 
-use super::Computing;
+use super::step_check::Path;
+use super::{Computing, StepCheckPlan};
 use crate::case::Case;
 use crate::error::Error;
 use crate::flight::{Flight, Job, LaidPoint};
@@ -23,6 +24,8 @@ pub struct Trajectory {
     pub shapes: Vec<Shape>,
     /// The first points that a fed fibre has laid after the spin-up, of the replicates whose shapes are stored.
     pub laid: Vec<LaidPoint>,
+    /// What the step check compares of a fed fibre.
+    pub(super) path: Path,
 }
 
 /// Most points of a laid fibre that are kept with its shapes.
@@ -108,6 +111,16 @@ pub fn fly_together(
     keep: Keep,
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
+    fly_with_plan(jobs, keep, None, computing)
+}
+
+/// [`fly_together`], and keeps what the step check compares.
+pub(super) fn fly_with_plan(
+    jobs: &[Job<'_>],
+    keep: Keep,
+    plan: Option<StepCheckPlan>,
+    computing: Computing<'_>,
+) -> Result<Vec<Trajectory>, Error> {
     let mut flight = Flight::new(jobs, computing.isa)?;
     let case = jobs[0].case;
     let run = &case.run;
@@ -140,6 +153,9 @@ pub fn fly_together(
                 let room = LAID_WITH_SHAPES - trajectory.laid.len();
                 let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);
                 trajectory.laid.extend(counted.take(room));
+            }
+            if let Some(plan) = plan.filter(|plan| trajectory.replicate < plan.replicates) {
+                trajectory.path.extend(plan.laid(instant, &laid[lane]));
             }
             if let Some(take) = computing.laid
                 && !laid[lane].is_empty()

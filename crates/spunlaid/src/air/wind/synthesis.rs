@@ -86,7 +86,7 @@ impl Task for Synthesis<'_> {
         let mut scratch = bins.clone();
         let mut wave = bins.clone();
         for column in 0..columns {
-            harmonics.enter(column / 3, column % 3);
+            harmonics.enter::<S>(column / 3, column % 3);
             bins.fill(Complex::default());
             for (n, (a, phase)) in harmonics.each(column % 3).enumerate() {
                 let (cos, sin) = cos_sin_turn(Wide::<S>::load(phase));
@@ -139,47 +139,65 @@ impl<'a> Harmonics<'a> {
     }
 
     /// Moves on to a component of an eddy.
-    fn enter(&mut self, eddy: usize, component: usize) {
-        for lane in 0..WIDTH {
-            if lane < self.streams.len() {
-                self.enter_lane(lane, eddy, component);
-            } else {
-                for of in [&mut self.amplitude[component], &mut self.phase[component]] {
-                    of.iter_mut().for_each(|of| of.0[lane] = of.0[0]);
+    #[inline(always)]
+    fn enter<S: Register>(&mut self, eddy: usize, component: usize) {
+        let (mut lag, mut turn) = (Lanes::ZERO, Lanes::ZERO);
+        for (lane, Stream { air, eddies, key }) in self.streams.iter().enumerate() {
+            let turbulence = &eddies[eddy];
+            // Most eddies have the same spectrum.
+            let like_above = eddy > 0 && eddies[eddy - 1].same_spectrum(turbulence);
+            if !like_above {
+                let amplitudes = turbulence.spectrum(air, component).amplitudes();
+                let amplitudes = amplitudes.into_iter().chain(std::iter::repeat(0.0));
+                for ((of, a), scale) in self.amplitude[component].iter_mut().zip(amplitudes).zip(&self.scale)
+                {
+                    of.0[lane] = a * scale;
                 }
+            }
+            match turbulence.carried {
+                None => {
+                    let mut stream = key.stream(self.window, eddy as u64, component);
+                    self.phase[component].iter_mut().for_each(|of| of.0[lane] = uniform(&mut stream));
+                }
+                Some(time) => {
+                    lag.0[lane] = time / air.repeat_time();
+                    turn.0[lane] = libm::acos(libm::exp(-turbulence.forgotten)) / (2.0 * PI);
+                }
+            }
+        }
+        if self.streams.iter().any(|stream| stream.eddies[eddy].carried.is_some()) {
+            self.carry::<S>(eddy, component, lag, turn);
+        }
+        for lane in self.streams.len()..WIDTH {
+            for of in [&mut self.amplitude[component], &mut self.phase[component]] {
+                of.iter_mut().for_each(|of| of.0[lane] = of.0[0]);
             }
         }
     }
 
-    fn enter_lane(&mut self, lane: usize, eddy: usize, component: usize) {
-        let Stream { air, eddies, key } = &self.streams[lane];
-        let turbulence = &eddies[eddy];
-        // Most eddies have the same spectrum.
-        let like_above = eddy > 0 && eddies[eddy - 1].same_spectrum(turbulence);
-        if !like_above {
-            let amplitudes = turbulence.spectrum(air, component).amplitudes();
-            let amplitudes = amplitudes.into_iter().chain(std::iter::repeat(0.0));
-            for ((of, a), scale) in self.amplitude[component].iter_mut().zip(amplitudes).zip(&self.scale) {
-                of.0[lane] = a * scale;
-            }
-        }
-        let mut stream = key.stream(self.window, eddy as u64, component);
-        let phase = self.phase[component].iter_mut().map(|of| &mut of.0[lane]);
-        match turbulence.carried {
-            None => phase.for_each(|phase| *phase = uniform(&mut stream)),
-            // The phase lags by the time of arrival, and turns to either side as the correlation decays: theory.md (47).
-            Some(time) => {
-                let lag = time / air.repeat_time();
-                let turn = libm::acos(libm::exp(-turbulence.forgotten)) / (2.0 * PI);
-                let mut sides = 0;
-                for (n, phase) in phase.enumerate() {
-                    if n % 64 == 0 {
-                        sides = stream.next_u64();
-                    }
-                    let side = if sides >> (n % 64) & 1 == 0 { turn } else { -turn };
-                    let turned = *phase - (n as f64 + 0.5) * lag + side;
-                    *phase = turned - turned.floor();
+    /// The phases lag by the time of arrival, and turn to either side as the correlation decays: theory.md (47).
+    ///
+    /// * `lag` – by repeat times
+    /// * `turn` – to either side [turns]
+    #[inline(always)]
+    fn carry<S: Register>(&mut self, eddy: usize, component: usize, lag: Lanes, turn: Lanes) {
+        let stream = |lane: usize| {
+            let stream = self.streams.get(lane).unwrap_or(&self.streams[0]);
+            stream.key.stream(self.window, eddy as u64, component)
+        };
+        let mut streams: [_; WIDTH] = std::array::from_fn(stream);
+        let (lag, mut harmonic) = (Wide::<S>::load(&lag), Wide::splat(0.5));
+        for phases in self.phase[component].chunks_mut(64) {
+            let mut sides = streams.each_mut().map(ChaCha8Rng::next_u64);
+            for phase in phases {
+                let mut side = turn;
+                for (side, bits) in side.0.iter_mut().zip(&mut sides) {
+                    *side = f64::from_bits(side.to_bits() ^ *bits << 63);
+                    *bits >>= 1;
                 }
+                let turned = Wide::load(phase) - harmonic * lag + Wide::load(&side);
+                *phase = (turned - turned.floor()).store();
+                harmonic += Wide::splat(1.0);
             }
         }
     }

@@ -34,7 +34,7 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
         acceleration = acceleration.mul_add(Wide::load(&link.slope), Vec3::load(&link.acceleration));
         let mut predicted = acceleration.mul_add(h, Vec3::load(&velocity[i]));
         let node = c.node(i, nodes);
-        let mut free = Wide::load(&node.inverse_mass);
+        let free = Wide::load(&node.inverse_mass);
         let mut free_x = free;
         let at = Vec3::load(&position[i]);
         if FED && c.may_be_held(i, nodes) {
@@ -51,7 +51,8 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
         {
             let mut landing = predicted.store();
             let others = Wide::load(&laying.land(i, &position[i], &mut landing, step));
-            (free, free_x) = (free * others, free_x * others);
+            // The tension may still move it along the belt, or two nodes that land together would strain their element.
+            free_x = free_x * others;
             predicted = Vec3::load(&landing);
         }
         link.acceleration = predicted.store();
@@ -130,15 +131,16 @@ impl<S: Register> Row<S> {
     }
 }
 
-/// From the root to the free end: corrects the tensions and moves the nodes.
+/// From the root to the free end: corrects the tensions and moves the nodes. Returns the largest change of the squared
+/// length of a fed fibre's elements, in parts of it.
 #[inline(always)]
 pub(super) fn correct_and_move<S: Register, const FED: bool>(
     chain: &mut Chain,
     h: f64,
     damped: bool,
     (sums, supports): &mut (WorkRegisters<S>, Supports),
-) {
-    let Chain { position, velocity, earlier, constants: c, tensions: t, .. } = chain;
+) -> Wide<S> {
+    let Chain { position, velocity, earlier, constants: c, tensions: t, laying, .. } = chain;
     let (position, velocity, earlier) = (&mut **position, &mut **velocity, &mut **earlier);
     let nodes = position.len();
     let (rate, h) = (Wide::<S>::splat(1.0 / h), Wide::<S>::splat(h));
@@ -146,6 +148,10 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
     let mut correction = Wide::zero();
     // Forces of the element above: from the correction of its tension, and from its last tension.
     let (mut change_above, mut pull_above) = (Vec3::zero(), Vec3::zero());
+    // The node above: where it is now, and whether it moves.
+    let (mut above, mut mobility) = (Vec3::zero(), Wide::zero());
+    let rest_length = Wide::load(&c.rest_length);
+    let mut furthest = Wide::zero();
     for i in 0..nodes {
         let link = &t.links[i];
         let (mut change, mut pull) = (Vec3::zero(), Vec3::zero());
@@ -177,7 +183,11 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
         if FED {
             if c.may_be_held(i, nodes) {
                 let unexplained = force - Vec3::load(&link.force) - (change - change_above);
-                let held = supports.add(i, Wide::load(&node.inverse_mass), unexplained, seen, c);
+                let mut free = Wide::load(&node.inverse_mass);
+                if let Some(laying) = laying {
+                    free = laying.unless_it_lands(i, free);
+                }
+                let held = supports.add(i, free, unexplained, seen, c);
                 tension -= held;
                 if i > 0 && c.friction.is_some() {
                     supports.rub(Vec3::load(&t.belt_force[i]), seen, c);
@@ -191,7 +201,19 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
         sums.add_tension(tension, seen_before, seen_after);
         earlier[i] = before.store();
         velocity[i] = after.store();
-        position[i] = after.mul_add(h, Vec3::load(&position[i])).store();
+        let here = after.mul_add(h, Vec3::load(&position[i]));
+        position[i] = here.store();
+        if FED {
+            let edge = here - above;
+            let off = edge.dot(edge) - rest_length * rest_length;
+            let off = off.abs().max(furthest);
+            if i > 0 {
+                // What lies on the belt can no longer be corrected.
+                furthest = Wide::select_less(Wide::zero(), kick + mobility, off, furthest);
+            }
+            (above, mobility) = (here, kick);
+        }
         (change_above, pull_above) = (change, pull);
     }
+    furthest.over(rest_length * rest_length)
 }

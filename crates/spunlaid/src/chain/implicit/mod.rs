@@ -16,6 +16,7 @@
 
 mod accelerations;
 mod corrections;
+mod iterations;
 mod tensions;
 
 pub(crate) use tensions::Tensions;
@@ -60,7 +61,10 @@ pub(crate) fn step<S: Register, const FED: bool>(
         chain.hold_landing();
     }
     let mut sums = (WorkRegisters::of(work, split), Supports::of(work));
-    correct_and_move::<S, FED>(chain, h, damped, &mut sums);
+    let change = correct_and_move::<S, FED>(chain, h, damped, &mut sums);
     sums.0.put(work);
     sums.1.put(work);
+    if FED {
+        chain.iterate(&change.store(), h, split, work);
+    }
 }

@@ -68,11 +68,8 @@ impl Chain {
         let seen = Vec3::new(velocity.x, velocity.y - c.frame, velocity.z);
         let kinetic = (seen.x * seen.x + seen.y * seen.y + seen.z * seen.z) * c.root.mass;
         let axial = tension * stretch;
-        let bend = self.bend_squared(1);
-        let second = self.bend_squared(2);
         let (k, root) = (self.constants.bending_stiffness, self.constants.root_stiffness);
-        let former = self.constants.second_stiffness;
-        let bending = (k - root) * bend + (k - former) * second;
+        let bending = self.bent(1, k - root) + self.bent(2, k - self.constants.second_stiffness);
         let half = Lanes::splat(0.5);
         (self.constants.root_stiffness, self.constants.second_stiffness) = (k, k);
         let Some(laying) = &mut self.laying else { return };
@@ -94,10 +91,8 @@ impl Chain {
         let second = Lanes::from_fn(|i| k.0[i] * if laying.clamped[i] { 1.0 } else { inside.min(1.0) });
         (self.constants.root_stiffness, self.constants.second_stiffness) = (root, second);
         // What the change adds or takes is the feed's.
-        let bends: [Lanes; 2] = [0, 1]
-            .map(|node| if node + 1 < self.position.len() { self.bend_squared(node) } else { Lanes::ZERO });
         let half = Lanes::splat(0.5);
-        let change = (root - before.0) * bends[0] + (second - before.1) * bends[1];
+        let change = self.bent(0, root - before.0) + self.bent(1, second - before.1);
         if let Some(laying) = &mut self.laying {
             laying.carried.bending = laying.carried.bending + change * half;
         }

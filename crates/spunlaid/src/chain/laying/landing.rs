@@ -39,8 +39,20 @@ impl Laying {
     }
 }
 
+impl Laying {
+    /// The inverse mass along the belt of a node, zero in the lanes where it lands in this step.
+    #[inline(always)]
+    pub(crate) fn unless_it_lands<S: Register>(&self, node: usize, inverse_mass: Wide<S>) -> Wide<S> {
+        let Some((_, shares)) = self.landing.iter().find(|(landing, _)| *landing == node) else {
+            return inverse_mass;
+        };
+        // Comparisons with NaN are false.
+        Wide::select_less(Wide::load(shares), Wide::splat(2.0), Wide::zero(), inverse_mass)
+    }
+}
+
 impl Chain {
-    /// Holds the nodes that land in this step.
+    /// Holds the nodes that land in this step at the belt. Along it the tension may still move them.
     #[inline(always)]
     pub(crate) fn hold_landing(&mut self) {
         if self.laying.as_ref().is_some_and(|laying| !laying.landing.is_empty()) {
@@ -60,7 +72,7 @@ impl Chain {
                 laying.landed_at.push(Lanes::splat(f64::NAN));
             }
             for lane in (0..WIDTH).filter(|&lane| !shares.0[lane].is_nan()) {
-                c.tail[from_end].hold(lane);
+                c.tail[from_end].inverse_mass_x.0[lane] = 0.0;
             }
         }
     }
