@@ -11,6 +11,7 @@ use spunlaid::ensemble::{
     Computing, Keep, Number, Results, StepCheck, StepCheckPlan, Trajectory, fly, fly_and_check_step,
 };
 use spunlaid::error::Error;
+use spunlaid::flight::LaidPoint;
 use spunlaid::input::read_case;
 use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
@@ -231,6 +232,44 @@ fn checked_at(scheme: Scheme, step: f64, damping: f64) -> (Vec<Trajectory>, Step
 /// that hardly depends on the step, so that half the step shows little of what they do to the path: 3 parts in 10 000
 /// of the amplitude were found.
 const START: f64 = 4e-4;
+
+#[test]
+fn invariant_the_step_check_of_a_fed_fibre_compares_what_it_lays() {
+    let mut case = common::laying::spunbond(&[("run.duration", "0.3 s")]);
+    case.run.replicates = 3;
+    let (_, check) = checked(&case, 2, Isa::detect(), false).unwrap();
+    let check = check.expect("long enough");
+    assert_eq!(check.path.values.len(), 3);
+    assert!((check.duration - 0.3).abs() < 1e-3);
+
+    // The same from two flights.
+    let mut half = case.clone();
+    half.set_time_step(0.5 * case.run.time_step);
+    let line = case.line.unwrap();
+    let place = |case: &Case| -> Vec<Vec<[f64; 2]>> {
+        let laid = common::laying::laid_until(&mut common::laying::flight(case, 0..3), 0.3);
+        let counted = |laid: &Vec<LaidPoint>| {
+            let counted = laid.iter().filter(|p| p.fed >= line.feed_speed * case.run.spin_up());
+            counted.map(|p| [p.md + line.belt_speed / line.feed_speed * p.fed, p.cd]).collect()
+        };
+        laid.iter().map(counted).collect()
+    };
+    for (i, (own, half)) in place(&case).into_iter().zip(place(&half)).enumerate() {
+        let both = own.len().min(half.len());
+        let spread = |of: &[[f64; 2]]| {
+            let mean = [0, 1].map(|axis| of.iter().map(|p| p[axis]).sum::<f64>() / of.len() as f64);
+            let squares = of.iter().map(|p| (p[0] - mean[0]).powi(2) + (p[1] - mean[1]).powi(2));
+            (squares.sum::<f64>() / of.len() as f64).sqrt()
+        };
+        let apart: f64 =
+            own.iter().zip(&half).map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sum();
+        let path = (apart / both as f64).sqrt() / spread(&half[..both]);
+        let change = spread(&own[..both]) / spread(&half[..both]) - 1.0;
+        // The last points may have left one of the chains a little earlier.
+        assert!((check.path.values[i] / path - 1.0).abs() < 0.02, "{path}, {:?}", check.path);
+        assert!((check.amplitude.values[i] - change).abs() < 1e-3, "{change}, {:?}", check.amplitude);
+    }
+}
 
 #[test]
 fn invariant_the_step_check_tells_the_error_of_the_step() {

@@ -184,8 +184,8 @@ fn invariant_energy_of_a_spunbond_line_is_balanced() {
     for (scheme, parts, most) in [
         (Scheme::SemiImplicitEuler, 60.0, 1e-3),
         (Scheme::Leapfrog, 60.0, 1e-3),
-        (Scheme::ImplicitTension, 2.0, 3e-4),
-        (Scheme::ImplicitTension, 16.0, 3e-5),
+        (Scheme::ImplicitTension, 1.0, 5e-4),
+        (Scheme::ImplicitTension, 32.0, 3e-5),
     ] {
         let mut case = spunbond(&[("run.scheme", scheme.name()), ("run.duration", "0.05 s")]);
         case.set_time_step(case.fibre.rest_length() / case.line.unwrap().feed_speed / parts);
@@ -194,7 +194,7 @@ fn invariant_energy_of_a_spunbond_line_is_balanced() {
         let e = flight.snapshot().energy;
         for lane in 0..8 {
             let works = e.feed_work.0[lane].abs() + e.drag_work.0[lane].abs() + e.belt_work.0[lane].abs();
-            // Found: up to 4e-4, 8e-5 and 1e-5.
+            // Found: up to 3e-4, 2e-4 and 9e-6.
             let share = e.imbalance().0[lane].abs() / works;
             assert!(share < most, "{scheme:?} in {parts} steps: {share:e}");
         }

@@ -57,9 +57,28 @@ fn stat_the_lay_down_depends_on_neither_mesh_nor_step_nor_scheme_nor_where_the_c
     let usual = run(&[]);
     assert_same("2 mm", usual, run(&[("fibre.element_length", "2 mm")]));
     assert_same("an eighth of a birth", usual, run(&[("run.time_step", "10 µs")]));
+    let fine = spunbond(&[("run.duration", "0.4 s"), ("fibre.element_length", "1 mm")]);
+    assert_same("1 mm", usual, statistics(&fine, 0.4));
     assert_same("three times the length on the belt", usual, run(&[("belt.kept_length", "90 mm")]));
     let leapfrog = spunbond(&[("run.duration", "0.3 s"), ("run.scheme", "leapfrog")]);
     assert_same("leapfrog", usual, statistics(&leapfrog, 0.3));
+}
+
+#[test]
+fn invariant_elements_keep_their_length_on_the_belt() {
+    // With the chosen step, an element a step, and at twice the intensity, where two steps are chosen.
+    for intensity in ["10 %", "20 %"] {
+        let case = spunbond(&[("run.duration", "0.5 s"), ("air.turbulence_intensity", intensity)]);
+        let (length, mut stretches) = (case.fibre.rest_length(), Vec::new());
+        for laid in laid_until(&mut flight(&case, 0..8), 0.5) {
+            let chord = |pair: &[LaidPoint]| (pair[1].md - pair[0].md).hypot(pair[1].cd - pair[0].cd);
+            stretches.extend(laid.windows(2).map(|pair| (chord(pair) / length - 1.0).max(0.0)));
+        }
+        let rms = (stretches.iter().map(|s| s * s).sum::<f64>() / stretches.len() as f64).sqrt();
+        assert!(rms < 0.01, "{intensity}: {rms}");
+        let far = stretches.iter().filter(|&&s| s > 0.05).count() as f64 / stretches.len() as f64;
+        assert!(far < 0.002, "{intensity}: {far}");
+    }
 }
 
 fn bits(laid: &[LaidPoint]) -> Vec<[u64; 4]> {

@@ -63,7 +63,7 @@ pub fn fly<E: From<Error>>(
         flights(case),
         computing.threads,
         |index| fly_one(case, index, keep, None, computing),
-        |trajectories| trajectories?.into_iter().try_for_each(&mut take),
+        |flown| flown?.0.into_iter().try_for_each(&mut take),
     )
 }
 
@@ -82,7 +82,7 @@ pub fn fly_and_check_step<E: From<Error>>(
     mut take: impl FnMut(Trajectory) -> Result<(), E>,
 ) -> Result<Option<StepCheck>, E> {
     enum Landed {
-        Flight(Vec<Trajectory>),
+        Flight(Vec<Trajectory>, Vec<step_check::Path>),
         HalfStep(Vec<step_check::Path>),
     }
     let flights = flights(case);
@@ -92,19 +92,17 @@ pub fn fly_and_check_step<E: From<Error>>(
         computing.threads,
         |index| match plan {
             Some(plan) if index == flights => plan.fly(case, computing).map(Landed::HalfStep),
-            _ => fly_one(case, index, keep, plan, computing).map(Landed::Flight),
+            _ => {
+                let flown = fly_one(case, index, keep, plan, computing);
+                flown.map(|(trajectories, paths)| Landed::Flight(trajectories, paths))
+            }
         },
         |landed| {
             match landed? {
                 Landed::HalfStep(paths) => half = paths,
-                Landed::Flight(trajectories) => {
-                    for mut trajectory in trajectories {
-                        own.extend(
-                            plan.filter(|plan| trajectory.replicate < plan.replicates)
-                                .map(|plan| plan.path(&mut trajectory)),
-                        );
-                        take(trajectory)?;
-                    }
+                Landed::Flight(trajectories, paths) => {
+                    own.extend(paths);
+                    trajectories.into_iter().try_for_each(&mut take)?;
                 }
             }
             Ok::<(), E>(())
@@ -125,7 +123,7 @@ fn fly_one(
     keep: Keep,
     plan: Option<StepCheckPlan>,
     computing: Computing<'_>,
-) -> Result<Vec<Trajectory>, Error> {
+) -> Result<(Vec<Trajectory>, Vec<step_check::Path>), Error> {
     let first = index as u64 * WIDTH as u64;
     let last = case.run.replicates.min(first + WIDTH as u64);
     let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();

@@ -3,12 +3,14 @@
 //! The first fibres of a run fly again, for a short time, with half the step in the same turbulence. The difference
 //! between the two paths comes from the step alone. The path of a fed fibre is the one that it lays on the belt.
 
-use super::{Computing, Job, Trajectory};
+use super::{Computing, Job};
 use crate::case::{Case, MOST_STEPS};
 use crate::error::Error;
 use crate::flight::{Flight, LaidPoint};
-use crate::lanes::WIDTH;
+use crate::lanes::{Lanes, WIDTH};
+use crate::observe::Sample;
 use crate::statistics::Estimate;
+use crate::vec3::Vec3;
 use std::sync::atomic::Ordering;
 
 /// Share of the computing time of a run that the check may always take. It is counted in steps of flights, so that
@@ -49,6 +51,14 @@ struct Counted {
     from: f64,
     /// Speed of the belt over speed of the feed.
     belt_ratio: f64,
+}
+
+impl Counted {
+    /// Their places about the straight trace [m].
+    fn of(self, laid: &[LaidPoint]) -> impl Iterator<Item = [f64; 2]> {
+        let counted = laid.iter().filter(move |point| point.fed >= self.from);
+        counted.map(move |point| [point.md + self.belt_ratio * point.fed, point.cd])
+    }
 }
 
 /// What is flown again.
@@ -93,23 +103,21 @@ impl StepCheckPlan {
         2 * self.steps * self.replicates
     }
 
-    /// The part of a laid path that these points add at a recorded instant of the run.
-    ///
-    /// * `instant` – 0 at the start
-    pub(super) fn laid(&self, instant: u64, points: &[LaidPoint]) -> impl Iterator<Item = [f64; 2]> {
-        let counted = self.laid.filter(|_| instant <= self.instants);
-        points.iter().filter_map(move |point| {
-            let Counted { from, belt_ratio } = counted?;
-            (point.fed >= from).then(|| [point.md + belt_ratio * point.fed, point.cd])
-        })
+    /// Number of jobs whose paths are compared, from the first on.
+    pub(super) fn paths(&self, jobs: &[Job<'_>]) -> usize {
+        jobs.iter().filter(|job| job.replicate < self.replicates).count()
     }
 
-    /// The path that is compared, of a trajectory of the run.
-    pub(super) fn path(&self, trajectory: &mut Trajectory) -> Path {
-        if self.laid.is_some() {
-            return std::mem::take(&mut trajectory.path);
+    /// Adds to the path of a fibre of the run what is compared of a recorded instant.
+    ///
+    /// * `instant` – 0 at the start
+    /// * `laid` – the points that have been laid since the last instant
+    pub(super) fn follow(&self, instant: u64, sample: &Sample, laid: &[LaidPoint], path: &mut Path) {
+        match self.laid {
+            _ if !(1..=self.instants).contains(&instant) => {}
+            Some(counted) => path.extend(counted.of(laid)),
+            None => path.push([sample.end.y, sample.end.z]),
         }
-        trajectory.samples.iter().skip(1).take(self.instants as usize).map(|s| [s.end.y, s.end.z]).collect()
     }
 
     /// The paths of the first replicates with half the step.
@@ -127,14 +135,13 @@ impl StepCheckPlan {
         // In the air of the run: which stretches of a record a fibre gets depends on how long they have to last.
         let mut flight = Flight::in_air_until(&jobs, computing.isa, case.air_horizon())?;
         let mut paths = vec![Path::new(); jobs.len()];
-        for instant in 1..=self.instants {
+        for _ in 0..self.instants {
             flight.advance(half.run.output_steps);
             for (lane, path) in paths.iter_mut().enumerate() {
+                let end = |end: &Vec3<Lanes>| [end.y.0[lane], end.z.0[lane]];
                 match self.laid {
-                    Some(_) => path.extend(self.laid(instant, &flight.take_laid(lane))),
-                    None => {
-                        path.extend(flight.chain().position.last().map(|end| [end.y.0[lane], end.z.0[lane]]));
-                    }
+                    Some(counted) => path.extend(counted.of(&flight.take_laid(lane))),
+                    None => path.extend(flight.chain().position.last().map(end)),
                 }
             }
             let steps = half.run.output_steps * self.replicates;

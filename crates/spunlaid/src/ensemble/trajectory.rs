@@ -24,8 +24,6 @@ pub struct Trajectory {
     pub shapes: Vec<Shape>,
     /// The first points that a fed fibre has laid after the spin-up, of the replicates whose shapes are stored.
     pub laid: Vec<LaidPoint>,
-    /// What the step check compares of a fed fibre.
-    pub(super) path: Path,
 }
 
 /// Most points of a laid fibre that are kept with its shapes.
@@ -111,22 +109,23 @@ pub fn fly_together(
     keep: Keep,
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
-    fly_with_plan(jobs, keep, None, computing)
+    fly_with_plan(jobs, keep, None, computing).map(|(trajectories, _)| trajectories)
 }
 
-/// [`fly_together`], and keeps what the step check compares.
+/// [`fly_together`], with the paths that the plan compares.
 pub(super) fn fly_with_plan(
     jobs: &[Job<'_>],
     keep: Keep,
     plan: Option<StepCheckPlan>,
     computing: Computing<'_>,
-) -> Result<Vec<Trajectory>, Error> {
+) -> Result<(Vec<Trajectory>, Vec<Path>), Error> {
     let mut flight = Flight::new(jobs, computing.isa)?;
     let case = jobs[0].case;
     let run = &case.run;
     let mut observers = Observers::of(case, keep.curves);
     let mut trajectories: Vec<Trajectory> =
         jobs.iter().map(|job| Trajectory { replicate: job.replicate, ..Trajectory::default() }).collect();
+    let mut paths = vec![Path::new(); plan.map_or(0, |plan| plan.paths(jobs))];
     let first_counted = case.line.map_or(0.0, |line| line.feed_speed * run.spin_up());
     let mut step = 0;
     for instant in 0.. {
@@ -154,8 +153,8 @@ pub(super) fn fly_with_plan(
                 let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);
                 trajectory.laid.extend(counted.take(room));
             }
-            if let Some(plan) = plan.filter(|plan| trajectory.replicate < plan.replicates) {
-                trajectory.path.extend(plan.laid(instant, &laid[lane]));
+            if let (Some(plan), Some(path)) = (plan, paths.get_mut(lane)) {
+                plan.follow(instant, &samples[lane], &laid[lane], path);
             }
             if let Some(take) = computing.laid
                 && !laid[lane].is_empty()
@@ -177,7 +176,7 @@ pub(super) fn fly_with_plan(
     for (lane, trajectory) in trajectories.iter_mut().enumerate() {
         trajectory.values = observers.finish(lane, &flight).collect();
     }
-    Ok(trajectories)
+    Ok((trajectories, paths))
 }
 
 /// Computing time of a flight for one step of a case [s], measured on this machine.

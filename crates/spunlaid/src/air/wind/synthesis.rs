@@ -127,6 +127,10 @@ struct Harmonics<'a> {
     amplitude: [Vec<Lanes>; 3],
     /// By component, in turns.
     phase: [Vec<Lanes>; 3],
+    /// Number of harmonics up to the cut-off, by component and lane.
+    within_cutoff: [[usize; WIDTH]; 3],
+    /// Whether the air of a lane has the spectrum of the first lane's.
+    alike: Vec<bool>,
 }
 
 impl<'a> Harmonics<'a> {
@@ -135,7 +139,13 @@ impl<'a> Harmonics<'a> {
         let turns_per_sample = |n: usize| (n as f64 + 0.5) / period as f64;
         let scale = (0..harmonics).map(|n| SQRT_2 / taper.transform(turns_per_sample(n))).collect();
         let zero = || std::array::from_fn(|_| vec![Lanes::ZERO; harmonics]);
-        Self { streams, window, scale, amplitude: zero(), phase: zero() }
+        let first = &streams[0].air;
+        let alike = |stream: &Stream| {
+            stream.air.spectrum == first.spectrum && stream.air.repeat_time() == first.repeat_time()
+        };
+        let alike = streams.iter().map(alike).collect();
+        let within_cutoff = [[0; WIDTH]; 3];
+        Self { streams, window, scale, amplitude: zero(), phase: zero(), within_cutoff, alike }
     }
 
     /// Moves on to a component of an eddy.
@@ -146,8 +156,14 @@ impl<'a> Harmonics<'a> {
             let turbulence = &eddies[eddy];
             // Most eddies have the same spectrum.
             let like_above = eddy > 0 && eddies[eddy - 1].same_spectrum(turbulence);
-            if !like_above {
+            // So have most lanes, whose air is that of the first.
+            let like_first = self.alike[lane] && self.streams[0].eddies[eddy].same_spectrum(turbulence);
+            if !like_above && like_first && lane > 0 {
+                self.amplitude[component].iter_mut().for_each(|of| of.0[lane] = of.0[0]);
+                self.within_cutoff[component][lane] = self.within_cutoff[component][0];
+            } else if !like_above {
                 let amplitudes = turbulence.spectrum(air, component).amplitudes();
+                self.within_cutoff[component][lane] = amplitudes.len();
                 let amplitudes = amplitudes.into_iter().chain(std::iter::repeat(0.0));
                 for ((of, a), scale) in self.amplitude[component].iter_mut().zip(amplitudes).zip(&self.scale)
                 {
@@ -202,8 +218,9 @@ impl<'a> Harmonics<'a> {
         }
     }
 
-    /// Amplitude and phase [turns] of each harmonic of a component.
+    /// Amplitude and phase [turns] of each harmonic of a component, up to the cut-off.
     fn each(&self, component: usize) -> impl Iterator<Item = (&Lanes, &Lanes)> {
-        self.amplitude[component].iter().zip(&self.phase[component])
+        let within_cutoff = self.within_cutoff[component].iter().copied().max().unwrap_or(0);
+        self.amplitude[component].iter().zip(&self.phase[component]).take(within_cutoff)
     }
 }

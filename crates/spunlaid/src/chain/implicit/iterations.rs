@@ -2,7 +2,7 @@
 //!
 //! One iteration takes the lengths of the elements as linear in the corrections. Where a fibre folds on to the belt, or
 //! where a strong gust turns an element far in one step, they are not, and elements would be left too long or too short.
-//! Each lane is computed by itself in plain numbers, so what it does not need does not touch it.      theory.md (65)
+//! Each lane is computed by itself in plain numbers, so what it does not need does not touch it.      theory.md (53)
 
 use crate::chain::Chain;
 use crate::chain::work::WorkDone;
