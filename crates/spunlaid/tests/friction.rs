@@ -103,12 +103,8 @@ fn analytic_friction_holds_what_it_can() {
 #[test]
 fn what_slides_on_a_fast_belt_is_not_stretched() {
     let strains = |contact| {
-        let case = spunbond(&[
-            ("belt.speed", "60 m/s"),
-            ("belt.contact", contact),
-            ("run.time_step", "10 µs"),
-            ALL,
-        ]);
+        let case =
+            spunbond(&[("belt.speed", "60 m/s"), ("belt.contact", contact), ("run.time_step", "10 µs"), ALL]);
         let (l, line) = (case.fibre.rest_length(), case.line.unwrap());
         let mut flight = flight(&case, 0..8);
         flight.step_to(0.15).unwrap();

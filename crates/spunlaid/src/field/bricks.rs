@@ -24,6 +24,9 @@ const DEEPEST: u32 = 6;
 const ERROR: f64 = 1e-4;
 /// Points between those of the lattice where the error is measured.
 const PROBES: usize = 24;
+/// How far a brick may be continued over its faces, as a share of its side. An element that swings about a face would be
+/// looked up at almost every step without it.
+const MARGIN: f64 = 0.125 / CELLS as f64;
 /// Most memory that bricks take [bytes]. Bricks beyond it are made again at every look.
 const MOST_MEMORY: usize = 1 << 30;
 /// Most bricks before any is divided.
@@ -75,6 +78,8 @@ struct Parts {
 struct Values {
     at: [Brief; POINTS],
     inside: bool,
+    /// [`MARGIN`], or zero where the flow changes at the faces.
+    margin: f64,
 }
 
 /// A place in a brick.
@@ -172,7 +177,7 @@ impl Bricks {
         };
         match brick {
             Brick::Rough => None,
-            Brick::Whole(values) => Some(self.within(values.around(place), place)),
+            Brick::Whole(values) => Some(self.within(values, place)),
             Brick::Divided(parts) => {
                 let half = 0.5 * place.size;
                 let mut part = 0;
@@ -188,12 +193,14 @@ impl Bricks {
         }
     }
 
-    /// Limits the reach to the brick: it knows nothing of the field beyond its faces.
+    /// The air at a place of a brick. It reaches little beyond its faces.
     #[inline]
-    fn within(&self, around: Around, place: &Place) -> Around {
+    fn within(&self, values: &Values, place: &Place) -> Around {
+        let around = values.around(place);
         let mut reach = around.reach;
         for axis in (0..3).filter(|axis| self.low[*axis] < self.high[*axis]) {
-            reach = reach.min(place.share[axis].min(1.0 - place.share[axis]) * place.size);
+            let to_face = place.share[axis].min(1.0 - place.share[axis]);
+            reach = reach.min((to_face + values.margin) * place.size);
         }
         Around { reach, ..around }
     }
@@ -213,7 +220,7 @@ impl Bricks {
             let (values, inside) = field.sample(to_point(share), &mut hint);
             (brief(values), inside)
         };
-        let mut values = Values { at: [[0.0; 4]; POINTS], inside: true };
+        let mut values = Values { at: [[0.0; 4]; POINTS], inside: true, margin: 0.0 };
         let mut outside = 0;
         for i in 0..POINTS {
             let index = [i % SIDE, i / SIDE % SIDE, i / (SIDE * SIDE)];
@@ -230,28 +237,45 @@ impl Bricks {
         let allowed = allowed.unwrap_or(ERROR * largest);
         // Continued from points at random, because a regular pattern could miss a regular flow, to the corners of
         // their reach.
-        let probe = |i: usize| {
-            let from = [0, 1, 2].map(|axis| (0.5 + (i + 1) as f64 * RATIOS[axis]).fract());
+        let random = |i: usize| [0, 1, 2].map(|axis| (0.5 + (i + 1) as f64 * RATIOS[axis]).fract());
+        let mut probe = |i: usize, from: [f64; 3], margin: f64| {
             let to = [0, 1, 2].map(|axis| {
-                let reach = (0.5 / CELLS as f64).min(from[axis]).min(1.0 - from[axis]);
+                let to_face = from[axis].min(1.0 - from[axis]);
+                let reach = (0.5 / CELLS as f64).min(to_face + margin);
                 from[axis] + if i >> axis & 1 == 0 { reach } else { -reach }
             });
             let (exact, inside) = at(to);
             let found = values.continued(from, to);
             if inside == values.inside { difference(&exact, &found) } else { f64::INFINITY }
         };
-        let mut error = (0..PROBES).map(probe).fold(values.error_of_every_second(), f64::max);
+        let within = |i: usize| probe(i, random(i), 0.0);
+        let mut error = (0..PROBES).map(within).fold(values.error_of_every_second(), f64::max);
+        // Over each face, as far as the reach of a place allows that lies so deep below it.
+        let over_a_face = |i: usize| {
+            let (mut from, depth) = (random(i), 0.5 / CELLS as f64 - MARGIN);
+            from[i / 8] = if i >> (i / 8) & 1 == 0 { 1.0 - depth } else { depth };
+            probe(i, from, MARGIN)
+        };
+        let mut over_the_faces = (0..PROBES).map(over_a_face).fold(0.0, f64::max);
         if error <= allowed {
             // Between the points where it is given, the field has no peaks.
-            let (low, high) = (to_point([0.0; 3]), to_point([1.0; 3]));
-            field.points_in_box(low, high, |point, exact| {
-                let share = [0, 1, 2].map(|axis| (point[axis] - place.corner[axis]) / place.size);
-                if (0..3).all(|axis| flat[axis] || low[axis] <= point[axis] && point[axis] <= high[axis]) {
-                    error = error.max(difference(&brief(*exact), &values.between(share).0));
-                }
-            });
+            let errors = |margin: f64, mut most: f64| {
+                let (low, high) = (to_point([-margin; 3]), to_point([1.0 + margin; 3]));
+                field.points_in_box(low, high, |point, exact| {
+                    if (0..3).all(|axis| flat[axis] || low[axis] <= point[axis] && point[axis] <= high[axis])
+                    {
+                        let share = [0, 1, 2].map(|axis| (point[axis] - place.corner[axis]) / place.size);
+                        let found = values.continued(share.map(|share| share.clamp(0.0, 1.0)), share);
+                        most = most.max(difference(&brief(*exact), &found));
+                    }
+                });
+                most
+            };
+            error = errors(0.0, error);
+            over_the_faces = errors(MARGIN, over_the_faces);
         }
         if error <= allowed {
+            values.margin = if over_the_faces <= allowed { MARGIN } else { 0.0 };
             return Brick::Whole(Box::new(values));
         }
         if place.divisions == DEEPEST {
