@@ -102,9 +102,13 @@ fn analytic_friction_holds_what_it_can() {
 /// On a belt that is faster than the feed, what sticks is stretched towards the ratio of the speeds, and what slides hardly.
 #[test]
 fn what_slides_on_a_fast_belt_is_not_stretched() {
-    let strains = |contact| {
-        let case =
-            spunbond(&[("belt.speed", "60 m/s"), ("belt.contact", contact), ("run.time_step", "10 µs"), ALL]);
+    let strains = |contact, time_step| {
+        let case = spunbond(&[
+            ("belt.speed", "60 m/s"),
+            ("belt.contact", contact),
+            ("run.time_step", time_step),
+            ALL,
+        ]);
         let (l, line) = (case.fibre.rest_length(), case.line.unwrap());
         let mut flight = flight(&case, 0..8);
         flight.step_to(0.15).unwrap();
@@ -122,7 +126,7 @@ fn what_slides_on_a_fast_belt_is_not_stretched() {
             })
             .collect::<Vec<_>>()
     };
-    let (slides, sticks) = (strains("friction"), strains("stick"));
+    let (slides, sticks) = (strains("friction", "5 µs"), strains("stick", "20 µs"));
     // Found: up to 1e-4, and 8.3 to 10 % on the way to 20 %.
     assert!(slides.iter().all(|strain| strain.abs() < 1e-3), "{slides:?}");
     assert!(sticks.iter().all(|strain| (0.05..0.2).contains(strain)), "{sticks:?}");

@@ -356,7 +356,10 @@ impl Check<'_> {
             let element_length = fibre.rest_length();
             let advice = two_digits_down(0.9 * limit);
             let fault = match cause {
-                FEEDING => Fault::StepOverFeed { limit, element_length },
+                FEEDING => {
+                    let steps = self.case.line.map_or(1, |line| line.fewest_steps());
+                    Fault::StepOverFeed { steps, limit, element_length }
+                }
                 _ => Fault::StepTooLong { limit, cause, element_length, advice },
             };
             self.blame("run.time_step", run.time_step, fault);

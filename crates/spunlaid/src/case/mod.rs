@@ -18,6 +18,7 @@ use crate::drag::Drag;
 use crate::error::FlightFault;
 use crate::fibre::Fibre;
 use crate::line::Line;
+use crate::units::Dimension;
 use crate::vec3::Vec3;
 
 /// A fibre, the air it flies in and how the flight is computed.
@@ -250,14 +251,18 @@ impl Case {
 
     /// The likely reason why the positions of a fibre of this case become infinite or NaN.
     pub fn likely_cause_of_divergence(&self) -> String {
-        let h = self.run.time_step;
-        let tightest = self.step_limits().into_iter().min_by(|a, b| a.limit.total_cmp(&b.limit));
-        match tightest {
+        let (h, shown) = (self.run.time_step, |time: f64| Dimension::Time.pretty(time));
+        // A step may be as long as the feed of an element, which is no limit of stability.
+        let limits = self.step_limits().into_iter().filter(|limit| limit.cause != FEEDING);
+        match limits.min_by(|a, b| a.limit.total_cmp(&b.limit)) {
             Some(StepLimit { cause, limit }) if h > 0.5 * limit => format!(
-                "the time step {h:e} s is close to the stability limit {limit:e} s of the {cause}; lower run.time_step"
+                "the time step {} is close to the stability limit {} of the {cause}; lower run.time_step",
+                shown(h),
+                shown(limit)
             ),
             _ => format!(
-                "the drag is too stiff for the time step {h:e} s (a thin fibre in fast air); lower run.time_step"
+                "the drag is too stiff for the time step {} (a thin fibre in fast air); lower run.time_step",
+                shown(h)
             ),
         }
     }

@@ -47,8 +47,10 @@ pub enum Remark {
     },
     /// The case gives no time step.
     #[error(
-        "is used ({}); the flight is stable up to {}",
-        choice.reason(), Dimension::Time.pretty(*limit)
+        "is used ({}); {} {}",
+        choice.reason(),
+        if *choice == StepChoice::Feed { "the longest possible is" } else { "the flight is stable up to" },
+        Dimension::Time.pretty(*limit)
     )]
     StepChosen {
         /// What limited the choice.

@@ -242,11 +242,14 @@ pub enum Fault {
     },
     /// A time step in which a fed fibre moves too far.
     #[error(
-        "is longer than half the time in which an element of {} is fed; lower it to at most {}, or lengthen \
-         fibre.element_length",
-        Dimension::Length.pretty(*element_length), Dimension::Time.pretty(*limit)
+        "is too long: an element of {} is fed in {}; lower it to at most {}, or lengthen fibre.element_length",
+        Dimension::Length.pretty(*element_length),
+        if *steps == 1 { "one step at least".to_owned() } else { format!("{steps} steps at least") },
+        Dimension::Time.pretty(*limit)
     )]
     StepOverFeed {
+        /// The fewest steps in which an element is fed.
+        steps: u64,
         /// The limit [s].
         limit: f64,
         /// Rest length of an element [m].
