@@ -42,7 +42,6 @@ fn statistics(case: &Case, duration: f64) -> [Number; 4] {
 /// Four standard errors of the difference.
 fn assert_same(what: &str, a: [Number; 4], b: [Number; 4]) {
     for ((name, a), b) in NAMES.iter().zip(a).zip(b) {
-        println!("{what}, {name}: {:.4e} ± {:.1e}, usual {:.4e} ± {:.1e}", b.0, b.1, a.0, a.1);
         assert!((a.0 - b.0).abs() < 4.0 * a.1.hypot(b.1), "{what}, {name}: {a:?} and {b:?}");
         assert!(a.1 < 0.1 * a.0 && b.1 < 0.1 * b.0, "{what}, {name}: {a:?} and {b:?} say little");
     }
