@@ -403,6 +403,6 @@ fn frozen_memory_of_a_wind_that_blows_for_hours() {
         assert!(seen.iter().all(|earlier| *earlier != now), "the wind repeats");
         seen.push(now);
     }
-    // At most three quarters of a repeat time at any time.
+    // At most one repeat time at any time.
     assert_eq!(Wind::memory(&air, EDDIES, 10.0), Wind::memory(&air, EDDIES, 1e6));
 }

@@ -215,14 +215,25 @@ impl Stations {
         AlongTheWay { elements: &self.elements, steps: Wide::splat(since as f64) }
     }
 
+    /// Keeps the velocity at each station.
+    #[inline(always)]
+    fn hear<S: Register>(&mut self, signal: impl Fn(u32) -> Vec3<Wide<S>>) {
+        for (k, (now, [mean, factor])) in (0..).zip(self.now.iter_mut().zip(&self.still)) {
+            let Vec3 { x, y, z } = (signal(k) * Wide::load(factor)).store();
+            for (lane, now) in now.iter_mut().enumerate() {
+                *now = [x.0[lane], y.0[lane], z.0[lane], mean.0[lane]];
+            }
+        }
+    }
+
     /// Looks up the air at the elements at the time `t` [s].
     #[inline(always)]
     fn look<S: Register>(&mut self, t: f64, wind: &mut Wind, position: &[Vec3<Lanes>]) {
-        let signal = wind.blow::<S>(t);
-        for (k, (now, [mean, factor])) in (0..).zip(self.now.iter_mut().zip(&self.still)) {
-            let Vec3 { x, y, z } = (signal.velocity(k) * Wide::load(factor)).store();
-            for (lane, now) in now.iter_mut().enumerate() {
-                *now = [x.0[lane], y.0[lane], z.0[lane], mean.0[lane]];
+        match wind.among_samples::<S>(t) {
+            Some(signal) => self.hear(|k| signal.velocity(k)),
+            None => {
+                let signal = wind.blow::<S>(t);
+                self.hear(|k| signal.velocity(k));
             }
         }
         if let Some(field) = &mut self.field {

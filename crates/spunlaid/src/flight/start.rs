@@ -215,7 +215,7 @@ pub(super) fn surrounded(cases: &[(Case, u64)], isa: Isa, horizon: f64) -> Resul
         cases.iter().map(|(case, replicate)| Job { case, replicate: *replicate }.stream(&eddies)).collect();
     let wind = Wind::along(isa, streams, horizon)?;
     if let Some((_, stations)) = stations {
-        return Ok(Surrounded { eddies, wind: wind.coarse(), surroundings: None, stations: Some(stations) });
+        return Ok(Surrounded { eddies, wind, surroundings: None, stations: Some(stations) });
     }
     let wind = wind.for_steps_of(case.run.time_step);
     let surroundings = case.surroundings(airs())?;

@@ -6,7 +6,7 @@
 // The coefficients are written as fitted, although some are close to known constants.
 #![allow(clippy::approx_constant, clippy::excessive_precision)]
 
-use super::{Lanes, Register, Simd, WIDTH, Wide};
+use super::{Register, Simd, WIDTH, Wide};
 
 /// `Σ cᵢ xⁱ` by Horner's rule, which needs the fewest operations.
 #[inline(always)]
@@ -118,8 +118,8 @@ pub(crate) fn power<S: Simd>(x: Wide<S>, exponent: Wide<S>) -> Wide<S> {
 /// `θ/sin θ` for two unit vectors at the angle `θ`, from the square of their difference,
 /// `δ² = 4 sin²(θ/2)`, to 2e-13 relative.
 ///
-/// Up to 29° it uses a short polynomial, up to 60° a longer one, and beyond the arctangent lane by lane. The value
-/// of a lane does not depend on its neighbours.
+/// Up to 29° it uses a short polynomial, up to 60° a longer one, and beyond the longer one at a quarter of the angle. The
+/// value of a lane does not depend on its neighbours.
 #[inline(always)]
 pub(crate) fn bend_ratio<S: Register>(turn_squared: Wide<S>) -> Wide<S> {
     const NARROW: f64 = 0.25;
@@ -129,24 +129,21 @@ pub(crate) fn bend_ratio<S: Register>(turn_squared: Wide<S>) -> Wide<S> {
         let wider = polynomial(turn_squared, &BEND);
         ratio = Wide::select_less(Wide::splat(NARROW), turn_squared, wider, ratio);
         if turn_squared.any_above(WIDE) {
-            let arc = Wide::load(&arc_ratios(turn_squared.store(), WIDE));
-            ratio = Wide::select_less(Wide::splat(WIDE), turn_squared, arc, ratio);
+            let widest = bend_ratio_by_quarter(turn_squared);
+            ratio = Wide::select_less(Wide::splat(WIDE), turn_squared, widest, ratio);
         }
     }
     ratio
 }
 
-#[cold]
-#[inline(never)]
-fn arc_ratios(turn_squared: Lanes, above: f64) -> Lanes {
-    Lanes::from_fn(|i| if turn_squared.0[i] > above { arc_ratio(0.25 * turn_squared.0[i]) } else { 1.0 })
-}
-
-/// `θ/sin θ` from `x = sin²(θ/2)` by the arctangent.
-fn arc_ratio(x: f64) -> f64 {
-    // x may exceed 1 by rounding; the bound keeps the moment of a folded fibre finite.
-    let y = (1.0 - x).max(f64::EPSILON);
-    libm::atan2(libm::sqrt(x), libm::sqrt(y)) / libm::sqrt(x * y)
+/// `θ/sin θ = (θ/4)/sin(θ/4) / (cos(θ/2) cos(θ/4))`, for bends of more than some degrees.
+#[inline(always)]
+fn bend_ratio_by_quarter<S: Simd>(turn_squared: Wide<S>) -> Wide<S> {
+    let [quarter, half, one, two] = [0.25, 0.5, 1.0, 2.0].map(Wide::splat);
+    // δ² may exceed 4 by rounding; the bound keeps the moment of a folded fibre finite.
+    let cos_half = turn_squared.neg_mul_add(quarter, one).max(Wide::splat(f64::EPSILON)).sqrt();
+    let cos_quarter = cos_half.mul_add(half, half).sqrt();
+    polynomial(two.neg_mul_add(cos_quarter, two), &BEND).over(cos_half * cos_quarter)
 }
 
 /// `sin(2πt)/t` in `t²`, |t| ≤ ⅛, to 2e-17.

@@ -10,6 +10,9 @@
 //! ```
 //!
 //! Both are independent, so `cos² θ + sin² θ = 1` keeps the variance at every instant.   theory.md (50)
+//!
+//! A block of samples ends where a window begins. What fades out behind its end is kept for the block that follows, so that
+//! each window is made only once.
 
 use super::super::Air;
 use super::synthesis::{Stream, Synthesis};
@@ -30,8 +33,10 @@ pub(super) struct Windows {
     grid: Grid,
     /// `[sample][eddy][component]`
     block: Arc<Vec<Lanes>>,
-    /// Number of the block's first sample; sample `m` is at the time `m` spacings.
-    first: i64,
+    /// The samples of the block that are complete; sample `m` is at the time `m` spacings.
+    samples: Range<i64>,
+    /// The window that begins where these end. What the one before it adds to later samples follows them in the block.
+    next: Option<i64>,
     /// The last sample that is needed until the horizon.
     last: i64,
 }
@@ -53,9 +58,14 @@ impl Grid {
         Self { period, spacing: air.repeat_time() / period as f64, repeats }
     }
 
+    /// Samples in which one window fades out and the next one in.
+    fn fade(&self) -> usize {
+        self.period / 4
+    }
+
     /// Samples from the start of one window to that of the next.
     fn hop(&self) -> i64 {
-        if self.repeats { i64::MAX } else { 3 * (self.period / 4) as i64 }
+        if self.repeats { i64::MAX } else { (self.period - self.fade()) as i64 }
     }
 
     /// The block of samples that begins at `first`. It ends at the next start of a window after its eighth sample,
@@ -78,7 +88,7 @@ impl Grid {
     /// The sample of the window lies within its repeat time; a sample before time zero or, where the window
     /// repeats, later is that of the opposite sign half a full period away.
     fn share(&self, window: i64, sample: i64) -> Option<(usize, Share)> {
-        let (period, fade) = (self.period as i64, (self.period / 4) as i64);
+        let (period, fade) = (self.period as i64, self.fade() as i64);
         let local = sample - window.saturating_mul(self.hop());
         let laps = local.div_euclid(period);
         let place = local.rem_euclid(period) as usize;
@@ -117,7 +127,7 @@ impl Windows {
 
     fn on(isa: Isa, streams: Vec<Stream>, grid: Grid, horizon: f64) -> Self {
         let last = sample_count(horizon, grid.spacing) - BEFORE;
-        Self { isa, streams: Arc::new(streams), grid, block: Arc::default(), first: -BEFORE, last }
+        Self { isa, streams: Arc::new(streams), grid, block: Arc::default(), samples: 0..0, next: None, last }
     }
 
     pub(super) fn spacing(&self) -> f64 {
@@ -133,19 +143,14 @@ impl Windows {
     pub(super) fn samples(&mut self, interval: u64) -> &[Lanes] {
         let columns = 3 * self.streams[0].eddies.len();
         let first = interval as i64 - BEFORE;
-        let within = |first: i64, start: i64, len: usize| {
-            first >= start && (first - start) as usize + SPREAD <= len / columns
-        };
-        if !within(first, self.first, self.block.len()) {
+        if first < self.samples.start || first + SPREAD as i64 > self.samples.end {
             self.go_to(first);
         }
-        &self.block[(first - self.first) as usize * columns..][..SPREAD * columns]
+        &self.block[(first - self.samples.start) as usize * columns..][..SPREAD * columns]
     }
 
     #[inline(never)]
     fn go_to(&mut self, first: i64) {
-        // Free the old block first, so that the two are never in memory together.
-        self.block = Arc::default();
         let last = match self.last {
             last if first < last => last,
             _ if self.grid.repeats => first + self.grid.period as i64,
@@ -157,23 +162,45 @@ impl Windows {
     fn make(&mut self, samples: Range<i64>) {
         let grid = self.grid;
         let columns = 3 * self.streams[0].eddies.len();
-        let rows = (samples.end - samples.start) as usize;
-        let mut block = vec![Lanes::ZERO; rows * columns];
-        for window in grid.windows(&samples) {
+        let mut windows = grid.windows(&samples);
+        let mut block = match self.next {
+            Some(next) if self.samples.contains(&samples.start) => {
+                windows.start = next;
+                let passed = (samples.start - self.samples.start) as usize * columns;
+                match Arc::try_unwrap(std::mem::take(&mut self.block)) {
+                    Ok(mut block) => {
+                        block.drain(..passed);
+                        block
+                    }
+                    Err(shared) => shared[passed..].to_vec(),
+                }
+            }
+            // Free the old block first, so that the two are never in memory together.
+            _ => {
+                self.block = Arc::default();
+                Vec::new()
+            }
+        };
+        self.next = (windows.end.saturating_mul(grid.hop()) == samples.end).then_some(windows.end);
+        let end = if self.next.is_some() { samples.end + grid.fade() as i64 } else { samples.end };
+        let rows = (end - samples.start) as usize;
+        block.reserve_exact((rows * columns).saturating_sub(block.len()));
+        block.resize(rows * columns, Lanes::ZERO);
+        for window in windows {
             let heard = |row: usize| grid.share(window, samples.start + row as i64);
             let Some(first) = (0..rows).find(|&row| heard(row).is_some()) else { continue };
             let shares: Vec<(usize, Share)> = (first..rows).map_while(heard).collect();
             let into = &mut block[first * columns..];
             self.isa.run(Synthesis { streams: &self.streams, window: window as u64, grid, shares, into });
         }
-        (self.block, self.first) = (Arc::new(block), samples.start);
+        (self.block, self.samples) = (Arc::new(block), samples);
     }
 
     /// Memory of the samples [bytes].
     pub(super) fn memory(air: &Air, eddies: usize, horizon: f64) -> f64 {
         let grid = Grid::of(air, false);
-        let most = grid.hop() as f64 + SPREAD as f64;
-        let samples = ((horizon / grid.spacing).ceil() + SPREAD as f64 + 1.0).min(most);
+        let wanted = (horizon / grid.spacing).ceil() + SPREAD as f64 + 1.0;
+        let samples = if wanted > grid.hop() as f64 { (grid.period + SPREAD) as f64 } else { wanted };
         samples * eddies as f64 * 3.0 * size_of::<Lanes>() as f64
     }
 }
