@@ -25,7 +25,7 @@ const NAME: &str = "Case";
 #[derive(Debug)]
 pub(crate) struct Case {
     pub(crate) case: Arc<case::Case>,
-    pub(crate) notes: Vec<String>,
+    pub(crate) notes: Vec<Note>,
     /// The text of the case file, what messages call it, and what is changed in it.
     text: Arc<str>,
     file: String,
@@ -41,7 +41,6 @@ impl Case {
     ) -> PyResult<Self> {
         let (case, notes) =
             guarded(py, || Ok(parse_case(&text, &file, Overrides { values: &changes, word: WORD })?))?;
-        let notes = notes.iter().map(Note::to_string).collect();
         Ok(Self { case: Arc::new(case), notes, text, file, changes })
     }
 
@@ -142,7 +141,7 @@ impl Case {
     /// Notes and warnings about the case.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        self.notes.clone()
+        self.notes.iter().map(Note::to_string).collect()
     }
 
     /// The name of the case file.

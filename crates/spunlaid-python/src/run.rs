@@ -7,6 +7,7 @@ use crate::watched::{Watch, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use spunlaid::case::Note;
 use spunlaid::ensemble::{
     Computing, Keep, KeepShapes, Results, StepCheck, StepCheckPlan, TakeLaid, Trajectory, fly_and_check_step,
 };
@@ -93,7 +94,7 @@ pub(crate) fn fly(
         Ok((collector.finish(), check, collected))
     })?;
     let performance = folder::performance(&of, &results, plan, computing, started.elapsed().as_secs_f64());
-    let mut notes = case.notes.clone();
+    let mut notes = Note::of_results(&case.notes);
     notes.extend(folder::outside(&results));
     notes.extend(folder::coarse_shapes(&of, &results));
     let mut laid = belt.0.into_inner().unwrap_or_else(PoisonError::into_inner);

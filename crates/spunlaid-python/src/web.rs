@@ -5,6 +5,7 @@ use crate::watched::{Watch, guarded, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use spunlaid::case::Note;
 use spunlaid::input::{Overrides, WebFile, parse_web, read_web};
 use spunlaid::lanes::Isa;
 use spunlaid::web::{Findings, Laying, Web, find, pieces};
@@ -67,7 +68,7 @@ pub(crate) fn lay_web(
         let wall_s = started.elapsed().as_secs_f64();
         Ok((web, findings, Performance { wall_s, threads, instruction_set: by.isa.name() }))
     })?;
-    let notes = file.notes.iter().map(ToString::to_string).chain(notes(&findings)).collect();
+    let notes = [Note::of_results(&file.notes), notes(&findings)].concat();
     Ok(LaidWeb { name, file, web, findings, notes, performance })
 }
 

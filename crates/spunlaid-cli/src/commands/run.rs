@@ -21,7 +21,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         None => {
             let (case, notes) = run.source.read(&overrides(run))?;
             notes.iter().for_each(say::note);
-            (case, notes.iter().map(Note::to_string).collect())
+            (case, Note::of_results(&notes))
         }
     };
     let name = name(run);

@@ -5,6 +5,7 @@ use super::{plural, stem, threads};
 use crate::args;
 use crate::failure::Failure;
 use crate::{progress, say};
+use spunlaid::case::Note;
 use spunlaid::input::{Overrides, read_web};
 use spunlaid::lanes::Isa;
 use spunlaid::web::{Findings, Laying, find, pieces};
@@ -44,8 +45,7 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
         instruction_set: by.isa.name(),
     };
     let found = folders::web::notes(&findings);
-    let notes: Vec<String> =
-        file.notes.iter().map(ToString::to_string).chain(found.iter().cloned()).collect();
+    let notes = [Note::of_results(&file.notes), found.clone()].concat();
     let written =
         WebFolder { name: &name, file: &file, web: &web, findings: &findings, notes: &notes, performance };
     if let Some(staging) = staging {

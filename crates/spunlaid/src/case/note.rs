@@ -226,6 +226,15 @@ pub enum Remark {
     },
 }
 
+impl Note {
+    /// The notes that go with results. A step that was chosen is not among them: it is no flaw, and the case with every
+    /// default written out says it.
+    pub fn of_results(notes: &[Self]) -> Vec<String> {
+        let kept = notes.iter().filter(|note| !matches!(note.what, Remark::StepChosen { .. }));
+        kept.map(Self::to_string).collect()
+    }
+}
+
 impl Remark {
     /// Whether this is a warning: the results may mislead. Otherwise it is a note, for example on rounding.
     pub const fn is_warning(&self) -> bool {
