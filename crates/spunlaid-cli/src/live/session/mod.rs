@@ -1,0 +1,245 @@
+//! The thread in which the fibres fly: hears what pages ask, flies, shows frames. It never waits for a page.
+
+mod obey;
+mod show;
+
+use super::clock::Clock;
+use super::document::{Document, complaints};
+use super::fibres::Fibres;
+use super::frame::{Frame, Lately};
+use super::measured::Measured;
+use super::message::{Answer, Asked, Complaint, Pace};
+use spunlaid::error::Error;
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use tokio::sync::{mpsc, watch};
+
+/// Time between two tellings of the statistics.
+const TELLING: Duration = Duration::from_millis(250);
+
+/// A step that takes longer than this ends before its time.
+const LONGEST_STEP: Duration = Duration::from_millis(200);
+/// Steps of the flight between two looks at the clock, within such a step.
+const PIECE: u64 = 16;
+
+/// Messages that are heard between two ticks.
+const MOST_HEARD: usize = 256;
+
+/// Number of a page.
+pub(super) type Page = u64;
+
+/// A message of a page.
+#[derive(Debug)]
+pub(super) struct Ask {
+    pub(super) from: Page,
+    pub(super) asked: Asked,
+    /// Where answers go. One that a page does not fetch is lost.
+    pub(super) answers: mpsc::Sender<String>,
+}
+
+/// What all pages see; each sees the latest only.
+#[derive(Clone, Debug)]
+pub(super) struct Shown {
+    pub(super) frame: watch::Receiver<Arc<Frame>>,
+    /// The settings, the state and the statistics, as JSON.
+    pub(super) texts: [watch::Receiver<Arc<String>>; 3],
+}
+
+/// A flight that pages look at.
+pub(super) struct Session {
+    document: Document,
+    /// Warnings about the case.
+    notes: Vec<String>,
+    /// What is to be said of the scheme, as long as it is not the one of the file.
+    remark: Option<String>,
+    fibres: Fibres,
+    measured: Measured,
+    lately: Lately,
+    clock: Clock,
+    stands: bool,
+    generation: u32,
+    /// What is added to the time of the flight, so that the time of the pages goes on when the fibres start anew [s].
+    since: f64,
+    trouble: Option<String>,
+    /// The pages that can be seen.
+    pages: BTreeSet<Page>,
+    folder: PathBuf,
+    frames: watch::Sender<Arc<Frame>>,
+    texts: [watch::Sender<Arc<String>>; 3],
+    told: Instant,
+}
+
+impl Session {
+    /// * `remark` – what is to be said of the scheme
+    /// * `folder` – where cases are saved
+    ///
+    /// # Errors
+    /// The case cannot be read or flown.
+    pub(super) fn new(
+        document: Document,
+        remark: Option<String>,
+        folder: PathBuf,
+    ) -> Result<(Self, Shown), Vec<Complaint>> {
+        let read = document.read()?;
+        let fibres = Fibres::new(read.case).map_err(|error| complaints(&error))?;
+        let lately = Lately::new();
+        let (frames, frame) = watch::channel(Arc::new(Frame::of(fibres.seen(), &lately)));
+        let channels: [_; 3] = std::array::from_fn(|_| watch::channel(Arc::new(String::new())));
+        let shown = Shown { frame, texts: channels.each_ref().map(|(_, shown)| shown.clone()) };
+        let now = Instant::now();
+        let mut clock = Clock::new(now);
+        if fibres.case().line.is_some() {
+            // It comes down in some hundredths of a second, too fast for an eye.
+            clock.pace = Pace::Tenth;
+        }
+        let mut session = Self {
+            measured: Measured::new(fibres.case(), 0.0),
+            document,
+            notes: read.warnings,
+            remark,
+            fibres,
+            lately,
+            clock,
+            stands: false,
+            generation: 0,
+            since: 0.0,
+            trouble: None,
+            pages: BTreeSet::new(),
+            folder,
+            frames,
+            texts: channels.map(|(texts, _)| texts),
+            told: now,
+        };
+        session.show_all();
+        Ok((session, shown))
+    }
+
+    /// Flies until there is nobody any more who could ask.
+    pub(super) fn fly(mut self, mut asks: mpsc::Receiver<Ask>) {
+        loop {
+            if self.is_idle() {
+                let Some(ask) = asks.blocking_recv() else { return };
+                self.hear(ask, &mut asks);
+                self.clock.begin(Instant::now());
+                self.show_frame();
+                continue;
+            }
+            match asks.try_recv() {
+                Ok(ask) => self.hear(ask, &mut asks),
+                Err(mpsc::error::TryRecvError::Empty) => {}
+                Err(mpsc::error::TryRecvError::Disconnected) => return,
+            }
+            if !self.is_idle() {
+                self.tick();
+                std::thread::sleep(self.clock.rest());
+            }
+        }
+    }
+
+    /// Whether the time stands, or nobody looks.
+    fn is_idle(&self) -> bool {
+        self.stands || self.pages.is_empty()
+    }
+
+    /// Hears a message, and all that have come after it.
+    fn hear(&mut self, first: Ask, asks: &mut mpsc::Receiver<Ask>) {
+        let mut heard = vec![first];
+        while heard.len() < MOST_HEARD
+            && let Ok(ask) = asks.try_recv()
+        {
+            heard.push(ask);
+        }
+        let mut changed = false;
+        for i in 0..heard.len() {
+            let Ask { from, asked, answers } = &heard[i];
+            // Of several values of one key that came at once, only the last counts; each gets its answer.
+            let replaced = matches!(asked, Asked::Set { key, .. }
+                if heard[i + 1..].iter().any(|later| matches!(&later.asked, Asked::Set { key: other, .. } if other == key)));
+            let answer = match asked {
+                Asked::Set { stamp, .. } if replaced => {
+                    Some(Answer::Applied { stamp: *stamp, generation: self.generation + 1 })
+                }
+                Asked::Look { visible } => {
+                    if *visible {
+                        self.pages.insert(*from)
+                    } else {
+                        self.pages.remove(from)
+                    };
+                    None
+                }
+                asked => {
+                    changed = true;
+                    self.obey(asked).unwrap_or_else(Some)
+                }
+            };
+            if let Some(answer) = answer {
+                // A page that does not listen misses its answers.
+                let _ = answers.try_send(answer.json());
+            }
+        }
+        if changed {
+            self.show_all();
+        }
+    }
+
+    /// Time on the clock of the pages [s].
+    fn now(&self) -> f64 {
+        self.since + self.fibres.seen().time
+    }
+
+    /// Flies as many steps as the clock asks for.
+    fn tick(&mut self) {
+        let step = self.fibres.flight().time_step();
+        let Self { fibres, measured, lately, clock, since, .. } = self;
+        if let Err(error) = clock.tick(step, |steps| seen(fibres, steps, *since, lately, measured)) {
+            self.lost(error.to_string());
+        }
+        self.show_frame();
+        if self.told.elapsed() >= TELLING {
+            self.tell();
+        }
+    }
+
+    /// Flies on by a recorded instant, as far as it goes without letting anybody wait.
+    fn step(&mut self) {
+        let Self { fibres, measured, lately, since, .. } = self;
+        let (begun, mut left) = (Instant::now(), fibres.case().run.output_steps);
+        while left > 0 && begun.elapsed() < LONGEST_STEP {
+            let steps = left.min(PIECE);
+            left -= steps;
+            if let Err(error) = seen(fibres, steps, *since, lately, measured) {
+                return self.lost(error.to_string());
+            }
+        }
+    }
+
+    /// The fibres are lost: they start anew, and stand.
+    fn lost(&mut self, why: String) {
+        self.since = self.now();
+        if !self.since.is_finite() {
+            self.since = 0.0;
+        }
+        // A case that has been flown can be started again.
+        let _ = self.fibres.reset();
+        self.began_anew();
+        self.stands = true;
+        self.trouble = Some(why);
+        self.show_all();
+    }
+}
+
+/// Flies a number of steps; the recorded instants are kept for frames and statistics.
+fn seen(
+    fibres: &mut Fibres,
+    steps: u64,
+    since: f64,
+    lately: &mut Lately,
+    measured: &mut Measured,
+) -> Result<(), Error> {
+    fibres.fly(steps, |instant| {
+        lately.add(since + instant.snapshot.time, instant.snapshot, &instant.laid[0]);
+        measured.see(instant);
+    })
+}

@@ -1,0 +1,116 @@
+//! What pages ask is done, or refused with the reason.
+
+use super::Session;
+use crate::live::document::{Document, complaints};
+use crate::live::measured::Measured;
+use crate::live::message::{Answer, Asked, Given};
+use crate::live::save;
+use spunlaid::case::keys::{self, Key, Kind};
+use spunlaid::units::Dimension;
+use std::time::Instant;
+
+impl Session {
+    /// Does what was asked.
+    ///
+    /// # Errors
+    /// The answer that refuses it.
+    pub(super) fn obey(&mut self, asked: &Asked) -> Result<Option<Answer>, Answer> {
+        match asked {
+            Asked::Set { key, value, stamp } => {
+                let document = self.with(key, value)?;
+                self.become_of(document)?;
+                return Ok(Some(Answer::Applied { stamp: *stamp, generation: self.generation }));
+            }
+            Asked::Case { text } => self.become_of(self.document.with_text(text.clone()))?,
+            Asked::Pace { pace } => {
+                self.clock.pace = *pace;
+                self.clock.begin(Instant::now());
+            }
+            Asked::Pause {} => self.stands = true,
+            Asked::Go {} => {
+                self.stands = false;
+                self.clock.begin(Instant::now());
+            }
+            Asked::Step {} => {
+                self.stands = true;
+                self.step();
+            }
+            Asked::Reset {} => {
+                self.fibres.reset().map_err(|error| Answer::Refused { problems: complaints(&error) })?;
+                self.since = 0.0;
+                self.began_anew();
+            }
+            Asked::Forget {} => self.changed(),
+            Asked::Look { .. } => {}
+            Asked::Save { name, replace } => {
+                let name = save::plain_name(name).map_err(Answer::refused)?;
+                let text = self.document.to_save();
+                save::save(&self.folder, &name, &text, *replace)?;
+                self.document = self.document.saved(&name, text);
+                return Ok(Some(Answer::Saved { name }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The document with another value of a key.
+    fn with(&self, name: &str, value: &Given) -> Result<Document, Answer> {
+        let key = keys::named(name).map_err(|problem| Answer::refused(problem.to_string()))?;
+        let refused = |problems| Answer::Refused { problems };
+        let written = toml_of(key, value).map_err(Answer::refused)?;
+        let mut document = self.document.with(key, Some(written)).map_err(refused)?;
+        // The diameter may have been written as a linear density.
+        if let Some(other) = keys::find("fibre.linear_density").filter(|_| key.name == "fibre.diameter") {
+            document = document.with(other, None).map_err(refused)?;
+        }
+        Ok(document)
+    }
+
+    fn become_of(&mut self, document: Document) -> Result<(), Answer> {
+        let refused = |problems| Answer::Refused { problems };
+        let read = document.read().map_err(refused)?;
+        let since = self.now();
+        let anew = self.fibres.become_of(read.case).map_err(|error| refused(complaints(&error)))?;
+        (self.document, self.notes, self.trouble) = (document, read.warnings, None);
+        if anew {
+            self.since = since;
+            self.began_anew();
+        } else {
+            self.changed();
+        }
+        Ok(())
+    }
+
+    pub(super) fn began_anew(&mut self) {
+        self.lately.clear_belt();
+        self.trouble = None;
+        self.changed();
+    }
+
+    /// Begins the statistics of the next generation.
+    pub(super) fn changed(&mut self) {
+        self.generation = self.generation.wrapping_add(1);
+        self.measured = Measured::new(self.fibres.case(), self.fibres.flight().time());
+        self.clock.begin(Instant::now());
+    }
+}
+
+/// A value as a case file has it: a number gets the unit of its key.
+fn toml_of(key: &Key, value: &Given) -> Result<toml_edit::Value, String> {
+    match (value, &key.kind) {
+        (Given::Number(number), _) if !number.is_finite() => Err("the number is not finite".to_owned()),
+        (Given::Number(number), Kind::Quantity(Dimension::Ratio, _)) => Ok((*number).into()),
+        (Given::Number(number), Kind::Quantity(dimension, _)) => Ok(dimension.pretty_to(*number, 6).into()),
+        (Given::Number(number), Kind::Whole(..)) if number.fract() == 0.0 && (0.0..9e15).contains(number) => {
+            Ok((*number as i64).into())
+        }
+        (Given::Text(text), Kind::Quantity(Dimension::Ratio, _)) => {
+            Ok(text.trim().parse::<f64>().map_or_else(|_| text.trim().into(), Into::into))
+        }
+        (Given::Text(text), Kind::Whole(..)) => {
+            Ok(text.trim().parse::<i64>().map_or_else(|_| text.trim().into(), Into::into))
+        }
+        (Given::Text(text), _) => Ok(text.trim().into()),
+        _ => Err(format!("{} takes {}", key.name, key.allowed())),
+    }
+}
