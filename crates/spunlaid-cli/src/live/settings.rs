@@ -79,21 +79,8 @@ pub(super) fn present(case: &Case) -> Vec<Present> {
 fn shown(case: &Case) -> impl Iterator<Item = (&'static Key, Value)> {
     keys::all()
         .iter()
-        .filter(|key| !OF_RUNS.contains(&key.name) && !told(key, case))
+        .filter(|key| !OF_RUNS.contains(&key.name) && !key.is_told(case))
         .filter_map(move |key| Some((key, key.get(case)?)))
-}
-
-/// Whether the flow gives the value.
-fn told(key: &Key, case: &Case) -> bool {
-    let from_flow = &case.air.from_flow;
-    match key.name {
-        "air.velocity" => !case.air.is_uniform(),
-        "air.turbulence_intensity" => from_flow.turbulence_intensity,
-        "air.length_scale" => from_flow.length_scale,
-        "air.cutoff_frequency" => from_flow.cutoff_frequency,
-        "fibre.length" => case.line.is_some(),
-        _ => false,
-    }
 }
 
 fn setting(key: &'static Key, value: &Value) -> Option<Setting> {

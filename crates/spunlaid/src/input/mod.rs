@@ -3,11 +3,12 @@
 //! A quantity is written with its unit, `diameter = "50 µm"`. All problems of a file are reported at once, each
 //! with line, key, value, what is allowed and how to correct it.
 
+mod count;
 mod data;
 mod document;
 mod entry;
 mod file;
-mod resolve;
+mod open;
 mod source;
 mod study;
 mod values;
@@ -104,7 +105,7 @@ fn parse_with(
     name: &str,
     overrides: Overrides<'_>,
 ) -> Result<(Case, Vec<Note>), Error> {
-    resolve::open(document::Document::read(text, name, &[overrides])?, files)?.resolve()
+    open::open(document::Document::read(text, name, &[overrides])?, files)?.resolve()
 }
 
 /// A commented case file to start from: Table 1 of the paper, with every optional key and its default.

@@ -166,7 +166,7 @@ impl Key {
     }
 
     /// Whether a flow or a file gives the value, so that a case file leaves it out.
-    pub(crate) fn is_told(&self, case: &Case) -> bool {
+    pub fn is_told(&self, case: &Case) -> bool {
         (self.told)(case)
     }
 

@@ -1,6 +1,6 @@
 //! Links: keys that follow from other keys by a formula.
 
-use super::super::resolve::Open;
+use super::super::open::Open;
 use super::{advice, dimension, numeric};
 use crate::case::keys::{self, Key};
 use crate::error::StudyFault;

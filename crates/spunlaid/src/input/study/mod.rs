@@ -16,7 +16,7 @@ pub use webs::{WebPoint, WebStudy, WebStudyFile, parse_web_study, read_web_study
 use super::data::DataFiles;
 use super::document::Document;
 use super::web::WebKey;
-use super::{Overrides, file, resolve};
+use super::{Overrides, file, open};
 use crate::case::Remark;
 use crate::case::keys::{self, Key, Kind, Value};
 use crate::error::{Error, FileKind, Finding, Place};
@@ -131,7 +131,7 @@ pub fn parse_changed_study(
     let word = format!("{name}: [set]");
     let of_file: Vec<_> = set.iter().filter(|(key, _)| !changes.sets(key)).cloned().collect();
     let overrides = [Overrides { values: &of_file, word: &word }, changes.set];
-    let base = resolve::open(Document::read(&case_text, &case_name, &overrides)?, &files)?;
+    let base = open::open(Document::read(&case_text, &case_name, &overrides)?, &files)?;
     let plan = reader.plan(&base, &set, changes);
     let Some(plan) = plan else {
         return Err(reader.rejected());

@@ -2,7 +2,7 @@
 
 use super::super::document::AUTO;
 use super::super::entry::{Entry, in_order};
-use super::super::resolve::Open;
+use super::super::open::Open;
 use super::super::values::integer;
 use super::super::write::quoted;
 use super::super::{FORMAT_VERSION, Overrides};

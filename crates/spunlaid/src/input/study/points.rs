@@ -1,7 +1,7 @@
 //! Makes a checked case of every point of a study.
 
 use super::super::data::DataFiles;
-use super::super::resolve::{self, Open};
+use super::super::open::{self, Open};
 use super::super::written::{Said, Written};
 use super::plan::{Plan, of_base};
 use super::{dimension, links, numeric, varied};
@@ -127,7 +127,7 @@ impl Resolver<'_> {
     /// Sets the written values. A word that varies may leave keys of the base case without a meaning, as
     /// another drag law does with the coefficient of the first; these are left out, each with a remark.
     fn open(&self, written: Written, set: &[(&'static Key, f64)]) -> (Result<Open, Error>, Vec<Note>) {
-        let opened = resolve::open(written.clone(), self.files);
+        let opened = open::open(written.clone(), self.files);
         let is_unneeded = |problem: &&Problem| {
             matches!(problem.what, Fault::Needs { .. }) && set.iter().all(|(key, _)| key.name != problem.key)
         };
@@ -150,7 +150,7 @@ impl Resolver<'_> {
         }
         let mut fewer = written;
         unneeded.iter().for_each(|note| drop(fewer.remove(&note.key)));
-        (resolve::open(fewer, self.files), unneeded)
+        (open::open(fewer, self.files), unneeded)
     }
 }
 

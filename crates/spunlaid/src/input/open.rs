@@ -1,21 +1,18 @@
-//! Makes a case from the written values: defaults, whole elements, whole steps.
+//! Makes a case from the written values, the files that they name and the defaults of the other keys.
 
 use super::data::DataFiles;
 use super::written::{Said, Written, sorted};
 use crate::air::{Air, EddyModel, Flow, PlacedField, RecordLayout, SpectrumShape};
 use crate::case::keys::{self, Content, FileKind, Key, Kind, LeftOut, Value};
-use crate::case::{Case, MOST_STEPS, Note, Remark, Run, whole_parts};
+use crate::case::{Case, Note, Remark, Run};
 use crate::chain::schemes::Scheme;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
-use crate::error::{Error, Fault, FileError, Finding};
+use crate::error::{Error, Fault, FileError};
 use crate::fibre::{Fibre, Root};
 use crate::field::FieldWarning;
 use crate::line::Line;
 use crate::vec3::Vec3;
 use std::path::PathBuf;
-
-/// How many times longer a suitable step must be than the written one to be mentioned.
-const MUCH_LONGER: f64 = 50.0;
 
 /// A case in which every independent key is set. Keys that are counted in whole elements, steps and harmonics are
 /// still open.
@@ -24,7 +21,7 @@ pub(super) struct Open {
     pub(super) written: Written,
     /// The case. Numbers that the flow gives are NaN.
     pub(super) case: Case,
-    notes: Vec<Note>,
+    pub(super) notes: Vec<Note>,
 }
 
 /// Sets the written values and the defaults of the other keys.
@@ -70,7 +67,7 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                 }
                 LeftOut::Required(_) if key.is_told(&case) => {}
                 LeftOut::Required(_)
-                    if !(is_told(&mut case.air, key.name)
+                    if !(take_told(&mut case.air, key.name)
                         || written.is_excused(key.name)
                         || key.name == "fibre.diameter" && written.get("fibre.linear_density").is_some()) =>
                 {
@@ -257,9 +254,9 @@ fn load(
     Ok((content, Vec::new()))
 }
 
-/// Whether the flow or a file gives a number of the air that the case leaves out. A number from a file is set here;
-/// a number from the flow is set later, when the air is settled.
-fn is_told(air: &mut Air, key: &str) -> bool {
+/// Takes a number of the air that the case leaves out from the flow or a file, and says whether one of them gives it. A
+/// number from a file is set here; a number from the flow is set later, when the air is settled.
+fn take_told(air: &mut Air, key: &str) -> bool {
     let (tells, uniform) = (air.flow.tells(), air.is_uniform());
     let record = air.records.first().map(|record| record.says);
     let highest = match &air.spectrum {
@@ -312,168 +309,4 @@ impl Open {
         };
         number.filter(|number| !number.is_nan())
     }
-
-    fn number_of(&self, key: &str) -> Option<f64> {
-        self.number(keys::find(key)?)
-    }
-
-    /// The checked case, with notes and warnings.
-    ///
-    /// # Errors
-    /// Every reason why the case cannot be run.
-    pub(super) fn resolve(mut self) -> Result<(Case, Vec<Note>), Error> {
-        self.count()?;
-        match self.case.check() {
-            Ok(more) => {
-                self.notes.extend(more.into_iter().map(|note| self.written.placed(note)));
-                Ok((self.case, sorted(self.notes)))
-            }
-            Err(problems) => {
-                let placed = problems.into_iter().map(|problem| self.written.placed(problem)).collect();
-                Err(sorted(placed).into())
-            }
-        }
-    }
-
-    /// Sets whole numbers of elements, steps and harmonics.
-    fn count(&mut self) -> Result<(), Error> {
-        let of = |key| self.number_of(key).unwrap_or(f64::NAN);
-        let (duration, tolerance, spin_up) =
-            (of("run.duration"), of("run.error_tolerance"), of("run.spin_up"));
-        let interval = of("run.output_interval");
-        let Self { written, case, notes } = self;
-        let mut note =
-            |key, value, remark: Remark| notes.push(written.placed(keys::finding(key, value, remark)));
-        case.air.settle(case.fibre.direction * case.fibre.length);
-
-        let written_length = written.number("fibre.element_length");
-        if case.line.is_some() {
-            feed(case, written, written_length);
-        } else {
-            let (fibre, length_scale) = (&mut case.fibre, case.air.length_scale);
-            if let Some(element_length) = divide(fibre, written_length, length_scale) {
-                let (elements, rest_length) = (fibre.elements, fibre.rest_length());
-                let remark = Remark::ElementsRounded { elements, element_length: rest_length };
-                note("fibre.element_length", element_length, remark);
-            }
-        }
-
-        let (written_step, mut chosen) = (written.number("run.time_step"), None);
-        case.run.time_step = written_step.unwrap_or(duration);
-        let time_step = written_step.unwrap_or_else(|| {
-            let (time_step, choice) = case.suggested_time_step(tolerance, duration);
-            let limits = case.stable_step_limits();
-            let limit = limits.iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
-            chosen = Some((time_step, Remark::StepChosen { choice, limit }));
-            time_step
-        });
-        if let Some(step) = written_step {
-            let (suggested, _) = case.suggested_time_step(tolerance, duration);
-            if suggested >= MUCH_LONGER * step {
-                let scheme = case.run.scheme.name();
-                note("run.time_step", step, Remark::StepShort { suggested, times: suggested / step, scheme });
-            }
-        }
-        if written_step.is_some() && written.get("run.error_tolerance").is_some() {
-            note("run.error_tolerance", tolerance, Remark::ToleranceUnused);
-        }
-
-        let steps = (duration / time_step).ceil().max(1.0);
-        if steps > MOST_STEPS as f64 {
-            let fault = Fault::TooManySteps { steps, most: MOST_STEPS as f64, time_step };
-            return Err(vec![written.placed(keys::finding("run.duration", duration, fault))].into());
-        }
-        let (nearest, whole) = whole_parts(duration, time_step);
-        (case.run.steps, case.run.time_step) = (nearest, time_step);
-        if case.line.is_some() {
-            if let Some(remark) = feed_in_whole_steps(case, duration) {
-                note("run.time_step", time_step, remark);
-            }
-        } else if !whole || nearest == 0 {
-            let run = &mut case.run;
-            // Round up: a shorter step keeps every limit that the written step keeps.
-            run.steps = steps as u64;
-            run.time_step = duration / steps;
-            if written_step.is_some() {
-                let remark = Remark::StepShortened { steps: run.steps, time_step: run.time_step };
-                note("run.time_step", time_step, remark);
-            }
-        }
-
-        let run = &mut case.run;
-        let spin_up = match &case.line {
-            Some(line) if written.get("run.spin_up").is_none() => {
-                (4.0 * line.distance / line.feed_speed).min(0.5 * run.duration())
-            }
-            _ => spin_up,
-        };
-        let (spin_up_steps, whole) = whole_parts(spin_up, run.time_step);
-        run.spin_up_steps = spin_up_steps;
-        if !whole && written.get("run.spin_up").is_some() {
-            note("run.spin_up", spin_up, Remark::TimeRounded { time: run.spin_up() });
-        }
-        let (output_steps, whole) = whole_parts(interval, run.time_step);
-        run.output_steps = output_steps.max(1);
-        if written.get("run.output_interval").is_none() {
-            run.output_steps = run.output_steps.min(run.steps);
-        } else if !whole {
-            note("run.output_interval", interval, Remark::TimeRounded { time: run.output_interval() });
-        }
-
-        case.air.harmonics = match written.get("air.harmonics").map(|said| &said.value) {
-            Some(Some(Value::Whole(harmonics))) => usize::try_from(*harmonics).unwrap_or(usize::MAX),
-            _ => case.default_harmonics(),
-        };
-        if let Some((time_step, remark)) = chosen {
-            let place = written.whole();
-            notes.push(Finding { place, ..keys::finding("run.time_step", time_step, remark) });
-        }
-        Ok(())
-    }
-}
-
-/// Divides a fibre of fixed length into elements: of the written length, or else as long as an eddy. Returns the wanted
-/// length of an element [m] if the fibre is not a whole number of them.
-fn divide(fibre: &mut Fibre, written_length: Option<f64>, length_scale: f64) -> Option<f64> {
-    let element_length = written_length.unwrap_or(length_scale.min(fibre.length));
-    let (mut elements, whole) = whole_parts(fibre.length, element_length);
-    if written_length.is_none() && !whole && (elements as f64) < fibre.length / element_length {
-        // An element must not be longer than an eddy, so that no eddy is skipped.
-        elements += 1;
-    }
-    fibre.elements = usize::try_from(elements.max(1)).unwrap_or(usize::MAX);
-    (!whole).then_some(element_length)
-}
-
-/// Sets what follows from the distance to the belt: the elements, the length that still moves on the belt, and the decay
-/// time of the eddies.
-fn feed(case: &mut Case, written: &Written, written_length: Option<f64>) {
-    let Some(line) = &mut case.line else { return };
-    case.fibre.span(line.distance, written_length.unwrap_or(line.distance / 125.0));
-    if written.get("belt.kept_length").is_none() {
-        line.kept_length = 0.06 * line.distance;
-    }
-    // An eddy turns over in this time. Air at rest has none.
-    let turnover = case.air.length_scale / case.air.rms();
-    if let EddyModel::Convected { decay_time } = &mut case.air.eddies
-        && written.get("air.decay_time").is_none()
-        && case.air.records.is_empty()
-    {
-        *decay_time = turnover;
-    }
-}
-
-/// Shortens the time step of a fed fibre so that an element is fed in a whole number of steps, and sets the number of
-/// steps of the run. A step that is too long for the feed stays as it is, because it is refused later.
-fn feed_in_whole_steps(case: &mut Case, duration: f64) -> Option<Remark> {
-    let (length, step) = (case.fibre.rest_length(), case.run.time_step);
-    let line = case.line.as_mut()?;
-    let lifetime = length / line.feed_speed;
-    line.steps_per_element = line.steps_of(length, step);
-    let whole = lifetime / line.steps_per_element as f64;
-    let keeps = (whole / step - 1.0).abs() < 1e-9 || step > 0.5 * lifetime;
-    case.run.time_step = if keeps { step } else { whole };
-    case.run.steps = whole_parts(duration, case.run.time_step).0.max(1);
-    let (steps, time_step) = (line.steps_per_element, case.run.time_step);
-    (!keeps).then_some(Remark::StepShortenedToFeed { steps, time_step })
 }

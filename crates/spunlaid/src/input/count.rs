@@ -1,0 +1,195 @@
+//! Divides what an open case leaves to be counted: the fibre into elements, the time into steps and instants. The case is
+//! checked then.
+
+use super::open::Open;
+use super::written::{Written, sorted};
+use crate::air::EddyModel;
+use crate::case::keys::{self, Value};
+use crate::case::{Case, MOST_STEPS, Note, Remark, whole_parts};
+use crate::error::{Error, Fault, Finding};
+use crate::fibre::Fibre;
+
+/// How many times longer a suitable step must be than the written one to be mentioned.
+const MUCH_LONGER: f64 = 50.0;
+
+impl Open {
+    /// The checked case, with notes and warnings.
+    ///
+    /// # Errors
+    /// Every reason why the case cannot be run.
+    pub(super) fn resolve(mut self) -> Result<(Case, Vec<Note>), Error> {
+        let fibre = &self.case.fibre;
+        self.case.air.settle(fibre.direction * fibre.length);
+        self.count_elements();
+        let chosen = self.find_step();
+        self.count_steps()?;
+        self.count_instants();
+        self.case.air.harmonics = match self.written.get("air.harmonics").map(|said| &said.value) {
+            Some(Some(Value::Whole(harmonics))) => usize::try_from(*harmonics).unwrap_or(usize::MAX),
+            _ => self.case.default_harmonics(),
+        };
+        if let Some((time_step, remark)) = chosen {
+            let place = self.written.whole();
+            self.notes.push(Finding { place, ..keys::finding("run.time_step", time_step, remark) });
+        }
+        match self.case.check() {
+            Ok(more) => {
+                self.notes.extend(more.into_iter().map(|note| self.written.placed(note)));
+                Ok((self.case, sorted(self.notes)))
+            }
+            Err(problems) => {
+                let placed = problems.into_iter().map(|problem| self.written.placed(problem)).collect();
+                Err(sorted(placed).into())
+            }
+        }
+    }
+
+    fn note(&mut self, key: &str, value: f64, remark: Remark) {
+        self.notes.push(self.written.placed(keys::finding(key, value, remark)));
+    }
+
+    fn number_of(&self, key: &str) -> f64 {
+        keys::find(key).and_then(|key| self.number(key)).unwrap_or(f64::NAN)
+    }
+
+    fn is_written(&self, key: &str) -> bool {
+        self.written.get(key).is_some()
+    }
+
+    /// Divides the fibre into elements.
+    fn count_elements(&mut self) {
+        let Self { written, case, .. } = self;
+        let written_length = written.number("fibre.element_length");
+        if case.line.is_some() {
+            feed(case, written, written_length);
+            return;
+        }
+        let (fibre, length_scale) = (&mut case.fibre, case.air.length_scale);
+        if let Some(element_length) = divide(fibre, written_length, length_scale) {
+            let (elements, rest_length) = (fibre.elements, fibre.rest_length());
+            let remark = Remark::ElementsRounded { elements, element_length: rest_length };
+            self.note("fibre.element_length", element_length, remark);
+        }
+    }
+
+    /// Sets the time step as written, or chooses one and returns it [s] with the reason.
+    fn find_step(&mut self) -> Option<(f64, Remark)> {
+        let [duration, tolerance] = ["run.duration", "run.error_tolerance"].map(|key| self.number_of(key));
+        let written_step = self.written.number("run.time_step");
+        self.case.run.time_step = written_step.unwrap_or(duration);
+        let (suggested, choice) = self.case.suggested_time_step(tolerance, duration);
+        let Some(step) = written_step else {
+            let limits = self.case.stable_step_limits();
+            let limit = limits.iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
+            self.case.run.time_step = suggested;
+            return Some((suggested, Remark::StepChosen { choice, limit }));
+        };
+        if suggested >= MUCH_LONGER * step {
+            let (times, scheme) = (suggested / step, self.case.run.scheme.name());
+            self.note("run.time_step", step, Remark::StepShort { suggested, times, scheme });
+        }
+        if self.is_written("run.error_tolerance") {
+            self.note("run.error_tolerance", tolerance, Remark::ToleranceUnused);
+        }
+        None
+    }
+
+    /// Divides the duration into whole steps.
+    fn count_steps(&mut self) -> Result<(), Error> {
+        let (duration, time_step) = (self.number_of("run.duration"), self.case.run.time_step);
+        let steps = (duration / time_step).ceil().max(1.0);
+        if steps > MOST_STEPS as f64 {
+            let fault = Fault::TooManySteps { steps, most: MOST_STEPS as f64, time_step };
+            return Err(vec![self.written.placed(keys::finding("run.duration", duration, fault))].into());
+        }
+        let (nearest, whole) = whole_parts(duration, time_step);
+        self.case.run.steps = nearest;
+        if self.case.line.is_some() {
+            if let Some(remark) = feed_in_whole_steps(&mut self.case, duration) {
+                self.note("run.time_step", time_step, remark);
+            }
+        } else if !whole || nearest == 0 {
+            let run = &mut self.case.run;
+            // Round up: a shorter step keeps every limit that the written step keeps.
+            (run.steps, run.time_step) = (steps as u64, duration / steps);
+            let remark = Remark::StepShortened { steps: run.steps, time_step: run.time_step };
+            if self.is_written("run.time_step") {
+                self.note("run.time_step", time_step, remark);
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets the whole numbers of steps of the spin-up and between two recorded instants.
+    fn count_instants(&mut self) {
+        let [interval, spin_up] = ["run.output_interval", "run.spin_up"].map(|key| self.number_of(key));
+        let [interval_written, spin_up_written] =
+            ["run.output_interval", "run.spin_up"].map(|key| self.is_written(key));
+        let run = &mut self.case.run;
+        let spin_up = match &self.case.line {
+            Some(line) if !spin_up_written => {
+                (4.0 * line.distance / line.feed_speed).min(0.5 * run.duration())
+            }
+            _ => spin_up,
+        };
+        let (spin_up_steps, spin_up_whole) = whole_parts(spin_up, run.time_step);
+        let (output_steps, interval_whole) = whole_parts(interval, run.time_step);
+        (run.spin_up_steps, run.output_steps) = (spin_up_steps, output_steps.max(1));
+        if !interval_written {
+            run.output_steps = run.output_steps.min(run.steps);
+        }
+        let used = [run.spin_up(), run.output_interval()];
+        if !spin_up_whole && spin_up_written {
+            self.note("run.spin_up", spin_up, Remark::TimeRounded { time: used[0] });
+        }
+        if !interval_whole && interval_written {
+            self.note("run.output_interval", interval, Remark::TimeRounded { time: used[1] });
+        }
+    }
+}
+
+/// Divides a fibre of fixed length into elements: of the written length, or else as long as an eddy. Returns the wanted
+/// length of an element [m] if the fibre is not a whole number of them.
+fn divide(fibre: &mut Fibre, written_length: Option<f64>, length_scale: f64) -> Option<f64> {
+    let element_length = written_length.unwrap_or(length_scale.min(fibre.length));
+    let (mut elements, whole) = whole_parts(fibre.length, element_length);
+    if written_length.is_none() && !whole && (elements as f64) < fibre.length / element_length {
+        // An element must not be longer than an eddy, so that no eddy is skipped.
+        elements += 1;
+    }
+    fibre.elements = usize::try_from(elements.max(1)).unwrap_or(usize::MAX);
+    (!whole).then_some(element_length)
+}
+
+/// Sets what follows from the distance to the belt: the elements, the length that still moves on the belt, and the decay
+/// time of the eddies.
+fn feed(case: &mut Case, written: &Written, written_length: Option<f64>) {
+    let Some(line) = &mut case.line else { return };
+    case.fibre.span(line.distance, written_length.unwrap_or(line.distance / 125.0));
+    if written.get("belt.kept_length").is_none() {
+        line.kept_length = 0.06 * line.distance;
+    }
+    // An eddy turns over in this time. Air at rest has none.
+    let turnover = case.air.length_scale / case.air.rms();
+    if let EddyModel::Convected { decay_time } = &mut case.air.eddies
+        && written.get("air.decay_time").is_none()
+        && case.air.records.is_empty()
+    {
+        *decay_time = turnover;
+    }
+}
+
+/// Shortens the time step of a fed fibre so that an element is fed in a whole number of steps, and sets the number of
+/// steps of the run. A step that is too long for the feed stays as it is, because it is refused later.
+fn feed_in_whole_steps(case: &mut Case, duration: f64) -> Option<Remark> {
+    let (length, step) = (case.fibre.rest_length(), case.run.time_step);
+    let line = case.line.as_mut()?;
+    let lifetime = length / line.feed_speed;
+    line.steps_per_element = line.steps_of(length, step);
+    let whole = lifetime / line.steps_per_element as f64;
+    let keeps = (whole / step - 1.0).abs() < 1e-9 || step > 0.5 * lifetime;
+    case.run.time_step = if keeps { step } else { whole };
+    case.run.steps = whole_parts(duration, case.run.time_step).0.max(1);
+    let (steps, time_step) = (line.steps_per_element, case.run.time_step);
+    (!keeps).then_some(Remark::StepShortenedToFeed { steps, time_step })
+}
