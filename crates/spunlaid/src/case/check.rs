@@ -2,17 +2,13 @@
 
 use super::keys::{self, finding};
 use super::memory::FLIGHT_MEMORY_LIMIT;
-use super::note::{Note, Remark};
+use super::note::Note;
 use super::{Case, FEEDING, StepLimit};
-use crate::air::{Flow, FromFile, Measured, SpectrumShape};
+use crate::air::{FromFile, Measured};
 use crate::chain::schemes::Scheme;
-use crate::drag::NormalLaw;
 use crate::error::{Fault, Finding, Place, Problem};
 use crate::fibre::Root;
-use crate::field::Hint;
 use crate::line::Contact;
-use crate::units::Dimension;
-use crate::vec3::Vec3;
 
 /// Largest number of steps of a run.
 pub const MOST_STEPS: u64 = 1_000_000_000_000;
@@ -25,9 +21,6 @@ pub const MOST_REPLICATES: u64 = 10_000_000;
 pub const MOST_INSTANTS: f64 = 1e9;
 /// Size of a recorded instant in the tables of a run [bytes].
 pub const INSTANT_ON_DISK: f64 = 150.0;
-
-/// Share of the measured drag across a fibre below which a case is warned [-].
-const LOW_DRAG: f64 = 0.5;
 
 impl Case {
     /// Checks everything that must hold for the case to be run.
@@ -68,128 +61,6 @@ impl Case {
             StepLimit { cause, limit: limit / (half + half.hypot(1.0)) }
         };
         self.step_limits().into_iter().map(tightened).collect()
-    }
-
-    fn notes(&self) -> Vec<Note> {
-        let (fibre, l) = (&self.fibre, self.fibre.rest_length());
-        let mut notes = Vec::new();
-        let mut note = |key, value, remark| notes.push(finding(key, value, remark));
-        let across = self.drag.across;
-        let there_is_air = self.air.density > 0.0;
-        if let Some(fitted) = across.fitted_diameters()
-            && there_is_air
-            && !fitted.contains(&fibre.diameter)
-        {
-            let (law, from, to) = (across.name(), *fitted.start(), *fitted.end());
-            let instead = NormalLaw::MarheinekeWegener.name();
-            note("fibre.diameter", fibre.diameter, Remark::OutsideFit { law, from, to, instead });
-        }
-        if let Some(fitted) = across.fitted_reynolds()
-            && there_is_air
-            && !fitted.contains(&self.reynolds_across())
-        {
-            let (law, to) = (across.name(), *fitted.end());
-            let remark = Remark::ReynoldsOutsideFit { law, reynolds: self.reynolds_across(), to };
-            note("fibre.diameter", fibre.diameter, remark);
-        }
-        let reynolds = self.usual_reynolds_across();
-        // Outside of the diameters that it was fitted to, the case is warned of the law anyway.
-        let fitted = across.fitted_diameters().is_some_and(|fitted| fitted.contains(&fibre.diameter));
-        if across == NormalLaw::JuShambaugh && fitted && there_is_air && reynolds > 0.0 {
-            let measured = NormalLaw::MarheinekeWegener;
-            let drag = |law: NormalLaw| law.coefficient(reynolds, fibre.diameter);
-            let share = drag(across) / drag(measured);
-            if share < LOW_DRAG {
-                let (law, instead) = (across.name(), measured.name());
-                let remark = Remark::DragTooLow { law, reynolds, share, instead };
-                note("fibre.diameter", fibre.diameter, remark);
-            }
-        }
-        if fibre.diameter > l {
-            note("fibre.diameter", fibre.diameter, Remark::ElementsStubby { element_length: l });
-        }
-        // At the centres of the first and the last element.
-        let centres = [0.5 * l, fibre.length - 0.5 * l].map(|s| fibre.direction * s);
-        let knows = |at: Vec3<f64>| self.air.local(at, &mut Hint::default()).inside;
-        let root_outside = self.root_outside();
-        if root_outside.is_none() && !centres.into_iter().all(knows) {
-            let (key, length) = match self.line {
-                Some(line) => ("belt.distance", line.distance),
-                None => ("fibre.length", fibre.length),
-            };
-            note(key, length, Remark::LeavesFlow);
-        }
-        let felt = there_is_air && self.air.rms() > 0.0;
-        if felt && self.air.length_scale < l * (1.0 - 1e-9) {
-            note("air.length_scale", self.air.length_scale, Remark::EddiesSkipped { element_length: l });
-        }
-        let (air, told) = (&self.air, self.air.from_flow);
-        let times = air.length_scale / fibre.length;
-        if felt && air.records.is_empty() {
-            if !told.turbulence_intensity && air.turbulence_intensity > 1.0 {
-                let value = air.turbulence_intensity;
-                note("air.turbulence_intensity", value, Remark::IntensityAboveOne { value });
-            }
-            if !told.length_scale && times > 2.0 {
-                note("air.length_scale", air.length_scale, Remark::EddiesLong { times });
-            }
-            let passing = air.velocity.abs() / air.length_scale;
-            if !told.cutoff_frequency
-                && air.spectrum == SpectrumShape::VonKarman
-                && air.cutoff_frequency < passing
-            {
-                note("air.cutoff_frequency", air.cutoff_frequency, Remark::CutoffLow { passing });
-            }
-        }
-        notes.extend(root_outside);
-        notes.extend(self.field_notes());
-        notes
-    }
-
-    /// Whether the root is farther outside of a field's box than rounding.
-    fn root_outside(&self) -> Option<Note> {
-        let Flow::Field(placed) = &self.air.flow else {
-            return None;
-        };
-        let (low, high) = placed.field.bounds();
-        let (root, far) = (placed.root * (1.0 / placed.unit), 1e-9 * (high - low).norm());
-        let outside = |x: f64, low: f64, high: f64| low < high && !(low - far..=high + far).contains(&x);
-        if !(outside(root.x, low.x, high.x)
-            || outside(root.y, low.y, high.y)
-            || outside(root.z, low.z, high.z))
-        {
-            return None;
-        }
-        let shown = |v: Vec3<f64>| {
-            let of = |x: f64| Dimension::Length.pretty_to(x * placed.unit, 4);
-            format!("[{}, {}, {}]", of(v.x), of(v.y), of(v.z))
-        };
-        let what = Remark::RootOutside { low: shown(low), high: shown(high) };
-        let value = Some(shown(root));
-        Some(Note { place: Place::Code, key: "air.field_root".to_owned(), value, what })
-    }
-
-    /// A field that may be turned or scaled wrongly.
-    fn field_notes(&self) -> Vec<Note> {
-        let Flow::Field(placed) = &self.air.flow else {
-            return Vec::new();
-        };
-        let mut notes = Vec::new();
-        let mut note = |key: &str, value: String, what| {
-            notes.push(Note { place: Place::Code, key: key.to_owned(), value: Some(value), what });
-        };
-        let (along, speed) = self.air.along_and_speed(self.along());
-        if along < 0.25 * speed {
-            note("air.field_axis", format!("\"{}\"", placed.axis.name()), Remark::NotAlong { along, speed });
-        }
-        let (low, high) = placed.extent();
-        let size = high - low;
-        let (field, fibre) = (size.x.max(size.y).max(size.z), self.fibre.length);
-        if field > 30.0 * fibre || field < fibre / 30.0 {
-            let unit = Dimension::Length.pretty(placed.unit);
-            note("air.field_unit", unit, Remark::FieldSize { field, fibre });
-        }
-        notes
     }
 }
 

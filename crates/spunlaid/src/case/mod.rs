@@ -4,6 +4,7 @@ mod check;
 pub mod keys;
 mod memory;
 mod note;
+mod remarks;
 mod step;
 
 pub use check::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};

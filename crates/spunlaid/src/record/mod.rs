@@ -38,8 +38,10 @@
 mod analysis;
 mod columns;
 mod correlation;
+mod doubts;
 mod flat;
 mod interval;
+mod jackknife;
 mod moments;
 mod parquet;
 mod rows;
