@@ -1,17 +1,81 @@
 //! Links: keys that follow from other keys by a formula.
 
+use super::super::entry::Entry;
 use super::super::open::Open;
+use super::reader::Reader;
 use super::{advice, dimension, numeric};
 use crate::case::keys::{self, Key};
-use crate::error::StudyFault;
-use crate::study::Link;
+use crate::error::{Fault, Finding, StudyFault};
+use crate::study::{Factor, Link};
 use crate::units::{Expression, ExpressionFault, Powers};
 use std::collections::BTreeMap;
+use toml::de::DeValue;
 
 /// Formulas with a name: the name, the key it is for, the formula.
 const READY_MADE: [(&str, &str, &str); 1] =
     // The integral time of a flat spectrum is 1/(4f). By Taylor's hypothesis the length of an eddy is then U/(4f).
     [("taylor", "air.cutoff_frequency", "air.velocity / (4 * air.length_scale)")];
+
+impl Reader<'_> {
+    /// The keys that follow from others. Those that cannot are noted as problems.
+    pub(super) fn links(&mut self, factors: &[Factor], base: &Open) -> Vec<Link> {
+        let Some(entry) = self.entries.remove("link") else {
+            return Vec::new();
+        };
+        let DeValue::Table(table) = entry.value else {
+            self.wrong_type(&entry, "link", "a table, [link]");
+            return Vec::new();
+        };
+        let (mut links, mut entries) = (Vec::new(), Vec::new());
+        for (key, entry) in self.flat(table) {
+            let Some(linked) = self.varied(&entry, &key) else {
+                continue;
+            };
+            if numeric(linked.name).is_none() {
+                self.reject(&entry, &key, StudyFault::WordsLinked);
+                continue;
+            }
+            if factors.iter().any(|factor| factor.key == linked.name) {
+                self.reject(&entry, &key, StudyFault::Twice);
+                continue;
+            }
+            if links.iter().any(|link: &Link| link.key == linked.name) {
+                let entry = Entry { shown: None, ..entry };
+                self.reject(&entry, "", Fault::Duplicate { key });
+                continue;
+            }
+            let DeValue::String(text) = &entry.value else {
+                self.wrong_type(
+                    &entry,
+                    &key,
+                    "a formula in quotes, like \"air.velocity / (4 * air.length_scale)\"",
+                );
+                continue;
+            };
+            match read(linked, text) {
+                Ok(link) => {
+                    links.push(link);
+                    entries.push(entry);
+                }
+                Err(fault) => self.reject(&entry, &key, fault),
+            }
+        }
+        let keys = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
+        let keys: Vec<&str> = keys.collect();
+        for (link, entry) in links.iter().zip(&entries) {
+            if let Some(name) = unwritten(link, &keys, base) {
+                let purpose = "use it in a formula";
+                let (place, key) = (entry.place.clone(), name.to_owned());
+                let what = StudyFault::NotWritten { purpose }.into();
+                self.problems.push(Finding { place, key, value: None, what });
+            }
+        }
+        if let Err((link, fault)) = order(&links) {
+            self.reject(&entries[link], links[link].key, fault);
+        }
+        links
+    }
+}
 
 /// Reads the formula of a key.
 pub(super) fn read(key: &Key, text: &str) -> Result<Link, StudyFault> {

@@ -1,11 +1,13 @@
 //! Study files: reads a file to a [`Study`] with all its points, and writes it back.
 
+mod design;
 mod differences;
 mod levels;
 mod links;
 mod plan;
 mod points;
 mod reader;
+mod replicates;
 mod webs;
 mod write;
 
