@@ -58,6 +58,7 @@ fn analytic_friction_pulls_what_slides() {
     });
     let friction = friction(&case);
     let (falls, count) = (falls(&case, &seen), seen.nodes[0] - seen.in_air[0]);
+    // Enough for a mean; how many there must be follows from the tension, below.
     assert!(count > 140, "{count}");
     let mut off = 0.0;
     for (i, fall) in (1..).zip(&falls) {
@@ -126,9 +127,9 @@ fn what_slides_on_a_fast_belt_is_not_stretched() {
             })
             .collect::<Vec<_>>()
     };
-    let (slides, sticks) = (strains("friction", "5 µs"), strains("stick", "20 µs"));
-    // Found: up to 1e-4, and 8.3 to 10 % on the way to 20 %.
-    assert!(slides.iter().all(|strain| strain.abs() < 1e-3), "{slides:?}");
+    let (slides, sticks) = (strains("friction", "10 µs"), strains("stick", "10 µs"));
+    // Found: up to 4e-5, and 5.8 to 7.3 % on the way to 20 %; the same to a fiftieth with steps of 5 µs, and of 20 µs what sticks.
+    assert!(slides.iter().all(|strain| strain.abs() < 1e-4), "{slides:?}");
     assert!(sticks.iter().all(|strain| (0.05..0.2).contains(strain)), "{sticks:?}");
 }
 
