@@ -2,18 +2,19 @@
 
 use crate::common::*;
 use crate::title;
-use spunlaid::air::{Air, StreamKey, Wind};
+use spunlaid::air::{Air, Stream, StreamKey, Wind};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::statistics::{Welch, Window};
 use std::f64::consts::PI;
 
 const EDDIES: usize = 6;
 
-/// Fluctuations of 144 independent components, sampled every `interval` over `duration`.
+/// Fluctuations of 144 independent components, one sum of cosines each, sampled every `interval` over `duration`.
 fn records(air: &Air, seed: u64, interval: f64, duration: f64) -> Vec<Vec<f64>> {
     let streams: Vec<(Air, StreamKey)> =
         (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed, replicate })).collect();
-    let mut wind = Wind::uniform(Isa::detect(), &streams, EDDIES, duration).expect("fibres that agree");
+    let streams = Stream::uniform(&streams, EDDIES);
+    let mut wind = Wind::repeating(Isa::detect(), streams, duration).expect("fibres that agree");
     let mut records = vec![Vec::new(); WIDTH * EDDIES * 3];
     for k in 0..(duration / interval).round() as usize {
         let velocities = wind.at(k as f64 * interval);
