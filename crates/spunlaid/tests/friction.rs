@@ -65,11 +65,11 @@ fn analytic_friction_pulls_what_slides() {
         assert!(velocity(&seen, i) < case.line.unwrap().belt_speed - 1.0);
         let acceleration = (velocity(&after, i) - velocity(&before, i)) / (after.time - before.time);
         let share = (fall + mass(&case) * acceleration) / friction - 1.0;
-        // Waves that run along it; found: up to 0.6 % at the touch-down.
+        // Waves that run along it; found: up to 0.3 % at the touch-down.
         assert!(share.abs() < 0.02, "{share} at {i}");
         off += share / falls.len() as f64;
     }
-    // Found: 1e-4.
+    // Found: 6e-5.
     assert!(off.abs() < 1e-3, "{off}");
     // So the tension holds the length T/μN; the touch-down is known to an element or two. Found: 0.6 %.
     let (held, lies) =
@@ -87,7 +87,7 @@ fn analytic_friction_holds_what_it_can() {
         let (seen, belt) = (flight.snapshot(), case.line.unwrap().belt_speed);
         let (friction, count) = (friction(&case), seen.nodes[0] - seen.in_air[0]);
         let (tension, bend) = (seen.tension[seen.in_air[0]].0[0], mass(&case) * belt * belt);
-        // Found: 0.14 and 0.09 %.
+        // Found: 0.08 and 0.06 %.
         assert!((tension / bend - 1.0).abs() < 0.01, "{tension:e} and {bend:e}");
         assert!(tension / friction < count as f64 * case.fibre.rest_length());
         // Waves of the fibre in the air still move the newest node.
@@ -95,7 +95,7 @@ fn analytic_friction_holds_what_it_can() {
             assert_eq!(velocity(&seen, i), belt, "node {i} of {count}");
         }
         let most = falls(&case, &seen).into_iter().map(f64::abs).fold(0.0, f64::max) / friction;
-        // Found: 0.994 and 0.999, at what slid before.
+        // Found: 0.961 and 0.992, at what slid before.
         assert!(most < 1.0 + 1e-3 && most > 0.9, "{most}");
     }
 }
