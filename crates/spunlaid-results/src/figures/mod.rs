@@ -23,3 +23,8 @@ pub use spunlaid::web::uniformity::Unevenness;
 pub use study::{name_of_key, study_figures};
 pub use web::{SEEN, overlaid_webs, scan_figures, web_figures};
 pub use webs::figures_of_webs;
+
+/// Label of an axis: `Length laid (m)`.
+fn with_unit(label: &str, unit: &str) -> String {
+    if unit.is_empty() { label.to_owned() } else { format!("{label} ({unit})") }
+}

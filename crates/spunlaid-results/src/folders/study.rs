@@ -9,7 +9,7 @@ use crate::output::{self};
 use crate::report::{StudyReport, study_html};
 use spunlaid::case::MOST_REPLICATES;
 use spunlaid::error::{Error, JournalError};
-use spunlaid::input::{StudyFile, differences};
+use spunlaid::input::{StudyFile, StudyNote, differences};
 use spunlaid::study::{Found, Header, Journal, PointResults, rankings};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -152,7 +152,7 @@ impl<'a> StudyFolder<'a> {
             rankings: &rankings.of_measures,
             refusal: refusal.as_deref(),
             figures: &figures,
-            notes: &file.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            notes: &StudyNote::of_results(&file.notes),
             study_toml: &file.text,
             case_toml: &file.case_text,
             version: env!("CARGO_PKG_VERSION"),

@@ -6,7 +6,7 @@ use crate::output::folder::Staging;
 use crate::output::{leftovers, pictures, webs};
 use crate::report::{WebStudyReport, webs_html};
 use crate::webs::{PointOfWebs, WebJournal, results};
-use spunlaid::input::{WebStudyFile, differences};
+use spunlaid::input::{StudyNote, WebStudyFile, differences};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -81,7 +81,7 @@ impl<'a> WebStudyFolder<'a> {
         webs::write(&staging, &file.study, &results)?;
         let figures = figures_of_webs(&file.study, &results);
         pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
-        let notes: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
+        let notes = StudyNote::of_results(&file.notes);
         let report = WebStudyReport { name, file, results: &results, figures: &figures, notes: &notes };
         staging.write("report.html", webs_html(&report))?;
         staging.write("study.toml", &file.text)?;

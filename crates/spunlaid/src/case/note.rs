@@ -230,8 +230,11 @@ impl Note {
     /// The notes that go with results. A step that was chosen is not among them: it is no flaw, and the case with every
     /// default written out says it.
     pub fn of_results(notes: &[Self]) -> Vec<String> {
-        let kept = notes.iter().filter(|note| !matches!(note.what, Remark::StepChosen { .. }));
-        kept.map(Self::to_string).collect()
+        notes.iter().filter(|note| note.is_of_results()).map(Self::to_string).collect()
+    }
+
+    pub(crate) const fn is_of_results(&self) -> bool {
+        !matches!(self.what, Remark::StepChosen { .. })
     }
 }
 

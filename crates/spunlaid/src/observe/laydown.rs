@@ -56,7 +56,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             label: "Belt speed found in the laid fibre, over the belt’s",
             meaning: "mean of −d md/ds along the laid fibre, divided by belt speed / feed speed. It is one within its \
                       statistical error, whatever the fibre does",
-            figure: &numbers("belt_speed_ratio", "Belt speed found over belt speed", "ratio of belt speeds"),
+            figure: &numbers("belt_speed_ratio", "Ratio of belt speeds", "ratio of belt speeds"),
             ..RATIO_OF
         },
         Measure {
@@ -118,7 +118,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
                       12 times the spread; not defined where the laid fibre is no random curve",
             unit: Unit { shown: "m^-0.5", per_si: 1.0 },
             group: SURROGATE,
-            figure: &numbers("noise", "Noise *A* of the surrogate", "noise of the surrogate"),
+            figure: &numbers("noise", "Noise A of the surrogate", "noise of the surrogate"),
             ..Measure::NUMBER
         },
         Measure {

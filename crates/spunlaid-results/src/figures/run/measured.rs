@@ -1,5 +1,6 @@
 //! The curves that were measured, a figure for each that is declared.
 
+use crate::figures::with_unit;
 use crate::numbers::significant;
 use spunlaid::ensemble::{Curve, Place, Results};
 use spunlaid::observe::{self, Kind, Measure};
@@ -66,9 +67,6 @@ pub fn axes(first: &Measure, alone: bool) -> (Axis, Axis) {
     let declared = first.figure;
     let Some((column, over, unit)) = first.kind.over() else {
         return (Axis::linear(""), Axis::linear(""));
-    };
-    let with_unit = |label: &str, unit: &str| {
-        if unit.is_empty() { label.to_owned() } else { format!("{label} ({unit})") }
     };
     let label = with_unit(over, unit.shown);
     let along = if first.kind == Kind::Spectrum { Axis::logarithmic(&label) } else { Axis::linear(&label) };

@@ -1,5 +1,6 @@
 //! The axes of a study's figures: quantities and readable units.
 
+use crate::figures::with_unit;
 use spunlaid::case::keys;
 use spunlaid::observe::{self, Unit};
 use spunlaid::study;
@@ -34,7 +35,7 @@ pub(super) fn groups() -> Vec<Group> {
 impl Group {
     /// Its axis.
     pub(super) fn axis(&self) -> Axis {
-        let label = format!("{} ({})", self.figure.title, self.unit.shown);
+        let label = with_unit(self.figure.title, self.unit.shown);
         match (self.figure.logarithmic, self.figure.from_zero) {
             (true, _) => Axis::logarithmic(&label).decades(9),
             (false, true) => Axis::linear(&label).zero_based(),
@@ -114,8 +115,7 @@ impl Along {
         }
         let (least, greatest) = factor.ends();
         let (scale, unit) = handy(factor.dimension, greatest.abs().max(least.abs()));
-        let name = label_of_key(factor.key);
-        let label = if unit.is_empty() { name.to_owned() } else { format!("{name} ({unit})") };
+        let label = with_unit(label_of_key(factor.key), unit);
         let wide = least > 0.0 && greatest / least >= 30.0;
         let axis = if factor.spacing() == study::Spacing::Logarithmic || wide {
             Axis::logarithmic(&label)

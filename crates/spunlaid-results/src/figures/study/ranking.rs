@@ -1,6 +1,7 @@
 //! Main effects of the factors with their confidence intervals, the largest at the top.
 
 use super::quantity::{Along, Group, label_of_key};
+use crate::figures::with_unit;
 use crate::numbers::range;
 use spunlaid::study::{Effect, Ranking, Study};
 use spunlaid_charts::{
@@ -43,7 +44,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     let with_words = study.factors.iter().any(|factor| !factor.words.is_empty());
     // With words, the change is told below each factor.
     let change = if with_words { "" } else { " from the least to the greatest value" };
-    let label = format!("Change of {}{change} ({})", group.figure.words, group.unit.shown);
+    let label = with_unit(&format!("Change of {}{change}", group.figure.words), group.unit.shown);
     let all = shown.iter().flat_map(|shown| shown.0.effects.iter().flat_map(ends)).chain([0.0]);
     let scale = Scale::fit(&Axis::linear(&label), all, 7);
 
@@ -122,7 +123,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
          may be no effect.{explained}",
         group.figure.words,
     );
-    let change = Axis::linear(&format!("Change ({})", group.unit.shown));
+    let change = Axis::linear(&with_unit("Change", group.unit.shown));
     let mut table = Table::new([change.column(), "error".to_owned()]);
     for (ranking, .., label) in &shown {
         for effect in &ranking.effects {

@@ -23,6 +23,13 @@ pub struct StudyNote {
     pub all: bool,
 }
 
+impl StudyNote {
+    /// The remarks that go with results, see [`Note::of_results`].
+    pub fn of_results(notes: &[Self]) -> Vec<String> {
+        notes.iter().filter(|remark| remark.note.is_of_results()).map(Self::to_string).collect()
+    }
+}
+
 impl fmt::Display for StudyNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.note.fmt(f)?;
