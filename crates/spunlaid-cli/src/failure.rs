@@ -283,7 +283,7 @@ fn record_options(fault: &FileFault) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::error::{Error, FlightFault, JournalError};
+    use spunlaid::error::{DivergenceSign, Error, FlightFault, JournalError};
     use std::sync::LazyLock;
 
     static FULL: LazyLock<io::Error> = LazyLock::new(|| io::ErrorKind::StorageFull.into());
@@ -323,7 +323,14 @@ mod tests {
             Failure::Unheard { why: &FULL },
             Failure::FibresLost { lost: 1, of: 2, first: Vec::new() },
             Failure::Panicked,
-            Error::NotFinite { replicate: 1, node: 2, time: 0.1, cause: "stiff".to_owned() }.into(),
+            Error::Diverged {
+                replicate: 1,
+                node: 2,
+                time: 0.1,
+                sign: DivergenceSign::NotFinite,
+                cause: "stiff".to_owned(),
+            }
+            .into(),
             Error::from(JournalError::Unusable { path: path(), source: full() }).into(),
             Error::from(JournalError::Unwritable { path: path(), source: full() }).into(),
             Error::from(JournalError::Unsynced(full())).into(),

@@ -15,7 +15,7 @@ pub(crate) fn raised(py: Python<'_>, failure: impl Into<Failure>) -> PyErr {
             listed(py, problems).and_then(|problems| instance(py, "CaseError", (text, problems)))
         }
         Failure::Simulation(Error::File(_)) => instance(py, "FileError", (text,)),
-        Failure::Simulation(Error::NotFinite { .. } | Error::NotLanding { .. }) => {
+        Failure::Simulation(Error::Diverged { .. } | Error::NotLanding { .. }) => {
             instance(py, "FibreLost", (text,))
         }
         Failure::Simulation(Error::Flight(_)) => instance(py, "FlightError", (text,)),

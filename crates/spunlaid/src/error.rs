@@ -1,6 +1,7 @@
 //! Errors. A message names the place, the key, the value, what is allowed, and how to correct it.
 
 mod case;
+mod divergence;
 mod field;
 mod file;
 mod finding;
@@ -14,6 +15,7 @@ mod web;
 mod words;
 
 pub use case::Fault;
+pub use divergence::DivergenceSign;
 pub use field::FieldFault;
 pub use file::{FileError, FileFault, FileKind, FilePlace};
 pub use finding::{Finding, Place, Problem};
@@ -38,15 +40,17 @@ pub enum Error {
     /// The case cannot be run. All problems found, in the order of the file.
     #[error("{}", one_per_line(.0))]
     Rejected(Vec<Problem>),
-    /// The positions of a fibre have become infinite or NaN.
-    #[error("replicate {replicate}: node {node} is no longer finite at {time:e} s; {cause}")]
-    NotFinite {
+    /// The computation of a fibre has diverged.
+    #[error("replicate {replicate}: {sign} at {time:e} s; {cause}", sign = sign.at(*node))]
+    Diverged {
         /// The replicate, counted from 1.
         replicate: u64,
         /// Node, counted from 1 at the root.
         node: usize,
         /// Time [s].
         time: f64,
+        /// What shows it.
+        sign: DivergenceSign,
         /// Likely cause and remedy.
         cause: String,
     },
@@ -84,10 +88,20 @@ pub enum Error {
 }
 
 impl Error {
+    /// Node, counted from 1 at the root, and time [s] at which a fibre was lost; `None` for other errors. Such a replicate is
+    /// counted as lost, and no mean contains it.
+    pub const fn lost_fibre(&self) -> Option<(usize, f64)> {
+        match self {
+            Self::Diverged { node, time, .. } => Some((*node, *time)),
+            Self::NotLanding { time, .. } => Some((1, *time)),
+            _ => None,
+        }
+    }
+
     /// The exit code for a program: 1 if the input is wrong, 2 if the cause is something else.
     pub const fn exit_code(&self) -> u8 {
         match self {
-            Self::NotFinite { .. } | Self::Interrupted => 2,
+            Self::Diverged { .. } | Self::Interrupted => 2,
             Self::Journal(
                 JournalError::Unusable { .. } | JournalError::Unwritable { .. } | JournalError::Unsynced(_),
             ) => 2,

@@ -124,13 +124,6 @@ impl<S: Simd> Vec3<Wide<S>> {
     }
 }
 
-/// Whether all vectors are finite in all lanes.
-pub(crate) fn all_finite(vectors: &[Vec3<Lanes>]) -> bool {
-    // Zero times a number is zero only if the number is finite.
-    let zero = Lanes::ZERO;
-    vectors.iter().fold(zero, |sum, v| sum + v.x * zero + v.y * zero + v.z * zero) == zero
-}
-
 impl<S: Register> Vec3<Wide<S>> {
     #[inline(always)]
     pub(crate) fn store(self) -> Vec3<Lanes> {

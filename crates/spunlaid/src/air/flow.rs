@@ -168,6 +168,18 @@ impl Air {
         Around { value: here, gradients, reach, inside }
     }
 
+    /// The largest mean speed along a straight fibre, with six standard deviations of the turbulence there [m/s].
+    ///
+    /// * `along` – from its root to its end [m]
+    pub(crate) fn fastest(&self, along: Vec3<f64>) -> f64 {
+        const PLACES: usize = 64;
+        let mut hint = Hint::default();
+        let places = (0..=PLACES).map(|i| along * (i as f64 / PLACES as f64));
+        let speeds =
+            places.map(|at| self.local(at, &mut hint)).map(|air| air.velocity.norm() + 6.0 * air.rms);
+        speeds.fold(0.0, f64::max)
+    }
+
     /// Mean velocity along a straight fibre, and mean speed there [m/s].
     ///
     /// * `along` – from its root to its end [m]

@@ -226,6 +226,15 @@ impl Case {
         self.run.duration() + self.run.time_step
     }
 
+    /// The speed that mean flow, turbulence, feed, belt and gravity together can give to a fibre that only follows them
+    /// [m/s]; six standard deviations of the turbulence are counted.
+    pub(crate) fn driving_speed(&self) -> f64 {
+        let line = self.line.map_or(0.0, |line| line.feed_speed.abs() + line.belt_speed.abs());
+        let fall = (2.0 * self.run.gravity.abs() * self.fibre.length).sqrt();
+        let own = self.air.velocity.abs() + 6.0 * self.air.rms();
+        self.air.fastest(self.along()).max(own) + line + fall
+    }
+
     /// The turbulence of each eddy.
     pub fn turbulence_along(&self, eddies: &Eddies) -> Vec<EddyTurbulence> {
         self.air.turbulence_along(self.along(), self.fibre.elements, eddies)

@@ -52,7 +52,7 @@ pub trait TakeLaid: std::fmt::Debug + Sync {
 /// * `take` – receives the trajectories; an error that it returns ends the ensemble
 ///
 /// # Errors
-/// A position stops being finite, another thread stops the ensemble, or `take` returns an error.
+/// A fibre is lost, another thread stops the ensemble, or `take` returns an error.
 pub fn fly<E: From<Error>>(
     case: &Case,
     keep: Keep,

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::flight::{Flight, Job, LaidPoint};
 use crate::lanes::{Isa, WIDTH};
 use crate::observe::{Measure, Observers, Sample, Seen, Value};
-use crate::vec3::{Vec3, all_finite};
+use crate::vec3::Vec3;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -103,7 +103,7 @@ impl KeepShapes {
 /// the first job, with its rest length of the elements.
 ///
 /// # Errors
-/// The jobs cannot fly together ([`Flight::new`]), a position stops being finite, or another thread stops it.
+/// The jobs cannot fly together ([`Flight::new`]), a fibre is lost, or another thread stops it.
 pub fn fly_together(
     jobs: &[Job<'_>],
     keep: Keep,
@@ -131,11 +131,12 @@ pub(super) fn fly_with_plan(
     for instant in 0.. {
         // A snapshot needs one step. The last one takes that step on a copy.
         let snapshot = if step < run.steps { flight.observe() } else { flight.snapshot() };
-        if !all_finite(&snapshot.position) {
-            return Err(divergence(jobs, computing.isa, step - run.output_steps.min(step)));
-        }
-        if let Some(adrift) = flight.adrift() {
-            return Err(adrift);
+        match flight.lost() {
+            Some(Error::Diverged { .. }) => {
+                return Err(divergence(jobs, computing.isa, step - run.output_steps.min(step)));
+            }
+            Some(adrift) => return Err(adrift),
+            None => {}
         }
         let samples: [Sample; WIDTH] = std::array::from_fn(|lane| Sample::of(&snapshot, lane));
         let laid: [Vec<LaidPoint>; WIDTH] = std::array::from_fn(|lane| flight.take_laid(lane));
@@ -200,7 +201,7 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     Ok(started.elapsed().as_secs_f64() / done as f64)
 }
 
-/// Finds where a position stopped being finite: repeats the flight, step by step after the last good instant.
+/// Finds where a fibre is first seen to be lost: repeats the flight, step by step after the last good instant.
 fn divergence(jobs: &[Job<'_>], isa: Isa, good_steps: u64) -> Error {
     let mut flight = match Flight::new(jobs, isa) {
         Ok(flight) => flight,

@@ -17,6 +17,7 @@
 //! ```
 //!
 //! ```text
+//! guard    which fibres are lost
 //! common   what fibres of one flight must have in common
 //! start    flights at their start, straight and at rest
 //! steps    the steps, and what is seen between them
@@ -25,6 +26,7 @@
 
 mod common;
 mod end_node;
+mod guard;
 mod set;
 mod start;
 mod steps;

@@ -9,15 +9,10 @@ use crate::chain::work::WorkDone;
 use crate::chain::{explicit, implicit};
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
-use crate::fibre::Root;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
-use crate::line::Line;
-use crate::vec3::{Vec3, all_finite};
+use crate::vec3::Vec3;
 
-/// Length of fibre in the air, in distances to the belt, above which it does not reach the belt.
-const MOST_IN_AIR: f64 = 10.0;
-
-/// Number of steps between two checks that all positions are finite.
+/// Number of steps between two checks that no fibre is lost.
 const STEPS_UNSEEN: u64 = 256;
 
 impl Flight {
@@ -37,7 +32,7 @@ impl Flight {
             let now = left.min(STEPS_UNSEEN);
             self.advance(now);
             left -= now;
-            if let Some(lost) = self.lost().or_else(|| self.adrift()) {
+            if let Some(lost) = self.lost() {
                 return Err(lost);
             }
         }
@@ -90,46 +85,6 @@ impl Flight {
         let works = (&before, &self.work);
         energy.enter_work(&self.start.energy, works, &carried, self.scheme, self.h);
         Snapshot { time, position, velocity, tension, nodes, in_air, root_strain_integral, energy }
-    }
-
-    /// The first fibre and node whose position is not finite, if there is one.
-    pub(crate) fn lost(&self) -> Option<Error> {
-        let position = &self.chain.position;
-        if all_finite(position) {
-            return None;
-        }
-        let lost = |lane: usize| position.iter().position(|p| !p.lane(lane).norm().is_finite());
-        let (lane, node) = (0..self.fibres()).find_map(|lane| Some((lane, lost(lane)?)))?;
-        let case = self.cases.get(lane);
-        // A held root becomes NaN only through the first element.
-        let held = case.is_some_and(|(case, _)| case.fibre.root != Root::Free);
-        Some(Error::NotFinite {
-            replicate: case.map_or(lane as u64, |(_, replicate)| *replicate) + 1,
-            node: node.max(usize::from(held)) + 1,
-            time: self.time(),
-            cause: case.map_or_else(
-                || "lower the time step".to_owned(),
-                |(case, _)| case.likely_cause_of_divergence(),
-            ),
-        })
-    }
-
-    /// The first fibre that does not reach the belt, if there is one: ten times the way has been fed and has not landed.
-    pub(crate) fn adrift(&self) -> Option<Error> {
-        let in_air = self.chain.in_air();
-        let length = |lane: usize, line: &Line| {
-            in_air[lane] as f64 * self.chain.constants.rest_length.0[lane] / line.distance
-        };
-        self.cases.iter().enumerate().find_map(|(lane, (case, replicate))| {
-            let line = case.line.as_ref()?;
-            (length(lane, line) > MOST_IN_AIR).then(|| Error::NotLanding {
-                replicate: replicate + 1,
-                times: MOST_IN_AIR,
-                time: self.time(),
-                reached: self.chain.position.iter().map(|p| p.x.0[lane]).fold(f64::NEG_INFINITY, f64::max),
-                distance: line.distance,
-            })
-        })
     }
 
     pub(super) fn run(&mut self, steps: u64, kick_and_drift: (f64, f64), split: bool) {

@@ -123,7 +123,7 @@ fn length(batch: &Batch) -> u64 {
 /// * `take` – receives point and trajectory; the replicates of a batch come in order
 ///
 /// # Errors
-/// When positions become infinite or NaN, when the computation is stopped, and every error of `take`.
+/// When a fibre is lost ([`Error::lost_fibre`]), when the computation is stopped, and every error of `take`.
 pub fn fly_batches<E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
@@ -142,7 +142,7 @@ pub fn fly_batches<E: From<Error>>(
 
 /// Like [`fly_batches`]. When a flight is complete, its thread calls `land`.
 ///
-/// A fibre whose positions become infinite or NaN does not stop the others; `land` receives it among the lost.
+/// A fibre that is lost does not stop the others; `land` receives it.
 pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
@@ -161,7 +161,7 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
         let jobs = packing.jobs(flight);
         match fly(&jobs) {
             Ok(trajectories) => land(jobs.iter().map(|job| job.0).zip(trajectories).collect(), Vec::new()),
-            Err(Error::NotFinite { .. }) => {
+            Err(error) if error.lost_fibre().is_some() => {
                 // Each fibre flies again alone, with the same bits, to find those that are lost.
                 let (mut trajectories, mut lost) = (Vec::new(), Vec::new());
                 for &(point, replicate) in &jobs {
@@ -169,7 +169,7 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
                         Ok(flown) => {
                             trajectories.extend(flown.into_iter().map(|trajectory| (point, trajectory)))
                         }
-                        Err(error @ Error::NotFinite { .. }) => lost.push((point, replicate, error)),
+                        Err(error) if error.lost_fibre().is_some() => lost.push((point, replicate, error)),
                         Err(error) => return Err(error),
                     }
                 }

@@ -179,12 +179,10 @@ fn records(trajectories: Vec<(usize, Trajectory)>, lost: Vec<Lost>) -> Vec<Recor
         replicate: trajectory.replicate,
         landing: Landing::Measured(measured(&trajectory)),
     });
-    let lost = lost.into_iter().filter_map(|(point, replicate, error)| match error {
-        Error::NotFinite { node, time, .. } => {
-            let landing = Landing::Lost { node: node as u64, time };
-            Some(Record { point: point as u64, replicate, landing })
-        }
-        _ => None,
+    let lost = lost.into_iter().filter_map(|(point, replicate, error)| {
+        let (node, time) = error.lost_fibre()?;
+        let landing = Landing::Lost { node: node as u64, time };
+        Some(Record { point: point as u64, replicate, landing })
     });
     measured.chain(lost).collect()
 }

@@ -7,6 +7,20 @@ use crate::chain::{Constants, Node};
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
+/// Largest `s = h²λ/(ℓm)` of a tension `λ` that the predictor takes from the last step [-]: of fibres of fixed length the
+/// one that belongs to the limit of (55), of fed fibres, which fold, less. Pulling along the direction of the last step,
+/// more than this would throw nodes about where a fibre folds and whips. What is left out is found anew by the correction,
+/// which pulls along the predicted directions.                                             theory.md (51)
+const MOST_KEPT: f64 = 2.25;
+const MOST_KEPT_FED: f64 = 0.5;
+
+/// The largest tension that the predictor takes from the last step [N].
+#[inline(always)]
+pub(super) fn most_kept<S: Register, const FED: bool>(c: &Constants, h: f64) -> Wide<S> {
+    let most = if FED { MOST_KEPT_FED } else { MOST_KEPT };
+    Wide::load(&c.rest_length) * Wide::load(&c.node.mass) * Wide::splat(most / (h * h))
+}
+
 /// Stores the forces with the tensions of the last step, and eliminates `(M + K') a = F` from the root to the
 /// free end. `K'` is the share of the string's stiffness that the averaging adds to the mass.
 pub(super) struct Predictor<'a, S: Register> {
@@ -19,6 +33,8 @@ pub(super) struct Predictor<'a, S: Register> {
     pub(super) h: f64,
     /// `h²/m` of a node between elements.
     pub(super) rate: Wide<S>,
+    /// Largest tension that is taken from the last step [N].
+    pub(super) most_kept: Wide<S>,
     pub(super) t: &'a mut Tensions,
     /// `½ m s²/(1+s)` of the elements above and below the next node; zero in compression.
     pub(super) string: (Wide<S>, Wide<S>),
@@ -44,6 +60,7 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
     fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S> {
         // Without the compression, the prediction does not fold elements that the correction has to unfold.
         let tension = Wide::load(&self.t.tension[j]).max(Wide::zero());
+        let tension = Wide::select_less(self.most_kept, tension, self.most_kept, tension);
         self.t.tension[j] = tension.store();
         self.t.links[j].tangent = element.tangent.store();
         let s = self.rate * tension * element.inverse_length;

@@ -131,8 +131,8 @@ impl<S: Register> Row<S> {
     }
 }
 
-/// From the root to the free end: corrects the tensions and moves the nodes. Returns the largest change of the squared
-/// length of a fed fibre's elements, in parts of it.
+/// From the root to the free end: corrects the tensions and moves the nodes. Returns by how much the squared length of an
+/// element of a fed fibre is off at most from the one that belongs to its tension, in parts of it.
 #[inline(always)]
 pub(super) fn correct_and_move<S: Register, const FED: bool>(
     chain: &mut Chain,
@@ -151,16 +151,22 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
     // The node above: where it is now, and whether it moves.
     let (mut above, mut mobility) = (Vec3::zero(), Wide::zero());
     let rest_length = Wide::load(&c.rest_length);
+    let compliance = Wide::splat(1.0).over(Wide::load(&c.axial_stiffness));
+    // The length that belongs to the tension of the element above.
+    let mut natural = rest_length;
     let mut furthest = Wide::zero();
     for i in 0..nodes {
         let link = &t.links[i];
         let (mut change, mut pull) = (Vec3::zero(), Vec3::zero());
+        let natural_above = natural;
         if i + 1 < nodes {
             let (value, slope) = &link.correction;
             correction = Wide::load(slope).neg_mul_add(correction, Wide::load(value));
             let tension = Wide::load(&t.tension[i]);
             (change, pull) = (Vec3::load(&link.direction) * correction, Vec3::load(&link.tangent) * tension);
-            t.tension[i] = (tension + correction).store();
+            let corrected = tension + correction;
+            t.tension[i] = corrected.store();
+            natural = compliance.mul_add(corrected, rest_length);
         }
         let node = c.node(i, nodes);
         let before = Vec3::load(&velocity[i]);
@@ -205,7 +211,7 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
         position[i] = here.store();
         if FED {
             let edge = here - above;
-            let off = edge.dot(edge) - rest_length * rest_length;
+            let off = edge.dot(edge) - natural_above * natural_above;
             let off = off.abs().max(furthest);
             if i > 0 {
                 // What lies on the belt can no longer be corrected.

@@ -9,30 +9,30 @@ use crate::chain::work::WorkDone;
 use crate::lanes::{Lanes, WIDTH};
 use crate::vec3::Vec3;
 
-/// Change of an element's squared length, in parts of it, from which on more iterations are made [-].
-const TOO_FAR: f64 = 0.1;
-/// Most iterations in a step. Where they do not converge, the next step goes on.
-const MOST: usize = 8;
+/// By how much the squared length of an element may be off from the one that belongs to its tension without more
+/// iterations, in parts of it [-].
+const TOO_FAR: f64 = 0.05;
+/// Most iterations in a step.
+const MOST: usize = 30;
 
 impl Chain {
     /// Corrects the tensions again in the lanes that need it, after a step of `h` [s].
     ///
-    /// * `change` – of the squared lengths of the elements, the largest of each lane, in parts of them [-]
+    /// * `off` – by how much the squared lengths of the elements are off at most in each lane, in parts of them [-]
     #[inline(always)]
-    pub(super) fn iterate(&mut self, change: &Lanes, h: f64, split: bool, work: &mut WorkDone) {
-        if change.0.iter().any(|&change| change > TOO_FAR) {
-            self.iterate_lanes(change, h, split, work);
+    pub(super) fn iterate(&mut self, off: &Lanes, h: f64, split: bool, work: &mut WorkDone) {
+        if off.0.iter().any(|&off| off > TOO_FAR) {
+            self.iterate_lanes(off, h, split, work);
         }
     }
 
     #[cold]
     #[inline(never)]
-    fn iterate_lanes(&mut self, change: &Lanes, h: f64, split: bool, work: &mut WorkDone) {
-        for lane in (0..WIDTH).filter(|&lane| change.0[lane] > TOO_FAR) {
-            for _ in 0..MOST {
-                if !self.iterate_once(lane, h, split, work) {
-                    break;
-                }
+    fn iterate_lanes(&mut self, off: &Lanes, h: f64, split: bool, work: &mut WorkDone) {
+        for lane in (0..WIDTH).filter(|&lane| off.0[lane] > TOO_FAR) {
+            let found = (0..MOST).any(|_| !self.iterate_once(lane, h, split, work));
+            if !found {
+                self.tensions.worst[lane] = self.furthest_off(lane);
             }
         }
     }
@@ -83,8 +83,29 @@ impl Chain {
         true
     }
 
+    /// The element of a lane whose length is furthest off from the one that belongs to its tension, and by how much, in parts
+    /// of its rest length [-]: now, or after a step in which the iterations did not find the tensions. Elements that lie on
+    /// the belt are left out: nothing can correct them.
+    pub(crate) fn furthest_off(&self, lane: usize) -> (f64, usize) {
+        let c = &self.constants;
+        let nodes = self.nodes()[lane];
+        let (stiffness, rest_length) = (c.axial_stiffness.0[lane], c.rest_length.0[lane]);
+        let off = |j: usize, tension: &Lanes| {
+            let length = (self.position[j + 1].lane(lane) - self.position[j].lane(lane)).norm();
+            let held = self.is_held(j, lane) && self.is_held(j + 1, lane);
+            if held {
+                0.0
+            } else {
+                ((length - rest_length) - tension.0[lane] / stiffness).abs() / rest_length
+            }
+        };
+        let tensions = self.tensions.tension.iter().take(nodes.saturating_sub(1)).enumerate();
+        let all = tensions.map(|(j, tension)| (off(j, tension), j));
+        all.fold(self.tensions.worst[lane], |worst, one| if one.0 > worst.0 { one } else { worst })
+    }
+
     /// The directions of a lane's elements and the corrections of their tensions [N]: the rows of theory.md (53) at the end of
-    /// the step. None if no element is too far from its length.
+    /// the step. None if no element is too far from the length that belongs to its tension.
     fn corrections(&self, lane: usize, h: f64) -> Option<(Vec<Vec3<f64>>, Vec<f64>)> {
         let c = &self.constants;
         let nodes = self.position.len();
@@ -108,8 +129,8 @@ impl Chain {
             let length = edge.norm();
             let direction = edge * (1.0 / length);
             let moves = upper[1] + lower[1] > 0.0;
-            needed |= moves && (length * length / (rest_length * rest_length) - 1.0).abs() > TOO_FAR;
             let wanted = stiffness * (length - rest_length) - self.tensions.tension[j].0[lane];
+            needed |= moves && wanted.abs() > 0.5 * TOO_FAR * stiffness * rest_length;
             let own = 1.0 + between(upper, direction, direction) + between(lower, direction, direction);
             let above = directions.last().map_or(0.0, |&above| -between(upper, above, direction));
             let next = match j + 2 < nodes {

@@ -27,7 +27,7 @@ use super::work::{Supports, WorkDone, WorkRegisters};
 use crate::air::AirAtElements;
 use crate::lanes::{Register, Wide};
 use crate::vec3::Vec3;
-use accelerations::Predictor;
+use accelerations::{Predictor, most_kept};
 use corrections::{correct_and_move, predict_and_eliminate};
 
 /// Advances eight chains by one step of `h` [s]. The arguments are those of the explicit step.
@@ -49,6 +49,7 @@ pub(crate) fn step<S: Register, const FED: bool>(
         c,
         h,
         rate: Wide::splat(h * h) * Wide::load(&c.node.inverse_mass),
+        most_kept: most_kept::<S, FED>(c, h),
         t: &mut chain.tensions,
         string: (Wide::zero(), Wide::zero()),
         above: (Vec3::zero(), Wide::zero()),

@@ -1,6 +1,6 @@
 //! What the scheme stores, and its room for fibres that grow.
 
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, WIDTH};
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
@@ -14,6 +14,9 @@ pub(crate) struct Tensions {
     /// For each node on the belt, if there is friction: the belt's force on it [N].
     pub(crate) belt_force: Vec<Vec3<Lanes>>,
     rubs: bool,
+    /// The largest error of an element's length after all iterations of a step, in parts of its rest length [-], and the
+    /// element; so far, of each lane.
+    pub(super) worst: [(f64, usize); WIDTH],
 }
 
 /// What a step knows of a node and of the element below it. It lies together, because each pass along the chain needs most

@@ -1,0 +1,86 @@
+//! The guard: a fibre whose computation has diverged, or which does not come down, is lost. No mean may contain it.
+
+use super::Flight;
+use crate::error::{DivergenceSign, Error};
+use crate::fibre::Root;
+use crate::line::Line;
+
+/// By how much an element may be off from the length that belongs to its tension, in parts of its rest length [-]. Where
+/// the tensions are found it is a hundredth at most, after a landing in a single step some hundredths.
+const MOST_OFF: f64 = 0.1;
+/// Largest strain, either way [-].
+const MOST_STRAIN: f64 = 1.0;
+/// How many times faster than all that drives it a node may be [-]. The end of a fibre that whips is several times faster.
+const MOST_SPEED: f64 = 20.0;
+/// Length of fibre in the air, in distances to the belt, above which it does not reach the belt.
+const MOST_IN_AIR: f64 = 10.0;
+
+impl Flight {
+    /// The first fibre that is lost, if there is one.
+    pub(crate) fn lost(&self) -> Option<Error> {
+        (0..self.fibres()).find_map(|lane| self.diverged(lane)).or_else(|| self.adrift())
+    }
+
+    /// Whether the computation of the fibre in a lane has diverged. A lane is judged by itself, so a fibre is lost in any
+    /// company or in none.
+    fn diverged(&self, lane: usize) -> Option<Error> {
+        let (node, sign) = self.sign_of_divergence(lane)?;
+        let case = self.cases.get(lane);
+        Some(Error::Diverged {
+            replicate: case.map_or(lane as u64, |(_, replicate)| *replicate) + 1,
+            node: node + 1,
+            time: self.time(),
+            sign,
+            cause: case.map_or_else(
+                || "lower the time step".to_owned(),
+                |(case, _)| case.likely_cause_of_divergence(),
+            ),
+        })
+    }
+
+    /// The node and what shows that the computation has diverged there.
+    fn sign_of_divergence(&self, lane: usize) -> Option<(usize, DivergenceSign)> {
+        let (chain, nodes) = (&self.chain, self.chain.nodes()[lane]);
+        let at = |i: usize| chain.position[i].lane(lane);
+        let case = self.cases.get(lane).map(|(case, _)| case);
+        if let Some(node) = (0..nodes).find(|&i| !at(i).norm().is_finite()) {
+            // A held root becomes NaN only through the first element.
+            let held = case.is_some_and(|case| case.fibre.root != Root::Free);
+            return Some((node.max(usize::from(held)), DivergenceSign::NotFinite));
+        }
+        let (off, node) = chain.furthest_off(lane);
+        if off > MOST_OFF {
+            return Some((node, DivergenceSign::Length { off }));
+        }
+        let rest_length = chain.constants.rest_length.0[lane];
+        let strain = |j: usize| (at(j + 1) - at(j)).norm() / rest_length - 1.0;
+        if let Some(node) = (0..nodes.saturating_sub(1)).find(|&j| strain(j) > MOST_STRAIN) {
+            return Some((node, DivergenceSign::Strain { strain: strain(node) }));
+        }
+        let case = case?;
+        let speeds = (0..nodes).map(|i| (chain.velocity[i].lane(lane).norm(), i));
+        let (speed, node) = speeds.fold((0.0, 0), |most, one| if one.0 > most.0 { one } else { most });
+        // The air is looked at only where this may be so.
+        let doubtful = speed > MOST_SPEED * case.air.velocity.abs();
+        let given = if doubtful { case.driving_speed() } else { f64::INFINITY };
+        (speed > MOST_SPEED * given).then_some((node, DivergenceSign::Speed { speed, given }))
+    }
+
+    /// The first fibre that does not reach the belt, if there is one: ten times the way has been fed and has not landed.
+    fn adrift(&self) -> Option<Error> {
+        let in_air = self.chain.in_air();
+        let length = |lane: usize, line: &Line| {
+            in_air[lane] as f64 * self.chain.constants.rest_length.0[lane] / line.distance
+        };
+        self.cases.iter().enumerate().find_map(|(lane, (case, replicate))| {
+            let line = case.line.as_ref()?;
+            (length(lane, line) > MOST_IN_AIR).then(|| Error::NotLanding {
+                replicate: replicate + 1,
+                times: MOST_IN_AIR,
+                time: self.time(),
+                reached: self.chain.position.iter().map(|p| p.x.0[lane]).fold(f64::NEG_INFINITY, f64::max),
+                distance: line.distance,
+            })
+        })
+    }
+}
