@@ -121,6 +121,12 @@ fn rejects_folders_of_other_results() {
     assert!(said.contains("r: holds results of"), "{said}");
     let said = refusal(&mut desk.spunlaid("sweep study.toml --out r --print-point 5"), 1);
     assert!(said.contains("the study has 4 points"), "{said}");
+    // A journal of a build that knew its study in another way; it did not say of which format it was.
+    let journal = desk.path("r/webs.jsonl");
+    let text = fs::read_to_string(&journal).unwrap();
+    fs::write(&journal, text.replacen("\"format\":2,", "", 1)).unwrap();
+    let said = refusal(&mut desk.spunlaid("sweep study.toml --out r --replicates 1"), 1);
+    assert!(said.contains("is a journal of format 1, but this spunlaid reads format 2"), "{said}");
     success(&mut desk.spunlaid("run brief.toml --out run --quiet"));
     let said = refusal(&mut desk.spunlaid("sweep study.toml --out run"), 1);
     assert!(said.contains("run: holds results already (summary.json)"), "{said}");

@@ -83,8 +83,14 @@ struct Record {
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Header {
     spunlaid_version: String,
+    /// The first format did not say that it was the first.
+    #[serde(default)]
+    format: u32,
     study: u32,
 }
+
+/// The format of the journal.
+const FORMAT: u32 = 2;
 
 /// The webs of a study that have been laid. Each is on the disk before the next is laid, so nothing is lost if the program
 /// ends.
@@ -114,8 +120,8 @@ impl WebJournal {
         if fresh {
             file.set_len(0).map_err(&unwritable)?;
         }
-        let wanted =
-            Header { spunlaid_version: env!("CARGO_PKG_VERSION").to_owned(), study: study.identity() };
+        let (spunlaid_version, study) = (env!("CARGO_PKG_VERSION").to_owned(), study.identity());
+        let wanted = Header { spunlaid_version, format: FORMAT, study };
         let (mut laid, mut sound) = (BTreeMap::new(), 0);
         let mut reader = BufReader::new(&file);
         let mut line = Vec::new();
@@ -147,6 +153,11 @@ impl WebJournal {
             Ok(found) if found == *wanted => Ok(()),
             Ok(found) if found.spunlaid_version != wanted.spunlaid_version => {
                 Err(Failure::OtherVersion { folder, version: found.spunlaid_version })
+            }
+            Ok(found) if found.format != wanted.format => {
+                let format = found.format.max(1).to_string();
+                let (path, known) = (path.to_owned(), wanted.format);
+                Err(Error::from(JournalError::Format { path, format, known }).into())
             }
             Ok(_) => Err(Failure::OtherStudy { folder, differences: Vec::new() }),
             Err(_) => Err(Error::from(JournalError::Foreign { path: path.to_owned() }).into()),

@@ -140,8 +140,10 @@ pub struct DragLanes {
 }
 
 impl DragLanes {
-    /// Packs the element drag of each lane's fibre. All must have the curves of the first.
-    pub fn pack(lanes: &[ElementDrag; WIDTH]) -> Self {
+    /// Packs the element drag of each lane's fibre.
+    ///
+    /// * `curve` – of all of them, along and across
+    pub(crate) fn pack(curve: [Option<Curve>; 2], lanes: &[ElementDrag; WIDTH]) -> Self {
         let both = |of: &dyn Fn(&Share, f64) -> f64| {
             [Lanes::from_fn(|i| of(&lanes[i].along, 1.0)), Lanes::from_fn(|i| of(&lanes[i].across, 0.5))]
         };
@@ -149,7 +151,7 @@ impl DragLanes {
             Growth::Power(p) => per_square * p,
             Growth::Curve(_, shift) => shift,
         };
-        Self { factor: both(&|share, _| share.factor), curve: lanes[0].curves(), growth: both(&growth) }
+        Self { factor: both(&|share, _| share.factor), curve, growth: both(&growth) }
     }
 
     /// Splits the relative velocity into its parts along and across the element.

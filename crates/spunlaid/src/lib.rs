@@ -61,6 +61,8 @@ pub mod units;
 
 pub mod error;
 
+mod company;
+
 mod file;
 pub mod table;
 

@@ -14,6 +14,7 @@ const ROOMS: &[&[&str]] = &[
     &["lanes"],
     &["vec3", "fft", "nodes", "units"],
     &["error"],
+    &["company"],
     &["file", "table"],
     &["fibre", "line"],
     &["field"],

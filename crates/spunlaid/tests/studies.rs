@@ -6,6 +6,7 @@ mod short;
 
 use short::SHORT;
 use spunlaid::case::Case;
+use spunlaid::case::keys::{self, Value};
 use spunlaid::ensemble::{Computing, Keep, Results, Trajectory, fly};
 use spunlaid::error::Error;
 use spunlaid::input::{StudyFile, parse_case, parse_study, starter_case, write_case};
@@ -257,6 +258,36 @@ fn a_study_written_out_is_the_same_study() {
     let before = other.identity();
     other.points[3].case.fibre.density += 1e-9;
     assert_ne!(other.identity(), before);
+}
+
+#[test]
+fn the_identity_of_a_study_is_that_of_the_keys_of_its_points() {
+    let grid = study(MIXED).study;
+    // The same points, said in other words.
+    let mut again = Study::of_cases(grid.points.iter().map(|point| point.case.clone()), Replicates::fixed(9));
+    assert_eq!(again.identity(), grid.identity());
+    // Every key of a point counts, to the last bit.
+    let mut counted = 0;
+    for key in keys::all().iter().filter(|key| key.name != "run.replicates") {
+        let mut case = grid.points[5].case.clone();
+        let other: Value = match key.get(&case) {
+            Some(Value::Number(number)) => number.next_up().into(),
+            Some(Value::Whole(number)) => (number + 1).into(),
+            Some(Value::Text(word)) => match key.kind.words().into_iter().find(|other| *other != word) {
+                Some(other) => other.into(),
+                None => continue,
+            },
+            _ => continue,
+        };
+        let before = key.get(&case);
+        // Times are whole steps, so the next number may be the same time.
+        if key.set(&mut case, other).is_ok() && key.get(&case) != before {
+            again.points[5].case = case;
+            assert_ne!(again.identity(), grid.identity(), "{}", key.name);
+            counted += 1;
+        }
+    }
+    assert!(counted > 20, "{counted}");
 }
 
 #[test]

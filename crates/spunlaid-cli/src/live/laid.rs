@@ -154,8 +154,8 @@ mod tests {
     #[test]
     fn spreads_are_told_with_errors_after_the_fibres_have_come_down() {
         let (case, _) = parse_case(starter_case_of_fed(), "fed.toml", &[]).unwrap();
-        let mut measured = Measured::new(&case, 0.0);
         let mut fibres = Fibres::new(case.clone()).unwrap();
+        let mut measured = Measured::new(&case, fibres.flight());
         fibres.fly((0.5 / case.run.time_step) as u64, |instant| measured.see(instant)).unwrap();
         let told = serde_json::to_value(measured.told(3, fibres.flight())).unwrap();
         assert_eq!(told["numbers"][0]["name"], "sigma_md");

@@ -104,8 +104,8 @@ fn measure(name: &str) -> Option<&'static Measure> {
 impl Measured {
     /// Statistics of a case from now on, as soon as what was before is forgotten.
     ///
-    /// * `now` – time of the flight [s]
-    pub(super) fn new(case: &Case, now: f64) -> Self {
+    /// * `flight` – of that case
+    pub(super) fn new(case: &Case, flight: &Flight) -> Self {
         let spin_up = case.run.spin_up();
         let settling = match case.line {
             Some(line) => spin_up.max(4.0 * line.distance / line.feed_speed),
@@ -113,9 +113,9 @@ impl Measured {
         };
         let of = match Laid::of(case) {
             Some(laid) => Of::Fed(Box::new(laid)),
-            None => Of::Fixed(Box::new(Swinging::of(case))),
+            None => Of::Fixed(Box::new(Swinging::of(case, flight))),
         };
-        Self { from: now + settling, duration: 0.0, batch: None, of }
+        Self { from: flight.time() + settling, duration: 0.0, batch: None, of }
     }
 
     /// Sees a recorded instant.
@@ -172,7 +172,7 @@ impl Measured {
 }
 
 impl Swinging {
-    fn of(case: &Case) -> Self {
+    fn of(case: &Case, flight: &Flight) -> Self {
         let observer =
             DECLARED.iter().find(|d| d.measures.iter().any(|m| m.name == "amplitude_y_along_fibre"));
         let welch = Welch::new(case.run.output_interval(), SEGMENT, Window::Hann, 0.5);
@@ -180,7 +180,7 @@ impl Swinging {
             y: Batches::default(),
             z: Batches::default(),
             along: observer
-                .map_or_else(|| Box::new(Blind) as Box<dyn Observer>, |found| (found.observer)(case)),
+                .map_or_else(|| Box::new(Blind) as Box<dyn Observer>, |found| (found.observer)(flight)),
             recent: from_fn(|_| Default::default()),
             spectrum: [welch.clone(), welch],
         }
@@ -290,7 +290,7 @@ mod tests {
         let results = results.finish();
 
         let mut fibres = Fibres::new(case.clone()).unwrap();
-        let mut measured = Measured::new(&case, 0.0);
+        let mut measured = Measured::new(&case, fibres.flight());
         fibres.fly(case.run.steps + 1, |instant| measured.see(instant)).unwrap();
         let told = measured.told(1, fibres.flight());
         assert!((told.duration - 2.0).abs() < 1e-9 && told.settling == 0.0);
@@ -315,7 +315,7 @@ mod tests {
     fn nothing_is_told_before_the_fibres_have_settled() {
         let (case, _) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
         let fibres = Fibres::new(case.clone()).unwrap();
-        let told = Measured::new(&case, 0.0).told(1, fibres.flight());
+        let told = Measured::new(&case, fibres.flight()).told(1, fibres.flight());
         assert!(told.settling > 0.4 && told.curves.is_none() && told.numbers[0].value.is_none());
     }
 }

@@ -26,7 +26,7 @@ impl EddyModel {
 }
 
 /// The eddy of each element of a fibre.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Eddies {
     of_element: Vec<u32>,
     count: usize,

@@ -28,11 +28,11 @@ pub use measured::{APART, Measured, RecordLayout, Said};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
-pub(crate) use stations::time_between_looks;
 pub use stations::{StationGrid, Stations};
+pub(crate) use stations::{Way, time_between_looks};
 pub use surroundings::Surroundings;
 pub(crate) use surroundings::{AirAtElements, InEddies};
-pub(crate) use wind::EddyVelocities;
+pub(crate) use wind::{EddyVelocities, Sampling};
 pub use wind::{Stream, StreamKey, Wind};
 
 use std::path::{Path, PathBuf};

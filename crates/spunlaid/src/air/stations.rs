@@ -9,7 +9,7 @@
 
 use super::surroundings::{AirAtElements, Surroundings};
 use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Wind};
-use crate::error::FlightFault;
+use crate::company::{PerLane, shared};
 use crate::field::Hint;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, indices};
 use crate::nodes::Nodes;
@@ -93,6 +93,22 @@ impl Air {
     }
 }
 
+shared! {
+    /// What the air along the way of one flight's fibres has in common. Where the stations are may differ.
+    pub(crate) struct Way {
+        stations: usize = "the number of stations between inlet and belt (belt.distance, air.length_scale)",
+        every: u64 = "how often the air on the way is looked up (air.length_scale, air.velocity, feed.speed)",
+        in_field: bool = "whether the air is a field (air.field)",
+    }
+}
+
+impl Way {
+    /// * `every` – steps from one look to the next
+    pub(crate) fn of(air: &Air, grid: &StationGrid, every: u64) -> Self {
+        Self { stations: grid.count, every: every.max(1), in_field: matches!(air.flow, Flow::Field(_)) }
+    }
+}
+
 /// The air at an element of eight fibres.
 #[derive(Clone, Copy, Debug)]
 struct Here {
@@ -105,13 +121,13 @@ struct Here {
 /// The air along the way of up to eight fed fibres, and at their elements.
 #[derive(Clone, Debug)]
 pub struct Stations {
-    grid: StationGrid,
+    way: Way,
+    /// Stations to a length [1/m].
+    per_length: Lanes,
     /// Mean velocity along x [m/s], and factor of the signal.
     still: Vec<[Lanes; 2]>,
     /// `2(1−ρ)` with the correlation `ρ` of a station's signal and the next one's.
     apart: Vec<Lanes>,
-    /// Steps from one look to the next.
-    every: u64,
     looked: bool,
     /// Of each station, at the last look, in each lane: fluctuation, and mean velocity along x [m/s].
     now: Vec<[[f64; 4]; WIDTH]>,
@@ -121,49 +137,46 @@ pub struct Stations {
 }
 
 impl Stations {
-    /// * `airs` – of up to eight fibres; lanes left over repeat the first
+    /// * `lanes` – air and stations of each fibre
     /// * `elements` – number of elements at the start
-    /// * `every` – steps from one look to the next
-    ///
-    /// # Errors
-    /// No air or more than eight.
-    pub fn new(airs: Vec<Air>, grid: StationGrid, elements: usize, every: u64) -> Result<Self, FlightFault> {
-        if airs.is_empty() {
-            return Err(FlightFault::Empty);
-        }
-        if airs.len() > WIDTH {
-            return Err(FlightFault::TooMany { fibres: airs.len(), most: WIDTH });
-        }
-        let pick = |lane: usize| if lane < airs.len() { lane } else { 0 };
+    pub(crate) fn new(way: Way, lanes: &PerLane<(Air, StationGrid)>, elements: usize) -> Self {
         let mut hint = Hint::default();
-        let mut still = vec![[Lanes::ZERO, Lanes::splat(1.0)]; grid.count];
-        let mut apart = vec![Lanes::ZERO; grid.count];
-        for (lane, air) in airs.iter().enumerate() {
-            let turbulence = air.turbulence_at(&grid);
-            for (k, still) in still.iter_mut().enumerate() {
+        let here = lanes.map(|(air, grid)| {
+            let still = (0..way.stations).map(|k| {
                 let x = (k as f64 + 0.5) * grid.spacing;
-                let local = air.local(Vec3::new(x, 0.0, 0.0), &mut hint);
-                (still[0].0[lane], still[1].0[lane]) = match air.flow {
+                match air.flow {
                     Flow::Uniform => (air.velocity, 1.0),
-                    Flow::Profile(_) => (local.velocity.x, local.rms),
+                    Flow::Profile(_) => {
+                        let local = air.local(Vec3::new(x, 0.0, 0.0), &mut hint);
+                        (local.velocity.x, local.rms)
+                    }
                     Flow::Field(_) => (0.0, 1.0),
-                };
-            }
-            for (apart, pair) in apart.iter_mut().zip(turbulence.windows(2)) {
-                apart.0[lane] = 2.0 * (1.0 - air.correlation(&pair[0], &pair[1]));
-            }
-        }
-        for lane in airs.len()..WIDTH {
-            still.iter_mut().flatten().chain(&mut apart).for_each(|of| of.0[lane] = of.0[pick(lane)]);
-        }
-        let field = match airs[0].flow {
-            Flow::Field(_) => Some(Surroundings::new(airs, elements, every)?),
-            Flow::Uniform | Flow::Profile(_) => None,
+                }
+            });
+            let still: Vec<(f64, f64)> = still.collect();
+            let turbulence = air.turbulence_at(grid);
+            let correlations = turbulence.windows(2).map(|pair| air.correlation(&pair[0], &pair[1]));
+            (still, correlations.collect::<Vec<f64>>())
+        });
+        let still = |k: usize| [here.lanes(|(still, _)| still[k].0), here.lanes(|(still, _)| still[k].1)];
+        let apart = |k: usize| match k + 1 < way.stations {
+            true => here.lanes(|(_, correlations)| 2.0 * (1.0 - correlations[k])),
+            false => Lanes::ZERO,
         };
-        let (now, nothing) =
-            (vec![[[0.0; 4]; WIDTH]; grid.count], Here { value: Vec3::ZERO, rise: Vec3::ZERO });
-        let elements = vec![nothing; elements].into();
-        Ok(Self { grid, still, apart, every: every.max(1), looked: false, now, elements, field })
+        let field = way
+            .in_field
+            .then(|| Surroundings::around_elements(lanes.map(|(air, _)| air.clone()), elements, way.every));
+        let nothing = Here { value: Vec3::ZERO, rise: Vec3::ZERO };
+        Self {
+            per_length: lanes.lanes(|(_, grid)| 1.0 / grid.spacing),
+            still: (0..way.stations).map(still).collect(),
+            apart: (0..way.stations).map(apart).collect(),
+            looked: false,
+            now: vec![[[0.0; 4]; WIDTH]; way.stations],
+            elements: vec![nothing; elements].into(),
+            field,
+            way,
+        }
     }
 
     /// Share of the time that the elements of a lane's fibre have spent outside of a field's data.
@@ -181,8 +194,8 @@ impl Stations {
 
     /// Replaces the air by another one with as many stations. The values of the last look are kept until the next.
     pub(crate) fn change(&mut self, by: Self) {
-        let Self { still, apart, every, field, .. } = by;
-        (self.still, self.apart, self.every) = (still, apart, every);
+        let Self { way, per_length, still, apart, field, .. } = by;
+        (self.way, self.per_length, self.still, self.apart) = (way, per_length, still, apart);
         if let (Some(field), Some(new)) = (&mut self.field, field) {
             field.change(new);
         }
@@ -208,7 +221,7 @@ impl Stations {
         wind: &mut Wind,
         position: &[Vec3<Lanes>],
     ) -> AlongTheWay<'_, S> {
-        let since = step % self.every;
+        let since = step % self.way.every;
         if since == 0 {
             S::ISA.run(Look { stations: self, t, wind, position });
         }
@@ -241,19 +254,19 @@ impl Stations {
         }
         let (half, one) = (Wide::<S>::splat(0.5), Wide::splat(1.0));
         // The first look has none before it to extrapolate from.
-        let per_step = Wide::splat(if self.looked { 1.0 / self.every as f64 } else { 0.0 });
-        let (per_spacing, last) = (Wide::splat(1.0 / self.grid.spacing), (self.grid.count - 1) as f64);
+        let per_step = Wide::splat(if self.looked { 1.0 / self.way.every as f64 } else { 0.0 });
+        let (per_length, last) = (Wide::load(&self.per_length), (self.way.stations - 1) as f64);
         let (end, before_end) = (Wide::splat(last), Wide::splat(last - 1.0));
         for (j, (ends, here)) in position.windows(2).zip(self.elements.iter_mut()).enumerate() {
             let centre = (Wide::<S>::load(&ends[0].x) + Wide::load(&ends[1].x)) * half;
-            let place = (centre * per_spacing - half).max(Wide::zero());
+            let place = (centre * per_length - half).max(Wide::zero());
             let place = Wide::select_less(place, end, place, end);
             let start = place.floor();
             let start = Wide::select_less(start, before_end, start, before_end);
             let mut rows = [[&[0.0; 4]; WIDTH]; 2];
             let mut apart = Lanes::ZERO;
             for (lane, k) in indices(start).into_iter().enumerate() {
-                let k = k.min(self.grid.count - 2);
+                let k = k.min(self.way.stations - 2);
                 apart.0[lane] = self.apart[k].0[lane];
                 rows[0][lane] = &self.now[k][lane];
                 rows[1][lane] = &self.now[k + 1][lane];
@@ -325,7 +338,7 @@ impl<S: Register> AirAtElements<S> for AlongTheWay<'_, S> {
 
 #[cfg(test)]
 mod tests {
-    use super::{AirAtElements, StationGrid, Stations};
+    use super::{AirAtElements, PerLane, StationGrid, Stations, Way};
     use crate::air::{Air, EddyModel, Stream, StreamKey, Wind};
     use crate::lanes::{Isa, Lanes, Plain, WIDTH};
     use crate::vec3::Vec3;
@@ -363,7 +376,8 @@ mod tests {
             let position: Vec<_> = (0..(grid.count - 1) * QUARTERS + 2)
                 .map(|j| Vec3::splat(Vec3::new(place(j), 0.0, 0.0)))
                 .collect();
-            let stations = Stations::new(vec![air; WIDTH], grid, position.len() - 1, 1).unwrap();
+            let lanes = PerLane::new(vec![(air.clone(), grid)]).unwrap();
+            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, position.len() - 1);
             Self { grid, wind, stations, position, looks: 0 }
         }
 

@@ -1,6 +1,7 @@
 //! The air around eight fibres in a flow that is not uniform.
 
 use super::{Air, EddyVelocities};
+use crate::company::PerLane;
 use crate::error::FlightFault;
 use crate::field::{Around, Hint};
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
@@ -85,7 +86,7 @@ const UNKNOWN: Nearby = Nearby {
 /// The air around the elements of eight fibres.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
-    airs: Vec<Air>,
+    airs: PerLane<Air>,
     places: Nodes<Place>,
     nearby: Nodes<Nearby>,
     /// Where each fibre's element was found last.
@@ -105,14 +106,11 @@ impl Surroundings {
     /// # Errors
     /// No air or more than eight.
     pub fn new(airs: Vec<Air>, elements: usize, every: u64) -> Result<Self, FlightFault> {
-        match airs.len() {
-            0 => Err(FlightFault::Empty),
-            1..=WIDTH => Ok(Self::around_elements(airs, elements, every.max(1))),
-            fibres => Err(FlightFault::TooMany { fibres, most: WIDTH }),
-        }
+        Ok(Self::around_elements(PerLane::new(airs)?, elements, every))
     }
 
-    fn around_elements(airs: Vec<Air>, elements: usize, every: u64) -> Self {
+    pub(crate) fn around_elements(airs: PerLane<Air>, elements: usize, every: u64) -> Self {
+        let every = every.max(1);
         let places = vec![Place::default(); elements].into();
         let nearby = vec![UNKNOWN; elements].into();
         let hints = vec![[Hint::default(); WIDTH]; elements].into();
@@ -137,7 +135,7 @@ impl Surroundings {
 
     /// Forgets the looks so far.
     pub(crate) fn forget(&mut self) {
-        *self = Self::around_elements(std::mem::take(&mut self.airs), self.places.len(), self.every);
+        *self = Self::around_elements(self.airs.clone(), self.places.len(), self.every);
     }
 
     /// The wind before a step: `now` with the mean flow and the rms at the elements.
@@ -217,8 +215,7 @@ impl Surroundings {
         let (nearby, hints) = (&mut self.nearby[element], &mut self.hints[element]);
         for (lane, hint) in hints.iter_mut().enumerate().filter(|(lane, _)| beyond.0[*lane] > 0.0) {
             let at = centre.lane(lane);
-            let air = &self.airs[if lane < self.airs.len() { lane } else { 0 }];
-            let Around { value, gradients, reach, inside } = air.around(at, hint);
+            let Around { value, gradients, reach, inside } = self.airs.of(lane).around(at, hint);
             nearby.at.set_lane(lane, at);
             nearby.reach.0[lane] = reach;
             nearby.outside.0[lane] = if inside { 0.0 } else { 1.0 };

@@ -12,11 +12,10 @@ pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
 pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
 
-use crate::air::{Air, Eddies, EddyTurbulence, StationGrid, Surroundings, time_between_looks};
+use crate::air::{Air, Eddies, EddyTurbulence, StationGrid, time_between_looks};
 use crate::chain::Strand;
 use crate::chain::schemes::Scheme;
 use crate::drag::Drag;
-use crate::error::FlightFault;
 use crate::fibre::Fibre;
 use crate::line::Line;
 use crate::units::Dimension;
@@ -181,17 +180,6 @@ impl Case {
     /// The eddies along the fibre.
     pub fn eddies(&self) -> Eddies {
         self.air.eddies_along(self.along(), self.fibre.elements)
-    }
-
-    /// The air around fibres with this number of elements, one fibre for each air. None if the air is uniform.
-    pub(crate) fn surroundings(
-        &self,
-        airs: impl Iterator<Item = Air>,
-    ) -> Result<Option<Surroundings>, FlightFault> {
-        if self.air.is_uniform() {
-            return Ok(None);
-        }
-        Surroundings::new(airs.collect(), self.fibre.elements, self.steps_between_looks()).map(Some)
     }
 
     /// Steps from one look at the flow around the fibre to the next, see [`Air::time_between_looks`].

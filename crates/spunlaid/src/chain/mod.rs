@@ -10,9 +10,11 @@ pub mod work;
 
 use self::laying::{Friction, Laying};
 use self::schemes::Scheme;
-use crate::drag::{DragLanes, ElementDrag};
+use crate::company::{PerLane, shared};
+use crate::drag::{Curve, DragLanes, ElementDrag};
 use crate::fibre::{Fibre, Root};
 use crate::lanes::{Lanes, WIDTH};
+use crate::line::Line;
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
@@ -27,6 +29,28 @@ pub struct Strand {
     pub gravity: f64,
     /// Mass-proportional damping [1/s].
     pub damping: f64,
+}
+
+shared! {
+    /// What the chains of one flight have in common.
+    pub(crate) struct Common {
+        elements: usize = "the number of elements (fibre.length, fibre.element_length)",
+        drag_curves: [Option<Curve>; 2] = "the kind of drag.along or drag.across",
+        damped: bool = "whether there is run.damping",
+        /// Of a fed fibre.
+        steps_per_element: Option<u64> = "how an element is fed (feed.speed, fibre.element_length)",
+    }
+}
+
+impl Common {
+    pub(crate) fn of(strand: &Strand, line: Option<&Line>) -> Self {
+        Self {
+            elements: strand.fibre.elements,
+            drag_curves: strand.drag.curves(),
+            damped: strand.damping != 0.0,
+            steps_per_element: line.map(|line| line.steps_per_element),
+        }
+    }
 }
 
 /// Eight fibres with equal numbers of elements, advanced side by side.
@@ -88,11 +112,9 @@ pub(crate) struct Node {
 }
 
 impl Constants {
-    /// The constants of up to eight fibres. Unused lanes repeat the first fibre.
-    fn of(strands: &[Strand]) -> Self {
-        let pick = |i: usize| strands[if i < strands.len() { i } else { 0 }];
-        let lanes = |value: &dyn Fn(&Strand) -> f64| Lanes::from_fn(|i| value(&pick(i)));
-        let elements = strands[0].fibre.elements;
+    /// The constants of up to eight fibres.
+    fn of(common: &Common, strands: &PerLane<Strand>) -> Self {
+        let lanes = |value: &dyn Fn(&Strand) -> f64| strands.lanes(value);
         let direction = Vec3::new(
             lanes(&|s| s.fibre.direction.x),
             lanes(&|s| s.fibre.direction.y),
@@ -111,7 +133,7 @@ impl Constants {
             root: node(0, &|s| s.fibre.root != Root::Free),
             // A chain of one element has no such node and does not use this.
             node: node(1, &|_| false),
-            tail: vec![node(elements, &|_| false)],
+            tail: vec![node(common.elements, &|_| false)],
             rest_length: lanes(&|s| s.fibre.rest_length()),
             axial_stiffness: lanes(&|s| s.fibre.axial_stiffness()),
             bending_stiffness: lanes(&|s| s.fibre.rotational_stiffness()),
@@ -119,13 +141,12 @@ impl Constants {
             second_stiffness: lanes(&|s| s.fibre.rotational_stiffness()),
             root_direction: direction,
             viscosity: strands
-                .iter()
                 .any(|s| s.fibre.bending_viscosity_time != 0.0)
                 .then(|| lanes(&|s| s.fibre.bending_viscosity_time)),
             damping: lanes(&|s| s.damping),
             friction: None,
             frame: Lanes::ZERO,
-            half_drag: DragLanes::pack(&std::array::from_fn::<_, WIDTH, _>(|i| pick(i).drag.half())),
+            half_drag: DragLanes::pack(common.drag_curves, &strands.each(|s| s.drag.half())),
         }
     }
 
@@ -150,11 +171,9 @@ impl Constants {
 
 impl Chain {
     /// Packs up to eight fibres, straight and at rest, with their roots at the origin.
-    ///
-    /// Unused lanes repeat the first fibre. All must have the same number of elements as the first.
-    pub(crate) fn straight(strands: &[Strand], scheme: Scheme) -> Self {
-        let elements = strands[0].fibre.elements;
-        let constants = Constants::of(strands);
+    pub(crate) fn straight(common: &Common, strands: &PerLane<Strand>, scheme: Scheme) -> Self {
+        let elements = common.elements;
+        let constants = Constants::of(common, strands);
         let (direction, rest_length) = (constants.root_direction, constants.rest_length);
         let position = (0..=elements).map(|i| direction * (rest_length * Lanes::splat(i as f64))).collect();
         Self {
@@ -169,8 +188,8 @@ impl Chain {
 
     /// Replaces the fibres by others with the same number of elements. Positions and velocities stay; tensions
     /// change in proportion to the axial stiffness.
-    pub(crate) fn become_of(&mut self, strands: &[Strand]) {
-        let former = std::mem::replace(&mut self.constants, Constants::of(strands));
+    pub(crate) fn become_of(&mut self, common: &Common, strands: &PerLane<Strand>) {
+        let former = std::mem::replace(&mut self.constants, Constants::of(common, strands));
         self.keep_held(&former);
         let (before, after) = (former.axial_stiffness, self.constants.axial_stiffness);
         for tension in self.tensions.tension.iter_mut() {

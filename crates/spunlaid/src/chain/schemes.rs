@@ -1,7 +1,7 @@
 //! The time-integration schemes.
 
 /// How the equations of motion are advanced in time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Scheme {
     /// `v ← v + h a(r, v)`, then `r ← r + h v`. First order; the paper uses it. theory.md (27)
     SemiImplicitEuler,

@@ -99,8 +99,7 @@ impl KeepShapes {
     }
 }
 
-/// Computes one to eight jobs side by side to the end of their cases. The measures are those that apply to the case of
-/// the first job, with its rest length of the elements.
+/// Computes one to eight jobs side by side to the end of their cases.
 ///
 /// # Errors
 /// The jobs cannot fly together ([`Flight::new`]), a fibre is lost, or another thread stops it.
@@ -112,6 +111,11 @@ pub fn fly_together(
     fly_with_plan(jobs, keep, None, computing).map(|(trajectories, _)| trajectories)
 }
 
+/// Length of fibre fed in the spin-up, whose points are not kept [m].
+fn first_counted(case: &Case) -> f64 {
+    case.line.map_or(0.0, |line| line.feed_speed * case.run.spin_up())
+}
+
 /// [`fly_together`], with the paths that the plan compares.
 pub(super) fn fly_with_plan(
     jobs: &[Job<'_>],
@@ -120,27 +124,25 @@ pub(super) fn fly_with_plan(
     computing: Computing<'_>,
 ) -> Result<(Vec<Trajectory>, Vec<Path>), Error> {
     let mut flight = Flight::new(jobs, computing.isa)?;
-    let case = jobs[0].case;
-    let run = &case.run;
-    let mut observers = Observers::of(case, keep.curves);
+    let clock = flight.clock().clone();
+    let mut observers = Observers::of(&flight, keep.curves);
     let mut trajectories: Vec<Trajectory> =
         jobs.iter().map(|job| Trajectory { replicate: job.replicate, ..Trajectory::default() }).collect();
     let mut paths = vec![Path::new(); plan.map_or(0, |plan| plan.paths(jobs))];
-    let first_counted = case.line.map_or(0.0, |line| line.feed_speed * run.spin_up());
     let mut step = 0;
     for instant in 0.. {
         // A snapshot needs one step. The last one takes that step on a copy.
-        let snapshot = if step < run.steps { flight.observe() } else { flight.snapshot() };
+        let snapshot = if step < clock.steps { flight.observe() } else { flight.snapshot() };
         match flight.lost() {
             Some(Error::Diverged { .. }) => {
-                return Err(divergence(jobs, computing.isa, step - run.output_steps.min(step)));
+                return Err(divergence(jobs, computing.isa, step - clock.output_steps.min(step)));
             }
             Some(adrift) => return Err(adrift),
             None => {}
         }
         let samples: [Sample; WIDTH] = std::array::from_fn(|lane| Sample::of(&snapshot, lane));
         let laid: [Vec<LaidPoint>; WIDTH] = std::array::from_fn(|lane| flight.take_laid(lane));
-        let settled = step >= run.spin_up_steps;
+        let settled = step >= clock.spin_up_steps;
         observers.see(&Seen { snapshot: &snapshot, samples: &samples, settled, laid: &laid });
         for (lane, trajectory) in trajectories.iter_mut().enumerate() {
             trajectory.samples.push(samples[lane]);
@@ -151,6 +153,7 @@ pub(super) fn fly_with_plan(
             }
             if trajectory.replicate < keep.shapes.replicates {
                 let room = LAID_WITH_SHAPES - trajectory.laid.len();
+                let first_counted = first_counted(jobs[lane].case);
                 let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);
                 trajectory.laid.extend(counted.take(room));
             }
@@ -163,10 +166,10 @@ pub(super) fn fly_with_plan(
                 take.take(trajectory.replicate, &laid[lane])?;
             }
         }
-        if step >= run.steps {
+        if step >= clock.steps {
             break;
         }
-        let steps = run.output_steps.min(run.steps - step);
+        let steps = clock.output_steps.min(clock.steps - step);
         flight.advance(steps - 1);
         step += steps;
         computing.fibre_steps.fetch_add(steps * jobs.len() as u64, Ordering::Relaxed);

@@ -81,13 +81,3 @@ pub enum FlightFault {
         reason: &'static str,
     },
 }
-
-impl FlightFault {
-    /// Refuses a fibre that differs from the first one in one of the properties listed.
-    pub(crate) fn unless_same(lane: usize, same: &[(&'static str, bool)]) -> Result<(), Self> {
-        match same.iter().find(|(_, same)| !same) {
-            Some((what, _)) => Err(Self::Differ { what, lane }),
-            None => Ok(()),
-        }
-    }
-}

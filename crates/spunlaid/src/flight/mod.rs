@@ -31,7 +31,7 @@ mod set;
 mod start;
 mod steps;
 
-pub(crate) use common::Common;
+pub(crate) use common::{Clock, Common};
 pub use end_node::{EndNodeMotion, EndNodeStatistics};
 
 use crate::air::{Eddies, Stations, Stream, StreamKey, Surroundings, Wind};
@@ -97,8 +97,7 @@ pub struct Flight {
     stations: Option<Stations>,
     work: WorkDone,
     steps_done: u64,
-    /// Number of steps at the start that the end-node statistics leave out.
-    spin_up: u64,
+    clock: Clock,
     end_node: EndNodeStatistics,
     /// Sum over all steps of the strain of the element at the root [-].
     root_strain: Lanes,
@@ -186,6 +185,16 @@ impl Flight {
     /// if the flight was assembled from parts.
     pub fn case(&self, lane: usize) -> Option<&Case> {
         self.cases.get(lane).map(|(case, _)| case)
+    }
+
+    /// The times of its cases.
+    pub(crate) const fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// The instruction set that it is computed with.
+    pub(crate) const fn isa(&self) -> Isa {
+        self.isa
     }
 
     /// The chains, with positions and velocities as the scheme stores them.

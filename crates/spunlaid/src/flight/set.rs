@@ -1,10 +1,10 @@
 //! Changes in flight.
 
-use super::Flight;
-use super::start::{check_strands, surrounded};
+use super::start::surrounded;
+use super::{Common, Flight, Job};
 use crate::case::Case;
 use crate::case::keys::{self, Value};
-use crate::chain::Strand;
+use crate::company::PerLane;
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
 
@@ -40,17 +40,19 @@ impl Flight {
     }
 
     fn fly_on_as(&mut self, cases: Vec<(Case, u64)>, key: &'static str) -> Result<(), Error> {
-        let air = surrounded(&cases, self.isa, cases[0].0.air_horizon())?;
-        let strands: Vec<Strand> = cases.iter().map(|(case, _)| case.strand()).collect();
-        check_strands(&strands)?;
-        let meshed_anew = self.stations.is_none() && strands[0].fibre.elements != self.chain.elements();
+        let jobs = cases.iter().map(|(case, replicate)| Job { case, replicate: *replicate }).collect();
+        let jobs = PerLane::new(jobs)?;
+        let common = Common::of_all(&jobs)?;
+        let air = surrounded(&common, &jobs, self.isa, common.clock.air_horizon())?;
+        let strands = jobs.map(|job| job.case.strand());
+        let meshed_anew = self.stations.is_none() && common.chain.elements != self.chain.elements();
         if air.eddies != self.eddies || meshed_anew {
             let reason = "it would change which element lies in which eddy";
             return Err(FlightFault::NotInFlight { key, reason }.into());
         }
 
         let before = self.held();
-        self.chain.become_of(&strands);
+        self.chain.become_of(&common.chain, &strands);
         let after = self.held();
         let start = &mut self.start.energy;
         start.axial = start.axial + (after.axial - before.axial);
@@ -58,7 +60,7 @@ impl Flight {
         let (fallen, falling) = (before.gravity_work, after.gravity_work);
         start.kinetic = start.kinetic + (after.kinetic - before.kinetic) - (falling - fallen);
 
-        self.damped = strands.iter().any(|strand| strand.damping != 0.0);
+        self.damped = common.chain.damped;
         self.wind = air.wind;
         if let (Some(stations), Some(new)) = (&mut self.stations, air.stations) {
             stations.change(new);

@@ -1,15 +1,15 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
-use super::{Common, EndNodeStatistics, Flight, Job, Start, Surrounded};
+use super::{Clock, Common, EndNodeStatistics, Flight, Job, Start, Surrounded};
 use crate::air::{Stations, Surroundings, Wind};
 use crate::case::Case;
-use crate::chain::laying::Fed;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
-use crate::chain::{Chain, Strand};
+use crate::chain::{self, Chain, Strand};
+use crate::company::PerLane;
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
-use crate::lanes::{Isa, Lanes, WIDTH};
+use crate::lanes::{Isa, Lanes};
 use crate::vec3::Vec3;
 
 impl Flight {
@@ -21,33 +21,28 @@ impl Flight {
     /// scheme, kinds of drag laws, cut-off frequency, number of harmonics and records; and either all or none of
     /// them are damped.
     pub fn new(jobs: &[Job<'_>], isa: Isa) -> Result<Self, Error> {
-        let first = jobs.first().ok_or(FlightFault::Empty)?;
-        Self::in_air_until(jobs, isa, first.case.air_horizon())
+        let (jobs, common) = checked(jobs)?;
+        let horizon = common.clock.air_horizon();
+        Ok(Self::in_air(&jobs, common, isa, horizon)?)
     }
 
     /// As [`Flight::new`], in air that is made to last until a given time [s].
     pub(crate) fn in_air_until(jobs: &[Job<'_>], isa: Isa, horizon: f64) -> Result<Self, Error> {
-        let first = jobs.first().ok_or(FlightFault::Empty)?;
-        for (lane, job) in jobs.iter().enumerate() {
-            // Replicates of one case usually share one reference.
-            if lane > 0 && std::ptr::eq(job.case, jobs[lane - 1].case) {
-                continue;
-            }
-            job.case.check().map_err(Error::Rejected)?;
-            if lane > 0 {
-                Common::of(first.case).check(&Common::of(job.case), lane)?;
-            }
-        }
-        let run = &first.case.run;
-        let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
-        let cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect::<Vec<_>>();
-        let air = surrounded(&cases, isa, horizon)?;
+        let (jobs, common) = checked(jobs)?;
+        Ok(Self::in_air(&jobs, common, isa, horizon)?)
+    }
+
+    fn in_air(jobs: &PerLane<Job<'_>>, common: Common, isa: Isa, horizon: f64) -> Result<Self, FlightFault> {
+        let air = surrounded(&common, jobs, isa, horizon)?;
+        let strands = jobs.map(|job| job.case.strand());
+        let mut chain = Chain::straight(&common.chain, &strands, common.scheme);
         let laid: Option<Vec<_>> = jobs.iter().map(Job::fed).collect();
-        let mut flight = match laid {
-            Some(laid) => Self::fed(isa, &strands, &laid, air, run.scheme, run.time_step)?,
-            None => Self::assembled(isa, &strands, air, run.scheme, run.time_step)?,
-        };
-        (flight.cases, flight.spin_up) = (cases, run.spin_up_steps);
+        if let (Some(laid), Some(steps_per_element)) = (laid, common.chain.steps_per_element) {
+            chain.feed(&laid, steps_per_element);
+        }
+        let damped = common.chain.damped;
+        let mut flight = Self::with_chain(isa, chain, damped, air, common.scheme, common.clock)?;
+        flight.cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect();
         Ok(flight)
     }
 
@@ -65,8 +60,12 @@ impl Flight {
         h: f64,
     ) -> Result<Self, FlightFault> {
         let air = air.into();
-        check_strands(strands)?;
-        let elements = strands[0].fibre.elements;
+        let strands = PerLane::new(strands.to_vec())?;
+        let common = strands.shared(|strand| chain::Common::of(strand, None))?;
+        let elements = common.elements;
+        if elements == 0 {
+            return Err(FlightFault::NoElements);
+        }
         let around = air.surroundings.as_ref().map_or(elements, Surroundings::elements);
         for (what, of, found, wanted) in [
             ("air", "elements", air.eddies.of_element().len(), elements),
@@ -76,32 +75,25 @@ impl Flight {
                 return Err(FlightFault::Size { what, of, found, wanted });
             }
         }
-        Self::with_chain(isa, Chain::straight(strands, scheme), strands, air, scheme, h)
-    }
-
-    /// Fibres that begin to be fed, in given air.
-    fn fed(
-        isa: Isa,
-        strands: &[Strand],
-        laid: &[Fed],
-        air: Surrounded,
-        scheme: Scheme,
-        h: f64,
-    ) -> Result<Self, FlightFault> {
-        check_strands(strands)?;
-        let mut chain = Chain::straight(strands, scheme);
-        chain.feed(laid);
-        Self::with_chain(isa, chain, strands, air, scheme, h)
+        Self::with_chain(
+            isa,
+            Chain::straight(&common, &strands, scheme),
+            common.damped,
+            air,
+            scheme,
+            Clock::of_steps(h),
+        )
     }
 
     fn with_chain(
         isa: Isa,
         chain: Chain,
-        strands: &[Strand],
+        damped: bool,
         Surrounded { eddies, wind, surroundings, stations }: Surrounded,
         scheme: Scheme,
-        h: f64,
+        clock: Clock,
     ) -> Result<Self, FlightFault> {
+        let h = clock.time_step();
         if !(h > 0.0 && h.is_finite()) {
             return Err(FlightFault::Step { step: h });
         }
@@ -113,7 +105,7 @@ impl Flight {
             isa,
             cases: Vec::new(),
             scheme,
-            damped: strands.iter().any(|s| s.damping != 0.0),
+            damped,
             h,
             start: Start::default(),
             chain,
@@ -123,7 +115,7 @@ impl Flight {
             stations,
             work: WorkDone::default(),
             steps_done: 0,
-            spin_up: 0,
+            clock,
             end_node: EndNodeStatistics::default(),
             root_strain: Lanes::ZERO,
         };
@@ -199,46 +191,39 @@ impl Flight {
     }
 }
 
-/// The air of cases that can fly together.
-pub(super) fn surrounded(cases: &[(Case, u64)], isa: Isa, horizon: f64) -> Result<Surrounded, FlightFault> {
-    let case = &cases[0].0;
-    let airs = || cases.iter().map(|(case, _)| case.air.clone());
-    let stations = match case.stations() {
-        Some(grid) => {
-            let every = case.steps_between_looks();
-            Some((grid, Stations::new(airs().collect(), grid, case.strand().fibre.elements, every)?))
+/// The jobs of a flight whose cases can be run, and what they have in common.
+fn checked<'a>(jobs: &[Job<'a>]) -> Result<(PerLane<Job<'a>>, Common), Error> {
+    let jobs = PerLane::new(jobs.to_vec())?;
+    let mut last: Option<*const Case> = None;
+    for job in jobs.iter() {
+        // Replicates of one case usually share one reference.
+        if last.replace(job.case) != Some(std::ptr::from_ref(job.case)) {
+            job.case.check().map_err(Error::Rejected)?;
         }
-        None => None,
-    };
-    let eddies = stations.as_ref().map_or_else(|| case.eddies(), |(grid, _)| grid.eddies());
-    let streams =
-        cases.iter().map(|(case, replicate)| Job { case, replicate: *replicate }.stream(&eddies)).collect();
-    let wind = Wind::along(isa, streams, horizon)?;
-    if let Some((_, stations)) = stations {
-        return Ok(Surrounded { eddies, wind, surroundings: None, stations: Some(stations) });
     }
-    let wind = wind.for_steps_of(case.run.time_step);
-    let surroundings = case.surroundings(airs())?;
-    Ok(Surrounded { eddies, wind, surroundings, stations: None })
+    let common = Common::of_all(&jobs)?;
+    Ok((jobs, common))
 }
 
-/// Refuses strands that cannot fly together.
-pub(super) fn check_strands(strands: &[Strand]) -> Result<(), FlightFault> {
-    let Some(first) = strands.first() else {
-        return Err(FlightFault::Empty);
-    };
-    if strands.len() > WIDTH {
-        return Err(FlightFault::TooMany { fibres: strands.len(), most: WIDTH });
+/// The air of fibres that have this in common.
+pub(super) fn surrounded(
+    common: &Common,
+    jobs: &PerLane<Job<'_>>,
+    isa: Isa,
+    horizon: f64,
+) -> Result<Surrounded, FlightFault> {
+    let Common { way, eddies, every, chain, .. } = common;
+    let streams = jobs.map(|job| job.stream(eddies));
+    let wind = Wind::sampled(isa, common.wind.clone(), streams, horizon);
+    let eddies = eddies.clone();
+    if let Some(way) = way {
+        let of = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
+        let lanes = PerLane::new(jobs.iter().filter_map(of).collect())?;
+        let stations = Some(Stations::new(way.clone(), &lanes, chain.elements));
+        return Ok(Surrounded { eddies, wind, surroundings: None, stations });
     }
-    if first.fibre.elements == 0 {
-        return Err(FlightFault::NoElements);
-    }
-    for (lane, strand) in strands.iter().enumerate() {
-        let same = [
-            ("the number of elements", strand.fibre.elements == first.fibre.elements),
-            ("the kind of their drag laws", strand.drag.curves() == first.drag.curves()),
-        ];
-        FlightFault::unless_same(lane, &same)?;
-    }
-    Ok(())
+    let wind = wind.for_steps_of(common.clock.time_step());
+    let airs = || jobs.map(|job| job.case.air.clone());
+    let surroundings = every.map(|every| Surroundings::around_elements(airs(), chain.elements, every));
+    Ok(Surrounded { eddies, wind, surroundings, stations: None })
 }

@@ -127,7 +127,7 @@ impl Flight {
             self.work.begin();
         }
         self.steps_done += 1;
-        if self.steps_done > self.spin_up && self.stations.is_none() {
+        if self.steps_done > self.clock.spin_up_steps && self.stations.is_none() {
             self.end_node.see::<S>(&self.chain.position[self.chain.elements()]);
         }
         let element = Vec3::load(&self.chain.position[1]) - Vec3::load(&self.chain.position[0]);

@@ -1,9 +1,8 @@
 //! Amplitude of each node of the fibre.
 
-use super::{Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observer, Seen, Value, fixed};
-use crate::case::Case;
+use super::{Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observer, Seen, Value, fixed, of_each};
 use crate::flight::Flight;
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, WIDTH};
 use crate::vec3::Vec3;
 
 pub(super) const DECLARATION: Declaration = Declaration {
@@ -24,7 +23,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
     ],
     applies: fixed,
-    observer: |case| Box::new(Spread::of(case)),
+    observer: |flight| Box::new(Spread::of(flight)),
 };
 
 const AMPLITUDE: Measure = Measure {
@@ -46,16 +45,16 @@ const AMPLITUDE: Measure = Measure {
 /// Running mean and variance of every node at the recorded instants (Welford).
 #[derive(Debug)]
 struct Spread {
-    rest_length: f64,
+    rest_length: [f64; WIDTH],
     count: f64,
     /// Mean of y and z, and the sums of the squared deviations from it.
     nodes: Vec<([Lanes; 2], [Lanes; 2])>,
 }
 
 impl Spread {
-    fn of(case: &Case) -> Self {
-        let nodes = vec![Default::default(); case.fibre.elements + 1];
-        Self { rest_length: case.fibre.rest_length(), count: 0.0, nodes }
+    fn of(flight: &Flight) -> Self {
+        let nodes = vec![Default::default(); flight.chain().elements() + 1];
+        Self { rest_length: of_each(flight, |case| case.fibre.rest_length()), count: 0.0, nodes }
     }
 }
 
@@ -76,7 +75,7 @@ impl Observer for Spread {
     }
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
-        let distance: Vec<f64> = (0..self.nodes.len()).map(|i| i as f64 * self.rest_length).collect();
+        let distance: Vec<f64> = (0..self.nodes.len()).map(|i| i as f64 * self.rest_length[lane]).collect();
         let deviation = |squares: &Lanes| (squares.0[lane] / self.count).sqrt();
         let of = |axis: usize| self.nodes.iter().map(|(_, squares)| deviation(&squares[axis])).collect();
         vec![Value::Curve(distance.clone(), of(0)), Value::Curve(distance, of(1))]

@@ -1,7 +1,8 @@
 //! Speed and tension of a fed fibre on its way from the inlet to the belt.
 
-use super::{Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observer, Seen, Unit, Value, fed};
-use crate::case::Case;
+use super::{
+    Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observer, Seen, Unit, Value, fed, of_each,
+};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
 
@@ -50,20 +51,20 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
     ],
     applies: fed,
-    observer: |case| Box::new(Way::of(case)),
+    observer: |flight| Box::new(Way::of(flight)),
 };
 
 /// Sums over the elements in each class of distance.
 #[derive(Debug)]
 struct Way {
-    distance: f64,
+    distance: [f64; WIDTH],
     /// Count, sum of the velocity and of the tension, for each lane and class.
     classes: Vec<[[f64; 3]; CLASSES]>,
 }
 
 impl Way {
-    fn of(case: &Case) -> Self {
-        let distance = case.line.map_or(f64::NAN, |line| line.distance);
+    fn of(flight: &Flight) -> Self {
+        let distance = of_each(flight, |case| case.line.map_or(f64::NAN, |line| line.distance));
         Self { distance, classes: vec![[[0.0; 3]; CLASSES]; WIDTH] }
     }
 }
@@ -78,7 +79,7 @@ impl Observer for Way {
             let elements = snapshot.in_air[lane].min(snapshot.tension.len());
             for (j, tension) in snapshot.tension.iter().enumerate().take(elements) {
                 let x = 0.5 * (snapshot.position[j].x.0[lane] + snapshot.position[j + 1].x.0[lane]);
-                let class = x / self.distance * CLASSES as f64;
+                let class = x / self.distance[lane] * CLASSES as f64;
                 if (0.0..CLASSES as f64).contains(&class) {
                     let v = 0.5 * (snapshot.velocity[j].x.0[lane] + snapshot.velocity[j + 1].x.0[lane]);
                     let [count, velocity, force] = &mut classes[class as usize];
@@ -92,7 +93,7 @@ impl Observer for Way {
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
         let classes = &self.classes[lane];
-        let at = |i: usize| (i as f64 + 0.5) / CLASSES as f64 * self.distance;
+        let at = |i: usize| (i as f64 + 0.5) / CLASSES as f64 * self.distance[lane];
         let of = |which: usize| {
             let places = (0..CLASSES).map(at).collect();
             Value::Curve(places, classes.iter().map(|sums| sums[which] / sums[0]).collect())

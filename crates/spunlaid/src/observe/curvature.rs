@@ -1,10 +1,11 @@
 //! Curvature along the fibre.
 
-use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PER_METRE, Seen, Value, fixed};
-use crate::case::Case;
+use super::{
+    Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PER_METRE, Seen, Value, fixed, of_each,
+};
 use crate::chain::forces::Element;
 use crate::flight::Flight;
-use crate::lanes::{Isa, Lanes, Register, Task, Wide};
+use crate::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide};
 use crate::vec3::Vec3;
 
 pub(super) const DECLARATION: Declaration = Declaration {
@@ -30,23 +31,24 @@ pub(super) const DECLARATION: Declaration = Declaration {
         series: "rms",
     }],
     applies: fixed,
-    observer: |case| Box::new(Curvature::of(case)),
+    observer: |flight| Box::new(Curvature::of(flight)),
 };
 
 /// Sums of squares at the nodes between two elements.
 #[derive(Debug)]
 struct Curvature {
     isa: Isa,
-    rest_length: f64,
+    rest_length: [f64; WIDTH],
     count: f64,
     /// Sums of `|t₁ − t₀|²` with the tangents `t` of the two elements [-].
     squares: Vec<Lanes>,
 }
 
 impl Curvature {
-    fn of(case: &Case) -> Self {
-        let squares = vec![Lanes::ZERO; case.fibre.elements.saturating_sub(1)];
-        Self { isa: Isa::detect(), rest_length: case.fibre.rest_length(), count: 0.0, squares }
+    fn of(flight: &Flight) -> Self {
+        let squares = vec![Lanes::ZERO; flight.chain().elements().saturating_sub(1)];
+        let rest_length = of_each(flight, |case| case.fibre.rest_length());
+        Self { isa: flight.isa(), rest_length, count: 0.0, squares }
     }
 }
 
@@ -59,8 +61,9 @@ impl Observer for Curvature {
     }
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
-        let distance = (0..self.squares.len()).map(|i| (i + 1) as f64 * self.rest_length).collect();
-        let rms = |squares: &Lanes| (squares.0[lane] / self.count).sqrt() / self.rest_length;
+        let rest_length = self.rest_length[lane];
+        let distance = (0..self.squares.len()).map(|i| (i + 1) as f64 * rest_length).collect();
+        let rms = |squares: &Lanes| (squares.0[lane] / self.count).sqrt() / rest_length;
         vec![Value::Curve(distance, self.squares.iter().map(rms).collect())]
     }
 }

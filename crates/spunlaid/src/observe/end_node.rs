@@ -1,7 +1,6 @@
 //! Amplitude, frequency and mean position of the free end, from every step after the spin-up.
 
 use super::{Declaration, Figure, HERTZ, MILLIMETRES, Measure, Observer, Seen, Value, fixed};
-use crate::case::Case;
 use crate::flight::Flight;
 
 pub(super) const DECLARATION: Declaration = Declaration {
@@ -37,7 +36,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         MEAN_X,
     ],
     applies: fixed,
-    observer: |case| Box::new(EndNode::of(case)),
+    observer: |_| Box::new(EndNode),
 };
 
 const AMPLITUDE: Measure = Measure {
@@ -71,22 +70,15 @@ const fn figure(name: &'static str, title: &'static str, words: &'static str, fr
 
 /// The flight itself takes the statistics of the free ends at every step.
 #[derive(Debug)]
-struct EndNode {
-    /// Time over which the statistics are taken [s].
-    observed: f64,
-}
-
-impl EndNode {
-    fn of(case: &Case) -> Self {
-        Self { observed: case.run.duration() - case.run.spin_up() }
-    }
-}
+struct EndNode;
 
 impl Observer for EndNode {
     fn see(&mut self, _: &Seen<'_>) {}
 
     fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
-        let motion = flight.end_node().motion(lane, self.observed);
+        // Time over which the statistics are taken [s].
+        let observed = flight.case(lane).map_or(f64::NAN, |case| case.run.duration() - case.run.spin_up());
+        let motion = flight.end_node().motion(lane, observed);
         [motion.amplitude_y, motion.amplitude_z, motion.frequency_y, motion.frequency_z, motion.mean.x]
             .map(Value::Number)
             .to_vec()

@@ -1,6 +1,8 @@
 //! The laid fibre: how wide it lies, in which directions, and the surrogate that describes it.
 
-use super::{Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observer, Seen, Unit, Value, fed};
+use super::{
+    Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observer, Seen, Unit, Value, fed, of_each,
+};
 use crate::case::Case;
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
@@ -170,7 +172,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
     ],
     applies: fed,
-    observer: |case| Box::new(LaidFibres::of(case)),
+    observer: |flight| Box::new(LaidFibres::of(flight)),
 };
 
 const fn numbers(name: &'static str, title: &'static str, words: &'static str) -> Figure {
@@ -218,21 +220,31 @@ const CORRELATION: Measure = Measure {
 #[derive(Debug)]
 struct LaidFibres {
     traces: Vec<Trace>,
-    belt_ratio: f64,
+    belt_ratio: [f64; WIDTH],
     /// Recorded instants after the spin-up, and the sums of the nodes in the air.
     count: f64,
     in_air: [f64; WIDTH],
 }
 
 impl LaidFibres {
-    fn of(case: &Case) -> Self {
-        let spacing = case.fibre.rest_length();
-        let (ratio, reach, fed) = case.line.map_or((0.0, 0.0, 0.0), |line| {
-            (line.belt_speed / line.feed_speed, line.distance, line.feed_speed * case.run.spin_up())
-        });
-        let tracing = Tracing { spacing, belt_ratio: ratio, skip: (fed / spacing).round() as u64, reach };
-        Self { traces: vec![Trace::new(tracing); WIDTH], belt_ratio: ratio, count: 0.0, in_air: [0.0; WIDTH] }
+    fn of(flight: &Flight) -> Self {
+        let traces = (0..WIDTH).filter_map(|lane| flight.case(lane)).map(trace).collect();
+        Self { traces, belt_ratio: of_each(flight, belt_ratio), count: 0.0, in_air: [0.0; WIDTH] }
     }
+}
+
+/// Speed of the belt over that of the feed.
+fn belt_ratio(case: &Case) -> f64 {
+    case.line.map_or(0.0, |line| line.belt_speed / line.feed_speed)
+}
+
+/// The laid curve of a fibre, before anything is laid.
+fn trace(case: &Case) -> Trace {
+    let spacing = case.fibre.rest_length();
+    let (reach, fed) =
+        case.line.map_or((0.0, 0.0), |line| (line.distance, line.feed_speed * case.run.spin_up()));
+    let skip = (fed / spacing).round() as u64;
+    Trace::new(Tracing { spacing, belt_ratio: belt_ratio(case), skip, reach })
 }
 
 impl Observer for LaidFibres {
@@ -267,7 +279,7 @@ impl Observer for LaidFibres {
             laid.sigma_cd,
             laid.half_correlation_length_md,
             laid.half_correlation_length_cd,
-            laid.slope / self.belt_ratio,
+            laid.slope / self.belt_ratio[lane],
             laid.orientation_md,
             laid.chord_over_arc,
             laid.length,

@@ -26,6 +26,7 @@ pub use sample::Sample;
 
 use crate::case::Case;
 use crate::flight::{Flight, LaidPoint, Snapshot};
+use crate::lanes::WIDTH;
 
 /// Everything that is measured, in the order of the tables.
 pub const DECLARED: &[&Declaration] = &[
@@ -53,8 +54,9 @@ pub struct Declaration {
     pub measures: &'static [Measure],
     /// Whether they have a meaning for a case.
     pub applies: fn(&Case) -> bool,
-    /// The observer of up to eight fibres of such a case.
-    pub observer: fn(&Case) -> Box<dyn Observer>,
+    /// The observer of the fibres of a flight. Their cases may differ, so it takes what it needs of each lane's own,
+    /// [`Flight::case`].
+    pub observer: fn(&Flight) -> Box<dyn Observer>,
 }
 
 /// Something measured of every fibre.
@@ -233,28 +235,20 @@ pub trait Observer: std::fmt::Debug + Send {
     fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value>;
 }
 
-/// The observers of a case.
+/// The observers of a flight.
 #[derive(Debug)]
 pub struct Observers(Vec<(&'static Declaration, Box<dyn Observer>)>);
 
 impl Observers {
-    /// The observers of all measures that apply to a case.
+    /// The observers of all measures that apply to a fibre of a flight.
     ///
     /// * `curves` – whether to measure curves too. A study does without; observers of curves alone are then left
     ///   out.
-    pub fn of(case: &Case, curves: bool) -> Self {
+    pub fn of(flight: &Flight, curves: bool) -> Self {
         let wanted = |d: &&Declaration| curves || d.measures.iter().any(|m| m.kind == Kind::Number);
-        let declared = DECLARED.iter().copied().filter(wanted).filter(|declared| (declared.applies)(case));
-        Self(declared.map(|declared| (declared, (declared.observer)(case))).collect())
-    }
-
-    /// What the observers take from a case besides what all fibres of a flight have in common: which measures apply,
-    /// the bits of the elements' rest length, and those of feed speed, belt speed and distance. Fibres that differ in it
-    /// must be observed apart.
-    pub(crate) fn setting(case: &Case) -> (Vec<bool>, u64, Option<[u64; 3]>) {
-        let applies = DECLARED.iter().map(|declared| (declared.applies)(case)).collect();
-        let line = case.line.map(|line| [line.feed_speed, line.belt_speed, line.distance].map(f64::to_bits));
-        (applies, case.fibre.rest_length().to_bits(), line)
+        let any = |d: &&Declaration| (0..WIDTH).any(|lane| applies(d, flight, lane));
+        let declared = DECLARED.iter().copied().filter(wanted).filter(any);
+        Self(declared.map(|declared| (declared, (declared.observer)(flight))).collect())
     }
 
     /// Passes a recorded instant to all observers.
@@ -262,10 +256,10 @@ impl Observers {
         self.0.iter_mut().for_each(|(_, observer)| observer.see(seen));
     }
 
-    /// The measures of one fibre, in the order of their declarations.
+    /// The measures that apply to one fibre, in the order of their declarations.
     pub fn finish(&self, lane: usize, flight: &Flight) -> impl Iterator<Item = (&'static Measure, Value)> {
-        self.0
-            .iter()
+        let of_lane = self.0.iter().filter(move |(declared, _)| applies(declared, flight, lane));
+        of_lane
             .flat_map(move |(declared, observer)| declared.measures.iter().zip(observer.finish(lane, flight)))
     }
 }
@@ -301,6 +295,16 @@ pub const MEASURES: [&Measure; NUMBERS] = {
     }
     all
 };
+
+/// Whether measures have a meaning for the fibre in a lane.
+fn applies(declared: &Declaration, flight: &Flight, lane: usize) -> bool {
+    flight.case(lane).is_some_and(declared.applies)
+}
+
+/// A number of the case in each lane; NaN in unused lanes.
+fn of_each(flight: &Flight, number: impl Fn(&Case) -> f64) -> [f64; WIDTH] {
+    std::array::from_fn(|lane| flight.case(lane).map_or(f64::NAN, &number))
+}
 
 /// Applies to fibres of fixed length.
 fn fixed(case: &Case) -> bool {

@@ -1,7 +1,7 @@
 //! Power spectrum of the free end's motion.
 
 use super::{Declaration, Figure, Kind, Measure, Observer, SQUARE_MILLIMETRES_PER_HERTZ, Seen, Value, fixed};
-use crate::case::Case;
+use crate::case::Run;
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
 use crate::statistics::{Welch, Window};
@@ -24,7 +24,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
     ],
     applies: fixed,
-    observer: |case| Box::new(EndPositions::of(case)),
+    observer: |_| Box::new(EndPositions::default()),
 };
 
 const SPECTRUM: Measure = Measure {
@@ -44,40 +44,35 @@ const SPECTRUM: Measure = Measure {
 };
 
 /// y and z of the free ends at the recorded instants after the spin-up [m].
-#[derive(Debug)]
-struct EndPositions {
-    /// The method, before any record: made once for all fibres.
-    welch: Welch,
-    end: [[Vec<f64>; 2]; WIDTH],
-}
+#[derive(Debug, Default)]
+struct EndPositions([[Vec<f64>; 2]; WIDTH]);
 
-impl EndPositions {
-    fn of(case: &Case) -> Self {
-        let run = &case.run;
-        let samples = (run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1)) as usize + 1;
-        let segment = Welch::segment_length(samples);
-        let welch = Welch::new(run.output_interval(), segment, Window::Hann, 0.5);
-        Self { welch, end: Default::default() }
-    }
+/// Welch's method for a run, before any record.
+fn welch(run: &Run) -> Welch {
+    let samples = (run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1)) as usize + 1;
+    let segment = Welch::segment_length(samples);
+    Welch::new(run.output_interval(), segment, Window::Hann, 0.5)
 }
 
 impl Observer for EndPositions {
     fn see(&mut self, seen: &Seen<'_>) {
         if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
-            for (lane, [y, z]) in self.end.iter_mut().enumerate() {
+            for (lane, [y, z]) in self.0.iter_mut().enumerate() {
                 y.push(end.y.0[lane]);
                 z.push(end.z.0[lane]);
             }
         }
     }
 
-    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+    fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
+        let Some(case) = flight.case(lane) else { return Vec::new() };
+        let empty = welch(&case.run);
         let density = |record: &Vec<f64>| {
-            let mut welch = self.welch.clone();
+            let mut welch = empty.clone();
             welch.add(record, None);
             let (frequency, density) = welch.finish().points().unzip();
             Value::Curve(frequency, density)
         };
-        self.end[lane].iter().map(density).collect()
+        self.0[lane].iter().map(density).collect()
     }
 }

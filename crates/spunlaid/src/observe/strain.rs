@@ -18,11 +18,7 @@ pub(super) const USUAL: Declaration = Declaration {
         "99 % of the time",
     )],
     applies: |case| case.fibre.root != Root::Free,
-    observer: |case| {
-        let intervals = (case.fibre.axial_period() / case.run.output_interval()).round();
-        // More intervals than the run has mean the whole run.
-        Box::new(Averaged { intervals: intervals.clamp(1.0, 1e15) as usize, integrals: Vec::new() })
-    },
+    observer: |_| Box::new(Averaged::default()),
 };
 
 /// The extreme.
@@ -60,9 +56,8 @@ const fn measure(
 }
 
 /// Strain at the root, averaged over some intervals between recorded instants.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Averaged {
-    intervals: usize,
     /// Times of the recorded instants after the spin-up [s], and the integral of the strain over time [s].
     integrals: Vec<(f64, Lanes)>,
 }
@@ -74,15 +69,20 @@ impl Observer for Averaged {
         }
     }
 
-    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
-        vec![Value::Number(quantile(&self.means(lane), 0.99))]
+    fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
+        let intervals = flight
+            .case(lane)
+            .map_or(1.0, |case| (case.fibre.axial_period() / case.run.output_interval()).round());
+        // More intervals than the run has mean the whole run.
+        let means = self.means(lane, intervals.clamp(1.0, 1e15) as usize);
+        vec![Value::Number(quantile(&means, 0.99))]
     }
 }
 
 impl Averaged {
-    /// The averages that end at the recorded instants [-].                        theory.md (57)
-    fn means(&self, lane: usize) -> Vec<f64> {
-        let intervals = self.intervals.min(self.integrals.len().saturating_sub(1)).max(1);
+    /// The averages over some intervals that end at the recorded instants [-].       theory.md (57)
+    fn means(&self, lane: usize, intervals: usize) -> Vec<f64> {
+        let intervals = intervals.min(self.integrals.len().saturating_sub(1)).max(1);
         let mean = |((from, before), (to, after)): (&(f64, Lanes), &(f64, Lanes))| {
             (after.0[lane] - before.0[lane]) / (to - from)
         };
@@ -120,7 +120,7 @@ mod tests {
         };
         let integrals: Vec<_> = (0..=1000).map(wave).collect();
         let found = |intervals, integrals: &[(f64, Lanes)]| {
-            quantile(&Averaged { intervals, integrals: integrals.to_vec() }.means(3), 0.99)
+            quantile(&Averaged { integrals: integrals.to_vec() }.means(3, intervals), 0.99)
         };
         // 99 % of the way from the first average, over 0 to 10 ms, to the last one, over 0.99 to 1 s.
         assert!((found(10, &integrals) - (0.005 + 0.99 * 0.99)).abs() < 1e-12);

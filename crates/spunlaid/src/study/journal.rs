@@ -16,7 +16,8 @@ use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 const MAGIC: &str = "spunlaid-journal";
-const FORMAT: u32 = 3;
+/// The third format had an identity that no other version of the program could compute.
+const FORMAT: u32 = 4;
 /// Longest header [bytes].
 const LONGEST_HEADER: usize = 200;
 /// Length of a record [bytes].

@@ -27,7 +27,7 @@ pub use pack::{Batch, Bundles, fly_batches};
 pub use rounds::{PointResults, Rounds, results_of_point};
 pub use run::{Progress, fly_bundle, run};
 
-use crate::case::Case;
+use crate::case::{Case, keys};
 use crate::units::{Dimension, Expression};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -178,21 +178,35 @@ fn stream(seed: u64, purpose: Use, index: u64) -> ChaCha8Rng {
 }
 
 impl Study {
-    /// A checksum over all that the records of a study depend on: every point's whole case, and the rule for more
+    /// A checksum over all that the records of a study depend on: the keys of every point's case, and the rule for more
     /// replicates. How many are flown at most is left out, so that a finished study can be given more.
     pub fn identity(&self) -> u32 {
         let mut sum = crc32fast::Hasher::new();
-        // Text represents every number exactly.
-        let Self { factors, links, design, seed, common_phases, replicates, points } = self;
-        let rule = (!replicates.until.is_empty()).then_some((replicates.at_least, &replicates.until));
-        sum.update(format!("{factors:?}{links:?}{design:?}{seed}{common_phases}{rule:?}").as_bytes());
-        for point in points {
-            let mut point = point.clone();
-            point.case.run.replicates = 0;
-            sum.update(format!("{point:?}").as_bytes());
+        if !self.replicates.until.is_empty() {
+            sum.update(&self.replicates.at_least.to_le_bytes());
+            for (measure, fraction) in &self.replicates.until {
+                sum.update(&(*measure as u64).to_le_bytes());
+                sum.update(&fraction.to_le_bytes());
+            }
+        }
+        for point in &self.points {
+            enter_keys(&mut sum, &point.case);
         }
         MEASURES.iter().for_each(|measure| sum.update(measure.column.as_bytes()));
         sum.finalize()
+    }
+}
+
+/// Enters the name and the value of every key of a case but the number of replicates. A case that is written and read again
+/// has the same values, to the last bit; of files, the contents count.
+pub(crate) fn enter_keys(sum: &mut crc32fast::Hasher, case: &Case) {
+    for key in keys::all().iter().filter(|key| key.name != "run.replicates") {
+        if let Some(value) = key.get(case) {
+            sum.update(key.name.as_bytes());
+            // A number that the flow tells along the way is another than the same number everywhere.
+            sum.update(&[u8::from(key.is_told(case))]);
+            sum.update(&value.bytes());
+        }
     }
 }
 

@@ -6,7 +6,6 @@ use crate::ensemble::{Computing, Job, Keep, Trajectory, fly_together, in_order};
 use crate::error::Error;
 use crate::flight::Common;
 use crate::lanes::WIDTH;
-use crate::observe::Observers;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -38,7 +37,7 @@ impl Packing {
         let mut groups: Vec<(f64, Vec<(u64, Batch)>)> = Vec::new();
         for batch in batches.iter().filter(|batch| !batch.replicates.is_empty()) {
             let case = &points[batch.point].case;
-            let group = *group_of.entry((Common::of(case), Observers::setting(case))).or_insert(groups.len());
+            let group = *group_of.entry(Common::of(case)).or_insert(groups.len());
             if group == groups.len() {
                 groups.push((case.run.steps as f64 * case.fibre.elements as f64, Vec::new()));
             }

@@ -95,7 +95,7 @@ impl Session {
             clock.pace = Pace::Tenth;
         }
         let mut session = Self {
-            measured: Measured::new(fibres.case(), 0.0),
+            measured: Measured::new(fibres.case(), fibres.flight()),
             document,
             notes: read.warnings,
             remark,

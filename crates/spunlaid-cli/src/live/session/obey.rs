@@ -90,7 +90,7 @@ impl Session {
     /// Begins the statistics of the next generation.
     pub(super) fn changed(&mut self) {
         self.generation = self.generation.wrapping_add(1);
-        self.measured = Measured::new(self.fibres.case(), self.fibres.flight().time());
+        self.measured = Measured::new(self.fibres.case(), self.fibres.flight());
         self.clock.begin(Instant::now());
     }
 }

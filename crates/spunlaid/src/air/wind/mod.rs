@@ -8,19 +8,22 @@
 //! A wind makes its samples as the time goes on. It keeps one block of them, so its memory does not grow with
 //! the duration of the flight.
 
+mod sampling;
 mod stretches;
 mod synthesis;
 mod taper;
 mod windows;
 
+pub(crate) use sampling::Sampling;
 pub use synthesis::{Stream, StreamKey};
 
 use self::stretches::Stretches;
 use self::taper::{SPREAD, Taper};
 use self::windows::Windows;
 use super::Air;
+use crate::company::PerLane;
 use crate::error::FlightFault;
-use crate::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide};
+use crate::lanes::{Isa, Lanes, Register, Task, Wide};
 use crate::vec3::Vec3;
 
 /// Cubics per sample spacing of a synthesised signal. A record has one per spacing.
@@ -88,12 +91,13 @@ impl Wind {
     /// # Errors
     /// As of [`Wind::along`], and for air with records.
     pub fn repeating(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, FlightFault> {
-        check(&streams)?;
-        if !streams[0].air.records.is_empty() {
+        let (sampling, streams) = Sampling::of_all(streams)?;
+        if !sampling.records.is_empty() {
             return Err(FlightFault::RepeatingRecord);
         }
-        let windows = Windows::repeating(isa, streams, horizon);
-        Ok(Self::of(isa, windows.spacing(), means(windows.streams()), Signal::Synthesised(windows)))
+        let mean = means(&sampling, &streams);
+        let windows = Windows::repeating(isa, sampling, streams, horizon);
+        Ok(Self::of(isa, windows.spacing(), mean, Signal::Synthesised(windows)))
     }
 
     /// The wind of up to eight fibres. Lanes left over repeat the first.
@@ -104,20 +108,25 @@ impl Wind {
     /// No fibre or more than eight, and fibres that do not agree in number of eddies, cut-off frequency, number
     /// of harmonics and records; an air without harmonics.
     pub fn along(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, FlightFault> {
-        check(&streams)?;
-        let mean = means(&streams);
-        let (signal, spacing) = match streams[0].air.records.first() {
+        let (sampling, streams) = Sampling::of_all(streams)?;
+        Ok(Self::sampled(isa, sampling, streams, horizon))
+    }
+
+    /// The wind of fibres that have a sampling in common.
+    pub(crate) fn sampled(isa: Isa, sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
+        let mean = means(&sampling, &streams);
+        let (signal, spacing) = match sampling.records.first() {
             Some(record) => {
                 let spacing = record.interval;
-                (Signal::Measured(Stretches::new(streams, horizon)), spacing)
+                (Signal::Measured(Stretches::new(sampling, streams, horizon)), spacing)
             }
             None => {
-                let windows = Windows::new(isa, streams, horizon);
+                let windows = Windows::new(isa, sampling, streams, horizon);
                 let spacing = windows.spacing();
                 (Signal::Synthesised(windows), spacing)
             }
         };
-        Ok(Self::of(isa, spacing, mean, signal))
+        Self::of(isa, spacing, mean, signal)
     }
 
     fn of(isa: Isa, spacing: f64, mean: Vec<Lanes>, signal: Signal) -> Self {
@@ -315,46 +324,9 @@ fn weights(cells: u64) -> Vec<[(f64, f64); SPREAD]> {
     (0..=cells).map(of_cell).collect()
 }
 
-/// What the fibres of a wind must have in common.
-fn check(streams: &[Stream]) -> Result<(), FlightFault> {
-    let Some((first, others)) = streams.split_first() else {
-        return Err(FlightFault::Empty);
-    };
-    if streams.len() > WIDTH {
-        return Err(FlightFault::TooMany { fibres: streams.len(), most: WIDTH });
-    }
-    if first.eddies.is_empty() {
-        return Err(FlightFault::NoEddies);
-    }
-    let harmonics = first.air.harmonics;
-    if first.air.records.is_empty() && !((1..=1 << 30).contains(&harmonics) && first.air.repeat_time() > 0.0)
-    {
-        return Err(FlightFault::NoHarmonics);
-    }
-    let checksums =
-        |stream: &Stream| -> Vec<u32> { stream.air.records.iter().map(super::FromFile::checksum).collect() };
-    for (other, stream) in others.iter().enumerate() {
-        let lane = other + 1;
-        let same = [
-            ("the number of eddies along the fibre", stream.eddies.len() == first.eddies.len()),
-            ("air.cutoff_frequency", stream.air.cutoff_frequency == first.air.cutoff_frequency),
-            ("air.harmonics", stream.air.harmonics == first.air.harmonics),
-            ("air.record", checksums(stream) == checksums(first)),
-        ];
-        FlightFault::unless_same(lane, &same)?;
-    }
-    Ok(())
-}
-
 /// Mean velocity along x of each eddy [m/s].
-fn means(streams: &[Stream]) -> Vec<Lanes> {
-    let eddies = streams[0].eddies.len();
-    (0..eddies).map(|eddy| Lanes::from_fn(|i| of_lane(streams, i).eddies[eddy].mean)).collect()
-}
-
-/// The stream of a lane; lanes left over repeat the first.
-fn of_lane(streams: &[Stream], lane: usize) -> &Stream {
-    &streams[if lane < streams.len() { lane } else { 0 }]
+fn means(sampling: &Sampling, streams: &PerLane<Stream>) -> Vec<Lanes> {
+    (0..sampling.eddies).map(|eddy| streams.lanes(|stream| stream.eddies[eddy].mean)).collect()
 }
 
 /// The wind at one instant, from the samples around it.
@@ -403,7 +375,7 @@ impl<S: Register> EddyVelocities<'_, S> {
 mod tests {
     use super::*;
     use crate::air::{Air, StreamKey};
-    use crate::lanes::Plain;
+    use crate::lanes::{Plain, WIDTH};
 
     #[test]
     fn analytic_the_wind_among_its_samples_is_that_of_the_cubics() {

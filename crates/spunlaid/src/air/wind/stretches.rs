@@ -1,8 +1,9 @@
 //! Assigns stretches of a record to the eddies.
 
 use super::super::{EddyTurbulence, Measured};
-use super::of_lane;
+use super::sampling::Sampling;
 use super::synthesis::Stream;
+use crate::company::PerLane;
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
@@ -14,7 +15,8 @@ use std::sync::Arc;
 /// way: they fade in over [`FADE`] integral times while the old ones fade out.  theory.md (50)
 #[derive(Clone, Debug)]
 pub(super) struct Stretches {
-    streams: Arc<Vec<Stream>>,
+    sampling: Sampling,
+    streams: Arc<PerLane<Stream>>,
     /// Time that a stretch lasts for [s].
     horizon: f64,
     /// Samples from one choice of stretches to the next.
@@ -31,14 +33,15 @@ pub(super) struct Stretches {
 const FADE: f64 = 5.0;
 
 impl Stretches {
-    pub(super) fn new(streams: Vec<Stream>, horizon: f64) -> Self {
-        let record = &streams[0].air.records[0];
+    /// * `sampling` – with at least one record
+    pub(super) fn new(sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
+        let record = &sampling.records[0];
         let samples = |time: f64| (time / record.interval).ceil().clamp(1.0, 1e15) as u64;
         // The last cubic within the horizon ends at the sample after it.
         let (hop, fade) = (samples(horizon) + 2, samples(FADE * record.integral_time));
-        let now = stretches(&streams, 0, horizon);
-        let before = now.clone();
-        Self { streams: Arc::new(streams), horizon, hop, fade: fade.min(hop), chosen: 0, now, before }
+        let now = stretches(&sampling, &streams, 0, horizon);
+        let (before, streams) = (now.clone(), Arc::new(streams));
+        Self { sampling, streams, horizon, hop, fade: fade.min(hop), chosen: 0, now, before }
     }
 
     /// Value and slope (per sample interval) of every component of every eddy at a sample.
@@ -69,8 +72,8 @@ impl Stretches {
 
     #[inline(never)]
     fn choose(&mut self, choice: u64) {
-        self.now = stretches(&self.streams, choice, self.horizon);
-        self.before = stretches(&self.streams, choice.saturating_sub(1), self.horizon);
+        let of = |choice| stretches(&self.sampling, &self.streams, choice, self.horizon);
+        (self.now, self.before) = (of(choice), of(choice.saturating_sub(1)));
         self.chosen = choice;
     }
 
@@ -111,40 +114,39 @@ impl Stretch {
 ///
 /// The starts of the stretches of one record lie evenly spaced and in random order; where they begin is
 /// random too, drawn from the fibre's key.
-fn stretches(streams: &[Stream], choice: u64, horizon: f64) -> Vec<Stretch> {
-    let starts: Vec<Vec<[usize; 3]>> = streams.iter().map(|stream| starts(stream, choice, horizon)).collect();
-    let first = &streams[0];
+fn stretches(sampling: &Sampling, streams: &PerLane<Stream>, choice: u64, horizon: f64) -> Vec<Stretch> {
+    let starts = streams.map(|stream| starts(sampling, stream, choice, horizon));
     let mut stretches = Vec::new();
-    for (eddy, _) in first.eddies.iter().enumerate() {
-        let record = record_of(first, eddy);
+    for eddy in 0..sampling.eddies {
+        let record = record_of(sampling, eddy);
         let (_, directions) = record.directions();
         for (direction, (_, component)) in directions.into_iter().enumerate() {
             stretches.push(Stretch {
                 values: Arc::clone(&record.components[component]),
-                start: std::array::from_fn(|i| starts[if i < starts.len() { i } else { 0 }][eddy][direction]),
-                rms: Lanes::from_fn(|i| of_lane(streams, i).eddies[eddy].rms),
+                start: starts.each(|of| of[eddy][direction]),
+                rms: streams.lanes(|stream| stream.eddies[eddy].rms),
             });
         }
     }
     stretches
 }
 
-fn record_of(stream: &Stream, eddy: usize) -> &Measured {
-    let records = &stream.air.records;
+fn record_of(sampling: &Sampling, eddy: usize) -> &Measured {
+    let records = &sampling.records;
     &records[if records.len() == 1 { 0 } else { eddy.min(records.len() - 1) }]
 }
 
 /// Where the stretches of a fibre's eddies start, in samples of their record, by direction.
-fn starts(stream: &Stream, choice: u64, horizon: f64) -> Vec<[usize; 3]> {
+fn starts(sampling: &Sampling, stream: &Stream, choice: u64, horizon: f64) -> Vec<[usize; 3]> {
     let convected = stream.eddies.iter().any(|turbulence| turbulence.carried.is_some());
     let mut random = stream.key.stream(choice, u64::MAX, 0);
     let mut drawn = Vec::new();
     let mut earlier = 0.0;
     let delay: f64 = stream.eddies.iter().filter_map(|turbulence| turbulence.carried).sum();
-    let shared = stream.air.records.len() == 1 && !convected;
+    let shared = sampling.records.len() == 1 && !convected;
     (stream.eddies.iter().enumerate())
         .map(|(eddy, turbulence): (usize, &EddyTurbulence)| {
-            let record = record_of(stream, eddy);
+            let record = record_of(sampling, eddy);
             let (each, directions) = record.directions();
             if eddy == 0 || !shared && !convected {
                 let room = (record.samples() as f64 - record.stretch(horizon + delay)).max(0.0);

@@ -1,8 +1,10 @@
 //! A window of turbulence by random-phase synthesis.
 
 use super::super::{Air, EddyTurbulence};
+use super::sampling::Sampling;
 use super::taper::Taper;
 use super::windows::{Grid, Share};
+use crate::company::PerLane;
 use crate::fft::{Complex, InverseTransform, WideComplex, unit};
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, cos_sin_turn};
 use rand_chacha::ChaCha8Rng;
@@ -60,7 +62,8 @@ impl Stream {
 
 /// The samples of one window of random phases.
 pub(super) struct Synthesis<'a> {
-    pub(super) streams: &'a [Stream],
+    pub(super) sampling: &'a Sampling,
+    pub(super) streams: &'a PerLane<Stream>,
     pub(super) window: u64,
     pub(super) grid: Grid,
     /// For each sample, which sample of the window it takes and with which factor.
@@ -74,12 +77,12 @@ impl Task for Synthesis<'_> {
 
     #[inline(always)]
     fn call<S: Register>(self) {
-        let eddies = self.streams[0].eddies.len();
+        let eddies = self.sampling.eddies;
         let period = self.grid.period;
         let half = period / 2;
         let transform = InverseTransform::new(half);
         let turn_back: Vec<(f64, f64)> = (0..half).map(|m| unit(-0.25 * m as f64 / half as f64)).collect();
-        let mut harmonics = Harmonics::new(self.streams, self.window, period);
+        let mut harmonics = Harmonics::new(self.sampling, self.streams, self.window, period);
 
         let columns = 3 * eddies;
         let mut bins = vec![Complex::default(); half];
@@ -119,7 +122,7 @@ impl Task for Synthesis<'_> {
 
 /// Amplitudes and phases of the harmonics of one eddy after the other, from the root down.
 struct Harmonics<'a> {
-    streams: &'a [Stream],
+    streams: &'a PerLane<Stream>,
     window: u64,
     /// √2 over the taper's own transform, so that interpolation with it restores the harmonic.
     scale: Vec<f64>,
@@ -134,12 +137,12 @@ struct Harmonics<'a> {
 }
 
 impl<'a> Harmonics<'a> {
-    fn new(streams: &'a [Stream], window: u64, period: usize) -> Self {
-        let (harmonics, taper) = (streams[0].air.harmonics, Taper::new());
+    fn new(sampling: &Sampling, streams: &'a PerLane<Stream>, window: u64, period: usize) -> Self {
+        let (harmonics, taper) = (sampling.harmonics, Taper::new());
         let turns_per_sample = |n: usize| (n as f64 + 0.5) / period as f64;
         let scale = (0..harmonics).map(|n| SQRT_2 / taper.transform(turns_per_sample(n))).collect();
         let zero = || std::array::from_fn(|_| vec![Lanes::ZERO; harmonics]);
-        let first = &streams[0].air;
+        let first = &streams.of(0).air;
         let alike = |stream: &Stream| {
             stream.air.spectrum == first.spectrum && stream.air.repeat_time() == first.repeat_time()
         };
@@ -157,7 +160,7 @@ impl<'a> Harmonics<'a> {
             // Most eddies have the same spectrum.
             let like_above = eddy > 0 && eddies[eddy - 1].same_spectrum(turbulence);
             // So have most lanes, whose air is that of the first.
-            let like_first = self.alike[lane] && self.streams[0].eddies[eddy].same_spectrum(turbulence);
+            let like_first = self.alike[lane] && self.streams.of(0).eddies[eddy].same_spectrum(turbulence);
             if !like_above && like_first && lane > 0 {
                 self.amplitude[component].iter_mut().for_each(|of| of.0[lane] = of.0[0]);
                 self.within_cutoff[component][lane] = self.within_cutoff[component][0];
@@ -181,10 +184,10 @@ impl<'a> Harmonics<'a> {
                 }
             }
         }
-        if self.streams.iter().any(|stream| stream.eddies[eddy].carried.is_some()) {
+        if self.streams.any(|stream| stream.eddies[eddy].carried.is_some()) {
             self.carry::<S>(eddy, component, lag, turn);
         }
-        for lane in self.streams.len()..WIDTH {
+        for lane in self.streams.fibres()..WIDTH {
             for of in [&mut self.amplitude[component], &mut self.phase[component]] {
                 of.iter_mut().for_each(|of| of.0[lane] = of.0[0]);
             }
@@ -197,11 +200,7 @@ impl<'a> Harmonics<'a> {
     /// * `turn` – to either side [turns]
     #[inline(always)]
     fn carry<S: Register>(&mut self, eddy: usize, component: usize, lag: Lanes, turn: Lanes) {
-        let stream = |lane: usize| {
-            let stream = self.streams.get(lane).unwrap_or(&self.streams[0]);
-            stream.key.stream(self.window, eddy as u64, component)
-        };
-        let mut streams: [_; WIDTH] = std::array::from_fn(stream);
+        let mut streams = self.streams.each(|stream| stream.key.stream(self.window, eddy as u64, component));
         let (lag, mut harmonic) = (Wide::<S>::load(&lag), Wide::splat(0.5));
         for phases in self.phase[component].chunks_mut(64) {
             let mut sides = streams.each_mut().map(ChaCha8Rng::next_u64);

@@ -15,8 +15,10 @@
 //! each window is made only once.
 
 use super::super::Air;
+use super::sampling::Sampling;
 use super::synthesis::{Stream, Synthesis};
 use super::taper::SPREAD;
+use crate::company::PerLane;
 use crate::lanes::{Isa, Lanes};
 use std::ops::Range;
 use std::sync::Arc;
@@ -28,8 +30,9 @@ const BEFORE: i64 = SPREAD as i64 / 2 - 1;
 #[derive(Clone, Debug)]
 pub(super) struct Windows {
     isa: Isa,
+    sampling: Sampling,
     /// Clones share it and the samples, so that a step on trial copies neither.
-    streams: Arc<Vec<Stream>>,
+    streams: Arc<PerLane<Stream>>,
     grid: Grid,
     /// `[sample][eddy][component]`
     block: Arc<Vec<Lanes>>,
@@ -53,9 +56,9 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    fn of(air: &Air, repeats: bool) -> Self {
-        let period = 4 * air.harmonics.next_power_of_two();
-        Self { period, spacing: air.repeat_time() / period as f64, repeats }
+    fn of(sampling: &Sampling, repeats: bool) -> Self {
+        let period = 4 * sampling.harmonics.next_power_of_two();
+        Self { period, spacing: sampling.repeat_time() / period as f64, repeats }
     }
 
     /// Samples in which one window fades out and the next one in.
@@ -114,34 +117,29 @@ pub(super) enum Share {
 }
 
 impl Windows {
-    pub(super) fn new(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Self {
-        let grid = Grid::of(&streams[0].air, false);
-        Self::on(isa, streams, grid, horizon)
+    pub(super) fn new(isa: Isa, sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
+        Self::on(isa, Grid::of(&sampling, false), sampling, streams, horizon)
     }
 
     /// Only one window, which repeats after its repeat time with the opposite sign.
-    pub(super) fn repeating(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Self {
-        let grid = Grid::of(&streams[0].air, true);
-        Self::on(isa, streams, grid, horizon)
+    pub(super) fn repeating(isa: Isa, sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
+        Self::on(isa, Grid::of(&sampling, true), sampling, streams, horizon)
     }
 
-    fn on(isa: Isa, streams: Vec<Stream>, grid: Grid, horizon: f64) -> Self {
+    fn on(isa: Isa, grid: Grid, sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
         let last = sample_count(horizon, grid.spacing) - BEFORE;
-        Self { isa, streams: Arc::new(streams), grid, block: Arc::default(), samples: 0..0, next: None, last }
+        let (block, streams) = (Arc::default(), Arc::new(streams));
+        Self { isa, sampling, streams, grid, block, samples: 0..0, next: None, last }
     }
 
     pub(super) fn spacing(&self) -> f64 {
         self.grid.spacing
     }
 
-    pub(super) fn streams(&self) -> &[Stream] {
-        &self.streams
-    }
-
     /// The `SPREAD` samples around the time `interval` spacings and the one after it, `[sample][eddy][component]`.
     #[inline(always)]
     pub(super) fn samples(&mut self, interval: u64) -> &[Lanes] {
-        let columns = 3 * self.streams[0].eddies.len();
+        let columns = 3 * self.sampling.eddies;
         let first = interval as i64 - BEFORE;
         if first < self.samples.start || first + SPREAD as i64 > self.samples.end {
             self.go_to(first);
@@ -161,7 +159,7 @@ impl Windows {
 
     fn make(&mut self, samples: Range<i64>) {
         let grid = self.grid;
-        let columns = 3 * self.streams[0].eddies.len();
+        let columns = 3 * self.sampling.eddies;
         let mut windows = grid.windows(&samples);
         let mut block = match self.next {
             Some(next) if self.samples.contains(&samples.start) => {
@@ -191,14 +189,15 @@ impl Windows {
             let Some(first) = (0..rows).find(|&row| heard(row).is_some()) else { continue };
             let shares: Vec<(usize, Share)> = (first..rows).map_while(heard).collect();
             let into = &mut block[first * columns..];
-            self.isa.run(Synthesis { streams: &self.streams, window: window as u64, grid, shares, into });
+            let (sampling, streams) = (&self.sampling, &*self.streams);
+            self.isa.run(Synthesis { sampling, streams, window: window as u64, grid, shares, into });
         }
         (self.block, self.samples) = (Arc::new(block), samples);
     }
 
     /// Memory of the samples [bytes].
     pub(super) fn memory(air: &Air, eddies: usize, horizon: f64) -> f64 {
-        let grid = Grid::of(air, false);
+        let grid = Grid::of(&Sampling::of(air, eddies), false);
         let wanted = (horizon / grid.spacing).ceil() + SPREAD as f64 + 1.0;
         let samples = if wanted > grid.hop() as f64 { (grid.period + SPREAD) as f64 } else { wanted };
         samples * eddies as f64 * 3.0 * size_of::<Lanes>() as f64

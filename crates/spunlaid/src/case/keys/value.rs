@@ -53,6 +53,18 @@ impl Content {
     }
 }
 
+impl Content {
+    /// The checksum of each file.
+    fn checksums(&self) -> Vec<u32> {
+        match self {
+            Self::Profile(file) => vec![file.checksum()],
+            Self::Field(file) => vec![file.checksum()],
+            Self::Spectrum(file) => vec![file.checksum()],
+            Self::Records(files) => files.iter().map(FromFile::checksum).collect(),
+        }
+    }
+}
+
 impl From<f64> for Value {
     fn from(value: f64) -> Self {
         Self::Number(value)
@@ -105,6 +117,22 @@ impl Value {
             Self::Numbers(_) => "a list",
             Self::Vector(_) => "a vector",
             Self::Paths(_) | Self::Content(_) => "a file",
+        }
+    }
+
+    /// Its bits: equal bytes mean equal values. Of files, the contents count and not where they are.
+    pub(crate) fn bytes(&self) -> Vec<u8> {
+        let numbers = |numbers: &[f64]| numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        match self {
+            Self::Number(number) => numbers(&[*number]),
+            Self::Whole(number) => number.to_le_bytes().to_vec(),
+            Self::Text(text) => text.as_bytes().to_vec(),
+            Self::Numbers(all) => numbers(all),
+            Self::Vector(v) => numbers(&[v.x, v.y, v.z]),
+            Self::Paths(paths) => {
+                paths.iter().flat_map(|path| path.as_os_str().as_encoded_bytes()).copied().collect()
+            }
+            Self::Content(content) => content.checksums().into_iter().flat_map(u32::to_le_bytes).collect(),
         }
     }
 

@@ -16,10 +16,11 @@ impl Chain {
     /// unstable balance of a column.
     ///
     /// * `lanes` – of each fibre
-    pub(crate) fn feed(&mut self, lanes: &[Fed]) {
+    /// * `steps_per_element` – of all of them
+    pub(crate) fn feed(&mut self, lanes: &[Fed], steps_per_element: u64) {
         let c = &mut self.constants;
         let elements = self.position.len() - 1;
-        let mut laying = Laying::new(lanes, &c.rest_length, elements);
+        let mut laying = Laying::new(lanes, steps_per_element, &c.rest_length, elements);
         let above = c.root_direction * (c.rest_length * Lanes::splat(BORN - 0.5));
         self.position.iter_mut().for_each(|position| *position += above);
         let pick =

@@ -64,10 +64,14 @@ impl Chain {
     #[inline(never)]
     fn lengthen_tail(&mut self) {
         let nodes = self.position.len();
-        let Self { constants: c, laying: Some(laying), .. } = self else { return };
+        let Self { constants: c, tensions, laying: Some(laying), .. } = self else { return };
         for (node, shares) in &laying.landing {
             let from_end = nodes - 1 - node;
             while c.tail.len() <= from_end {
+                // No belt has held it yet; a node before it in this place has been held.
+                if let Some(force) = tensions.belt_force.get_mut(nodes - 1 - c.tail.len()) {
+                    *force = Vec3::ZERO;
+                }
                 c.tail.push(c.node);
                 laying.landed_at.push(Lanes::splat(f64::NAN));
             }

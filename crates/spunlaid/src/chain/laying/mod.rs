@@ -80,8 +80,9 @@ pub(crate) struct Laying {
 
 impl Laying {
     /// * `lanes` – of up to eight fibres
+    /// * `steps_per_element` – of all of them
     /// * `rest_length` – of an element [m]
-    fn new(lanes: &[Fed], rest_length: &Lanes, elements: usize) -> Self {
+    fn new(lanes: &[Fed], steps_per_element: u64, rest_length: &Lanes, elements: usize) -> Self {
         let pick = |i: usize| &lanes[if i < lanes.len() { i } else { 0 }];
         let kept = |i: usize| (pick(i).line.kept_length / rest_length.0[i]).ceil().clamp(1.0, 1e9) as u64;
         Self {
@@ -89,7 +90,7 @@ impl Laying {
             feed_speed: Lanes::from_fn(|i| pick(i).line.feed_speed),
             height: Lanes::from_fn(|i| pick(i).line.distance),
             belt_speed: Lanes::from_fn(|i| pick(i).line.belt_speed),
-            steps_per_element: lanes[0].line.steps_per_element,
+            steps_per_element,
             kept: std::array::from_fn(kept),
             root_number: elements as u64,
             touched: [0; WIDTH],

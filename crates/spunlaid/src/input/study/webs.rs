@@ -1,6 +1,6 @@
 //! Studies of webs: the file of a web, or the case that it flies, with keys that vary from point to point.
 
-use super::super::web::{WEB_KEYS, WebFile, WebSpec, document, parse_web_of_case};
+use super::super::web::{WEB_KEYS, WebFile, WebSpec, document, parse_web_of_case, write_web};
 use super::super::{FORMAT_VERSION, Overrides, file};
 use super::reader::Reader;
 use super::write::write_values;
@@ -8,7 +8,7 @@ use super::{StudyChanges, StudyNote, Varied, level, points, varied};
 use crate::case::Case;
 use crate::case::keys::nearest_word;
 use crate::error::{Error, FileKind, Place, Problem, StudyFault};
-use crate::study::{Design, Factor};
+use crate::study::{Design, Factor, enter_keys};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use toml::de::DeValue;
@@ -54,12 +54,16 @@ pub struct WebPoint {
 }
 
 impl WebStudy {
-    /// A checksum over all that the results of the webs depend on. The number of webs is left out, so that a finished
-    /// study can be given more.
+    /// A checksum over all that the results of the webs depend on: every point's web as it is written, and the keys of the
+    /// cases that it flies. The number of webs is left out, so that a finished study can be given more.
     pub fn identity(&self) -> u32 {
         let mut sum = crc32fast::Hasher::new();
-        // Text represents every number exactly.
-        sum.update(format!("{:?}{:?}", self.factors, self.points).as_bytes());
+        for WebPoint { spec, .. } in &self.points {
+            sum.update(write_web(spec).as_bytes());
+            for case in spec.layers.iter().filter_map(|layer| layer.source.case()) {
+                enter_keys(&mut sum, case);
+            }
+        }
         sum.finalize()
     }
 }

@@ -135,7 +135,13 @@ fn rejects_other_files_and_other_formats() {
     assert!(matches!(said(b"shopping list\n"), JournalError::Foreign { .. }));
     assert!(matches!(said(b"shopping list"), JournalError::Foreign { .. }));
     assert!(matches!(said(&[0xff; 500]), JournalError::Foreign { .. }));
-    assert!(matches!(said(b"spunlaid-journal format=3 study=zz version=1\n"), JournalError::Foreign { .. }));
+    assert!(matches!(said(b"spunlaid-journal format=4 study=zz version=1\n"), JournalError::Foreign { .. }));
     let format = said(b"spunlaid-journal format=9 version=9.9.9 study=00000000\n");
-    assert!(format.to_string().contains("format 9, but this spunlaid reads format 3"), "{format}");
+    assert!(format.to_string().contains("format 9, but this spunlaid reads format 4"), "{format}");
+    // Of a build whose identities nobody else can compute.
+    let former = said(b"spunlaid-journal format=3 version=0.1.0 study=00000000\n").to_string();
+    assert!(
+        former.contains("format 3, but this spunlaid reads format 4. Continue with the version"),
+        "{former}"
+    );
 }

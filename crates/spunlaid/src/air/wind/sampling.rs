@@ -1,0 +1,89 @@
+//! What the winds of one flight have in common: when samples are made, and what they are made of.
+
+use super::super::{Air, FromFile, Measured};
+use super::Stream;
+use crate::company::{Bits, PerLane, shared};
+use crate::error::FlightFault;
+use std::cmp::Ordering;
+use std::ops::Deref;
+
+shared! {
+    /// When the samples of a wind are made, of how many harmonics or of which records.
+    pub(crate) struct Sampling {
+        eddies: usize = "the number of eddies along the fibre",
+        cutoff_frequency: Bits = "air.cutoff_frequency",
+        harmonics: usize = "air.harmonics",
+        records: Vec<Recording> = "air.record",
+    }
+}
+
+impl Sampling {
+    /// * `eddies` – number of eddies along the fibre
+    pub(crate) fn of(air: &Air, eddies: usize) -> Self {
+        Self {
+            eddies,
+            cutoff_frequency: air.cutoff_frequency.into(),
+            harmonics: air.harmonics,
+            records: air.records.iter().cloned().map(Recording).collect(),
+        }
+    }
+
+    /// That of the fibres of a flight.
+    pub(super) fn of_all(streams: Vec<Stream>) -> Result<(Self, PerLane<Stream>), FlightFault> {
+        let streams = PerLane::new(streams)?;
+        let sampling = streams.shared(|stream| Self::of(&stream.air, stream.eddies.len()))?;
+        if sampling.eddies == 0 {
+            return Err(FlightFault::NoEddies);
+        }
+        let makes_turbulence = (1..=1 << 30).contains(&sampling.harmonics) && sampling.repeat_time() > 0.0;
+        if sampling.records.is_empty() && !makes_turbulence {
+            return Err(FlightFault::NoHarmonics);
+        }
+        Ok((sampling, streams))
+    }
+
+    /// The time after which one sum of cosines repeats with the opposite sign [s].
+    pub(super) fn repeat_time(&self) -> f64 {
+        self.harmonics as f64 / self.cutoff_frequency.number()
+    }
+}
+
+/// A record; two are equal if they are the same file, read in the same way.
+#[derive(Clone, Debug)]
+pub(crate) struct Recording(FromFile<Measured>);
+
+impl Recording {
+    fn identity(&self) -> impl Ord {
+        let Measured { interval, integral_time, components, layout, says: _ } = &*self.0;
+        let read = (layout.skip, layout.columns.clone(), layout.velocity_unit.clone());
+        (self.0.checksum(), Bits::from(*interval), Bits::from(*integral_time), components.len(), read)
+    }
+}
+
+impl Deref for Recording {
+    type Target = Measured;
+
+    fn deref(&self) -> &Measured {
+        &self.0
+    }
+}
+
+impl Ord for Recording {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.identity().cmp(&other.identity())
+    }
+}
+
+impl PartialOrd for Recording {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Recording {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Recording {}
