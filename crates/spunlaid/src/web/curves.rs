@@ -14,6 +14,8 @@ pub struct Curves {
     belt_ratio: f64,
     /// Of each curve the points (ξ₁, ξ₂) [m].
     curves: Vec<Vec<[f64; 2]>>,
+    /// Of each point the length of fibre that is fed while it flies, less the mean of its curve [m]; empty if it is not known.
+    delays: Vec<Vec<f64>>,
 }
 
 impl Curves {
@@ -46,7 +48,44 @@ impl Curves {
                 *point = [point[0] - middle[0], point[1] - middle[1]];
             }
         }
-        Ok(Self { spacing, belt_ratio, curves })
+        Ok(Self { spacing, belt_ratio, curves, delays: Vec::new() })
+    }
+
+    /// The same curves with the times of their touch-downs, which [`Curves::on_belt`] needs.
+    ///
+    /// * `delays` – of each point the length of fibre that is fed between its own feed and its touch-down [m]
+    ///
+    /// # Errors
+    /// [`LayingFault::NoCurves`] if there is not one finite delay for each point.
+    pub fn with_delays(mut self, mut delays: Vec<Vec<f64>>) -> Result<Self, LayingFault> {
+        let alike = delays.len() == self.curves.len()
+            && delays.iter().zip(&self.curves).all(|(delays, curve)| delays.len() == curve.len());
+        if !alike || !delays.iter().flatten().all(|delay| delay.is_finite()) {
+            return Err(LayingFault::NoCurves);
+        }
+        for delays in &mut delays {
+            let mean = delays.iter().sum::<f64>() / delays.len() as f64;
+            delays.iter_mut().for_each(|delay| *delay -= mean);
+        }
+        self.delays = delays;
+        Ok(self)
+    }
+
+    /// The curves that the same flights leave on a belt of another speed: each point comes down at the same time and place, and the
+    /// belt has gone farther or less far since it was fed. What the belt does to the fibre in the air is taken as it was.
+    /// None if the times of the touch-downs are not known.                                            theory.md (75)
+    ///
+    /// * `belt_ratio` – speed of the belt over speed of the feed
+    pub fn on_belt(&self, belt_ratio: f64) -> Option<Self> {
+        if self.delays.is_empty() || !(belt_ratio > 0.0 && belt_ratio.is_finite()) {
+            return None;
+        }
+        let faster = belt_ratio - self.belt_ratio;
+        let moved = |(curve, delays): (&Vec<[f64; 2]>, &Vec<f64>)| {
+            curve.iter().zip(delays).map(|([md, cd], delay)| [md - faster * delay, *cd]).collect()
+        };
+        let curves = self.curves.iter().zip(&self.delays).map(moved).collect();
+        Some(Self { belt_ratio, curves, ..self.clone() })
     }
 
     /// Fed length from point to point [m].
@@ -61,7 +100,7 @@ impl Curves {
 
     /// Each curve for itself.
     pub(super) fn single(&self) -> impl Iterator<Item = Self> + '_ {
-        self.curves.iter().map(|curve| Self { curves: vec![curve.clone()], ..*self })
+        self.curves.iter().map(|curve| Self { curves: vec![curve.clone()], delays: Vec::new(), ..*self })
     }
 
     /// Fed length of the shortest curve [m].
