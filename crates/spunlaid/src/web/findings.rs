@@ -101,7 +101,9 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
     };
     let the_one = |of: fn(&Fibres) -> bool, i: usize| {
         let laid = all(of, |layer| Some(&layer.fibres)).then_some(alone[i]);
-        laid.or_else(|| compared.as_ref().filter(|_| all(of, |layer| layer.compared.as_ref())).map(|found| found[i]))
+        laid.or_else(|| {
+            compared.as_ref().filter(|_| all(of, |layer| layer.compared.as_ref())).map(|found| found[i])
+        })
     };
     let weight = web.basis_weight();
     let mut patches = Vec::new();
