@@ -193,6 +193,15 @@ fn about_the_model(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> 
                 .to_owned(),
         );
     }
+    if let ([layer], false) = (&web.layers[..], of.sensitivities.is_empty())
+        && layer.belt_changes_flight()
+    {
+        notes.push(format!(
+            "what a faster belt would do is not told: this one runs at {} of the feed’s speed and pulls at the fibre in the air, so the flight \
+             changes with it; fly webs at other speeds (a study over belt.speed, docs/web.md)",
+            significant(layer.belt_ratio(), 2)
+        ));
+    }
     for (layer, row) in web.layers.iter().zip(layers) {
         let Some(fit) = residual(Some(row)) else { continue };
         let beyond = (fit.rms.powi(2) - fit.by_chance.unwrap_or(0.0).powi(2)).max(0.0).sqrt();

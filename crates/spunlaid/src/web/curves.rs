@@ -178,3 +178,56 @@ impl Points for Stretches {
         count
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Where and when a fibre comes down, whatever the belt does: place along the machine direction [m], and length fed by then [m].
+    fn landing(fed: f64) -> (f64, f64) {
+        (0.02 * (31.0 * fed).sin() + 0.01 * (77.0 * fed).cos(), fed + 0.4 + 0.03 * (19.0 * fed).sin())
+    }
+
+    /// Curves on a belt of this speed over that of the feed: `md = y − v_b t`.
+    fn laid(belt_ratio: f64) -> Curves {
+        const SPACING: f64 = 1e-3;
+        let fed: Vec<f64> = (0..500).map(|i| 2.0 + f64::from(i) * SPACING).collect();
+        let point = |fed: &f64| {
+            let (place, until) = landing(*fed);
+            [place - belt_ratio * until, 0.01 * (13.0 * fed).cos()]
+        };
+        let delays = fed.iter().map(|fed| landing(*fed).1 - fed).collect();
+        let curve = fed.iter().map(point).collect();
+        Curves::new(SPACING, belt_ratio, vec![curve]).unwrap().with_delays(vec![delays]).unwrap()
+    }
+
+    #[test]
+    fn analytic_the_same_landings_on_a_faster_belt() {
+        let moved = laid(0.1).on_belt(0.6).unwrap();
+        let wanted = laid(0.6);
+        assert_eq!(moved.belt_ratio(), 0.6);
+        for (moved, wanted) in moved.curves[0].iter().zip(&wanted.curves[0]) {
+            // Rounding of sums of five hundred numbers of the size of a metre.
+            assert!(
+                (0..2).all(|i| (moved[i] - wanted[i]).abs() < 1e-12),
+                "{moved:?} where {wanted:?} is wanted"
+            );
+        }
+        // The delays matter: 0.5 times 0.03 m.
+        let apart = |(one, other): (&[f64; 2], &[f64; 2])| (one[0] - other[0]).abs();
+        let farthest = laid(0.1).curves[0].iter().zip(&wanted.curves[0]).map(apart).fold(0.0, f64::max);
+        assert!(farthest > 0.01, "{farthest}");
+    }
+
+    #[test]
+    fn rejects_delays_that_are_not_those_of_the_points() {
+        let curves = || laid(0.1);
+        assert!(curves().with_delays(vec![]).is_err());
+        assert!(curves().with_delays(vec![vec![0.0; 499]]).is_err());
+        assert!(curves().with_delays(vec![vec![f64::NAN; 500]]).is_err());
+        let without = Curves { delays: Vec::new(), ..curves() };
+        assert_eq!(without.on_belt(0.2), None);
+        assert_eq!(curves().on_belt(f64::NAN), None);
+    }
+}

@@ -115,8 +115,21 @@ pub struct Sensitivity {
     /// What it rests on.
     pub source: Source,
     /// `d ln CV / d ln number` for each side of a patch, over the fibres. None where it would come from a surrogate whose CV is
-    /// [far](super::PatchFindings::surrogate_is_far) from that of the flown curves.
+    /// [far](super::PatchFindings::surrogate_is_far) from that of the flown curves, and for the speed of a belt that
+    /// [changes the flight](Layer::belt_changes_flight).
     pub elasticity: Vec<Option<Estimate>>,
+}
+
+/// Belt speed over feed speed above which the sensitivity to it is not told. docs/validation.md has what was measured: up to here the
+/// moved curves have that of curves that are flown anew.
+const SLOW: f64 = 0.1;
+
+impl Layer {
+    /// Whether the belt is so fast that the flight changes with its speed: it pulls at the fibre in the air, and neither
+    /// [moved curves](Curves::on_belt) nor a surrogate that stays as it is say what a faster one would do.
+    pub fn belt_changes_flight(&self) -> bool {
+        self.belt_ratio() > SLOW
+    }
 }
 
 /// Relative change of a number.
@@ -147,17 +160,19 @@ pub fn sensitivities(
     let turned: Vec<(Lever, (Source, [Layer; 2]))> = Lever::ALL.into_iter().filter_map(both).collect();
     let of_both: Vec<Vec<Estimate>> = each(by.threads, 2 * turned.len(), |i| {
         let (lever, (_, layers)) = &turned[i / 2];
-        // Of the number of filaments, the law is known.
-        if *lever == Lever::Filaments {
+        // Of the number of filaments, the law is known; of a fast belt, nothing is told.
+        if *lever == Lever::Filaments || (*lever == Lever::BeltSpeed && layer.belt_changes_flight()) {
             return Ok(Vec::new());
         }
         let found = one_fibre(&layers[i % 2], sides, of, by)?;
         Ok(found.iter().map(|alone| alone.of(&layer.filaments).clone()).collect())
     })?;
     for ((lever, (source, _)), of_both) in turned.into_iter().zip(of_both.chunks_exact(2)) {
-        let elasticity = if lever == Lever::Filaments {
+        let elasticity = if lever == Lever::BeltSpeed && layer.belt_changes_flight() {
+            vec![None; sides.len()]
+        } else if lever == Lever::Filaments {
             // Independent filaments: the variance goes with one over their number.
-            vec![Estimate { mean: -0.5, standard_error: None, values: Vec::new() }; sides.len()]
+            vec![Some(Estimate { mean: -0.5, standard_error: None, values: Vec::new() }); sides.len()]
         } else {
             // CV² is CV²τ/τ, and τ goes with one over the speed of the belt.
             let thinner = if lever == Lever::BeltSpeed { 2.0 * libm::log1p(STEP) } else { 0.0 };
@@ -171,11 +186,10 @@ pub fn sensitivities(
                     mean + 0.5 * (m / more.mean - l / less.mean) / (2.0 * libm::log1p(STEP))
                 };
                 let parts = less.values.iter().zip(&more.values).map(part).collect();
-                Estimate { mean, ..Estimate::of(parts) }
+                Some(Estimate { mean, ..Estimate::of(parts) })
             };
             of_both[0].iter().zip(&of_both[1]).map(of_side).collect()
         };
-        let elasticity = elasticity.into_iter().map(Some).collect();
         found.push(Sensitivity { lever, source, elasticity });
     }
     Ok(found)
