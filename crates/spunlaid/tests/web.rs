@@ -259,14 +259,15 @@ fn half_of_the_mass_lies_along_the_machine_direction() {
 fn rosettes() -> (Surrogate, Curves) {
     const RADII: [f64; 2] = [20e-3, 15e-3];
     const TURNS: [f64; 2] = [30.0, -23.0];
+    const PHASES: [f64; 2] = [5.5, 1.7];
     const SPACING: f64 = 2e-3;
     let belt_ratio = 0.06;
     let curve = |number: i32| -> Vec<[f64; 2]> {
         let point = |i: i32| {
             let fed = SPACING * f64::from(i);
             let mut at = [-belt_ratio * fed, 0.0];
-            for (radius, turns) in RADII.into_iter().zip(TURNS) {
-                let (sin, cos) = (turns * fed + f64::from(number) * turns.sqrt().max(1.7)).sin_cos();
+            for ((radius, turns), phase) in RADII.into_iter().zip(TURNS).zip(PHASES) {
+                let (sin, cos) = (turns * fed + phase * f64::from(number)).sin_cos();
                 at = [at[0] + radius * cos, at[1] + radius * sin];
             }
             at
@@ -296,7 +297,7 @@ fn the_error_of_a_surrogates_map_reaches_to_the_flown_curves() {
     let by_surrogate =
         find(&Web { sheet: sheet.clone(), layers: vec![layer.clone()], seed: 1 }, by).expect("findings");
     layer.compared = Some(std::mem::replace(&mut layer.fibres, curves));
-    let by_curves = find(&Web { sheet, layers: vec![layer], seed: 2 }, by).expect("findings");
+    let by_curves = find(&Web { sheet, layers: vec![layer], seed: 1 }, by).expect("findings");
     for (i, (patch, other)) in by_surrogate.patches.iter().zip(&by_curves.patches).enumerate() {
         assert_eq!((patch.flown, patch.surrogate), (Some(other.one_fibre), Some(patch.one_fibre)));
         assert_eq!(other.flown, Some(other.one_fibre));
