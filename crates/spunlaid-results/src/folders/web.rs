@@ -173,17 +173,21 @@ fn about_the_model(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> 
         ));
     }
     let too_few = |patch: &&PatchFindings| {
-        !patch.surrogate_is_far() && patch.flown.is_some_and(|(cv, error)| !(error <= TOO_FEW * cv))
+        !patch.surrogate_is_far()
+            && patch.flown.is_some_and(|(cv, error)| error.is_nan() || error > TOO_FEW * cv)
     };
     let unknown: Vec<&PatchFindings> = of.patches.iter().filter(too_few).collect();
-    if let Some(most) =
-        unknown.iter().filter_map(|of| of.flown).max_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)))
-    {
+    let errors = unknown.iter().filter_map(|of| of.flown).map(|(cv, error)| error / cv);
+    if let Some(error) = errors.max_by(f64::total_cmp) {
+        let known = if error.is_nan() {
+            "rests on a single fibre, so its error is not known".to_owned()
+        } else {
+            format!("is known within {} % only, one standard error", significant(100.0 * error, 2))
+        };
         notes.push(format!(
-            "over patches of {} the CV of the flown curves is known within {} % only, one standard error, so the surrogate cannot be checked \
-             within 5 %; fly more fibre (run.replicates, run.duration)",
-            sides(&unknown),
-            significant(100.0 * most.1 / most.0, 2)
+            "over patches of {} the CV of the flown curves {known}; the surrogate cannot be checked within 5 %. Fly more fibre \
+             (run.replicates, run.duration)",
+            sides(&unknown)
         ));
     }
     if by_surrogate && of.patches.iter().any(|patch| patch.flown.is_none()) {

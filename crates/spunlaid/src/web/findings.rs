@@ -35,7 +35,7 @@ pub struct PatchFindings {
     pub map: Unevenness,
     /// The expected one of independent filaments at the places of the layers, from single fibres, with its standard error.
     pub one_fibre: (f64, f64),
-    /// The expected one of the curves that were flown, with its standard error; None unless all layers have them.
+    /// The expected one of the curves that were flown, with its standard error, NaN for a single curve; None unless all layers have them.
     pub flown: Option<(f64, f64)>,
     /// The expected one of paths of the surrogate, with its standard error; None unless all layers have them.
     pub surrogate: Option<(f64, f64)>,
@@ -150,7 +150,7 @@ fn expected(
             let scale = share * share * layer.linear_density / layer.basis_weight(sheet);
             let by_chance = found[i].of(&layer.filaments);
             square += scale * by_chance.mean;
-            error += (scale * by_chance.standard_error.unwrap_or(0.0)).powi(2);
+            error += (scale * by_chance.standard_error.unwrap_or(f64::NAN)).powi(2);
             let of_places = match &layer.filaments {
                 Filaments::AtRandom { .. } => vec![1.0; across.len()],
                 Filaments::Rows(_) => {

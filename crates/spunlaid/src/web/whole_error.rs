@@ -9,7 +9,7 @@ use super::{Fibres, PatchFindings, Web};
 pub struct WholeError {
     /// By chance: another piece of the same web has another CV. None if the sheet is too small to say.
     pub chance: Option<f64>,
-    /// By the fibres that were flown, which are few. None if the web was not laid from flights.
+    /// By the fibres that were flown, which are few. None if the web was not laid from flights, or from a single curve.
     pub flight: Option<f64>,
     /// By the model that laid the map: how far its expected CV is from that of the flown curves. Zero for the flown curves themselves;
     /// None for a surrogate whose numbers were given, because nothing was flown beside it.
@@ -37,7 +37,8 @@ impl PatchFindings {
         // What is expected of the web is as far off, in parts of itself.
         let per_expected = self.map.cv / self.one_fibre.0;
         let parts = self.flown.map(|(flown, error)| [error, flown - self.one_fibre.0]);
-        let [flight, model] = [0, 1].map(|part| parts.map(|parts| (parts[part] * per_expected).abs()));
+        let part = |part: usize| parts.map(|parts| (parts[part] * per_expected).abs());
+        let [flight, model] = [0, 1].map(|i| part(i).filter(|of| of.is_finite()));
         WholeError { chance: self.map.standard_error, flight, model }
     }
 
