@@ -125,3 +125,69 @@ fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
     assert!(json.contains("\"cv_one_fibre\""), "{json}");
     assert!(!desk.path("results").exists());
 }
+
+#[test]
+fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() {
+    let desk = Desk::of(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\""));
+    let web = WEB.replace(
+        "width = \"1 m\"\nlength = \"1 m\"",
+        "width = \"0.4 m\"\nlength = \"0.5 m\"\npatches = [\"5 mm\", \"10 mm\"]",
+    );
+    fs::write(desk.path("web.toml"), &web).unwrap();
+    let table = desk::success(&mut desk.spunlaid("web web.toml --out s"));
+    for head in
+        ["this map", "by chance", "few fibres", "model", "surrogate", "flown curves", "straight fibres"]
+    {
+        assert!(table.contains(head), "{head}: {table}");
+    }
+    fs::write(desk.path("dynamics.toml"), format!("{web}method = \"dynamics\"\n")).unwrap();
+    desk::success(&mut desk.spunlaid("web dynamics.toml --out d --quiet"));
+    let (s, d) = (desk.summary("s"), desk.summary("d"));
+    assert_eq!(s["schema_version"], 2);
+    for patch in 0..2 {
+        let number = |of: &serde_json::Value, name: &str| of["web"]["patches"][patch][name].as_f64().unwrap();
+        // The same number under the same name, whichever of the two the map was laid from.
+        assert_eq!(number(&s, "cv_flown"), number(&d, "cv_flown"));
+        assert_eq!(number(&s, "cv_one_fibre"), number(&s, "cv_surrogate"));
+        assert_eq!(number(&d, "cv_one_fibre"), number(&d, "cv_flown"));
+        assert!(s["web"]["patches"][patch].get("cv_compared").is_none());
+        let parts = ["cv_standard_error", "cv_flight_error", "cv_model_error"].map(|name| number(&s, name));
+        let whole = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
+        assert!((number(&s, "cv_whole_error") / whole - 1.0).abs() < 1e-12, "{s}");
+        let model = number(&s, "cv") * (number(&s, "cv_flown") / number(&s, "cv_surrogate") - 1.0).abs();
+        assert!((parts[2] - model).abs() < 1e-12, "{parts:?} {model}");
+        assert_eq!(number(&d, "cv_model_error"), 0.0);
+    }
+    let residual = |name: &str| s["layers"][0][name].as_f64().unwrap();
+    assert!(residual("fit_residual") > 0.0 && residual("fit_residual") < 1.0, "{s}");
+    assert!(residual("fit_residual_by_chance") > 0.0);
+    let page = String::from_utf8(desk.read("s/report.html")).unwrap();
+    for words in
+        ["by the few fibres that were flown", "CV expected, from the flown curves", "Residual of the fit"]
+    {
+        assert!(page.contains(words), "{words}");
+    }
+    let curves = String::from_utf8(desk.read("s/figures/web_cv.csv")).unwrap();
+    assert!(curves.contains("from the flown curves"), "{curves}");
+
+    // Compared, each web has its whole error, and the flown curves stand beside it; a folder of an older version has neither.
+    let mut old = s.clone();
+    for patch in old["web"]["patches"].as_array_mut().unwrap() {
+        patch
+            .as_object_mut()
+            .unwrap()
+            .retain(|name, _| !name.starts_with("cv_flown") && name != "cv_whole_error");
+    }
+    fs::create_dir(desk.path("old")).unwrap();
+    fs::write(desk.path("old/summary.json"), old.to_string()).unwrap();
+    let errors = |other: &str| {
+        let said = desk::success(&mut desk.spunlaid(&format!("compare s {other} --json")));
+        let found: serde_json::Value = serde_json::from_str(&said).unwrap();
+        found["comparisons"][0]["measures"].clone()
+    };
+    let found = errors("d");
+    let whole = &s["web"]["patches"][0]["cv_whole_error"];
+    assert_eq!(&found["cv_5_mm"]["against"]["standard_error"], whole, "{found}");
+    assert_eq!(found["cv_5_mm_flown"]["run"]["mean"], d["web"]["patches"][0]["cv_flown"], "{found}");
+    assert!(errors("old").get("cv_5_mm_flown").is_none());
+}

@@ -24,6 +24,7 @@ pub(crate) struct LaidWeb {
     name: String,
     file: WebFile,
     web: Web,
+    layers: Vec<OfLayer>,
     findings: Findings,
     notes: Vec<String>,
     performance: Performance,
@@ -50,7 +51,7 @@ pub(crate) fn lay_web(
     };
     let threads = self::threads(threads);
     let watch = Watch::default();
-    let (web, findings, performance) = watched(py, &watch, progress.as_ref(), || {
+    let (web, layers, findings, performance) = watched(py, &watch, progress.as_ref(), || {
         let started = Instant::now();
         // The flights have a counter of their own; it is looked at while they fly.
         let follow = |_: &Path, _: u64, (done, of): (&AtomicU64, u64), work: &mut (dyn FnMut() + Send)| {
@@ -66,10 +67,10 @@ pub(crate) fn lay_web(
         let by = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
         let findings = find(&web, by)?;
         let wall_s = started.elapsed().as_secs_f64();
-        Ok((web, findings, Performance { wall_s, threads, instruction_set: by.isa.name() }))
+        Ok((web, layers, findings, Performance { wall_s, threads, instruction_set: by.isa.name() }))
     })?;
-    let notes = [Note::of_results(&file.notes), notes(&findings)].concat();
-    Ok(LaidWeb { name, file, web, findings, notes, performance })
+    let notes = [Note::of_results(&file.notes), notes(&web, &findings, &layers)].concat();
+    Ok(LaidWeb { name, file, web, layers, findings, notes, performance })
 }
 
 /// Does `work` while another thread copies its counter.
@@ -94,6 +95,7 @@ impl LaidWeb {
             name: &self.name,
             file: &self.file,
             web: &self.web,
+            layers: &self.layers,
             findings: &self.findings,
             notes: &self.notes,
             performance: self.performance,
@@ -141,17 +143,24 @@ impl LaidWeb {
         crate::samples::locked(array.as_any())
     }
 
-    /// The unevenness over patches: side of the patch [m], CV of the map and its standard error, CV that single fibres let
-    /// expect and its standard error, CV of straight fibres.
+    /// The unevenness over patches: side of the patch [m], CV of the map and its standard errors by cause, CV that single fibres,
+    /// flown curves and the surrogate let expect with their standard errors, CV of straight fibres. What is not known is NaN.
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let of = &self.findings.patches;
         let all = PyDict::new(py);
         type Number = fn(&spunlaid::web::PatchFindings) -> f64;
-        let columns: [(&str, Number); 6] = [
+        let columns: [(&str, Number); 13] = [
             ("patch_m", |of| of.map.patch),
             ("cv", |of| of.map.cv),
             ("cv_standard_error", |of| of.map.standard_error.unwrap_or(f64::NAN)),
+            ("cv_flight_error", |of| of.whole_error().flight.unwrap_or(f64::NAN)),
+            ("cv_model_error", |of| of.whole_error().model.unwrap_or(f64::NAN)),
+            ("cv_whole_error", |of| of.whole_error().whole().unwrap_or(f64::NAN)),
+            ("cv_flown", |of| of.flown.map_or(f64::NAN, |of| of.0)),
+            ("cv_flown_standard_error", |of| of.flown.map_or(f64::NAN, |of| of.1)),
+            ("cv_surrogate", |of| of.surrogate.map_or(f64::NAN, |of| of.0)),
+            ("cv_surrogate_standard_error", |of| of.surrogate.map_or(f64::NAN, |of| of.1)),
             ("cv_single_fibres", |of| of.one_fibre.0),
             ("cv_single_fibres_standard_error", |of| of.one_fibre.1),
             ("cv_straight_fibres", |of| of.straight_fibres),

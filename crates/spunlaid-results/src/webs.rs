@@ -31,6 +31,9 @@ pub struct Patch {
     pub cv_standard_error: Option<f64>,
     /// The CV that is expected, from single fibres.
     pub cv_one_fibre: f64,
+    /// The CV that the flown curves let expect, and its standard error; none if nothing was flown.
+    #[serde(default)]
+    pub cv_flown: Option<(f64, f64)>,
     /// CV of straight fibres of the same mass.
     pub cv_straight_fibres: f64,
 }
@@ -65,6 +68,7 @@ impl Laid {
             cv: of.map.cv,
             cv_standard_error: of.map.standard_error,
             cv_one_fibre: of.one_fibre.0,
+            cv_flown: of.flown,
             cv_straight_fibres: of.straight_fibres,
         };
         Self { numbers, patches: found.patches.iter().map(patch).collect() }
@@ -210,8 +214,24 @@ pub struct PatchOfWebs {
     pub standard_error: Option<f64>,
     /// The CV that is expected, from single fibres.
     pub one_fibre: f64,
+    /// The CV that the flown curves let expect, and its standard error; none if nothing was flown.
+    pub flown: Option<(f64, f64)>,
     /// CV of straight fibres of the same mass.
     pub straight_fibres: f64,
+}
+
+impl PatchOfWebs {
+    /// The error of the mean CV of the maps by all causes: chance, the few fibres that were flown, the model; None if one is not known.
+    pub fn whole_error(&self) -> Option<f64> {
+        let (flown, error) = self.flown?;
+        let scale = self.cv / self.one_fibre;
+        Some(self.standard_error?.hypot(scale * error).hypot(scale * (flown - self.one_fibre)))
+    }
+
+    /// The error by all causes, or, if nothing was flown, the one by chance.
+    pub fn error(&self) -> Option<f64> {
+        self.whole_error().or(self.standard_error)
+    }
 }
 
 /// The results of each point.
@@ -234,6 +254,8 @@ pub fn results(study: &WebStudy, journal: &WebJournal) -> Vec<PointOfWebs> {
                 cv: cv.mean,
                 standard_error: if webs.len() > 1 { cv.standard_error } else { of.cv_standard_error },
                 one_fibre: each(|patch| patch.cv_one_fibre).mean,
+                // All webs of a point are laid from the same flights.
+                flown: of.cv_flown,
                 straight_fibres: each(|patch| patch.cv_straight_fibres).mean,
             }
         };

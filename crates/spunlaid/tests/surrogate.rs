@@ -257,6 +257,26 @@ fn invariant_identification_returns_the_surrogate_of_an_exact_autocorrelation() 
 }
 
 #[test]
+fn analytic_residual_of_fibres_that_differ_from_a_surrogate_by_known_amounts() {
+    const OFF: f64 = 0.1;
+    const APART: f64 = 0.02;
+    let of = surrogate(1.0, 12.0);
+    let step = 0.2 * SIGMA;
+    let [md, cd] = of.autocorrelation(step, 61).unwrap();
+    let by = |by: f64| [&md, &cd].map(|c| c.iter().map(|c| c + by).collect::<Vec<f64>>());
+    let [less, more] = [by(OFF - APART), by(OFF + APART)];
+    let both = [&less, &more].map(|[md, cd]| [&md[..], &cd[..]]);
+    let found = of.residual(step, &both).unwrap();
+    // Of two values m ± d the standard error is d.
+    assert!((found.rms - OFF).abs() < 1e-12 && (found.by_chance.unwrap() - APART).abs() < 1e-12, "{found:?}");
+    // The surrogate's own, once.
+    let own = of.residual(step, &[[&md, &cd]]).unwrap();
+    assert!(own.rms < 1e-12 && own.by_chance.is_none(), "{own:?}");
+    assert!(of.residual(step, &[[&md[..4], &cd[..4]]]).is_none());
+    assert!(of.residual(step, &[]).is_none());
+}
+
+#[test]
 fn stat_closed_loops_find_the_noise() {
     for (ratio, noise) in [(1.0, 12.4), (1.0, 30.0), (2.5, 8.0)] {
         let of = surrogate(ratio, noise);

@@ -7,8 +7,8 @@ use spunlaid::lanes::Isa;
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::uniformity::unevenness;
 use spunlaid::web::{
-    Curves, Edges, Fibres, Filaments, Laid, Layer, Laying, Map, OneFibre, Row, Sheet, Strand, Web, Window,
-    find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
+    Curves, Edges, Fibres, Filaments, Laid, Layer, Laying, Lever, Map, OneFibre, Row, Sheet, Source, Strand,
+    Web, Window, find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -253,4 +253,90 @@ fn half_of_the_mass_lies_along_the_machine_direction() {
         );
         close(found.directions.iter().sum(), 1.0, 1e-12);
     }
+}
+
+/// Curves that turn about two centres at once: as wide as those of a surrogate, but far more regular.
+fn rosettes() -> (Surrogate, Curves) {
+    const RADII: [f64; 2] = [20e-3, 15e-3];
+    const TURNS: [f64; 2] = [30.0, -23.0];
+    const PHASES: [f64; 2] = [5.5, 1.7];
+    const SPACING: f64 = 2e-3;
+    let belt_ratio = 0.06;
+    let curve = |number: i32| -> Vec<[f64; 2]> {
+        let point = |i: i32| {
+            let fed = SPACING * f64::from(i);
+            let mut at = [-belt_ratio * fed, 0.0];
+            for ((radius, turns), phase) in RADII.into_iter().zip(TURNS).zip(PHASES) {
+                let (sin, cos) = (turns * fed + phase * f64::from(number)).sin_cos();
+                at = [at[0] + radius * cos, at[1] + radius * sin];
+            }
+            at
+        };
+        (0..12_000).map(point).collect()
+    };
+    let all: Vec<_> = (0..6).map(curve).collect();
+    let delays = vec![vec![0.0; 12_000]; 6];
+    let curves =
+        Curves::new(SPACING, belt_ratio, all).and_then(|curves| curves.with_delays(delays)).expect("curves");
+    let sigma = (0.5 * RADII.iter().map(|radius| radius * radius).sum::<f64>()).sqrt();
+    (Surrogate { sigma_md: sigma, sigma_cd: sigma, noise: 9.0 }, curves)
+}
+
+/// A surrogate that does not lay as the flown curves do: the error of its map holds what they would give, and what it says of
+/// their levers is not told.
+#[test]
+fn the_error_of_a_surrogates_map_reaches_to_the_flown_curves() {
+    let (surrogate, curves) = rosettes();
+    let rows = Filaments::Rows(vec![Row { offset: 0.2e-3, pitch: 0.5e-3, filaments: 400 }]);
+    let curves = Fibres::Curves(Arc::new(curves));
+    let mut layer =
+        Layer { filaments: rows, compared: Some(curves.clone()), ..layer(Fibres::Surrogate(surrogate), 0.0) };
+    let sheet = Sheet { patches: [5e-3, 10e-3].to_vec(), ..sheet(0.2, 0.6, 1e-3) };
+    let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+    let by_surrogate =
+        find(&Web { sheet: sheet.clone(), layers: vec![layer.clone()], seed: 1 }, by).expect("findings");
+    layer.compared = Some(std::mem::replace(&mut layer.fibres, curves));
+    let by_curves = find(&Web { sheet, layers: vec![layer], seed: 1 }, by).expect("findings");
+    for (i, (patch, other)) in by_surrogate.patches.iter().zip(&by_curves.patches).enumerate() {
+        assert_eq!((patch.flown, patch.surrogate), (Some(other.one_fibre), Some(patch.one_fibre)));
+        assert_eq!(other.flown, Some(other.one_fibre));
+        let (apart, of_apart) = patch.surrogate_over_flown().expect("both");
+        assert!(patch.surrogate_is_far() && apart.abs() > 0.05 && apart.abs() > 2.0 * of_apart, "{patch:?}");
+        let error = patch.whole_error();
+        let whole = error.whole().expect("an error");
+        // The map of the curves themselves is within it, and far beyond chance.
+        let missed = (patch.map.cv - other.map.cv).abs();
+        assert!(missed < 2.0 * whole, "{missed} {error:?}");
+        assert!(missed > 3.0 * error.chance.expect("chance"), "{missed} {error:?}");
+        // A map of the curves has no error of the surrogate.
+        assert_eq!(other.whole_error().model, Some(0.0));
+        for found in [&by_surrogate, &by_curves] {
+            for of in &found.sensitivities {
+                let told = of.elasticity[i].is_some();
+                let source = match of.lever {
+                    Lever::BeltSpeed => Source::Flown,
+                    Lever::Filaments => Source::Law,
+                    _ => Source::Surrogate,
+                };
+                assert_eq!((of.source, told), (source, source != Source::Surrogate), "{:?}", of.lever);
+            }
+            assert_eq!(found.sensitivities.len(), 5);
+        }
+    }
+}
+
+/// Without a flight beside it nothing is known of the error of a surrogate, and nothing is made up.
+#[test]
+fn the_whole_error_of_a_surrogate_alone_is_not_known() {
+    let sheet = Sheet { patches: vec![5e-3], ..sheet(0.2, 0.2, 1e-3) };
+    let web = Web { sheet, layers: vec![layer(Fibres::Surrogate(SPUNBOND), 500.0)], seed: 1 };
+    let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+    let found = find(&web, by).expect("findings");
+    let patch = found.patches[0];
+    let error = patch.whole_error();
+    assert!(error.chance.is_some() && error.model.is_none() && error.whole().is_none(), "{error:?}");
+    assert!(patch.flown.is_none() && patch.surrogate.is_some() && !patch.surrogate_is_far());
+    assert!(found.sensitivities.iter().all(|of| of.source != Source::Flown && of.elasticity[0].is_some()));
 }

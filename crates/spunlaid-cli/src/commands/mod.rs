@@ -26,6 +26,7 @@ pub(crate) use sweep::sweep;
 pub(crate) use web::web;
 
 use std::ffi::OsStr;
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// The requested number of threads, or one for each core.
@@ -46,4 +47,18 @@ fn folder(asked: Option<&PathBuf>, name: impl AsRef<Path>) -> PathBuf {
 /// `1 fibre`, `2 fibres`.
 fn plural(count: u64, of: &str) -> String {
     if count == 1 { format!("1 {of}") } else { format!("{count} {of}s") }
+}
+
+/// A table whose columns stand below their heads.
+fn aligned(rows: &[Vec<String>]) -> String {
+    let columns = rows.first().map_or(0, Vec::len);
+    let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut text = String::new();
+    for row in rows {
+        let cells: Vec<String> =
+            row.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}")).collect();
+        let _ = writeln!(text, "  {}", cells.join("  "));
+    }
+    text
 }

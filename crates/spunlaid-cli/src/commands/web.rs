@@ -1,14 +1,14 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, stem, threads};
+use super::{aligned, plural, stem, threads};
 use crate::args;
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::Note;
 use spunlaid::input::{Overrides, read_web};
 use spunlaid::lanes::Isa;
-use spunlaid::web::{Findings, Laying, find, pieces};
+use spunlaid::web::{Findings, Laying, PatchFindings, find, pieces};
 use spunlaid_results::folders;
 use spunlaid_results::folders::fibres::{Flyer, OfLayer, to_lay};
 use spunlaid_results::folders::web::WebFolder;
@@ -44,10 +44,17 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
         threads: by.threads,
         instruction_set: by.isa.name(),
     };
-    let found = folders::web::notes(&findings);
+    let found = folders::web::notes(&web, &findings, &layers);
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
-    let written =
-        WebFolder { name: &name, file: &file, web: &web, findings: &findings, notes: &notes, performance };
+    let written = WebFolder {
+        name: &name,
+        file: &file,
+        web: &web,
+        layers: &layers,
+        findings: &findings,
+        notes: &notes,
+        performance,
+    };
     if let Some(staging) = staging {
         written.write(&staging, by)?;
         staging.publish()?;
@@ -74,23 +81,53 @@ pub(super) fn flying(quiet: bool) -> impl Fn(&Path, u64, (&AtomicU64, u64), &mut
     }
 }
 
+/// A head of the table, and the expected CV that stands below it.
+type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
+
 /// The table for the terminal.
 fn told(of: &Findings) -> String {
     let per_cent = |cv: f64, error: Option<f64>| plus_minus(100.0 * cv, error.map(|error| 100.0 * error));
-    let mut text = format!(
-        "basis weight {} g/m²\nunevenness, CV in % ± standard error\n  {:>9}  {:>16}  {:>24}  {:>16}\n",
-        significant(of.laid.map.basis_weight() * 1e3, 4),
-        "patch",
-        "this map",
-        "expected (single fibres)",
-        "straight fibres"
-    );
-    for patch in &of.patches {
-        let side = format!("{} mm", significant(patch.map.patch * 1e3, 3));
-        let map = per_cent(patch.map.cv, patch.map.standard_error);
-        let alone = per_cent(patch.one_fibre.0, Some(patch.one_fibre.1));
-        let straight = significant(100.0 * patch.straight_fibres, 3);
-        text.push_str(&format!("  {side:>9}  {map:>16}  {alone:>24}  {straight:>16}\n"));
+    let all: [Column; 2] = [("surrogate", |patch| patch.surrogate), ("flown curves", |patch| patch.flown)];
+    let mut expected: Vec<Column> =
+        all.into_iter().filter(|(_, cv)| of.patches.iter().any(|patch| cv(patch).is_some())).collect();
+    if expected.is_empty() {
+        expected.push(("single fibres", |patch| Some(patch.one_fibre)));
     }
-    text
+    let flown = of.patches.iter().any(|patch| patch.flown.is_some());
+    let mut heads = vec!["patch", "this map", "by chance"];
+    if flown {
+        heads.extend(["few fibres", "model"]);
+    }
+    heads.extend(expected.iter().map(|(head, _)| *head));
+    heads.push("straight fibres");
+    let mut rows = vec![heads.into_iter().map(str::to_owned).collect::<Vec<_>>()];
+    for patch in &of.patches {
+        let error = patch.whole_error();
+        let part =
+            |part: Option<f64>| part.map_or_else(|| "–".to_owned(), |part| significant(100.0 * part, 2));
+        let mut row = vec![
+            format!("{} mm", significant(patch.map.patch * 1e3, 3)),
+            per_cent(patch.map.cv, error.whole().or(error.chance)),
+            part(error.chance),
+        ];
+        if flown {
+            row.extend([error.flight, error.model].map(part));
+        }
+        let cv = |of: Option<(f64, f64)>| {
+            of.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, Some(error)))
+        };
+        row.extend(expected.iter().map(|(_, of)| cv(of(patch))));
+        row.push(significant(100.0 * patch.straight_fibres, 3));
+        rows.push(row);
+    }
+    let whole = if flown {
+        "± its standard error by all causes (chance, few fibres flown, model: the surrogate against the flown curves)"
+    } else {
+        "± its standard error by chance alone"
+    };
+    format!(
+        "basis weight {} g/m²\nunevenness, CV in %: of this map {whole}, and as expected\n{}",
+        significant(of.laid.map.basis_weight() * 1e3, 4),
+        aligned(&rows)
+    )
 }

@@ -16,7 +16,7 @@ use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec};
 use spunlaid::lanes::Isa;
 use spunlaid::laydown::{Trace, Tracing};
 use spunlaid::statistics::Estimate;
-use spunlaid::surrogate::{Surrogate, Unidentified, identify};
+use spunlaid::surrogate::{Residual, Surrogate, Unidentified, identify};
 use spunlaid::web::{Curves, Fibres, Web};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -39,6 +39,8 @@ pub struct Flown {
     pub curves: Arc<Curves>,
     /// σ₁ and σ₂ [m] and A [m^-½] over the replicates for which they are known.
     pub numbers: [Estimate; 3],
+    /// How well the surrogate with the mean numbers fits; None without one.
+    pub residual: Option<Residual>,
     /// Why the first replicate without a surrogate has none.
     pub unidentified: Option<Unidentified>,
 }
@@ -115,7 +117,7 @@ impl<'a> Flyer<'a> {
     }
 
     /// Flies a case; the points that each replicate has laid.
-    fn fly(&self, path: &Path, case: &Case) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
+    fn fly(&self, path: &Path, case: &Case) -> Result<Vec<Vec<LaidPoint>>, Failure> {
         let (fibre_steps, laid) = (AtomicU64::new(0), Collected::default());
         let computing = Computing {
             threads: self.threads,
@@ -138,20 +140,20 @@ impl<'a> Flyer<'a> {
 
 /// Collects in memory what fibres lay: a few megabytes for a kilometre.
 #[derive(Debug, Default)]
-struct Collected(Mutex<BTreeMap<u64, Vec<[f64; 2]>>>);
+struct Collected(Mutex<BTreeMap<u64, Vec<LaidPoint>>>);
 
 impl TakeLaid for Collected {
     fn take(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
         let mut curves = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        curves.entry(replicate).or_default().extend(points.iter().map(|point| [point.md, point.cd]));
+        curves.entry(replicate).or_default().extend_from_slice(points);
         Ok(())
     }
 }
 
 impl Flown {
     /// * `path` – of the case or of the results, for messages
-    /// * `laid` – all points of each replicate [m]
-    fn of(path: &Path, case: &Case, mut laid: Vec<Vec<[f64; 2]>>) -> Result<Self, Failure> {
+    /// * `laid` – all points of each replicate
+    fn of(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Failure> {
         let nothing = |reason: &str| Failure::NothingToLay { of: path.to_owned(), reason: reason.to_owned() };
         let line = case.line.ok_or_else(|| nothing("its fibre is not fed on to a belt"))?;
         let spacing = case.fibre.rest_length();
@@ -160,9 +162,10 @@ impl Flown {
         let belt_ratio = line.belt_speed / line.feed_speed;
         let tracing = Tracing { spacing, belt_ratio, skip, reach: line.distance };
         let (mut numbers, mut unidentified) = ([const { Vec::new() }; 3], None);
+        let mut traces = Vec::new();
         for points in &mut laid {
             let mut trace = Trace::new(tracing);
-            points.iter().for_each(|[md, cd]| trace.add(*md, *cd));
+            points.iter().for_each(|point| trace.add(point.md, point.cd));
             points.drain(..points.len().min(skip as usize));
             let of = trace.finish();
             let sigmas = [of.sigma_md, of.sigma_cd];
@@ -172,16 +175,32 @@ impl Flown {
             for (all, value) in numbers.iter_mut().zip([sigmas[0], sigmas[1], noise.unwrap_or(f64::NAN)]) {
                 all.extend(value.is_finite().then_some(value));
             }
+            traces.push(of);
         }
-        let curves = Arc::new(Curves::new(spacing, belt_ratio, laid).map_err(Error::from)?);
-        Ok(Self { curves, numbers: numbers.map(Estimate::of), unidentified })
+        let places = laid.iter().map(|points| points.iter().map(|point| [point.md, point.cd]).collect());
+        let delay = |point: &LaidPoint| line.feed_speed * point.time - point.fed;
+        let delays = laid.iter().map(|points| points.iter().map(delay).collect());
+        let curves = Curves::new(spacing, belt_ratio, places.collect())
+            .and_then(|curves| curves.with_delays(delays.collect()))
+            .map_err(Error::from)?;
+        let numbers = numbers.map(Estimate::of);
+        let correlations: Vec<[&[f64]; 2]> =
+            traces.iter().map(|of| [&of.correlation_md[..], &of.correlation_cd[..]]).collect();
+        let step = traces.first().map_or(f64::NAN, |of| of.lag_step);
+        let residual = Self::known(&numbers).and_then(|surrogate| surrogate.residual(step, &correlations));
+        Ok(Self { curves: Arc::new(curves), numbers, residual, unidentified })
+    }
+
+    /// The surrogate of these numbers, if A is known.
+    fn known(numbers: &[Estimate; 3]) -> Option<Surrogate> {
+        let [sigma_md, sigma_cd, noise] = [0, 1, 2].map(|number| numbers[number].mean);
+        noise.is_finite().then_some(Surrogate { sigma_md, sigma_cd, noise })
     }
 
     /// The surrogate with the mean numbers of the replicates.
     pub fn surrogate(&self, path: &Path) -> Result<Surrogate, Failure> {
-        let [sigma_md, sigma_cd, noise] = [0, 1, 2].map(|number| self.numbers[number].mean);
-        if noise.is_finite() {
-            return Ok(Surrogate { sigma_md, sigma_cd, noise });
+        if let Some(surrogate) = Self::known(&self.numbers) {
+            return Ok(surrogate);
         }
         let why = self.unidentified.map_or_else(String::new, |why| format!(": {why}"));
         let reason = format!(

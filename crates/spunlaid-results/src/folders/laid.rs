@@ -5,18 +5,19 @@ use crate::output::laid::LAID;
 use parquet::column::reader::ColumnReader;
 use parquet::errors::{ParquetError, Result as Decoded};
 use parquet::file::reader::{FileReader, SerializedFileReader};
+use spunlaid::flight::LaidPoint;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;
 
-/// The columns that are read: number of the replicate, and place on the belt.
-const COLUMNS: [&str; 3] = ["replicate", "md_m", "cd_m"];
+/// The columns that are read: number of the replicate; length fed before a point, time of its touch-down, and place on the belt.
+const COLUMNS: [&str; 5] = ["replicate", "s_m", "time_s", "md_m", "cd_m"];
 
-/// The points [md, cd] of each replicate [m], in the order of feed.
+/// The points of each replicate, in the order of feed.
 ///
 /// # Errors
 /// If the folder has no table of laid points, or one that cannot be read.
-pub(super) fn read(folder: &Path) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
+pub(super) fn read(folder: &Path) -> Result<Vec<Vec<LaidPoint>>, Failure> {
     let not_a_run =
         |reason: String| Failure::NotARun { folder: folder.to_owned(), reason: format!("{LAID}: {reason}") };
     let file = File::open(folder.join(LAID)).map_err(|error| not_a_run(error.to_string()))?;
@@ -24,7 +25,7 @@ pub(super) fn read(folder: &Path) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
     Ok(curves.into_values().collect())
 }
 
-fn decode(file: File) -> Decoded<BTreeMap<i64, Vec<[f64; 2]>>> {
+fn decode(file: File) -> Decoded<BTreeMap<i64, Vec<LaidPoint>>> {
     let reader = SerializedFileReader::new(file)?;
     let schema = reader.metadata().file_metadata().schema_descr();
     let missing = |name: &str| ParquetError::General(format!("it has no column {name} of numbers"));
@@ -32,9 +33,9 @@ fn decode(file: File) -> Decoded<BTreeMap<i64, Vec<[f64; 2]>>> {
         let at = schema.columns().iter().position(|column| column.name() == name);
         at.ok_or_else(|| missing(name))
     };
-    let [replicate, md, cd] = COLUMNS.map(column);
-    let (replicate, md, cd) = (replicate?, md?, cd?);
-    let mut curves: BTreeMap<i64, Vec<[f64; 2]>> = BTreeMap::new();
+    let [replicate, fed, time, md, cd] = COLUMNS.map(column);
+    let (replicate, fed, time, md, cd) = (replicate?, fed?, time?, md?, cd?);
+    let mut curves: BTreeMap<i64, Vec<LaidPoint>> = BTreeMap::new();
     for group in 0..reader.num_row_groups() {
         let group = reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).map_err(|_| missing("rows"))?;
@@ -53,9 +54,11 @@ fn decode(file: File) -> Decoded<BTreeMap<i64, Vec<[f64; 2]>>> {
             };
             Ok(numbers)
         };
-        let (md, cd) = (numbers(md, COLUMNS[1])?, numbers(cd, COLUMNS[2])?);
-        for ((replicate, md), cd) in replicates.into_iter().zip(md).zip(cd) {
-            curves.entry(replicate).or_default().push([md, cd]);
+        let (fed, time) = (numbers(fed, COLUMNS[1])?, numbers(time, COLUMNS[2])?);
+        let (md, cd) = (numbers(md, COLUMNS[3])?, numbers(cd, COLUMNS[4])?);
+        let points = fed.into_iter().zip(time).zip(md).zip(cd);
+        for (replicate, (((fed, time), md), cd)) in replicates.into_iter().zip(points) {
+            curves.entry(replicate).or_default().push(LaidPoint { fed, time, md, cd });
         }
     }
     Ok(curves)

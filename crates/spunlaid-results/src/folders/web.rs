@@ -1,5 +1,6 @@
 //! The folder of a web.
 
+use super::fibres::OfLayer;
 use crate::Failure;
 use crate::figures::web_figures;
 use crate::numbers::significant;
@@ -8,7 +9,8 @@ use crate::output::pictures;
 use crate::output::web::{self, Layer, Performance, Summary};
 use crate::report::{WebReport, web_html};
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
-use spunlaid::web::{Fibres, Findings, Laying, Web, Window, strands};
+use spunlaid::surrogate::Residual;
+use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, Web, Window, strands};
 
 /// Everything of a web that goes into the files.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +21,8 @@ pub struct WebFolder<'a> {
     pub file: &'a WebFile,
     /// The web that was laid.
     pub web: &'a Web,
+    /// The fibres of its layers.
+    pub layers: &'a [OfLayer],
     /// What was found of it.
     pub findings: &'a Findings,
     /// Notes for the reader.
@@ -30,7 +34,7 @@ pub struct WebFolder<'a> {
 impl WebFolder<'_> {
     /// The text of `summary.json`.
     pub fn summary(&self) -> String {
-        let rows = rows(&self.file.spec, self.web);
+        let rows = rows(&self.file.spec, self.web, self.layers);
         Summary::new(self.web, self.findings, &rows, self.performance, self.notes).to_json()
     }
 
@@ -54,7 +58,7 @@ impl WebFolder<'_> {
             name: self.name,
             web: self.web,
             findings: self.findings,
-            layers: &rows(&self.file.spec, self.web),
+            layers: &rows(&self.file.spec, self.web, self.layers),
             strands: &strands,
             window,
             diameter: self.file.spec.layers.first().map_or(0.0, |layer| layer.diameter),
@@ -76,8 +80,9 @@ fn window(spec: &WebSpec) -> Window {
 }
 
 /// What layers were laid from, for the files.
-fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
+fn rows(spec: &WebSpec, web: &Web, layers: &[OfLayer]) -> Vec<Layer> {
     let row = |(i, (layer, of)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
+        let fit = residual(layers.get(i));
         let surrogate =
             [Some(&of.fibres), of.compared.as_ref()].into_iter().flatten().find_map(|fibres| match fibres {
                 Fibres::Surrogate(surrogate) => Some(*surrogate),
@@ -93,14 +98,21 @@ fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
             sigma_md_m: surrogate.map(|of| of.sigma_md),
             sigma_cd_m: surrogate.map(|of| of.sigma_cd),
             noise_per_sqrt_m: surrogate.map(|of| of.noise),
+            fit_residual: fit.map(|fit| fit.rms),
+            fit_residual_by_chance: fit.and_then(|fit| fit.by_chance),
         }
     };
     spec.layers.iter().zip(&web.layers).enumerate().map(row).collect()
 }
 
+/// How well the surrogate of a layer fits what its fibres have laid.
+fn residual(layer: Option<&OfLayer>) -> Option<Residual> {
+    layer?.flown.as_ref()?.residual
+}
+
 /// What a reader must know of what was found.
-pub fn notes(of: &Findings) -> Vec<String> {
-    let mut notes = Vec::new();
+pub fn notes(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> {
+    let mut notes = about_the_model(web, of, layers);
     let map = &of.laid.map;
     if of.laid.cut > 0.0 {
         let whole = map.total() as f64 * map.quantum + of.laid.cut;
@@ -115,4 +127,110 @@ pub fn notes(of: &Findings) -> Vec<String> {
         );
     }
     notes
+}
+
+/// A flown CV with a larger relative error checks no surrogate within 5 %.
+const TOO_FEW: f64 = 0.025;
+/// A surrogate whose autocorrelations are farther off, beyond chance, does not describe the laid fibre.
+const POOR_FIT: f64 = 0.05;
+
+/// Whether the surrogate speaks for the flown fibres, and which of them to believe where it does not.
+fn about_the_model(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> {
+    let mut notes = Vec::new();
+    let by_surrogate = web.layers.iter().any(|layer| matches!(layer.fibres, Fibres::Surrogate(_)));
+    let element = web.longest_element().unwrap_or(0.0);
+    let (seen, fine): (Vec<&PatchFindings>, Vec<_>) = of
+        .patches
+        .iter()
+        .filter(|patch| patch.surrogate_is_far())
+        .partition(|patch| patch.map.patch >= element);
+    let apart = |patch: &PatchFindings| patch.surrogate_over_flown().map_or(0.0, |of| of.0);
+    if let Some(most) = seen.iter().max_by(|a, b| apart(a).abs().total_cmp(&apart(b).abs())) {
+        let cv = |of: Option<(f64, f64)>| significant(100.0 * of.map_or(f64::NAN, |of| of.0), 3);
+        let remedy = if by_surrogate {
+            "web.method = \"dynamics\" lays the map from them"
+        } else {
+            "this map is laid from them"
+        };
+        notes.push(format!(
+            "the surrogate’s CV is more than 5 % from that of the flown curves over patches of {}: {} for {} %, {} % {}, over patches of {}. \
+             Believe the flown curves there: they are what the flight has laid, and the surrogate has only their spread and their \
+             autocorrelation. {remedy}",
+            sides(&seen),
+            cv(most.surrogate),
+            cv(most.flown),
+            significant(100.0 * apart(most).abs(), 2),
+            if apart(most) < 0.0 { "too low" } else { "too high" },
+            sides(&[*most])
+        ));
+    }
+    if !fine.is_empty() {
+        notes.push(format!(
+            "over patches of {} surrogate and flown curves differ by more than 5 % too, and neither is to be believed within that: these patches \
+             are smaller than an element of the flight, {} mm (fibre.element_length)",
+            sides(&fine),
+            significant(element * 1e3, 3)
+        ));
+    }
+    let too_few = |patch: &&PatchFindings| {
+        !patch.surrogate_is_far()
+            && patch.flown.is_some_and(|(cv, error)| error.is_nan() || error > TOO_FEW * cv)
+    };
+    let unknown: Vec<&PatchFindings> = of.patches.iter().filter(too_few).collect();
+    let errors = unknown.iter().filter_map(|of| of.flown).map(|(cv, error)| error / cv);
+    if let Some(error) = errors.max_by(f64::total_cmp) {
+        let known = if error.is_nan() {
+            "rests on a single fibre, so its error is not known".to_owned()
+        } else {
+            format!("is known within {} % only, one standard error", significant(100.0 * error, 2))
+        };
+        notes.push(format!(
+            "over patches of {} the CV of the flown curves {known}; the surrogate cannot be checked within 5 %. Fly more fibre \
+             (run.replicates, run.duration)",
+            sides(&unknown)
+        ));
+    }
+    if by_surrogate && of.patches.iter().any(|patch| patch.flown.is_none()) {
+        notes.push(
+            "no fibre was flown for every layer of this web, so the errors are by chance only: how far a surrogate of these numbers is from \
+             real fibres is not known. Beside flown curves, its CV was seen to be up to 20 % off (docs/web.md)"
+                .to_owned(),
+        );
+    }
+    if let ([layer], false) = (&web.layers[..], of.sensitivities.is_empty())
+        && layer.belt_changes_flight()
+    {
+        notes.push(format!(
+            "what a faster belt would do is not told: this one runs at {} of the feed’s speed and pulls at the fibre in the air, so the flight \
+             changes with it; fly webs at other speeds (a study over belt.speed, docs/web.md)",
+            significant(layer.belt_ratio(), 2)
+        ));
+    }
+    for (layer, row) in web.layers.iter().zip(layers) {
+        let Some(fit) = residual(Some(row)) else { continue };
+        let beyond = (fit.rms.powi(2) - fit.by_chance.unwrap_or(0.0).powi(2)).max(0.0).sqrt();
+        if beyond > POOR_FIT {
+            notes.push(format!(
+                "the laid fibre of {} is not like any surrogate: its autocorrelation differs by {} (rms) from that of the best one, where chance \
+                 would leave {}",
+                grams(layer.basis_weight(&web.sheet)),
+                significant(fit.rms, 2),
+                fit.by_chance.map_or_else(|| "an unknown part".to_owned(), |by| significant(by, 2))
+            ));
+        }
+    }
+    notes
+}
+
+fn grams(weight: f64) -> String {
+    format!("the layer of {} g/m²", significant(weight * 1e3, 3))
+}
+
+/// `2, 5 and 10 mm`.
+fn sides(of: &[&PatchFindings]) -> String {
+    let sides: Vec<String> = of.iter().map(|patch| significant(patch.map.patch * 1e3, 3)).collect();
+    match sides.as_slice() {
+        [first @ .., last] if !first.is_empty() => format!("{} and {last} mm", first.join(", ")),
+        sides => format!("{} mm", sides.concat()),
+    }
 }

@@ -18,7 +18,10 @@ fn columns(of: &PointOfWebs) -> Vec<(String, Option<f64>)> {
         columns.extend([
             (format!("cv_{side}_mm"), Some(patch.cv)),
             (format!("cv_{side}_mm_standard_error"), patch.standard_error),
+            (format!("cv_{side}_mm_whole_error"), patch.whole_error()),
             (format!("cv_{side}_mm_one_fibre"), Some(patch.one_fibre)),
+            (format!("cv_{side}_mm_flown"), patch.flown.map(|of| of.0)),
+            (format!("cv_{side}_mm_flown_standard_error"), patch.flown.map(|of| of.1)),
             (format!("cv_{side}_mm_straight_fibres"), Some(patch.straight_fibres)),
         ]);
     }

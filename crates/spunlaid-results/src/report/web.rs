@@ -9,8 +9,9 @@ use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
+use spunlaid::statistics::Estimate;
 use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Clouds, Fibres as WebFibres, Findings, Lever, Map, Sensitivity, Strand, Web, Window};
+use spunlaid::web::{Clouds, Findings, Lever, Map, PatchFindings, Sensitivity, Source, Strand, Web, Window};
 use spunlaid_charts::Figure;
 
 const MM: f64 = 1e3;
@@ -69,7 +70,7 @@ pub(super) struct Page<'a> {
     pub(super) patches: Vec<Vec<String>>,
     pub(super) about_patches: &'static str,
     pub(super) lever_heads: Vec<String>,
-    pub(super) levers: Vec<(&'static str, Vec<String>)>,
+    pub(super) levers: Vec<(String, Vec<String>)>,
     pub(super) figures: &'a [Figure],
     pub(super) file: File<'a>,
     pub(super) cost: String,
@@ -112,34 +113,50 @@ pub(super) struct Fibres {
 pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let of = input.findings;
     let (data, pixel) = light_table_data(&of.laid.map, Some(fibres(input)))?;
-    let compared = compared(input.web);
-    let mut heads = vec!["Patch", "CV of this map", "CV expected, from single fibres"];
-    heads.extend(compared);
+    let flown = of.patches.iter().any(|patch| patch.flown.is_some());
+    let mut heads = vec!["Patch", "CV of this map", "of its error: chance"];
+    if flown {
+        heads.extend(["few fibres flown", "model"]);
+    }
+    let sources = sources(of);
+    heads.extend(sources.iter().map(|(head, _)| *head));
     heads.push("Straight fibres");
     let page = Page {
         command: "web",
         name: input.name,
-        headline: headline(Some(of.laid.map.basis_weight()), seen(of).map(|i| &of.patches[i].map)),
-        summary: summary(input.web),
+        headline: headline(
+            Some(of.laid.map.basis_weight()),
+            seen(of).map(|i| whole(&of.patches[i])).as_ref(),
+        ),
+        summary: [summary(input.web), about_the_error(of)].join(" "),
         notes: input.notes,
         caption: caption(input, pixel),
         data,
         fibres: true,
         verdict: verdict(of),
         heads,
-        patches: patches(of),
-        about_patches: match compared {
-            Some(_) => {
-                "How well the surrogate speaks for the flown fibres is seen from the two expected columns."
-            }
-            None => "",
+        patches: patches(of, flown, &sources),
+        about_patches: if flown {
+            "The error of the map is that of all its causes together: chance (another piece of the same web), the few fibres that were flown, and \
+             the model (the CV of the surrogate against that of the flown curves). What the flight itself leaves out is not in it."
+        } else {
+            "The error is by chance only: no fibre was flown, so how far the surrogate is from real fibres is not known."
         },
         lever_heads: of.patches.iter().map(|patch| millimetres(patch.map.patch)).collect(),
         levers: of.sensitivities.iter().map(levers).collect(),
         figures: input.figures,
         file: File {
             title: "The web file",
-            heads: &["Layer", "Filaments", "Basis weight", "σ MD", "σ CD", "A"],
+            heads: &[
+                "Layer",
+                "Filaments",
+                "Basis weight",
+                "σ MD",
+                "σ CD",
+                "A",
+                "Residual of the fit",
+                "of which chance",
+            ],
             rows: input.layers.iter().map(layer).collect(),
             toml: input.toml,
             caption: "The map is in map.npy (kg/m², a row of the web after the other), map.png (16 bit) and map.parquet, the fibres of \
@@ -265,22 +282,63 @@ fn fibres(input: &WebReport<'_>) -> Fibres {
     }
 }
 
-/// What the other description of the filaments is.
-fn compared(web: &Web) -> Option<&'static str> {
-    match web.layers.first()?.compared.as_ref()? {
-        WebFibres::Surrogate(_) => Some("CV expected, from the surrogate"),
-        WebFibres::Curves(_) => Some("CV expected, from the flown curves"),
-    }
+/// The map with its error by all causes, or by chance alone if the others are not known.
+fn whole(patch: &PatchFindings) -> Unevenness {
+    Unevenness { standard_error: patch.whole_error().whole().or(patch.map.standard_error), ..patch.map }
 }
 
-fn patches(of: &Findings) -> Vec<Vec<String>> {
-    let row = |patch: &spunlaid::web::PatchFindings| {
-        let mut cells = vec![
-            millimetres(patch.map.patch),
-            per_cent(patch.map.cv, patch.map.standard_error),
-            per_cent(patch.one_fibre.0, Some(patch.one_fibre.1)),
-        ];
-        cells.extend(patch.compared.map(|(cv, error)| per_cent(cv, Some(error))));
+/// What the error in the headline is made of, and what the flown curves say, in sentences.
+fn about_the_error(of: &Findings) -> String {
+    let Some(patch) = seen(of).map(|i| &of.patches[i]) else { return String::new() };
+    let error = patch.whole_error();
+    let part = |part: Option<f64>| match part {
+        Some(part) => format!("{}{THIN}%", significant(part * PER_CENT, 2)),
+        None => "an unknown part".to_owned(),
+    };
+    let Some((flown, of_flown)) = patch.flown else {
+        return "The error is by chance only; that of the surrogate is not known, because no fibre was flown.".to_owned();
+    };
+    format!(
+        "Of the error {} is by chance, {} by the few fibres that were flown, and {} by the model. The flown curves themselves let expect {}.",
+        part(error.chance),
+        part(error.flight),
+        part(error.model),
+        per_cent(flown, Some(of_flown))
+    )
+}
+
+/// A head of the table, and the expected CV that stands below it.
+type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
+
+/// The expected CVs that are known.
+fn sources(of: &Findings) -> Vec<Column> {
+    let all: [Column; 2] = [
+        ("CV expected, from the surrogate", |patch| patch.surrogate),
+        ("CV expected, from the flown curves", |patch| patch.flown),
+    ];
+    let mut known: Vec<Column> =
+        all.into_iter().filter(|(_, cv)| of.patches.iter().any(|patch| cv(patch).is_some())).collect();
+    if known.is_empty() {
+        known.push(("CV expected, from single fibres", |patch| Some(patch.one_fibre)));
+    }
+    known
+}
+
+fn patches(of: &Findings, flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
+    let row = |patch: &PatchFindings| {
+        let (map, error) = (whole(patch), patch.whole_error());
+        let part = |part: Option<f64>| {
+            part.map_or_else(|| "–".to_owned(), |part| format!("{}{THIN}%", significant(part * PER_CENT, 2)))
+        };
+        let mut cells =
+            vec![millimetres(map.patch), per_cent(map.cv, map.standard_error), part(error.chance)];
+        if flown {
+            cells.extend([error.flight, error.model].map(part));
+        }
+        let expected = sources.iter().map(|(_, cv)| cv(patch));
+        cells.extend(
+            expected.map(|of| of.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, Some(error)))),
+        );
         cells.push(format!("{}{THIN}%", significant(patch.straight_fibres * PER_CENT, 3)));
         cells
     };
@@ -297,11 +355,17 @@ const fn words(lever: Lever) -> &'static str {
     }
 }
 
-fn levers(of: &Sensitivity) -> (&'static str, Vec<String>) {
-    let cell = |elasticity: &spunlaid::statistics::Estimate| {
-        format!("{}{THIN}%", plus_minus(elasticity.mean, elasticity.standard_error))
+fn levers(of: &Sensitivity) -> (String, Vec<String>) {
+    let cell = |elasticity: &Option<Estimate>| match elasticity {
+        Some(of) => format!("{}{THIN}%", plus_minus(of.mean, of.standard_error)),
+        None => "not known".to_owned(),
     };
-    (words(of.lever), of.elasticity.iter().map(cell).collect())
+    let source = match of.source {
+        Source::Flown => ", from the flown curves",
+        Source::Surrogate => ", from the surrogate",
+        Source::Law => "",
+    };
+    (format!("{}{source}", words(of.lever)), of.elasticity.iter().map(cell).collect())
 }
 
 fn layer(of: &Layer) -> Vec<String> {
@@ -313,6 +377,8 @@ fn layer(of: &Layer) -> Vec<String> {
         spread(of.sigma_md_m),
         spread(of.sigma_cd_m),
         of.noise_per_sqrt_m.map_or("–".to_owned(), |noise| format!("{}{THIN}m^-½", significant(noise, 3))),
+        of.fit_residual.map_or("–".to_owned(), |residual| significant(residual, 2)),
+        of.fit_residual_by_chance.map_or("–".to_owned(), |residual| significant(residual, 2)),
     ]
 }
 
@@ -336,7 +402,8 @@ fn verdict(of: &Findings) -> Vec<String> {
     let mut sentences: Vec<String> = of.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
     let Some(i) = seen(of) else { return sentences };
     let patch = &of.patches[i];
-    let ratio = patch.one_fibre.0 / patch.straight_fibres;
+    // The flown curves are believed where there are some.
+    let ratio = patch.flown.unwrap_or(patch.one_fibre).0 / patch.straight_fibres;
     let why = if ratio > 1.05 {
         "a fibre that visits its own place again and again clouds the web"
     } else {
@@ -347,14 +414,13 @@ fn verdict(of: &Findings) -> Vec<String> {
         millimetres(patch.map.patch),
         significant(ratio, 3)
     ));
-    let change = |sensitivity: &&Sensitivity| sensitivity.elasticity[i].mean.abs();
-    if let Some(most) = of.sensitivities.iter().max_by(|a, b| change(a).total_cmp(&change(b))) {
-        let elasticity = &most.elasticity[i];
+    let known = of.sensitivities.iter().filter_map(|of| Some((of, of.elasticity[i].as_ref()?)));
+    if let Some((most, elasticity)) = known.max_by(|a, b| a.1.mean.abs().total_cmp(&b.1.mean.abs())) {
         let way = if elasticity.mean < 0.0 { "more" } else { "less" };
         let effect =
             plus_minus(10.0 * elasticity.mean.abs(), elasticity.standard_error.map(|error| 10.0 * error));
         sentences.push(format!(
-            "Of the line’s numbers, {} lowers the CV over patches of {} most: 10 % {way} of it lowers the CV by about {effect} % of its value.",
+            "Of the line’s numbers whose effect is known, {} lowers the CV over patches of {} most: 10 % {way} of it lowers the CV by about {effect} % of its value.",
             words(most.lever),
             millimetres(patch.map.patch)
         ));

@@ -83,7 +83,12 @@ fn question(study: &WebStudy) -> String {
 fn summary(study: &WebStudy, results: &[PointOfWebs]) -> String {
     let webs: u64 = results.iter().map(|of| of.webs).sum();
     let middle = results.first().map_or(0, |of| of.patches.len() / 2);
-    let cv = |point: usize| results[point].patches.get(middle).map(|of| of.cv);
+    // Points are put in order by what the flown curves say, where all have them.
+    let flown = results.iter().all(|of| of.patches.get(middle).is_some_and(|of| of.flown.is_some()));
+    let cv = |point: usize| {
+        let of = results[point].patches.get(middle)?;
+        if flown { of.flown.map(|of| of.0) } else { Some(of.cv) }
+    };
     let known: Vec<usize> = (0..results.len()).filter(|point| cv(*point).is_some()).collect();
     let order = |a: &&usize, b: &&usize| cv(**a).unwrap_or(0.0).total_cmp(&cv(**b).unwrap_or(0.0));
     let laid = format!("{} points, {webs} webs in all.", results.len());
@@ -97,11 +102,16 @@ fn summary(study: &WebStudy, results: &[PointOfWebs]) -> String {
         };
         let shown = |point: usize| {
             let of = results[point].patches.get(middle)?;
-            Some(plus_minus(100.0 * of.cv, of.standard_error.map(|error| 100.0 * error)))
+            let (cv, error) = match of.flown.filter(|_| flown) {
+                Some((cv, error)) => (cv, Some(error)),
+                None => (of.cv, of.error()),
+            };
+            Some(plus_minus(100.0 * cv, error.map(|error| 100.0 * error)))
         };
         let patch = results[*best].patches.get(middle)?.patch;
         Some(format!(
-            " Over patches of {} mm the web is most even at {} (CV {} %) and least even at {} (CV {} %).",
+            " {} patches of {} mm the web is most even at {} (CV {} %) and least even at {} (CV {} %).",
+            if flown { "By the flown curves, over" } else { "Over" },
             significant(patch * 1e3, 3),
             values(*best),
             shown(*best)?,
@@ -116,12 +126,12 @@ fn summary(study: &WebStudy, results: &[PointOfWebs]) -> String {
 fn table(study: &WebStudy, results: &[PointOfWebs]) -> (Vec<String>, Vec<Row>) {
     let first = results.first();
     let mut heads: Vec<String> = study.factors.iter().map(|factor| name_of_key(factor.key)).collect();
-    heads.extend(
-        first
-            .into_iter()
-            .flat_map(|of| &of.patches)
-            .map(|of| format!("CV {} mm (%)", significant(of.patch * 1e3, 3))),
-    );
+    let patches = || first.into_iter().flat_map(|of| &of.patches);
+    heads.extend(patches().map(|of| format!("CV {} mm (%)", significant(of.patch * 1e3, 3))));
+    let any_flown = results.iter().flat_map(|of| &of.patches).any(|patch| patch.flown.is_some());
+    if any_flown {
+        heads.extend(patches().map(|of| format!("flown CV {} mm (%)", significant(of.patch * 1e3, 3))));
+    }
     heads.extend(["basis weight (g/m²)", "MD/CD", "webs"].map(str::to_owned));
     let row = |(point, of): (usize, &PointOfWebs)| {
         let values = study.factors.iter().zip(&study.points[point].values);
@@ -129,8 +139,15 @@ fn table(study: &WebStudy, results: &[PointOfWebs]) -> (Vec<String>, Vec<Row>) {
         let cv = of
             .patches
             .iter()
-            .map(|patch| plus_minus(100.0 * patch.cv, patch.standard_error.map(|error| 100.0 * error)));
+            .map(|patch| plus_minus(100.0 * patch.cv, patch.error().map(|error| 100.0 * error)));
         cells.extend(cv);
+        if any_flown {
+            let flown = of.patches.iter().map(|patch| match patch.flown {
+                Some((cv, error)) => plus_minus(100.0 * cv, Some(100.0 * error)),
+                None => "–".to_owned(),
+            });
+            cells.extend(flown);
+        }
         let mean = |name: &str| of.numbers.get(name).map_or(f64::NAN, |number| number.mean);
         cells.push(significant(1e3 * mean("basis_weight_kg_m2"), 4));
         cells.push(number(mean("md_cd_ratio")));

@@ -3,6 +3,7 @@
 use super::generator::{Correlations, Size};
 use super::{LARGEST_RATIO, NOISES, Surrogate, ratio};
 use crate::lanes::WIDTH;
+use crate::statistics::Estimate;
 use std::array::from_fn;
 
 /// A surrogate that was found, and how well it fits.
@@ -12,6 +13,16 @@ pub struct Identified {
     pub surrogate: Surrogate,
     /// Rms difference between the measured autocorrelations and those of the surrogate, over the lags of the fit.
     pub residual: f64,
+}
+
+/// How far the autocorrelations of laid fibres are from those of a surrogate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual {
+    /// Rms difference between the mean autocorrelations of the fibres and those of the surrogate, over the lags of the fit.
+    pub rms: f64,
+    /// Rms standard error of the mean autocorrelations over these lags: the residual that chance alone would leave. None for
+    /// a single fibre.
+    pub by_chance: Option<f64>,
 }
 
 /// Why no surrogate was found.
@@ -108,6 +119,49 @@ pub fn identify(sigmas: [f64; 2], step: f64, correlations: [&[f64]; 2]) -> Resul
     }
     let surrogate = Surrogate { sigma_md: sigmas[0], sigma_cd: sigmas[1], noise: noise(found) };
     Ok(Identified { surrogate, residual: mean_square.max(0.0).sqrt() })
+}
+
+impl Surrogate {
+    /// How far the autocorrelations of laid fibres are from those of this surrogate, over the lags from which [`identify`] finds it. The
+    /// mean over the fibres is taken first: a single one has too much chance in its autocorrelation.
+    ///
+    /// None if the surrogate has [no autocorrelation](Surrogate::autocorrelation) that can be computed, or the lags of the fibres do
+    /// not reach far enough.
+    ///
+    /// * `step` – step of the lag [m]
+    /// * `fibres` – of each the autocorrelation coefficients of ξ₁ and ξ₂ from lag zero; those that are not finite are left out
+    pub fn residual(&self, step: f64, fibres: &[[&[f64]; 2]]) -> Option<Residual> {
+        let lags = fibres.iter().flatten().map(|correlation| correlation.len()).min()?;
+        let own = self.autocorrelation(step, lags)?;
+        let sigmas = [self.sigma_md, self.sigma_cd];
+        let (mut residual, mut chance, mut single) = (0.0, 0.0, false);
+        for (of, own) in own.iter().enumerate() {
+            let within = |lag: &usize| (LAGS[0]..=LAGS[1]).contains(&(*lag as f64 * step / sigmas[of]));
+            let mut squares = [0.0; 3];
+            for lag in (0..lags).filter(within) {
+                let values = fibres.iter().map(|fibre| fibre[of][lag]).filter(|c| c.is_finite());
+                let found = Estimate::of(values.collect());
+                if !found.mean.is_finite() {
+                    continue;
+                }
+                single |= found.standard_error.is_none();
+                let error = found.standard_error.unwrap_or(0.0);
+                for (sum, square) in
+                    squares.iter_mut().zip([1.0, (found.mean - own[lag]).powi(2), error * error])
+                {
+                    *sum += square;
+                }
+            }
+            let [count, differences, errors] = squares;
+            if count < LEAST_LAGS as f64 {
+                return None;
+            }
+            // Each coordinate has the same weight, as in the fit.
+            residual += 0.5 * differences / count;
+            chance += 0.5 * errors / count;
+        }
+        Some(Residual { rms: residual.sqrt(), by_chance: (!single).then(|| chance.sqrt()) })
+    }
 }
 
 /// The measured autocorrelation of one coordinate within the range of the fit.

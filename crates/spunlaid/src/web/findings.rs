@@ -4,10 +4,10 @@ use super::clouds::{Clouds, autocorrelation};
 use super::lay::{Laid, Laying, lay, places};
 use super::one_fibre::{OneFibre, one_fibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
-use super::sensitivity::{Sensitivity, sensitivities};
+use super::sensitivity::{Sensitivity, Source, sensitivities};
 use super::threads::each;
 use super::uniformity::{Unevenness, unevenness};
-use super::{Edges, Filaments, Layer, Sheet, Web};
+use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::Error;
 use std::sync::atomic::AtomicU64;
 
@@ -28,15 +28,17 @@ pub struct Findings {
     pub sensitivities: Vec<Sensitivity>,
 }
 
-/// The unevenness over patches of one size, in three ways.
+/// The unevenness over patches of one size, in several ways.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFindings {
     /// On the map.
     pub map: Unevenness,
     /// The expected one of independent filaments at the places of the layers, from single fibres, with its standard error.
     pub one_fibre: (f64, f64),
-    /// The expected one of [`Layer::compared`], if all layers have it, with its standard error.
-    pub compared: Option<(f64, f64)>,
+    /// The expected one of the curves that were flown, with its standard error, NaN for a single curve; None unless all layers have them.
+    pub flown: Option<(f64, f64)>,
+    /// The expected one of paths of the surrogate, with its standard error; None unless all layers have them.
+    pub surrogate: Option<(f64, f64)>,
     /// Of straight fibres in all directions of the same mass.
     pub straight_fibres: f64,
 }
@@ -58,7 +60,15 @@ pub fn find(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
     let sides: Vec<usize> = found.patches.iter().map(|patch| side(&web.sheet, patch.map.patch)).collect();
     let of = OneFibre { cell: web.sheet.cell, fibres: TURNED, seed: web.seed };
     let aside = AtomicU64::new(0);
-    let sensitivities = sensitivities(web, &sides, of, Laying { laid: &aside, ..by })?;
+    let mut sensitivities = sensitivities(web, &sides, of, Laying { laid: &aside, ..by })?;
+    // A surrogate that is not like the flown fibres does not say what would change their web.
+    for of in sensitivities.iter_mut().filter(|of| of.source == Source::Surrogate) {
+        for (elasticity, patch) in of.elasticity.iter_mut().zip(&found.patches) {
+            if patch.surrogate_is_far() {
+                *elasticity = None;
+            }
+        }
+    }
     Ok(Findings { sensitivities, ..found })
 }
 
@@ -86,6 +96,15 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
         Some(layers) => Some(expected(web, layers, &sides, of, by)?),
         None => None,
     };
+    let all = |of: fn(&Fibres) -> bool, fibres: fn(&Layer) -> Option<&Fibres>| {
+        web.layers.iter().all(|layer| fibres(layer).is_some_and(of))
+    };
+    let the_one = |of: fn(&Fibres) -> bool, i: usize| {
+        let laid = all(of, |layer| Some(&layer.fibres)).then_some(alone[i]);
+        laid.or_else(|| {
+            compared.as_ref().filter(|_| all(of, |layer| layer.compared.as_ref())).map(|found| found[i])
+        })
+    };
     let weight = web.basis_weight();
     let mut patches = Vec::new();
     let uneven = each(by.threads, sides.len(), |i| Ok(unevenness(map, sides[i])))?;
@@ -96,8 +115,9 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
             (straight_fibres(tau, map.patch) * layer.basis_weight(sheet)).powi(2)
         };
         let straight_fibres = web.layers.iter().map(straight).sum::<f64>().sqrt() / weight;
-        let compared = compared.as_ref().map(|compared| compared[i]);
-        patches.push(PatchFindings { map, one_fibre: alone[i], compared, straight_fibres });
+        let flown = the_one(|fibres| matches!(fibres, Fibres::Curves(_)), i);
+        let surrogate = the_one(|fibres| matches!(fibres, Fibres::Surrogate(_)), i);
+        patches.push(PatchFindings { map, one_fibre: alone[i], flown, surrogate, straight_fibres });
     }
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
     Ok(Findings {
@@ -130,7 +150,7 @@ fn expected(
             let scale = share * share * layer.linear_density / layer.basis_weight(sheet);
             let by_chance = found[i].of(&layer.filaments);
             square += scale * by_chance.mean;
-            error += (scale * by_chance.standard_error.unwrap_or(0.0)).powi(2);
+            error += (scale * by_chance.standard_error.unwrap_or(f64::NAN)).powi(2);
             let of_places = match &layer.filaments {
                 Filaments::AtRandom { .. } => vec![1.0; across.len()],
                 Filaments::Rows(_) => {

@@ -19,6 +19,7 @@ mod strands;
 mod strip;
 mod threads;
 pub mod uniformity;
+mod whole_error;
 
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
@@ -27,8 +28,9 @@ pub use lay::{Laid, Laying, lay, pieces};
 pub use map::Map;
 pub use one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
-pub use sensitivity::{Lever, Sensitivity, sensitivities};
+pub use sensitivity::{Lever, Sensitivity, Source, sensitivities};
 pub use strands::{Strand, Window, strands};
+pub use whole_error::WholeError;
 
 use crate::surrogate::Surrogate;
 use std::sync::Arc;

@@ -17,8 +17,10 @@ pub(super) struct Web {
     name: String,
     /// Mean basis weight, if it is known [kg/m²].
     weight: Option<f64>,
-    /// By the side of the patches.
+    /// By the side of the patches; with the error by all causes where it is known.
     patches: Vec<Unevenness>,
+    /// What the flown curves let expect, if there were some.
+    flown: Vec<Unevenness>,
     /// Cloudiness index and share of the texture along the machine direction, with their standard errors.
     clouds: [Option<(f64, Option<f64>)>; 2],
 }
@@ -48,19 +50,22 @@ pub(super) fn read(folders: &[PathBuf], names: &[String]) -> Result<Option<Vec<W
 
 fn web(folder: &std::path::Path, name: &str, summary: &Json) -> Option<Web> {
     let web = summary.get("web")?;
-    let patch = |of: &Json| {
-        let number = |name: &str| of[name].as_f64();
-        Some(Unevenness {
-            patch: number("patch_m")?,
-            cv: number("cv")?,
-            standard_error: number("cv_standard_error"),
-        })
+    let all = web["patches"].as_array()?;
+    let patches = |name: &str, errors: &[&str]| -> Vec<Unevenness> {
+        let patch = |of: &Json| {
+            let number = |name: &str| of[name].as_f64();
+            let standard_error = errors.iter().find_map(|name| number(name));
+            Some(Unevenness { patch: number("patch_m")?, cv: number(name)?, standard_error })
+        };
+        all.iter().filter_map(patch).collect()
     };
-    let patches: Vec<Unevenness> = web["patches"].as_array()?.iter().filter_map(patch).collect();
+    // Older folders and scans have no error but that by chance.
+    let flown = patches("cv_flown", &["cv_flown_standard_error"]);
+    let patches = patches("cv", &["cv_whole_error", "cv_standard_error"]);
     let clouds = [("cloudiness", "index"), ("texture_md", "mean")]
         .map(|(group, value)| Some((web[group][value].as_f64()?, web[group]["standard_error"].as_f64())));
     let weight = web["basis_weight_kg_m2"].as_f64();
-    Some(Web { folder: folder.to_owned(), name: name.to_owned(), weight, patches, clouds })
+    Some(Web { folder: folder.to_owned(), name: name.to_owned(), weight, patches, flown, clouds })
 }
 
 /// Every web against the first, and all curves in one picture.
@@ -74,14 +79,15 @@ pub(super) fn compared(webs: &[Web]) -> Result<(Vec<Comparison>, Vec<Figure>), F
 }
 
 fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
-    let of_patch = |of: &Unevenness| {
-        let found = at(&other.patches, of.patch)?;
+    let of_patch = |of: &Unevenness, others: &[Unevenness], [whose, end]: [&str; 2]| {
+        let found = at(others, of.patch)?;
         let side = significant(of.patch * 1e3, 3);
         let values = [(of.cv, of.standard_error), (found.cv, found.standard_error)];
-        let (label, column) = (format!("CV over patches of {side} mm"), format!("cv_{side}_mm"));
+        let (label, column) = (format!("{whose} over patches of {side} mm"), format!("cv_{side}_mm{end}"));
         Some(measure(label, column, ("%", 100.0), values))
     };
-    let mut measures: Vec<Compared> = first.patches.iter().filter_map(of_patch).collect();
+    let of_map = |of: &Unevenness| of_patch(of, &other.patches, ["CV", ""]);
+    let mut measures: Vec<Compared> = first.patches.iter().filter_map(of_map).collect();
     if measures.is_empty() {
         let sides = |web: &Web| {
             let sides: Vec<String> = web.patches.iter().map(|of| significant(of.patch * 1e3, 3)).collect();
@@ -95,6 +101,8 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
         );
         return Err(Failure::NotCompared { folder: other.folder.clone(), reason });
     }
+    let of_flown = |of: &Unevenness| of_patch(of, &other.flown, ["CV of the flown curves", "_flown"]);
+    measures.extend(first.flown.iter().filter_map(of_flown));
     let names =
         [("cloudiness index", "cloudiness", ("%", 100.0)), ("texture along MD", "texture_md", ("", 1.0))];
     for (i, (label, column, unit)) in names.into_iter().enumerate() {
@@ -115,7 +123,8 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
             weight(other),
             weight(first)
         ),
-        errors: "CV of the basis weight over square patches, ± one standard error from the scatter within each piece of web.",
+        errors: "CV of the basis weight over square patches, ± one standard error: from the scatter within each piece of web, and, where fibres were \
+                 flown, from their small number and from the difference of the surrogate from them. CV of the flown curves: as they let expect.",
         measures,
     })
 }

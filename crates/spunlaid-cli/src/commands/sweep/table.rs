@@ -1,5 +1,6 @@
 //! The table of a study on the terminal.
 
+use super::super::aligned;
 use spunlaid::study::{PointResults, Study};
 use spunlaid_results::output::study::shown;
 use std::fmt::Write;
@@ -30,19 +31,6 @@ pub(super) fn results(study: &Study, results: &[PointResults]) -> String {
     let mut text = aligned(&rows);
     if results.len() > LISTED {
         let _ = writeln!(text, "  and {} more points in results.csv", results.len() - LISTED);
-    }
-    text
-}
-
-pub(super) fn aligned(rows: &[Vec<String>]) -> String {
-    let columns = rows.first().map_or(0, Vec::len);
-    let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    let mut text = String::new();
-    for row in rows {
-        let cells: Vec<String> =
-            row.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}")).collect();
-        let _ = writeln!(text, "  {}", cells.join("  "));
     }
     text
 }

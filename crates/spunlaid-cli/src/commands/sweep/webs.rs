@@ -2,7 +2,7 @@
 
 use super::super::interrupt::stop_on_ctrl_c;
 use super::super::web::flying;
-use super::super::{folder, plural, stem, threads};
+use super::super::{aligned, folder, plural, stem, threads};
 use crate::args::Sweep;
 use crate::failure::Failure;
 use crate::{progress, say};
@@ -14,7 +14,7 @@ use spunlaid::web::{Laying, measure, pieces};
 use spunlaid_results::folders::fibres::{Flyer, to_lay};
 use spunlaid_results::folders::webs::WebStudyFolder;
 use spunlaid_results::numbers::{plus_minus, significant};
-use spunlaid_results::webs::{Laid, PointOfWebs, WebJournal};
+use spunlaid_results::webs::{Laid, PatchOfWebs, PointOfWebs, WebJournal};
 use std::fs;
 use std::sync::atomic::AtomicU64;
 
@@ -100,8 +100,13 @@ fn told(file: &WebStudyFile, results: &[PointOfWebs]) -> String {
     let study = &file.study;
     let mut heads = vec!["point".to_owned()];
     heads.extend(study.factors.iter().map(|of| of.key.rsplit('.').next().unwrap_or(of.key).to_owned()));
-    let patches = results.first().into_iter().flat_map(|of| &of.patches);
-    heads.extend(patches.map(|of| format!("{} mm", significant(of.patch * 1e3, 3))));
+    let patches = || results.first().into_iter().flat_map(|of| &of.patches);
+    let side = |of: &PatchOfWebs| significant(of.patch * 1e3, 3);
+    heads.extend(patches().map(|of| format!("{} mm", side(of))));
+    let flown = results.iter().flat_map(|of| &of.patches).any(|patch| patch.flown.is_some());
+    if flown {
+        heads.extend(patches().map(|of| format!("flown {} mm", side(of))));
+    }
     let mut rows = vec![heads];
     for (number, (point, of)) in (1..).zip(study.points.iter().zip(results)).take(LISTED) {
         let number: usize = number;
@@ -110,11 +115,21 @@ fn told(file: &WebStudyFile, results: &[PointOfWebs]) -> String {
             study.factors.iter().zip(&point.values).map(|(factor, value)| factor.input().pretty(*value)),
         );
         let cv = |cv: f64, error: Option<f64>| plus_minus(100.0 * cv, error.map(|error| 100.0 * error));
-        row.extend(of.patches.iter().map(|patch| cv(patch.cv, patch.standard_error)));
+        row.extend(of.patches.iter().map(|patch| cv(patch.cv, patch.error())));
+        if flown {
+            row.extend(
+                of.patches.iter().map(|patch| {
+                    patch.flown.map_or_else(|| "–".to_owned(), |(of, error)| cv(of, Some(error)))
+                }),
+            );
+        }
         rows.push(row);
     }
     let mut text = "unevenness, CV in % ± standard error, over patches of\n".to_owned();
-    text.push_str(&super::table::aligned(&rows));
+    if flown {
+        text = "unevenness, CV in % ± standard error by all causes, over patches of; flown: as the flown curves let expect\n".to_owned();
+    }
+    text.push_str(&aligned(&rows));
     if results.len() > LISTED {
         text.push_str(&format!("  and {} more points in results.csv\n", results.len() - LISTED));
     }

@@ -5,10 +5,10 @@ use super::{MM, PER_CENT, Weights};
 use crate::numbers::significant;
 use spunlaid::scan;
 use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Edges, Filaments, Findings, Map, Web, straight_fibres};
+use spunlaid::web::{Edges, Filaments, Findings, Map, PatchFindings, Web, straight_fibres};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
-    palette::{BLUE, GREY, VERMILION},
+    palette::{BLUE, GREEN, GREY, VERMILION},
 };
 
 fn empty_chart() -> Chart {
@@ -62,15 +62,29 @@ pub(super) fn scanned(of: &scan::Findings) -> Figure {
 
 /// The coefficient of variation over the size of the patches.
 pub(super) fn over_patches(web: &Web, of: &Findings) -> Figure {
-    let map: Vec<_> = of.patches.iter().map(|patch| point(&patch.map)).collect();
+    let map = of.patches.iter().map(|patch| {
+        let (side, cv, error) = point(&patch.map);
+        (side, cv, patch.whole_error().whole().map(|error| error * PER_CENT).or(error))
+    });
+    let map: Vec<_> = map.collect();
+    let curve = |cv: fn(&PatchFindings) -> Option<(f64, f64)>| -> Vec<(f64, f64)> {
+        let point = |patch: &PatchFindings| Some((patch.map.patch * MM, cv(patch)?.0 * PER_CENT));
+        of.patches.iter().filter_map(point).collect()
+    };
+    let (flown, surrogate) = (curve(|patch| patch.flown), curve(|patch| patch.surrogate));
     let single: Vec<(f64, f64)> =
         of.patches.iter().map(|patch| (patch.map.patch * MM, patch.one_fibre.0 * PER_CENT)).collect();
     let straight: Vec<(f64, f64)> =
         of.patches.iter().map(|patch| (patch.map.patch * MM, patch.straight_fibres * PER_CENT)).collect();
-    let chart = empty_chart()
-        .line(Series::new("straight fibres at random", GREY).dashed("6 4"), &straight)
-        .line(Series::new("expected, from single fibres", VERMILION).width(1.8), &single)
-        .scatter(Series::spots("this map", BLUE), &map);
+    let mut chart =
+        empty_chart().line(Series::new("straight fibres at random", GREY).dashed("6 4"), &straight);
+    chart = match (flown.is_empty(), surrogate.is_empty()) {
+        (false, false) => chart
+            .line(Series::new("expected, from the surrogate", VERMILION).width(1.8), &surrogate)
+            .line(Series::new("expected, from the flown curves", GREEN).width(1.8), &flown),
+        _ => chart.line(Series::new("expected, from single fibres", VERMILION).width(1.8), &single),
+    };
+    let chart = chart.scatter(Series::spots("this map", BLUE), &map);
     let rows = web.layers.iter().any(|layer| matches!(layer.filaments, Filaments::Rows(_)));
     let places = if rows { "in their rows" } else { "at random places" };
     let cut = if web.sheet.edges == Edges::Cut {
@@ -82,7 +96,7 @@ pub(super) fn over_patches(web: &Web, of: &Findings) -> Figure {
     let tenth = straight_fibres(tau, 0.01) * PER_CENT;
     let caption = format!(
         "Standard deviation of the basis weight of square patches over its mean; the sheet is {cut}. Bars are one standard error of \
-         the map, from the scatter of its parts. The expected curve is that of independent filaments {places}, from the \
+         the map: by chance and, where fibres were flown, also by their small number and by the surrogate. The expected curve is that of independent filaments {places}, from the \
          lengths that one fibre leaves in each patch. Straight fibres of the same mass in all directions would give \
          CV² = 0.946 line density/(basis weight · side), {} % at 10 mm for the first layer’s fibre: the distance to them is what the loops of the lay-down \
          cost.",

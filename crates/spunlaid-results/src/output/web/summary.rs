@@ -7,7 +7,7 @@ use spunlaid::statistics::Estimate;
 use spunlaid::web::{Clouds, Findings, Map, Web};
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 1;
+const SCHEMA_VERSION: u32 = 2;
 
 /// The content of `summary.json` of a web.
 #[derive(Debug, Serialize)]
@@ -58,6 +58,10 @@ pub struct Layer {
     pub sigma_cd_m: Option<f64>,
     /// Noise of the surrogate [m^-½].
     pub noise_per_sqrt_m: Option<f64>,
+    /// Rms difference between the autocorrelations of the flown fibres and those of the surrogate.
+    pub fit_residual: Option<f64>,
+    /// What chance alone would leave of it.
+    pub fit_residual_by_chance: Option<f64>,
 }
 
 /// The speed of the work. This is the only part that differs when it is repeated.
@@ -98,16 +102,31 @@ struct WebSummary {
 struct Patch {
     patch_m: f64,
     cv: f64,
+    /// By chance alone.
     cv_standard_error: Option<f64>,
+    /// By the few fibres that were flown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_flight_error: Option<f64>,
+    /// By the surrogate in place of the flown curves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_model_error: Option<f64>,
+    /// By all causes; none if one is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_whole_error: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_one_fibre: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_one_fibre_standard_error: Option<f64>,
-    /// Of the flown curves if a surrogate was laid, and the other way round.
+    /// That the flown curves let expect.
     #[serde(skip_serializing_if = "Option::is_none")]
-    cv_compared: Option<f64>,
+    cv_flown: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    cv_compared_standard_error: Option<f64>,
+    cv_flown_standard_error: Option<f64>,
+    /// That paths of the surrogate let expect.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_surrogate: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_surrogate_standard_error: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_straight_fibres: Option<f64>,
     /// Of the noise of the camera alone, at most or as given.
@@ -146,7 +165,10 @@ struct Octave {
 struct Levers {
     number: &'static str,
     patch_m: f64,
-    elasticity: f64,
+    /// What it rests on.
+    source: &'static str,
+    /// None where the surrogate is too far from the flown curves to say.
+    elasticity: Option<f64>,
     standard_error: Option<f64>,
 }
 
@@ -201,8 +223,13 @@ impl<'a> Summary<'a> {
             cv_standard_error: patch.map.standard_error,
             cv_one_fibre: Some(patch.one_fibre.0),
             cv_one_fibre_standard_error: Some(patch.one_fibre.1),
-            cv_compared: patch.compared.map(|of| of.0),
-            cv_compared_standard_error: patch.compared.map(|of| of.1),
+            cv_flight_error: patch.whole_error().flight,
+            cv_model_error: patch.whole_error().model,
+            cv_whole_error: patch.whole_error().whole(),
+            cv_flown: patch.flown.map(|of| of.0),
+            cv_flown_standard_error: patch.flown.map(|of| of.1),
+            cv_surrogate: patch.surrogate.map(|of| of.0),
+            cv_surrogate_standard_error: patch.surrogate.map(|of| of.1),
             cv_straight_fibres: Some(patch.straight_fibres),
             ..Patch::default()
         });
@@ -211,8 +238,9 @@ impl<'a> Summary<'a> {
             each.map(|(elasticity, patch)| Levers {
                 number: sensitivity.lever.name(),
                 patch_m: patch.map.patch,
-                elasticity: elasticity.mean,
-                standard_error: elasticity.standard_error,
+                source: sensitivity.source.name(),
+                elasticity: elasticity.as_ref().map(|of| of.mean),
+                standard_error: elasticity.as_ref().and_then(|of| of.standard_error),
             })
         });
         Self {
