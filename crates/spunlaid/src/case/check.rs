@@ -32,6 +32,7 @@ impl Case {
     pub fn check(&self) -> Result<Vec<Note>, Vec<Problem>> {
         let mut check = Check { case: self, problems: Vec::new() };
         check.values();
+        let values_are_sound = check.problems.is_empty();
         // If a value is wrong on its own, messages about its relation to others would only confuse.
         if check.problems.is_empty() {
             check.geometry();
@@ -42,7 +43,13 @@ impl Case {
             check.times();
             check.records();
         }
-        if check.problems.is_empty() { Ok(self.notes()) } else { Err(check.problems) }
+        if check.problems.is_empty() {
+            return Ok(self.notes());
+        }
+        if values_are_sound {
+            check.slips();
+        }
+        Err(check.problems)
     }
 
     /// The limits on the time step of the case's scheme [s], with damping taken into account.
@@ -96,6 +103,16 @@ impl Check<'_> {
         if run.steps > MOST_STEPS {
             let (steps, most, time_step) = (run.steps as f64, MOST_STEPS as f64, run.time_step);
             self.blame("run.duration", run.duration(), Fault::TooManySteps { steps, most, time_step });
+        }
+    }
+
+    /// Adds values that are most likely slips: they may be why the case cannot be run.
+    fn slips(&mut self) {
+        for note in self.case.slips() {
+            let (Note { place, key, value, .. }, warning) = (note.clone(), note.what.to_string());
+            if !self.problems.iter().any(|problem| problem.key == key) {
+                self.problems.push(Finding { place, key, value, what: Fault::Slip { warning } });
+            }
         }
     }
 
