@@ -47,7 +47,7 @@ impl Case {
             return Ok(self.notes());
         }
         if values_are_sound {
-            check.slips();
+            self.blame_slips(&mut check.problems);
         }
         Err(check.problems)
     }
@@ -103,16 +103,6 @@ impl Check<'_> {
         if run.steps > MOST_STEPS {
             let (steps, most, time_step) = (run.steps as f64, MOST_STEPS as f64, run.time_step);
             self.blame("run.duration", run.duration(), Fault::TooManySteps { steps, most, time_step });
-        }
-    }
-
-    /// Adds values that are most likely slips: they may be why the case cannot be run.
-    fn slips(&mut self) {
-        for note in self.case.slips() {
-            let (Note { place, key, value, .. }, warning) = (note.clone(), note.what.to_string());
-            if !self.problems.iter().any(|problem| problem.key == key) {
-                self.problems.push(Finding { place, key, value, what: Fault::Slip { warning } });
-            }
         }
     }
 

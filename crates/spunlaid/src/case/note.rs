@@ -318,10 +318,11 @@ pub(super) const SLOW: f64 = 0.3;
 
 /// What to do about a value that is most likely a slip.
 fn slip(instead: &[String]) -> String {
-    if instead.is_empty() {
-        return "check the value and its unit".to_owned();
+    match instead {
+        [] => "check the value and its unit".to_owned(),
+        [one] => format!("did you mean {one}?"),
+        [more @ .., last] => format!("did you mean {} or {last}?", more.join(", ")),
     }
-    format!("did you mean {}?", instead.join(" or "))
 }
 
 impl Remark {

@@ -4,7 +4,7 @@ use super::Case;
 use super::keys::{self, Key, Value, finding};
 use super::note::{Note, Remark, SLOW};
 use crate::air::Flow;
-use crate::error::Place;
+use crate::error::{Fault, Finding, Place, Problem};
 use crate::field::Hint;
 use crate::units::Dimension;
 
@@ -45,6 +45,17 @@ impl Case {
         notes.extend(self.dissipation());
         notes.extend(self.profile_size());
         notes
+    }
+
+    /// Adds values that are most likely slips to the problems of a case: they may be why it cannot be run.
+    pub(crate) fn blame_slips(&self, problems: &mut Vec<Problem>) {
+        for note in self.slips() {
+            if !problems.iter().any(|problem| problem.key == note.key) {
+                let (what, Note { place, key, value, .. }) =
+                    (Fault::Slip { warning: note.what.to_string() }, note);
+                problems.push(Finding { place, key, value, what });
+            }
+        }
     }
 
     fn unusual(&self, key: &Key) -> Option<Note> {
@@ -131,7 +142,7 @@ impl Case {
         let Flow::Profile(table) = &self.air.flow else { return None };
         let ((first, last), fibre) = (table.range(), self.fibre.length);
         let profile = last - first;
-        if profile > 30.0 * fibre { self.of_file(Remark::ProfileSize { profile, fibre }) } else { None }
+        if profile > 100.0 * fibre { self.of_file(Remark::ProfileSize { profile, fibre }) } else { None }
     }
 
     /// Turbulence of a field without a length of its own, and a field without any.

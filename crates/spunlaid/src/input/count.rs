@@ -114,7 +114,11 @@ impl Open {
         let steps = (duration / time_step).ceil().max(1.0);
         if steps > MOST_STEPS as f64 {
             let fault = Fault::TooManySteps { steps, most: MOST_STEPS as f64, time_step };
-            return Err(vec![self.written.placed(keys::finding("run.duration", duration, fault))].into());
+            let mut problems = vec![keys::finding("run.duration", duration, fault)];
+            self.case.blame_slips(&mut problems);
+            return Err(
+                sorted(problems.into_iter().map(|problem| self.written.placed(problem)).collect()).into()
+            );
         }
         let (nearest, whole) = whole_parts(duration, time_step);
         self.case.run.steps = nearest;

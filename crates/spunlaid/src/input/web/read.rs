@@ -54,8 +54,18 @@ pub(super) fn spec(
         }
     }
     let unusual = reading.unusual();
-    reading.note(unusual);
-    let Reading { written, notes, .. } = reading;
+    reading.note(unusual.clone());
+    let Reading { mut written, notes, .. } = reading;
+    if !written.problems.is_empty() {
+        // They may be why the web cannot be laid.
+        for note in unusual {
+            if !written.problems.iter().any(|problem| problem.key == note.key) {
+                let (what, Note { place, key, value, .. }) =
+                    (Fault::Slip { warning: note.what.to_string() }, note);
+                written.problems.push(Finding { place, key, value, what });
+            }
+        }
+    }
     match (sheet, layers.into_iter().collect::<Option<Vec<_>>>(), window) {
         (Some(sheet), Some(layers), Some(window)) if written.problems.is_empty() => {
             Ok((WebSpec { sheet, layers, seed, method, window }, sorted(notes)))

@@ -58,7 +58,7 @@ pub(super) const KEYS: &[Key] = &[
         .slider(0.0, 2000.0),
     quantity("belt.kept_length", Dimension::Length, Positive, of_line!(kept_length))
         .follows("6 % of the distance to the belt")
-        .usual(1e-5, 2.0)
+        .usual(1e-7, 2.0)
     .meaning("Length of fibre behind the newest touch-down that still moves. What comes after it is laid; arches that are still in the air stay where they are.")
         .label("Length that still moves on the belt")
         .slider(5e-3, 0.2),

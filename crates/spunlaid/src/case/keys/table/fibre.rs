@@ -59,7 +59,7 @@ pub(super) const KEYS: &[Key] = &[
     quantity("fibre.youngs_modulus", Dimension::Pressure, Positive, number!(fibre.youngs_modulus))
         .required("2 GPa")
         // From rubber to the stiffest carbon fibres.
-    .usual(1e7, 1e12)
+    .usual(1e7, 9e11)
     .meaning("Young's modulus of the polymer along the fibre. The fibre is elastic.")
         .label("Young’s modulus *E*")
         .slider(1e7, 1e10)
