@@ -262,7 +262,7 @@ fn record_options(fault: &FileFault) -> &'static str {
             | RecordFault::TimeNotIncreasing { .. }
             | RecordFault::Uneven { .. } => " (--rate)",
             RecordFault::MixedUnits { .. } => " (--time-unit, --velocity-unit)",
-            RecordFault::GapTooLong { .. } => " (--max-gap)",
+            RecordFault::GapTooLong { .. } => " (or allow longer gaps with --max-gap)",
             RecordFault::NoMean { .. } => " (--mean-velocity)",
             RecordFault::IntegralTooLong { .. } => " (--integral)",
             RecordFault::Segment { .. } => " (--segment)",

@@ -21,7 +21,11 @@ fn the_page_of_keys_is_up_to_date() {
         of_webs == std::fs::read_to_string(path).unwrap_or_default(),
         "docs/web_keys.md is out of date; renew it: cargo run --release -- keys --web --markdown > docs/web_keys.md"
     );
-    assert!(of_webs.contains("| `rows.pitch` | a length above zero; in m, cm, mm, µm or nm |"), "{of_webs}");
+    assert!(
+        of_webs
+            .contains("| `rows.pitch` | a length above zero; in m, cm, mm, µm or nm; usually 1 µm to 1 m |"),
+        "{of_webs}"
+    );
     for key in ["field_root", "field_axis", "field_unit", "spin_up", "error_tolerance"] {
         assert!(written.contains(&format!("| `{key}` |")), "{key}");
     }
@@ -35,7 +39,10 @@ fn keys_are_explained_by_a_word_in_their_name_or_meaning() {
         one.starts_with("run.spin_up\n    Time at the start that the statistics of the motion leave out;"),
         "{one}"
     );
-    assert!(one.contains("    takes      a time, zero or above; in s, ms, µs, ns or min\n"), "{one}");
+    assert!(
+        one.contains("    takes      a time, zero or above; in s, ms, µs, ns or min; usually 1 ns to"),
+        "{one}"
+    );
     assert!(one.contains("    default    0 s\n"), "{one}");
     let by_meaning = success(&mut desk.spunlaid("keys SPINNERET"));
     assert!(by_meaning.starts_with("air.field_root\n") && by_meaning.matches("takes").count() == 1);

@@ -1,9 +1,17 @@
-//! The rooms of the program, of results and of charts import one another one way only.
+//! The rooms of the program, of results and of charts import one another one way only; and texts of all crates name only
+//! what exists.
+#![allow(clippy::unwrap_used)]
 
 #[path = "../../spunlaid/tests/rooms_of/mod.rs"]
 mod rooms_of;
 
-use rooms_of::faults;
+mod desk;
+
+use desk::{Desk, success};
+use rooms_of::{code_and_texts, faults, sources};
+use spunlaid::case::keys;
+use spunlaid::input::{WEB_KEYS, WEB_TABLES};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The rooms of the program from left to right; those of one group may not import one another.
@@ -31,4 +39,82 @@ fn rooms_import_only_from_their_left() {
     wrong.extend(faults(&crates.join("spunlaid-results/src"), RESULTS, &["lib"]));
     wrong.extend(faults(&crates.join("spunlaid-charts/src"), CHARTS, &["lib"]));
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The texts in the sources of every crate that a message can be made of, with the file. What comes after the tests of a file
+/// begin is left out.
+fn texts() -> Vec<(String, String)> {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut all = Vec::new();
+    for path in
+        sources(&crates).into_iter().filter(|path| path.components().any(|part| part.as_os_str() == "src"))
+    {
+        let source = std::fs::read_to_string(&path).unwrap();
+        let shown = path.strip_prefix(&crates).unwrap().display().to_string();
+        let before_tests = source.split("#[cfg(test)]").next().unwrap_or_default();
+        all.extend(code_and_texts(before_tests).1.into_iter().map(|text| (shown.clone(), text)));
+    }
+    assert!(all.len() > 3000, "only {} texts", all.len());
+    all
+}
+
+/// A message that proposes a key which does not exist sends its reader on a search.
+#[test]
+fn every_key_that_a_text_names_exists() {
+    let names: BTreeSet<&str> =
+        keys::all().iter().map(|key| key.name).chain(WEB_KEYS.iter().map(|key| key.name)).collect();
+    let tables: BTreeSet<&str> = keys::TABLES.into_iter().chain(WEB_TABLES).collect();
+    // What else is written with the name of a table and a dot: the tables of a layer, endings of files, a group of measures, and a
+    // field of a case that a program fills in.
+    let exists = |name: &str| {
+        let (table, rest) = name.split_once('.').unwrap();
+        names.contains(name)
+            || names.iter().any(|key| key.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')))
+            || table == "layer" && tables.contains(rest)
+            || ["toml", "html", "svg", "csv", "json"].contains(&rest)
+            || ["laydown.surrogate", "fibre.elements"].contains(&name)
+    };
+    let mut seen = BTreeSet::new();
+    let mut wrong = Vec::new();
+    for (file, text) in texts() {
+        let is_of_name = |c: char| c.is_ascii_lowercase() || c == '_' || c == '.';
+        for word in text.split(|c: char| !(is_of_name(c) || c.is_alphanumeric() || "/-{}".contains(c))) {
+            let word = word.trim_matches('.');
+            let begins =
+                word.split_once('.').is_some_and(|(table, rest)| tables.contains(table) && !rest.is_empty());
+            if !begins || !word.chars().all(is_of_name) {
+                continue;
+            }
+            if exists(word) {
+                drop(seen.insert(word.to_owned()))
+            } else {
+                wrong.push(format!("{file}: {word}"))
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(seen.len() > 50, "{seen:?}");
+}
+
+#[test]
+fn every_option_and_command_that_a_text_names_exists() {
+    let script = success(&mut Desk::new().spunlaid("completions bash"));
+    let known: BTreeSet<&str> = script.split(|c: char| !(c.is_alphanumeric() || c == '-')).collect();
+    let is_of_name = |c: char| c.is_ascii_lowercase() || c == '-';
+    let (mut seen, mut wrong) = (BTreeSet::new(), Vec::new());
+    for (file, text) in texts() {
+        let options =
+            text.split(|c: char| !is_of_name(c)).filter(|word| word.starts_with("--") && word.len() > 3);
+        let commands =
+            text.split("`spunlaid ").skip(1).filter_map(|rest| rest.split(|c| !is_of_name(c)).next());
+        for word in options.chain(commands).filter(|word| !word.is_empty()) {
+            if known.contains(word) {
+                drop(seen.insert(word.to_owned()))
+            } else {
+                wrong.push(format!("{file}: {word}"))
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(seen.len() > 25, "{seen:?}");
 }

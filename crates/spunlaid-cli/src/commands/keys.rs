@@ -19,19 +19,21 @@ struct Shown {
     kind: Kind,
     left_out: LeftOut,
     meaning: &'static str,
+    /// Outside of these a value is warned of, in SI units.
+    usual: Option<(f64, f64)>,
     /// Whether it may change in a study, and during a flight.
     may_change: [bool; 2],
 }
 
 impl Shown {
     fn of_case(key: &Key) -> Self {
-        let Key { name, kind, left_out, meaning, varies, in_flight, .. } = *key;
-        Self { name, kind, left_out, meaning, may_change: [varies, in_flight] }
+        let Key { name, kind, left_out, meaning, usual, varies, in_flight, .. } = *key;
+        Self { name, kind, left_out, meaning, usual, may_change: [varies, in_flight] }
     }
 
     fn of_web(key: &WebKey) -> Self {
-        let WebKey { name, kind, left_out, meaning } = *key;
-        Self { name, kind, left_out, meaning, may_change: [false; 2] }
+        let WebKey { name, kind, left_out, meaning, .. } = *key;
+        Self { name, kind, left_out, meaning, usual: key.usual(), may_change: [false; 2] }
     }
 
     /// Its name within a table, if it belongs there.
@@ -95,16 +97,23 @@ fn reference(key: &Shown) -> String {
     text
 }
 
-/// The allowed values, with the units of a quantity.
+/// The allowed values, with the units of a quantity and its usual range.
 fn takes(key: &Shown) -> String {
-    match key.kind.dimension() {
+    let usual = match (key.kind.dimension(), key.usual) {
+        (Some(dimension), Some((least, greatest))) => {
+            format!("; usually {} to {}", dimension.pretty(least), dimension.pretty(greatest))
+        }
+        _ => String::new(),
+    };
+    let allowed = match key.kind.dimension() {
         Some(dimension) if dimension != Dimension::Ratio => {
             let wanted = Wanted(dimension).to_string();
             let units = wanted.split_once(": ").map_or("", |(_, units)| units);
             format!("{}; in {units}", key.kind.allowed())
         }
         _ => key.kind.allowed(),
-    }
+    };
+    allowed + &usual
 }
 
 /// Where its value may change.
@@ -125,7 +134,8 @@ name or meaning.
 
 A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`. `um` is the same as `µm`, and `kg/m^3` is the same
 as `kg/m³`. Each key can also be set for one run, `--set air.velocity=\"20 m/s\"`. `spunlaid sweep` can vary keys marked
-*study*. A program can change keys marked *flight* during a flight.
+*study*. A program can change keys marked *flight* during a flight. A value outside of the range after *usually*, unless it is zero, is
+most likely a slip of the unit: it is warned of, and used.
 ";
 const WEB_HEAD: &str = "# The keys of a web
 

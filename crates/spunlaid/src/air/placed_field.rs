@@ -85,6 +85,12 @@ pub const TIME_CONSTANT: f64 = 0.30;
 
 impl PlacedField {
     /// The air at a place of the fibre's frame [m]. The origin is the root.
+    /// `k` [m²/s²] and `ε` [m²/s³] at a place of the fibre, as the field has them.
+    pub(crate) fn turbulence(&self, at: Vec3<f64>, hint: &mut Hint) -> (f64, f64) {
+        let local = self.at(at, hint);
+        (local.k, local.epsilon)
+    }
+
     pub(super) fn at(&self, at: Vec3<f64>, hint: &mut Hint) -> Local {
         let place = (self.root + self.axis.to_field(at)) * (1.0 / self.unit);
         let local = self.field.sample(place, hint);

@@ -32,6 +32,7 @@ impl Case {
     pub fn check(&self) -> Result<Vec<Note>, Vec<Problem>> {
         let mut check = Check { case: self, problems: Vec::new() };
         check.values();
+        let values_are_sound = check.problems.is_empty();
         // If a value is wrong on its own, messages about its relation to others would only confuse.
         if check.problems.is_empty() {
             check.geometry();
@@ -42,7 +43,13 @@ impl Case {
             check.times();
             check.records();
         }
-        if check.problems.is_empty() { Ok(self.notes()) } else { Err(check.problems) }
+        if check.problems.is_empty() {
+            return Ok(self.notes());
+        }
+        if values_are_sound {
+            self.blame_slips(&mut check.problems);
+        }
+        Err(check.problems)
     }
 
     /// The limits on the time step of the case's scheme [s], with damping taken into account.

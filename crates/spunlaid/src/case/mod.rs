@@ -6,11 +6,13 @@ mod memory;
 mod note;
 mod remarks;
 mod step;
+mod usual;
 
 pub use check::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
 pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
+pub(crate) use usual::unusual;
 
 use crate::air::{Air, Eddies, EddyTurbulence, StationGrid, time_between_looks};
 use crate::chain::Strand;
@@ -252,7 +254,7 @@ impl Case {
         let (h, shown) = (self.run.time_step, |time: f64| Dimension::Time.pretty(time));
         // A step may be as long as the feed of an element, which is no limit of stability.
         let limits = self.step_limits().into_iter().filter(|limit| limit.cause != FEEDING);
-        match limits.min_by(|a, b| a.limit.total_cmp(&b.limit)) {
+        let cause = match limits.min_by(|a, b| a.limit.total_cmp(&b.limit)) {
             Some(StepLimit { cause, limit }) if h > 0.5 * limit => format!(
                 "the time step {} is close to the stability limit {} of the {cause}; lower run.time_step",
                 shown(h),
@@ -262,6 +264,10 @@ impl Case {
                 "the drag is too stiff for the time step {} (a thin fibre in fast air); lower run.time_step",
                 shown(h)
             ),
+        };
+        match self.slips().first() {
+            Some(slip) => format!("{cause}; but first look at this: {slip}"),
+            None => cause,
         }
     }
 }

@@ -152,6 +152,81 @@ pub enum Remark {
     /// Something about a CFD field.
     #[error("{0}")]
     Field(FieldWarning),
+    /// A value that is most likely a slip.
+    #[error("is outside the usual range, {least} to {greatest}; {}", slip(instead))]
+    Unusual {
+        /// Smallest usual value.
+        least: String,
+        /// Largest usual value.
+        greatest: String,
+        /// The same digits with other units that are within the range.
+        instead: Vec<String>,
+    },
+    /// A value that comes from a file and is most likely a slip.
+    #[error(
+        "gives {key} = {value} along the fibre, which is outside the usual range, {least} to {greatest}; check the units in the file"
+    )]
+    UnusualInFile {
+        /// What it gives.
+        key: &'static str,
+        /// Its value along the fibre.
+        value: String,
+        /// Smallest usual value.
+        least: String,
+        /// Largest usual value.
+        greatest: String,
+    },
+    /// Air that is too fast for a model with air of constant density.
+    #[error(
+        "makes the air as fast as {}, which is Mach {}: the model's air has a constant density, as air has up to about Mach {SLOW}{}",
+        Dimension::Velocity.pretty_to(*speed, 3), Dimension::Ratio.pretty_to(*mach, 2), advice
+    )]
+    Fast {
+        /// Largest mean velocity along the fibre [m/s].
+        speed: f64,
+        /// The same over the speed of sound [-].
+        mach: f64,
+        /// What to do if the velocities have another unit; it continues the sentence.
+        advice: &'static str,
+    },
+    /// A profile much longer than the way of the fibre.
+    #[error(
+        "is {} long, while the fibre is {} long, so that it feels the first rows only; check the unit of the distances",
+        Dimension::Length.pretty_to(*profile, 3), Dimension::Length.pretty_to(*fibre, 3)
+    )]
+    ProfileSize {
+        /// Length of the profile [m].
+        profile: f64,
+        /// Length of the fibre [m].
+        fibre: f64,
+    },
+    /// Turbulence of a file that is stronger than the mean flow.
+    #[error(
+        "makes the rms of the fluctuation {} times the mean velocity along the fibre; {advice}",
+        Dimension::Ratio.pretty_to(*intensity, 2)
+    )]
+    IntensityOfFile {
+        /// Rms over mean velocity [-].
+        intensity: f64,
+        /// What to look at.
+        advice: &'static str,
+    },
+    /// Places where a field has turbulence that does not decay.
+    #[error(
+        "has k above zero and ε = 0 at {places} of {of} places along the fibre; the eddies there are taken to be as large as the \
+         field. Write ε or ω for every point"
+    )]
+    NoDissipation {
+        /// How many places.
+        places: usize,
+        /// Of how many.
+        of: usize,
+    },
+    /// A field with `k` and `ε` but no turbulence along the fibre.
+    #[error(
+        "has k = 0 everywhere along the fibre, so the air there is not turbulent; check that the file has the k of the solution"
+    )]
+    NoTurbulence,
     /// A turbulence intensity above one.
     #[error(
         "means that the rms of the fluctuation is {} times the mean velocity; if {} % was meant, write \"{} %\"",
@@ -238,25 +313,52 @@ impl Note {
     }
 }
 
+/// Mach number up to which the density of air changes by less than 5 % [-].
+pub(super) const SLOW: f64 = 0.3;
+
+/// What to do about a value that is most likely a slip.
+fn slip(instead: &[String]) -> String {
+    match instead {
+        [] => "check the value and its unit".to_owned(),
+        [one] => format!("did you mean {one}?"),
+        [more @ .., last] => format!("did you mean {} or {last}?", more.join(", ")),
+    }
+}
+
 impl Remark {
-    /// Whether this is a warning: the results may mislead. Otherwise it is a note, for example on rounding.
-    pub const fn is_warning(&self) -> bool {
+    /// Whether the value is most likely a slip, which can be the cause of anything else that is wrong with a case.
+    pub(super) const fn is_of_a_slip(&self) -> bool {
         matches!(
             self,
-            Self::OutsideFit { .. }
-                | Self::ReynoldsOutsideFit { .. }
-                | Self::DragTooLow { .. }
-                | Self::EddiesSkipped { .. }
+            Self::Unusual { .. }
+                | Self::UnusualInFile { .. }
+                | Self::Fast { .. }
+                | Self::IntensityOfFile { .. }
+                | Self::NoDissipation { .. }
+                | Self::ProfileSize { .. }
                 | Self::IntensityAboveOne { .. }
                 | Self::EddiesLong { .. }
-                | Self::CutoffLow { .. }
-                | Self::Field(_)
-                | Self::LeavesFlow
-                | Self::RootOutside { .. }
-                | Self::NotAlong { .. }
                 | Self::FieldSize { .. }
-                | Self::FewReplicates
-                | Self::ElementsStubby { .. }
         )
+    }
+
+    /// Whether this is a warning: the results may mislead. Otherwise it is a note, for example on rounding.
+    pub const fn is_warning(&self) -> bool {
+        self.is_of_a_slip()
+            || matches!(
+                self,
+                Self::OutsideFit { .. }
+                    | Self::ReynoldsOutsideFit { .. }
+                    | Self::DragTooLow { .. }
+                    | Self::EddiesSkipped { .. }
+                    | Self::NoTurbulence
+                    | Self::CutoffLow { .. }
+                    | Self::Field(_)
+                    | Self::LeavesFlow
+                    | Self::RootOutside { .. }
+                    | Self::NotAlong { .. }
+                    | Self::FewReplicates
+                    | Self::ElementsStubby { .. }
+            )
     }
 }

@@ -86,6 +86,7 @@ impl Case {
                 note("air.cutoff_frequency", air.cutoff_frequency, Remark::CutoffLow { passing });
             }
         }
+        notes.extend(self.slips());
         notes.extend(root_outside);
         notes.extend(self.field_notes());
         notes

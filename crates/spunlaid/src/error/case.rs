@@ -219,6 +219,12 @@ pub enum Fault {
     /// A direction that is not a unit vector, in a case built by a program.
     #[error("is not a unit vector; divide it by its length")]
     NotUnit,
+    /// A value that is most likely a slip, and with which something else is wrong with the case.
+    #[error("{warning}")]
+    Slip {
+        /// What is said of it.
+        warning: String,
+    },
     /// A diameter that is not smaller than the length.
     #[error("is not smaller than fibre.length = {}; a fibre must be longer than it is thick", Dimension::Length.pretty(*length))]
     TooThick {

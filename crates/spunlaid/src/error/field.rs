@@ -58,6 +58,30 @@ pub enum FieldFault {
         /// Of what.
         of: &'static str,
     },
+    /// A quantity that cannot be negative is.
+    #[error(
+        "is below zero at {points} points, down to {least} with a largest value of {greatest}; it cannot be negative. Only values \
+         down to {share} % of the largest are taken for rounding and set to zero. Check that the array is what its name says"
+    )]
+    BelowZero {
+        /// How many points.
+        points: u64,
+        /// Smallest value.
+        least: f64,
+        /// Largest value.
+        greatest: f64,
+        /// What is taken for rounding [%].
+        share: f64,
+    },
+    /// There is turbulence, and its dissipation is zero everywhere.
+    #[error(
+        "is zero at all of the {points} points where k is not, so that the eddies would be infinitely long; write the ε or ω of the \
+         solution, or leave out k, and give turbulence_intensity, length_scale and cutoff_frequency in the case"
+    )]
+    NoDissipation {
+        /// Points with turbulence.
+        points: usize,
+    },
     /// A number of values does not fit.
     #[error("has {found} {of} and needs {wanted}; is the file complete?")]
     Count {

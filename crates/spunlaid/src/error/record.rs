@@ -98,7 +98,7 @@ pub enum RecordFault {
     /// Too many samples in a row are missing.
     #[error(
         "{} samples in a row are missing up to here, more than the {most} that are filled in; cut the record \
-         here, or allow longer gaps", shortest(*missing)
+         here, or fill in the missing samples", shortest(*missing)
     )]
     GapTooLong {
         /// Missing samples.

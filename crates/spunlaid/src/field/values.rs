@@ -50,6 +50,14 @@ impl Values {
             }
         }
         let turbulent = self.has_turbulence();
+        if turbulent {
+            let decay =
+                self.k.iter().zip(&self.epsilon).filter(|(k, _)| **k > 0.0).map(|(_, epsilon)| *epsilon);
+            if decay.clone().next().is_some() && decay.clone().all(|epsilon| epsilon == 0.0) {
+                let fault = FieldFault::NoDissipation { points: decay.count() };
+                return Err(FileError::from(fault).array("epsilon"));
+            }
+        }
         let mut quantities = Vec::with_capacity(points);
         for (i, velocity) in self.velocity.iter().enumerate() {
             let [k, epsilon] = if turbulent { [self.k[i], self.epsilon[i]] } else { [0.0; 2] };

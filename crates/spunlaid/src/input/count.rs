@@ -5,7 +5,7 @@ use super::open::Open;
 use super::written::{Written, sorted};
 use crate::air::EddyModel;
 use crate::case::keys::{self, Value};
-use crate::case::{Case, MOST_STEPS, Note, Remark, whole_parts};
+use crate::case::{Case, MOST_STEPS, Note, Remark, unusual, whole_parts};
 use crate::error::{Error, Fault, Finding};
 use crate::fibre::Fibre;
 
@@ -32,6 +32,7 @@ impl Open {
             let place = self.written.whole();
             self.notes.push(Finding { place, ..keys::finding("run.time_step", time_step, remark) });
         }
+        self.look_at_what_no_case_has();
         match self.case.check() {
             Ok(more) => {
                 self.notes.extend(more.into_iter().map(|note| self.written.placed(note)));
@@ -40,6 +41,19 @@ impl Open {
             Err(problems) => {
                 let placed = problems.into_iter().map(|problem| self.written.placed(problem)).collect();
                 Err(sorted(placed).into())
+            }
+        }
+    }
+
+    /// Notes unusual values of keys that stand for others, which the case itself does not have.
+    fn look_at_what_no_case_has(&mut self) {
+        for key in keys::all() {
+            if key.get(&self.case).is_none()
+                && let (Some(of), Some(usual)) = (key.dimension(), key.usual)
+                && let Some(value) = self.written.number(key.name)
+                && let Some(remark) = unusual(of, usual, value)
+            {
+                self.note(key.name, value, remark);
             }
         }
     }
@@ -100,7 +114,11 @@ impl Open {
         let steps = (duration / time_step).ceil().max(1.0);
         if steps > MOST_STEPS as f64 {
             let fault = Fault::TooManySteps { steps, most: MOST_STEPS as f64, time_step };
-            return Err(vec![self.written.placed(keys::finding("run.duration", duration, fault))].into());
+            let mut problems = vec![keys::finding("run.duration", duration, fault)];
+            self.case.blame_slips(&mut problems);
+            return Err(
+                sorted(problems.into_iter().map(|problem| self.written.placed(problem)).collect()).into()
+            );
         }
         let (nearest, whole) = whole_parts(duration, time_step);
         self.case.run.steps = nearest;

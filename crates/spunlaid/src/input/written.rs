@@ -40,6 +40,11 @@ impl Written {
         self.values.get(key)
     }
 
+    /// Every value with its key.
+    pub(super) fn all(&self) -> impl Iterator<Item = (&str, &Said)> {
+        self.values.iter().map(|(key, said)| (key.as_ref(), said))
+    }
+
     /// Whether any key of a table is written.
     pub(super) fn has_table(&self, table: &str) -> bool {
         self.values.keys().any(|key| key.split_once('.').is_some_and(|(of, _)| of == table))

@@ -5,8 +5,11 @@ use super::footprint::Footprint;
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 
-/// Fed length of the chords that give the orientation [m].
+/// Fed length of the chords that give orientation and texture [m].
 const CHORD: f64 = 0.01;
+
+/// Part of a spacing that counts as rounding [-].
+const ROUNDING: f64 = 1e-9;
 
 /// Most lags of an autocorrelation, lag zero included.
 const LAGS: usize = 257;
@@ -37,9 +40,11 @@ pub struct Trace {
     /// Of ξ₁ and ξ₂.
     positions: [LaggedProducts; 2],
     footprint: Footprint,
-    /// Steps of a chord.
+    /// Spacings of the points that a chord spans, the last of them in part.
     chord: usize,
-    /// The points within a chord's length, the oldest first.
+    /// Part of the last spacing at which a chord ends, above zero and at most one.
+    last_part: f64,
+    /// The last points, as many as a chord spans spacings, the oldest first.
     recent: VecDeque<[f64; 2]>,
     chords: Chords,
 }
@@ -78,11 +83,12 @@ pub struct Laid {
     pub half_correlation_length_md: f64,
     /// The same of ξ₂ [m].
     pub half_correlation_length_cd: f64,
-    /// Fed length of the chords: 10 mm, or the nearest multiple of the spacing [m].
+    /// Fed length of the chords: 10 mm [m]. They begin at points; between points the curve is straight.
     pub chord: f64,
     /// `⟨cos²⟩` of the angle between a chord on the belt and the machine direction: ½ without orientation.
     pub orientation_md: f64,
-    /// Mean length of a chord on the belt over its fed length.
+    /// Mean length of a chord on the belt over its fed length. NaN if the points are farther apart than a chord, which
+    /// then says nothing of how the curve folds.
     pub chord_over_arc: f64,
     /// Chords by direction on the belt, in the sense of feed: entry i counts angles to the machine direction from 10i to
     /// 10(i+1) degrees, positive towards the cross direction.
@@ -105,6 +111,8 @@ impl Trace {
         };
         let reach = steps(tracing.reach, f64::ceil);
         let stride = reach.div_ceil(LAGS - 1);
+        let chord = steps(CHORD, ceil_but_rounding);
+        let last_part = CHORD / tracing.spacing - (chord - 1) as f64;
         let positions = LaggedProducts::new(stride, reach.div_ceil(stride) + 1);
         // A lattice can grow from any width but these.
         let cell = if tracing.spacing > 0.0 && tracing.spacing.is_finite() { tracing.spacing } else { 1.0 };
@@ -113,7 +121,8 @@ impl Trace {
             md: None,
             positions: [positions.clone(), positions],
             footprint: Footprint::new(cell, [0.0; 2]),
-            chord: steps(CHORD, f64::round),
+            chord,
+            last_part: if (last_part - 1.0).abs() < ROUNDING { 1.0 } else { last_part.clamp(0.0, 1.0) },
             recent: VecDeque::new(),
             chords: Chords::NONE,
             tracing,
@@ -143,7 +152,12 @@ impl Trace {
         if self.recent.len() == self.chord
             && let Some(start) = self.recent.pop_front()
         {
-            self.chords.add(md - start[0], cd - start[1]);
+            let before = self.recent.back().copied().unwrap_or(start);
+            let part = self.last_part;
+            // Without a part left over, the chord ends at the point itself.
+            let end =
+                |before: f64, here: f64| if part == 1.0 { here } else { before + part * (here - before) };
+            self.chords.add(end(before[0], md) - start[0], end(before[1], cd) - start[1]);
         }
         self.recent.push_back([md, cd]);
     }
@@ -173,7 +187,8 @@ impl Trace {
         let lag_step = spacing * self.positions[0].stride() as f64;
         let [correlation_md, correlation_cd] =
             covariances.map(|of| of.iter().map(|covariance| covariance / of[0]).collect::<Vec<f64>>());
-        let chord = spacing * self.chord as f64;
+        let chord = spacing * ((self.chord - 1) as f64 + self.last_part);
+        let resolved = spacing <= CHORD * (1.0 + ROUNDING);
         let Chords { count, directed, length: chords, cos_squared, directions } = self.chords;
         Laid {
             length,
@@ -188,11 +203,16 @@ impl Trace {
             correlation_cd,
             chord,
             orientation_md: cos_squared / directed as f64,
-            chord_over_arc: chords / (count as f64 * chord),
+            chord_over_arc: if resolved { chords / (count as f64 * chord) } else { f64::NAN },
             directions,
             footprint: self.footprint.clone(),
         }
     }
+}
+
+/// The next whole number, or the nearest one if only rounding is between.
+fn ceil_but_rounding(x: f64) -> f64 {
+    if (x - x.round()).abs() < ROUNDING { x.round() } else { x.ceil() }
 }
 
 impl Chords {
@@ -307,11 +327,52 @@ mod tests {
         for half in [of.half_correlation_length_md, of.half_correlation_length_cd] {
             assert!((half / (radius * PI / 3.0) - 1.0).abs() < 5e-3, "{half}");
         }
-        assert!(
-            (of.chord_over_arc - 2.0 * radius * (of.chord / 2.0 / radius).sin() / of.chord).abs() < 1e-12
-        );
+        // Between points the curve is straight: at most spacing²/(8R) inside the circle.
+        let chord = 2.0 * radius * (CHORD / 2.0 / radius).sin();
+        let inside = spacing * spacing / (8.0 * radius);
+        assert!((of.chord_over_arc * CHORD - chord).abs() < inside, "{} {chord}", of.chord_over_arc);
         assert!((of.orientation_md - 0.5).abs() < 1e-3 && of.slope.abs() < 1e-3);
         assert!(of.directions.iter().all(|count| count.abs_diff(40 * u64::from(points) / 36) < 60));
+    }
+
+    #[test]
+    fn analytic_chords_are_of_10_mm_whatever_the_spacing() {
+        // A circle of radius R whose points are 4 mm of arc apart: a chord ends in the middle between two points, at
+        // R cos(2 mm/R) from the centre, 10 mm/R farther round.
+        let (radius, spacing) = (0.05_f64, 0.004_f64);
+        let on = |s: f64| [radius * (s / radius).cos(), radius * (s / radius).sin()];
+        let circle: Vec<[f64; 2]> = (0..500).map(|i| on(spacing * f64::from(i))).collect();
+        let of = traced(&circle, Tracing { spacing, belt_ratio: 0.0, skip: 0, reach: 0.1 });
+        let short = radius * (0.5 * spacing / radius).cos();
+        let chord = (radius * radius + short * short - 2.0 * radius * short * (CHORD / radius).cos()).sqrt();
+        assert!((of.chord - 0.01).abs() < 1e-15 && (of.chord_over_arc / (chord / CHORD) - 1.0).abs() < 1e-12);
+        // The same of a stored curve, along which 10 mm are walked from each point.
+        for spacing in [0.0013, 0.003, 0.004, 0.0099, 0.01, 0.015, 0.026] {
+            let walk = |points: &[[f64; 2]], s: f64| {
+                let at = (s / spacing) as usize;
+                let part = s / spacing - at as f64;
+                [0, 1].map(|axis| points[at][axis] * (1.0 - part) + points[at + 1][axis] * part)
+            };
+            let points = curve(1002);
+            let of = traced(&points[..1001], Tracing { spacing, skip: 0, ..TRACING });
+            let starts = 0..=1000 - (CHORD / spacing - 1e-9).ceil() as u32;
+            let chords: Vec<[f64; 2]> = (starts.map(|i| (i as usize, f64::from(i) * spacing)))
+                .map(|(i, s)| (points[i], walk(&points, s + CHORD)))
+                .map(|(start, end)| [end[0] - start[0], end[1] - start[1]])
+                .collect();
+            let mean = |of: fn(&[f64; 2]) -> f64| chords.iter().map(of).sum::<f64>() / chords.len() as f64;
+            // Rounding of sums of a thousand numbers.
+            let close = |found: f64, wanted: f64| {
+                assert!((found / wanted - 1.0).abs() < 1e-11, "{spacing}: {found}, {wanted}")
+            };
+            close(of.orientation_md, mean(|[x, y]| x * x / (x * x + y * y)));
+            if spacing > CHORD {
+                assert!(of.chord_over_arc.is_nan(), "{spacing}");
+            } else {
+                close(of.chord_over_arc, mean(|[x, y]| x.hypot(*y)) / CHORD);
+            }
+            assert!((of.chord - CHORD).abs() < 1e-15);
+        }
     }
 
     #[test]

@@ -48,8 +48,9 @@ pub(super) const BALANCE: Declaration = Declaration {
             name: "balance_error",
             column: "balance_error_percent",
             label: "Full balance, typical",
-            meaning: "error of the full energy balance, as a share of the air’s work; median over time, the spin-up \
-                      included. It would reveal a wrong force",
+            meaning: "error of the full energy balance, as a share of the energy that flowed: the works of air, gravity and \
+                      feed that came in, or what is held and went out; median over time, the spin-up included. It would \
+                      reveal a wrong force",
             series: "full balance",
             ..TYPICAL
         },
@@ -80,8 +81,8 @@ pub(super) const DISSIPATION: Declaration = Declaration {
             name: "tension_dissipation",
             column: "tension_dissipation_percent",
             label: "Axial waves damped by the scheme",
-            meaning: "energy that the scheme has taken out of the motion by damping axial waves, as a share of the air’s \
-                      work; median over time, the spin-up included. It is no error: the full balance counts it",
+            meaning: "energy that the scheme has taken out of the motion by damping axial waves, as a share of the energy \
+                      that flowed; median over time, the spin-up included. It is no error: the full balance counts it",
             over_replicates: Over::Median,
             series: "typical",
             ..TAKEN_OUT

@@ -74,8 +74,9 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "chord_over_arc",
             column: "chord_over_arc",
             label: "Chord over arc at 10 mm",
-            meaning: "mean length on the belt of 10 mm of fibre, divided by 10 mm: the texture of the laid fibre. It gets \
-                      smaller with a finer mesh, because a thin fibre folds more closely than elements can show",
+            meaning: "mean length on the belt of 10 mm of fibre, divided by 10 mm: the texture of the laid fibre, with straight \
+                      elements. It gets smaller with a finer mesh, because a thin fibre folds more closely than elements can \
+                      show; with elements longer than 10 mm it is not defined",
             figure: &numbers("chord_over_arc", "Chord over arc at 10 mm", "chord over arc"),
             ..RATIO_OF
         },

@@ -239,6 +239,31 @@ impl Dimension {
     /// [`Dimension::pretty`] with a given number of digits, 1 to 17.
     pub fn pretty_to(self, value: f64, digits: usize) -> String {
         let decimals = digits.saturating_sub(1).min(16);
+        let best = self.unit_for(value, decimals);
+        let zero = self.units().iter().find_map(|unit| match unit.scale {
+            Above(zero) if unit.pretty => Some((zero, unit.shown)),
+            _ => None,
+        });
+        let (number, unit) = zero.map_or((value / best.0, best.1), |(zero, unit)| (value - zero, unit));
+        let digits: f64 = format!("{number:.decimals$e}").parse().unwrap_or(number);
+        with_unit(&shortest(digits), unit)
+    }
+
+    /// The same digits as [`Dimension::pretty`] shows, with the other units that bring the value between two others:
+    /// `18 mm` between 1 µm and 1 mm is `18 µm`. The units are those whose size is a power of ten, so none for a ratio.
+    pub(crate) fn in_other_units(self, value: f64, least: f64, greatest: f64) -> Vec<String> {
+        let (size, own) = self.unit_for(value, 3);
+        let digits: f64 = format!("{:.3e}", value / size).parse().unwrap_or(value / size);
+        let others = self.units().iter().filter(|unit| unit.shown != own && unit.shown != "%");
+        let fits = others.filter(|unit| match unit.scale {
+            Ten(power) => (least..=greatest).contains(&(digits.abs() * 10f64.powi(power))),
+            Times(_) | Over(_) | Above(_) => false,
+        });
+        fits.map(|unit| with_unit(&shortest(digits), unit.shown)).collect()
+    }
+
+    /// Size in SI units and symbol of the unit that suits a value.
+    fn unit_for(self, value: f64, decimals: usize) -> (f64, &'static str) {
         let mut best = (1.0, self.si_unit());
         if value != 0.0 && value.is_finite() {
             // The largest unit that gives a number of at least one, or else the smallest unit.
@@ -254,13 +279,7 @@ impl Dimension {
             let fits = sizes.iter().find(|(size, _)| rounded >= *size).or(smallest);
             best = fits.copied().unwrap_or(best);
         }
-        let zero = self.units().iter().find_map(|unit| match unit.scale {
-            Above(zero) if unit.pretty => Some((zero, unit.shown)),
-            _ => None,
-        });
-        let (number, unit) = zero.map_or((value / best.0, best.1), |(zero, unit)| (value - zero, unit));
-        let digits: f64 = format!("{number:.decimals$e}").parse().unwrap_or(number);
-        with_unit(&shortest(digits), unit)
+        best
     }
 }
 

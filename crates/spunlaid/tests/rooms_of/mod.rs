@@ -28,7 +28,12 @@ pub fn sources(folder: &Path) -> Vec<PathBuf> {
 
 /// The source without comments and without what stands in quotes, so that only code can name a room.
 fn code_only(source: &str) -> String {
-    let mut code = String::new();
+    code_and_texts(source).0
+}
+
+/// The code of a source, in which texts are empty, and the texts as they are written.
+pub fn code_and_texts(source: &str) -> (String, Vec<String>) {
+    let (mut code, mut texts) = (String::new(), Vec::new());
     let mut rest = source.chars().peekable();
     while let Some(c) = rest.next() {
         match (c, rest.peek()) {
@@ -38,14 +43,16 @@ fn code_only(source: &str) -> String {
                 }
             }
             ('"', _) => {
+                let mut text = String::new();
                 while let Some(c) = rest.next() {
                     match c {
-                        '\\' => drop(rest.next()),
+                        '\\' => text.extend(rest.next().filter(|c| !c.is_alphabetic())),
                         '"' => break,
-                        _ => {}
+                        c => text.push(c),
                     }
                 }
                 code.push_str("\"\"");
+                texts.push(text);
             }
             ('\'', Some('"')) => {
                 // The character '"' opens no text.
@@ -54,7 +61,7 @@ fn code_only(source: &str) -> String {
             _ => code.push(c),
         }
     }
-    code
+    (code, texts)
 }
 
 /// First names of the paths that follow `prefix` in the code: `prefix::a::…` and `prefix::{a::…, b}`.

@@ -54,8 +54,10 @@ pub struct Key {
     pub varies: bool,
     /// Whether it may change during a flight.
     pub in_flight: bool,
-    /// The ends of a slider: the usual smallest and largest value, in SI units.
+    /// The ends of a slider, in SI units.
     pub slider: Option<(f64, f64)>,
+    /// Outside of these a value, unless it is zero, is most likely a slip; in SI units, of the magnitude.
+    pub usual: Option<(f64, f64)>,
     /// Whether it is rounded to whole elements, steps or harmonics. Such keys are set after all others.
     pub(crate) counted: bool,
     get: fn(&Case) -> Option<Value>,

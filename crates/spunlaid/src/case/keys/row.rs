@@ -145,6 +145,7 @@ pub(super) const fn key(name: &'static str, kind: Kind, access: Access) -> Key {
         varies: false,
         in_flight: false,
         slider: None,
+        usual: None,
         counted: false,
         get,
         set,
@@ -189,6 +190,10 @@ impl Key {
 
     pub(super) const fn slider(self, least: f64, greatest: f64) -> Self {
         Self { slider: Some((least, greatest)), ..self }
+    }
+
+    pub(super) const fn usual(self, least: f64, greatest: f64) -> Self {
+        Self { usual: Some((least, greatest)), ..self }
     }
 
     pub(super) const fn varies(self) -> Self {

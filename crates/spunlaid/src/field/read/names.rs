@@ -64,8 +64,10 @@ impl Measure {
             Self::Velocity => {
                 &[("ms", 1.0), ("ms1", 1.0), ("cms", 1e-2), ("cms1", 1e-2), ("mms", 1e-3), ("mms1", 1e-3)]
             }
-            Self::K => &[("m2s2", 1.0), ("jkg", 1.0), ("jkg1", 1.0)],
-            Self::Epsilon => &[("m2s3", 1.0), ("wkg", 1.0), ("wkg1", 1.0), ("jkgs", 1.0)],
+            Self::K => &[("m2s2", 1.0), ("cm2s2", 1e-4), ("mm2s2", 1e-6), ("jkg", 1.0), ("jkg1", 1.0)],
+            Self::Epsilon => {
+                &[("m2s3", 1.0), ("cm2s3", 1e-4), ("mm2s3", 1e-6), ("wkg", 1.0), ("wkg1", 1.0), ("jkgs", 1.0)]
+            }
             Self::Omega => &[("s", 1.0), ("1s", 1.0), ("s1", 1.0)],
         }
     }
@@ -82,8 +84,8 @@ impl Measure {
         match self {
             Self::Length => "m, cm, mm or µm",
             Self::Velocity => "m/s, cm/s or mm/s",
-            Self::K => "m2/s2",
-            Self::Epsilon => "m2/s3",
+            Self::K => "m2/s2, cm2/s2 or mm2/s2",
+            Self::Epsilon => "m2/s3, cm2/s3 or mm2/s3",
             Self::Omega => "1/s",
         }
     }

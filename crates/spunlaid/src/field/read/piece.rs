@@ -9,6 +9,9 @@ use crate::field::values::C_MU;
 use crate::field::{Cells, Field, FieldWarning, Shape, Values};
 use crate::vec3::Vec3;
 
+/// Part of the largest value up to which a negative one is taken for rounding of the solver or of an interpolation [-].
+const ROUNDING: f64 = 1e-3;
+
 /// A piece of a file.
 pub(super) struct Piece<'a> {
     pub(super) grid: Grid,
@@ -21,6 +24,8 @@ pub(super) struct Assembly {
     grids: Vec<Grid>,
     values: Vec<Values>,
     warnings: Vec<FieldWarning>,
+    /// Smallest and largest value of each array that cannot be negative.
+    ranges: Vec<(String, [f64; 2])>,
     /// What the first piece lacks for turbulence.
     lacks: Option<String>,
     /// How much may still be read, for all pieces together.
@@ -33,6 +38,7 @@ impl Assembly {
             grids: Vec::new(),
             values: Vec::new(),
             warnings: Vec::new(),
+            ranges: Vec::new(),
             lacks: None,
             budget: Budget::new(),
         }
@@ -46,8 +52,8 @@ impl Assembly {
             let components: Vec<usize> = arrays().map(|array| array.components).collect();
             self.lacks = lacks(&names, &components);
         }
-        let Self { budget, warnings, .. } = self;
-        let values = Reader { piece: &piece, budget, warnings }.values()?;
+        let Self { budget, warnings, ranges, .. } = self;
+        let values = Reader { piece: &piece, budget, warnings, ranges }.values()?;
         self.values.push(values);
         self.grids.push(piece.grid);
         Ok(())
@@ -59,7 +65,18 @@ impl Assembly {
 
     /// The field of all pieces.
     pub(super) fn finish(self) -> Result<(Field, Vec<FieldWarning>), FileError> {
-        let Self { grids, values, warnings, lacks, .. } = self;
+        let Self { grids, values, warnings, ranges, lacks, .. } = self;
+        for warning in &warnings {
+            let FieldWarning::Negative { array, points } = warning else { continue };
+            let range = ranges.iter().find(|(name, _)| name == array);
+            if let Some((name, [least, greatest])) = range
+                && *least < -ROUNDING * greatest.max(0.0)
+            {
+                let (points, share) = (*points, -100.0 * ROUNDING);
+                let fault = FieldFault::BelowZero { points, least: *least, greatest: *greatest, share };
+                return Err(FileError::from(fault).array(name));
+            }
+        }
         let of_turbulence = |wanted| {
             values.iter().any(|values| !values.velocity.is_empty() && values.has_turbulence() == wanted)
         };
@@ -198,6 +215,7 @@ struct Reader<'a, 'b> {
     piece: &'a Piece<'a>,
     budget: &'b mut Budget,
     warnings: &'b mut Vec<FieldWarning>,
+    ranges: &'b mut Vec<(String, [f64; 2])>,
 }
 
 impl Reader<'_, '_> {
@@ -244,7 +262,8 @@ impl Reader<'_, '_> {
         .into())
     }
 
-    /// A quantity of one component. Negative values become zero, with a warning.
+    /// A quantity of one component. Negative values become zero, with a warning; [`Assembly::finish`] refuses those that are
+    /// more than rounding.
     fn scalar(&mut self, measure: Measure) -> Result<Option<Vec<f64>>, FileError> {
         for of_cells in [false, true] {
             let (names, components) = self.list(of_cells);
@@ -253,14 +272,26 @@ impl Reader<'_, '_> {
             };
             let mut numbers = self.numbers(of_cells, array, factor)?;
             let negative = numbers.iter().filter(|value| **value < 0.0).count() as u64;
+            let array = crate::units::excerpt(&names[array].written, 40);
+            self.widen(&array, &numbers);
             if negative > 0 {
                 numbers.iter_mut().filter(|value| **value < 0.0).for_each(|value| *value = 0.0);
-                let array = crate::units::excerpt(&names[array].written, 40);
                 self.warn(FieldWarning::Negative { array, points: negative });
             }
             return Ok(Some(numbers));
         }
         Ok(None)
+    }
+
+    /// Widens the range of an array by these values.
+    fn widen(&mut self, array: &str, numbers: &[f64]) {
+        let known = self.ranges.iter().position(|(name, _)| name == array);
+        let at = known.unwrap_or_else(|| {
+            self.ranges.push((array.to_owned(), [f64::INFINITY, f64::NEG_INFINITY]));
+            self.ranges.len() - 1
+        });
+        let range = &mut self.ranges[at].1;
+        numbers.iter().for_each(|x| *range = [range[0].min(*x), range[1].max(*x)]);
     }
 
     /// Adds a warning, once for all pieces.

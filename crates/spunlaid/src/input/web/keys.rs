@@ -1,5 +1,6 @@
 //! The table of keys: one row for each, in the order of the file of a web.
 
+use crate::case;
 use crate::case::keys::{Kind, LeftOut, Sign, example, nearest_word};
 use crate::units::Dimension;
 
@@ -17,10 +18,12 @@ pub struct WebKey {
     pub left_out: LeftOut,
     /// Its meaning, in one or two sentences.
     pub meaning: &'static str,
+    /// Outside of these a value, unless it is zero, is most likely a slip, in SI units; none of what a case has too.
+    usual: Option<(f64, f64)>,
 }
 
 const fn key(name: &'static str, kind: Kind, left_out: LeftOut, meaning: &'static str) -> WebKey {
-    WebKey { name, kind, left_out, meaning }
+    WebKey { name, kind, left_out, meaning, usual: None }
 }
 
 const fn positive(dimension: Dimension) -> Kind {
@@ -78,19 +81,19 @@ pub const WEB_KEYS: &[WebKey] = &[
         positive(Dimension::Length),
         LeftOut::Follows("identified in what the fibres of the case have laid"),
         "Spread of a laid filament in machine direction: the σ₁ of the surrogate.",
-    ),
+    ).usually(1e-5, 1.0),
     key(
         "laydown.sigma_cd",
         positive(Dimension::Length),
         LeftOut::Follows("identified in what the fibres of the case have laid"),
         "Spread of a laid filament in cross direction: the σ₂ of the surrogate.",
-    ),
+    ).usually(1e-5, 1.0),
     key(
         "laydown.noise",
         positive(Dimension::Noise),
         LeftOut::Follows("identified in what the fibres of the case have laid"),
         "Strength A of the noise in the direction of the surrogate.",
-    ),
+    ).usually(0.1, 1e4),
     key(
         "line.feed_speed",
         positive(Dimension::Velocity),
@@ -115,13 +118,13 @@ pub const WEB_KEYS: &[WebKey] = &[
         LeftOut::Value("0 mm"),
         "In place of `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }, …]`, the rows of \
          nozzles of the beam. The offset is the place of a row's first nozzle, from the edge of the web.",
-    ),
+    ).usually(1e-6, 30.0),
     key(
         "line.rows.pitch",
         positive(Dimension::Length),
         LeftOut::Required("0.2 mm"),
         "Distance from nozzle to nozzle in a row. With periodic edges, pitch times filaments is the width of the web.",
-    ),
+    ).usually(1e-6, 1.0),
     key(
         "line.rows.filaments",
         Kind::Whole(1, MOST_FILAMENTS),
@@ -133,20 +136,20 @@ pub const WEB_KEYS: &[WebKey] = &[
         positive(Dimension::Length),
         LeftOut::Required("1 m"),
         "Size of the web in cross direction, a whole number of cells.",
-    ),
+    ).usually(1e-3, 30.0),
     key(
         "web.length",
         positive(Dimension::Length),
         LeftOut::Required("1 m"),
         "Size of the web in machine direction, a whole number of cells. It is a stretch of an endless web, closed to a ring.",
-    ),
+    ).usually(1e-3, 300.0),
     key(
         "web.patches",
         Kind::Lengths,
         LeftOut::Follows("those of 1, 2, 5, 10, 20 and 50 mm that fit"),
         "Sides of the square patches over which the basis weight is compared, each a whole number of cells and at most half \
          as large as the web.",
-    ),
+    ).usually(1e-5, 10.0),
     key(
         "web.cell",
         positive(Dimension::Length),
@@ -154,7 +157,7 @@ pub const WEB_KEYS: &[WebKey] = &[
             "the smallest of 0.5, 1, 2, 5 and 10 mm that makes at most ten million cells and divides the web",
         ),
         "Side of the square cells of the map of the basis weight.",
-    ),
+    ).usually(1e-6, 0.1),
     key(
         "web.seed",
         Kind::Whole(0, u64::MAX),
@@ -180,7 +183,7 @@ pub const WEB_KEYS: &[WebKey] = &[
         positive(Dimension::Length),
         LeftOut::Follows("20 mm, at most the web's smaller side"),
         "Side of the square in the middle of the web whose single fibres are written to a file of polylines.",
-    ),
+    ).usually(1e-5, 10.0),
 ];
 
 /// The key with this full name.
@@ -202,7 +205,27 @@ pub(super) fn nearest(table: &str, name: &str) -> Option<&'static WebKey> {
     of(of_table(table).collect()).or_else(|| of(WEB_KEYS.iter().collect()))
 }
 
+/// The key of a full name, `layer.2.line.rows.1.pitch`.
+pub(super) fn of_full(full: &str) -> Option<&'static WebKey> {
+    let words: Vec<&str> = full.split('.').filter(|word| word.parse::<u64>().is_err()).collect();
+    find(&words.join(".")).or_else(|| find(&words.get(1..)?.join(".")))
+}
+
 impl WebKey {
+    const fn usually(self, least: f64, greatest: f64) -> Self {
+        Self { usual: Some((least, greatest)), ..self }
+    }
+
+    /// Outside of these a value, unless it is zero, is most likely a slip, in SI units.
+    pub fn usual(&self) -> Option<(f64, f64)> {
+        let of_case = match self.name {
+            "line.feed_speed" => "feed.speed",
+            "line.belt_speed" => "belt.speed",
+            name => name,
+        };
+        case::keys::find(of_case).map_or(self.usual, |key| key.usual)
+    }
+
     /// The table that it belongs to: `line`, or `line.rows` of a row of nozzles.
     pub fn table(&self) -> &'static str {
         self.name.rsplit_once('.').map_or("", |(table, _)| table)

@@ -1,12 +1,12 @@
 //! Makes the web from the written values, with the defaults.
 
 use super::super::Overrides;
-use super::super::written::{Written, sorted};
+use super::super::written::{Said, Written, sorted};
 use super::document::WebDocument;
 use super::keys::{self, METHODS};
 use super::{LaydownSource, LayerSpec, Method, WebSpec};
-use crate::case::Note;
 use crate::case::keys::{LeftOut, Value};
+use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding, WebFault};
 use crate::units::Dimension;
 use crate::web::{Filaments, Row};
@@ -53,7 +53,19 @@ pub(super) fn spec(
             layer.iter().for_each(|layer| reading.check_layer(prefix, layer, sheet));
         }
     }
-    let Reading { written, notes, .. } = reading;
+    let unusual = reading.unusual();
+    reading.note(unusual.clone());
+    let Reading { mut written, notes, .. } = reading;
+    if !written.problems.is_empty() {
+        // They may be why the web cannot be laid.
+        for note in unusual {
+            if !written.problems.iter().any(|problem| problem.key == note.key) {
+                let (what, Note { place, key, value, .. }) =
+                    (Fault::Slip { warning: note.what.to_string() }, note);
+                written.problems.push(Finding { place, key, value, what });
+            }
+        }
+    }
     match (sheet, layers.into_iter().collect::<Option<Vec<_>>>(), window) {
         (Some(sheet), Some(layers), Some(window)) if written.problems.is_empty() => {
             Ok((WebSpec { sheet, layers, seed, method, window }, sorted(notes)))
@@ -63,6 +75,22 @@ pub(super) fn spec(
 }
 
 impl Reading<'_> {
+    /// Warnings about written values that are most likely slips.
+    fn unusual(&self) -> Vec<Note> {
+        let of = |(full, said): (&str, &Said)| {
+            let key = keys::of_full(full)?;
+            let (dimension, usual) = (key.kind.dimension()?, key.usual()?);
+            let values = match said.value.as_ref()? {
+                Value::Number(value) => std::slice::from_ref(value),
+                Value::Numbers(values) => values.as_slice(),
+                _ => return None,
+            };
+            let what = values.iter().find_map(|value| unusual(dimension, usual, *value))?;
+            Some(Note { place: said.place.clone(), key: full.to_owned(), value: said.shown.clone(), what })
+        };
+        self.written.all().filter_map(of).collect()
+    }
+
     /// Keeps the notes about a case, each once.
     pub(super) fn note(&mut self, notes: Vec<Note>) {
         for note in notes {

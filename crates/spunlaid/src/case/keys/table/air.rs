@@ -33,6 +33,8 @@ pub(super) const KEYS: &[Key] = &[
     })
     .told(|case| !case.air.is_uniform())
     .required("10 m/s")
+    // Up to the speed of sound.
+    .usual(1e-3, 340.0)
     .meaning("Mean velocity of the air along x. A record, a profile or a field gives it instead.")
     .label("Mean velocity *U*")
     .slider(0.0, 60.0)
@@ -94,19 +96,22 @@ pub(super) const KEYS: &[Key] = &[
     .label("Direction of the fibre in the field"),
     quantity("air.field_unit", Dimension::Length, Positive, of_field!(unit))
         .value("1 m")
-        .meaning(
+        .usual(1e-6, 10.0)
+    .meaning(
             "Length of one unit of the field's coordinates. Write `1 mm` if the mesh was drawn in millimetres. Velocities \
              are not scaled.",
         )
         .fixed(),
     quantity("air.length_constant", Dimension::Ratio, Positive, of_field!(length_constant))
         .value("0.43")
-        .meaning("Constant C_L of the eddies' length C_L k^1.5/ε in a field.")
+        .usual(0.01, 10.0)
+    .meaning("Constant C_L of the eddies' length C_L k^1.5/ε in a field.")
         .label("Constant of the eddies’ length *C*_{L}")
         .slider(0.1, 1.0),
     quantity("air.time_constant", Dimension::Ratio, Positive, of_field!(time_constant))
         .value("0.3")
-        .meaning("Constant C_T of the eddies' lifetime T = C_T k/ε in a field. The cut-off frequency follows as ¼ (velocity/length + 1/T).")
+        .usual(0.01, 10.0)
+    .meaning("Constant C_T of the eddies' lifetime T = C_T k/ε in a field. The cut-off frequency follows as ¼ (velocity/length + 1/T).")
         .label("Constant of the eddies’ lifetime *C*_{T}")
         .slider(0.1, 1.0),
     quantity("air.speed_factor", Dimension::Ratio, Positive, Access {
@@ -121,6 +126,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .value("1")
+    .usual(0.01, 100.0)
     .meaning("Factor on all velocities of a profile or a field. It makes the same flow faster or slower.")
     .label("Factor on the velocity of the air")
     .slider(0.2, 3.0)
@@ -128,25 +134,30 @@ pub(super) const KEYS: &[Key] = &[
     quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative, of_air!(turbulence_intensity))
         .told(|case| case.air.from_flow.turbulence_intensity)
         .required("0.1")
-        .meaning("Rms of each fluctuating velocity component, divided by the mean velocity. A record, a profile or a field may give it instead.")
+        .usual(1e-5, 1.0)
+    .meaning("Rms of each fluctuating velocity component, divided by the mean velocity. A record, a profile or a field may give it instead.")
         .label("Turbulence intensity *Tu*")
         .slider(0.0, 0.5)
         .in_flight(),
     quantity("air.length_scale", Dimension::Length, Positive, of_air!(length_scale))
         .told(|case| case.air.from_flow.length_scale)
         .required("50 mm")
-        .meaning("Length of an eddy. Within this length the fluctuation is the same along the fibre. A record, a profile or a field may give it instead.")
+        .usual(1e-5, 10.0)
+    .meaning("Length of an eddy. Within this length the fluctuation is the same along the fibre. A record, a profile or a field may give it instead.")
         .label("Length of the eddies *L*_{T}")
         .slider(5e-3, 0.2),
     quantity("air.cutoff_frequency", Dimension::Frequency, Positive, of_air!(cutoff_frequency))
         .told(|case| case.air.from_flow.cutoff_frequency)
         .required("100 Hz")
-        .meaning("Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). A record, a spectrum, a profile or a field may give it instead.")
+        .usual(0.1, 50000.0)
+    .meaning("Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). A record, a spectrum, a profile or a field may give it instead.")
         .label("Cut-off frequency *f*")
         .slider(10.0, 1000.0),
     quantity("air.density", Dimension::Density, NotNegative, number!(air.density))
         .value("1.204 kg/m³")
-        .meaning("Density of the air. The default is for 20 °C. `0 kg/m³` is a vacuum.")
+        // From a thousandth to fifty times that of the atmosphere.
+    .usual(0.01, 50.0)
+    .meaning("Density of the air. The default is for 20 °C. `0 kg/m³` is a vacuum.")
         .label("Air density")
         .slider(0.0, 2.0)
         .in_flight(),
@@ -157,6 +168,8 @@ pub(super) const KEYS: &[Key] = &[
         number!(air.kinematic_viscosity),
     )
     .value("1.51e-5 m²/s")
+    // From compressed to hot thin air.
+    .usual(5e-7, 1e-3)
     .meaning("Kinematic viscosity of the air. The default is for 20 °C.")
     .label("Kinematic viscosity *ν*")
     .slider(1e-5, 6e-5)
@@ -222,7 +235,8 @@ pub(super) const KEYS: &[Key] = &[
     .meaning("Measured velocity record, as CSV or Parquet, whose fluctuation moves the fibre. A list gives one record for each eddy."),
     quantity("air.record_rate", Dimension::Frequency, Positive, of_record!(rate, Value::Number, number))
         .follows("the rate of the record's time column")
-        .meaning("Sampling rate of a record without a time column.")
+        .usual(10.0, 1e6)
+    .meaning("Sampling rate of a record without a time column.")
         .fixed(),
     key("air.record_skip", Kind::Whole(0, MOST_SKIPPED), of_record!(skip, Value::Whole, whole))
         .follows("the header is found by itself")
@@ -260,6 +274,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .follows("no decay: the pattern is frozen; of a fed fibre, the length scale divided by the rms velocity")
+    .usual(1e-6, 1000.0)
     .meaning("Time constant with which a convected pattern loses its correlation while it travels.")
     .label("Decay time of the eddies")
     .slider(1e-3, 0.1),

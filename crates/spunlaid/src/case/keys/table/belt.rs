@@ -24,12 +24,14 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .follows("a fibre of fixed length")
+    .usual(0.001, 10.0)
     .meaning("Distance from the inlet to the belt, along x. The belt is perpendicular to x.")
     .label("Distance to the belt *H*")
     .slider(0.1, 2.0),
     quantity("belt.speed", Dimension::Velocity, NotNegative, of_line!(belt_speed))
         .follows("a fibre of fixed length")
-        .meaning("Speed of the belt, along y, the machine direction.")
+        .usual(0.0001, 50.0)
+    .meaning("Speed of the belt, along y, the machine direction.")
         .label("Belt speed *v*_{b}")
         .slider(0.0, 10.0),
     choose("belt.contact", || Contact::ALL.map(|contact| contact.name()).to_vec(), Access {
@@ -43,17 +45,21 @@ pub(super) const KEYS: &[Key] = &[
     .label("Contact with the belt"),
     quantity("belt.friction", Dimension::Ratio, NotNegative, of_friction!(coefficient))
         .value("0.3")
-        .meaning("Coefficient of the friction between fibre and belt.")
+        .usual(0.001, 3.0)
+    .meaning("Coefficient of the friction between fibre and belt.")
         .label("Friction on the belt *μ*")
         .slider(0.0, 1.0),
     quantity("belt.suction", Dimension::Pressure, NotNegative, of_friction!(suction))
         .value("200 Pa")
-        .meaning("Pressure difference that pulls the fibre on to the belt. Times the diameter, it is a force per length of fibre.")
+        // Up to an atmosphere.
+    .usual(0.1, 1e5)
+    .meaning("Pressure difference that pulls the fibre on to the belt. Times the diameter, it is a force per length of fibre.")
         .label("Suction")
         .slider(0.0, 2000.0),
     quantity("belt.kept_length", Dimension::Length, Positive, of_line!(kept_length))
         .follows("6 % of the distance to the belt")
-        .meaning("Length of fibre behind the newest touch-down that still moves. What comes after it is laid; arches that are still in the air stay where they are.")
+        .usual(1e-7, 2.0)
+    .meaning("Length of fibre behind the newest touch-down that still moves. What comes after it is laid; arches that are still in the air stay where they are.")
         .label("Length that still moves on the belt")
         .slider(5e-3, 0.2),
 ];

@@ -49,6 +49,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .value("0.9")
+    .usual(0.01, 10.0)
     .meaning("Factor of Matsui's friction law. Values from 0.37 to 0.9 are in use.")
     .label("Friction coefficient *β*")
     .slider(0.2, 1.2)

@@ -9,7 +9,9 @@ use crate::units::Dimension;
 pub(super) const KEYS: &[Key] = &[
     quantity("feed.speed", Dimension::Velocity, Positive, of_line!(feed_speed))
         .follows("a fibre of fixed length")
-        .meaning("Speed at which the fibre is fed at the inlet, along its direction: the spinning speed. The fibre is then laid down on a belt.")
+        // From coiling threads to the fastest spinning.
+    .usual(1e-3, 200.0)
+    .meaning("Speed at which the fibre is fed at the inlet, along its direction: the spinning speed. The fibre is then laid down on a belt.")
         .label("Feed speed *v*_{f}")
         .slider(1.0, 100.0),
 ];

@@ -24,18 +24,23 @@ pub(super) const KEYS: &[Key] = &[
     })
         .told(|case| case.line.is_some())
         .required("1 m")
-        .meaning("Length of the fibre, from its root to its free end. A fibre that is fed on to a belt has none.")
+        .usual(0.001, 30.0)
+    .meaning("Length of the fibre, from its root to its free end. A fibre that is fed on to a belt has none.")
         .label("Fibre length *L*")
         .slider(0.1, 2.0),
     quantity("fibre.diameter", Dimension::Length, Positive, number!(fibre.diameter))
         .required("50 µm")
-        .meaning("Diameter of the round fibre.")
+        // From nanofibres to thick threads.
+    .usual(1e-7, 2e-3)
+    .meaning("Diameter of the round fibre.")
         .label("Fibre diameter *d*")
         .slider(5e-6, 2e-4)
         .in_flight(),
     quantity("fibre.density", Dimension::Density, Positive, number!(fibre.density))
         .required("950 kg/m³")
-        .meaning("Density of the polymer.")
+        // From foams to the heaviest metals.
+    .usual(100.0, 25_000.0)
+    .meaning("Density of the polymer.")
         .label("Fibre density")
         .slider(800.0, 1500.0)
         .in_flight(),
@@ -47,12 +52,15 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .follows("diameter and density give it")
+    .usual(1e-11, 0.03)
     .meaning("Mass per length of the fibre, which may be written instead of `fibre.diameter`; the diameter follows with the density.")
     .label("Linear density")
     .slider(1e-8, 2e-5),
     quantity("fibre.youngs_modulus", Dimension::Pressure, Positive, number!(fibre.youngs_modulus))
         .required("2 GPa")
-        .meaning("Young's modulus of the polymer along the fibre. The fibre is elastic.")
+        // From rubber to the stiffest carbon fibres.
+    .usual(1e7, 9e11)
+    .meaning("Young's modulus of the polymer along the fibre. The fibre is elastic.")
         .label("Young’s modulus *E*")
         .slider(1e7, 1e10)
         .in_flight(),
@@ -63,6 +71,7 @@ pub(super) const KEYS: &[Key] = &[
         number!(fibre.bending_viscosity_time),
     )
     .value("0 s")
+    .usual(1e-7, 0.1)
     .meaning(
         "Time constant τ of the bending viscosity: the bending moment is EI (κ + τ dκ/dt), with the curvature κ. It damps the \
          bending of a polymer that is still soft.",
@@ -82,6 +91,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .follows("the length of an eddy, or a little less so that a whole number of elements fits; of a fed fibre, 1/125 of the distance to the belt")
+    .usual(1e-6, 1.0)
     .meaning("Length of the elements that the fibre is divided into. Shorter elements resolve shorter waves, and the run takes longer.")
     .label("Element length *l*")
     .slider(2e-3, 0.1)

@@ -11,7 +11,8 @@ use crate::units::Dimension;
 pub(super) const KEYS: &[Key] = &[
     quantity("run.duration", Dimension::Time, Positive, steps!(steps, duration, 1))
         .required("1 s")
-        .meaning("Time that is simulated, the spin-up included.")
+        .usual(1e-5, 3600.0)
+    .meaning("Time that is simulated, the spin-up included.")
         .label("Simulated time")
         .slider(0.1, 10.0)
         .counted(),
@@ -23,6 +24,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .follows("the largest of 1, 2 or 5 times a power of ten that keeps the error tolerance and half the stability limit; of a fed fibre, a whole part of the time in which an element is fed, at most half of it")
+    .usual(1e-10, 0.1)
     .meaning("Length of a time step. It must be below the stability limit; otherwise a message gives the limit.")
     .label("Time step *h*")
     .slider(1e-7, 1e-3)
@@ -36,6 +38,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .value("0.003")
+    .usual(1e-7, 0.1)
     .meaning(
         "Largest error of the free end's path that the time step may cause, divided by its amplitude. The time step is \
          chosen from it if `run.time_step` is left out.",
@@ -67,13 +70,16 @@ pub(super) const KEYS: &[Key] = &[
         .label("Scheme"),
     quantity("run.gravity", Dimension::Acceleration, Any, number!(run.gravity))
         .value("9.81 m/s²")
-        .meaning("Acceleration of gravity, along x.")
+        // From a thousandth of the earth's to thirty times it.
+    .usual(0.01, 300.0)
+    .meaning("Acceleration of gravity, along x.")
         .label("Gravity *g*")
         .slider(0.0, 20.0)
         .in_flight(),
     quantity("run.spin_up", Dimension::Time, NotNegative, steps!(spin_up_steps, spin_up, 0))
         .value("0 s")
-        .meaning(
+        .usual(1e-9, 3600.0)
+    .meaning(
             "Time at the start that the statistics of the motion leave out; the energy errors and the time outside the flow \
              include it. The fibre starts straight and at rest, and its motion depends on this start for a fraction of a second. \
              Of a fed fibre the default is four times distance / feed speed, at most half the run: it comes down once, and \
@@ -84,7 +90,8 @@ pub(super) const KEYS: &[Key] = &[
         .counted(),
     quantity("run.output_interval", Dimension::Time, Positive, steps!(output_steps, output_interval, 1))
         .value("1 ms")
-        .meaning("Time from one recorded instant to the next.")
+        .usual(1e-7, 10.0)
+    .meaning("Time from one recorded instant to the next.")
         .label("Output interval")
         .slider(1e-4, 1e-2)
         .counted(),
@@ -102,7 +109,8 @@ pub(super) const KEYS: &[Key] = &[
     ),
     quantity("run.damping", Dimension::Rate, NotNegative, number!(run.damping))
         .value("0 1/s")
-        .meaning("Rate at which the velocity of every node decays, in addition to the drag of the air.")
+        .usual(0.001, 100000.0)
+    .meaning("Rate at which the velocity of every node decays, in addition to the drag of the air.")
         .label("Damping")
         .slider(0.0, 100.0)
         .in_flight(),
