@@ -1,10 +1,9 @@
 //! The trajectory of one replicate.
 
-use super::step_check::Path;
-use super::{Computing, StepCheckPlan};
+use super::Computing;
 use crate::case::Case;
-use crate::error::Error;
-use crate::flight::{Flight, Job, LaidPoint};
+use crate::error::{Error, FlightFault};
+use crate::flight::{AirOf, Flight, Job, LaidPoint};
 use crate::lanes::{Isa, WIDTH};
 use crate::observe::{Measure, Observers, Sample, Seen, Value};
 use crate::vec3::{Vec3, all_finite};
@@ -109,30 +108,30 @@ pub fn fly_together(
     keep: Keep,
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
-    fly_with_plan(jobs, keep, None, computing).map(|(trajectories, _)| trajectories)
+    let first = jobs.first().ok_or(FlightFault::Empty)?;
+    fly_in_air(jobs, keep, AirOf::run(first.case), computing)
 }
 
-/// [`fly_together`], with the paths that the plan compares.
-pub(super) fn fly_with_plan(
+/// [`fly_together`], in the air of another run.
+pub(super) fn fly_in_air(
     jobs: &[Job<'_>],
     keep: Keep,
-    plan: Option<StepCheckPlan>,
+    air: AirOf<'_>,
     computing: Computing<'_>,
-) -> Result<(Vec<Trajectory>, Vec<Path>), Error> {
-    let mut flight = Flight::new(jobs, computing.isa)?;
+) -> Result<Vec<Trajectory>, Error> {
+    let mut flight = Flight::in_air(jobs, computing.isa, air)?;
     let case = jobs[0].case;
     let run = &case.run;
     let mut observers = Observers::of(case, keep.curves);
     let mut trajectories: Vec<Trajectory> =
         jobs.iter().map(|job| Trajectory { replicate: job.replicate, ..Trajectory::default() }).collect();
-    let mut paths = vec![Path::new(); plan.map_or(0, |plan| plan.paths(jobs))];
     let first_counted = case.line.map_or(0.0, |line| line.feed_speed * run.spin_up());
     let mut step = 0;
     for instant in 0.. {
         // A snapshot needs one step. The last one takes that step on a copy.
         let snapshot = if step < run.steps { flight.observe() } else { flight.snapshot() };
         if !all_finite(&snapshot.position) {
-            return Err(divergence(jobs, computing.isa, step - run.output_steps.min(step)));
+            return Err(divergence(jobs, computing.isa, air, step - run.output_steps.min(step)));
         }
         if let Some(adrift) = flight.adrift() {
             return Err(adrift);
@@ -152,9 +151,6 @@ pub(super) fn fly_with_plan(
                 let room = LAID_WITH_SHAPES - trajectory.laid.len();
                 let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);
                 trajectory.laid.extend(counted.take(room));
-            }
-            if let (Some(plan), Some(path)) = (plan, paths.get_mut(lane)) {
-                plan.follow(instant, &samples[lane], &laid[lane], path);
             }
             if let Some(take) = computing.laid
                 && !laid[lane].is_empty()
@@ -176,7 +172,7 @@ pub(super) fn fly_with_plan(
     for (lane, trajectory) in trajectories.iter_mut().enumerate() {
         trajectory.values = observers.finish(lane, &flight).collect();
     }
-    Ok((trajectories, paths))
+    Ok(trajectories)
 }
 
 /// Computing time of a flight for one step of a case [s], measured on this machine.
@@ -201,8 +197,8 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
 }
 
 /// Finds where a position stopped being finite: repeats the flight, step by step after the last good instant.
-fn divergence(jobs: &[Job<'_>], isa: Isa, good_steps: u64) -> Error {
-    let mut flight = match Flight::new(jobs, isa) {
+fn divergence(jobs: &[Job<'_>], isa: Isa, air: AirOf<'_>, good_steps: u64) -> Error {
+    let mut flight = match Flight::in_air(jobs, isa, air) {
         Ok(flight) => flight,
         Err(error) => return error,
     };

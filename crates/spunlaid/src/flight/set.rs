@@ -1,7 +1,7 @@
 //! Changes in flight.
 
-use super::Flight;
 use super::start::{check_strands, surrounded};
+use super::{AirOf, Flight};
 use crate::case::Case;
 use crate::case::keys::{self, Value};
 use crate::chain::Strand;
@@ -40,7 +40,7 @@ impl Flight {
     }
 
     fn fly_on_as(&mut self, cases: Vec<(Case, u64)>, key: &'static str) -> Result<(), Error> {
-        let air = surrounded(&cases, self.isa, cases[0].0.air_horizon())?;
+        let air = surrounded(&cases, self.isa, AirOf::run(&cases[0].0))?;
         let strands: Vec<Strand> = cases.iter().map(|(case, _)| case.strand()).collect();
         check_strands(&strands)?;
         let meshed_anew = self.stations.is_none() && strands[0].fibre.elements != self.chain.elements();

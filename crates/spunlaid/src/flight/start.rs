@@ -1,6 +1,6 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
-use super::{Common, EndNodeStatistics, Flight, Job, Start, Surrounded};
+use super::{AirOf, Common, EndNodeStatistics, Flight, Job, Start, Surrounded};
 use crate::air::{Stations, Surroundings, Wind};
 use crate::case::Case;
 use crate::chain::laying::Fed;
@@ -9,6 +9,7 @@ use crate::chain::work::WorkDone;
 use crate::chain::{Chain, Strand};
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
+use crate::fibre::Fibre;
 use crate::lanes::{Isa, Lanes, WIDTH};
 use crate::vec3::Vec3;
 
@@ -22,11 +23,11 @@ impl Flight {
     /// them are damped.
     pub fn new(jobs: &[Job<'_>], isa: Isa) -> Result<Self, Error> {
         let first = jobs.first().ok_or(FlightFault::Empty)?;
-        Self::in_air_until(jobs, isa, first.case.air_horizon())
+        Self::in_air(jobs, isa, AirOf::run(first.case))
     }
 
-    /// As [`Flight::new`], in air that is made to last until a given time [s].
-    pub(crate) fn in_air_until(jobs: &[Job<'_>], isa: Isa, horizon: f64) -> Result<Self, Error> {
+    /// As [`Flight::new`], in the air of another run.
+    pub(crate) fn in_air(jobs: &[Job<'_>], isa: Isa, air: AirOf<'_>) -> Result<Self, Error> {
         let first = jobs.first().ok_or(FlightFault::Empty)?;
         for (lane, job) in jobs.iter().enumerate() {
             // Replicates of one case usually share one reference.
@@ -41,7 +42,7 @@ impl Flight {
         let run = &first.case.run;
         let strands: Vec<Strand> = jobs.iter().map(|job| job.case.strand()).collect();
         let cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect::<Vec<_>>();
-        let air = surrounded(&cases, isa, horizon)?;
+        let air = surrounded(&cases, isa, air)?;
         let laid: Option<Vec<_>> = jobs.iter().map(Job::fed).collect();
         let mut flight = match laid {
             Some(laid) => Self::fed(isa, &strands, &laid, air, run.scheme, run.time_step)?,
@@ -200,7 +201,7 @@ impl Flight {
 }
 
 /// The air of cases that can fly together.
-pub(super) fn surrounded(cases: &[(Case, u64)], isa: Isa, horizon: f64) -> Result<Surrounded, FlightFault> {
+pub(super) fn surrounded(cases: &[(Case, u64)], isa: Isa, air: AirOf<'_>) -> Result<Surrounded, FlightFault> {
     let case = &cases[0].0;
     let airs = || cases.iter().map(|(case, _)| case.air.clone());
     let stations = match case.stations() {
@@ -210,15 +211,23 @@ pub(super) fn surrounded(cases: &[(Case, u64)], isa: Isa, horizon: f64) -> Resul
         }
         None => None,
     };
-    let eddies = stations.as_ref().map_or_else(|| case.eddies(), |(grid, _)| grid.eddies());
-    let streams =
-        cases.iter().map(|(case, replicate)| Job { case, replicate: *replicate }.stream(&eddies)).collect();
-    let wind = Wind::along(isa, streams, horizon)?;
+    let eddies = stations.as_ref().map_or_else(|| air.case.eddies(), |(grid, _)| grid.eddies());
+    let elements = air.case.fibre.elements;
+    let streams = cases
+        .iter()
+        .map(|(case, replicate)| {
+            let fibre = Fibre { elements, ..case.fibre };
+            let case = Case { fibre, ..case.clone() };
+            Job { case: &case, replicate: *replicate }.stream(&eddies)
+        })
+        .collect();
+    let wind = Wind::along(isa, streams, air.horizon)?;
     if let Some((_, stations)) = stations {
         return Ok(Surrounded { eddies, wind, surroundings: None, stations: Some(stations) });
     }
     let wind = wind.for_steps_of(case.run.time_step);
     let surroundings = case.surroundings(airs())?;
+    let eddies = eddies.of_coarser(case.fibre.elements);
     Ok(Surrounded { eddies, wind, surroundings, stations: None })
 }
 
