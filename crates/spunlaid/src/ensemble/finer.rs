@@ -19,8 +19,8 @@ const SHARE: f64 = 0.1;
 /// Steps, times elements, that a check may always take: some tenths of a second. A short run is then checked for its whole
 /// duration.
 const ALWAYS: f64 = 2e6;
-/// The same where shorter flights could say nothing: a second or two.
-const AT_MOST: f64 = 1e7;
+/// The same where shorter flights could say nothing: some seconds.
+const AT_MOST: f64 = 2e7;
 /// Longest time over which paths are compared [s].
 const LONGEST: f64 = 1.0;
 /// Fewest recorded instants from which a difference is computed. Runs that are too short for them are not checked.
