@@ -81,7 +81,7 @@ impl FinerWords {
                     standard_error: standard_error.map(times),
                     values: Vec::new(),
                 };
-                format!("; the error of the mesh is {}", percent(&error))
+                format!("; the error of the mesh is about {}", percent(&error))
             });
             format!("{} differs by {}{error}", statistic.label, percent(estimate))
         }));
@@ -188,9 +188,8 @@ fn of_the_mesh(check: &FinerCheck) -> String {
         let own = 2.0 * check.element_length;
         let proposed = own * 0.5f64.powf(halvings);
         return format!(
-            "The elements are too long: write fibre.element_length = \"{}\", which leaves about {} %",
-            length(proposed),
-            significant(100.0 * found * 0.25f64.powf(halvings), 1)
+            "The elements are too long: write fibre.element_length = \"{}\" and look again",
+            length(proposed)
         );
     }
     "Whether their error is below 3 % cannot be told from so little flight; a longer run would tell"
@@ -226,7 +225,7 @@ mod tests {
     fn advice_on_the_mesh_names_an_element_length() {
         let of = |mean, error| of_the_mesh(&check(Refined::Elements, "frequency", mean, error));
         // 4/3 of 18.5 % is 25 %, of which a sixteenth is left at a quarter of 25 mm.
-        assert!(of(0.185, 0.015).contains("fibre.element_length = \"6.25 mm\", which leaves about 2 %"));
+        assert!(of(0.185, 0.015).contains("fibre.element_length = \"6.25 mm\" and look again"));
         assert!(of(-0.045, 0.007).contains("fibre.element_length = \"12.5 mm\""), "{}", of(-0.045, 0.007));
         assert!(of(0.011, 0.002).contains("below 3 %"));
         assert!(of(0.01, 0.02).contains("cannot be told"));
