@@ -100,7 +100,7 @@ impl FinerWords {
                 format!("The error of the step is at most about {factor} times as large.")
             }
             Some(_) => {
-                "The error falls with the square of the element length, so it is 4/3 of the difference."
+                "The error of elements well below an eddy falls with the square of their length, so it is about 4/3 of the difference."
                     .to_owned()
             }
             None => String::new(),
