@@ -71,7 +71,7 @@ fn new_writes_a_fed_fibre_that_can_be_run() {
     success(&mut desk.spunlaid("new --fed line.toml"));
     let said = success(&mut desk.spunlaid("check line.toml"));
     for part in [
-        "elements of 4 mm, one fed every 80 µs (2 steps); 125 from the inlet to the belt",
+        "elements of 2 mm, one fed every 40 µs (2 steps); 250 from the inlet to the belt",
         "16.7 m of fibre on each metre of belt; 12.5 m are fed in the run, 10.5 m of them after the spin-up",
         "the air at 126 stations, 4 mm apart",
         "feed of an element",

@@ -105,12 +105,7 @@ fn the_summary_has_the_fields_that_are_promised() {
     let desk = Desk::new();
     success(&mut desk.spunlaid("run brief.toml --out r"));
     let summary = desk.summary("r");
-    let top = "schema_version spunlaid_version case elements steps replicates end_node energy fibre step_check performance notes";
-    let sorted = |words: &str| {
-        let mut words: Vec<String> = words.split_whitespace().map(ToOwned::to_owned).collect();
-        words.sort();
-        words
-    };
+    let top = "schema_version spunlaid_version case elements steps replicates end_node energy fibre step_check mesh_check performance notes";
     assert_eq!(keys(&summary), sorted(top));
     assert_eq!(summary["schema_version"], 2);
     assert_eq!(summary["spunlaid_version"], env!("CARGO_PKG_VERSION"));
@@ -146,7 +141,7 @@ fn the_summary_has_the_fields_that_are_promised() {
         fibre["max_strain"]["values"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
     assert_eq!(fibre["max_strain"]["largest"].as_f64(), strains.iter().copied().reduce(f64::max));
     // Ten instants are too few to compare half the step.
-    assert!(summary["step_check"].is_null());
+    assert!(summary["step_check"].is_null() && summary["mesh_check"].is_null());
     let performance = &summary["performance"];
     let fields = "wall_s threads element_steps ns_per_element_step instruction_set";
     assert_eq!(keys(performance), sorted(fields));
@@ -169,7 +164,11 @@ fn the_step_is_compared_with_half_of_it() {
             success(&mut desk.with("run brief.toml --out r --force", &["run.duration=50 ms", &scheme]));
         let summary = desk.summary("r");
         let check = &summary["step_check"];
-        assert_eq!(keys(check), ["amplitude_difference", "duration_s", "path_difference", "share_of_run"]);
+        let finer = "finer_scheme finer_time_step_s finer_element_length_m error_over_difference";
+        assert_eq!(
+            keys(check),
+            sorted(&format!("amplitude_difference duration_s path_difference share_of_run {finer}"))
+        );
         assert_eq!(check["duration_s"].as_f64(), Some(0.05));
         let path = &check["path_difference"];
         assert_eq!(path["values"].as_array().unwrap().len(), 3);
@@ -182,6 +181,14 @@ fn the_step_is_compared_with_half_of_it() {
             assert_eq!(text.contains("Work check"), explicit, "{text}");
         }
         assert_eq!(summary["energy"]["work_error_percent"].is_object(), explicit);
+        // The elements, as long as an eddy, are compared with shorter ones, of all eight lanes of a flight.
+        let mesh = &summary["mesh_check"];
+        assert_eq!(mesh["amplitude_difference"]["values"].as_array().unwrap().len(), 8);
+        assert_eq!(mesh["finer_element_length_m"].as_f64(), Some(0.025));
+        assert_eq!(mesh["error_over_difference"].as_f64(), Some(4.0 / 3.0));
+        for text in [&said, &report] {
+            assert!(text.contains("compared with elements of 25 mm, half the length"), "{text}");
+        }
     }
 }
 
@@ -384,9 +391,10 @@ fn a_fed_fibre_leaves_what_it_laid() {
         assert_eq!(keys(&laydown[name]), ["mean", "standard_error", "values"], "{name}");
     }
     assert_eq!(keys(&laydown["surrogate"]), ["noise_per_sqrt_m", "sigma_1_m", "sigma_2_m"]);
-    // As many elements at work as nodes in the air, in the steps of three fibres and in those of the check.
-    let again = summary["step_check"]["share_of_run"].as_f64().unwrap();
-    let steps = summary["steps"].as_f64().unwrap() * 3.0 * (1.0 + again);
+    // As many elements at work as nodes in the air, in the steps of three fibres and of the eight of each check.
+    let share = |check: &str| summary[check]["share_of_run"].as_f64().unwrap_or(0.0);
+    let again = share("step_check") + share("mesh_check");
+    let steps = summary["steps"].as_f64().unwrap() * (3.0 + 8.0 * again);
     let nodes = laydown["nodes_in_air"]["mean"].as_f64().unwrap();
     let counted = summary["performance"]["element_steps"].as_f64().unwrap();
     assert!((counted - nodes * steps).abs() <= 0.5, "{counted}");
@@ -435,4 +443,10 @@ fn lines_of_a_fed_fibre_have_as_many_points_as_it_has_nodes() {
     let (_, rows) = table(&desk, "r/laid.parquet");
     let row = rows.iter().find(|row| row[1] == fed[0]).unwrap();
     assert_eq!([row[3], row[4]], [points[1], points[2]]);
+}
+
+fn sorted(words: &str) -> Vec<String> {
+    let mut words: Vec<String> = words.split_whitespace().map(ToOwned::to_owned).collect();
+    words.sort();
+    words
 }

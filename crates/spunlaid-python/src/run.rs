@@ -9,7 +9,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::case::Note;
 use spunlaid::ensemble::{
-    Computing, Keep, KeepShapes, Results, StepCheck, StepCheckPlan, TakeLaid, Trajectory, fly_and_check_step,
+    Computing, FinerCheck, FinerChecks, FinerPlans, Keep, KeepShapes, Results, TakeLaid, Trajectory,
+    fly_and_check,
 };
 use spunlaid::error::Error;
 use spunlaid::flight::LaidPoint;
@@ -48,7 +49,7 @@ pub(crate) struct Flown {
     pub(crate) name: String,
     pub(crate) case: Arc<spunlaid::case::Case>,
     pub(crate) results: Results,
-    pub(crate) check: Option<StepCheck>,
+    pub(crate) checks: FinerChecks,
     pub(crate) notes: Vec<String>,
     pub(crate) performance: Performance,
     pub(crate) samples: Option<Samples>,
@@ -68,9 +69,8 @@ pub(crate) fn fly(
     shapes: bool,
 ) -> PyResult<Flown> {
     let (of, run) = (Arc::clone(&case.case), case.case.run);
-    let plan = if check_step { StepCheckPlan::of(&of) } else { None };
-    let again = plan.map_or(0, |plan| plan.fibre_steps());
-    let watch = Watch::of(run.steps.saturating_mul(run.replicates).saturating_add(again));
+    let plans = if check_step { FinerPlans::of(&of) } else { FinerPlans::none("it was not asked for") };
+    let watch = Watch::of(run.steps.saturating_mul(run.replicates).saturating_add(plans.fibre_steps()));
     let belt = Belt::default();
     let computing = Computing {
         threads: self::threads(threads),
@@ -80,7 +80,7 @@ pub(crate) fn fly(
         laid: of.line.is_some().then_some(&belt as &dyn TakeLaid),
     };
     let started = Instant::now();
-    let (results, check, collected) = watched(py, &watch, progress.as_ref(), || {
+    let (results, checks, collected) = watched(py, &watch, progress.as_ref(), || {
         let shapes = if shapes { KeepShapes::within(&of, POSITIONS) } else { KeepShapes::NONE };
         let (mut collector, mut collected) = (Results::collector(KEPT), Collected::default());
         let take = |trajectory: Trajectory| {
@@ -90,10 +90,10 @@ pub(crate) fn fly(
             collector.take(&trajectory);
             Ok::<(), Error>(())
         };
-        let check = fly_and_check_step(&of, plan, Keep { curves: true, shapes }, computing, take)?;
-        Ok((collector.finish(), check, collected))
+        let checks = fly_and_check(&of, &plans, Keep { curves: true, shapes }, computing, take)?;
+        Ok((collector.finish(), checks, collected))
     })?;
-    let performance = folder::performance(&of, &results, plan, computing, started.elapsed().as_secs_f64());
+    let performance = folder::performance(&of, &results, &plans, computing, started.elapsed().as_secs_f64());
     let mut notes = Note::of_results(&case.notes);
     notes.extend(folder::outside(&results));
     notes.extend(folder::coarse_shapes(&of, &results));
@@ -102,7 +102,7 @@ pub(crate) fn fly(
         .map(|replicate| laid.remove(&replicate).unwrap_or_default())
         .collect();
     let samples = if samples { Some(collected.into_numpy(py)?) } else { None };
-    Ok(Flown { name: case.stem(), case: of, results, check, notes, performance, samples, laid })
+    Ok(Flown { name: case.stem(), case: of, results, checks, notes, performance, samples, laid })
 }
 
 impl Flown {
@@ -111,7 +111,7 @@ impl Flown {
             name: &self.name,
             case: &self.case,
             results: &self.results,
-            check: self.check.as_ref(),
+            checks: &self.checks,
             notes: &self.notes,
             performance: self.performance,
         }
@@ -251,16 +251,16 @@ impl Flown {
         })
     }
 
-    /// The shares that half the time step changes.
+    /// The shares that a finer time step changes.
     #[getter]
     fn step_check<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some(check) = &self.check else { return Ok(None) };
-        let of = PyDict::new(py);
-        of.set_item("duration_s", check.duration)?;
-        of.set_item("share_of_run", check.share_of_run)?;
-        of.set_item("path_difference", check.path.mean)?;
-        of.set_item("amplitude_difference", check.amplitude.mean)?;
-        Ok(Some(of))
+        self.checks.step.as_ref().ok().map(|check| differences(py, check)).transpose()
+    }
+
+    /// The shares that elements of half the length change.
+    #[getter]
+    fn mesh_check<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        self.checks.mesh.as_ref().ok().map(|check| differences(py, check)).transpose()
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -272,6 +272,19 @@ impl Flown {
     fn computing<'a>(&self, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Computing<'a> {
         Computing { threads: threads(None), isa: Isa::detect(), stop, fibre_steps, laid: None }
     }
+}
+
+/// What a finer discretisation changes, by name.
+fn differences<'py>(py: Python<'py>, check: &FinerCheck) -> PyResult<Bound<'py, PyDict>> {
+    let of = PyDict::new(py);
+    of.set_item("duration_s", check.duration)?;
+    of.set_item("share_of_run", check.share_of_run)?;
+    of.set_item("error_over_difference", check.error_over_change())?;
+    for (name, difference) in check.differences() {
+        of.set_item(&name, difference.mean)?;
+        of.set_item(format!("{name}_standard_error"), difference.standard_error)?;
+    }
+    Ok(of)
 }
 
 /// Name, unit and meaning of a measure.

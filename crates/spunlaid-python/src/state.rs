@@ -6,7 +6,10 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::ensemble::{Curve, Number, Place, Results, Shape, StepCheck, Trajectory};
+use spunlaid::chain::schemes::Scheme;
+use spunlaid::ensemble::{
+    Change, Curve, FinerCheck, FinerChecks, Number, Place, Refined, Results, Shape, Statistic, Trajectory,
+};
 use spunlaid::flight::LaidPoint;
 use spunlaid::input::{parse_case, write_case};
 use spunlaid::lanes::Isa;
@@ -24,9 +27,11 @@ pub(crate) fn reduced<'py>(py: Python<'py>, of: &Flown) -> PyResult<Bound<'py, P
     state.set_item("notes", &of.notes)?;
     let p = of.performance;
     state.set_item("performance", (p.wall_s, p.threads, p.element_steps, p.ns_per_element_step))?;
-    if let Some(check) = &of.check {
-        let (path, amplitude) = (estimate(py, &check.path), estimate(py, &check.amplitude));
-        state.set_item("check", (check.duration, check.share_of_run, path, amplitude))?;
+    for (name, check) in [("step_check", &of.checks.step), ("mesh_check", &of.checks.mesh)] {
+        match check {
+            Ok(check) => state.set_item(name, check_state(py, check)?)?,
+            Err(why) => state.set_item(name, why)?,
+        }
     }
     let numbers = PyList::empty(py);
     for number in &of.results.numbers {
@@ -74,12 +79,16 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
     let (wall_s, threads, element_steps, ns_per_element_step) = need("performance")?.extract()?;
     let instruction_set = Isa::detect().name();
     let performance = Performance { wall_s, threads, element_steps, ns_per_element_step, instruction_set };
-    let check = match state.get_item("check")? {
-        Some(check) => {
-            let (duration, share_of_run, path, amplitude): (f64, f64, Told, Told) = check.extract()?;
-            Some(StepCheck { duration, share_of_run, path: told(path)?, amplitude: told(amplitude)? })
+    let checked = |name: &str, refined: Refined| -> PyResult<Result<FinerCheck, String>> {
+        let state = need(name)?;
+        match state.extract::<String>() {
+            Ok(why) => Ok(Err(why)),
+            Err(_) => check_of(&state, refined).map(Ok),
         }
-        None => None,
+    };
+    let checks = FinerChecks {
+        step: checked("step_check", Refined::TimeStep)?,
+        mesh: checked("mesh_check", Refined::Elements)?,
     };
     let mut results = Results { numbers: Vec::new(), curves: Vec::new(), trajectories: Vec::new() };
     let numbers: Vec<(String, Told)> = need("numbers")?.extract()?;
@@ -126,11 +135,56 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
         name: need("name")?.extract()?,
         case: Arc::new(case),
         results,
-        check,
+        checks,
         notes: need("notes")?.extract()?,
         performance,
         samples,
         laid: laid.iter().map(points_of).collect(),
+    })
+}
+
+/// A check as plain values.
+fn check_state<'py>(py: Python<'py>, check: &FinerCheck) -> PyResult<Bound<'py, PyDict>> {
+    let state = PyDict::new(py);
+    let FinerCheck { time_step, element_length, duration, replicates, share_of_run, .. } = *check;
+    state.set_item("scheme", check.scheme.name())?;
+    state.set_item("numbers", (time_step, element_length, duration, replicates, share_of_run))?;
+    state.set_item("kind", (check.is_fed, check.is_resolved))?;
+    state.set_item("path", check.path.as_ref().map(|path| estimate(py, path)))?;
+    let changes = check.changes.iter().map(|change| (change.statistic.name, estimate(py, &change.estimate)));
+    state.set_item("changes", changes.collect::<Vec<_>>())?;
+    Ok(state)
+}
+
+/// The check that [`check_state`] wrote.
+fn check_of(state: &Bound<'_, PyAny>, refined: Refined) -> PyResult<FinerCheck> {
+    let unknown = |what: &str, name: &str| {
+        PyValueError::new_err(format!("this version of spunlaid has no {what} {name}"))
+    };
+    let name: String = state.get_item("scheme")?.extract()?;
+    let scheme = Scheme::ALL.into_iter().find(|scheme| scheme.name() == name);
+    let (time_step, element_length, duration, replicates, share_of_run) =
+        state.get_item("numbers")?.extract()?;
+    let (is_fed, is_resolved) = state.get_item("kind")?.extract()?;
+    let path: Option<Told<'_>> = state.get_item("path")?.extract()?;
+    let changes: Vec<(String, Told<'_>)> = state.get_item("changes")?.extract()?;
+    let changes = changes.into_iter().map(|(name, estimate)| {
+        let statistic = Statistic::all().find(|statistic| statistic.name == name);
+        let statistic = statistic.ok_or_else(|| unknown("statistic", &name))?;
+        Ok(Change { statistic, estimate: told(estimate)? })
+    });
+    Ok(FinerCheck {
+        refined,
+        scheme: scheme.ok_or_else(|| unknown("scheme", &name))?,
+        time_step,
+        element_length,
+        is_fed,
+        is_resolved,
+        duration,
+        replicates,
+        share_of_run,
+        path: path.map(told).transpose()?,
+        changes: changes.collect::<PyResult<_>>()?,
     })
 }
 

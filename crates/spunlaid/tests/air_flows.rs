@@ -1,6 +1,8 @@
 //! Air that varies in space, compared with flows in closed form.
 #![allow(clippy::expect_used, clippy::unwrap_used)]
 
+#[path = "common/cases.rs"]
+mod cases;
 #[path = "common/meshes.rs"]
 mod meshes;
 
@@ -12,7 +14,7 @@ use spunlaid::ensemble::{Computing, Keep, KeepShapes, Trajectory, fly};
 use spunlaid::error::Error;
 use spunlaid::field::{Field, Hint, Values};
 use spunlaid::flight::{Flight, Surrounded};
-use spunlaid::input::{parse_case, starter_case};
+use spunlaid::input::parse_case;
 use spunlaid::lanes::Isa;
 use spunlaid::vec3::Vec3;
 use std::path::PathBuf;
@@ -22,7 +24,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 fn table1(changes: &[(&str, &str)]) -> Case {
     let changes: Vec<_> =
         changes.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    parse_case(starter_case(), "Table 1", &changes).unwrap().0
+    parse_case(cases::papers_starter(), "Table 1", &changes).unwrap().0
 }
 
 fn flights(case: &Case) -> Vec<Trajectory> {

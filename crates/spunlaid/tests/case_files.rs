@@ -42,9 +42,11 @@ fn identical_starter_table_1_and_the_starter_with_its_defaults_spelt_out() {
     let (starter, notes) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
     assert_eq!(notes, []);
     let (table1, _) = read_case(Path::new("../../cases/table1.toml"), &[]).unwrap();
-    // The starter has the law across that measurements support, Table 1 the paper's.
-    let papers = Case { drag: Drag { across: NormalLaw::JuShambaugh, ..starter.drag }, ..starter.clone() };
+    // The starter has the law across that measurements support, and elements and a scheme that resolve the motion; Table 1
+    // those of the paper.
     assert_eq!(starter.drag.across, NormalLaw::MarheinekeWegener);
+    let set = [("drag.across".to_owned(), "ju-shambaugh".to_owned())];
+    let (papers, _) = parse_case(cases::papers_starter(), "starter.toml", &set).unwrap();
     assert_eq!(bits(&papers), bits(&table1));
 
     let spelt_out: String = (starter_case().lines())
@@ -108,6 +110,7 @@ fn overrides_replace_and_add() {
         ("air.velocity", "20 m/s"),
         ("fibre.diameter", "\"18 um\""),
         ("run.scheme", "leapfrog"),
+        ("run.time_step", "1 µs"),
         ("run.seed", "7"),
     ]
     .map(|(key, value)| (key.to_owned(), value.to_owned()));

@@ -4,15 +4,15 @@
 #[path = "common/cases.rs"]
 mod cases;
 
-use cases::{bits, changed, read_again, remarks};
-use spunlaid::input::{parse_case, read_case, starter_case};
+use cases::{bits, changed, papers_starter, read_again, remarks};
+use spunlaid::input::{parse_case, read_case};
 use std::path::Path;
 
 #[test]
 fn what_was_rounded_is_said() {
     let with = |line: &str| {
         let key = line.split(' ').next().unwrap();
-        let kept = starter_case().lines().filter(|old| !old.starts_with(&format!("{key} =")));
+        let kept = papers_starter().lines().filter(|old| !old.starts_with(&format!("{key} =")));
         let mut text: String = kept.map(|line| format!("{line}\n")).collect();
         let table = if key == "element_length" || key == "diameter" { "[fibre]\n" } else { "[run]\n" };
         let at = text.find(table).unwrap() + table.len();
@@ -119,7 +119,7 @@ fn a_fed_case_is_warned_of_low_drag_and_of_elements_shorter_than_the_fibre_is_th
 
 #[test]
 fn a_time_step_left_open_is_chosen_and_told() {
-    let open = starter_case().replace("time_step = ", "# time_step = ");
+    let open = papers_starter().replace("time_step = ", "# time_step = ");
     for (scheme, tolerance, expected) in [
         // 0.003/(0.2 · 2π 100 Hz) = 24 µs, over half the axial limit of 34.5 µs.
         ("semi-implicit-euler", None, 1e-5),
@@ -138,7 +138,7 @@ fn a_time_step_left_open_is_chosen_and_told() {
         assert_eq!(bits(&read_again(&case)), bits(&case));
     }
     let both = [("run.error_tolerance".to_owned(), "0.01".to_owned())];
-    let (_, notes) = parse_case(starter_case(), "both.toml", &both).unwrap();
+    let (_, notes) = parse_case(papers_starter(), "both.toml", &both).unwrap();
     assert!(notes[0].to_string().contains("has no effect"), "{}", notes[0]);
 }
 

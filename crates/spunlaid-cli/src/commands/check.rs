@@ -8,12 +8,13 @@ use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::air::{Air, Flow};
 use spunlaid::case::{Case, INSTANT_ON_DISK, Note, StepLimit};
-use spunlaid::ensemble::{KeepShapes, StepCheckPlan, pace};
+use spunlaid::ensemble::{FinerPlans, KeepShapes, pace};
 use spunlaid::input::write_case;
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::line::Line;
 use spunlaid::units::Dimension;
 use spunlaid_results::folders::run::POSITIONS;
+use spunlaid_results::numbers::significant;
 use spunlaid_results::output::json_text;
 use spunlaid_results::output::summary::{InOrder, resolved};
 use std::fs;
@@ -34,6 +35,7 @@ pub(crate) fn check(check: &Check) -> Result<(), Failure> {
     say::text(&write_case(&case));
     say::line("");
     mesh(&case);
+    error_of_mesh(&case);
     limits(&case);
     say::line(&format!(
         "# expected: {} on {} of {} threads, {:.0} MiB of memory, {} of results",
@@ -102,6 +104,39 @@ fn mesh(case: &Case) {
     }
 }
 
+/// What is known of the error of the mesh, and how to find out.
+fn error_of_mesh(case: &Case) {
+    let half = Dimension::Length.pretty_to(0.5 * case.fibre.rest_length(), 3);
+    match FinerPlans::of(case).mesh {
+        Ok(plan) => say::line(&format!(
+            "#   spunlaid run compares it with elements of {half} in the same turbulence, for {} % of the run's time",
+            significant(100.0 * plan.share_of_run, 2)
+        )),
+        Err(why) => say::line(&format!(
+            "#   its error is not found by a run, because {why}; to find out: spunlaid run with --set \
+             fibre.element_length=\"{half}\""
+        )),
+    }
+    if case.line.is_none() && case.air.rms() > 0.0 {
+        let parts = case.air.length_scale / case.fibre.rest_length();
+        let (_, cost) =
+            OF_STARTER.iter().rev().find(|(least, _)| parts >= 0.9 * least).unwrap_or(&OF_STARTER[0]);
+        say::line(&format!(
+            "#   {} elements to an eddy; in the case of `spunlaid new` about as many put {cost}",
+            significant(parts, 2)
+        ));
+    }
+}
+
+/// Elements to an eddy, and what they cost in the case of `spunlaid new`; validation.md has the measurement.
+const OF_STARTER: [(f64, &str); 5] = [
+    (1.0, "the amplitude 33 % too high and the frequency 23 % too low"),
+    (2.0, "the amplitude 17 % and the frequency 14 % too high"),
+    (4.0, "the frequency 26 % too high, and the amplitude less than 1 %"),
+    (8.0, "the frequency 6 % too high, and the amplitude less than 1 %"),
+    (16.0, "the frequency less than 2 % too high, and the amplitude less than 1 %"),
+];
+
 /// Feed, belt and stations of the air.
 fn fed(case: &Case, line: Line) {
     let length = |of: f64| Dimension::Length.pretty_to(of, 3);
@@ -160,8 +195,8 @@ impl Expected {
         const WRITING: f64 = 0.7e-6;
         let flights = case.run.replicates.div_ceil(WIDTH as u64);
         let busy = (threads(None) as u64).min(flights);
-        // A flight takes as long whether its lanes are full or not. The step check is one more, of its own length.
-        let again = StepCheckPlan::of(case).map_or(0.0, |plan| plan.share_of_run) * flights as f64;
+        // A flight takes as long whether its lanes are full or not. The checks are some more, of their own length.
+        let again = FinerPlans::of(case).share_of_run() * flights as f64;
         let rounds = (flights.div_ceil(busy) as f64).max((flights as f64 + again) / busy as f64);
         let flying = pace(case, Isa::detect())? * case.run.steps as f64 * rounds;
         Ok(Self {

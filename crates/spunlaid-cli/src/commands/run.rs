@@ -7,11 +7,11 @@ use crate::args::Run;
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::Note;
-use spunlaid::ensemble::{Computing, StepCheckPlan};
+use spunlaid::ensemble::{Computing, FinerPlans};
 use spunlaid::lanes::Isa;
 use spunlaid_results::folders::run as files;
 use spunlaid_results::output::folder::{ENTRIES, Staging};
-use spunlaid_results::output::table;
+use spunlaid_results::output::{finer, table};
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
@@ -43,16 +43,15 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         laid: None,
     };
     let started = Instant::now();
-    let plan = StepCheckPlan::of(&case);
-    let again = plan.map_or(0, |plan| plan.fibre_steps());
-    let (results, check) = progress::follow(
+    let plans = FinerPlans::of(&case);
+    let (results, checks) = progress::follow(
         &fibre_steps,
-        case.run.steps * case.run.replicates + again,
+        case.run.steps * case.run.replicates + plans.fibre_steps(),
         &format!("flying {}", plural(case.run.replicates, "fibre")),
         run.quiet,
-        || files::fly(&case, plan, computing, staging.as_ref()),
+        || files::fly(&case, &plans, computing, staging.as_ref()),
     )?;
-    let performance = files::performance(&case, &results, plan, computing, started.elapsed().as_secs_f64());
+    let performance = files::performance(&case, &results, &plans, computing, started.elapsed().as_secs_f64());
 
     if let Some(outside) = files::outside(&results) {
         say::warning(&outside);
@@ -64,7 +63,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         name: &name,
         case: &case,
         results: &results,
-        check: check.as_ref(),
+        checks: &checks,
         notes: &notes,
         performance,
     };
@@ -78,9 +77,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         say::text(&written.summary());
     } else if !run.quiet {
         say::text(&table::results(&case, &results));
-        if let Some(check) = &check {
-            say::text(&table::step_check(check, &results));
-        }
+        say::text(&finer::text(&checks, &case, &results));
         let seconds = performance.wall_s;
         say::line(&format!(
             "\n{} in {seconds:.2} s, {:.1} ns per element and step and thread ({}, {})",

@@ -159,7 +159,12 @@ mod tests {
     use spunlaid::input::{parse_case, starter_case, starter_case_of_fed};
 
     fn case(changes: &[(&str, &str)]) -> Case {
-        let usual = [("run.scheme", "implicit-tension"), ("run.time_step", "auto"), ("run.seed", "3")];
+        let usual = [
+            ("fibre.element_length", "50 mm"),
+            ("run.scheme", "implicit-tension"),
+            ("run.time_step", "auto"),
+            ("run.seed", "3"),
+        ];
         let values: Vec<_> =
             usual.iter().chain(changes).map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
         parse_case(starter_case(), "starter.toml", &values).unwrap().0

@@ -201,7 +201,9 @@ mod tests {
 
     #[test]
     fn a_frame_is_laid_out_as_described_and_tells_each_page_what_is_new() {
-        let (case, _) = parse_case(starter_case(), "a.toml", &[]).unwrap();
+        let set = [("fibre.element_length", "50 mm"), ("run.scheme", "leapfrog"), ("run.time_step", "1 µs")];
+        let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+        let (case, _) = parse_case(starter_case(), "a.toml", &set).unwrap();
         let mut fibres = Fibres::new(case).unwrap();
         let mut lately = Lately::new();
         let see = |fibres: &mut Fibres, lately: &mut Lately, steps| {

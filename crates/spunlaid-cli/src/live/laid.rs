@@ -129,7 +129,9 @@ mod tests {
 
     #[test]
     fn the_map_holds_every_point_and_the_spread_is_that_of_the_points() {
-        let (case, _) = parse_case(starter_case_of_fed(), "fed.toml", &[]).unwrap();
+        let (case, _) =
+            parse_case(starter_case_of_fed(), "fed.toml", &[("fibre.element_length".into(), "4 mm".into())])
+                .unwrap();
         let mut laid = Laid::of(&case).unwrap();
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let mut points: Vec<f64> = Vec::new();
@@ -153,7 +155,9 @@ mod tests {
 
     #[test]
     fn spreads_are_told_with_errors_after_the_fibres_have_come_down() {
-        let (case, _) = parse_case(starter_case_of_fed(), "fed.toml", &[]).unwrap();
+        let (case, _) =
+            parse_case(starter_case_of_fed(), "fed.toml", &[("fibre.element_length".into(), "4 mm".into())])
+                .unwrap();
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let mut measured = Measured::new(&case, fibres.flight());
         fibres.fly((0.5 / case.run.time_step) as u64, |instant| measured.see(instant)).unwrap();

@@ -270,7 +270,7 @@ mod tests {
         use std::sync::atomic::{AtomicBool, AtomicU64};
         // The same flight over the same time: 0.5 s of settling, two seconds of statistics.
         let values = [
-            ("run.scheme", "implicit-tension"),
+            ("fibre.element_length", "50 mm"),
             ("run.time_step", "200 µs"),
             ("run.duration", "2.5 s"),
             ("run.spin_up", "0.5 s"),

@@ -51,13 +51,25 @@ class Folder:
         return found
 
     @property
-    def step_check(self) -> dict[str, float] | None:
+    def step_check(self) -> dict[str, float | None] | None:
         """As `Flown.step_check`."""
-        check = self._read["step_check"]
+        return self._differences("step_check")
+
+    @property
+    def mesh_check(self) -> dict[str, float | None] | None:
+        """As `Flown.mesh_check`."""
+        return self._differences("mesh_check")
+
+    def _differences(self, name: str) -> dict[str, float | None] | None:
+        check = self._read[name]
         if check is None:
             return None
-        differences = {name: check[name]["mean"] for name in ("path_difference", "amplitude_difference")}
-        return {"duration_s": check["duration_s"], "share_of_run": check["share_of_run"], **differences}
+        found = {name: check[name] for name in ("duration_s", "share_of_run", "error_over_difference")}
+        for difference, of in check.items():
+            if difference.endswith("_difference") and isinstance(of, dict):
+                found[difference] = of["mean"]
+                found[f"{difference}_standard_error"] = of["standard_error"]
+        return found
 
     @property
     def end_node(self) -> dict[str, Any]:

@@ -126,9 +126,14 @@ class Run:
         return list(self._keep("laid", lambda: self._flown.laid))
 
     @property
-    def step_check(self) -> dict[str, float] | None:
-        """What half the time step changes, see `summary`; None if it was not checked."""
+    def step_check(self) -> dict[str, float | None] | None:
+        """What a finer time step changes, see `summary`; None if it was not checked."""
         return self._flown.step_check  # type: ignore[no-any-return]
+
+    @property
+    def mesh_check(self) -> dict[str, float | None] | None:
+        """What elements of half the length change, see `summary`; None if it was not checked."""
+        return self._flown.mesh_check  # type: ignore[no-any-return]
 
     @property
     def notes(self) -> list[str]:
@@ -229,7 +234,7 @@ def run(
     replicates, seed: number of fibres, and the seed of their turbulence; as the case says by default
     threads: number of threads, by default one for each processor; the results do not depend on it
     progress: None, True, False, or a function that gets the steps done and their number
-    check_step: whether some fibres fly again with half the time step, to tell its error
+    check_step: whether some fibres fly again with a finer time step and finer elements, to tell their errors
     samples: whether the free ends and energies over time are kept: 136 bytes for each fibre and instant
     shapes: whether whole fibres over time are kept, of up to eight replicates
 

@@ -11,7 +11,7 @@ use crate::output::{beside, paraview, pictures};
 use crate::report::{self, ReportInput};
 use spunlaid::case::Case;
 use spunlaid::ensemble::{
-    Computing, Keep, KeepShapes, Results, StepCheck, StepCheckPlan, TakeLaid, fly_and_check_step,
+    Computing, FinerChecks, FinerPlans, Keep, KeepShapes, Results, TakeLaid, fly_and_check,
     turbulence_spectrum,
 };
 use spunlaid::input::write_case;
@@ -27,16 +27,16 @@ pub const POSITIONS: u64 = 4_000_000;
 
 /// Flies all replicates. If there is a results folder, the tables are written during the flights.
 ///
-/// * `plan` – also compares with half the time step
+/// * `plans` – also compares with a finer time step and finer elements
 ///
 /// # Errors
 /// If a fibre is lost, a table cannot be written, or the flights are interrupted.
 pub fn fly(
     case: &Case,
-    plan: Option<StepCheckPlan>,
+    plans: &FinerPlans,
     computing: Computing<'_>,
     staging: Option<&Staging<'_>>,
-) -> Result<(Results, Option<StepCheck>), Failure> {
+) -> Result<(Results, FinerChecks), Failure> {
     let mut tables = Vec::new();
     if let Some(staging) = staging {
         for (name, columns) in tables::tables(case.line.is_some()) {
@@ -50,7 +50,7 @@ pub fn fly(
     let computing = Computing { laid: spill.as_ref().map(|spill| spill as &dyn TakeLaid), ..computing };
     let mut collector = Results::collector(KEPT);
     let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
-    let check = fly_and_check_step(case, plan, Keep { curves: true, shapes }, computing, |trajectory| {
+    let checks = fly_and_check(case, plans, Keep { curves: true, shapes }, computing, |trajectory| {
         tables.iter_mut().try_for_each(|table| table.add(&trajectory))?;
         laid.iter_mut().try_for_each(|table| table.add(trajectory.replicate))?;
         collector.take(&trajectory);
@@ -62,7 +62,7 @@ pub fn fly(
     })?;
     tables.into_iter().try_for_each(Table::finish)?;
     laid.map_or(Ok(()), LaidTable::finish)?;
-    Ok((collector.finish(), check))
+    Ok((collector.finish(), checks))
 }
 
 /// Everything of a run that goes into the files.
@@ -74,8 +74,8 @@ pub struct Run<'a> {
     pub case: &'a Case,
     /// The results of [`fly`].
     pub results: &'a Results,
-    /// What half the time step changes, if it was computed.
-    pub check: Option<&'a StepCheck>,
+    /// What a finer time step and finer elements change.
+    pub checks: &'a FinerChecks,
     /// Warnings and remarks for the reader.
     pub notes: &'a [String],
     /// What the run cost.
@@ -85,7 +85,7 @@ pub struct Run<'a> {
 impl Run<'_> {
     /// The text of `summary.json`.
     pub fn summary(&self) -> String {
-        Summary::new(self.case, self.results, self.check, self.performance, self.notes.to_vec()).to_json()
+        Summary::new(self.case, self.results, self.checks, self.performance, self.notes.to_vec()).to_json()
     }
 
     /// Writes the figures, the shapes for ParaView, the report, the case and the summary. The tables are those of [`fly`].
@@ -130,7 +130,7 @@ impl Run<'_> {
             case: self.case,
             case_toml,
             results: self.results,
-            step_check: self.check,
+            checks: self.checks,
             figures,
             notes: self.notes,
             performance: self.performance,
@@ -194,18 +194,17 @@ pub fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
 pub fn performance(
     case: &Case,
     results: &Results,
-    plan: Option<StepCheckPlan>,
+    plans: &FinerPlans,
     computing: Computing<'_>,
     wall_s: f64,
 ) -> Performance {
-    let flights = case.run.replicates.div_ceil(WIDTH as u64) as usize + usize::from(plan.is_some());
-    let threads = computing.threads.min(flights);
-    let again = plan.map_or(0, |plan| plan.fibre_steps());
+    let flights = case.run.replicates.div_ceil(WIDTH as u64);
+    let threads = computing.threads.min(flights as usize + plans.flights());
     // Of a fed fibre, as many as there are in the air on average.
     let elements =
         results.number("nodes_in_air").map_or(case.fibre.elements as f64, |nodes| nodes.estimate.mean);
-    let fibre_steps = case.run.steps * case.run.replicates + again;
-    let element_steps = (elements * fibre_steps as f64).round() as u64;
+    let of_checks = plans.element_steps() * elements / case.fibre.elements as f64;
+    let element_steps = (elements * (case.run.steps * case.run.replicates) as f64 + of_checks).round() as u64;
     Performance {
         wall_s,
         threads,

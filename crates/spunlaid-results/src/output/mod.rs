@@ -3,13 +3,13 @@
 pub mod analysis;
 pub mod beside;
 pub mod comparison;
+pub mod finer;
 pub mod folder;
 pub mod laid;
 pub mod leftovers;
 pub mod paraview;
 mod parquet;
 pub mod pictures;
-pub mod step_check;
 pub mod study;
 pub mod summary;
 pub mod table;

@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 use serde_json::Value as Json;
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Content, Key, Value};
-use spunlaid::ensemble::{Number, Results, StepCheck};
+use spunlaid::ensemble::{FinerCheck, FinerChecks, Number, Results};
 use spunlaid::observe::Over;
 use spunlaid::statistics::Estimate;
 use spunlaid::units::Dimension;
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 2;
+const SCHEMA_VERSION: u32 = 3;
 
 /// The content of `summary.json` of a run.
 #[derive(Debug, Serialize)]
@@ -27,23 +27,45 @@ pub struct Summary<'a> {
     #[serde(flatten)]
     measures: GroupSummary<'a>,
     /// Null if the run is too short for it, or if the fibres do not move across the flow.
-    step_check: Option<StepCheckSummary<'a>>,
+    step_check: Option<FinerSummary<'a>>,
+    /// The same of the elements.
+    mesh_check: Option<FinerSummary<'a>>,
     performance: Performance,
     notes: Vec<String>,
 }
 
-/// Change of the free end's motion, or of the laid fibre, from half the time step to the step of the run, in the same
-/// turbulence. The amplitude of a laid fibre is its spread.
+/// Change of the free end's motion, or of the laid fibre, from a finer discretisation to that of the run, in the same
+/// turbulence.
 #[derive(Debug, Serialize)]
-struct StepCheckSummary<'a> {
+struct FinerSummary<'a> {
     /// Time from the start over which both are compared.
     duration_s: f64,
-    /// Computing time as a share of the run, counted in steps.
+    /// Computing time as a share of the run, counted in steps of elements.
     share_of_run: f64,
-    /// Rms distance between the two paths, divided by the amplitude.
-    path_difference: NumberSummary<'a>,
-    /// Relative change of the amplitude.
-    amplitude_difference: NumberSummary<'a>,
+    /// The finer discretisation.
+    finer_scheme: &'static str,
+    finer_time_step_s: f64,
+    finer_element_length_m: f64,
+    /// Factor from a difference to the error of the run; null where it is not known.
+    error_over_difference: Option<f64>,
+    /// `path_difference`, the rms distance between two paths, divided by the amplitude; and the relative changes of
+    /// statistics: `amplitude_difference`.
+    #[serde(flatten)]
+    differences: BTreeMap<String, NumberSummary<'a>>,
+}
+
+impl<'a> FinerSummary<'a> {
+    fn of(check: &'a FinerCheck) -> Self {
+        Self {
+            duration_s: check.duration,
+            share_of_run: check.share_of_run,
+            finer_scheme: check.scheme.name(),
+            finer_time_step_s: check.time_step,
+            finer_element_length_m: check.element_length,
+            error_over_difference: check.error_over_change(),
+            differences: check.differences().map(|(name, of)| (name, of_mean(of))).collect(),
+        }
+    }
 }
 
 /// A result over the replicates: mean, standard error and the values of the replicates. Some results also have a
@@ -100,7 +122,7 @@ impl<'a> Summary<'a> {
     pub fn new(
         case: &Case,
         results: &'a Results,
-        check: Option<&'a StepCheck>,
+        checks: &'a FinerChecks,
         performance: Performance,
         notes: Vec<String>,
     ) -> Self {
@@ -116,12 +138,8 @@ impl<'a> Summary<'a> {
             steps: case.run.steps,
             replicates: case.run.replicates,
             measures,
-            step_check: check.map(|check| StepCheckSummary {
-                duration_s: check.duration,
-                share_of_run: check.share_of_run,
-                path_difference: of_mean(&check.path),
-                amplitude_difference: of_mean(&check.amplitude),
-            }),
+            step_check: checks.step.as_ref().ok().map(FinerSummary::of),
+            mesh_check: checks.mesh.as_ref().ok().map(FinerSummary::of),
             performance,
             notes,
         }

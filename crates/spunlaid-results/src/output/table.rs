@@ -1,9 +1,8 @@
 //! The table of results on the terminal.
 
-use super::step_check::StepCheckWords;
 use crate::numbers::{number, rounded};
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Number, Results, StepCheck};
+use spunlaid::ensemble::{Number, Results};
 use spunlaid::observe::{Group, Over};
 use std::fmt::Write;
 
@@ -23,15 +22,6 @@ pub fn results(case: &Case, results: &Results) -> String {
         let _ = writeln!(text, "{} {}{}", row, measure.unit.shown, remark(measure.over_replicates, n));
     }
     text
-}
-
-/// What half the time step changes.
-pub fn step_check(check: &StepCheck, results: &Results) -> String {
-    let StepCheckWords { path, amplitude, extent, advice } = StepCheckWords::of(check, results);
-    format!(
-        "time step, compared with half of it in the same turbulence\n  {} differs by {}\n  {} differs by {}\n  Compared: {extent}\n  {advice}\n",
-        path.0, path.1, amplitude.0, amplitude.1
-    )
 }
 
 /// The mean and its error, aligned at the sign ±. A median or a largest value has no error.

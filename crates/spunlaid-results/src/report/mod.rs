@@ -30,7 +30,7 @@ pub use webs::{WebStudyReport, webs_html};
 use crate::output::summary::Performance;
 use askama::Template;
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Results, StepCheck};
+use spunlaid::ensemble::{FinerChecks, Results};
 use spunlaid_charts::Figure;
 
 /// Script with the class `Camera`: how the space of the moving fibre is seen, for other pages that show one.
@@ -50,7 +50,7 @@ pub struct ReportInput<'a> {
     /// The results, with the trajectories that are to be seen moving.
     pub results: &'a Results,
     /// What half the time step changes, if it was computed.
-    pub step_check: Option<&'a StepCheck>,
+    pub checks: &'a FinerChecks,
     /// The figures, see [`crate::figures::run_figures`].
     pub figures: &'a [Figure],
     /// Warnings and remarks for the reader.

@@ -5,7 +5,7 @@ use super::table::{self, Group, ReplicateRow};
 use super::words::{self, count};
 use super::{ReportInput, rendered};
 use crate::numbers::number;
-use crate::output::step_check::StepCheckWords;
+use crate::output::finer::{self, FinerWords};
 use askama::Template;
 use spunlaid::ensemble::Number;
 use spunlaid::observe::{DECLARED, Kind};
@@ -44,7 +44,8 @@ struct Page<'a> {
     balance_error: String,
     /// Of explicit schemes.
     work_error: Option<String>,
-    step_check: Option<StepCheckWords>,
+    /// Of the time step and of the elements.
+    checks: [Result<FinerWords, String>; 2],
     fed: bool,
     /// Of a fed fibre: what the mesh resolves.
     mesh: Option<(String, String)>,
@@ -104,7 +105,7 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
         sections: sections(input.figures),
         balance_error: number(results.number("balance_error").map_or(f64::NAN, Number::value)),
         work_error: results.number("work_error").map(|error| number(error.value())),
-        step_check: input.step_check.map(|check| StepCheckWords::of(check, results)),
+        checks: finer::words(input.checks, input.case, results),
         fed: input.case.line.is_some(),
         mesh: words::mesh(input.case),
         case_toml: input.case_toml,

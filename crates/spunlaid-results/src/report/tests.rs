@@ -6,7 +6,7 @@ use crate::output::summary::Performance;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use spunlaid::case::Case;
-use spunlaid::ensemble::Results;
+use spunlaid::ensemble::{FinerChecks, Results};
 
 /// Largest size of a page [bytes].
 const MOST: usize = 6_000_000;
@@ -18,7 +18,7 @@ fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml:
         case,
         case_toml,
         results,
-        step_check: None,
+        checks: &FinerChecks::none("the run is too short for it"),
         figures: &figures,
         notes,
         performance: Performance {

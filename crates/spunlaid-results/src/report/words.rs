@@ -128,9 +128,7 @@ pub(super) fn mesh(case: &Case) -> Option<(String, String)> {
     Some((
         format!("Mesh: elements of {each}; the fibre itself folds at a scale of {fold}"),
         format!(
-            "Spread and correlation length are results: for a fibre of 18{THIN}µm at 50{THIN}m/s they stand still within one per \
-             cent from elements of 4{THIN}mm down to 0.25{THIN}mm. A fibre that meets the belt folds at a scale of \
-             d√(E/\u{2060}ρ)/\u{2060}(4v), which is {fold} in this case. {texture}"
+            "A fibre that meets the belt folds at a scale of d√(E/\u{2060}ρ)/\u{2060}(4v), which is {fold} in this case. {texture}"
         ),
     ))
 }

@@ -58,6 +58,16 @@ impl Eddies {
         Self::of(0..elements as u32)
     }
 
+    /// The same eddies along a fibre with fewer elements, each of which feels the one at its middle, or the one before.
+    pub fn of_coarser(&self, elements: usize) -> Self {
+        let parts = self.of_element.len() / elements.max(1);
+        if parts < 2 {
+            return self.clone();
+        }
+        let middles = (0..elements).map(|j| self.of_element[j * parts + (parts - 1) / 2]);
+        Self { of_element: middles.collect(), count: self.count }
+    }
+
     fn of(eddies: impl Iterator<Item = u32>) -> Self {
         let of_element: Vec<u32> = eddies.collect();
         let count = of_element.last().map_or(0, |&last| last as usize + 1);

@@ -1,17 +1,16 @@
 //! Ensembles: replicates packed eight to a flight, flights shared out to threads.
 
+mod finer;
 mod order;
 mod results;
-mod step_check;
 mod trajectory;
 mod turbulence;
 
 pub use crate::flight::Job;
 pub use crate::observe::Sample;
+pub use finer::{Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refined, Statistic};
 pub use order::in_order;
 pub use results::{Collector, Curve, Number, Place, Results};
-pub use step_check::{StepCheck, StepCheckPlan};
-use trajectory::fly_with_plan;
 pub use trajectory::{Keep, KeepShapes, Shape, Trajectory, fly_together, pace};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 
@@ -19,6 +18,7 @@ use crate::case::Case;
 use crate::error::Error;
 use crate::flight::LaidPoint;
 use crate::lanes::{Isa, WIDTH};
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// How an ensemble is computed. None of it changes a bit of the results.
@@ -62,53 +62,66 @@ pub fn fly<E: From<Error>>(
     in_order(
         flights(case),
         computing.threads,
-        |index| fly_one(case, index, keep, None, computing),
-        |flown| flown?.0.into_iter().try_for_each(&mut take),
+        |index| fly_one(case, index, keep, computing),
+        |flown| flown?.into_iter().try_for_each(&mut take),
     )
 }
 
-/// [`fly`], and computes what half the time step changes. The check is one more flight beside the others; `plan` is
-/// that of the case.
-///
-/// Returns `None` without a plan, and if the fibres do not move across the flow or lay nothing down.
+/// [`fly`], and computes what finer steps and finer elements change. The checks are some more flights beside the others;
+/// `plans` are those of the case.
 ///
 /// # Errors
-/// Those of [`fly`].
-pub fn fly_and_check_step<E: From<Error>>(
+/// Those of [`fly`]. A check whose own fibres are lost says so in its place.
+pub fn fly_and_check<E: From<Error>>(
     case: &Case,
-    plan: Option<StepCheckPlan>,
+    plans: &FinerPlans,
     keep: Keep,
     computing: Computing<'_>,
     mut take: impl FnMut(Trajectory) -> Result<(), E>,
-) -> Result<Option<StepCheck>, E> {
-    enum Landed {
-        Flight(Vec<Trajectory>, Vec<step_check::Path>),
-        HalfStep(Vec<step_check::Path>),
-    }
+) -> Result<FinerChecks, E> {
     let flights = flights(case);
-    let (mut own, mut half) = (Vec::new(), Vec::new());
+    let more: Vec<_> = plans.all().flat_map(|plan| plan.flights().map(move |which| (plan, which))).collect();
+    let (mut paths, mut flown) = (Vec::new(), BTreeMap::new());
+    let mut index = 0;
     in_order(
-        flights + usize::from(plan.is_some()),
+        flights + more.len(),
         computing.threads,
-        |index| match plan {
-            Some(plan) if index == flights => plan.fly(case, computing).map(Landed::HalfStep),
-            _ => {
-                let flown = fly_one(case, index, keep, plan, computing);
-                flown.map(|(trajectories, paths)| Landed::Flight(trajectories, paths))
-            }
+        |index| match index.checked_sub(flights).and_then(|index| more.get(index)) {
+            Some((plan, which)) => plan.fly(*which, computing),
+            None => fly_one(case, index, keep, computing),
         },
         |landed| {
-            match landed? {
-                Landed::HalfStep(paths) => half = paths,
-                Landed::Flight(trajectories, paths) => {
-                    own.extend(paths);
-                    trajectories.into_iter().try_for_each(&mut take)?;
+            if index >= flights {
+                // A run is not lost with a check of it.
+                if matches!(landed, Err(Error::Interrupted)) {
+                    landed?;
+                } else {
+                    flown.insert(index - flights, landed);
+                }
+            } else {
+                for trajectory in landed? {
+                    paths.extend(
+                        plans.step.iter().map(|plan| plan.path(&trajectory)).filter(|p| !p.is_empty()),
+                    );
+                    take(trajectory)?;
                 }
             }
+            index += 1;
             Ok::<(), E>(())
         },
     )?;
-    Ok(plan.and_then(|plan| plan.compare(case, &own, &half)))
+    let mut flown = more.iter().map(|(plan, which)| (plan.refined, *which)).zip(flown.into_values());
+    let mut compare = |plan: &Result<FinerPlan, String>| {
+        let plan = plan.as_ref().map_err(String::clone)?;
+        let mut pair = [Vec::new(), Vec::new()];
+        for which in plan.flights() {
+            let landed = flown.next().map_or_else(|| Ok(Vec::new()), |(_, landed)| landed);
+            pair[usize::from(which == finer::Flown::Fine)] =
+                landed.map_err(|lost| format!("a fibre of the check was lost: {lost}"))?;
+        }
+        plan.compare(&paths, &pair[0], &pair[1])
+    };
+    Ok(FinerChecks { step: compare(&plans.step), mesh: compare(&plans.mesh) })
 }
 
 /// Number of flights of a case.
@@ -121,11 +134,10 @@ fn fly_one(
     case: &Case,
     index: usize,
     keep: Keep,
-    plan: Option<StepCheckPlan>,
     computing: Computing<'_>,
-) -> Result<(Vec<Trajectory>, Vec<step_check::Path>), Error> {
+) -> Result<Vec<Trajectory>, Error> {
     let first = index as u64 * WIDTH as u64;
     let last = case.run.replicates.min(first + WIDTH as u64);
     let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
-    fly_with_plan(&jobs, keep, plan, computing)
+    fly_together(&jobs, keep, computing)
 }

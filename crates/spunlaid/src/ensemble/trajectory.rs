@@ -1,10 +1,9 @@
 //! The trajectory of one replicate.
 
-use super::step_check::Path;
-use super::{Computing, StepCheckPlan};
+use super::Computing;
 use crate::case::Case;
-use crate::error::Error;
-use crate::flight::{Flight, Job, LaidPoint};
+use crate::error::{Error, FlightFault};
+use crate::flight::{AirOf, Flight, Job, LaidPoint};
 use crate::lanes::{Isa, WIDTH};
 use crate::observe::{Measure, Observers, Sample, Seen, Value};
 use crate::vec3::Vec3;
@@ -108,7 +107,8 @@ pub fn fly_together(
     keep: Keep,
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
-    fly_with_plan(jobs, keep, None, computing).map(|(trajectories, _)| trajectories)
+    let first = jobs.first().ok_or(FlightFault::Empty)?;
+    fly_in_air(jobs, keep, AirOf::run(first.case), computing)
 }
 
 /// Length of fibre fed in the spin-up, whose points are not kept [m].
@@ -116,26 +116,25 @@ fn first_counted(case: &Case) -> f64 {
     case.line.map_or(0.0, |line| line.feed_speed * case.run.spin_up())
 }
 
-/// [`fly_together`], with the paths that the plan compares.
-pub(super) fn fly_with_plan(
+/// [`fly_together`], in the air of another run.
+pub(super) fn fly_in_air(
     jobs: &[Job<'_>],
     keep: Keep,
-    plan: Option<StepCheckPlan>,
+    air: AirOf<'_>,
     computing: Computing<'_>,
-) -> Result<(Vec<Trajectory>, Vec<Path>), Error> {
-    let mut flight = Flight::new(jobs, computing.isa)?;
+) -> Result<Vec<Trajectory>, Error> {
+    let mut flight = Flight::in_air(jobs, computing.isa, air)?;
     let clock = flight.clock().clone();
     let mut observers = Observers::of(&flight, keep.curves);
     let mut trajectories: Vec<Trajectory> =
         jobs.iter().map(|job| Trajectory { replicate: job.replicate, ..Trajectory::default() }).collect();
-    let mut paths = vec![Path::new(); plan.map_or(0, |plan| plan.paths(jobs))];
     let mut step = 0;
     for instant in 0.. {
         // A snapshot needs one step. The last one takes that step on a copy.
         let snapshot = if step < clock.steps { flight.observe() } else { flight.snapshot() };
         match flight.lost() {
             Some(Error::Diverged { .. }) => {
-                return Err(divergence(jobs, computing.isa, step - clock.output_steps.min(step)));
+                return Err(divergence(jobs, computing.isa, air, step - clock.output_steps.min(step)));
             }
             Some(adrift) => return Err(adrift),
             None => {}
@@ -157,9 +156,6 @@ pub(super) fn fly_with_plan(
                 let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);
                 trajectory.laid.extend(counted.take(room));
             }
-            if let (Some(plan), Some(path)) = (plan, paths.get_mut(lane)) {
-                plan.follow(instant, &samples[lane], &laid[lane], path);
-            }
             if let Some(take) = computing.laid
                 && !laid[lane].is_empty()
             {
@@ -180,7 +176,7 @@ pub(super) fn fly_with_plan(
     for (lane, trajectory) in trajectories.iter_mut().enumerate() {
         trajectory.values = observers.finish(lane, &flight).collect();
     }
-    Ok((trajectories, paths))
+    Ok(trajectories)
 }
 
 /// Computing time of a flight for one step of a case [s], measured on this machine.
@@ -205,8 +201,8 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
 }
 
 /// Finds where a fibre is first seen to be lost: repeats the flight, step by step after the last good instant.
-fn divergence(jobs: &[Job<'_>], isa: Isa, good_steps: u64) -> Error {
-    let mut flight = match Flight::new(jobs, isa) {
+fn divergence(jobs: &[Job<'_>], isa: Isa, air: AirOf<'_>, good_steps: u64) -> Error {
+    let mut flight = match Flight::in_air(jobs, isa, air) {
         Ok(flight) => flight,
         Err(error) => return error,
     };

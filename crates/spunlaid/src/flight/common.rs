@@ -28,12 +28,6 @@ impl Clock {
     pub(crate) const fn time_step(&self) -> f64 {
         self.time_step.number()
     }
-
-    /// Time until which the air has to last [s]: one step more than the run, because the energies at the last instant need
-    /// one more step.
-    pub(crate) fn air_horizon(&self) -> f64 {
-        self.steps as f64 * self.time_step() + self.time_step()
-    }
 }
 
 shared! {

@@ -75,6 +75,22 @@ impl Job<'_> {
     }
 }
 
+/// The run whose air a flight is in, where that is not its own.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AirOf<'a> {
+    /// Its elements have the eddies: those of the flight, or finer.
+    pub(crate) case: &'a Case,
+    /// Time until which the air has to last [s]. Which stretches of a record a fibre gets depends on it.
+    pub(crate) horizon: f64,
+}
+
+impl<'a> AirOf<'a> {
+    /// The air of a run of the case itself.
+    pub(crate) fn run(case: &'a Case) -> Self {
+        Self { case, horizon: case.air_horizon() }
+    }
+}
+
 /// Up to eight fibres in flight, side by side. A flight owns everything that it needs, and it may continue for
 /// any time.
 ///

@@ -1,7 +1,7 @@
 //! Changes in flight.
 
 use super::start::surrounded;
-use super::{Common, Flight, Job};
+use super::{AirOf, Common, Flight, Job};
 use crate::case::Case;
 use crate::case::keys::{self, Value};
 use crate::company::PerLane;
@@ -43,7 +43,7 @@ impl Flight {
         let jobs = cases.iter().map(|(case, replicate)| Job { case, replicate: *replicate }).collect();
         let jobs = PerLane::new(jobs)?;
         let common = Common::of_all(&jobs)?;
-        let air = surrounded(&common, &jobs, self.isa, common.clock.air_horizon())?;
+        let air = surrounded(&common, &jobs, self.isa, AirOf::run(&cases[0].0))?;
         let strands = jobs.map(|job| job.case.strand());
         let meshed_anew = self.stations.is_none() && common.chain.elements != self.chain.elements();
         if air.eddies != self.eddies || meshed_anew {

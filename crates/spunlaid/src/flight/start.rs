@@ -1,6 +1,6 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
-use super::{Clock, Common, EndNodeStatistics, Flight, Job, Start, Surrounded};
+use super::{AirOf, Clock, Common, EndNodeStatistics, Flight, Job, Start, Surrounded};
 use crate::air::{Stations, Surroundings, Wind};
 use crate::case::Case;
 use crate::chain::schemes::Scheme;
@@ -9,6 +9,7 @@ use crate::chain::{self, Chain, Strand};
 use crate::company::PerLane;
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
+use crate::fibre::Fibre;
 use crate::lanes::{Isa, Lanes};
 use crate::vec3::Vec3;
 
@@ -21,19 +22,14 @@ impl Flight {
     /// scheme, kinds of drag laws, cut-off frequency, number of harmonics and records; and either all or none of
     /// them are damped.
     pub fn new(jobs: &[Job<'_>], isa: Isa) -> Result<Self, Error> {
-        let (jobs, common) = checked(jobs)?;
-        let horizon = common.clock.air_horizon();
-        Ok(Self::in_air(&jobs, common, isa, horizon)?)
+        let first = jobs.first().ok_or(FlightFault::Empty)?;
+        Self::in_air(jobs, isa, AirOf::run(first.case))
     }
 
-    /// As [`Flight::new`], in air that is made to last until a given time [s].
-    pub(crate) fn in_air_until(jobs: &[Job<'_>], isa: Isa, horizon: f64) -> Result<Self, Error> {
+    /// As [`Flight::new`], in the air of another run.
+    pub(crate) fn in_air(jobs: &[Job<'_>], isa: Isa, air: AirOf<'_>) -> Result<Self, Error> {
         let (jobs, common) = checked(jobs)?;
-        Ok(Self::in_air(&jobs, common, isa, horizon)?)
-    }
-
-    fn in_air(jobs: &PerLane<Job<'_>>, common: Common, isa: Isa, horizon: f64) -> Result<Self, FlightFault> {
-        let air = surrounded(&common, jobs, isa, horizon)?;
+        let air = surrounded(&common, &jobs, isa, air)?;
         let strands = jobs.map(|job| job.case.strand());
         let mut chain = Chain::straight(&common.chain, &strands, common.scheme);
         let laid: Option<Vec<_>> = jobs.iter().map(Job::fed).collect();
@@ -210,12 +206,17 @@ pub(super) fn surrounded(
     common: &Common,
     jobs: &PerLane<Job<'_>>,
     isa: Isa,
-    horizon: f64,
+    air: AirOf<'_>,
 ) -> Result<Surrounded, FlightFault> {
-    let Common { way, eddies, every, chain, .. } = common;
-    let streams = jobs.map(|job| job.stream(eddies));
-    let wind = Wind::sampled(isa, common.wind.clone(), streams, horizon);
-    let eddies = eddies.clone();
+    let Common { way, every, chain, .. } = common;
+    // Eddies of finer elements, if the air is that of finer elements.
+    let eddies = if way.is_some() { common.eddies.clone() } else { air.case.eddies() };
+    let elements = air.case.fibre.elements;
+    let streams = jobs.map(|job| {
+        let case = Case { fibre: Fibre { elements, ..job.case.fibre }, ..job.case.clone() };
+        Job { case: &case, replicate: job.replicate }.stream(&eddies)
+    });
+    let wind = Wind::sampled(isa, common.wind.clone().of_eddies(eddies.count()), streams, air.horizon);
     if let Some(way) = way {
         let of = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
         let lanes = PerLane::new(jobs.iter().filter_map(of).collect())?;
@@ -225,5 +226,6 @@ pub(super) fn surrounded(
     let wind = wind.for_steps_of(common.clock.time_step());
     let airs = || jobs.map(|job| job.case.air.clone());
     let surroundings = every.map(|every| Surroundings::around_elements(airs(), chain.elements, every));
+    let eddies = eddies.of_coarser(chain.elements);
     Ok(Surrounded { eddies, wind, surroundings, stations: None })
 }

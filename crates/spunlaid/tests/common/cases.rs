@@ -3,6 +3,7 @@
 
 use spunlaid::case::Case;
 use spunlaid::input::{parse_case, starter_case, write_case};
+use std::sync::LazyLock;
 
 /// Equal texts mean equal bits: numbers are shown by their shortest text that reads back, `-0.0` apart from `0.0`.
 pub fn bits(case: &Case) -> String {
@@ -23,9 +24,23 @@ pub fn remarks(text: &str) -> Vec<String> {
     notes.iter().map(ToString::to_string).collect()
 }
 
-/// The starter with overrides: the case and the texts of its notes.
+/// The starter with the mesh, the scheme and the step of the paper's Table 1.
+pub fn papers_starter() -> &'static str {
+    static TEXT: LazyLock<String> = LazyLock::new(|| {
+        let line = |line: &str| match line.split(' ').next() {
+            Some("element_length") => "# element_length = \"50 mm\"".to_owned(),
+            Some("time_step") => "time_step = \"1 µs\"".to_owned(),
+            Some("scheme") => "# scheme = \"semi-implicit-euler\"".to_owned(),
+            _ => line.to_owned(),
+        };
+        starter_case().lines().map(|of| line(of) + "\n").collect()
+    });
+    &TEXT
+}
+
+/// The starter of Table 1 with overrides: the case and the texts of its notes.
 pub fn changed(set: &[(&str, &str)]) -> (Case, Vec<String>) {
     let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    let (case, notes) = parse_case(starter_case(), "starter.toml", &set).unwrap();
+    let (case, notes) = parse_case(papers_starter(), "starter.toml", &set).unwrap();
     (case, notes.iter().map(ToString::to_string).collect())
 }

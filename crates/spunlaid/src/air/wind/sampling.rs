@@ -28,6 +28,11 @@ impl Sampling {
         }
     }
 
+    /// The same for another number of eddies.
+    pub(crate) fn of_eddies(self, eddies: usize) -> Self {
+        Self { eddies, ..self }
+    }
+
     /// That of the fibres of a flight.
     pub(super) fn of_all(streams: Vec<Stream>) -> Result<(Self, PerLane<Stream>), FlightFault> {
         let streams = PerLane::new(streams)?;

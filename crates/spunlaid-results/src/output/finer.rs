@@ -1,0 +1,236 @@
+//! What a finer time step and finer elements change, in words. Terminal and report say the same.
+
+use crate::numbers::{plus_minus, significant};
+use spunlaid::case::Case;
+use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refined, Results};
+use spunlaid::statistics::Estimate;
+use spunlaid::units::Dimension;
+use std::fmt::Write;
+
+/// Error of the mesh that is small enough [-].
+const FINE_ENOUGH: f64 = 0.03;
+/// Standard errors on each side of a difference within which the true one very likely is.
+const SURE: f64 = 2.0;
+
+/// A check in words.
+#[derive(Debug)]
+pub struct FinerWords {
+    /// What is checked: `time step`.
+    pub what: &'static str,
+    /// With what it is compared: `half of it`.
+    pub with: String,
+    /// What differs, as sentences without a full stop.
+    pub differences: Vec<String>,
+    /// How the error follows from the difference.
+    pub meaning: String,
+    /// How much was compared, and what that cost.
+    pub extent: String,
+    /// What to do.
+    pub advice: String,
+}
+
+/// Both checks in words; an error says what was not compared, and why.
+pub fn words(checks: &FinerChecks, case: &Case, results: &Results) -> [Result<FinerWords, String>; 2] {
+    let not = |what: &str, with: &str, why: &str| format!("{what}: not compared with {with}, because {why}");
+    [(&checks.step, "time step", "a shorter one"), (&checks.mesh, "mesh", "elements of half the length")].map(
+        |(check, what, with)| {
+            check
+                .as_ref()
+                .map(|check| FinerWords::of(check, case, results))
+                .map_err(|why| not(what, with, why))
+        },
+    )
+}
+
+/// The same as lines for the terminal.
+pub fn text(checks: &FinerChecks, case: &Case, results: &Results) -> String {
+    let mut text = String::new();
+    for words in words(checks, case, results) {
+        let _ = match words {
+            Err(why) => writeln!(text, "{why}"),
+            Ok(FinerWords { what, with, differences, extent, advice, .. }) => {
+                let differences = differences.join("\n  ");
+                let heading = format!("{what}, compared with {with} in the same turbulence");
+                writeln!(text, "{heading}\n  {differences}\n  Compared: {extent}\n  {advice}")
+            }
+        };
+    }
+    text
+}
+
+impl FinerWords {
+    fn of(check: &FinerCheck, case: &Case, results: &Results) -> Self {
+        let FinerCheck { replicates, .. } = check;
+        let extent = format!(
+            "{replicates} replicate{} over the first {} s; it took {} % of the run's computing time",
+            if *replicates == 1 { "" } else { "s" },
+            significant(check.duration, 2),
+            significant(100.0 * check.share_of_run, 2)
+        );
+        let path = check.path.iter();
+        let mut differences: Vec<String> = path
+            .map(|path| format!("Path of the free end differs by {} of its amplitude", percent(path)))
+            .collect();
+        let factor = check.error_over_change().filter(|_| check.refined == Refined::Elements);
+        differences.extend(check.changes.iter().map(|Change { statistic, estimate }| {
+            let error = factor.map_or(String::new(), |factor| {
+                let times = |value: f64| factor * value;
+                let Estimate { mean, standard_error, .. } = estimate;
+                let error = Estimate {
+                    mean: times(*mean),
+                    standard_error: standard_error.map(times),
+                    values: Vec::new(),
+                };
+                format!("; the error of the mesh is about {}", percent(&error))
+            });
+            format!("{} differs by {}{error}", statistic.label, percent(estimate))
+        }));
+        let (what, with, advice) = match check.refined {
+            Refined::TimeStep => ("time step", shorter(check, case), of_the_step(check, results)),
+            Refined::Elements => {
+                let length = Dimension::Length.pretty_to(check.element_length, 3);
+                ("mesh", format!("elements of {length}, half the length,"), of_the_mesh(check))
+            }
+        };
+        let meaning = match check.error_over_change() {
+            Some(1.0) => {
+                "The finer step stands for the limit, so the difference is the error of the step.".to_owned()
+            }
+            Some(factor) if check.refined == Refined::TimeStep => {
+                format!("The error of the step is at most about {factor} times as large.")
+            }
+            Some(_) => {
+                "The error of elements well below an eddy falls with the square of their length, so it is about 4/3 of the difference."
+                    .to_owned()
+            }
+            None => String::new(),
+        };
+        Self { what, with, differences, meaning, extent, advice }
+    }
+}
+
+fn percent(of: &Estimate) -> String {
+    format!("{} %", plus_minus(100.0 * of.mean, of.standard_error.map(|error| 100.0 * error)))
+}
+
+/// With what a step is compared.
+fn shorter(check: &FinerCheck, case: &Case) -> String {
+    let step = Dimension::Time.pretty_to(check.time_step, 3);
+    match check.is_resolved {
+        true if check.scheme == case.run.scheme => format!("steps of {step}, which resolve axial waves,"),
+        true => format!("{} at {step}, which resolves axial waves,", check.scheme.name()),
+        false => "half of it".to_owned(),
+    }
+}
+
+/// Compares the error of the step with the standard error of the amplitude or the spread, as a share of it.
+fn of_the_step(check: &FinerCheck, results: &Results) -> String {
+    let Some(Change { statistic, estimate }) = check.changes.first() else {
+        return String::new();
+    };
+    let of = statistic.label.to_lowercase();
+    // Where one end of the difference is the limit itself, the other end is the error.
+    let factor = check.error_over_change().unwrap_or(1.0);
+    let error = factor * (estimate.mean.abs() + estimate.standard_error.unwrap_or(0.0));
+    let Some(scatter) = scatter(statistic.measures, results) else {
+        return "If that matters to you, halve run.time_step; with more replicates the scatter would be known too"
+            .to_owned();
+    };
+    let known = format!("standard error over the replicates is {} %", significant(100.0 * scatter, 2));
+    if error < 0.5 * scatter {
+        format!("A shorter step would gain nothing: the {of}'s {known}")
+    } else {
+        format!("Halve run.time_step and see whether the results move: the {of}'s {known}, no more than that")
+    }
+}
+
+/// The smallest relative standard error of some measures; `None` for a single replicate.
+fn scatter(measures: &[&str], results: &Results) -> Option<f64> {
+    let relative = |name: &&str| {
+        let of = results.estimate(name);
+        of.standard_error.map(|error| error / of.mean).filter(|share| share.is_finite())
+    };
+    measures.iter().filter_map(relative).reduce(f64::min)
+}
+
+/// Which elements to take.
+fn of_the_mesh(check: &FinerCheck) -> String {
+    let shares = |sure: f64| {
+        let factor = check.error_over_change().unwrap_or(1.0);
+        // The texture of a laid fibre is that of its elements, and is told as such.
+        let counted = check.changes.iter().filter(|change| change.statistic.name != "chord_over_arc");
+        counted
+            .map(|Change { estimate, .. }| {
+                factor
+                    * (estimate.mean.abs() + sure * estimate.standard_error.unwrap_or(f64::INFINITY)).max(0.0)
+            })
+            .fold(0.0, f64::max)
+    };
+    let (surely, at_most) = (shares(-SURE), shares(SURE));
+    let length = |of: f64| Dimension::Length.pretty_to(of, 3);
+    if check.error_over_change().is_none() {
+        return if surely > FINE_ENOUGH {
+            let half = length(check.element_length);
+            format!("The elements are too long: write fibre.element_length = \"{half}\" and look again")
+        } else {
+            "How far this is from very fine elements is not known from one halving: a laid fibre folds more finely than \
+             its elements, and each further halving may change as much again"
+                .to_owned()
+        };
+    }
+    if at_most <= FINE_ENOUGH {
+        return "The elements are short enough: their error is below 3 %".to_owned();
+    }
+    let found = shares(0.0);
+    if surely > FINE_ENOUGH || found > 2.0 * FINE_ENOUGH {
+        // The error falls with the square of the length.
+        let halvings = (0.5 * (found / FINE_ENOUGH).log2()).ceil().max(1.0);
+        let own = 2.0 * check.element_length;
+        let proposed = own * 0.5f64.powf(halvings);
+        return format!(
+            "The elements are too long: write fibre.element_length = \"{}\" and look again",
+            length(proposed)
+        );
+    }
+    "Whether their error is below 3 % cannot be told from so little flight; a longer run would tell"
+        .to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spunlaid::chain::schemes::Scheme;
+    use spunlaid::ensemble::Statistic;
+
+    fn check(refined: Refined, name: &str, mean: f64, standard_error: f64) -> FinerCheck {
+        let estimate = Estimate { mean, standard_error: Some(standard_error), values: vec![mean; 8] };
+        let statistic = Statistic::all().find(|statistic| statistic.name == name).unwrap();
+        let is_fed = !matches!(name, "amplitude" | "frequency");
+        FinerCheck {
+            refined,
+            scheme: Scheme::ImplicitTension,
+            time_step: 1e-4,
+            element_length: 12.5e-3,
+            is_fed,
+            is_resolved: false,
+            duration: 1.0,
+            replicates: 8,
+            share_of_run: 0.1,
+            path: None,
+            changes: vec![Change { statistic, estimate }],
+        }
+    }
+
+    #[test]
+    fn advice_on_the_mesh_names_an_element_length() {
+        let of = |mean, error| of_the_mesh(&check(Refined::Elements, "frequency", mean, error));
+        // 4/3 of 18.5 % is 25 %, of which a sixteenth is left at a quarter of 25 mm.
+        assert!(of(0.185, 0.015).contains("fibre.element_length = \"6.25 mm\" and look again"));
+        assert!(of(-0.045, 0.007).contains("fibre.element_length = \"12.5 mm\""), "{}", of(-0.045, 0.007));
+        assert!(of(0.011, 0.002).contains("below 3 %"));
+        assert!(of(0.01, 0.02).contains("cannot be told"));
+        let laid = |mean| of_the_mesh(&check(Refined::Elements, "spread", mean, 1e-3));
+        assert!(laid(0.05).contains("\"12.5 mm\"") && laid(3e-3).contains("not known from one halving"));
+        assert!(of_the_mesh(&check(Refined::Elements, "chord_over_arc", 0.3, 1e-3)).contains("not known"));
+    }
+}
