@@ -141,17 +141,19 @@ impl LaidWeb {
         crate::samples::locked(array.as_any())
     }
 
-    /// The unevenness over patches: side of the patch [m], CV of the map and its standard error, CV that single fibres let
+    /// The unevenness over patches: side of the patch [m], CV of the map, its standard error and the ends of its 95 % interval, CV that single fibres let
     /// expect and its standard error, CV of straight fibres.
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let of = &self.findings.patches;
         let all = PyDict::new(py);
         type Number = fn(&spunlaid::web::PatchFindings) -> f64;
-        let columns: [(&str, Number); 6] = [
+        let columns: [(&str, Number); 8] = [
             ("patch_m", |of| of.map.patch),
             ("cv", |of| of.map.cv),
             ("cv_standard_error", |of| of.map.standard_error.unwrap_or(f64::NAN)),
+            ("cv_low", |of| of.map.interval().map_or(f64::NAN, |ends| ends[0])),
+            ("cv_high", |of| of.map.interval().map_or(f64::NAN, |ends| ends[1])),
             ("cv_single_fibres", |of| of.one_fibre.0),
             ("cv_single_fibres_standard_error", |of| of.one_fibre.1),
             ("cv_straight_fibres", |of| of.straight_fibres),

@@ -78,19 +78,22 @@ pub(super) fn flying(quiet: bool) -> impl Fn(&Path, u64, (&AtomicU64, u64), &mut
 fn told(of: &Findings) -> String {
     let per_cent = |cv: f64, error: Option<f64>| plus_minus(100.0 * cv, error.map(|error| 100.0 * error));
     let mut text = format!(
-        "basis weight {} g/m²\nunevenness, CV in % ± standard error\n  {:>9}  {:>16}  {:>24}  {:>16}\n",
-        significant(of.laid.map.basis_weight() * 1e3, 4),
+        "basis weight {} g/m²\nunevenness, CV in % ± standard error\n  {:>9}  {:>16}  {:>16}  {:>24}  {:>16}\n",
+        significant(of.within().basis_weight() * 1e3, 4),
         "patch",
         "this map",
+        "95 % interval",
         "expected (single fibres)",
         "straight fibres"
     );
     for patch in &of.patches {
         let side = format!("{} mm", significant(patch.map.patch * 1e3, 3));
         let map = per_cent(patch.map.cv, patch.map.standard_error);
+        let ends = patch.map.interval().map(|ends| ends.map(|end| significant(100.0 * end, 3)).join(" to "));
+        let ends = ends.unwrap_or_else(|| "–".to_owned());
         let alone = per_cent(patch.one_fibre.0, Some(patch.one_fibre.1));
         let straight = significant(100.0 * patch.straight_fibres, 3);
-        text.push_str(&format!("  {side:>9}  {map:>16}  {alone:>24}  {straight:>16}\n"));
+        text.push_str(&format!("  {side:>9}  {map:>16}  {ends:>16}  {alone:>24}  {straight:>16}\n"));
     }
     text
 }

@@ -113,13 +113,13 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let of = input.findings;
     let (data, pixel) = light_table_data(&of.laid.map, Some(fibres(input)))?;
     let compared = compared(input.web);
-    let mut heads = vec!["Patch", "CV of this map", "CV expected, from single fibres"];
+    let mut heads = vec!["Patch", "CV of this map", "95 % interval", "CV expected, from single fibres"];
     heads.extend(compared);
     heads.push("Straight fibres");
     let page = Page {
         command: "web",
         name: input.name,
-        headline: headline(Some(of.laid.map.basis_weight()), seen(of).map(|i| &of.patches[i].map)),
+        headline: headline(Some(of.within().basis_weight()), seen(of).map(|i| &of.patches[i].map)),
         summary: summary(input.web),
         notes: input.notes,
         caption: caption(input, pixel),
@@ -206,6 +206,16 @@ pub(super) fn per_cent(cv: f64, error: Option<f64>) -> String {
     format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
 }
 
+/// `5.1 to 7.2 %`, or a dash.
+pub(super) fn interval(of: Option<[f64; 2]>) -> String {
+    of.map_or_else(
+        || "–".to_owned(),
+        |[low, high]| {
+            format!("{} to {}{THIN}%", significant(PER_CENT * low, 3), significant(PER_CENT * high, 3))
+        },
+    )
+}
+
 fn summary(web: &Web) -> String {
     let filaments: u64 = web.layers.iter().map(|layer| layer.count(&web.sheet)).sum();
     let length = web.fibre_length();
@@ -278,6 +288,7 @@ fn patches(of: &Findings) -> Vec<Vec<String>> {
         let mut cells = vec![
             millimetres(patch.map.patch),
             per_cent(patch.map.cv, patch.map.standard_error),
+            interval(patch.map.interval()),
             per_cent(patch.one_fibre.0, Some(patch.one_fibre.1)),
         ];
         cells.extend(patch.compared.map(|(cv, error)| per_cent(cv, Some(error))));
