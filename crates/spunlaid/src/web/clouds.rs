@@ -52,8 +52,8 @@ const MOST: usize = 256;
 /// Most parts of a sheet across, and in all, of which the long waves are made; a power of two.
 const ACROSS: usize = 1024;
 const PARTS: usize = 1 << 21;
-/// Shortest long wave [parts]: of shorter ones the parts are not small enough.
-const SHORT: f64 = 8.0;
+/// Shortest long wave [parts]: where parts cut across cells, 0.1 % of the power of such a wave comes from other waves of the lattice, and more of shorter ones.
+const SHORT: f64 = 6.0;
 /// The longest wave over the shorter side of the sheet.
 const LONG: f64 = 0.25;
 /// Mean square of a Hann window, and its mean fourth power over the square of that.
@@ -84,7 +84,10 @@ impl Clouds {
         let mean = total as f64 / map.cells.len() as f64;
         let [across, along] = [map.columns / side, map.rows / side];
         let stride = (across * along).div_ceil(MOST);
-        let (sheet, from) = Sheet::of(map, mean, places);
+        let (sheet, shortest) = Sheet::of(map, mean, places);
+        // The border of a ring of the tiles, so that none is missing and none counts twice.
+        let tile = side as f64 * map.cell;
+        let from = tile / (tile / shortest).floor().max(1.0);
         let mut clouds = Self {
             side,
             cell: map.cell,
@@ -198,8 +201,8 @@ impl Clouds {
 impl Sheet {
     /// The waves of a sheet, and the shortest of them that counts [m].
     fn of(map: &Map, mean: f64, places: &Places) -> (Self, f64) {
-        let columns = 1 << map.columns.min(ACROSS).ilog2();
-        let rows = 1 << map.rows.min(PARTS / columns).ilog2();
+        let columns = map.columns.next_power_of_two().min(ACROSS);
+        let rows = map.rows.next_power_of_two().min(PARTS / columns);
         let across = Split::new(map.columns, columns);
         let along = Split::new(map.rows, rows);
         // A part gets of each cell what lies in it.
@@ -270,16 +273,15 @@ impl Split {
         Self { cells, parts }
     }
 
-    /// Passes on the parts in which a cell lies, not longer than a part, and what each gets of a value.
+    /// Passes on the parts in which a cell lies, and what each gets of a value.
     fn give(&self, cell: usize, value: f64, mut take: impl FnMut(usize, f64)) {
-        let first = cell * self.parts / self.cells;
-        // The cell's end and the part's, in units of one over both numbers.
-        let (begin, end) = (cell * self.parts, (cell + 1) * self.parts);
-        let border = (first + 1) * self.cells;
-        let share = (end.min(border) - begin) as f64 / self.parts as f64;
-        take(first, value * share);
-        if end > border {
-            take(first + 1, value * (1.0 - share));
+        // In units of one over both numbers.
+        let (mut begin, end) = (cell * self.parts, (cell + 1) * self.parts);
+        while begin < end {
+            let part = begin / self.cells;
+            let next = end.min((part + 1) * self.cells);
+            take(part, value * (next - begin) as f64 / self.parts as f64);
+            begin = next;
         }
     }
 }
