@@ -1,6 +1,6 @@
 //! The errors of webs, against the scatter of many webs of each kind.
 
-#![allow(clippy::expect_used)]
+#![allow(clippy::expect_used, clippy::print_stdout)]
 
 use spunlaid::error::{Error, LayingFault};
 use spunlaid::lanes::Isa;
@@ -61,6 +61,7 @@ fn hold(what: &str, found: &[(f64, f64)]) {
     let mean = found.iter().map(|of| of.0).sum::<f64>() / count;
     let scatter = (found.iter().map(|of| (of.0 - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
     let error = (found.iter().map(|of| of.1 * of.1).sum::<f64>() / count).sqrt();
+    println!("{what}: {held} of {count} hold, error {error:.5}, scatter {scatter:.5}, truth {truth:.5}");
     let off = (error / scatter).ln().abs();
     assert!(off < 4.0 / (2.0 * count).sqrt(), "{what}: error {error}, scatter {scatter}");
     let alarms =
