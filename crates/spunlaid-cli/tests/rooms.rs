@@ -86,7 +86,7 @@ fn every_key_that_a_text_names_exists() {
                 continue;
             }
             if exists(word) {
-                drop(seen.insert(word.to_owned()))
+                seen.insert(word.to_owned());
             } else {
                 wrong.push(format!("{file}: {word}"))
             }
@@ -109,7 +109,7 @@ fn every_option_and_command_that_a_text_names_exists() {
             text.split("`spunlaid ").skip(1).filter_map(|rest| rest.split(|c| !is_of_name(c)).next());
         for word in options.chain(commands).filter(|word| !word.is_empty()) {
             if known.contains(word) {
-                drop(seen.insert(word.to_owned()))
+                seen.insert(word.to_owned());
             } else {
                 wrong.push(format!("{file}: {word}"))
             }

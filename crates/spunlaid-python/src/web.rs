@@ -143,17 +143,19 @@ impl LaidWeb {
         crate::samples::locked(array.as_any())
     }
 
-    /// The unevenness over patches: side of the patch [m], CV of the map and its standard errors by cause, CV that single fibres,
-    /// flown curves and the surrogate let expect with their standard errors, CV of straight fibres. What is not known is NaN.
+    /// The unevenness over patches: side of the patch [m], CV of the map with its standard errors by cause and the ends of its 95 % interval by
+    /// chance, CV that single fibres, flown curves and the surrogate let expect with their standard errors, CV of straight fibres. What is not known is NaN.
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let of = &self.findings.patches;
         let all = PyDict::new(py);
         type Number = fn(&spunlaid::web::PatchFindings) -> f64;
-        let columns: [(&str, Number); 13] = [
+        let columns: [(&str, Number); 15] = [
             ("patch_m", |of| of.map.patch),
             ("cv", |of| of.map.cv),
             ("cv_standard_error", |of| of.map.standard_error.unwrap_or(f64::NAN)),
+            ("cv_low", |of| of.map.interval().map_or(f64::NAN, |ends| ends[0])),
+            ("cv_high", |of| of.map.interval().map_or(f64::NAN, |ends| ends[1])),
             ("cv_flight_error", |of| of.whole_error().flight.unwrap_or(f64::NAN)),
             ("cv_model_error", |of| of.whole_error().model.unwrap_or(f64::NAN)),
             ("cv_whole_error", |of| of.whole_error().whole().unwrap_or(f64::NAN)),

@@ -110,3 +110,24 @@ fn the_parts_of_white_noise_are_the_areas_of_their_rings() {
     let whole = clouds.variance(0.0, f64::MAX).mean;
     assert!((whole / 0.01 - 1.0).abs() < 0.02, "{whole}");
 }
+
+/// Streaks that are longer than any cloud that is told of have no part in the clouds, and a wave of the sheet has all of its variance where it belongs, also
+/// where cells and the parts of the transform do not agree.
+#[test]
+fn analytic_long_streaks_do_not_leak_into_the_clouds() {
+    for columns in [256, 300] {
+        let streak = |column: usize| 0.4 * (TAU * column as f64 / columns as f64).sin();
+        // Twelve waves along the web and five across it.
+        let turn =
+            |row: usize, column: usize| 12.0 * row as f64 / 400.0 + 5.0 * column as f64 / columns as f64;
+        let map =
+            map(columns, 400, true, |row, column| streak(column) + 0.1 * (TAU * turn(row, column)).cos());
+        let clouds = Clouds::of(&map).expect("clouds");
+        let wave = 1e-3 / (12.0f64 / 400.0).hypot(5.0 / columns as f64);
+        let found = clouds.variance(0.9 * wave, 1.1 * wave).mean;
+        // Parts that cut across cells mix in a wave of the lattice: less than 1 %.
+        assert!((found / 0.005 - 1.0).abs() < 0.01, "{found} of 0.005, {columns} columns");
+        let rest = clouds.variance(0.0, 0.9 * wave).mean + clouds.variance(1.1 * wave, clouds.longest()).mean;
+        assert!(rest < 1e-3 * 0.08, "{rest} of the streaks' 0.08 leaks, {columns} columns");
+    }
+}

@@ -94,7 +94,7 @@ fn told(of: &Findings) -> String {
         expected.push(("single fibres", |patch| Some(patch.one_fibre)));
     }
     let flown = of.patches.iter().any(|patch| patch.flown.is_some());
-    let mut heads = vec!["patch", "this map", "by chance"];
+    let mut heads = vec!["patch", "this map", "by chance", "95 % by chance"];
     if flown {
         heads.extend(["few fibres", "model"]);
     }
@@ -109,6 +109,10 @@ fn told(of: &Findings) -> String {
             format!("{} mm", significant(patch.map.patch * 1e3, 3)),
             per_cent(patch.map.cv, error.whole().or(error.chance)),
             part(error.chance),
+            patch.map.interval().map_or_else(
+                || "–".to_owned(),
+                |ends| ends.map(|end| significant(100.0 * end, 3)).join(" to "),
+            ),
         ];
         if flown {
             row.extend([error.flight, error.model].map(part));
@@ -127,7 +131,7 @@ fn told(of: &Findings) -> String {
     };
     format!(
         "basis weight {} g/m²\nunevenness, CV in %: of this map {whole}, and as expected\n{}",
-        significant(of.laid.map.basis_weight() * 1e3, 4),
+        significant(of.within().basis_weight() * 1e3, 4),
         aligned(&rows)
     )
 }

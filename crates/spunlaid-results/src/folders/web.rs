@@ -121,6 +121,23 @@ pub fn notes(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> {
             significant(100.0 * of.laid.cut / whole, 2)
         ));
     }
+    if of.margins != [0.0; 2] {
+        let [first, last] = of.margins.map(|margin| significant(1e3 * margin, 3));
+        notes.push(format!(
+            "the first {first} mm and the last {last} mm across the web are left out of CV, clouds and autocorrelation, for the web is thinner there: they are edges, \
+             3 σ_CD inwards of the outermost filament (web.edges = \"cut\")"
+        ));
+    }
+    let unsure: Vec<String> = (of.patches.iter().filter(|patch| patch.map.standard_error.is_none()))
+        .map(|patch| significant(1e3 * patch.map.patch, 3))
+        .collect();
+    if !unsure.is_empty() {
+        notes.push(format!(
+            "the CV over patches of {} mm has no error: the sheet holds too few independent clouds or streaks for one; make it larger, or lay several webs with \
+             other seeds",
+            unsure.join(", ")
+        ));
+    }
     if map.cells.len() > web::MOST_CELLS {
         notes.push(
             "the map is only in map.npy, for it has more cells than a table or a picture takes".to_owned(),

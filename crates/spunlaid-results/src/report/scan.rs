@@ -2,8 +2,8 @@
 
 use super::rendered;
 use super::web::{
-    File, Page, about_light_table, cost, headline, largest_clouds, light_table_data, metres, millimetres,
-    nearest, per_cent,
+    File, Page, about_light_table, cost, headline, interval, largest_clouds, light_table_data, metres,
+    millimetres, nearest, per_cent,
 };
 use crate::Failure;
 use crate::figures::SEEN;
@@ -75,12 +75,7 @@ fn row(of: &PatchFindings) -> Vec<String> {
     vec![
         millimetres(of.unevenness.patch),
         per_cent(of.unevenness.cv, of.unevenness.standard_error),
-        of.interval().map_or_else(
-            || "–".to_owned(),
-            |[low, high]| {
-                format!("{} to {}{THIN}%", significant(100.0 * low, 3), significant(100.0 * high, 3))
-            },
-        ),
+        interval(of.interval()),
         share(of.noise),
         share(of.blur),
     ]

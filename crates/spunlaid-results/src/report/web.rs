@@ -114,7 +114,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let of = input.findings;
     let (data, pixel) = light_table_data(&of.laid.map, Some(fibres(input)))?;
     let flown = of.patches.iter().any(|patch| patch.flown.is_some());
-    let mut heads = vec!["Patch", "CV of this map", "of its error: chance"];
+    let mut heads = vec!["Patch", "CV of this map", "of its error: chance", "95 % interval by chance"];
     if flown {
         heads.extend(["few fibres flown", "model"]);
     }
@@ -125,7 +125,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         command: "web",
         name: input.name,
         headline: headline(
-            Some(of.laid.map.basis_weight()),
+            Some(of.within().basis_weight()),
             seen(of).map(|i| whole(&of.patches[i])).as_ref(),
         ),
         summary: [summary(input.web), about_the_error(of)].join(" "),
@@ -221,6 +221,16 @@ pub(super) fn headline(weight: Option<f64>, seen: Option<&Unevenness>) -> String
 
 pub(super) fn per_cent(cv: f64, error: Option<f64>) -> String {
     format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
+}
+
+/// `5.1 to 7.2 %`, or a dash.
+pub(super) fn interval(of: Option<[f64; 2]>) -> String {
+    of.map_or_else(
+        || "–".to_owned(),
+        |[low, high]| {
+            format!("{} to {}{THIN}%", significant(PER_CENT * low, 3), significant(PER_CENT * high, 3))
+        },
+    )
 }
 
 fn summary(web: &Web) -> String {
@@ -330,8 +340,12 @@ fn patches(of: &Findings, flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
         let part = |part: Option<f64>| {
             part.map_or_else(|| "–".to_owned(), |part| format!("{}{THIN}%", significant(part * PER_CENT, 2)))
         };
-        let mut cells =
-            vec![millimetres(map.patch), per_cent(map.cv, map.standard_error), part(error.chance)];
+        let mut cells = vec![
+            millimetres(map.patch),
+            per_cent(map.cv, map.standard_error),
+            part(error.chance),
+            interval(patch.map.interval()),
+        ];
         if flown {
             cells.extend([error.flight, error.model].map(part));
         }

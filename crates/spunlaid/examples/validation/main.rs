@@ -10,8 +10,12 @@ mod common;
 mod flights;
 mod mechanics;
 mod turbulence;
+mod webs;
 
 fn main() {
+    if std::env::args().any(|word| word == "webs") {
+        return webs::intervals();
+    }
     println!("kernel: {}", spunlaid::lanes::Isa::detect().name());
     mechanics::forces();
     mechanics::terminal_velocity();

@@ -1,5 +1,7 @@
 //! Errors of webs that cannot be laid.
 
+use crate::units::Dimension;
+
 /// What is wrong with a web.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -24,6 +26,21 @@ pub enum LayingFault {
     FullCell {
         /// Side of a cell [m].
         cell: f64,
+    },
+    /// A web that is nothing but edges.
+    #[error(
+        "the edges of the web, where it is thin, take {} and {} of its width of {} (3 σ_CD inwards of the outermost filament), and no two patches of {} fit between \
+         them; write web.edges = \"periodic\", or a larger web.width",
+        Dimension::Length.pretty(margins[0]), Dimension::Length.pretty(margins[1]), Dimension::Length.pretty(*width),
+        Dimension::Length.pretty(*smallest)
+    )]
+    OnlyEdges {
+        /// Width of the web [m].
+        width: f64,
+        /// Width of its edges [m].
+        margins: [f64; 2],
+        /// Side of the smallest patch [m].
+        smallest: f64,
     },
     /// A surrogate without a path.
     #[error("no path can be made with the standard deviations {:e} m and {:e} m and the noise {:e} m^-0.5; all must be above zero",

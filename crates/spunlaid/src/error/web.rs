@@ -124,7 +124,7 @@ pub enum WebFault {
     /// A row whose width is not that of a periodic web.
     #[error(
         "at a pitch of {} make a row of {}, and with web.edges = \"periodic\" a row must be as wide as the web, {}; write \
-         web.edges = \"cut\", or web.width = \"{}\"",
+         web.width = \"{}\"; or write web.edges = \"cut\", and the edges, where the web is thin, are left out of the CV",
         Dimension::Length.pretty_to(*pitch, 8), Dimension::Length.pretty_to(*beam, 8),
         Dimension::Length.pretty_to(*width, 8), Dimension::Length.pretty_to(*beam, 12)
     )]
@@ -214,16 +214,14 @@ pub enum WebFault {
     /// A sheet on which a filament meets itself.
     #[error(
         "is shorter than 8 times {sigma} = {}, and a filament that leaves the web at one end comes in at the other and \
-         would meet itself; write {} or more{}",
-        Dimension::Length.pretty(*spread), Dimension::Length.pretty(8.0 * spread), way_out.map_or_else(String::new, |way| format!(", or {way}"))
+         would meet itself; write {} or more",
+        Dimension::Length.pretty(*spread), Dimension::Length.pretty(8.0 * spread)
     )]
     TooSmall {
         /// The key of the spread.
         sigma: &'static str,
         /// The spread [m].
         spread: f64,
-        /// Another way out.
-        way_out: Option<&'static str>,
     },
     /// Flown fibres are wanted where there are none.
     #[error(

@@ -54,6 +54,26 @@ impl Difference {
     }
 }
 
+/// The difference of two independent standard deviations, each with its standard error.
+///
+/// Each error is a share of its deviation, so it is the logarithms whose difference is told from chance: that of a deviation with
+/// ν degrees of freedom has the variance `½(1/ν + 1/ν²)`, to the second order, and `ν = ½ (deviation/standard error)²`. The error of the
+/// difference itself is made of that of the logarithms so that it says the same.
+///
+/// Source: R. A. Fisher, Proceedings of the International Congress of Mathematics, Toronto 2 (1924) 805–813.
+pub fn difference_of_deviations(of: [(f64, f64); 2]) -> Difference {
+    let [(first, _), (second, _)] = of;
+    let variance = |(deviation, error): (f64, f64)| {
+        let inverse = 2.0 * (error / deviation).powi(2);
+        0.5 * (inverse + inverse * inverse)
+    };
+    let log = libm::log(second / first);
+    // The difference over that of the logarithms: a mean of both.
+    let mean = if log.abs() > 1e-6 { (second - first) / log } else { 0.5 * (first + second) };
+    let standard_error = mean * of.map(variance).iter().sum::<f64>().sqrt();
+    Difference { value: second - first, standard_error, degrees: f64::INFINITY }
+}
+
 /// [`student_t_95`] for a number of degrees of freedom that need not be whole, linear in its reciprocal.
 pub fn student_t_95_at(degrees: f64) -> f64 {
     let degrees = if degrees.is_nan() { 1.0 } else { degrees.clamp(1.0, 1e9) };

@@ -3,7 +3,7 @@
 mod difference;
 mod spectrum;
 
-pub use difference::{Difference, student_t_95_at};
+pub use difference::{Difference, difference_of_deviations, student_t_95_at};
 pub use spectrum::{Spectrum, Welch, Window};
 
 /// A result over the replicates of an ensemble.
@@ -26,6 +26,22 @@ impl Estimate {
         let standard_error = (values.len() > 1).then(|| (squares / (n - 1.0) / n).sqrt());
         Self { mean, standard_error, values }
     }
+}
+
+/// The 95 % confidence interval of a standard deviation that has been found with a standard error.
+///
+/// The square of a deviation with `ν = ½ (deviation/standard error)²` degrees of freedom is distributed as χ²/ν, so the interval reaches further up than
+/// down, and it is as wide beside the deviation whether this has come out high or low.
+///
+/// Source: E. B. Wilson, M. M. Hilferty, PNAS 17 (1931) 684–688, for the quantiles of χ²; F. E. Satterthwaite, Biometrics 2 (1946) 110–114, for
+/// the degrees of freedom of a sum.
+pub fn interval_of_deviation(deviation: f64, standard_error: f64) -> [f64; 2] {
+    let degrees = 0.5 * (deviation / standard_error).powi(2);
+    let part = 2.0 / (9.0 * degrees);
+    [NORMAL_95, -NORMAL_95].map(|z| {
+        let quantile = (1.0 - part + z * part.sqrt()).max(0.0).powi(3);
+        if degrees.is_nan() { deviation } else { deviation / quantile.sqrt() }
+    })
 }
 
 /// Half the width of the central 95 % of a normal distribution, in standard deviations.

@@ -1,15 +1,17 @@
 //! The clouds of a web: how the variance of its basis weight divides among their sizes.
 
 use super::map::Map;
-use crate::fft::{Complex, InverseTransform};
-use crate::lanes::{Lanes, WIDTH};
+use super::uniformity::DEGREES;
+use super::waves::{Parts, Places, Powers};
 use crate::statistics::Estimate;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
-/// The power spectrum of the basis weight over its mean, from square tiles of the sheet with a Hann window.
+/// The power spectrum of the basis weight over its mean.
 ///
 /// The variance of the relative basis weight is a sum over waves. The size of a cloud is the length of its wave; in two dimensions, the
-/// length across the crests.
+/// length across the crests. Long waves are those of the whole sheet, so that streaks, which are longer still, do not pass for
+/// clouds; where the sheet is not closed, a Hann window stands over it. Short waves are those of square tiles with a Hann window.
 #[derive(Clone, Debug)]
 pub struct Clouds {
     /// Side of a tile [cells], a power of two.
@@ -21,6 +23,23 @@ pub struct Clouds {
     along: Vec<f64>,
     /// Mean variance by wave number in cross and in machine direction, one-sided.
     directions: [Vec<f64>; 2],
+    /// The waves of the whole sheet, and the shortest of them that counts [m].
+    sheet: Sheet,
+    from: f64,
+    /// Longest wave that is told of [m].
+    longest: f64,
+}
+
+/// The waves of a whole sheet.
+#[derive(Clone, Debug)]
+struct Sheet {
+    powers: Arc<Powers>,
+    /// Sides of the sheet [m].
+    sides: [f64; 2],
+    /// Cells and parts either way.
+    counts: [[usize; 2]; 2],
+    open: [bool; 2],
+    places: Places,
 }
 
 /// Largest side of a tile [cells], and the number of tiles along the shorter side of a sheet that is wanted.
@@ -30,10 +49,31 @@ const WANTED: usize = 4;
 const SMALLEST: usize = 16;
 /// Most tiles that are looked at.
 const MOST: usize = 256;
+/// Most parts of a sheet across, and in all, of which the long waves are made; a power of two.
+const ACROSS: usize = 1024;
+const PARTS: usize = 1 << 21;
+/// Shortest long wave [parts]: where parts cut across cells, 0.1 % of the power of such a wave comes from other waves of the lattice, and more of shorter ones.
+const SHORT: f64 = 6.0;
+/// The longest wave over the shorter side of the sheet.
+const LONG: f64 = 0.25;
+/// Mean square of a Hann window, and its mean fourth power over the square of that.
+const SQUARE: f64 = 0.375;
+pub(super) const HANN: f64 = 35.0 / 18.0;
+
+fn hann(at: usize, of: usize) -> f64 {
+    libm::sin(PI * (at as f64 + 0.5) / of as f64).powi(2) / SQUARE.sqrt()
+}
 
 impl Clouds {
-    /// The spectrum of a map. None if it is smaller than 16 cells either way, or holds nothing.
+    /// [`Clouds::at`] of filaments at places of which nothing is known.
     pub fn of(map: &Map) -> Option<Self> {
+        Self::at(map, &Places::Unknown)
+    }
+
+    /// The spectrum of a map. None if it is smaller than 16 cells either way, or holds nothing.
+    ///
+    /// * `places` – what is known of the places of the filaments
+    pub fn at(map: &Map, places: &Places) -> Option<Self> {
         let shorter = map.columns.min(map.rows);
         let side = (shorter / WANTED + 1).next_power_of_two() / 2;
         let side = side.clamp(SMALLEST, LARGEST);
@@ -44,51 +84,58 @@ impl Clouds {
         let mean = total as f64 / map.cells.len() as f64;
         let [across, along] = [map.columns / side, map.rows / side];
         let stride = (across * along).div_ceil(MOST);
+        let (sheet, shortest) = Sheet::of(map, mean, places);
+        // The border of a ring of the tiles, so that none is missing and none counts twice.
+        let tile = side as f64 * map.cell;
+        let from = tile / (tile / shortest).floor().max(1.0);
         let mut clouds = Self {
             side,
             cell: map.cell,
             tiles: Vec::new(),
             along: Vec::new(),
             directions: [vec![0.0; side / 2 + 1], vec![0.0; side / 2 + 1]],
+            sheet,
+            from,
+            longest: LONG * shorter as f64 * map.cell,
         };
-        let transform = Transform::new(side);
+        let window: Vec<f64> = (0..side).map(|i| hann(i, side)).collect();
         for tile in (0..across * along).step_by(stride) {
             let (row, column) = (tile / across * side, tile % across * side);
-            clouds.add(&transform.variances(|i, j| f64::from(map.row(row + i)[column + j]) / mean - 1.0));
+            let value = |i: usize, j: usize| {
+                (f64::from(map.row(row + i)[column + j]) / mean - 1.0) * window[i] * window[j]
+            };
+            clouds.add(&Powers::of(side, side, value));
         }
         let count = clouds.tiles.len() as f64;
         clouds.directions.iter_mut().flatten().for_each(|part| *part /= count);
         Some(clouds)
     }
 
-    fn add(&mut self, variances: &[f64]) {
+    fn add(&mut self, powers: &Powers) {
         let side = self.side;
-        // Wave numbers beyond half the side are negative ones.
-        let number = |of: usize| of.min(side - of);
         let mut radial = vec![0.0; side];
         let (mut short, mut along) = (0.0, 0.0);
-        for (i, row) in variances.chunks_exact(side).enumerate() {
-            for (j, variance) in row.iter().enumerate() {
-                let (md, cd) = (number(i), number(j));
-                let squared = (md * md + cd * cd) as f64;
-                radial[(squared.sqrt() as usize).min(side - 1)] += variance;
-                self.directions[0][cd] += variance;
-                self.directions[1][md] += variance;
-                // Waves of four to sixteen cells show the directions of fibres; shorter ones those of the lattice.
-                let waves = squared.sqrt() / side as f64;
-                if (1.0 / 16.0..0.25).contains(&waves) {
-                    short += variance;
-                    along += variance * (cd * cd) as f64 / squared;
-                }
+        for (j, i) in powers.numbers().chain([(0, 0)]) {
+            let variance = powers.at(j, i);
+            let (md, cd) = (i.unsigned_abs() as usize, j.unsigned_abs() as usize);
+            let squared = (md * md + cd * cd) as f64;
+            radial[(squared.sqrt() as usize).min(side - 1)] += variance;
+            self.directions[0][cd] += variance;
+            self.directions[1][md] += variance;
+            // Waves of four to sixteen cells show the directions of fibres; shorter ones those of the lattice.
+            let waves = squared.sqrt() / side as f64;
+            if (1.0 / 16.0..0.25).contains(&waves) {
+                short += variance;
+                along += variance * (cd * cd) as f64 / squared;
             }
         }
         self.tiles.push(radial);
         self.along.push(along / short);
     }
 
-    /// Longest wave that can be told from the mean [m].
+    /// Longest wave that is told of: a quarter of the sheet's shorter side [m].
     pub fn longest(&self) -> f64 {
-        0.5 * self.side as f64 * self.cell
+        self.longest
     }
 
     /// Shortest wave of the lattice [m].
@@ -96,14 +143,22 @@ impl Clouds {
         2.0 * self.cell
     }
 
-    /// Variance of the relative basis weight in waves from one length to another, over the tiles.
+    /// Variance of the relative basis weight in waves from one length to another, with its standard error over webs of the kind. There is no
+    /// error where the sheet is too small to say. Waves longer than a side of the sheet have no part.
     pub fn variance(&self, shortest: f64, longest: f64) -> Estimate {
         let within = |r: usize| {
             let wave = self.side as f64 * self.cell / (r as f64 + 0.5);
-            r > 0 && (shortest..longest).contains(&wave)
+            r > 0 && (shortest..longest.min(self.from)).contains(&wave)
         };
         let of_tile = |tile: &Vec<f64>| (0..tile.len()).filter(|r| within(*r)).map(|r| tile[r]).sum();
-        Estimate::of(self.tiles.iter().map(of_tile).collect())
+        let short = Estimate::of(self.tiles.iter().map(of_tile).collect());
+        let long = self.sheet.parts(shortest.max(self.from), longest);
+        let mean = short.mean + long.sum();
+        let of_long = long.share(self.sheet.open) * long.sum().powi(2);
+        let variance = short.standard_error.unwrap_or(0.0).powi(2) + of_long;
+        let known =
+            (short.mean == 0.0 || short.standard_error.is_some()) && 2.0 * mean * mean >= DEGREES * variance;
+        Estimate { mean, standard_error: known.then(|| variance.sqrt()), values: Vec::new() }
     }
 
     /// The variance in octaves of wavelength from the shortest wave to the longest: shortest and longest wave [m], and the variance.
@@ -118,7 +173,7 @@ impl Clouds {
     }
 
     /// The cloudiness index: the standard deviation of the relative basis weight in waves from one length to another, with its
-    /// standard error. None without tiles enough for an error.
+    /// standard error. No error where the sheet is too small to say.
     ///
     /// Source: An unambiguous cloudiness index for nonwovens, Journal of Mathematics in Industry 12 (2022),
     /// doi 10.1186/s13362-022-00124-z: the power spectrum of the relative basis weight, integrated over a band.
@@ -143,58 +198,91 @@ impl Clouds {
     }
 }
 
-/// Fourier transform of a tile.
-struct Transform {
-    side: usize,
-    along: InverseTransform,
-    window: Vec<f64>,
-}
-
-impl Transform {
-    fn new(side: usize) -> Self {
-        let hann = |i: usize| libm::sin(PI * (i as f64 + 0.5) / side as f64).powi(2);
-        // The mean square of the window is ⅜.
-        let window = (0..side).map(|i| hann(i) / 0.375f64.sqrt()).collect();
-        Self { side, along: InverseTransform::new(side), window }
+impl Sheet {
+    /// The waves of a sheet, and the shortest of them that counts [m].
+    fn of(map: &Map, mean: f64, places: &Places) -> (Self, f64) {
+        let columns = map.columns.next_power_of_two().min(ACROSS);
+        let rows = map.rows.next_power_of_two().min(PARTS / columns);
+        let across = Split::new(map.columns, columns);
+        let along = Split::new(map.rows, rows);
+        // A part gets of each cell what lies in it.
+        let mut sums = vec![0.0; columns * rows];
+        let mut row_sums = vec![0.0; columns];
+        for row in 0..map.rows {
+            row_sums.fill(0.0);
+            for (column, quanta) in map.row(row).iter().enumerate() {
+                across.give(column, f64::from(*quanta), |part, share| row_sums[part] += share);
+            }
+            along.give(row, 1.0, |part, share| {
+                let into = &mut sums[part * columns..][..columns];
+                into.iter_mut().zip(&row_sums).for_each(|(into, sum)| *into += share * sum);
+            });
+        }
+        let each = mean * map.cells.len() as f64 / (columns * rows) as f64;
+        let open = map.closed.map(|closed| !closed);
+        let window = |open: bool, at: usize, of: usize| if open { hann(at, of) } else { 1.0 };
+        let across: Vec<f64> = (0..columns).map(|column| window(open[0], column, columns)).collect();
+        let powers = Powers::of(columns, rows, |row, column| {
+            (sums[row * columns + column] / each - 1.0) * across[column] * window(open[1], row, rows)
+        });
+        let sides = [map.columns, map.rows].map(|cells| cells as f64 * map.cell);
+        let from = SHORT * (sides[0] / columns as f64).max(sides[1] / rows as f64);
+        let counts = [[map.columns, columns], [map.rows, rows]];
+        (Self { powers: Arc::new(powers), sides, counts, open, places: places.clone() }, from)
     }
 
-    /// The part of the variance in each wave, by wave numbers in machine and in cross direction.
-    fn variances(&self, deviation: impl Fn(usize, usize) -> f64) -> Vec<f64> {
-        let side = self.side;
-        let groups = side / WIDTH;
-        // Eight rows at a time, then eight columns.
-        let rows: Vec<Vec<Complex>> = (0..groups)
-            .map(|group| {
-                let value = |lane: usize, j: usize| {
-                    let i = group * WIDTH + lane;
-                    deviation(i, j) * self.window[i] * self.window[j]
-                };
-                let column =
-                    |j: usize| Complex { re: Lanes::from_fn(|lane| value(lane, j)), im: Lanes::ZERO };
-                let mut data: Vec<Complex> = (0..side).map(column).collect();
-                self.along.run(&mut data);
-                data
-            })
-            .collect();
-        let scale = 1.0 / (side as f64).powi(4);
-        let mut variances = vec![0.0; side * side];
-        for group in 0..groups {
-            let row = |i: usize| {
-                let part = |of: fn(&Complex) -> &Lanes| {
-                    Lanes::from_fn(|lane| of(&rows[i / WIDTH][group * WIDTH + lane]).0[i % WIDTH])
-                };
-                Complex { re: part(|z| &z.re), im: part(|z| &z.im) }
-            };
-            let mut data: Vec<Complex> = (0..side).map(row).collect();
-            self.along.run(&mut data);
-            for (i, z) in data.iter().enumerate() {
-                for lane in 0..WIDTH {
-                    let squared = z.re.0[lane] * z.re.0[lane] + z.im.0[lane] * z.im.0[lane];
-                    variances[i * side + group * WIDTH + lane] = squared * scale;
+    /// What the means over cells and over other parts have taken of the power of a wave number.
+    fn gain(&self, direction: usize, number: i64) -> f64 {
+        let lost = |count: f64| {
+            let angle = PI * number as f64 / count;
+            if number == 0 { 1.0 } else { (libm::sin(angle) / angle).powi(2) }
+        };
+        let [cells, parts] = self.counts[direction].map(|count| count as f64);
+        if cells == parts { 1.0 } else { 1.0 / (lost(cells) * lost(parts)) }
+    }
+
+    /// The waves from one length to another.
+    fn parts(&self, shortest: f64, longest: f64) -> Parts {
+        let mut parts = Parts::default();
+        if shortest >= longest {
+            return parts;
+        }
+        let reach = i64::from(self.open[1]);
+        let most = self.sides.map(|side| (side / shortest).ceil() as i64);
+        for along in -most[1]..=most[1] {
+            for across in -most[0]..=most[0] {
+                let number = (across as f64 / self.sides[0]).hypot(along as f64 / self.sides[1]);
+                if (shortest..longest).contains(&(1.0 / number)) {
+                    let gain = self.gain(0, across) * self.gain(1, along);
+                    self.powers.add((across, along), &self.places, reach, gain, &mut parts);
                 }
             }
         }
-        variances
+        parts
+    }
+}
+
+/// How cells are shared among parts of equal length.
+struct Split {
+    cells: usize,
+    parts: usize,
+}
+
+impl Split {
+    const fn new(cells: usize, parts: usize) -> Self {
+        Self { cells, parts }
+    }
+
+    /// Passes on the parts in which a cell lies, and what each gets of a value.
+    fn give(&self, cell: usize, value: f64, mut take: impl FnMut(usize, f64)) {
+        // In units of one over both numbers.
+        let (mut begin, end) = (cell * self.parts, (cell + 1) * self.parts);
+        while begin < end {
+            let part = begin / self.cells;
+            let next = end.min((part + 1) * self.cells);
+            take(part, value * (next - begin) as f64 / self.parts as f64);
+            begin = next;
+        }
     }
 }
 

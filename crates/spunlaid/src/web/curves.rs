@@ -113,6 +113,20 @@ impl Curves {
         self.curves.iter().map(|curve| curve.len() - 1).min().unwrap_or(0)
     }
 
+    /// Spread about the straight trace in cross direction [m].
+    pub(super) fn sigma_cd(&self) -> f64 {
+        let points = self.curves.iter().map(Vec::len).sum::<usize>() as f64;
+        (self.curves.iter().flatten().map(|p| p[1] * p[1]).sum::<f64>() / points).sqrt()
+    }
+
+    /// Squared mean of `e^{ikξ₂}` over all points.
+    pub(super) fn power_across(&self, wave: f64) -> f64 {
+        let points = self.curves.iter().map(Vec::len).sum::<usize>() as f64;
+        let parts = self.curves.iter().flatten().map(|p| (libm::cos(wave * p[1]), libm::sin(wave * p[1])));
+        let (re, im) = parts.fold((0.0, 0.0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+        (re * re + im * im) / (points * points)
+    }
+
     /// Farthest distance from the straight trace in cross direction, and longest piece on a belt that stands, in either direction [m].
     pub(super) fn reach(&self) -> [f64; 2] {
         let far = self.curves.iter().flatten().map(|p| p[1].abs());

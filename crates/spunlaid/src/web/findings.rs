@@ -2,13 +2,16 @@
 
 use super::clouds::{Clouds, autocorrelation};
 use super::lay::{Laid, Laying, lay, places};
-use super::one_fibre::{OneFibre, one_fibre, straight_fibres};
+use super::map::Map;
+use super::one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
 use super::sensitivity::{Sensitivity, Source, sensitivities};
 use super::threads::each;
-use super::uniformity::{Unevenness, unevenness};
+use super::uniformity::{Unevenness, unevenness_at};
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
-use crate::error::Error;
+use crate::error::{Error, LayingFault};
+use std::borrow::Cow;
+use std::ops::Range;
 use std::sync::atomic::AtomicU64;
 
 /// A web, laid and looked at.
@@ -16,6 +19,9 @@ use std::sync::atomic::AtomicU64;
 pub struct Findings {
     /// The map of the basis weight, and what was cut off at the edges.
     pub laid: Laid,
+    /// Widths of the strips at the edges in cross direction, the first columns and the last ones, where the web is thinner and of which nothing below tells [m].
+    /// They reach 3 σ_CD inwards of the outermost place of a filament; a web with periodic edges has none.
+    pub margins: [f64; 2],
     /// How uneven it is, patch by patch.
     pub patches: Vec<PatchFindings>,
     /// Directions of the fibres.
@@ -26,6 +32,15 @@ pub struct Findings {
     pub autocorrelation: [Vec<f64>; 2],
     /// What would make it more even, at the patches of [`Findings::patches`]; empty for several layers.
     pub sensitivities: Vec<Sensitivity>,
+}
+
+impl Findings {
+    /// The map without the edges.
+    pub fn within(&self) -> Cow<'_, Map> {
+        let map = &self.laid.map;
+        let [first, last] = self.margins.map(|margin| (margin / map.cell).round() as usize);
+        map.between(first..map.columns - last)
+    }
 }
 
 /// The unevenness over patches of one size, in several ways.
@@ -83,89 +98,139 @@ fn side(sheet: &Sheet, patch: f64) -> usize {
 /// As [`find`].
 pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
+    let columns = within(web);
+    let sides: Vec<usize> = sheet.patches.iter().map(|patch| side(sheet, *patch)).collect();
+    // As many patches beside each other as on a sheet that is closed.
+    let fits = |side: &usize| sheet.edges == Edges::Periodic || 2 * side <= columns.len();
+    let sides: Vec<usize> = sides.into_iter().filter(fits).collect();
+    let margins = [columns.start, sheet.cells()[0] - columns.end].map(|cells| cells as f64 * sheet.cell);
+    if columns.is_empty() || (sides.is_empty() && !sheet.patches.is_empty()) {
+        let smallest = sheet.patches.iter().copied().fold(f64::INFINITY, f64::min);
+        return Err(LayingFault::OnlyEdges { width: sheet.width, margins, smallest }.into());
+    }
     let laid = lay(web, by)?;
     // The progress is that of the web; what comes after it is short.
     let aside = AtomicU64::new(0);
     let by = Laying { laid: &aside, ..by };
-    let map = &laid.map;
-    let sides: Vec<usize> = sheet.patches.iter().map(|patch| side(sheet, *patch)).collect();
+    let map = laid.map.between(columns.clone());
     let of = OneFibre { cell: sheet.cell, fibres: ALONE, seed: web.seed };
-    let alone = expected(web, web.layers.clone(), &sides, of, by)?;
+    let alone = expected(web, web.layers.clone(), &sides, (of, columns.clone()), by)?;
     let other = |layer: &Layer| Some(Layer { fibres: layer.compared.clone()?, ..layer.clone() });
     let compared = match web.layers.iter().map(other).collect() {
-        Some(layers) => Some(expected(web, layers, &sides, of, by)?),
+        Some(layers) => Some(expected(web, layers, &sides, (of, columns.clone()), by)?),
         None => None,
     };
     let all = |of: fn(&Fibres) -> bool, fibres: fn(&Layer) -> Option<&Fibres>| {
         web.layers.iter().all(|layer| fibres(layer).is_some_and(of))
     };
     let the_one = |of: fn(&Fibres) -> bool, i: usize| {
-        let laid = all(of, |layer| Some(&layer.fibres)).then_some(alone[i]);
+        let laid = all(of, |layer| Some(&layer.fibres)).then_some(alone[i].cv);
         laid.or_else(|| {
-            compared.as_ref().filter(|_| all(of, |layer| layer.compared.as_ref())).map(|found| found[i])
+            compared.as_ref().filter(|_| all(of, |layer| layer.compared.as_ref())).map(|found| found[i].cv)
         })
     };
-    let weight = web.basis_weight();
+    let places = web.places(columns.len() as f64 * sheet.cell);
     let mut patches = Vec::new();
-    let uneven = each(by.threads, sides.len(), |i| Ok(unevenness(map, sides[i])))?;
+    let uneven = each(by.threads, sides.len(), |i| Ok(unevenness_at(&map, sides[i], &places)))?;
     for (i, map) in uneven.into_iter().enumerate() {
         let Some(map) = map else { continue };
-        let straight = |layer: &Layer| {
-            let tau = layer.basis_weight(sheet) / layer.linear_density;
-            (straight_fibres(tau, map.patch) * layer.basis_weight(sheet)).powi(2)
-        };
-        let straight_fibres = web.layers.iter().map(straight).sum::<f64>().sqrt() / weight;
         let flown = the_one(|fibres| matches!(fibres, Fibres::Curves(_)), i);
         let surrogate = the_one(|fibres| matches!(fibres, Fibres::Surrogate(_)), i);
-        patches.push(PatchFindings { map, one_fibre: alone[i], flown, surrogate, straight_fibres });
+        let (one_fibre, straight_fibres) = (alone[i].cv, alone[i].straight_fibres);
+        patches.push(PatchFindings { map, one_fibre, flown, surrogate, straight_fibres });
     }
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
-    Ok(Findings {
-        orientation: orientation(web, by)?,
-        clouds: Clouds::of(map),
-        autocorrelation: autocorrelation(map, lags),
-        sensitivities: Vec::new(),
-        patches,
-        laid,
-    })
+    let (clouds, autocorrelation) = (Clouds::at(&map, &places), autocorrelation(&map, lags));
+    let orientation = orientation(web, by)?;
+    drop(map);
+    Ok(Findings { orientation, clouds, autocorrelation, sensitivities: Vec::new(), patches, margins, laid })
 }
 
-/// The expected CV of a web of these layers for each side of a patch, and its standard error.
+/// Spreads σ_CD of a filament beyond its place that count as the edge of a web: less than 0.14 % of its fibre lies further out.
+const EDGE: f64 = 3.0;
+
+/// The columns of the sheet that are not edges, where filaments are missing beyond the outermost place.
+fn within(web: &Web) -> Range<usize> {
+    let sheet = &web.sheet;
+    let columns = sheet.cells()[0];
+    if sheet.edges == Edges::Periodic {
+        return 0..columns;
+    }
+    let of_layer = |(number, layer): (usize, &Layer)| {
+        let edge = EDGE * layer.fibres.sigma_cd();
+        let [first, last] = match &layer.filaments {
+            Filaments::AtRandom { .. } => [0.0, sheet.width],
+            Filaments::Rows(_) => {
+                let places = places(web, number, layer);
+                [places.first(), places.last()].map(|place| place.copied().unwrap_or(0.0))
+            }
+        };
+        let cells = |length: f64| (length / sheet.cell).clamp(0.0, columns as f64);
+        [cells(first + edge).ceil() as usize, cells(last - edge).floor() as usize]
+    };
+    let inner = web.layers.iter().enumerate().map(of_layer);
+    let [start, end] = inner.fold([0, columns], |all, of| [all[0].max(of[0]), all[1].min(of[1])]);
+    start..end.max(start)
+}
+
+/// What is expected of patches of one side.
+struct Expected {
+    /// CV and its standard error.
+    cv: (f64, f64),
+    /// CV of straight fibres of the same mass.
+    straight_fibres: f64,
+}
+
+/// The CV that is expected of a web of these layers for each side of a patch.
+///
+/// * `columns` – of the sheet over which the patches lie
 fn expected(
     web: &Web,
     layers: Vec<Layer>,
     sides: &[usize],
-    of: OneFibre,
+    (of, columns): (OneFibre, Range<usize>),
     by: Laying<'_>,
-) -> Result<Vec<(f64, f64)>, Error> {
+) -> Result<Vec<Expected>, Error> {
     let sheet = &web.sheet;
     let closed = sheet.edges == Edges::Periodic;
     let found = each(by.threads, layers.len(), |i| one_fibre(&layers[i], sides, of, by))?;
     let expected = |i: usize| {
-        // Variances of independent layers add up, and so do what their places do at each column.
-        let (mut square, mut error) = (0.0, 0.0);
-        let mut across = vec![0.0; sheet.cells()[0]];
-        for (number, (layer, found)) in layers.iter().zip(&found).enumerate() {
-            let share = layer.basis_weight(sheet) / web.basis_weight();
-            let scale = share * share * layer.linear_density / layer.basis_weight(sheet);
-            let by_chance = found[i].of(&layer.filaments);
-            square += scale * by_chance.mean;
-            error += (scale * by_chance.standard_error.unwrap_or(f64::NAN)).powi(2);
-            let of_places = match &layer.filaments {
-                Filaments::AtRandom { .. } => vec![1.0; across.len()],
+        // Places of a patch.
+        let count = if closed { columns.len() } else { columns.len() + 1 - sides[i] };
+        let across_layer = |(number, (layer, found)): (usize, (&Layer, &Vec<Alone>))| {
+            let weight = layer.basis_weight(sheet);
+            let across = match &layer.filaments {
+                Filaments::AtRandom { .. } => vec![weight; count],
                 Filaments::Rows(_) => {
                     let places = places(web, number, layer);
                     let places: Vec<f64> = places.iter().map(|place| place / sheet.cell).collect();
-                    found[i].across(&places, (across.len(), closed), sides[i])
+                    let across = found[i].across(&places, (sheet.cells()[0], closed), sides[i]);
+                    across[columns.start..][..count].iter().map(|of| weight * of).collect()
                 }
             };
-            across.truncate(of_places.len());
-            across.iter_mut().zip(of_places).for_each(|(sum, of)| *sum += share * of);
+            let mean = across.iter().sum::<f64>() / count as f64;
+            (across, mean)
+        };
+        let weights: Vec<(Vec<f64>, f64)> = layers.iter().zip(&found).enumerate().map(across_layer).collect();
+        let whole = weights.iter().map(|(_, mean)| mean).sum::<f64>();
+        // Variances of independent layers add up, and so do what their places do at each column.
+        let (mut square, mut error, mut straight) = (0.0, 0.0, 0.0);
+        let mut sums = vec![0.0; count];
+        for ((layer, found), (across, weight)) in layers.iter().zip(&found).zip(&weights) {
+            let share = weight / whole;
+            let scale = share * share * layer.linear_density / weight;
+            let by_chance = found[i].of(&layer.filaments);
+            square += scale * by_chance.mean;
+            error += (scale * by_chance.standard_error.unwrap_or(f64::NAN)).powi(2);
+            let patch = sides[i] as f64 * sheet.cell;
+            straight += (share * straight_fibres(weight / layer.linear_density, patch)).powi(2);
+            sums.iter_mut().zip(across).for_each(|(sum, of)| *sum += of / whole);
         }
-        let columns = across.len() as f64;
-        let mean = across.iter().sum::<f64>() / columns;
-        square += across.iter().map(|of| (of / mean - 1.0).powi(2)).sum::<f64>() / columns;
-        (square.sqrt(), error.sqrt() / (2.0 * square.sqrt()))
+        square += sums.iter().map(|of| (of - 1.0).powi(2)).sum::<f64>() / count as f64;
+        Expected {
+            cv: (square.sqrt(), error.sqrt() / (2.0 * square.sqrt())),
+            straight_fibres: straight.sqrt(),
+        }
     };
     Ok((0..sides.len()).map(expected).collect())
 }

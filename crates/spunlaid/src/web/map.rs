@@ -1,5 +1,8 @@
 //! The basis weight of a web, cell by cell.
 
+use std::borrow::Cow;
+use std::ops::Range;
+
 /// Mass in the square cells of a sheet.
 ///
 /// Cells lie row by row: a row goes across the web, and the rows follow each other in machine direction. Their masses are whole
@@ -24,6 +27,16 @@ impl Map {
     /// An empty map.
     pub(super) fn new([columns, rows]: [usize; 2], cell: f64, quantum: f64, closed: [bool; 2]) -> Self {
         Self { columns, rows, cell, quantum, closed, cells: vec![0; columns * rows] }
+    }
+
+    /// The part between two columns, whose edges in cross direction are open. The map itself if that is all of it.
+    pub fn between(&self, columns: Range<usize>) -> Cow<'_, Self> {
+        if columns == (0..self.columns) {
+            return Cow::Borrowed(self);
+        }
+        let rows = self.cells.chunks_exact(self.columns);
+        let cells = rows.flat_map(|row| row.get(columns.clone()).unwrap_or_default()).copied().collect();
+        Cow::Owned(Self { columns: columns.len(), closed: [false, self.closed[1]], cells, ..*self })
     }
 
     /// The quanta of a row.

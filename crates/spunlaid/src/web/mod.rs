@@ -19,6 +19,7 @@ mod strands;
 mod strip;
 mod threads;
 pub mod uniformity;
+mod waves;
 mod whole_error;
 
 pub use clouds::{Clouds, autocorrelation};
@@ -30,6 +31,7 @@ pub use one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
 pub use sensitivity::{Lever, Sensitivity, Source, sensitivities};
 pub use strands::{Strand, Window, strands};
+pub use waves::{Places, Streaks};
 pub use whole_error::WholeError;
 
 use crate::surrogate::Surrogate;
@@ -145,7 +147,37 @@ impl Layer {
     }
 }
 
+/// Most waves of streaks across a sheet.
+const MOST_STREAKS: usize = 512;
+
 impl Web {
+    /// What is known of the places at which the filaments come down, for a part of the sheet.
+    ///
+    /// * `width` – of the part [m]
+    pub fn places(&self, width: f64) -> Places {
+        let weight = self.basis_weight();
+        let at_random = |layer: &&Layer| matches!(layer.filaments, Filaments::AtRandom { .. });
+        let layers: Vec<(f64, &Layer)> = (self.layers.iter().filter(at_random))
+            .map(|layer| {
+                // Of a web that is wide everywhere, so many filaments lie in this width on average: a Poisson number.
+                let count = layer.count(&self.sheet) as f64 * width / self.sheet.width;
+                ((layer.basis_weight(&self.sheet) / weight).powi(2) / count, layer)
+            })
+            .collect();
+        if layers.is_empty() {
+            return Places::Fixed;
+        }
+        let power = |number: usize| {
+            let wave = 2.0 * std::f64::consts::PI * number as f64 / width;
+            layers.iter().map(|(each, layer)| each * layer.fibres.power_across(wave)).sum::<f64>()
+        };
+        let variance_of_mean = layers.iter().map(|(each, _)| each).sum::<f64>();
+        // Shorter waves have hardly a part in streaks.
+        let powers =
+            (1..=MOST_STREAKS).map(power).take_while(|power| *power > 1e-6 * variance_of_mean).collect();
+        Places::AtRandom(Streaks { variance_of_mean, powers })
+    }
+
     /// Mass of all filaments over the sheet's area [kg/m²]. With [`Edges::Cut`] some of it may lie beyond the edges.
     pub fn basis_weight(&self) -> f64 {
         self.layers.iter().map(|layer| layer.basis_weight(&self.sheet)).sum()

@@ -154,7 +154,8 @@ impl Alone {
         }
     }
 
-    /// The mean mass in patches across a sheet over their mean, by the first column of the patch, for filaments at fixed places.
+    /// The mean mass in patches across a sheet, by the first column of the patch, for filaments at fixed places. It is told over that of the same
+    /// filaments if they were spread evenly over the sheet.
     ///
     /// * `places` – of the filaments [columns]
     /// * `columns` – of the sheet, and whether it is closed
@@ -177,8 +178,8 @@ impl Alone {
         if !closed {
             sums.truncate(columns + 1 - side.min(columns));
         }
-        let mean = sums.iter().sum::<f64>() / sums.len() as f64;
-        sums.iter().map(|sum| sum / mean).collect()
+        let even = places.len() as f64 * self.profile.iter().sum::<f64>() / columns as f64;
+        sums.iter().map(|sum| sum / even).collect()
     }
 }
 
@@ -228,6 +229,25 @@ pub fn straight_fibres(tau: f64, patch: f64) -> f64 {
 }
 
 impl Fibres {
+    /// Spread about the straight trace in cross direction [m].
+    pub(super) fn sigma_cd(&self) -> f64 {
+        match self {
+            Self::Surrogate(of) => of.sigma_cd,
+            Self::Curves(curves) => curves.sigma_cd(),
+        }
+    }
+
+    /// Squared mean of `e^{ikξ₂}` over the fibre: the power of a streak in a wave across the web, over that of a streak without width.
+    ///
+    /// * `wave` – k [1/m]
+    pub(super) fn power_across(&self, wave: f64) -> f64 {
+        match self {
+            // ξ₂ is normal.
+            Self::Surrogate(of) => libm::exp(-(wave * of.sigma_cd).powi(2)),
+            Self::Curves(curves) => curves.power_across(wave),
+        }
+    }
+
     /// Farthest that a curve goes across, but for rare exceptions [m].
     pub(super) fn reach(&self) -> f64 {
         /// A normal distribution goes beyond once in 26 million points.

@@ -1,7 +1,8 @@
 //! How uneven a web is: the coefficient of variation of its basis weight over square patches.
 
 use super::map::Map;
-use crate::statistics::Estimate;
+use super::waves::{FEWEST, Parts, Places, Powers};
+use crate::statistics::interval_of_deviation;
 
 /// The unevenness over patches of one size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,50 +11,78 @@ pub struct Unevenness {
     pub patch: f64,
     /// Standard deviation of the basis weight of patches over its mean.
     pub cv: f64,
-    /// Standard error of `cv`; none if the sheet is too small to say.
+    /// Standard error of `cv`; none if the sheet is too small to say. It is a share of `cv` that depends on the size of the sheet and of its clouds.
     pub standard_error: Option<f64>,
 }
 
-/// Parts of the sheet that are compared for the standard error, about so many.
-const PARTS: f64 = 100.0;
-/// Fewest parts that say something.
-const FEWEST: usize = 8;
-/// Fewest rows or columns of parts whose scatter counts.
-const FEWEST_ROWS: usize = 4;
-/// Shortest side of a part [sides of a patch].
-const SHORTEST: usize = 2;
+impl Unevenness {
+    /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say.
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        Some(interval_of_deviation(self.cv, self.standard_error?))
+    }
+}
+
+/// A variance is told with an error if it has as many degrees of freedom at least: as many independent values say as much.
+pub(super) const DEGREES: f64 = 5.0;
+/// Most places of a patch each way whose waves are looked at.
+const WAVES: usize = 512;
+
+/// [`unevenness_at`] of filaments at places of which nothing is known.
+pub fn unevenness(map: &Map, side: usize) -> Option<Unevenness> {
+    unevenness_at(map, side, &Places::Unknown)
+}
 
 /// The coefficient of variation over patches of one side, at every place of the patch on the lattice of cells.
 ///
-/// The standard error comes from the scatter of some hundred parts of the sheet, about as long as wide, each at least two
-/// patches wide. They are nearly independent if they are larger than the clouds. If whole columns or rows of parts differ by
-/// more than their parts would let expect, that scatter counts: filaments that come down at fixed places leave streaks. On a sheet that is not closed, the mean is known from the sheet only; the variance is
+/// The variance is a sum over waves. For many independent filaments the basis weight is a normal field, whose waves are
+/// independent, each with a power that scatters by as much as its mean; so the powers themselves say how much their sum
+/// scatters between webs. (theory.md, "Chance in a map".) On a sheet that is not closed, the mean is known from the sheet only; the variance is
 /// larger by that of the mean.
 ///
 /// * `side` – of a patch [cells], at least one and within the sheet; None otherwise, and without any fibre
-pub fn unevenness(map: &Map, side: usize) -> Option<Unevenness> {
+/// * `places` – what is known of the places of the filaments
+pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Option<Unevenness> {
     let sizes = [map.columns, map.rows];
     let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
     if side == 0 || sizes.iter().any(|size| side > *size) || mean <= 0.0 {
         return None;
     }
     let places = [0, 1].map(|of| if map.closed[of] { sizes[of] } else { sizes[of] - side + 1 });
-    let parts = parts(places, side);
-    let mut sums = Sums::new(parts);
+    // So many of the places, evenly spread, a power of two.
+    let [columns, rows] = places.map(|places| 1 << places.min(WAVES).ilog2());
+    let mut some = Vec::with_capacity(columns * rows);
+    let mut squares = 0.0;
     boxes(map, side, places, |row, boxes| {
-        let row = row * parts[1] / places[1];
-        for part in 0..parts[0] {
-            let [from, to] = [part, part + 1].map(|part| (part * places[0]).div_ceil(parts[0]));
-            sums.add(row * parts[0] + part, &boxes[from..to], mean);
+        let deviation = |weight: &u64| *weight as f64 / mean - 1.0;
+        squares += boxes.iter().map(|weight| deviation(weight).powi(2)).sum::<f64>();
+        if some.len() / columns * places[1] / rows == row {
+            some.extend((0..columns).map(|column| deviation(&boxes[column * places[0] / columns])));
         }
     });
-    Some(sums.finish(map, side))
-}
-
-/// Number of parts in cross and machine direction.
-fn parts(places: [usize; 2], side: usize) -> [usize; 2] {
-    let part = (places[0] as f64 * places[1] as f64 / PARTS).sqrt().max((SHORTEST * side) as f64);
-    places.map(|places| ((places as f64 / part).floor() as usize).max(1))
+    let squares = squares / (places[0] * places[1]) as f64;
+    let powers = (columns.min(rows) >= FEWEST)
+        .then(|| Powers::of(columns, rows, |row, column| some[row * columns + column]));
+    let of_mean = match places_of_filaments {
+        Places::Unknown => powers.as_ref().map_or(0.0, |powers| powers.of_mean(map.closed)),
+        Places::AtRandom(streaks) => streaks.variance_of_mean,
+        Places::Fixed => 0.0,
+    };
+    let cv = (squares + of_mean).sqrt();
+    let error = powers.and_then(|powers| {
+        let mut parts = Parts::default();
+        let places = match places_of_filaments {
+            Places::AtRandom(streaks) => Places::AtRandom(streaks.over(side as f64 / map.columns as f64)),
+            other => other.clone(),
+        };
+        powers.numbers().for_each(|wave| powers.add(wave, &places, 0, 1.0, &mut parts));
+        let share = parts.share([false; 2]);
+        (share > 0.0 && 2.0 / share >= DEGREES).then(|| 0.5 * cv * share.sqrt())
+    });
+    Some(Unevenness {
+        patch: side as f64 * map.cell,
+        cv,
+        standard_error: error.filter(|error| error.is_finite()),
+    })
 }
 
 /// Passes on the quanta in all patches, row by row of their places.
@@ -88,59 +117,5 @@ pub(super) fn boxes(map: &Map, side: usize, places: [usize; 2], mut take: impl F
 fn add(sums: &mut [u64], row: &[u32]) {
     for (sum, cell) in sums.iter_mut().zip(row) {
         *sum += u64::from(*cell);
-    }
-}
-
-/// Sums over the parts of a sheet.
-struct Sums {
-    parts: [usize; 2],
-    /// Of each part: number, sum of the relative deviations, of their squares.
-    sums: Vec<(u64, f64, f64)>,
-}
-
-impl Sums {
-    fn new(parts: [usize; 2]) -> Self {
-        Self { parts, sums: vec![(0, 0.0, 0.0); parts[0] * parts[1]] }
-    }
-
-    fn add(&mut self, part: usize, boxes: &[u64], mean: f64) {
-        let (mut sum, mut squares) = (0.0, 0.0);
-        for weight in boxes {
-            let deviation = *weight as f64 / mean - 1.0;
-            sum += deviation;
-            squares += deviation * deviation;
-        }
-        let of = &mut self.sums[part];
-        *of = (of.0 + boxes.len() as u64, of.1 + sum, of.2 + squares);
-    }
-
-    /// Squared standard error of a mean over the sheet from its values over the parts: over all of them, and over their
-    /// means along and across the sheet, because streaks reach through many parts. The largest counts.
-    fn error_of_mean(&self, value: impl Fn(&(u64, f64, f64)) -> f64) -> f64 {
-        let [across, along] = self.parts;
-        let mean_of = |parts: &mut dyn Iterator<Item = usize>| {
-            let (count, sum) = parts.fold((0.0, 0.0), |(n, sum), i| (n + 1.0, sum + value(&self.sums[i])));
-            sum / count
-        };
-        let columns = (0..across).map(|i| mean_of(&mut (0..along).map(|j| j * across + i))).collect();
-        let rows = (0..along).map(|j| mean_of(&mut (0..across).map(|i| j * across + i))).collect();
-        let all = self.sums.iter().map(value).collect();
-        let large_enough =
-            [all, columns, rows].into_iter().filter(|values: &Vec<f64>| values.len() >= FEWEST_ROWS);
-        let squares = large_enough.map(|values| Estimate::of(values).standard_error.unwrap_or(0.0).powi(2));
-        squares.fold(0.0, f64::max)
-    }
-
-    fn finish(&self, map: &Map, side: usize) -> Unevenness {
-        let count: u64 = self.sums.iter().map(|of| of.0).sum();
-        let squares: f64 = self.sums.iter().map(|of| of.2).sum();
-        let parts = self.parts[0] * self.parts[1];
-        let known = parts >= FEWEST;
-        let of_mean =
-            if known && map.closed != [true; 2] { self.error_of_mean(|of| of.1 / of.0 as f64) } else { 0.0 };
-        let cv = (squares / count as f64 + of_mean).sqrt();
-        let standard_error =
-            (known && cv > 0.0).then(|| self.error_of_mean(|of| of.2 / of.0 as f64).sqrt() / (2.0 * cv));
-        Unevenness { patch: side as f64 * map.cell, cv, standard_error }
     }
 }

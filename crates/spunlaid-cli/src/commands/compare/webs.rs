@@ -3,7 +3,7 @@
 use super::super::finished::any_summary;
 use crate::failure::Failure;
 use serde_json::Value as Json;
-use spunlaid::statistics::{Difference, Estimate};
+use spunlaid::statistics::{Difference, Estimate, difference_of_deviations};
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::{Unevenness, overlaid_webs};
 use spunlaid_results::numbers::significant;
@@ -84,7 +84,7 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
         let side = significant(of.patch * 1e3, 3);
         let values = [(of.cv, of.standard_error), (found.cv, found.standard_error)];
         let (label, column) = (format!("{whose} over patches of {side} mm"), format!("cv_{side}_mm{end}"));
-        Some(measure(label, column, ("%", 100.0), values))
+        Some(measure(label, column, ("%", 100.0), values, of_deviations))
     };
     let of_map = |of: &Unevenness| of_patch(of, &other.patches, ["CV", ""]);
     let mut measures: Vec<Compared> = first.patches.iter().filter_map(of_map).collect();
@@ -107,7 +107,9 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
         [("cloudiness index", "cloudiness", ("%", 100.0)), ("texture along MD", "texture_md", ("", 1.0))];
     for (i, (label, column, unit)) in names.into_iter().enumerate() {
         if let (Some(a), Some(b)) = (first.clouds[i], other.clouds[i]) {
-            measures.push(measure(label.to_owned(), column.to_owned(), unit, [a, b]));
+            // The cloudiness is the deviation of a part of the waves.
+            let how = if column == "cloudiness" { of_deviations } else { of_means };
+            measures.push(measure(label.to_owned(), column.to_owned(), unit, [a, b], how));
         }
     }
     let weight = |web: &Web| {
@@ -123,7 +125,7 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
             weight(other),
             weight(first)
         ),
-        errors: "CV of the basis weight over square patches, ± one standard error: from the scatter within each piece of web, and, where fibres were \
+        errors: "CV of the basis weight over square patches, ± one standard error: from the waves of each piece of web, and, where fibres were \
                  flown, from their small number and from the difference of the surrogate from them. CV of the flown curves: as they let expect.",
         measures,
     })
@@ -134,16 +136,21 @@ fn measure(
     column: String,
     (unit, per_si): (&'static str, f64),
     values: [(f64, Option<f64>); 2],
+    difference: fn([(f64, f64); 2]) -> Difference,
 ) -> Compared {
     let [a, b] = values;
-    // Each error is from some hundred parts: a normal distribution serves.
-    let difference = a.1.zip(b.1).map(|(one, other)| Difference {
-        value: b.0 - a.0,
-        standard_error: one.hypot(other),
-        degrees: f64::INFINITY,
-    });
+    let difference = a.1.zip(b.1).map(|(one, other)| difference([(a.0, one), (b.0, other)]));
     let means = values.map(|(mean, standard_error)| Estimate { mean, standard_error, values: Vec::new() });
     Compared { label, column, unit, per_si, means, difference }
+}
+
+fn of_deviations(of: [(f64, f64); 2]) -> Difference {
+    difference_of_deviations(of)
+}
+
+/// Each error is from dozens of tiles: a normal distribution serves.
+fn of_means([(first, one), (second, other)]: [(f64, f64); 2]) -> Difference {
+    Difference { value: second - first, standard_error: one.hypot(other), degrees: f64::INFINITY }
 }
 
 /// The unevenness at a patch of nearly the same size, moved to that size along the slope to its neighbour.

@@ -43,7 +43,7 @@ fn octaves(clouds: &Clouds, cell: f64) -> Figure {
     let (index, error) = clouds.cloudiness(SEEN[0], SEEN[1]);
     let caption = format!(
         "The variance of the basis weight over its mean, split by the wavelength of the clouds: each point holds wavelengths from \
-         0.7 to 1.4 times its own, with one standard error over tiles of the sheet. Waves below two cells ({} mm) and \
+         0.7 to 1.4 times its own, with one standard error. Waves below two cells ({} mm) and \
          above {} mm are not resolved. Cloudiness index, the standard deviation of the relative basis weight in wavelengths from {} to {} mm \
          (doi 10.1186/s13362-022-00124-z): {} %.",
         significant(2.0 * cell * MM, 2),

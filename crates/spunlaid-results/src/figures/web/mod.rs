@@ -36,8 +36,8 @@ pub fn web_figures(web: &Web, of: &Findings) -> Vec<Figure> {
     let map = &of.laid.map;
     let mut figures = vec![
         unevenness::over_patches(web, of),
-        unevenness::histogram(map, GRAMS),
-        profiles(map, GRAMS, STREAKS),
+        unevenness::histogram(&of.within(), GRAMS),
+        profiles(map, GRAMS, STREAKS, of.margins),
     ];
     figures.extend(clouds::figures(of.clouds.as_ref(), &of.autocorrelation, map.cell));
     figures.push(directions(of));
@@ -49,8 +49,11 @@ pub fn scan_figures(of: &scan::Findings) -> Vec<Figure> {
     let map = &of.map;
     let weights = if of.mean_known { GRAMS } else { SHARES };
     let streaks = "These are streaks, as far as the lamp was even.";
-    let mut figures =
-        vec![unevenness::scanned(of), unevenness::histogram(map, weights), profiles(map, weights, streaks)];
+    let mut figures = vec![
+        unevenness::scanned(of),
+        unevenness::histogram(map, weights),
+        profiles(map, weights, streaks, [0.0; 2]),
+    ];
     figures.extend(clouds::figures(of.clouds.as_ref(), &of.autocorrelation, map.cell));
     figures
 }
@@ -62,8 +65,12 @@ const STREAKS: &str = "These are streaks, which filaments at fixed places leave 
 const POINTS: usize = 1000;
 
 /// Basis weight across the web and along it.
-fn profiles(map: &Map, weights: Weights, streaks: &str) -> Figure {
-    let mean = map.basis_weight() * weights.factor;
+///
+/// * `margins` – widths of the strips at both edges that do not count [m]
+fn profiles(map: &Map, weights: Weights, streaks: &str, margins: [f64; 2]) -> Figure {
+    let [first, last] = margins.map(|margin| (margin / map.cell).round() as usize);
+    let between = map.between(first..map.columns - last);
+    let mean = between.basis_weight() * weights.factor;
     let points = |profile: Vec<f64>| -> Vec<(f64, f64)> {
         let each = profile.len().div_ceil(POINTS).max(1);
         let parts = profile.chunks(each).enumerate();
@@ -79,7 +86,8 @@ fn profiles(map: &Map, weights: Weights, streaks: &str) -> Figure {
             .line(Series::new("", GREY).unlabelled().adorning().width(1.0), &ends)
             .line(Series::new(&format!("mean along {direction}"), colour).unlabelled().width(1.4), points)
     };
-    let (across, along) = (points(map.profile_cd()), points(map.profile_md()));
+    let (across, along) = (points(map.profile_cd()), points(between.profile_md()));
+    let inner = points(between.profile_cd());
     let cv = |points: &[(f64, f64)]| {
         let squares = points.iter().map(|(_, weight)| (weight / mean - 1.0).powi(2)).sum::<f64>();
         crate::numbers::significant(PER_CENT * (squares / points.len() as f64).sqrt(), 2)
@@ -88,10 +96,29 @@ fn profiles(map: &Map, weights: Weights, streaks: &str) -> Figure {
         "Above: the basis weight at a place across the web, averaged over the whole length of the sheet; it varies by {} %. \
          {streaks} Below: the basis weight at a place along the web, \
          averaged over the whole width; it varies by {} %. The grey lines are the mean.",
-        cv(&across),
+        cv(&inner),
         cv(&along)
     );
-    let (above, below) = (chart("cd", "Cross", &across, BLUE), chart("md", "Machine", &along, VERMILION));
+    let caption = if margins == [0.0; 2] {
+        caption
+    } else {
+        format!(
+            "{caption} The web is thinner at its edges, beyond the dashed lines: these strips of {} and {} mm show here only, and no other number holds them.",
+            crate::numbers::significant(margins[0] * MM, 3),
+            crate::numbers::significant(margins[1] * MM, 3)
+        )
+    };
+    let highest = across.iter().map(|(_, weight)| *weight).fold(mean, f64::max);
+    let marks = [first, map.columns - last].map(|column| column as f64 * map.cell * MM);
+    let marked = |chart: Chart| {
+        let marks = marks.into_iter().zip(margins).filter(|(_, margin)| *margin > 0.0);
+        marks.fold(chart, |chart, (at, _)| {
+            let line = Series::new("", GREY).unlabelled().adorning().dashed("6 4");
+            chart.path(line, &[(at, 0.0), (at, highest)])
+        })
+    };
+    let (above, below) =
+        (marked(chart("cd", "Cross", &across, BLUE)), chart("md", "Machine", &along, VERMILION));
     Figure::stacked("web_profiles", "Profiles across and along the web", &[&above, &below], caption)
 }
 

@@ -38,7 +38,7 @@ pub fn overlaid_webs(webs: &[(String, Vec<Unevenness>)]) -> Figure {
     Figure::of(
         &chart,
         "Standard deviation of the basis weight of square patches over its mean, for each web. Bars are one standard error, \
-         from the scatter of the parts of each.",
+         from the waves of each.",
     )
 }
 
@@ -54,8 +54,8 @@ pub(super) fn scanned(of: &scan::Findings) -> Figure {
         .scatter(Series::spots("this scan", BLUE), &found);
     Figure::of(
         &chart,
-        "Standard deviation of the basis weight of square patches over its mean. Bars are one standard error, from the scatter of the \
-         parts of the picture. Dashed: the CV of the camera’s noise alone, as it was given, or else the most that neighbouring pixels \
+        "Standard deviation of the basis weight of square patches over its mean. Bars are one standard error, from the \
+         waves of the picture. Dashed: the CV of the camera’s noise alone, as it was given, or else the most that neighbouring pixels \
          allow; the finest structure of the web is in it.",
     )
 }
@@ -88,7 +88,7 @@ pub(super) fn over_patches(web: &Web, of: &Findings) -> Figure {
     let rows = web.layers.iter().any(|layer| matches!(layer.filaments, Filaments::Rows(_)));
     let places = if rows { "in their rows" } else { "at random places" };
     let cut = if web.sheet.edges == Edges::Cut {
-        "cut off at the edges in cross direction"
+        "cut off at the edges in cross direction, and the strips at the edges, where the web is thinner, are left out"
     } else {
         "closed to a ring both ways"
     };
@@ -96,7 +96,7 @@ pub(super) fn over_patches(web: &Web, of: &Findings) -> Figure {
     let tenth = straight_fibres(tau, 0.01) * PER_CENT;
     let caption = format!(
         "Standard deviation of the basis weight of square patches over its mean; the sheet is {cut}. Bars are one standard error of \
-         the map: by chance and, where fibres were flown, also by their small number and by the surrogate. The expected curve is that of independent filaments {places}, from the \
+         the map: by chance, from its waves, and, where fibres were flown, also by their small number and by the surrogate. The expected curve is that of independent filaments {places}, from the \
          lengths that one fibre leaves in each patch. Straight fibres of the same mass in all directions would give \
          CV² = 0.946 line density/(basis weight · side), {} % at 10 mm for the first layer’s fibre: the distance to them is what the loops of the lay-down \
          cost.",

@@ -3,8 +3,8 @@
 use crate::figures::SEEN;
 use serde::Serialize;
 use spunlaid::scan;
-use spunlaid::statistics::Estimate;
-use spunlaid::web::{Clouds, Findings, Map, Web};
+use spunlaid::statistics::{Estimate, interval_of_deviation};
+use spunlaid::web::{Clouds, Edges, Findings, Map, Web};
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 2;
@@ -86,6 +86,9 @@ struct WebSummary {
     fibre_length_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cut_off_kg: Option<f64>,
+    /// Where edges cut fibre off: the strips that all but the map leaves out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    edges: Option<Margins>,
     patches: Vec<Patch>,
     #[serde(skip_serializing_if = "Option::is_none")]
     orientation_md: Option<Number>,
@@ -113,6 +116,8 @@ struct Patch {
     /// By all causes; none if one is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_whole_error: Option<f64>,
+    /// 95 % confidence interval of the CV of all such webs; null if the map is too small to say.
+    cv_interval: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_one_fibre: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -137,6 +142,16 @@ struct Patch {
     blur_of_a_pixel: Option<f64>,
 }
 
+/// What the edges of a web take.
+#[derive(Debug, Serialize)]
+struct Margins {
+    /// Widths of the strips at the first column and at the last one.
+    margins_m: [f64; 2],
+    /// Mean basis weight between them, and of the whole sheet.
+    basis_weight_between_kg_m2: f64,
+    basis_weight_sheet_kg_m2: f64,
+}
+
 #[derive(Debug, Serialize)]
 struct Number {
     mean: f64,
@@ -149,6 +164,8 @@ struct Cloudiness {
     to_m: f64,
     index: f64,
     standard_error: Option<f64>,
+    /// 95 % confidence interval for all such webs; null if the map is too small to say.
+    interval: Option<[f64; 2]>,
 }
 
 /// The relative variance in waves of some lengths.
@@ -177,7 +194,8 @@ impl WebSummary {
     fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<Patch>) -> Self {
         let cloudiness = clouds.map(|clouds| {
             let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
-            Cloudiness { from_m: SEEN[0], to_m: SEEN[1], index, standard_error }
+            let interval = standard_error.map(|error| interval_of_deviation(index, error));
+            Cloudiness { from_m: SEEN[0], to_m: SEEN[1], index, standard_error, interval }
         });
         let octave = |([from_m, to_m], of): ([f64; 2], Estimate)| Octave {
             from_m,
@@ -191,6 +209,7 @@ impl WebSummary {
             cell_m: map.cell,
             fibre_length_m: None,
             cut_off_kg: None,
+            edges: None,
             patches,
             orientation_md: None,
             md_cd_ratio: None,
@@ -221,6 +240,7 @@ impl<'a> Summary<'a> {
             patch_m: patch.map.patch,
             cv: patch.map.cv,
             cv_standard_error: patch.map.standard_error,
+            cv_interval: patch.map.interval(),
             cv_one_fibre: Some(patch.one_fibre.0),
             cv_one_fibre_standard_error: Some(patch.one_fibre.1),
             cv_flight_error: patch.whole_error().flight,
@@ -250,6 +270,11 @@ impl<'a> Summary<'a> {
             web: WebSummary {
                 fibre_length_m: Some(web.fibre_length()),
                 cut_off_kg: Some(of.laid.cut),
+                edges: (web.sheet.edges == Edges::Cut).then(|| Margins {
+                    margins_m: of.margins,
+                    basis_weight_between_kg_m2: of.within().basis_weight(),
+                    basis_weight_sheet_kg_m2: of.laid.map.basis_weight(),
+                }),
                 orientation_md: Some(Number::of(&of.orientation.cos_squared)),
                 md_cd_ratio: Some(of.orientation.md_cd_ratio()),
                 sensitivities: levers.collect(),
@@ -272,6 +297,7 @@ impl<'a> Summary<'a> {
             patch_m: patch.unevenness.patch,
             cv: patch.unevenness.cv,
             cv_standard_error: patch.unevenness.standard_error,
+            cv_interval: patch.interval(),
             cv_noise: Some(patch.noise),
             blur_of_a_pixel: Some(patch.blur),
             ..Patch::default()

@@ -169,7 +169,8 @@ pub const WEB_KEYS: &[WebKey] = &[
         Kind::Choice(|| EDGES.to_vec()),
         LeftOut::Value("periodic"),
         "What becomes of fibre beyond the edges in cross direction: `periodic`, it comes in at the other edge, as in a web that is \
-         wide everywhere; `cut`, it is cut off.",
+         wide everywhere; `cut`, it is cut off, and the strips where the web is thinner for it, up to 3 σ_CD inwards of the outermost filament, are \
+         left out of the unevenness.",
     ),
     key(
         "web.method",

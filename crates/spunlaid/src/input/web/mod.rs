@@ -157,13 +157,11 @@ impl WebSpec {
 /// The sides of a sheet that are too short for filaments that spread so far: key, size [m] and what is wrong.
 fn too_small(sheet: &Sheet, spreads: [f64; 2]) -> impl Iterator<Item = (&'static str, f64, WebFault)> {
     let closed = [true, sheet.edges == Edges::Periodic];
-    let sides = [
-        ("web.length", sheet.length, "laydown.sigma_md", None),
-        ("web.width", sheet.width, "laydown.sigma_cd", Some("web.edges = \"cut\"")),
-    ];
-    let of = move |(((key, side, sigma, way_out), spread), closed)| {
+    let sides =
+        [("web.length", sheet.length, "laydown.sigma_md"), ("web.width", sheet.width, "laydown.sigma_cd")];
+    let of = move |(((key, side, sigma), spread), closed)| {
         let is_short = closed && side < LEAST_SPREADS * spread;
-        is_short.then_some((key, side, WebFault::TooSmall { sigma, spread, way_out }))
+        is_short.then_some((key, side, WebFault::TooSmall { sigma, spread }))
     };
     sides.into_iter().zip(spreads).zip(closed).filter_map(of)
 }
