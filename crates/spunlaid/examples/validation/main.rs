@@ -9,9 +9,16 @@
 mod common;
 mod flights;
 mod mechanics;
+#[path = "../../tests/common/scans.rs"]
+mod pictures;
+mod scans;
 mod turbulence;
 
 fn main() {
+    if std::env::args().any(|word| word == "scans") {
+        scans::intervals();
+        return scans::spots();
+    }
     println!("kernel: {}", spunlaid::lanes::Isa::detect().name());
     mechanics::forces();
     mechanics::terminal_velocity();

@@ -3,7 +3,7 @@
 use super::super::finished::any_summary;
 use crate::failure::Failure;
 use serde_json::Value as Json;
-use spunlaid::statistics::{Difference, Estimate};
+use spunlaid::statistics::{Difference, Estimate, NORMAL_95};
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::{Unevenness, overlaid_webs};
 use spunlaid_results::numbers::significant;
@@ -18,9 +18,27 @@ pub(super) struct Web {
     /// Mean basis weight, if it is known [kg/m²].
     weight: Option<f64>,
     /// By the side of the patches.
-    patches: Vec<Unevenness>,
-    /// Cloudiness index and share of the texture along the machine direction, with their standard errors.
-    clouds: [Option<(f64, Option<f64>)>; 2],
+    patches: Vec<Patch>,
+    /// Cloudiness index and share of the texture along the machine direction.
+    clouds: [Option<Number>; 2],
+}
+
+/// A number of a web.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Number {
+    value: f64,
+    standard_error: Option<f64>,
+    /// Ends of its 95 % interval, if they are told.
+    ends: Option<[f64; 2]>,
+    /// Why it is not to be had.
+    doubt: Option<String>,
+}
+
+/// The unevenness over patches of one size.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Patch {
+    side: f64,
+    cv: Number,
 }
 
 /// Patches whose sides differ by no more than this share are compared.
@@ -48,17 +66,22 @@ pub(super) fn read(folders: &[PathBuf], names: &[String]) -> Result<Option<Vec<W
 
 fn web(folder: &std::path::Path, name: &str, summary: &Json) -> Option<Web> {
     let web = summary.get("web")?;
-    let patch = |of: &Json| {
-        let number = |name: &str| of[name].as_f64();
-        Some(Unevenness {
-            patch: number("patch_m")?,
-            cv: number("cv")?,
-            standard_error: number("cv_standard_error"),
+    let number = |of: &Json, [value, error, ends]: [&str; 3]| {
+        let end = |i: usize| of[ends][i].as_f64();
+        Some(Number {
+            value: of[value].as_f64()?,
+            standard_error: of[error].as_f64(),
+            ends: end(0).zip(end(1)).map(|(low, high)| [low, high]),
+            doubt: of["no_interval"].as_str().map(|doubt| format!("{doubt} ({name})")),
         })
     };
-    let patches: Vec<Unevenness> = web["patches"].as_array()?.iter().filter_map(patch).collect();
+    let patch = |of: &Json| {
+        let cv = number(of, ["cv", "cv_standard_error", "cv_interval"])?;
+        Some(Patch { side: of["patch_m"].as_f64()?, cv })
+    };
+    let patches: Vec<Patch> = web["patches"].as_array()?.iter().filter_map(patch).collect();
     let clouds = [("cloudiness", "index"), ("texture_md", "mean")]
-        .map(|(group, value)| Some((web[group][value].as_f64()?, web[group]["standard_error"].as_f64())));
+        .map(|(group, value)| number(&web[group], [value, "standard_error", "interval"]));
     let weight = web["basis_weight_kg_m2"].as_f64();
     Some(Web { folder: folder.to_owned(), name: name.to_owned(), weight, patches, clouds })
 }
@@ -69,22 +92,25 @@ fn web(folder: &std::path::Path, name: &str, summary: &Json) -> Option<Web> {
 /// If a web has no patches like those of the first.
 pub(super) fn compared(webs: &[Web]) -> Result<(Vec<Comparison>, Vec<Figure>), Failure> {
     let comparisons = webs.iter().skip(1).map(|other| against(&webs[0], other)).collect::<Result<_, _>>()?;
-    let curves: Vec<_> = webs.iter().map(|web| (web.name.clone(), web.patches.clone())).collect();
+    let drawn =
+        |of: &Patch| Unevenness { patch: of.side, cv: of.cv.value, standard_error: of.cv.standard_error };
+    let curves: Vec<_> =
+        webs.iter().map(|web| (web.name.clone(), web.patches.iter().map(drawn).collect())).collect();
     Ok((comparisons, vec![overlaid_webs(&curves)]))
 }
 
 fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
-    let of_patch = |of: &Unevenness| {
-        let found = at(&other.patches, of.patch)?;
-        let side = significant(of.patch * 1e3, 3);
-        let values = [(of.cv, of.standard_error), (found.cv, found.standard_error)];
+    let of_patch = |of: &Patch| {
+        let found = at(&other.patches, of.side)?;
+        let side = significant(of.side * 1e3, 3);
+        let values = [of.cv.clone(), found];
         let (label, column) = (format!("CV over patches of {side} mm"), format!("cv_{side}_mm"));
         Some(measure(label, column, ("%", 100.0), values))
     };
     let mut measures: Vec<Compared> = first.patches.iter().filter_map(of_patch).collect();
     if measures.is_empty() {
         let sides = |web: &Web| {
-            let sides: Vec<String> = web.patches.iter().map(|of| significant(of.patch * 1e3, 3)).collect();
+            let sides: Vec<String> = web.patches.iter().map(|of| significant(of.side * 1e3, 3)).collect();
             format!("{} mm", sides.join(", "))
         };
         let reason = format!(
@@ -98,7 +124,7 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
     let names =
         [("cloudiness index", "cloudiness", ("%", 100.0)), ("texture along MD", "texture_md", ("", 1.0))];
     for (i, (label, column, unit)) in names.into_iter().enumerate() {
-        if let (Some(a), Some(b)) = (first.clouds[i], other.clouds[i]) {
+        if let (Some(a), Some(b)) = (first.clouds[i].clone(), other.clouds[i].clone()) {
             measures.push(measure(label.to_owned(), column.to_owned(), unit, [a, b]));
         }
     }
@@ -124,35 +150,54 @@ fn measure(
     label: String,
     column: String,
     (unit, per_si): (&'static str, f64),
-    values: [(f64, Option<f64>); 2],
+    values: [Number; 2],
 ) -> Compared {
-    let [a, b] = values;
-    // Each error is from some hundred parts: a normal distribution serves.
-    let difference = a.1.zip(b.1).map(|(one, other)| Difference {
-        value: b.0 - a.0,
+    let [a, b] = &values;
+    let doubts: Vec<&str> = values.iter().filter_map(|of| of.doubt.as_deref()).collect();
+    let doubt = (!doubts.is_empty()).then(|| doubts.join("; "));
+    // The ends of both intervals that face each other make that of the difference: Zou and Donner, Statistics in Medicine 27 (2008)
+    // 1693–1702. A standard error is from many parts of a web, and a normal distribution serves.
+    let ups = if b.value > a.value { [true, false] } else { [false, true] };
+    let error = a.error_towards(ups[0]).zip(b.error_towards(ups[1])).filter(|_| doubt.is_none());
+    let difference = error.map(|(one, other)| Difference {
+        value: b.value - a.value,
         standard_error: one.hypot(other),
         degrees: f64::INFINITY,
     });
-    let means = values.map(|(mean, standard_error)| Estimate { mean, standard_error, values: Vec::new() });
-    Compared { label, column, unit, per_si, means, difference }
+    let means =
+        values.map(|of| Estimate { mean: of.value, standard_error: of.standard_error, values: Vec::new() });
+    Compared { label, column, unit, per_si, means, difference, doubt }
 }
 
-/// The unevenness at a patch of nearly the same size, moved to that size along the slope to its neighbour.
-fn at(patches: &[Unevenness], side: f64) -> Option<Unevenness> {
-    let far = |of: &Unevenness| (of.patch / side).ln().abs();
+impl Number {
+    /// The error upwards or downwards, so that 1.96 of it reach to the end of the interval.
+    fn error_towards(&self, up: bool) -> Option<f64> {
+        match self.ends {
+            Some(ends) => Some((ends[usize::from(up)] - self.value).abs() / NORMAL_95),
+            None => self.standard_error,
+        }
+    }
+}
+
+/// The CV at a patch of nearly the same size, moved to that size along the slope to its neighbour.
+fn at(patches: &[Patch], side: f64) -> Option<Number> {
+    let far = |of: &Patch| (side / of.side).ln().abs();
     let (i, nearest) = patches.iter().enumerate().min_by(|a, b| far(a.1).total_cmp(&far(b.1)))?;
     if far(nearest) > ALIKE {
         return None;
     }
     let next =
         if i + 1 < patches.len() { Some(&patches[i + 1]) } else { i.checked_sub(1).map(|i| &patches[i]) };
-    let slope = next.map_or(0.0, |next| (next.cv / nearest.cv).ln() / (next.patch / nearest.patch).ln());
-    let factor = (slope * (side / nearest.patch).ln()).exp();
+    let slope =
+        next.map_or(0.0, |next| (next.cv.value / nearest.cv.value).ln() / (next.side / nearest.side).ln());
+    let factor = (slope * (side / nearest.side).ln()).exp();
     let factor = if factor.is_finite() { factor } else { 1.0 };
-    Some(Unevenness {
-        patch: side,
-        cv: nearest.cv * factor,
-        standard_error: nearest.standard_error.map(|error| error * factor),
+    let of = &nearest.cv;
+    Some(Number {
+        value: of.value * factor,
+        standard_error: of.standard_error.map(|error| error * factor),
+        ends: of.ends.map(|ends| ends.map(|end| end * factor)),
+        doubt: of.doubt.clone(),
     })
 }
 
@@ -160,15 +205,34 @@ fn at(patches: &[Unevenness], side: f64) -> Option<Unevenness> {
 mod tests {
     use super::*;
 
+    const fn number(value: f64, ends: Option<[f64; 2]>) -> Number {
+        Number { value, standard_error: Some(0.01), ends, doubt: None }
+    }
+
     #[test]
     fn a_power_law_is_moved_to_the_other_size_of_patch() {
-        let law = |patch: f64| Unevenness { patch, cv: 0.1 * patch.powf(-0.4), standard_error: Some(0.01) };
+        let law = |side: f64| Patch { side, cv: number(0.1 * side.powf(-0.4), None) };
         let patches = [0.0051, 0.0102, 0.0204].map(law);
         for side in [0.005, 0.010, 0.020] {
             let found = at(&patches, side).unwrap();
-            assert!((found.cv / law(side).cv - 1.0).abs() < 1e-12, "{found:?}");
+            assert!((found.value / law(side).cv.value - 1.0).abs() < 1e-12, "{found:?}");
         }
         assert_eq!(at(&patches, 0.0075), None);
         assert_eq!(at(&[], 0.01), None);
+    }
+
+    #[test]
+    fn the_ends_that_face_each_other_decide_and_a_doubt_leaves_no_verdict() {
+        let compared = |values| measure(String::new(), String::new(), ("", 1.0), values);
+        // Upwards the first reaches 3, downwards the second 4: together 5.
+        let [a, b] = [number(10.0, Some([9.9, 13.0])), number(15.1, Some([11.1, 30.0]))];
+        let difference = compared([a.clone(), b.clone()]).difference.unwrap();
+        assert!((difference.half_width() - 5.0).abs() < 1e-6 && difference.is_beyond_chance());
+        // The other way round as well.
+        let difference = compared([b.clone(), a.clone()]).difference.unwrap();
+        assert!((difference.half_width() - 5.0).abs() < 1e-6 && difference.is_beyond_chance());
+        let doubtful = Number { doubt: Some("below the blur".to_owned()), ..a };
+        let of = compared([doubtful, b]);
+        assert_eq!((of.difference, of.cells()[3].as_str()), (None, "below the blur"));
     }
 }
