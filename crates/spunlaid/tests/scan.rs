@@ -170,10 +170,11 @@ fn stat_given_noise_is_taken_out_and_other_noise_is_at_most_what_is_told() {
 #[test]
 fn stat_the_intervals_of_scanned_pieces_hold_the_cv_of_their_web() {
     // Five pieces of 160 by 180 mm out of each of eight webs.
-    const CELL: f64 = 1e-3;
-    const SIDES: [usize; 2] = [12, 24];
+    const PIECE: [usize; 2] = [320, 360];
+    const SIDES: [usize; 2] = [20, 40];
     for in_rows in [false, true] {
-        let webs: Vec<Map> = (1..=8).map(|seed| web([0.8, 0.2], CELL, 6e-3, 3000.0, in_rows, seed)).collect();
+        let webs: Vec<Map> =
+            (1..=8).map(|seed| web([0.8, 0.2], PIXEL, 10e-3, 3000.0, in_rows, seed)).collect();
         // The webs are closed to rings, and their mean is exact.
         let truth = SIDES.map(|side| {
             let variance = |web: &Map| unevenness(web, side).expect("an unevenness").cv.powi(2);
@@ -182,15 +183,15 @@ fn stat_the_intervals_of_scanned_pieces_hold_the_cv_of_their_web() {
         let (mut inside, mut pieces, mut widths) = ([0; 2], 0, [Vec::new(), Vec::new()]);
         for (seed, web) in (1..).zip(&webs) {
             for part in 0..5 {
-                let map = piece(web, [160 * part, 0], [160, 180]);
+                let map = piece(web, [PIECE[0] * part, 0], PIECE);
                 let light = light(&map);
                 let picture = |light: &[f64], seed: u64| {
-                    parse(&file(160, &exposed([160, 180], light, spotted, 65535.0, seed), 16), "scan", CELL)
+                    parse(&file(PIECE[0], &exposed(PIECE, light, spotted, 65535.0, seed), 16), "scan", PIXEL)
                         .expect("a picture")
                 };
                 let seed = 100 * seed + part as u64;
                 let lamp = Some(picture(&vec![1.0; light.len()], seed + 50));
-                let patches = SIDES.map(|side| side as f64 * CELL).to_vec();
+                let patches = SIDES.map(|side| side as f64 * PIXEL).to_vec();
                 let transmitted = Light::Transmitted { mean: None, white: None };
                 let settings = Settings { lamp, patches, ..Settings::of(transmitted) };
                 let found = analyse(&picture(&light, seed), &settings).expect("a web");
@@ -205,9 +206,9 @@ fn stat_the_intervals_of_scanned_pieces_hold_the_cv_of_their_web() {
         // Of 40 independent intervals of 95 %, 38 hold the truth, with a standard deviation of 1.38: fewer than 34 is beyond three of them.
         assert_eq!(pieces, 40);
         assert!(inside.iter().all(|inside| *inside >= 34), "{inside:?} of {pieces}, in rows: {in_rows}");
-        // They say something all the same. In rows, a piece holds some hundred clouds; at random places, some ten streaks, whose variance has by the
-        // chi-squared distribution an interval that is about four times as wide below as above.
-        let most = if in_rows { 2.0 } else { 6.0 };
+        // They say something all the same. Pieces of 150 mm have usual ends of 0.87 and 1.84 of the CV in rows, 0.66 and 2.95 at random
+        // places: a factor of 2.1 and 4.5 (docs/validation.md), and a third more is allowed here.
+        let most = if in_rows { 2.8 } else { 6.0 };
         let middle = widths.map(|widths| spunlaid::statistics::median(&widths));
         assert!(middle.iter().all(|width| *width < most), "{middle:?}, in rows: {in_rows}");
     }
@@ -261,7 +262,7 @@ fn bare_lamp_blots_and_dust_are_found_and_left_out() {
         let found = |light: &[f64], keep_spots: bool| {
             let lamp = Some(lamp.clone());
             let transmitted = Light::Transmitted { mean: None, white: None };
-            let patches = vec![5e-3, 10e-3];
+            let patches = vec![10e-3, 15e-3];
             scanned(
                 &scan(light, bits, 4),
                 &Settings { lamp, keep_spots, patches, ..Settings::of(transmitted) },

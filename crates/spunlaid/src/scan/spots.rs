@@ -73,7 +73,12 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
     let mut level = Level { values: density.to_vec(), columns, block: 1 };
     while level.columns.min(level.rows()) >= FEWEST {
         let sample = level.values.len().div_ceil(SAMPLE);
-        let sample: Vec<f64> = level.values.iter().step_by(sample).copied().collect();
+        let mut sample: Vec<f64> = level.values.iter().step_by(sample).copied().collect();
+        if is_absolute && level.block > 1 {
+            // More than half of the picture may be bare.
+            let least = BARE * quantile(&sample, 0.9);
+            sample.retain(|x| *x > least);
+        }
         let [median, upper, high] = [0.5, 0.75, 0.9].map(|share| quantile(&sample, share));
         // A quarter of a normal distribution is farther than 0.6745 standard deviations above its median, a tenth 1.2816.
         let scatter = (upper - median) / 0.6745;
