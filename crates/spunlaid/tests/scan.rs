@@ -254,7 +254,7 @@ fn bare_lamp_blots_and_dust_are_found_and_left_out() {
         file(map.columns, &exposed(size, light, spotted, full_scale, seed), bits)
     };
     for (bits, kind, factor) in
-        [(16, "edges", 3.0), (8, "edges", 3.0), (16, "blots", 1.5), (8, "blots", 1.5), (16, "dust", 1.02)]
+        [(16, "edges", 2.0), (8, "edges", 2.0), (16, "blots", 1.5), (8, "blots", 1.5), (16, "dust", 1.02)]
     {
         let aside = beside(kind, size);
         let spoiled = spoiled(kind, &clean, &aside);
