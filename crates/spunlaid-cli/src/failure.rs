@@ -272,6 +272,7 @@ fn record_options(fault: &FileFault) -> &'static str {
             ScanFault::NotDarker { .. } => " (--white, --lamp, --light weight)",
             ScanFault::NoPixel | ScanFault::Oblong { .. } => " (--pixel)",
             ScanFault::OtherLamp { .. } => " (--lamp)",
+            ScanFault::Bare { .. } | ScanFault::Dark { .. } => " (--keep-spots)",
             ScanFault::Patch { .. } => " (--patches)",
             ScanFault::NoiseTooLarge { .. } => " (--noise)",
             _ => "",

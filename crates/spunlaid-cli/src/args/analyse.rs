@@ -89,6 +89,9 @@ pub(crate) struct Scan {
     /// Take the lamp as even; without --lamp, its shading is else taken out as a polynomial
     #[arg(long)]
     pub(crate) keep_shading: bool,
+    /// Take all of the picture as web; else the bare lamp beside it, dust and blots are left out
+    #[arg(long)]
+    pub(crate) keep_spots: bool,
     /// Standard deviation of the noise of a single pixel, which is then taken out
     #[arg(long, value_name = "LEVELS", value_parser = above_zero)]
     pub(crate) noise: Option<f64>,

@@ -52,6 +52,7 @@ fn of_scans(asked: &Analyse) -> Option<&'static str> {
         ("--lamp", of.lamp.is_some()),
         ("--white", of.white.is_some()),
         ("--keep-shading", of.keep_shading),
+        ("--keep-spots", of.keep_spots),
         ("--noise", of.noise.is_some()),
         ("--md", of.md != Direction::Columns),
         ("--patches", !of.patches.is_empty()),

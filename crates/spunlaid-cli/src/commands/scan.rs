@@ -70,6 +70,7 @@ fn settings(asked: &Analyse, picture: &Picture) -> Result<Settings, Failure> {
     Ok(Settings {
         lamp: lamp.transpose()?,
         keep_shading: of.keep_shading,
+        keep_spots: of.keep_spots,
         noise: of.noise,
         patches: of.patches.clone(),
         ..Settings::of(light)
@@ -82,24 +83,25 @@ fn told(of: &Findings) -> String {
     if of.mean_known {
         text.push_str(&format!("basis weight {} g/m²\n", significant(of.map.basis_weight() * 1e3, 4)));
     }
-    let heads = ["patch", "CV", "95 % interval", "noise of the camera", "lost by a pixel of blur"];
+    let heads = ["patch", "CV", "noise of the camera", "lost by a pixel of blur", "95 % interval"];
     let line = |cells: [&str; 5]| {
-        let [patch, cv, interval, noise, blur] = cells;
-        format!("  {patch:>9}  {cv:>16}  {interval:>16}  {noise:>20}  {blur:>23}\n")
+        let [patch, cv, noise, blur, interval] = cells;
+        format!("  {patch:>9}  {cv:>16}  {noise:>20}  {blur:>23}  {interval}\n")
     };
     text.push_str("unevenness, CV in % ± standard error\n");
     text.push_str(&line(heads));
     for patch in &of.patches {
         let found = patch.unevenness;
-        let interval = patch
-            .interval()
-            .map_or_else(|| "–".to_owned(), |ends| ends.map(|end| significant(100.0 * end, 3)).join(" to "));
+        let interval = patch.interval.map_or_else(
+            |doubt| format!("none: {doubt}"),
+            |ends| ends.map(|end| significant(100.0 * end, 3)).join(" to "),
+        );
         text.push_str(&line([
             &format!("{} mm", significant(found.patch * 1e3, 3)),
             &plus_minus(100.0 * found.cv, found.standard_error.map(|error| 100.0 * error)),
-            &interval,
             &significant(100.0 * patch.noise, 2),
             &format!("{} %", significant(100.0 * patch.blur, 2)),
+            &interval,
         ]));
     }
     text

@@ -39,8 +39,10 @@ pub struct Compared {
     pub per_si: f64,
     /// Of the run that is compared with, and of the other.
     pub means: [Estimate; 2],
-    /// None where there are too few replicates, or too small a web, for an error.
+    /// None where there are too few replicates for an error, or there is a doubt.
     pub difference: Option<Difference>,
+    /// Why one of the numbers is not to be had, so that nothing is said about the difference.
+    pub doubt: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -69,6 +71,9 @@ struct Numbers {
     /// Half the width of the 95 % interval.
     half_width: Option<f64>,
     beyond_chance: Option<bool>,
+    /// Why there is no verdict.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_verdict: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -96,6 +101,7 @@ pub fn json(comparisons: &[Comparison]) -> String {
             standard_error: of.difference.map(|d| d.standard_error),
             half_width: of.difference.map(|d| d.half_width()),
             beyond_chance: of.difference.map(|d| d.is_beyond_chance()),
+            no_verdict: of.doubt.clone(),
         };
         (of.column.clone(), numbers)
     };
@@ -146,7 +152,7 @@ impl Compared {
             },
         );
         let verdict = match self.difference {
-            None => "too few data",
+            None => self.doubt.as_deref().unwrap_or("too few data"),
             Some(d) if d.value == 0.0 && d.standard_error == 0.0 => "the same",
             Some(d) if d.is_beyond_chance() => "beyond chance",
             Some(_) => "within chance",

@@ -2,15 +2,17 @@
 
 use super::rendered;
 use super::web::{
-    File, Page, about_light_table, cost, headline, interval, largest_clouds, light_table_data, metres,
-    millimetres, nearest, per_cent,
+    File, Page, about_light_table, cost, headline, largest_clouds, light_table_data, metres, millimetres,
+    nearest, per_cent,
 };
 use crate::Failure;
 use crate::figures::SEEN;
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::web::Performance;
 use spunlaid::scan::{Findings, PatchFindings};
+use spunlaid::web::Map;
 use spunlaid_charts::Figure;
+use std::borrow::Cow;
 
 /// Content of the report.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +34,7 @@ pub struct ScanReport<'a> {
 /// The report as one HTML file.
 pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
     let of = input.findings;
-    let (data, pixel) = light_table_data(&of.map, None)?;
+    let (data, pixel) = light_table_data(&with_spots(of), None)?;
     let seen = nearest(of.patches.iter().map(|patch| patch.unevenness.patch));
     let weight = of.mean_known.then(|| of.map.basis_weight());
     let page = Page {
@@ -45,13 +47,14 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
             metres(of.map.rows as f64 * of.map.cell)
         ),
         notes: input.notes,
-        caption: about_light_table(pixel),
+        caption: about_light_table(pixel)
+            + if of.aside.spots.is_empty() { "" } else { " Black spots were left out." },
         data,
         fibres: false,
         verdict: verdict(of),
         heads: vec!["Patch", "CV", "95 % interval", "Noise of the camera", "Lost by one more pixel of blur"],
         patches: of.patches.iter().map(row).collect(),
-        about_patches: "The noise of the camera is as it was given, and then taken out of the CV, or the most that it can be. Where one \
+        about_patches: "The interval is that of the web, of which the scan is one piece. The noise of the camera is as it was given, and then taken out of the CV, or the most that it can be. Where one \
                         more pixel of blur changes little, the blur of the camera has changed little too.",
         lever_heads: Vec::new(),
         levers: Vec::new(),
@@ -75,10 +78,26 @@ fn row(of: &PatchFindings) -> Vec<String> {
     vec![
         millimetres(of.unevenness.patch),
         per_cent(of.unevenness.cv, of.unevenness.standard_error),
-        interval(of.interval()),
+        of.interval.map_or_else(
+            |doubt| format!("none: {doubt}"),
+            |[low, high]| {
+                format!("{} to {}{THIN}%", significant(100.0 * low, 3), significant(100.0 * high, 3))
+            },
+        ),
         share(of.noise),
         share(of.blur),
     ]
+}
+
+/// The map with the spots that were left out, as dark as they were.
+fn with_spots(of: &Findings) -> Cow<'_, Map> {
+    if of.aside.mask.is_empty() {
+        return Cow::Borrowed(&of.map);
+    }
+    let darkest = of.map.cells.iter().copied().max().unwrap_or(0);
+    let cells = of.map.cells.iter().zip(&of.aside.mask);
+    let cells = cells.map(|(cell, is_spot)| if *is_spot { darkest } else { *cell }).collect();
+    Cow::Owned(Map { cells, ..of.map.clone() })
 }
 
 fn verdict(of: &Findings) -> Vec<String> {
@@ -90,7 +109,7 @@ fn verdict(of: &Findings) -> Vec<String> {
         "Cloudiness index, wavelengths from {} to {}: {}.",
         millimetres(SEEN[0]),
         millimetres(SEEN[1]),
-        per_cent(index, error)
+        per_cent(index, error.filter(|_| of.guess.is_none()))
     ));
     sentences.push(format!(
         "Texture along the machine direction: {}; ½ is no direction, 1 is all fine streaks along the machine direction, 0 all across.",
@@ -114,5 +133,20 @@ fn facts(input: &ScanReport<'_>) -> Vec<Vec<String>> {
             format!("{}{THIN}%", significant(100.0 * share, 2)),
         )
     }));
+    if of.aside.cut_off > 0.0 {
+        let area = format!("{}{THIN}mm²", significant(of.aside.cut_off * 1e6, 3));
+        facts.push(("Cut off beside the web, with the bare lamp", area));
+    }
+    if let Some(largest) = of.aside.spots.first() {
+        let told = format!(
+            "{}, {}{THIN}mm² in all; the largest {}{THIN}mm², {} from the left and {} from the top of the picture",
+            of.aside.spots.len(),
+            significant(of.aside.masked * 1e6, 3),
+            significant(largest.area * 1e6, 3),
+            millimetres(largest.place[0]),
+            millimetres(largest.place[1])
+        );
+        facts.push(("Dark spots that were left out", told));
+    }
     facts.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect()
 }

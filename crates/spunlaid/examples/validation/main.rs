@@ -9,12 +9,20 @@
 mod common;
 mod flights;
 mod mechanics;
+#[path = "../../tests/common/scans.rs"]
+mod pictures;
+mod scans;
 mod turbulence;
 mod webs;
 
 fn main() {
-    if std::env::args().any(|word| word == "webs") {
+    let asked = |what: &str| std::env::args().any(|word| word == what);
+    if asked("webs") {
         return webs::intervals();
+    }
+    if asked("scans") {
+        scans::intervals();
+        return scans::spots();
     }
     println!("kernel: {}", spunlaid::lanes::Isa::detect().name());
     mechanics::forces();

@@ -142,6 +142,26 @@ pub enum ScanFault {
         /// Columns and rows of the picture of the web.
         wanted: [usize; 2],
     },
+    /// The bare lamp is seen beside the web, and what is left is no rectangle.
+    #[error(
+        "shows the bare lamp on {:.0} % of its area, and no large rectangle without it can be cut out; turn the scan straight, and cut the \
+         picture so that it holds web only",
+        100.0 * share
+    )]
+    Bare {
+        /// As a share of the picture.
+        share: f64,
+    },
+    /// Much of the picture is far darker than the rest.
+    #[error(
+        "has spots that are far darker than the rest of the web on {:.1} % of its area, more than dust and blots may cover; clean the \
+         glass, cut the picture so that it holds web only, or keep the spots if they are web",
+        100.0 * share
+    )]
+    Dark {
+        /// As a share of the web.
+        share: f64,
+    },
     /// The basis weights are not positive.
     #[error("has a mean basis weight of {}, which must be above zero; is it a map of basis weight?", shortest(*mean))]
     NoWeight {

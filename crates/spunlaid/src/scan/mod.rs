@@ -43,15 +43,17 @@
 //! # }
 //! ```
 
+mod chance;
 mod findings;
 mod note;
 mod optics;
 mod picture;
 mod read;
 mod shading;
+mod spots;
 mod weigh;
 
-pub use findings::{Findings, PatchFindings, Settings, analyse};
+pub use findings::{Aside, Doubt, Findings, PatchFindings, Settings, Spot, analyse};
 pub use note::Note;
 pub use picture::{Format, Picture};
 pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, parse, read};

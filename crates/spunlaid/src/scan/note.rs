@@ -1,6 +1,6 @@
 //! What a reader of the results must know about the picture.
 
-use super::findings::{PatchFindings, Settings};
+use super::findings::{Aside, Doubt, PatchFindings, Settings};
 use super::picture::Picture;
 use super::weigh::{Light, Weighed};
 use crate::units::{Dimension, shortest};
@@ -64,6 +64,31 @@ pub enum Note {
         /// As a share of all.
         share: f64,
     },
+    /// The bare lamp is seen beside the web, and the web was cut out.
+    Bare {
+        /// Area that was cut off [m²].
+        area: f64,
+        /// Median grey level of the bare lamp, over its picture if there is one.
+        level: f64,
+        /// Whether there is a picture of the lamp.
+        over_lamp: bool,
+    },
+    /// Dark spots on the web were left out.
+    Dark {
+        /// How many.
+        spots: usize,
+        /// Their area [m²].
+        area: f64,
+        /// Area of the largest one [m²].
+        largest: f64,
+        /// Its middle, from the left and the upper edge of the picture [m].
+        place: [f64; 2],
+    },
+    /// Large patches are too few.
+    Few {
+        /// The smallest patch of which there are too few [m].
+        from: f64,
+    },
     /// Small patches are lowered by the blur of the optics.
     Blur {
         /// The smallest patch for which a pixel of blur does not matter, if there is one [m].
@@ -77,8 +102,6 @@ const HEAVIEST: f64 = 2.0;
 const OTHER: f64 = 0.01;
 /// Dots per inch that programs write into files when they do not know the resolution.
 const UNKNOWN: [f64; 2] = [72.0, 96.0];
-/// A smaller shading is not worth a note.
-const SHADED: f64 = 0.01;
 /// A larger share of pixels changes the CV.
 const MANY: f64 = 1e-3;
 
@@ -88,6 +111,7 @@ pub(super) fn notes(
     settings: &Settings,
     of: &Weighed,
     patches: &[PatchFindings],
+    aside: &Aside,
 ) -> Vec<Note> {
     let share = |pixels: usize| pixels as f64 / picture.values.len() as f64;
     let pixels = of.pixels;
@@ -101,6 +125,7 @@ pub(super) fn notes(
     let lamp = of.shading.as_ref().map(|shading| libm::expm1(shading.range()));
     let blurred = patches.first().is_some_and(|patch| !patch.is_sharp());
     let sharp = || patches.iter().find(|patch| patch.is_sharp()).map(|patch| patch.unevenness.patch);
+    let few = patches.iter().find(|patch| patch.interval == Err(Doubt::Few));
     let pixel = picture.pixel_of_file.and_then(|of_file| {
         let given = picture.pixel;
         if (given / of_file - 1.0).abs() > OTHER {
@@ -118,14 +143,28 @@ pub(super) fn notes(
         white,
         (!of.mean_known).then_some(Note::Relative),
         in_kilograms.then(|| Note::Kilograms { mean: of.map.basis_weight() }),
-        lamp.filter(|share| *share > SHADED).map(|share| Note::Shading { share }),
+        lamp.map(|share| Note::Shading { share }),
+        aside.bare.map(|level| Note::Bare { area: aside.cut_off, level, over_lamp: settings.lamp.is_some() }),
+        aside.spots.first().map(|largest| Note::Dark {
+            spots: aside.spots.len(),
+            area: aside.masked,
+            largest: largest.area,
+            place: largest.place,
+        }),
         (pixels.filled > 0).then_some(Note::Filled { pixels: pixels.filled }),
         (pixels.saturated > 0)
             .then(|| Note::Saturated { pixels: pixels.saturated, share: share(pixels.saturated) }),
         (pixels.lighter > 0).then(|| Note::Lighter { pixels: pixels.lighter, share: share(pixels.lighter) }),
         blurred.then(|| Note::Blur { from: sharp() }),
+        few.map(|patch| Note::Few { from: patch.unevenness.patch }),
     ];
     told.into_iter().flatten().collect()
+}
+
+/// `12 mm²`.
+fn square(area: f64) -> String {
+    let digits: f64 = format!("{:.2e}", 1e6 * area).parse().unwrap_or(f64::NAN);
+    format!("{} mm²", shortest(digits))
 }
 
 /// `0.25 %`.
@@ -160,8 +199,8 @@ impl fmt::Display for Note {
             Self::OnlyTheFirst => f.write_str("the file has several pictures, and only the first is used"),
             Self::White { white, full_scale } => write!(
                 f,
-                "the lamp without web is taken to have the grey level {}, the largest that the file {}; if it has not, every CV is \
-                 wrong by the same factor, so measure it at the same exposure",
+                "the lamp without web is taken to have the grey level {}, the largest that the file {}. If it has not, every CV is \
+                 wrong by the same factor, and nothing in the picture tells, so no interval is told: take a picture of the lamp at the same exposure",
                 shortest(*white),
                 if *full_scale { "can hold" } else { "holds" }
             ),
@@ -182,8 +221,8 @@ impl fmt::Display for Note {
             Self::Shading { share } => write!(
                 f,
                 "the lamp is brighter by {} at its brightest than at its darkest place, which was taken out as a polynomial of second \
-                 order. What the web itself varies so smoothly over the whole picture went with it, and what the polynomial does not follow has stayed: a picture \
-                 of the lamp without web is better",
+                 order. What the web itself varies so smoothly over the whole picture went with it, and what the polynomial does not follow has stayed, so no interval is told: take a picture \
+                 of the lamp without web, or say that the lamp is even",
                 per_cent(*share)
             ),
             Self::Filled { pixels } => {
@@ -209,9 +248,43 @@ impl fmt::Display for Note {
                 }
                 Ok(())
             }
+            Self::Bare { area, level, over_lamp } => {
+                write!(
+                    f,
+                    "the bare lamp is seen beside the web, so the largest rectangle of web was cut out, without {}; ",
+                    square(*area)
+                )?;
+                if !over_lamp {
+                    write!(f, "there the lamp has the grey level {}", shortest((level * 10.0).round() / 10.0))
+                } else if (level - 1.0).abs() > OTHER {
+                    write!(
+                        f,
+                        "there it is {} {} than in its own picture, so take both pictures at the same exposure",
+                        per_cent((level - 1.0).abs()),
+                        if *level > 1.0 { "brighter" } else { "darker" }
+                    )
+                } else {
+                    f.write_str("there it is as bright as in its own picture")
+                }
+            }
+            Self::Dark { spots, area, largest, place } => {
+                let [right, down] = place.map(|place| Dimension::Length.pretty_to(place, 3));
+                write!(
+                    f,
+                    "dark spots such as dust or blots: {spots}, {} in all, which were left out; the largest, {}, is {right} from the left and \
+                     {down} from the upper edge of the picture. If they are web, say so",
+                    square(*area),
+                    square(*largest)
+                )
+            }
+            Self::Few { from } => write!(
+                f,
+                "patches of {} and more are too few on this sheet, so no interval is told there; scan a larger piece of the web",
+                Dimension::Length.pretty(*from)
+            ),
             Self::Blur { from } => {
                 f.write_str("one more pixel of blur would lower the CV of small patches by more than 1 %, so the blur of the camera has lowered \
-                             it too; ")?;
+                             it too, and no interval is told there; ")?;
                 match from {
                     Some(from) => write!(
                         f,

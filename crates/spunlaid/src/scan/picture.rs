@@ -1,5 +1,7 @@
 //! A picture or a map, as it was read.
 
+use super::spots::{Rectangle, cut};
+
 /// Values on a lattice of square pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
@@ -63,6 +65,42 @@ impl Picture {
         let (columns, rows) = (self.rows, self.columns);
         let value = |i: usize| self.values[(i % columns) * self.columns + i / columns];
         Self { values: (0..self.values.len()).map(value).collect(), columns, rows, ..self }
+    }
+
+    /// A part of the picture.
+    pub(super) fn part(&self, of: Rectangle) -> Self {
+        let [columns, rows] = of.sides;
+        Self { values: cut(&self.values, self.columns, of), columns, rows, ..self.empty() }
+    }
+
+    /// The picture without its values.
+    fn empty(&self) -> Self {
+        let Self {
+            format,
+            columns,
+            rows,
+            pixel,
+            pixel_of_file,
+            full_scale,
+            weight_of_black,
+            colour,
+            more,
+            ..
+        } = *self;
+        let (file, values) = (self.file.clone(), Vec::new());
+        Self {
+            file,
+            format,
+            values,
+            columns,
+            rows,
+            pixel,
+            pixel_of_file,
+            full_scale,
+            weight_of_black,
+            colour,
+            more,
+        }
     }
 
     /// Shorter side [m].

@@ -1,7 +1,9 @@
 //! From a picture to a map of basis weight.
 
+use super::findings::Doubt;
 use super::picture::Picture;
 use super::shading::Shading;
+use super::spots::{Spots, spots};
 use crate::error::ScanFault;
 use crate::web::Map;
 
@@ -52,6 +54,15 @@ pub(super) struct Weighed {
     pub(super) per_noise: f64,
 }
 
+impl Weighed {
+    /// What of the lamp is a guess, if anything.
+    pub(super) fn guess(&self, light: Light) -> Option<Doubt> {
+        let is_white = matches!(light, Light::Transmitted { white: None, .. }) && self.white.is_some();
+        let shading = self.shading.is_some().then_some(Doubt::Shading);
+        if is_white { Some(Doubt::White) } else { shading }
+    }
+}
+
 /// Quanta of a cell of the mean weight.
 const QUANTA: f64 = 1e6;
 /// One pixel in so many may be filled in.
@@ -66,16 +77,68 @@ pub(super) struct Correction<'a> {
     pub(super) keep_shading: bool,
 }
 
-/// Turns a picture into a map.
+/// Most rounds in which shading and spots are told apart.
+const ROUNDS: usize = 4;
+
+/// What of a picture in transmitted light is no web.
+pub(super) fn beside(
+    picture: &Picture,
+    light: Light,
+    correction: Correction<'_>,
+) -> Result<Spots, ScanFault> {
+    let logs = logs(picture, correction.lamp)?;
+    let (lamp, given) = match light {
+        _ if correction.lamp.is_some() => (0.0, true),
+        Light::Transmitted { white: Some(white), .. } => (libm::log(white), true),
+        _ => (mean_of(&logs), false),
+    };
+    let densities = |shading: Option<&Shading>| -> Vec<f64> {
+        let row = |(row, logs): (usize, &[f64])| -> Vec<f64> {
+            match shading {
+                Some(shading) => logs.iter().zip(shading.row(row)).map(|(log, of)| of - log).collect(),
+                None => logs.iter().map(|log| lamp - log).collect(),
+            }
+        };
+        logs.chunks_exact(picture.columns).enumerate().flat_map(row).collect()
+    };
+    if correction.lamp.is_some() || correction.keep_shading {
+        return spots(&densities(None), picture.columns, given);
+    }
+    // What is no web must not bend the polynomial of the lamp.
+    let mut web = logs.clone();
+    let mut last = None;
+    for _ in 0..ROUNDS {
+        let shading = Shading::of(&web, picture.columns);
+        let found = spots(&densities(Some(&shading)), picture.columns, false)?;
+        if last.as_ref() == Some(&found) {
+            break;
+        }
+        web.copy_from_slice(&logs);
+        let ([left, top], [across, along]) = (found.web.corner, found.web.sides);
+        for (at, log) in web.iter_mut().enumerate() {
+            let (column, row) =
+                ((at % picture.columns).wrapping_sub(left), (at / picture.columns).wrapping_sub(top));
+            let is_web = column < across && row < along;
+            if !is_web || found.dark.get(row * across + column).copied().unwrap_or(false) {
+                *log = f64::NAN;
+            }
+        }
+        last = Some(found);
+    }
+    Ok(last.unwrap_or_else(|| Spots::none(picture)))
+}
+
+/// Turns a picture into a map. What is masked is no web.
 pub(super) fn weigh(
     picture: &Picture,
     light: Light,
     correction: Correction<'_>,
+    masked: &[bool],
 ) -> Result<Weighed, ScanFault> {
     let (Light::Transmitted { mean, .. } | Light::Weight { mean }) = light;
     above_zero("a mean basis weight [kg/m²]", mean)?;
     match light {
-        Light::Transmitted { white, .. } => transmitted(picture, mean, white, correction),
+        Light::Transmitted { white, .. } => transmitted(picture, mean, white, correction, masked),
         Light::Weight { .. } => weights(picture, mean),
     }
 }
@@ -107,6 +170,7 @@ fn transmitted(
     mean: Option<f64>,
     white: Option<f64>,
     Correction { lamp, keep_shading }: Correction<'_>,
+    masked: &[bool],
 ) -> Result<Weighed, ScanFault> {
     above_zero("a level of the lamp", white)?;
     let levels = || picture.values.iter().copied().filter(|level| level.is_finite());
@@ -116,14 +180,16 @@ fn transmitted(
     let mut logs = logs(picture, lamp)?;
     let advice = "let more light through, or expose for longer";
     let filled = unusable(&logs, "black or without a value", advice)?;
+    logs.iter_mut().zip(masked).filter(|(_, is)| **is).for_each(|(log, _)| *log = f64::NAN);
     let mean_log = mean_of(&logs);
     let density = libm::log(white) - mean_log;
     // What is left of rounding is no web.
     if density.is_nan() || density <= 1e-9 {
         return Err(ScanFault::NotDarker { level: libm::exp(mean_log), white });
     }
-    let inverse = levels().filter(|level| *level > 0.0).map(|level| level.powi(-2)).sum::<f64>();
-    let per_noise = (inverse / (logs.len() - filled) as f64).sqrt() / density;
+    let web = || picture.values.iter().zip(&logs).filter(|(_, log)| !log.is_nan()).map(|(level, _)| level);
+    let inverse = web().map(|level| level.powi(-2)).sum::<f64>();
+    let per_noise = (inverse / web().count() as f64).sqrt() / density;
     let shading = (!keep_shading && lamp.is_none()).then(|| Shading::of(&logs, picture.columns));
     for (row, logs) in logs.chunks_exact_mut(picture.columns).enumerate() {
         match &shading {

@@ -1,10 +1,160 @@
-//! Pictures for the tests, and the files of them.
-#![allow(dead_code, clippy::unwrap_used)]
+//! Webs rendered as scans, pictures for the tests, and the files of them.
+#![allow(dead_code, clippy::unwrap_used, clippy::expect_used)]
 
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use spunlaid::lanes::Isa;
+use spunlaid::surrogate::Surrogate;
+use spunlaid::web::{Edges, Fibres, Filaments, Layer, Laying, Map, Row, Sheet, Web, lay};
+use std::f64::consts::PI;
 use std::io::Cursor;
+use std::sync::atomic::{AtomicBool, AtomicU64};
 use tiff::encoder::colortype::{ColorType, Gray8, Gray16, Gray32Float};
 use tiff::encoder::{Rational, TiffEncoder, TiffValue};
 use tiff::tags::ResolutionUnit;
+
+/// Side of a cell of the web and of a pixel of its scan [m].
+pub const PIXEL: f64 = 0.5e-3;
+/// Mean optical density of the web.
+pub const DENSITY: f64 = 0.3;
+
+/// A spunbond web of about 19 g/m² that goes on at its edges.
+///
+/// * `sides` – across and along [m]
+/// * `sigma` – spread of its filaments [m]
+/// * `filaments` – per width [1/m], at random places or in one row
+pub fn web(sides: [f64; 2], cell: f64, sigma: f64, filaments: f64, in_rows: bool, seed: u64) -> Map {
+    let fibres =
+        Fibres::Surrogate(Surrogate { sigma_md: sigma, sigma_cd: sigma, noise: 1.68 / sigma.sqrt() });
+    let [width, length] = sides;
+    let row = Row { offset: 0.0, pitch: 1.0 / filaments, filaments: (filaments * width).round() as u64 };
+    let layer = Layer {
+        // 19 g/m² from whatever number of filaments.
+        linear_density: 910.0 * PI * 18e-6 * 18e-6 / 4.0 * 5000.0 / filaments,
+        feed_speed: 50.0,
+        belt_speed: 3.0,
+        filaments: if in_rows {
+            Filaments::Rows(vec![row])
+        } else {
+            Filaments::AtRandom { per_metre: filaments }
+        },
+        fibres,
+        compared: None,
+    };
+    let sheet = Sheet { width, length, cell, patches: Vec::new(), edges: Edges::Periodic };
+    let web = Web { sheet, layers: vec![layer], seed };
+    let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
+    lay(&web, Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces })
+        .expect("a web that can be laid")
+        .map
+}
+
+/// A piece that is cut out of a web, as a scan is.
+pub fn piece(of: &Map, [left, top]: [usize; 2], [columns, rows]: [usize; 2]) -> Map {
+    let cells = (top..top + rows).flat_map(|row| of.row(row)[left..left + columns].to_vec()).collect();
+    Map { columns, rows, closed: [false; 2], cells, ..of.clone() }
+}
+
+/// Light that comes through each cell, of a lamp of strength one.
+pub fn light(map: &Map) -> Vec<f64> {
+    let mean = map.total() as f64 / map.cells.len() as f64;
+    map.cells.iter().map(|quanta| (-DENSITY * f64::from(*quanta) / mean).exp()).collect()
+}
+
+/// The lamp at a place, from −1 to 1 both ways.
+pub type Lamp = fn(f64, f64) -> f64;
+
+/// An even lamp behind a lens: light falls with the fourth power of the cosine towards the corners. From 0.85 to 1.15.
+pub fn lens(u: f64, v: f64) -> f64 {
+    let tangent = 0.075 * ((u - 0.1).powi(2) + (v + 0.15).powi(2));
+    1.15 * (1.0 + 0.02 * u) / (1.0 + tangent).powi(2)
+}
+
+/// A lamp with a dark side and a bright spot, which no polynomial of second order follows. From 0.85 to 1.15.
+pub fn spotted(u: f64, v: f64) -> f64 {
+    0.88 + 0.23 * (1.3 * (u - 0.2)).cos() * (1.1 * (v + 0.1)).cos() + 0.04 * (3.0 * u).sin()
+}
+
+/// A blur by a Gaussian with a standard deviation of one pixel.
+pub fn blurred(light: &[f64], columns: usize) -> Vec<f64> {
+    let weights: Vec<f64> = (-4..=4).map(|i: i32| (-0.5 * f64::from(i * i)).exp()).collect();
+    let whole: f64 = weights.iter().sum();
+    let rows = light.len() / columns;
+    let along = |light: &[f64], [right, down]: [i64; 2]| -> Vec<f64> {
+        let at = |i: usize| {
+            let parts = weights.iter().zip(-4i64..).map(|(weight, by)| {
+                let column = ((i % columns) as i64 + by * right).clamp(0, columns as i64 - 1) as usize;
+                let row = ((i / columns) as i64 + by * down).clamp(0, rows as i64 - 1) as usize;
+                weight * light[row * columns + column]
+            });
+            parts.sum::<f64>() / whole
+        };
+        (0..light.len()).map(at).collect()
+    };
+    along(&along(light, [1, 0]), [0, 1])
+}
+
+/// What a camera makes of light: a lamp, blur, the noise of 10,000 electrons at the largest level, whole levels.
+pub fn exposed(
+    [columns, rows]: [usize; 2],
+    light: &[f64],
+    lamp: Lamp,
+    full_scale: f64,
+    seed: u64,
+) -> Vec<u16> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut uniform = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+    let light = blurred(light, columns);
+    let place = |of: usize, side: usize| 2.0 * of as f64 / side as f64 - 1.0;
+    let level = |(i, light): (usize, &f64)| {
+        let electrons = 8000.0 * light * lamp(place(i % columns, columns), place(i / columns, rows));
+        // The sum of twelve is near enough to a normal number.
+        let normal = (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+        let seen = electrons + electrons.sqrt() * normal;
+        (seen / 1e4 * full_scale).round().clamp(0.0, full_scale) as u16
+    };
+    light.iter().enumerate().map(level).collect()
+}
+
+/// The file of a scan: PNG for 8 bits, TIFF for 16.
+pub fn file(columns: usize, levels: &[u16], bits: u32) -> Vec<u8> {
+    match bits {
+        8 => png8(columns, &levels.iter().map(|level| *level as u8).collect::<Vec<_>>()),
+        _ => tiff16(columns, levels),
+    }
+}
+
+/// Pixels that are bare lamp, blots of 4 mm radius, and dust.
+pub fn beside(kind: &str, [columns, rows]: [usize; 2]) -> Vec<bool> {
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut whole = |below: usize| (random.next_u64() % below as u64) as usize;
+    let spots: Vec<([usize; 2], usize)> = match kind {
+        "blots" => vec![([150, 200], 8), ([420, 90], 8), ([333, 640], 8)],
+        "dust" => (0..60).map(|_| ([whole(columns), whole(rows)], 1)).collect(),
+        _ => Vec::new(),
+    };
+    let is_aside = |at: usize| {
+        let (x, y) = (at % columns, at / columns);
+        // Turned by one and a half degrees.
+        let skewed = 0.026 * y as f64;
+        let edge =
+            kind == "edges" && ((x as f64) < 4.0 + skewed || x as f64 > columns as f64 - 26.0 + skewed);
+        edge || spots
+            .iter()
+            .any(|([i, j], radius)| x.abs_diff(*i).pow(2) + y.abs_diff(*j).pow(2) <= radius * radius + 1)
+    };
+    (0..columns * rows).map(is_aside).collect()
+}
+
+/// The light with what is no web: bare lamp at the edges, or spots that let an eighth of the light through.
+pub fn spoiled(kind: &str, light: &[f64], aside: &[bool]) -> Vec<f64> {
+    let of = |(light, is): (&f64, &bool)| match (is, kind) {
+        (false, _) => *light,
+        (true, "edges") => 1.0,
+        (true, _) => light / 8.0,
+    };
+    light.iter().zip(aside).map(of).collect()
+}
 
 /// A grey PNG of 8 bits.
 pub fn png8(columns: usize, levels: &[u8]) -> Vec<u8> {

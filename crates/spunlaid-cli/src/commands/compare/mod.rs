@@ -116,6 +116,7 @@ fn compared(first: &Run, other: &Run) -> Comparison {
             per_si: measure.unit.per_si,
             means,
             difference,
+            doubt: None,
         })
     };
     let reason = match (pairs, differs) {

@@ -3,7 +3,7 @@
 use super::super::finished::any_summary;
 use crate::failure::Failure;
 use serde_json::Value as Json;
-use spunlaid::statistics::{Difference, Estimate, difference_of_deviations};
+use spunlaid::statistics::{Difference, Estimate, NORMAL_95};
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::{Unevenness, overlaid_webs};
 use spunlaid_results::numbers::significant;
@@ -17,12 +17,30 @@ pub(super) struct Web {
     name: String,
     /// Mean basis weight, if it is known [kg/m²].
     weight: Option<f64>,
-    /// By the side of the patches; with the error by all causes where it is known.
-    patches: Vec<Unevenness>,
+    /// By the side of the patches.
+    patches: Vec<Patch>,
     /// What the flown curves let expect, if there were some.
-    flown: Vec<Unevenness>,
-    /// Cloudiness index and share of the texture along the machine direction, with their standard errors.
-    clouds: [Option<(f64, Option<f64>)>; 2],
+    flown: Vec<Patch>,
+    /// Cloudiness index and share of the texture along the machine direction.
+    clouds: [Option<Number>; 2],
+}
+
+/// A number of a web.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Number {
+    value: f64,
+    standard_error: Option<f64>,
+    /// Ends of its 95 % interval, if they are told.
+    ends: Option<[f64; 2]>,
+    /// Why it is not to be had.
+    doubt: Option<String>,
+}
+
+/// The unevenness over patches of one size.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Patch {
+    side: f64,
+    cv: Number,
 }
 
 /// Patches whose sides differ by no more than this share are compared.
@@ -50,20 +68,28 @@ pub(super) fn read(folders: &[PathBuf], names: &[String]) -> Result<Option<Vec<W
 
 fn web(folder: &std::path::Path, name: &str, summary: &Json) -> Option<Web> {
     let web = summary.get("web")?;
+    let number = |of: &Json, [value, error, ends]: [&str; 3]| {
+        let end = |i: usize| of[ends][i].as_f64();
+        Some(Number {
+            value: of[value].as_f64()?,
+            standard_error: of[error].as_f64(),
+            ends: end(0).zip(end(1)).map(|(low, high)| [low, high]),
+            doubt: of["no_interval"].as_str().map(|doubt| format!("{doubt} ({name})")),
+        })
+    };
     let all = web["patches"].as_array()?;
-    let patches = |name: &str, errors: &[&str]| -> Vec<Unevenness> {
+    let patches = |names: [&str; 3]| -> Vec<Patch> {
         let patch = |of: &Json| {
-            let number = |name: &str| of[name].as_f64();
-            let standard_error = errors.iter().find_map(|name| number(name));
-            Some(Unevenness { patch: number("patch_m")?, cv: number(name)?, standard_error })
+            let cv = number(of, names)?.with_all_causes(&of["cv_whole_error"], names[0] == "cv");
+            Some(Patch { side: of["patch_m"].as_f64()?, cv })
         };
         all.iter().filter_map(patch).collect()
     };
-    // Older folders and scans have no error but that by chance.
-    let flown = patches("cv_flown", &["cv_flown_standard_error"]);
-    let patches = patches("cv", &["cv_whole_error", "cv_standard_error"]);
+    // Older folders have no error but that by chance.
+    let flown = patches(["cv_flown", "cv_flown_standard_error", ""]);
+    let patches = patches(["cv", "cv_standard_error", "cv_interval"]);
     let clouds = [("cloudiness", "index"), ("texture_md", "mean")]
-        .map(|(group, value)| Some((web[group][value].as_f64()?, web[group]["standard_error"].as_f64())));
+        .map(|(group, value)| number(&web[group], [value, "standard_error", "interval"]));
     let weight = web["basis_weight_kg_m2"].as_f64();
     Some(Web { folder: folder.to_owned(), name: name.to_owned(), weight, patches, flown, clouds })
 }
@@ -74,23 +100,26 @@ fn web(folder: &std::path::Path, name: &str, summary: &Json) -> Option<Web> {
 /// If a web has no patches like those of the first.
 pub(super) fn compared(webs: &[Web]) -> Result<(Vec<Comparison>, Vec<Figure>), Failure> {
     let comparisons = webs.iter().skip(1).map(|other| against(&webs[0], other)).collect::<Result<_, _>>()?;
-    let curves: Vec<_> = webs.iter().map(|web| (web.name.clone(), web.patches.clone())).collect();
+    let drawn =
+        |of: &Patch| Unevenness { patch: of.side, cv: of.cv.value, standard_error: of.cv.standard_error };
+    let curves: Vec<_> =
+        webs.iter().map(|web| (web.name.clone(), web.patches.iter().map(drawn).collect())).collect();
     Ok((comparisons, vec![overlaid_webs(&curves)]))
 }
 
 fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
-    let of_patch = |of: &Unevenness, others: &[Unevenness], [whose, end]: [&str; 2]| {
-        let found = at(others, of.patch)?;
-        let side = significant(of.patch * 1e3, 3);
-        let values = [(of.cv, of.standard_error), (found.cv, found.standard_error)];
+    let of_patch = |of: &Patch, others: &[Patch], [whose, end]: [&str; 2]| {
+        let found = at(others, of.side)?;
+        let side = significant(of.side * 1e3, 3);
+        let values = [of.cv.clone(), found];
         let (label, column) = (format!("{whose} over patches of {side} mm"), format!("cv_{side}_mm{end}"));
-        Some(measure(label, column, ("%", 100.0), values, of_deviations))
+        Some(measure(label, column, ("%", 100.0), values))
     };
-    let of_map = |of: &Unevenness| of_patch(of, &other.patches, ["CV", ""]);
+    let of_map = |of: &Patch| of_patch(of, &other.patches, ["CV", ""]);
     let mut measures: Vec<Compared> = first.patches.iter().filter_map(of_map).collect();
     if measures.is_empty() {
         let sides = |web: &Web| {
-            let sides: Vec<String> = web.patches.iter().map(|of| significant(of.patch * 1e3, 3)).collect();
+            let sides: Vec<String> = web.patches.iter().map(|of| significant(of.side * 1e3, 3)).collect();
             format!("{} mm", sides.join(", "))
         };
         let reason = format!(
@@ -101,15 +130,13 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
         );
         return Err(Failure::NotCompared { folder: other.folder.clone(), reason });
     }
-    let of_flown = |of: &Unevenness| of_patch(of, &other.flown, ["CV of the flown curves", "_flown"]);
+    let of_flown = |of: &Patch| of_patch(of, &other.flown, ["CV of the flown curves", "_flown"]);
     measures.extend(first.flown.iter().filter_map(of_flown));
     let names =
         [("cloudiness index", "cloudiness", ("%", 100.0)), ("texture along MD", "texture_md", ("", 1.0))];
     for (i, (label, column, unit)) in names.into_iter().enumerate() {
-        if let (Some(a), Some(b)) = (first.clouds[i], other.clouds[i]) {
-            // The cloudiness is the deviation of a part of the waves.
-            let how = if column == "cloudiness" { of_deviations } else { of_means };
-            measures.push(measure(label.to_owned(), column.to_owned(), unit, [a, b], how));
+        if let (Some(a), Some(b)) = (first.clouds[i].clone(), other.clouds[i].clone()) {
+            measures.push(measure(label.to_owned(), column.to_owned(), unit, [a, b]));
         }
     }
     let weight = |web: &Web| {
@@ -135,40 +162,70 @@ fn measure(
     label: String,
     column: String,
     (unit, per_si): (&'static str, f64),
-    values: [(f64, Option<f64>); 2],
-    difference: fn([(f64, f64); 2]) -> Difference,
+    values: [Number; 2],
 ) -> Compared {
-    let [a, b] = values;
-    let difference = a.1.zip(b.1).map(|(one, other)| difference([(a.0, one), (b.0, other)]));
-    let means = values.map(|(mean, standard_error)| Estimate { mean, standard_error, values: Vec::new() });
-    Compared { label, column, unit, per_si, means, difference }
+    let [a, b] = &values;
+    let doubts: Vec<&str> = values.iter().filter_map(|of| of.doubt.as_deref()).collect();
+    let doubt = (!doubts.is_empty()).then(|| doubts.join("; "));
+    // The ends of both intervals that face each other make that of the difference: Zou and Donner, Statistics in Medicine 27 (2008)
+    // 1693–1702. A standard error is from many parts of a web, and a normal distribution serves.
+    let ups = if b.value > a.value { [true, false] } else { [false, true] };
+    let error = a.error_towards(ups[0]).zip(b.error_towards(ups[1])).filter(|_| doubt.is_none());
+    let difference = error.map(|(one, other)| Difference {
+        value: b.value - a.value,
+        standard_error: one.hypot(other),
+        degrees: f64::INFINITY,
+    });
+    let means =
+        values.map(|of| Estimate { mean: of.value, standard_error: of.standard_error, values: Vec::new() });
+    Compared { label, column, unit, per_si, means, difference, doubt }
 }
 
-fn of_deviations(of: [(f64, f64); 2]) -> Difference {
-    difference_of_deviations(of)
+impl Number {
+    /// With the error by all causes in place of that by chance alone, if it is known: what is not chance makes the interval
+    /// wider on both sides.
+    ///
+    /// * `is_of_map` – whether the number is that of the map, which has this error
+    fn with_all_causes(self, whole: &Json, is_of_map: bool) -> Self {
+        let (Some(whole), Some(chance)) = (whole.as_f64().filter(|_| is_of_map), self.standard_error) else {
+            return self;
+        };
+        let others = NORMAL_95 * (whole * whole - chance * chance).max(0.0).sqrt();
+        let value = self.value;
+        let ends = self
+            .ends
+            .map(|[low, high]| [value - (value - low).hypot(others), value + (high - value).hypot(others)]);
+        Self { standard_error: Some(whole), ends, ..self }
+    }
+
+    /// The error upwards or downwards, so that 1.96 of it reach to the end of the interval.
+    fn error_towards(&self, up: bool) -> Option<f64> {
+        match self.ends {
+            Some(ends) => Some((ends[usize::from(up)] - self.value).abs() / NORMAL_95),
+            None => self.standard_error,
+        }
+    }
 }
 
-/// Each error is from dozens of tiles: a normal distribution serves.
-fn of_means([(first, one), (second, other)]: [(f64, f64); 2]) -> Difference {
-    Difference { value: second - first, standard_error: one.hypot(other), degrees: f64::INFINITY }
-}
-
-/// The unevenness at a patch of nearly the same size, moved to that size along the slope to its neighbour.
-fn at(patches: &[Unevenness], side: f64) -> Option<Unevenness> {
-    let far = |of: &Unevenness| (of.patch / side).ln().abs();
+/// The CV at a patch of nearly the same size, moved to that size along the slope to its neighbour.
+fn at(patches: &[Patch], side: f64) -> Option<Number> {
+    let far = |of: &Patch| (side / of.side).ln().abs();
     let (i, nearest) = patches.iter().enumerate().min_by(|a, b| far(a.1).total_cmp(&far(b.1)))?;
     if far(nearest) > ALIKE {
         return None;
     }
     let next =
         if i + 1 < patches.len() { Some(&patches[i + 1]) } else { i.checked_sub(1).map(|i| &patches[i]) };
-    let slope = next.map_or(0.0, |next| (next.cv / nearest.cv).ln() / (next.patch / nearest.patch).ln());
-    let factor = (slope * (side / nearest.patch).ln()).exp();
+    let slope =
+        next.map_or(0.0, |next| (next.cv.value / nearest.cv.value).ln() / (next.side / nearest.side).ln());
+    let factor = (slope * (side / nearest.side).ln()).exp();
     let factor = if factor.is_finite() { factor } else { 1.0 };
-    Some(Unevenness {
-        patch: side,
-        cv: nearest.cv * factor,
-        standard_error: nearest.standard_error.map(|error| error * factor),
+    let of = &nearest.cv;
+    Some(Number {
+        value: of.value * factor,
+        standard_error: of.standard_error.map(|error| error * factor),
+        ends: of.ends.map(|ends| ends.map(|end| end * factor)),
+        doubt: of.doubt.clone(),
     })
 }
 
@@ -176,15 +233,34 @@ fn at(patches: &[Unevenness], side: f64) -> Option<Unevenness> {
 mod tests {
     use super::*;
 
+    const fn number(value: f64, ends: Option<[f64; 2]>) -> Number {
+        Number { value, standard_error: Some(0.01), ends, doubt: None }
+    }
+
     #[test]
     fn a_power_law_is_moved_to_the_other_size_of_patch() {
-        let law = |patch: f64| Unevenness { patch, cv: 0.1 * patch.powf(-0.4), standard_error: Some(0.01) };
+        let law = |side: f64| Patch { side, cv: number(0.1 * side.powf(-0.4), None) };
         let patches = [0.0051, 0.0102, 0.0204].map(law);
         for side in [0.005, 0.010, 0.020] {
             let found = at(&patches, side).unwrap();
-            assert!((found.cv / law(side).cv - 1.0).abs() < 1e-12, "{found:?}");
+            assert!((found.value / law(side).cv.value - 1.0).abs() < 1e-12, "{found:?}");
         }
         assert_eq!(at(&patches, 0.0075), None);
         assert_eq!(at(&[], 0.01), None);
+    }
+
+    #[test]
+    fn the_ends_that_face_each_other_decide_and_a_doubt_leaves_no_verdict() {
+        let compared = |values| measure(String::new(), String::new(), ("", 1.0), values);
+        // Upwards the first reaches 3, downwards the second 4: together 5.
+        let [a, b] = [number(10.0, Some([9.9, 13.0])), number(15.1, Some([11.1, 30.0]))];
+        let difference = compared([a.clone(), b.clone()]).difference.unwrap();
+        assert!((difference.half_width() - 5.0).abs() < 1e-6 && difference.is_beyond_chance());
+        // The other way round as well.
+        let difference = compared([b.clone(), a.clone()]).difference.unwrap();
+        assert!((difference.half_width() - 5.0).abs() < 1e-6 && difference.is_beyond_chance());
+        let doubtful = Number { doubt: Some("below the blur".to_owned()), ..a };
+        let of = compared([doubtful, b]);
+        assert_eq!((of.difference, of.cells()[3].as_str()), (None, "below the blur"));
     }
 }

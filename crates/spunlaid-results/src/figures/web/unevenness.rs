@@ -54,8 +54,8 @@ pub(super) fn scanned(of: &scan::Findings) -> Figure {
         .scatter(Series::spots("this scan", BLUE), &found);
     Figure::of(
         &chart,
-        "Standard deviation of the basis weight of square patches over its mean. Bars are one standard error, from the \
-         waves of the picture. Dashed: the CV of the camera’s noise alone, as it was given, or else the most that neighbouring pixels \
+        "Standard deviation of the basis weight of square patches over its mean. Bars are one standard error by chance, that of one \
+         piece of web; there is none where the number cannot be told. Dashed: the CV of the camera’s noise alone, as it was given, or else the most that neighbouring pixels \
          allow; the finest structure of the web is in it.",
     )
 }

@@ -35,6 +35,14 @@ struct Scan<'a> {
     filled_pixels: usize,
     saturated_pixels: usize,
     lighter_pixels: usize,
+    /// Area beside the rectangle that was cut out, because the bare lamp is seen there.
+    cut_off_m2: f64,
+    /// Grey level of the bare lamp there, over that of its picture if there is one.
+    bare_lamp: Option<f64>,
+    /// Dark spots that were left out.
+    dark_spots: usize,
+    /// Their area.
+    dark_spots_m2: f64,
 }
 
 /// What a layer was laid from.
@@ -116,8 +124,12 @@ struct Patch {
     /// By all causes; none if one is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_whole_error: Option<f64>,
-    /// 95 % confidence interval of the CV of all such webs; null if the map is too small to say.
+    /// 95 % confidence interval of the CV of all such webs.
+    #[serde(skip_serializing_if = "Option::is_none")]
     cv_interval: Option<[f64; 2]>,
+    /// Why the true CV cannot be told.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_interval: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_one_fibre: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -166,6 +178,9 @@ struct Cloudiness {
     standard_error: Option<f64>,
     /// 95 % confidence interval for all such webs; null if the map is too small to say.
     interval: Option<[f64; 2]>,
+    /// Why the true index cannot be told.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_interval: Option<String>,
 }
 
 /// The relative variance in waves of some lengths.
@@ -195,7 +210,7 @@ impl WebSummary {
         let cloudiness = clouds.map(|clouds| {
             let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
             let interval = standard_error.map(|error| interval_of_deviation(index, error));
-            Cloudiness { from_m: SEEN[0], to_m: SEEN[1], index, standard_error, interval }
+            Cloudiness { from_m: SEEN[0], to_m: SEEN[1], index, standard_error, interval, no_interval: None }
         });
         let octave = |([from_m, to_m], of): ([f64; 2], Estimate)| Octave {
             from_m,
@@ -241,6 +256,7 @@ impl<'a> Summary<'a> {
             cv: patch.map.cv,
             cv_standard_error: patch.map.standard_error,
             cv_interval: patch.map.interval(),
+            no_interval: patch.map.interval().is_none().then(|| "the map is too small".to_owned()),
             cv_one_fibre: Some(patch.one_fibre.0),
             cv_one_fibre_standard_error: Some(patch.one_fibre.1),
             cv_flight_error: patch.whole_error().flight,
@@ -297,12 +313,20 @@ impl<'a> Summary<'a> {
             patch_m: patch.unevenness.patch,
             cv: patch.unevenness.cv,
             cv_standard_error: patch.unevenness.standard_error,
-            cv_interval: patch.interval(),
+            cv_interval: patch.interval.ok(),
+            no_interval: patch.interval.err().map(|doubt| doubt.to_string()),
             cv_noise: Some(patch.noise),
             blur_of_a_pixel: Some(patch.blur),
             ..Patch::default()
         });
-        let web = WebSummary::of_map(&of.map, of.clouds.as_ref(), patches.collect());
+        let mut web = WebSummary::of_map(&of.map, of.clouds.as_ref(), patches.collect());
+        if let Some(guess) = of.guess {
+            // Chance is not all that the error of a variance is made of.
+            web.clouds.iter_mut().for_each(|octave| octave.standard_error = None);
+            if let Some(cloudiness) = &mut web.cloudiness {
+                (cloudiness.standard_error, cloudiness.no_interval) = (None, Some(guess.to_string()));
+            }
+        }
         let basis_weight_kg_m2 = web.basis_weight_kg_m2.filter(|_| of.mean_known);
         Self {
             schema_version: SCHEMA_VERSION,
@@ -317,6 +341,10 @@ impl<'a> Summary<'a> {
                 filled_pixels: of.pixels.filled,
                 saturated_pixels: of.pixels.saturated,
                 lighter_pixels: of.pixels.lighter,
+                cut_off_m2: of.aside.cut_off,
+                bare_lamp: of.aside.bare,
+                dark_spots: of.aside.spots.len(),
+                dark_spots_m2: of.aside.masked,
             }),
             performance,
             notes,
