@@ -103,8 +103,9 @@ fn every_option_and_command_that_a_text_names_exists() {
     let is_of_name = |c: char| c.is_ascii_lowercase() || c == '-';
     let (mut seen, mut wrong) = (BTreeSet::new(), Vec::new());
     for (file, text) in texts() {
-        let options =
-            text.split(|c: char| !is_of_name(c)).filter(|word| word.starts_with("--") && word.len() > 3);
+        let options = text
+            .split(|c: char| !is_of_name(c))
+            .filter(|word| word.starts_with("--") && !word.ends_with('-'));
         let commands =
             text.split("`spunlaid ").skip(1).filter_map(|rest| rest.split(|c| !is_of_name(c)).next());
         for word in options.chain(commands).filter(|word| !word.is_empty()) {

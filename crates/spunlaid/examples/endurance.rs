@@ -36,12 +36,7 @@ fn main() {
             Err(_) => refused += 1,
             Ok((case, _)) => {
                 let mut worst: f64 = 0.0;
-                let driven = [
-                    case.air.velocity.abs(),
-                    case.line.map_or(0.0, |line| line.feed_speed + line.belt_speed),
-                ];
-                let driven =
-                    driven[0].max(driven[1]) + 4.0 * case.air.rms() + (2.0 * 9.81 * case.fibre.length).sqrt();
+                let driven = case.driving_speed();
                 let jobs: Vec<_> = (0..8).map(|replicate| Job { case: &case, replicate }).collect();
                 let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
                 let instants = case.run.steps / case.run.output_steps;

@@ -177,7 +177,7 @@ fn invariant_spin_up_leaves_the_flight_and_changes_the_statistics() {
 }
 
 #[test]
-fn rejects_a_flight_that_is_no_longer_finite() {
+fn rejects_a_flight_that_diverges() {
     // A fibre of 2 µm in air of 3000 m/s: the drag changes its velocity by more than itself in a step.
     let mut case = table1(3e-5, 0.5, 3);
     (case.fibre.diameter, case.air.velocity) = (2e-6, 3000.0);
@@ -186,7 +186,10 @@ fn rejects_a_flight_that_is_no_longer_finite() {
         Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
     let done: Result<(), Error> = fly(&case, Keep::NUMBERS, computing, |_| Ok(()));
     let message = done.expect_err("must blow up").to_string();
-    assert!(message.contains("no longer finite") && message.contains("lower run.time_step"), "{message}");
+    assert!(
+        message.contains("which no fibre can have") && message.contains("lower run.time_step"),
+        "{message}"
+    );
 }
 
 /// The trajectories of a case, and one of its checks.
@@ -305,7 +308,7 @@ fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves
 /// elements of a quarter of it, which is nearly all of it.
 #[test]
 fn order_of_the_error_of_the_mesh_is_what_half_the_elements_show() {
-    let mut case = common::table1(Scheme::ImplicitTension, 1e-4, 1.0, 8);
+    let mut case = common::table1(Scheme::ImplicitTension, 1e-4, 0.8, 8);
     case.drag.across = NormalLaw::MarheinekeWegener;
     let meshed = |elements| {
         let mut case = case.clone();
@@ -314,7 +317,7 @@ fn order_of_the_error_of_the_mesh_is_what_half_the_elements_show() {
     };
     let coarse = meshed(80);
     let check = mesh_checked(&coarse);
-    assert_eq!((check.element_length, check.duration), (6.25e-3, 1.0));
+    assert_eq!((check.element_length, check.duration), (6.25e-3, 0.8));
     let (coarse, fine) = (flights(&coarse, 2), flights(&meshed(320), 2));
     let factor = check.error_over_change().expect("a fibre of fixed length");
     for (name, measures, least) in [
@@ -394,7 +397,7 @@ fn identical_air_at_half_the_step_from_every_source() {
     // depend on the run's times. A tenth of the step that the program would choose leaves next to nothing.
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
     for (name, step) in [
-        ("record", "20 us"),
+        ("record", "10 us"),
         ("convected", "20 us"),
         ("openfoam_diffuser", "10 us"),
         ("measured_spectrum", "20 us"),

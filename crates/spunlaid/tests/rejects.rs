@@ -121,7 +121,8 @@ fn rejects_overrides_by_their_name() {
             "run.time_step",
             "1e-300 s",
             "../../cases/table1.toml:18: run.duration = \"1 s\" needs 1.0e300 steps of 1e-300 s, more than 1e12; \
-             shorten it or lengthen run.time_step",
+             shorten it or lengthen run.time_step\noverride run.time_step = \"1e-300 s\" is outside the usual range, \
+             0.1 ns to 100 ms; check the value and its unit",
         ),
     ] {
         assert_eq!(refusal(table1, &[(key, value)]).to_string(), message);

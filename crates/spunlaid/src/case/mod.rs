@@ -216,13 +216,17 @@ impl Case {
         self.run.duration() + self.run.time_step
     }
 
-    /// The speed that mean flow, turbulence, feed, belt and gravity together can give to a fibre that only follows them
-    /// [m/s]; six standard deviations of the turbulence are counted.
-    pub(crate) fn driving_speed(&self) -> f64 {
+    /// The speed that mean flow, turbulence, feed, belt, gravity and a fold that springs open together can give to a fibre
+    /// [m/s]; six standard deviations of the turbulence are counted. A fold with the radius of an element springs open with
+    /// `√(EI/ρA)/l = d √(E/ρ)/(4l)`.
+    pub fn driving_speed(&self) -> f64 {
         let line = self.line.map_or(0.0, |line| line.feed_speed.abs() + line.belt_speed.abs());
         let fall = (2.0 * self.run.gravity.abs() * self.fibre.length).sqrt();
         let own = self.air.velocity.abs() + 6.0 * self.air.rms();
-        self.air.fastest(self.along()).max(own) + line + fall
+        let fibre = &self.fibre;
+        let spring =
+            0.25 * fibre.diameter / fibre.rest_length() * (fibre.youngs_modulus / fibre.density).sqrt();
+        self.air.fastest(self.along()).max(own) + line + fall + spring
     }
 
     /// The turbulence of each eddy.

@@ -3,7 +3,7 @@
 //! Some fibres fly twice in the same turbulence: as the run does, and with a finer discretisation. What differs comes from
 //! the discretisation alone. Paths of single fibres are compared where they stay together, statistics everywhere.
 
-use super::{Computing, Job, Keep, Trajectory};
+use super::{Computing, Job, Keep, Sample, Trajectory};
 use crate::air::EddyModel;
 use crate::case::{Case, ERROR_TOLERANCE, MOST_STEPS};
 use crate::chain::schemes::Scheme;
@@ -365,6 +365,25 @@ fn way(line: &Line) -> f64 {
     line.distance / line.feed_speed
 }
 
+/// What one flight of a check has flown: the numbers of its fibres, and the paths if they are compared.
+#[derive(Debug, Default)]
+pub(super) struct Flight {
+    trajectories: Vec<Trajectory>,
+    paths: Vec<Path>,
+}
+
+impl Flight {
+    /// Numbers and samples of a flight of the run itself.
+    pub(super) const fn of_run(trajectories: Vec<Trajectory>) -> Self {
+        Self { trajectories, paths: Vec::new() }
+    }
+
+    /// The trajectories.
+    pub(super) fn into_trajectories(self) -> Vec<Trajectory> {
+        self.trajectories
+    }
+}
+
 /// One flight of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Flown {
@@ -389,15 +408,24 @@ impl FinerPlan {
         self.own.iter().map(|_| Flown::Own).chain([Flown::Fine])
     }
 
-    /// Flies one of them.
-    pub(super) fn fly(&self, which: Flown, computing: Computing<'_>) -> Result<Vec<Trajectory>, Error> {
+    /// Flies one of them. The recorded instants are not kept, but for the paths that are compared.
+    pub(super) fn fly(&self, which: Flown, computing: Computing<'_>) -> Result<Flight, Error> {
         let case = self.own.as_ref().filter(|_| which == Flown::Own).unwrap_or(&self.fine);
         let jobs: Vec<Job<'_>> = (0..self.replicates).map(|replicate| Job { case, replicate }).collect();
         // A carried pattern has a signal for each element. Both feel the one of the finer elements.
         let carried = case.line.is_none() && matches!(case.air.eddies, EddyModel::Convected { .. });
         let of = if carried { &self.fine } else { case };
         let air = AirOf { case: of, horizon: self.horizon };
-        super::trajectory::fly_in_air(&jobs, Keep::NUMBERS, air, Computing { laid: None, ..computing })
+        let computing = Computing { laid: None, ..computing };
+        let mut trajectories = super::trajectory::fly_in_air(&jobs, Keep::NUMBERS, air, computing)?;
+        let mut paths = Vec::new();
+        for trajectory in &mut trajectories {
+            let samples = std::mem::take(&mut trajectory.samples);
+            if self.own.is_none() {
+                paths.push(path(&samples, usize::MAX));
+            }
+        }
+        Ok(Flight { trajectories, paths })
     }
 
     /// The path that is compared of a trajectory of the run; empty if no path is.
@@ -406,16 +434,11 @@ impl FinerPlan {
             return Path::new();
         }
         let instants = self.fine.run.steps / self.fine.run.output_steps;
-        path(trajectory, instants as usize)
+        path(&trajectory.samples, instants as usize)
     }
 
     /// Compares. An error is the reason why nothing can be said.
-    pub(super) fn compare(
-        &self,
-        paths: &[Path],
-        own: &[Trajectory],
-        fine: &[Trajectory],
-    ) -> Result<FinerCheck, String> {
+    pub(super) fn compare(&self, paths: &[Path], own: &Flight, fine: &Flight) -> Result<FinerCheck, String> {
         let still = || {
             let fed = self.fine.line.is_some();
             if fed { "the fibre laid nothing down" } else { "the free end does not move across the flow" }
@@ -430,18 +453,18 @@ impl FinerPlan {
             duration: self.fine.run.duration(),
             is_fed: self.fine.line.is_some(),
             is_resolved: self.is_resolved(),
-            replicates: fine.len(),
+            replicates: fine.trajectories.len(),
             share_of_run: self.share_of_run,
             path: None,
             changes: Vec::new(),
         };
         if self.own.is_none() {
             let (mut apart, mut amplitudes) = (Vec::new(), Vec::new());
-            for (own, fine) in paths.iter().zip(fine) {
-                let fine = path(fine, own.len());
-                let amplitude = amplitude(&fine);
+            for (own, fine) in paths.iter().zip(&fine.paths) {
+                let fine = &fine[..own.len().min(fine.len())];
+                let amplitude = amplitude(fine);
                 if amplitude > least {
-                    apart.push(rms_distance(own, &fine) / amplitude);
+                    apart.push(rms_distance(own, fine) / amplitude);
                     amplitudes.push(self::amplitude(own) / amplitude - 1.0);
                 }
             }
@@ -455,7 +478,11 @@ impl FinerPlan {
         }
         let statistics = if self.fine.line.is_some() { OF_THE_LAID } else { OF_THE_END };
         for statistic in statistics {
-            let pairs = own.iter().zip(fine).map(|(own, fine)| [statistic.of(own), statistic.of(fine)]);
+            let pairs = own
+                .trajectories
+                .iter()
+                .zip(&fine.trajectories)
+                .map(|(own, fine)| [statistic.of(own), statistic.of(fine)]);
             let pairs: Vec<[f64; 2]> =
                 pairs.filter(|pair| pair.iter().all(|value| value.is_finite())).collect();
             // Of a fibre that does not move, rounding has no meaning.
@@ -482,9 +509,8 @@ fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
 /// The position across the flow at the recorded instants after the start [m].
 pub(super) type Path = Vec<[f64; 2]>;
 
-fn path(trajectory: &Trajectory, instants: usize) -> Path {
-    let samples = trajectory.samples.iter().skip(1).take(instants);
-    samples.map(|sample| [sample.end.y, sample.end.z]).collect()
+fn path(samples: &[Sample], instants: usize) -> Path {
+    samples.iter().skip(1).take(instants).map(|sample| [sample.end.y, sample.end.z]).collect()
 }
 
 /// Rms distance of a path from its mean [m].

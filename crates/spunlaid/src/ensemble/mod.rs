@@ -88,7 +88,7 @@ pub fn fly_and_check<E: From<Error>>(
         computing.threads,
         |index| match index.checked_sub(flights).and_then(|index| more.get(index)) {
             Some((plan, which)) => plan.fly(*which, computing),
-            None => fly_one(case, index, keep, computing),
+            None => fly_one(case, index, keep, computing).map(finer::Flight::of_run),
         },
         |landed| {
             if index >= flights {
@@ -99,7 +99,7 @@ pub fn fly_and_check<E: From<Error>>(
                     flown.insert(index - flights, landed);
                 }
             } else {
-                for trajectory in landed? {
+                for trajectory in landed?.into_trajectories() {
                     paths.extend(
                         plans.step.iter().map(|plan| plan.path(&trajectory)).filter(|p| !p.is_empty()),
                     );
@@ -113,9 +113,9 @@ pub fn fly_and_check<E: From<Error>>(
     let mut flown = more.iter().map(|(plan, which)| (plan.refined, *which)).zip(flown.into_values());
     let mut compare = |plan: &Result<FinerPlan, String>| {
         let plan = plan.as_ref().map_err(String::clone)?;
-        let mut pair = [Vec::new(), Vec::new()];
+        let mut pair = [finer::Flight::default(), finer::Flight::default()];
         for which in plan.flights() {
-            let landed = flown.next().map_or_else(|| Ok(Vec::new()), |(_, landed)| landed);
+            let landed = flown.next().map_or_else(|| Ok(finer::Flight::default()), |(_, landed)| landed);
             pair[usize::from(which == finer::Flown::Fine)] =
                 landed.map_err(|lost| format!("a fibre of the check was lost: {lost}"))?;
         }

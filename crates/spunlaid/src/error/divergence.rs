@@ -21,7 +21,7 @@ pub enum DivergenceSign {
     Speed {
         /// Its speed [m/s].
         speed: f64,
-        /// The speed that air, feed, belt and gravity can give it [m/s].
+        /// The speed that air, feed, belt, gravity and elasticity can give it [m/s].
         given: f64,
     },
 }
@@ -48,7 +48,7 @@ impl DivergenceSign {
                 )
             }
             Self::Speed { speed: seen, given } => format!(
-                "node {node} moves with {}, while air, feed, belt and gravity together give no more than about {}",
+                "node {node} moves with {}, while air, feed, belt, gravity and elasticity together give no more than about {}",
                 speed(seen),
                 speed(given)
             ),
