@@ -397,13 +397,21 @@ fn identical_air_at_half_the_step_from_every_source() {
     // depend on the run's times. A tenth of the step that the program would choose leaves next to nothing.
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
     for (name, step) in [
-        ("record", "10 us"),
+        ("record", "20 us"),
         ("convected", "20 us"),
         ("openfoam_diffuser", "10 us"),
         ("measured_spectrum", "20 us"),
     ] {
         let changes = [("run.time_step", step), ("run.duration", "0.25 s"), ("run.replicates", "3")];
-        let changes = changes.map(|(key, value)| (key.to_owned(), value.to_owned()));
+        // Shorter elements have axial waves at the start that no such step damps; they are not what is tested here.
+        let coarse = match name {
+            "record" => Some(("fibre.element_length", "25 mm")),
+            "measured_spectrum" => Some(("fibre.element_length", "50 mm")),
+            _ => None,
+        };
+        let changes =
+            changes.into_iter().chain(coarse).map(|(key, value)| (key.to_owned(), value.to_owned()));
+        let changes: Vec<_> = changes.collect();
         let (case, _) = read_case(&cases.join(format!("{name}.toml")), &changes).expect("the case is there");
         let (_, check) = checked(&case, 2, Isa::detect(), false).expect("the case flies");
         let path = check.expect("25 instants and more").path.expect("paths");

@@ -258,8 +258,16 @@ impl Case {
         let (h, shown) = (self.run.time_step, |time: f64| Dimension::Time.pretty(time));
         // A step may be as long as the feed of an element, which is no limit of stability.
         let limits = self.step_limits().into_iter().filter(|limit| limit.cause != FEEDING);
-        let cause = match limits.min_by(|a, b| a.limit.total_cmp(&b.limit)) {
-            Some(StepLimit { cause, limit }) if h > 0.5 * limit => format!(
+        let stretched = self.line.filter(|line| line.belt_speed > line.feed_speed);
+        let cause = match (stretched, limits.min_by(|a, b| a.limit.total_cmp(&b.limit))) {
+            (Some(line), _) => format!(
+                "the belt is faster than the feed ({} and {}) and stretches the fibre that it holds; lower belt.speed, or let the \
+                 fibre slide on all of its length (belt.contact = \"friction\", with a belt.kept_length as long as what is fed) and \
+                 lower run.time_step",
+                Dimension::Velocity.pretty(line.belt_speed),
+                Dimension::Velocity.pretty(line.feed_speed)
+            ),
+            (None, Some(StepLimit { cause, limit })) if h > 0.5 * limit => format!(
                 "the time step {} is close to the stability limit {} of the {cause}; lower run.time_step",
                 shown(h),
                 shown(limit)
