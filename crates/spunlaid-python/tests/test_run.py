@@ -198,5 +198,5 @@ def test_rejects_bad_arguments(short: Case) -> None:
         spunlaid.run("case.toml")  # type: ignore[arg-type]
     with pytest.raises(spunlaid.CaseError, match=r"run\.replicates"):
         spunlaid.run(short, 0)
-    lost = short.with_({"run.scheme": "semi-implicit-euler"})
+    lost = short.with_({"run.scheme": "semi-implicit-euler", "run.time_step": "1 us"})
     assert lost["run.scheme"] == "semi-implicit-euler"
