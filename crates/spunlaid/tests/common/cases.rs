@@ -27,7 +27,7 @@ pub fn remarks(text: &str) -> Vec<String> {
 /// The starter with the mesh, the scheme and the step of the paper's Table 1.
 pub fn papers_starter() -> &'static str {
     static TEXT: LazyLock<String> = LazyLock::new(|| {
-        let line = |line: &str| match line.split(' ').next() {
+        let line = |line: &str| match line.strip_prefix("# ").unwrap_or(line).split(' ').next() {
             Some("element_length") => "# element_length = \"50 mm\"".to_owned(),
             Some("time_step") => "time_step = \"1 µs\"".to_owned(),
             Some("scheme") => "# scheme = \"semi-implicit-euler\"".to_owned(),
