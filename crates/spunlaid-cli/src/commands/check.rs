@@ -224,7 +224,9 @@ fn memory(case: &Case, threads: u64) -> f64 {
         Flow::Uniform | Flow::Profile(_) => 0.0,
     };
     let rows = instants(case) * case.run.replicates as f64;
-    let flying = case.flight_memory().total() * threads as f64 + ROW * rows.min(ROWS);
+    // While some fly, what one has recorded is written.
+    let flight = case.flight_memory();
+    let flying = flight.total() * threads as f64 + flight.instants + ROW * rows.min(ROWS);
     let kept = air.field_memory() as f64 + POSITION * positions(case);
     PROGRAM + reading.max(kept + flying.max(FIGURES))
 }
