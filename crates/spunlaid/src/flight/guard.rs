@@ -16,9 +16,10 @@ const MOST_SPEED: f64 = 20.0;
 const MOST_IN_AIR: f64 = 10.0;
 
 impl Flight {
-    /// The first fibre that is lost, if there is one.
-    pub(crate) fn lost(&self) -> Option<Error> {
-        (0..self.fibres()).find_map(|lane| self.diverged(lane)).or_else(|| self.adrift())
+    /// The lane of the first fibre that is lost and the reason, if there is one.
+    pub(crate) fn lost(&self) -> Option<(usize, Error)> {
+        let diverged = |lane: usize| Some((lane, self.diverged(lane)?));
+        (0..self.fibres()).find_map(diverged).or_else(|| self.adrift())
     }
 
     /// Whether the computation of the fibre in a lane has diverged. A lane is judged by itself, so a fibre is lost in any
@@ -67,20 +68,21 @@ impl Flight {
     }
 
     /// The first fibre that does not reach the belt, if there is one: ten times the way has been fed and has not landed.
-    fn adrift(&self) -> Option<Error> {
+    fn adrift(&self) -> Option<(usize, Error)> {
         let in_air = self.chain.in_air();
         let length = |lane: usize, line: &Line| {
             in_air[lane] as f64 * self.chain.constants.rest_length.0[lane] / line.distance
         };
         self.cases.iter().enumerate().find_map(|(lane, (case, replicate))| {
             let line = case.line.as_ref()?;
-            (length(lane, line) > MOST_IN_AIR).then(|| Error::NotLanding {
+            let error = || Error::NotLanding {
                 replicate: replicate + 1,
                 times: MOST_IN_AIR,
                 time: self.time(),
                 reached: self.chain.position.iter().map(|p| p.x.0[lane]).fold(f64::NEG_INFINITY, f64::max),
                 distance: line.distance,
-            })
+            };
+            (length(lane, line) > MOST_IN_AIR).then(|| (lane, error()))
         })
     }
 }
