@@ -27,6 +27,7 @@ mod http;
 mod laid;
 mod measured;
 mod message;
+mod number;
 mod page;
 mod save;
 mod server;

@@ -1,9 +1,8 @@
 //! A fed fibre above its moving belt as data of the page. Every node keeps its number in the order of feed, so that the
 //! page can follow it from one instant to the next, although the number of nodes changes.
 
-use super::frames::{Data, Frames, POSITIONS, encode};
-use super::words::{count, time};
-use serde::Serialize;
+use super::data::{Belt, Data, Frames, Laid, POSITIONS, encode};
+use crate::report::words::{count, time};
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Results, Trajectory};
 use spunlaid::line::Line;
@@ -21,30 +20,6 @@ const LAID: usize = 8192;
 /// widths of the lay-down.
 const SHOWN: (f64, f64) = (0.6, 3.0);
 const WIDTHS: f64 = 4.0;
-
-/// The belt and what lies on it.
-#[derive(Serialize)]
-pub(super) struct Belt {
-    /// [m/s]
-    speed: f64,
-    feed_speed: f64,
-    /// Behind the inlet.
-    shown_mm: f64,
-    /// Number of the newest node at each instant, in the order of feed.
-    newest: Vec<u64>,
-    /// Number of nodes of each replicate at each instant.
-    counts: Vec<Vec<usize>>,
-    laid: Vec<Laid>,
-}
-
-/// What a replicate has laid.
-#[derive(Serialize)]
-struct Laid {
-    /// Number of its first point.
-    first: u64,
-    /// Base64 of pairs of 32-bit numbers, low byte first: place on the belt in machine and cross direction [mm].
-    points: String,
-}
 
 /// The nodes of a run that are shown: each `stride`-th in the order of feed.
 struct Chosen<'a> {

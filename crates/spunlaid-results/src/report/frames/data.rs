@@ -1,34 +1,24 @@
-//! The moving fibre as data of the page: instants, nodes and replicates chosen to fit, packed in 16 bits.
+//! What the page's scripts read: positions packed in 16 bits.
 
-use super::belt;
-use super::words::{count, time};
-use crate::figures::swing_frequency;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Results, Shape, Trajectory};
+use spunlaid::ensemble::Trajectory;
 use spunlaid::fibre::Root;
 use spunlaid::vec3::Vec3;
-use spunlaid_charts::even;
 
 /// Most node positions in a page: 8 characters each, 3 MB in all.
 pub(super) const POSITIONS: usize = 375_000;
-/// Most nodes of a fibre in a picture.
-const NODES: usize = 101;
-/// Most instants of a picture.
-const INSTANTS: usize = 2000;
-/// Least instants per swing for the motion to be followed.
-const PER_SWING: f64 = 16.0;
 
 /// What the page's script draws.
-pub(super) struct Frames {
+pub(in crate::report) struct Frames {
     /// The data as JSON; nothing where no shapes were kept.
-    pub(super) json: String,
+    pub(in crate::report) json: String,
     /// What was left out, in sentences.
-    pub(super) remarks: Vec<String>,
+    pub(in crate::report) remarks: Vec<String>,
     /// Whether it is a fed fibre above a belt.
-    pub(super) fed: bool,
+    pub(in crate::report) fed: bool,
 }
 
 /// What `assets/frames.js` and `assets/belt.js` read.
@@ -38,7 +28,7 @@ pub(super) struct Data {
     replicates: Vec<u64>,
     /// Number of nodes of a fibre of fixed length.
     #[serde(skip_serializing_if = "Option::is_none")]
-    nodes: Option<usize>,
+    pub(super) nodes: Option<usize>,
     /// [s]
     pub(super) times: Vec<f64>,
     /// A coordinate is `origin + level · step`, for x, y and z.
@@ -53,10 +43,10 @@ pub(super) struct Data {
     /// Whether the first node is held in place.
     held: bool,
     /// Crossing frequency of a free end [Hz].
-    frequency: Option<f64>,
+    pub(super) frequency: Option<f64>,
     /// What a fed fibre is laid on.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) belt: Option<belt::Belt>,
+    pub(super) belt: Option<Belt>,
     /// Base64 of the 16-bit levels, low byte first: per replicate, instant and node x, y, z.
     positions: String,
 }
@@ -92,75 +82,28 @@ impl Data {
     }
 }
 
-/// Which of the kept shapes are shown.
-struct Choice {
-    instants: Vec<usize>,
-    nodes: Vec<usize>,
+/// The belt and what lies on it.
+#[derive(Serialize)]
+pub(super) struct Belt {
+    /// [m/s]
+    pub(super) speed: f64,
+    pub(super) feed_speed: f64,
+    /// Behind the inlet.
+    pub(super) shown_mm: f64,
+    /// Number of the newest node at each instant, in the order of feed.
+    pub(super) newest: Vec<u64>,
+    /// Number of nodes of each replicate at each instant.
+    pub(super) counts: Vec<Vec<usize>>,
+    pub(super) laid: Vec<Laid>,
 }
 
-/// Chooses and packs the shapes of a run.
-pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
-    if let Some(line) = case.line {
-        return belt::pack(case, line, results);
-    }
-    let seen: Vec<&Trajectory> =
-        results.trajectories.iter().filter(|f| !f.shapes.is_empty()).take(8).collect();
-    let shapes: &[Shape] = &seen.first()?.shapes;
-    let same = |t: &&&Trajectory| t.shapes.len() == shapes.len();
-    let trajectories: Vec<&Trajectory> = seen.iter().filter(same).copied().collect();
-    let nodes = shapes.first()?.position.len();
-    let frequency = swing_frequency(results);
-    let (choice, remarks) = choose(shapes, nodes, trajectories.len(), frequency);
-    let chosen = || {
-        trajectories.iter().flat_map(|t| choice.instants.iter().map(|&i| &t.shapes[i])).flat_map(|shape| {
-            choice.nodes.iter().map(|&n| shape.position.get(n).copied().unwrap_or_default())
-        })
-    };
-    let times = choice.instants.iter().map(|&i| shapes[i].time).collect();
-    let data = Data::of(case, &trajectories, times, chosen);
-    Data { nodes: Some(choice.nodes.len()), frequency, ..data }.frames(remarks)
-}
-
-fn choose(
-    shapes: &[Shape],
-    nodes: usize,
-    trajectories: usize,
-    frequency: Option<f64>,
-) -> (Choice, Vec<String>) {
-    let mut remarks = Vec::new();
-    let kept_nodes = even(nodes, NODES);
-    if kept_nodes.len() < nodes {
-        remarks.push(format!("{} of {} are drawn.", kept_nodes.len(), count(nodes as u64, "node")));
-    }
-    let most = (POSITIONS / (kept_nodes.len() * trajectories)).clamp(2, INSTANTS);
-    let total = shapes.len();
-    let interval = if total > 1 { shapes[1].time - shapes[0].time } else { 0.0 };
-    let coarsest = frequency.map(|f| 1.0 / (PER_SWING * f));
-    if coarsest.is_some_and(|coarsest| interval > 4.0 * coarsest) {
-        remarks.push(format!(
-            "The shape of the fibre was kept only every {}, which is too seldom to follow the swings, so the \
-             animation jumps.",
-            time(interval)
-        ));
-    }
-    let mut instants: Vec<usize> = (0..total).collect();
-    if total > most {
-        let stride = total.div_ceil(most);
-        let followed = coarsest.map_or(stride, |c| ((c / interval) as usize).max(1));
-        if followed < stride {
-            let first = total - ((most - 1) * followed + 1);
-            instants = (first..total).step_by(followed).collect();
-            remarks.push(format!(
-                "The animation shows the last {} of {}.",
-                time(shapes[total - 1].time - shapes[first].time),
-                time(shapes[total - 1].time)
-            ));
-        } else {
-            instants = even(total, most);
-            remarks.push(format!("The animation shows {} of {total} recorded shapes.", instants.len()));
-        }
-    }
-    (Choice { instants, nodes: kept_nodes }, remarks)
+/// What a replicate has laid.
+#[derive(Serialize)]
+pub(super) struct Laid {
+    /// Number of its first point.
+    pub(super) first: u64,
+    /// Base64 of pairs of 32-bit numbers, low byte first: place on the belt in machine and cross direction [mm].
+    pub(super) points: String,
 }
 
 /// Positions as 16-bit levels, low byte first.
