@@ -10,7 +10,7 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::ensemble::Computing;
-use spunlaid::error::{Error, JournalError};
+use spunlaid::error::Error;
 use spunlaid::input::{Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study};
 use spunlaid::lanes::Isa;
 use spunlaid::observe::MEASURES;
@@ -161,7 +161,7 @@ impl Study {
                 Ok(journal.handle().map_err(Error::from)?)
             })?;
             if let Some(file) = file {
-                file.sync_data().map_err(|error| Error::from(JournalError::Unsynced(error)))?;
+                file.sync_data().map_err(|error| unsynced(&error))?;
             }
             Ok(new.len())
         })
