@@ -8,6 +8,7 @@ mod remarks;
 mod step;
 mod usual;
 
+pub(crate) use check::too_many_steps;
 pub use check::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
 pub use note::{Note, Remark};

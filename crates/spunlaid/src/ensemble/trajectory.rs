@@ -2,7 +2,7 @@
 
 use super::Computing;
 use crate::case::Case;
-use crate::error::{Error, FlightFault};
+use crate::error::Error;
 use crate::flight::{AirOf, Flight, Job, LaidPoint};
 use crate::lanes::{Isa, WIDTH};
 use crate::observe::{Measure, Observers, Sample, Seen, Value};
@@ -107,7 +107,7 @@ pub fn fly_together(
     keep: Keep,
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
-    let first = jobs.first().ok_or(FlightFault::Empty)?;
+    let first = jobs.first().ok_or_else(Error::no_fibre)?;
     fly_in_air(jobs, keep, AirOf::run(first.case), computing)
 }
 
