@@ -44,8 +44,8 @@ pub(crate) enum Failure {
     NotFlown { name: String, why: Vec<String> },
     /// The page of `live` cannot be served.
     NotServed { source: io::Error },
-    /// The positions of fibres became infinite or NaN.
-    FibresLost { lost: u64, of: u64, first: Vec<String> },
+    /// Fibres were lost; the results are those of all others.
+    FibresLost { lost: String },
     /// The program panicked; the message has been printed.
     Panicked,
 }
@@ -188,13 +188,7 @@ impl fmt::Display for Failure {
             Self::NoSuchPoint { point, points } => {
                 write!(f, "--print-point {point}: the study has {points} points, counted from 1")
             }
-            Self::FibresLost { lost, of, first } => {
-                write!(
-                    f,
-                    "{lost} of {of} fibres were lost because their positions became infinite; all others are in the results"
-                )?;
-                first.iter().try_for_each(|line| write!(f, "\n{line}"))
-            }
+            Self::FibresLost { lost } => f.write_str(lost),
             Self::Panicked => write!(
                 f,
                 "the program has a fault, see above; please report it with the case or study that shows it"
@@ -304,7 +298,7 @@ mod tests {
             Unwritten::Figure { name: "9".to_owned(), reason: "no".to_owned() }.into(),
             Failure::NotServed { source: full() },
             Failure::Unheard { why: &FULL },
-            Failure::FibresLost { lost: 1, of: 2, first: Vec::new() },
+            Failure::FibresLost { lost: "1 of 2 fibres was lost".to_owned() },
             Failure::Panicked,
             Error::Diverged {
                 replicate: 1,
