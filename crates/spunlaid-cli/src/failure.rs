@@ -1,8 +1,6 @@
 //! The errors of the program, their messages and exit codes.
 
-use spunlaid::error::{
-    Error, Fault, FileError, FileFault, FileKind, JournalError, RecordFault, ScanFault, StudyFault, WebFault,
-};
+use spunlaid::error::{Error, FileError, FileFault, FileKind, RecordFault, ScanFault};
 use spunlaid_results::Failure as Unwritten;
 use std::fmt;
 use std::io;
@@ -211,13 +209,8 @@ fn folder_options(failure: &Unwritten) -> String {
 }
 
 /// The options and commands that help with an error of the library.
-fn options(error: &Error) -> &'static str {
-    match error {
-        Error::Journal(JournalError::InUse { .. }) => " (--out)",
-        Error::Journal(JournalError::Foreign { .. } | JournalError::Format { .. }) => " (--out, --force)",
-        Error::Journal(JournalError::Unwritable { .. } | JournalError::Unsynced(_)) => {
-            " (repeat the command)"
-        }
+fn options(error: &Error) -> String {
+    let known = match error {
         Error::File(error) => match error.fault {
             FileFault::NotThere(FileKind::Case) => " (`spunlaid new` writes one)",
             FileFault::IsFolder(FileKind::Case) => " (--until flies a finished run for longer)",
@@ -225,23 +218,11 @@ fn options(error: &Error) -> &'static str {
             FileFault::NotThere(FileKind::Study) => " (`spunlaid help sweep` shows one)",
             _ => "",
         },
-        Error::Rejected(problems) => problems
-            .iter()
-            .map(|problem| of_problem(&problem.what))
-            .find(|text| !text.is_empty())
-            .unwrap_or(""),
         _ => "",
-    }
-}
-
-/// The options and commands that help with a problem of a case or of a study.
-fn of_problem(fault: &Fault) -> &'static str {
-    match fault {
-        Fault::IsStudy | Fault::Web(WebFault::IsStudy) => " (`spunlaid sweep`)",
-        Fault::IsWeb | Fault::Study(StudyFault::IsWeb) => " (`spunlaid web`)",
-        Fault::Study(StudyFault::TableOfCase) | Fault::Web(WebFault::IsCase) => " (`spunlaid run`)",
-        Fault::Study(StudyFault::TooManyPoints { .. } | StudyFault::OtherPoints { .. }) => " (--points)",
-        _ => "",
+    };
+    match error.option() {
+        "" => known.to_owned(),
+        option => format!(" ({option})"),
     }
 }
 
@@ -278,7 +259,8 @@ fn record_options(fault: &FileFault) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::error::{DivergenceSign, Error, FlightFault, JournalError};
+    use spunlaid::error::{Error, Fault};
+    use spunlaid::study::{foreign, in_use, unsynced};
     use std::sync::LazyLock;
 
     static FULL: LazyLock<io::Error> = LazyLock::new(|| io::ErrorKind::StorageFull.into());
@@ -303,10 +285,10 @@ mod tests {
             Failure::NotCompared { folder: path(), reason: "it holds no web".to_owned() },
             Failure::NotFlown { name: "a.toml".to_owned(), why: Vec::new() },
             Unwritten::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() }.into(),
-            Error::Flight(FlightFault::Empty).into(),
+            Error::Flight(Fault::plain("no fibre")).into(),
             Error::Rejected(Vec::new()).into(),
-            Error::from(JournalError::InUse { path: path() }).into(),
-            Error::from(JournalError::Foreign { path: path() }).into(),
+            in_use(&path()).into(),
+            foreign(&path()).into(),
         ] {
             assert_eq!(wrong_input.exit_code(), 1, "{wrong_input:?}");
         }
@@ -322,13 +304,12 @@ mod tests {
                 replicate: 1,
                 node: 2,
                 time: 0.1,
-                sign: DivergenceSign::NotFinite,
+                sign: "node 2 is no longer finite".to_owned(),
                 cause: "stiff".to_owned(),
             }
             .into(),
-            Error::from(JournalError::Unusable { path: path(), source: full() }).into(),
-            Error::from(JournalError::Unwritable { path: path(), source: full() }).into(),
-            Error::from(JournalError::Unsynced(full())).into(),
+            Error::system(&path(), Fault::plain("cannot be read")).into(),
+            unsynced(&full()).into(),
         ] {
             assert_eq!(not_the_inputs_fault.exit_code(), 2, "{not_the_inputs_fault:?}");
         }

@@ -2,7 +2,7 @@
 
 use super::{Computing, EndPath};
 use crate::case::Case;
-use crate::error::{Error, FlightFault};
+use crate::error::{Error, Fault};
 use crate::flight::{AirOf, Flight, Job, LaidPoint};
 use crate::lanes::{Isa, WIDTH};
 use crate::observe::{Measure, Observers, Sample, Seen, Value};
@@ -113,7 +113,7 @@ pub fn fly_together(
     keep: Keep,
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
-    let first = jobs.first().ok_or(FlightFault::Empty)?;
+    let first = jobs.first().ok_or_else(Error::no_fibre)?;
     fly_in_air(jobs, keep, AirOf::run(first.case), computing)
 }
 
@@ -139,7 +139,9 @@ pub fn fly_each(
         let together: Vec<Job<'_>> = flying.iter().map(|job| jobs[*job]).collect();
         let flown = match together.first() {
             Some(first) => fly_until_lost(&together, keep, AirOf::run(first.case), computing),
-            None if jobs.is_empty() => Err(Ended::Otherwise(FlightFault::Empty.into())),
+            None if jobs.is_empty() => {
+                Err(Error::Flight(Fault::plain("a flight needs at least one fibre")).into())
+            }
             None => Ok(Vec::new()),
         };
         match flown {

@@ -1,0 +1,70 @@
+//! `check` tells the memory that a run takes.
+
+use crate::desk::{Desk, success};
+use serde_json::Value;
+use std::fs;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+/// Largest resident memory of a command so far [bytes], as the system keeps it; read until the command ends.
+fn peak(command: &mut Command) -> f64 {
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let status = format!("/proc/{}/status", child.id());
+    let mut peak = 0.0_f64;
+    while child.try_wait().unwrap().is_none() {
+        let text = fs::read_to_string(&status).unwrap_or_default();
+        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kilobytes = line.and_then(|line| line.trim().strip_suffix(" kB")?.trim().parse::<f64>().ok());
+        peak = peak.max(1024.0 * kilobytes.unwrap_or(0.0));
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(child.wait().unwrap().success() && peak > 0.0);
+    peak
+}
+
+#[test]
+fn check_tells_the_memory_of_a_run() {
+    let desk = Desk::new();
+    let field = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/openfoam_diffuser.toml");
+    for (name, case, changes) in [
+        // Little but the program itself, many recorded instants, many replicates, a field and many shapes.
+        ("little", "brief.toml", &["run.duration=0.1 s"][..]),
+        ("instants", "brief.toml", &["run.duration=1 s", "run.output_interval=20 us", "run.replicates=16"]),
+        ("replicates", "brief.toml", &["run.duration=0.3 s", "run.replicates=800"]),
+        ("field", field, &["run.replicates=8"]),
+    ] {
+        let told = success(&mut desk.with(&format!("check {case} --json"), changes));
+        let told: Value = serde_json::from_str(&told).unwrap();
+        let told = told["expected"]["memory_bytes"].as_f64().unwrap();
+        let taken = peak(&mut desk.with(&format!("run {case} --out {name}"), changes));
+        println!("{name}: {:.0} MB told, {:.0} MB taken", told / 1e6, taken / 1e6);
+        let share = told / taken;
+        assert!((0.67..1.5).contains(&share), "{name}: {told:e} bytes told, {taken:e} taken");
+    }
+}
+
+/// The tables are written while fibres fly, and what observers keep of the instants is bounded.
+#[test]
+fn memory_of_a_run_does_not_grow_with_its_duration_or_its_recorded_instants() {
+    let desk = Desk::new();
+    let seldom = ["run.output_interval=50 ms", "run.replicates=1"];
+    let often = ["run.duration=2.1 s", "run.replicates=16", "run.shapes=100"];
+    for (name, changes, [few, many]) in [
+        // The turbulence is made window by window, and a window lasts for some ten seconds.
+        ("duration", &seldom[..], ["run.duration=20 s", "run.duration=200 s"]),
+        // More instants than are kept whole, and three times as many.
+        ("instants", &often[..], ["run.output_interval=60 us", "run.output_interval=20 us"]),
+    ] {
+        let taken = [few, many].map(|change| {
+            let mut run = desk.with(
+                &format!("run brief.toml --threads 1 --force --out {name}"),
+                &[changes, &[change]].concat(),
+            );
+            // The allocator gives back at once what is free, so that the peak is what is in use.
+            peak(run.env("MALLOC_ARENA_MAX", "1").env("MALLOC_MMAP_THRESHOLD_", "65536"))
+        });
+        println!("{name}: {:.0} MB for {few}, {:.0} MB for {many}", taken[0] / 1e6, taken[1] / 1e6);
+        // It wanders by some MB with the pictures that happen to be drawn side by side.
+        assert!(taken[1] < taken[0] + 8e6, "{name}: {taken:?} bytes for {few} and {many}");
+    }
+}
