@@ -106,7 +106,6 @@ impl From<Unwritten> for Failure {
     fn from(failure: Unwritten) -> Self {
         match failure {
             Unwritten::Simulation(error) => Self::Library(error),
-            Unwritten::NotARun { folder, reason } => Self::NotARun { folder, reason },
             failure => Self::Results(failure),
         }
     }
@@ -284,7 +283,7 @@ fn record_options(fault: &FileFault) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::error::{DivergenceSign, Error, FlightFault, JournalError};
+    use spunlaid::error::{DivergenceSign, Error, FlightFault, JournalError, LayingFault};
     use std::sync::LazyLock;
 
     static FULL: LazyLock<io::Error> = LazyLock::new(|| io::ErrorKind::StorageFull.into());
@@ -308,7 +307,8 @@ mod tests {
             Failure::NotForThis { path: path(), option: "--rate", is_scan: true },
             Failure::NotCompared { folder: path(), reason: "it holds no web".to_owned() },
             Failure::NotFlown { name: "a.toml".to_owned(), why: Vec::new() },
-            Unwritten::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() }.into(),
+            Error::from(LayingFault::Nothing { origin: path(), reason: "it lies too regularly".to_owned() })
+                .into(),
             Error::Flight(FlightFault::Empty).into(),
             Error::Rejected(Vec::new()).into(),
             Error::from(JournalError::InUse { path: path() }).into(),

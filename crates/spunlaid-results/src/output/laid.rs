@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Name of the table.
-pub const LAID: &str = "laid.parquet";
+pub use spunlaid::layers::LAID;
 /// Points of a replicate that stay in memory before they go to its file.
 const IN_MEMORY: usize = 4096;
 /// Numbers of a point.

@@ -1,6 +1,7 @@
 //! Errors of webs that cannot be laid.
 
 use crate::units::Dimension;
+use std::path::PathBuf;
 
 /// What is wrong with a web.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -65,5 +66,24 @@ pub enum LayingFault {
         curves: f64,
         /// The same of the layer.
         layer: f64,
+    },
+    /// What fibres have laid cannot make a web.
+    #[error("{}: {reason}", origin.display())]
+    Nothing {
+        /// The case or the folder of results.
+        origin: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// A folder does not hold the results of a run.
+    #[error(
+        "{}: does not hold the results of a run: {reason}; name folders that `spunlaid run` has written",
+        folder.display()
+    )]
+    NotARun {
+        /// The folder.
+        folder: PathBuf,
+        /// Why.
+        reason: String,
     },
 }

@@ -1,11 +1,11 @@
 //! What tells how the filaments of a layer lie.
 
 use super::super::{Overrides, read_case};
-use super::LaydownSource;
 use super::read::{Reading, table_of};
 use crate::case::Case;
 use crate::case::keys::Value;
 use crate::error::{Error, Fault, Place, WebFault};
+use crate::layers::LaydownSource;
 use crate::surrogate::Surrogate;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

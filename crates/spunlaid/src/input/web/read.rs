@@ -3,14 +3,13 @@
 use super::super::Overrides;
 use super::super::written::{Said, Written, sorted};
 use super::document::WebDocument;
-use super::keys::{self, METHODS};
-use super::{LaydownSource, LayerSpec, Method, WebSpec};
 use crate::case::keys::{LeftOut, Value};
 use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding, WebFault};
+use crate::layers::keys::{self, METHODS, diameter};
+use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
 use crate::units::Dimension;
 use crate::web::{Filaments, Row};
-use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 /// Relative difference up to which two written numbers are the same.
@@ -79,7 +78,7 @@ impl Reading<'_> {
     fn unusual(&self) -> Vec<Note> {
         let of = |(full, said): (&str, &Said)| {
             let key = keys::of_full(full)?;
-            let (dimension, usual) = (key.kind.dimension()?, key.usual()?);
+            let (dimension, usual) = (key.kind.dimension()?, key.usual_range()?);
             let values = match said.value.as_ref()? {
                 Value::Number(value) => std::slice::from_ref(value),
                 Value::Numbers(values) => values.as_slice(),
@@ -228,7 +227,7 @@ impl Reading<'_> {
             self.written.reject(&linear, Fault::Excludes { other: NAME, remedy });
             return None;
         }
-        let diameter = (4.0 * self.written.number(&linear)? / (PI * density?)).sqrt();
+        let diameter = diameter(self.written.number(&linear)?, density?);
         self.must_be(&linear, diameter, flown.and_then(|flown| flown.value(NAME)), flown)
     }
 
@@ -288,7 +287,7 @@ impl Reading<'_> {
 
 /// A line that would be valid for a key.
 fn example(name: &str) -> String {
-    keys::find(name).map_or_else(String::new, keys::WebKey::example)
+    keys::find(name).map_or_else(String::new, WebKey::example)
 }
 
 /// The table in which a key of a layer stands, as it is written in the file.
