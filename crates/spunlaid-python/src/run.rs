@@ -1,16 +1,16 @@
-//! `fly`: flies a case, and `Flown`, its results.
+//! `fly`: flies a case, and what can be asked of its results.
 
 use crate::case::Case;
 use crate::flight::laid_columns;
-use crate::samples::{Collected, Samples, locked};
+use crate::flown::Flown;
+use crate::samples::{Collected, locked};
 use crate::watched::{Watch, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::case::Note;
 use spunlaid::ensemble::{
-    Computing, FinerCheck, FinerChecks, FinerPlans, Keep, KeepShapes, Results, TakeLaid, Trajectory,
-    fly_and_check,
+    Computing, FinerCheck, FinerPlans, Keep, KeepShapes, Results, TakeLaid, Trajectory, fly_and_check,
 };
 use spunlaid::error::Error;
 use spunlaid::flight::LaidPoint;
@@ -19,7 +19,6 @@ use spunlaid::observe::{MEASURES, Measure};
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
 use spunlaid_results::output::folder::{ENTRIES, Staging};
 use spunlaid_results::output::laid::{LaidTable, Spill};
-use spunlaid_results::output::summary::Performance;
 use spunlaid_results::output::tables::{Table, tables};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -40,20 +39,6 @@ impl TakeLaid for Belt {
         laid.entry(replicate).or_default().extend_from_slice(points);
         Ok(())
     }
-}
-
-/// Results of a run. `spunlaid.Run` shows them.
-#[pyclass(frozen, module = "spunlaid._spunlaid")]
-#[derive(Debug)]
-pub(crate) struct Flown {
-    pub(crate) name: String,
-    pub(crate) case: Arc<spunlaid::case::Case>,
-    pub(crate) results: Results,
-    pub(crate) checks: FinerChecks,
-    pub(crate) notes: Vec<String>,
-    pub(crate) performance: Performance,
-    pub(crate) samples: Option<Samples>,
-    pub(crate) laid: Vec<Vec<LaidPoint>>,
 }
 
 /// Flies a case. See spunlaid.run, which calls it.

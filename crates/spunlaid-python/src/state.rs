@@ -1,6 +1,6 @@
 //! Results of a run as plain values of Python, for pickling, and back.
 
-use crate::run::Flown;
+use crate::flown::Flown;
 use crate::samples::Samples;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;

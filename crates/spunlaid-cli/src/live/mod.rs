@@ -24,6 +24,7 @@ mod guard;
 mod laid;
 mod measured;
 mod message;
+mod number;
 mod page;
 mod save;
 mod server;
