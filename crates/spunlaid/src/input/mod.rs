@@ -21,7 +21,7 @@ pub use study::{
     MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
     read_changed_study, read_study,
 };
-pub use web::{WebFile, parse_web, read_web, write_web};
+pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};
 pub use write::write_case;
 
 use crate::case::{Case, Note};

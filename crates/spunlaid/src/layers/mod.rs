@@ -25,7 +25,7 @@ use std::sync::Arc;
 const LEAST_SPREADS: f64 = 8.0;
 
 /// A web before its fibres have been flown.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WebSpec {
     /// The sheet.
     pub sheet: Sheet,
@@ -49,7 +49,7 @@ pub enum Method {
 }
 
 /// A layer before its fibres have been flown.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LayerSpec {
     /// Its name, if it has one.
     pub name: Option<String>,
@@ -68,7 +68,7 @@ pub struct LayerSpec {
 }
 
 /// What tells how a filament lies.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum LaydownSource {
     /// A case that is to be flown.
     Case {

@@ -196,7 +196,7 @@ mod tests {
                 "{parameter:?}"
             );
         }
-        assert_eq!(time_steps().unwrap().points[0].case, table1);
+        assert_eq!(time_steps().unwrap().points[0].experiment.case(), Some(&table1));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use crate::case::{Case, keys};
 use crate::layers::{WEB_KEYS, WebSpec};
 
 /// What a point repeats, with its seed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Experiment {
     /// Each replicate is a fibre of this case, in turbulence of its own. The case has the largest number of replicates
     /// that may be flown.

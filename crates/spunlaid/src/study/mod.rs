@@ -102,7 +102,7 @@ impl Input<'_> {
 }
 
 /// A point of a study: a complete experiment.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     /// Values of the factors, then of the links: numbers in SI units, words as indices into those of the factor.
     pub values: Vec<f64>,

@@ -66,7 +66,7 @@ fn parse(text: &str, path: &str, set: &[(Sides, String); 2], point: &Sides) -> R
         |side: fn(&Sides) -> &[(String, String)]| [side(&set[0].0), side(&set[1].0), side(point)].concat();
     let (web, case) = (all(|sides| &sides.of_web), all(|sides| &sides.of_case));
     let word = if set[1].0.of_web.is_empty() && set[1].0.of_case.is_empty() { &set[0].1 } else { &set[1].1 };
-    parse_web_of_case(text, path, Overrides { values: &web, word }, Overrides { values: &case, word })
+    parse_web_of_case(text, path, Overrides { values: &web, word }, Overrides { values: &case, word }, &[])
 }
 
 impl Base for WebBase {

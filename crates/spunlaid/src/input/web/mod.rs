@@ -14,7 +14,7 @@ use super::{Overrides, file};
 use crate::case::Note;
 use crate::error::{Error, FileKind};
 use crate::layers::WebSpec;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The file of a web, read.
 #[derive(Clone, Debug)]
@@ -44,7 +44,15 @@ pub fn read_web<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<
 /// # Errors
 /// As [`read_web`].
 pub fn parse_web<'a>(text: &str, name: &str, overrides: impl Into<Overrides<'a>>) -> Result<WebFile, Error> {
-    parse_web_of_case(text, name, overrides.into(), (&[]).into())
+    parse_web_of_case(text, name, overrides.into(), (&[]).into(), &[])
+}
+
+/// [`parse_web`] with the texts of the cases that it names, each with its path. They need not be files.
+///
+/// # Errors
+/// As [`read_web`].
+pub fn parse_web_and_cases(text: &str, name: &str, cases: &[(PathBuf, String)]) -> Result<WebFile, Error> {
+    parse_web_of_case(text, name, (&[]).into(), (&[]).into(), cases)
 }
 
 /// [`parse_web`], with changes to the cases that it flies.
@@ -53,9 +61,10 @@ pub(super) fn parse_web_of_case(
     name: &str,
     overrides: Overrides<'_>,
     of_case: Overrides<'_>,
+    cases: &[(PathBuf, String)],
 ) -> Result<WebFile, Error> {
     let written = document::read(text, name, overrides)?;
-    let (spec, notes) = read::spec(written, name, of_case)?;
+    let (spec, notes) = read::spec(written, name, (of_case, cases))?;
     let text = write_web(&spec);
     Ok(WebFile { spec, notes, text })
 }

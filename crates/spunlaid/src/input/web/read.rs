@@ -22,6 +22,8 @@ pub(super) struct Reading<'a> {
     pub(super) folder: PathBuf,
     /// Changes to the cases that are flown.
     pub(super) of_case: Overrides<'a>,
+    /// Texts of cases that are no files.
+    pub(super) cases: &'a [(PathBuf, String)],
     notes: Vec<Note>,
 }
 
@@ -32,11 +34,11 @@ pub(super) struct Reading<'a> {
 pub(super) fn spec(
     document: WebDocument,
     name: &str,
-    of_case: Overrides<'_>,
+    (of_case, cases): (Overrides<'_>, &[(PathBuf, String)]),
 ) -> Result<(WebSpec, Vec<Note>), Error> {
     let WebDocument { written, layers: prefixes } = document;
     let folder = Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
-    let mut reading = Reading { written, folder, of_case, notes: Vec::new() };
+    let mut reading = Reading { written, folder, of_case, cases, notes: Vec::new() };
     let mut layers = Vec::new();
     for prefix in &prefixes {
         layers.push(reading.layer(prefix)?);
