@@ -35,7 +35,9 @@ pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<Part> {
         let experiment = anywhere(&points[*point].experiment);
         let (text, cases) = match &experiment {
             Experiment::Case(case) => (write_case(case), None),
-            Experiment::Web(web) => (write_web(web), Some(flown(web).map(|(layer, case)| (layer, write_case(case))).collect())),
+            Experiment::Web(web) => {
+                (write_web(web), Some(flown(web).map(|(layer, case)| (layer, write_case(case))).collect()))
+            }
         };
         (*point as u64, text, cases, checksum(&experiment), *start, *end)
     };
@@ -108,7 +110,7 @@ pub(crate) fn fly_bundle(
         isa: Isa::detect(),
         stop: &watch.stop,
         fibre_steps: &watch.done,
-        laid: None,
+        recorder: None,
     };
     let flown = watched(py, &watch, None, || {
         let mut points: Vec<Point> = Vec::new();
@@ -140,7 +142,8 @@ pub(crate) fn fly_bundle(
         raised_as(py, "ClusterError", text)
     })?;
     // Webs are never lost, so their first record has all their numbers.
-    let numbers = records.first().and_then(|record| record.landing.measured()).map_or(MEASURES.len(), <[f64]>::len);
+    let numbers =
+        records.first().and_then(|record| record.landing.measured()).map_or(MEASURES.len(), <[f64]>::len);
     // Two points may have the same case, so a record is found by its point here and its replicate there.
     let mut rows = Vec::with_capacity(records.len() * (HEAD + numbers));
     let mut at: BTreeMap<(usize, u64), Vec<u64>> = BTreeMap::new();

@@ -10,12 +10,14 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::ensemble::Computing;
-use spunlaid::error::{Error, FileKind, JournalError};
+use spunlaid::error::FileKind;
 use spunlaid::input::{
     Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text, write_experiment,
 };
 use spunlaid::lanes::Isa;
-use spunlaid::study::{Bundles, Experiment, Journal, Landing, Progress, Rounds, rankings, results_of_point, run};
+use spunlaid::study::{
+    Bundles, Experiment, Journal, Landing, Progress, Rounds, rankings, results_of_point, run, unsynced,
+};
 use spunlaid_results::Failure;
 use spunlaid_results::folders::study::StudyFolder;
 use std::path::PathBuf;
@@ -63,9 +65,7 @@ impl Study {
                 let set = Overrides { values: &changed, word: "sweep:" };
                 let changes = StudyChanges { points, replicates, set };
                 let file = guarded(py, || {
-                    let base = |_: &str, _| {
-                        Ok((read_text(&web, FileKind::Web)?, web.display().to_string()))
-                    };
+                    let base = |_: &str, _| Ok((read_text(&web, FileKind::Web)?, web.display().to_string()));
                     Ok(parse_changed_study(&text, "study", &changes, base)?)
                 })?;
                 ("study".to_owned(), file)
@@ -108,7 +108,7 @@ impl Study {
             isa: Isa::detect(),
             stop: &watch.stop,
             fibre_steps: &watch.done,
-            laid: None,
+            recorder: None,
         };
         // Progress is told in fibres, as it is on a cluster.
         let told = Watch::default();
@@ -172,11 +172,11 @@ impl Study {
             let mut new = records;
             let file = self.with_journal(|journal| {
                 new.retain(|record| !journal.holds(record.point as usize, record.replicate));
-                journal.add(&new).map_err(Error::from)?;
-                Ok(journal.handle().map_err(Error::from)?)
+                journal.add(&new)?;
+                Ok(journal.handle()?)
             })?;
             if let Some(file) = file {
-                file.sync_data().map_err(|error| Error::from(JournalError::Unsynced(error)))?;
+                file.sync_data().map_err(|error| unsynced(&error))?;
             }
             Ok(new.len())
         })
@@ -252,9 +252,10 @@ impl Study {
         let all = PyDict::new(py);
         let numbers = self.file.study.quantities.len();
         let shape = [points.len(), numbers];
-        let mean = PyArray1::from_vec(py, results.iter().flat_map(|of| of.mean.iter().copied()).collect()).reshape(shape)?;
-        let errors = (results.iter())
-            .flat_map(|of| (0..numbers).map(|i| of.standard_error(i).unwrap_or(f64::NAN)));
+        let mean = PyArray1::from_vec(py, results.iter().flat_map(|of| of.mean.iter().copied()).collect())
+            .reshape(shape)?;
+        let errors =
+            (results.iter()).flat_map(|of| (0..numbers).map(|i| of.standard_error(i).unwrap_or(f64::NAN)));
         all.set_item("mean", mean)?;
         all.set_item("standard_error", PyArray1::from_vec(py, errors.collect()).reshape(shape)?)?;
         all.set_item("n", PyArray1::from_vec(py, results.iter().map(|of| of.n as i64).collect()))?;
@@ -272,7 +273,7 @@ impl Study {
             self.with_journal(|journal| {
                 let mut rows = Vec::new();
                 for point in 0..self.file.study.points.len() {
-                    for record in journal.records(point, u64::MAX).map_err(Error::from)? {
+                    for record in journal.records(point, u64::MAX)? {
                         rows.extend([record.point as f64, record.replicate as f64]);
                         match record.landing {
                             Landing::Measured(values) => {

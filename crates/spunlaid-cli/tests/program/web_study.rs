@@ -53,9 +53,7 @@ fn identical_web_of_a_point_alone() {
     let mean = |column: &str| &of_point["results"][column]["mean"];
     for patch in web["web"]["patches"].as_array().unwrap() {
         let side = patch["patch_m"].as_f64().unwrap() * 1e3;
-        for (column, key) in
-            [("", "cv"), ("_chance", "cv_standard_error"), ("_one_fibre", "cv_one_fibre")]
-        {
+        for (column, key) in [("", "cv"), ("_chance", "cv_standard_error"), ("_one_fibre", "cv_one_fibre")] {
             assert_eq!(*mean(&format!("cv_{}_mm{column}", side.round())), patch[key], "{side} {key}");
         }
         // Of a single web, its parts tell the error.
@@ -169,7 +167,10 @@ fn rejects_folders_of_other_results() {
     fs::create_dir(desk.path("old")).unwrap();
     fs::write(desk.path("old/webs.jsonl"), "{}").unwrap();
     let said = refusal(&mut desk.spunlaid("sweep study.toml --out old"), 1);
-    assert!(said.contains("old: holds results already (webs.jsonl); name another folder, or replace them"), "{said}");
+    assert!(
+        said.contains("old: holds results already (webs.jsonl); name another folder, or replace them"),
+        "{said}"
+    );
     success(&mut desk.spunlaid("run brief.toml --out run --quiet"));
     let said = refusal(&mut desk.spunlaid("sweep study.toml --out run"), 1);
     assert!(said.contains("run: holds results already (summary.json)"), "{said}");

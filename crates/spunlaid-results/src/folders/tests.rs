@@ -1,10 +1,10 @@
 //! The fibres of a web: flown, and read back from the folder of a run.
 
+use crate::Failure;
 use crate::output::folder::{ENTRIES, Staging};
-use crate::output::laid::{LaidTable, Spill};
+use crate::output::tables::{TableRecorder, Tables};
 use spunlaid::case::Case;
-use spunlaid::ensemble::Results;
-use spunlaid::ensemble::{Computing, Keep, fly};
+use spunlaid::ensemble::{Computing, Keep, Results, fly};
 use spunlaid::input::{parse_web, read_case};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flyer, LaydownSource, Method, WebSpec, read_laid};
@@ -45,17 +45,19 @@ fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
     let desk = tempfile::tempdir().unwrap();
     let folder = desk.path().join("r");
     let staging = Staging::new(&folder, ENTRIES, false, &STOP).unwrap();
-    let spill = Spill::new(&staging);
-    let mut table = LaidTable::create(&staging, &spill).unwrap();
+    let recorder = TableRecorder::new(&staging, true);
+    let mut tables = Tables::create(&staging, &recorder).unwrap();
     let (steps, isa) = (AtomicU64::new(0), Isa::detect());
-    let computing = Computing { threads: 2, isa, stop: &STOP, fibre_steps: &steps, laid: Some(&spill) };
+    let computing =
+        Computing { threads: 2, isa, stop: &STOP, fibre_steps: &steps, recorder: Some(&recorder) };
     let mut results = Results::collector(0);
     fly(&case, Keep::NUMBERS, computing, |trajectory| {
-        results.take(&trajectory);
-        table.add(trajectory.replicate)
+        tables.add(trajectory.replicate)?;
+        results.take(trajectory);
+        Ok::<(), Failure>(())
     })
     .unwrap();
-    table.finish().unwrap();
+    tables.finish().unwrap();
     staging.publish().unwrap();
     let results = results.finish();
     let measured = ["sigma_1", "sigma_2", "noise"].map(|name| results.estimate(name));

@@ -8,18 +8,17 @@
 
 use super::{LaydownSource, LayerSpec, Method, WebSpec, laid};
 use crate::case::Case;
-use crate::ensemble::{Computing, Keep, TakeLaid, fly};
-use crate::error::{Error, LayingFault};
+use crate::ensemble::{Computing, Keep, LaidCurves, fly};
+use crate::error::{Error, Fault};
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::laydown::{Trace, Tracing};
 use crate::statistics::Estimate;
 use crate::surrogate::{Residual, Surrogate, Unidentified, identify};
 use crate::web::{Curves, Fibres, Web};
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
-use std::sync::{Arc, Mutex, PoisonError};
 
 /// The fibres of a layer.
 #[derive(Clone, Debug)]
@@ -116,13 +115,13 @@ impl<'a> Flyer<'a> {
 
     /// Flies a case; the points that each replicate has laid.
     fn fly(&self, path: &Path, case: &Case) -> Result<Vec<Vec<LaidPoint>>, Error> {
-        let (fibre_steps, laid) = (AtomicU64::new(0), Collected::default());
+        let (fibre_steps, laid) = (AtomicU64::new(0), LaidCurves::default());
         let computing = Computing {
             threads: self.threads,
             isa: Isa::detect(),
             stop: self.stop,
             fibre_steps: &fibre_steps,
-            laid: Some(&laid),
+            recorder: Some(&laid),
         };
         let replicates = case.run.replicates;
         let mut flown = Ok(());
@@ -130,21 +129,8 @@ impl<'a> Flyer<'a> {
             flown = fly::<Error>(case, Keep::NUMBERS, computing, |_| Ok(()));
         });
         flown?;
-        let mut curves = laid.0.into_inner().unwrap_or_else(PoisonError::into_inner);
         // A replicate that has laid nothing is missed by its number.
-        Ok((0..replicates).map(|replicate| curves.remove(&replicate).unwrap_or_default()).collect())
-    }
-}
-
-/// Collects in memory what fibres lay: a few megabytes for a kilometre.
-#[derive(Debug, Default)]
-struct Collected(Mutex<BTreeMap<u64, Vec<LaidPoint>>>);
-
-impl TakeLaid for Collected {
-    fn take(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
-        let mut curves = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        curves.entry(replicate).or_default().extend_from_slice(points);
-        Ok(())
+        Ok((0..replicates).map(|replicate| laid.take(replicate)).collect())
     }
 }
 
@@ -152,8 +138,7 @@ impl Flown {
     /// * `path` – of the case or of the results, for messages
     /// * `laid` – all points of each replicate
     fn of(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Error> {
-        let nothing =
-            |reason: &str| LayingFault::Nothing { origin: path.to_owned(), reason: reason.to_owned() };
+        let nothing = |reason: &str| Error::folder(path, Fault::plain(reason.to_owned()));
         let line = case.line.ok_or_else(|| nothing("its fibre is not fed on to a belt"))?;
         let spacing = case.fibre.rest_length();
         // As the measures of a run do, to the same bits.
@@ -201,11 +186,10 @@ impl Flown {
             return Ok(surrogate);
         }
         let why = self.unidentified.map_or_else(String::new, |why| format!(": {why}"));
-        let reason = format!(
-            "no surrogate was identified in what its fibres lay{why}. Write web.method = \"dynamics\" to lay the flown curves \
-             themselves, or give laydown.sigma_md, laydown.sigma_cd and laydown.noise"
-        );
-        Err(LayingFault::Nothing { origin: path.to_owned(), reason }.into())
+        let message = format!("no surrogate was identified in what its fibres lay{why}");
+        let remedy = "write web.method = \"dynamics\" to lay the flown curves themselves, or give laydown.sigma_md, \
+                      laydown.sigma_cd and laydown.noise";
+        Err(Error::folder(path, Fault::new(message, remedy)))
     }
 }
 

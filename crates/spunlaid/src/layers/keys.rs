@@ -3,7 +3,7 @@
 //! A key of a layer is one of the first layer: [`WebSpec::alone`] makes a web of any layer.
 
 use super::{LaydownSource, LayerSpec, Method, WebSpec};
-use crate::case::keys::row::{AccessTo, choose, key, named, number, quantity, text, whole};
+use crate::case::keys::row::{AccessTo, choose, key, named, number, quantity, read_with_case, text, whole};
 use crate::case::keys::{self, Key, Kind, Sign, Value, nearest_word};
 use crate::error::Fault;
 use crate::surrogate::Surrogate;
@@ -53,7 +53,7 @@ macro_rules! of_surrogate {
                     surrogate.$field = number(value)?;
                     Ok(())
                 }
-                _ => Err(FLOWN),
+                _ => Err(flown()),
             },
         }
     };
@@ -67,7 +67,7 @@ macro_rules! of_path {
                 LaydownSource::$variant { $path, .. } => Some(written($path)),
                 _ => None,
             },
-            set: |_, _| Err(Fault::ReadWithCase),
+            set: |_, _| Err(read_with_case()),
         }
     };
 }
@@ -86,9 +86,7 @@ macro_rules! of_row {
                     rows.iter_mut().take(1).for_each(|row| row.$field = value);
                     Ok(())
                 }
-                Filaments::AtRandom { .. } => {
-                    Err(Fault::Needs { needed: "line.rows", remedy: "leave it out" })
-                }
+                Filaments::AtRandom { .. } => Err(Fault::needs("line.rows", "leave it out")),
             },
         }
     };
@@ -108,8 +106,9 @@ macro_rules! of_sheet {
 }
 
 /// A number of a surrogate that follows from flights.
-const FLOWN: Fault =
-    Fault::Needs { needed: "laydown without a case or results", remedy: "leave it out, or leave these out" };
+fn flown() -> Fault {
+    Fault::needs("laydown without a case or results", "leave it out, or leave these out")
+}
 
 /// A length, speed or other quantity above zero, which a study may vary.
 const fn positive(name: &'static str, dimension: Dimension, access: Access) -> WebKey {
@@ -298,7 +297,7 @@ fn layer(web: &WebSpec) -> Option<&LayerSpec> {
 }
 
 fn layer_mut(web: &mut WebSpec) -> Result<&mut LayerSpec, Fault> {
-    web.layers.first_mut().ok_or(Fault::Needs { needed: "[line]", remedy: "write the tables of a layer" })
+    web.layers.first_mut().ok_or_else(|| Fault::needs("[line]", "write the tables of a layer"))
 }
 
 fn written(path: &Path) -> Value {

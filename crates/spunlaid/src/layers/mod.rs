@@ -13,7 +13,7 @@ pub use keys::{WEB_KEYS, WEB_TABLES, WebKey};
 pub use laid::{LAID, read as read_laid};
 
 use crate::case::Case;
-use crate::error::{Error, Finding, Place, Problem, WebFault};
+use crate::error::{Error, Fault, Finding, Place, Problem};
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
 use crate::web::{Edges, Fibres, Filaments, Layer, Sheet, Web};
@@ -140,7 +140,7 @@ impl WebSpec {
         let problems: Vec<Problem> = too_small(&self.sheet, spreads)
             .map(|(key, side, what)| {
                 let value = Some(Dimension::Length.pretty(side));
-                Finding { place: Place::Code, key: key.to_owned(), value, what: what.into() }
+                Finding { place: Place::Code, key: key.to_owned(), value, what }
             })
             .collect();
         if problems.is_empty() { Ok(()) } else { Err(problems.into()) }
@@ -151,13 +151,23 @@ impl WebSpec {
 pub(crate) fn too_small(
     sheet: &Sheet,
     spreads: [f64; 2],
-) -> impl Iterator<Item = (&'static str, f64, WebFault)> {
+) -> impl Iterator<Item = (&'static str, f64, Fault)> {
     let closed = [true, sheet.edges == Edges::Periodic];
     let sides =
         [("web.length", sheet.length, "laydown.sigma_md"), ("web.width", sheet.width, "laydown.sigma_cd")];
     let of = move |(((key, side, sigma), spread), closed)| {
         let is_short = closed && side < LEAST_SPREADS * spread;
-        is_short.then_some((key, side, WebFault::TooSmall { sigma, spread }))
+        let [spread, least] = [spread, LEAST_SPREADS * spread].map(|size| Dimension::Length.pretty(size));
+        let fault = || {
+            Fault::new(
+                format!(
+                    "is shorter than {LEAST_SPREADS} times {sigma} = {spread}, and a filament that leaves the web at one end \
+                     comes in at the other and would meet itself"
+                ),
+                format!("write {least} or more"),
+            )
+        };
+        is_short.then(|| (key, side, fault()))
     };
     sides.into_iter().zip(spreads).zip(closed).filter_map(of)
 }

@@ -27,7 +27,7 @@ fn enormous_studies_are_read_when_requested_by_number() {
     let path = Path::new("tests/bad_studies/enormous.toml");
     assert_eq!(read_study(path, Some(40_000)).unwrap().study.points.len(), 40_000);
     let other = read_study(path, Some(40)).unwrap_err().to_string();
-    assert!(other.ends_with("makes 40000 points, but 40 were requested"), "{other}");
+    assert!(other.ends_with("makes 40000 points, but 40 were requested; request 40000 points"), "{other}");
 }
 
 #[test]

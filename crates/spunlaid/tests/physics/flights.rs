@@ -3,7 +3,7 @@
 use crate::common;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::error::{Error, FlightFault};
+use spunlaid::error::Error;
 use spunlaid::flight::{Flight, Job};
 use spunlaid::lanes::Isa;
 
@@ -25,8 +25,14 @@ fn rejects_jobs_that_cannot_fly_together() {
         let jobs: Vec<Job<'_>> = cases.iter().map(|&case| Job { case, replicate: 0 }).collect();
         Flight::new(&jobs, Isa::detect()).map(|_| ()).unwrap_err()
     };
-    assert!(matches!(fault(&[]), Error::Flight(FlightFault::Empty)));
-    assert!(matches!(fault(&[&case; 9]), Error::Flight(FlightFault::TooMany { fibres: 9, most: 8 })));
+    for (cases, message) in [
+        (&[][..], "a flight needs at least one fibre"),
+        (&[&case; 9], "9 fibres cannot fly in one flight; it takes at most 8"),
+    ] {
+        let error = fault(cases);
+        assert!(matches!(error, Error::Flight(_)));
+        assert_eq!(error.to_string(), message);
+    }
     for (other, what) in
         [(&coarser, "number of elements"), (&longer, "run.duration"), (&damped, "run.damping")]
     {

@@ -10,8 +10,8 @@ use spunlaid::input::{StudyFile, parse_case, parse_study, starter_case, write_ca
 use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
 use spunlaid::study::{
-    Batch, Journal, Landing, PointResults, Progress, Record, Replicates, Study, fly_batches,
-    measured, results_of_point, run,
+    Batch, Journal, Landing, PointResults, Progress, Record, Replicates, Study, fly_batches, measured,
+    results_of_point, run,
 };
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -21,7 +21,7 @@ fn study(text: &str) -> StudyFile {
 }
 
 fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> Computing<'a> {
-    Computing { threads, isa: Isa::detect(), stop, fibre_steps: steps, laid: None }
+    Computing { threads, isa: Isa::detect(), stop, fibre_steps: steps, recorder: None }
 }
 
 fn flown(study: &Study, threads: usize) -> Journal {
@@ -83,8 +83,9 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
             }
             // The means have the same bits, too.
             let mut collector = Results::collector(0);
-            flights.iter().for_each(|flight| collector.take(flight));
-            let (all, of_point) = (collector.finish(), results_of_point(&study, &mut journal, index).unwrap());
+            flights.into_iter().for_each(|flight| collector.take(flight));
+            let (all, of_point) =
+                (collector.finish(), results_of_point(&study, &mut journal, index).unwrap());
             for number in &all.numbers {
                 let i = study.quantity(number.measure.name).unwrap();
                 assert_eq!(of_point.mean[i], number.estimate.mean);
@@ -263,7 +264,8 @@ fn a_study_written_out_is_the_same_study() {
 fn the_identity_of_a_study_is_that_of_the_keys_of_its_points() {
     let grid = study(MIXED).study;
     // The same points, said in other words.
-    let mut again = Study::of_cases(grid.points.iter().map(|point| case_of(point).clone()), Replicates::fixed(9));
+    let mut again =
+        Study::of_cases(grid.points.iter().map(|point| case_of(point).clone()), Replicates::fixed(9));
     assert_eq!(again.identity(), grid.identity());
     // Every key of a point counts, to the last bit.
     let mut counted = 0;
@@ -300,7 +302,10 @@ fn links_follow_what_varies() {
         study.points.iter().map(|point| case_of(point).air.cutoff_frequency).collect::<Vec<_>>(),
         [25.0, 50.0]
     );
-    assert_eq!(study.points.iter().map(|point| case_of(point).run.spin_up_steps).collect::<Vec<_>>(), [200, 100]);
+    assert_eq!(
+        study.points.iter().map(|point| case_of(point).run.spin_up_steps).collect::<Vec<_>>(),
+        [200, 100]
+    );
 }
 
 #[test]
@@ -406,7 +411,8 @@ fn words_may_be_drawn_and_are_written_out_again() {
         let (first, again) = (study(&text), study(&study(&text).text));
         assert_eq!(first.study.points, again.study.points);
         assert!(first.text.contains("\"drag.along\" = [\"sakiadis\", \"matsui\"]"), "{}", first.text);
-        let laws: Vec<&str> = first.study.points.iter().map(|point| case_of(point).drag.along.name()).collect();
+        let laws: Vec<&str> =
+            first.study.points.iter().map(|point| case_of(point).drag.along.name()).collect();
         assert_eq!(laws.iter().filter(|law| **law == "matsui").count(), 8, "{laws:?}");
         for (point, law) in first.study.points.iter().zip(laws) {
             assert_eq!(first.study.inputs().next().unwrap().word(point.values[0]), Some(law));

@@ -31,7 +31,9 @@ fn changes<'a>(set: &'a [(String, String)]) -> StudyChanges<'a> {
 
 fn study_of(web: &str, study: &str, set: &[(String, String)]) -> Result<StudyFile, Error> {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web.toml");
-    parse_changed_study(study, "study.toml", &changes(set), |_, _| Ok((web.to_owned(), cases.display().to_string())))
+    parse_changed_study(study, "study.toml", &changes(set), |_, _| {
+        Ok((web.to_owned(), cases.display().to_string()))
+    })
 }
 
 /// The only layer of a point's web.

@@ -97,17 +97,14 @@ impl CaseBase {
     fn open(&self, written: Written, set: &[(Varied, f64)]) -> (Result<Open, Error>, Vec<Note>) {
         let opened = open::open(written.clone(), &self.files);
         let is_unneeded = |problem: &&Problem| {
-            matches!(problem.what, Fault::Needs { .. }) && set.iter().all(|(key, _)| key.name != problem.key)
+            problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
         };
         let unneeded: Vec<Note> = match &opened {
             Err(Error::Rejected(problems)) if set.iter().any(|(key, _)| !key.words().is_empty()) => {
-                let note = |problem: &Problem| match problem.what {
-                    Fault::Needs { needed, .. } => {
-                        let (place, key, value) =
-                            (problem.place.clone(), problem.key.clone(), problem.value.clone());
-                        Some(Note { place, key, value, what: Remark::Unneeded { needed } })
-                    }
-                    _ => None,
+                let note = |problem: &Problem| {
+                    let what = Remark::Unneeded { needed: problem.what.needs? };
+                    let Problem { place, key, value, .. } = problem.clone();
+                    Some(Note { place, key, value, what })
                 };
                 problems.iter().filter(is_unneeded).filter_map(note).collect()
             }
@@ -133,7 +130,7 @@ fn value_of(key: Varied, value: f64) -> Result<Value, Fault> {
     if (1.0..1e15).contains(&value) {
         Ok(Value::Whole(value as u64))
     } else {
-        Err(Fault::OutOfRange { least: 1, most: 1_000_000_000_000_000 })
+        Err(Fault::out_of_range(1, 1_000_000_000_000_000))
     }
 }
 

@@ -1,8 +1,9 @@
-//! Findings about the values of a case, and where these were written.
+//! A problem: what is wrong with something that a user gave, where it was written, and what to do about it.
 
 use super::Fault;
-use crate::units::Printable;
+use crate::units::{Printable, excerpt};
 use std::fmt::{self, Write};
+use std::path::Path;
 
 /// The place where a value was written.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -10,7 +11,7 @@ pub enum Place {
     /// In a program that built the case in memory.
     #[default]
     Code,
-    /// In a case file.
+    /// In a file.
     File {
         /// Name of the file, as given.
         file: String,
@@ -32,6 +33,13 @@ pub enum Place {
     },
 }
 
+impl Place {
+    /// A whole file.
+    pub fn of_file(path: &Path) -> Self {
+        Self::File { file: excerpt(&path.display().to_string(), 1000), line: None, column: None }
+    }
+}
+
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -49,12 +57,12 @@ impl fmt::Display for Place {
     }
 }
 
-/// A finding about a value of a case. It is shown as `cases/a.toml:12: run.time_step = "50 µs" ` and a text.
+/// A finding about a value. It is shown as `cases/a.toml:12: run.time_step = "50 µs" ` and a text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding<W> {
     /// The place where the value was written.
     pub place: Place,
-    /// Key in the case file, `run.time_step`. Empty if the finding is not about a key.
+    /// Key in the file, `run.time_step`. Empty if the finding is not about a key.
     pub key: String,
     /// The value as written, or formatted for people. None if there is no value.
     pub value: Option<String>,
@@ -62,8 +70,21 @@ pub struct Finding<W> {
     pub what: W,
 }
 
-/// A reason why a case cannot be run.
+/// A reason why something that a user gave cannot be used.
 pub type Problem = Finding<Fault>;
+
+impl Problem {
+    /// A problem with a whole file or folder.
+    pub fn with_path(path: &Path, what: Fault) -> Self {
+        Self { place: Place::of_file(path), ..what.into() }
+    }
+}
+
+impl From<Fault> for Problem {
+    fn from(what: Fault) -> Self {
+        Self { place: Place::Code, key: String::new(), value: None, what }
+    }
+}
 
 impl<W: fmt::Display> fmt::Display for Finding<W> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
