@@ -104,7 +104,6 @@ impl From<Unwritten> for Failure {
     fn from(failure: Unwritten) -> Self {
         match failure {
             Unwritten::Simulation(error) => Self::Library(error),
-            Unwritten::NotARun { folder, reason } => Self::NotARun { folder, reason },
             failure => Self::Results(failure),
         }
     }
@@ -284,7 +283,7 @@ mod tests {
             Failure::NotForThis { path: path(), option: "--rate", is_scan: true },
             Failure::NotCompared { folder: path(), reason: "it holds no web".to_owned() },
             Failure::NotFlown { name: "a.toml".to_owned(), why: Vec::new() },
-            Unwritten::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() }.into(),
+            Error::folder(Path::new("there"), Fault::plain("it lies too regularly")).into(),
             Error::Flight(Fault::plain("no fibre")).into(),
             Error::Rejected(Vec::new()).into(),
             in_use(&path()).into(),

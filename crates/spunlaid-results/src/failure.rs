@@ -67,20 +67,6 @@ pub enum Failure {
         /// Replicates that were asked for.
         asked: u64,
     },
-    /// A folder does not hold the results of a run.
-    NotARun {
-        /// The folder.
-        folder: PathBuf,
-        /// Why.
-        reason: String,
-    },
-    /// What fibres have laid cannot make a web.
-    NothingToLay {
-        /// The case or the folder of results.
-        of: PathBuf,
-        /// Why.
-        reason: String,
-    },
 }
 
 impl Failure {
@@ -93,8 +79,6 @@ impl Failure {
                 | Self::OtherStudy { .. }
                 | Self::OtherVersion { .. }
                 | Self::FewerReplicates { .. }
-                | Self::NotARun { .. }
-                | Self::NothingToLay { .. }
         )
     }
 
@@ -157,12 +141,6 @@ impl fmt::Display for Failure {
                  another folder, or start again",
                 folder.display()
             ),
-            Self::NotARun { folder, reason } => write!(
-                f,
-                "{}: does not hold the results of a run: {reason}; name folders that `spunlaid run` has written",
-                folder.display()
-            ),
-            Self::NothingToLay { of, reason } => write!(f, "{}: {reason}", of.display()),
             Self::Table { path, source } => write!(f, "{}: cannot be written: {source}", path.display()),
         }
     }

@@ -29,6 +29,7 @@ const ROOMS: &[&[&str]] = &[
     &["flight"],
     &["observe"],
     &["ensemble"],
+    &["layers"],
     &["study"],
     &["input"],
     &["paper"],

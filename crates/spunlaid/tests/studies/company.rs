@@ -1,6 +1,7 @@
 //! A fibre has the same bits alone and in company: every key of the table, varied in a study of two points, gives what
 //! two single runs give, in every measure.
 
+use crate::short::case_of;
 use spunlaid::air::{Air, EddyModel, Flow, FromFlow};
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Key, Kind, LeftOut, Value};
@@ -261,7 +262,7 @@ fn points(case: &str, key: &str, values: &[String; 2]) -> Result<Vec<Point>, Str
     let text = format!(
         "case = 'case.toml'\ndesign = 'grid'\nreplicates = {REPLICATES}\n[vary]\n{key} = [{a}, {b}]\n"
     );
-    let study = parse_study(&text, "study.toml", None, |_| Ok((case.to_owned(), "case.toml".to_owned())));
+    let study = parse_study(&text, "study.toml", None, |_, _| Ok((case.to_owned(), "case.toml".to_owned())));
     study.map(|file| file.study.points).map_err(|error| error.to_string())
 }
 
@@ -368,7 +369,7 @@ fn differences(one: &Trajectory, other: &Trajectory) -> BTreeSet<&'static str> {
 /// Which measures differ between a study of these points and single runs, each with the number of fibres.
 fn differing(points: &[Point], known: &mut BTreeMap<String, Result<Vec<Trajectory>, String>>) -> Vec<String> {
     let single: Vec<_> = (points.iter())
-        .map(|point| known.entry(write_case(&point.case)).or_insert_with(|| alone(&point.case)).clone())
+        .map(|point| known.entry(write_case(case_of(point))).or_insert_with(|| alone(case_of(point))).clone())
         .collect();
     match together(points) {
         Ok(flown) => {
@@ -488,7 +489,7 @@ fn identical_alone_and_in_company_of_another_kind_of_flow() {
         let cases = [air, uniform].map(|air| Case { air, ..case.clone() });
         assert!(cases.iter().all(|case| case.check().is_ok()), "{name}");
         for order in [[0, 1], [1, 0]] {
-            let point = |i: usize| Point { values: Vec::new(), case: cases[i].clone() };
+            let point = |i: usize| Point { values: Vec::new(), experiment: cases[i].clone().into() };
             let differ = differing(&order.map(point), &mut known);
             if !differ.is_empty() {
                 wrong.push(format!("{name}, {order:?}: {}", differ.join(", ")));
