@@ -5,21 +5,21 @@ use super::forces::Element;
 use super::laying::Laying;
 use super::work::{Supports, WorkDone, WorkRegisters};
 use super::{Chain, Constants, Node};
-use crate::air::AirAtElements;
+use crate::air::Atmosphere;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
 /// Advances eight chains by one step. The velocities change by `kick` [s] times the acceleration, then the
 /// positions change by `drift` [s] times the velocity.
 ///
-/// * `wind` – the air at the time of the positions
+/// * `air` – at the time of the positions
 /// * `work` – sums of the work to which the step adds
 /// * `damped` – whether there is any damping
 /// * `split` – whether to store separately the work that belongs to the velocities before the kick
 #[inline(always)]
 pub(crate) fn step<S: Register, const LEAPFROG: bool, const FED: bool>(
     chain: &mut Chain,
-    wind: impl AirAtElements<S>,
+    air: &Atmosphere,
     (kick, drift): (f64, f64),
     (damped, split): (bool, bool),
     work: &mut WorkDone,
@@ -41,7 +41,7 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool, const FED: bool>(
         work: WorkRegisters::of(work, split),
         dissipation: Wide::zero(),
     };
-    force_pass(&mut integrator, c, wind, elements, block);
+    force_pass(&mut integrator, c, air, elements, block);
     let (supports, dissipation) = (integrator.supports, integrator.dissipation);
     integrator.work.put(work);
     supports.put(work);

@@ -2,9 +2,9 @@
 
 use super::Constants;
 use super::forces::{Element, couple, internal};
-use crate::air::AirAtElements;
+use crate::air::Atmosphere;
 use crate::drag::{DragLanes, Split};
-use crate::lanes::{Register, Wide};
+use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
 /// What a time-integration scheme gives to a force pass, and what it does with the forces.
@@ -26,7 +26,7 @@ pub(crate) trait Integrator<S: Register> {
     fn node(&mut self, i: usize, force: Vec3<Wide<S>>, drag: Vec3<Wide<S>>);
 }
 
-/// Computes the forces on eight chains in a wind.
+/// Computes the forces on eight chains.
 ///
 /// * `count` – number `N` of elements
 ///
@@ -36,10 +36,10 @@ pub(crate) trait Integrator<S: Register> {
 /// elements at once instead of waiting for one result after the other. A block fits in the first-level
 /// cache. The force on a node is complete when the element below it is done.
 #[inline(always)]
-pub(crate) fn force_pass<S: Register, M: Integrator<S>, B: AirAtElements<S>>(
-    integrator: &mut M,
+pub(crate) fn force_pass<S: Register>(
+    integrator: &mut impl Integrator<S>,
     c: &Constants,
-    wind: B,
+    air: &Atmosphere,
     count: usize,
     block: &mut ElementBlock<S>,
 ) {
@@ -55,8 +55,10 @@ pub(crate) fn force_pass<S: Register, M: Integrator<S>, B: AirAtElements<S>>(
     let (mut force, mut force_above) = (Vec3::zero(), Vec3::zero());
     let (mut drag, mut drag_above) = (Vec3::zero(), Vec3::zero());
     for start in (0..count).step_by(BLOCK) {
-        let elements = &mut block.0[..BLOCK.min(count - start)];
-        kinematics(integrator, start, elements, wind, viscosity.is_some());
+        let length = BLOCK.min(count - start);
+        let (velocity, elements) = (&mut block.air[..length], &mut block.elements[..length]);
+        air.fill::<S>(start, velocity);
+        kinematics(integrator, start, elements, velocity, viscosity.is_some());
         if c.half_drag.is_powers() {
             for item in &mut *elements {
                 c.half_drag.raise(&mut item.split);
@@ -86,9 +88,9 @@ pub(crate) fn force_pass<S: Register, M: Integrator<S>, B: AirAtElements<S>>(
             if j > 0 {
                 integrator.node(j - 1, force_above - a, drag_above);
             }
-            let air = c.half_drag.force(&item.split, item.element.tangent);
-            (force_above, force) = (force + (a + pull + air), air - pull);
-            (drag_above, drag) = (drag + air, air);
+            let blow = c.half_drag.force(&item.split, item.element.tangent);
+            (force_above, force) = (force + (a + pull + blow), blow - pull);
+            (drag_above, drag) = (drag + blow, blow);
             above = item.element;
         }
     }
@@ -113,14 +115,19 @@ struct BlockElement<S: Register> {
 }
 
 /// Memory for the elements of a block.
-pub(crate) struct ElementBlock<S: Register>([BlockElement<S>; BLOCK]);
+pub(crate) struct ElementBlock<S: Register> {
+    /// Velocity of the air [m/s].
+    air: [Vec3<Lanes>; BLOCK],
+    elements: [BlockElement<S>; BLOCK],
+}
 
 impl<S: Register> ElementBlock<S> {
     #[inline(always)]
     pub(crate) fn new() -> Self {
         let (vector, number) = (Vec3::zero(), Wide::zero());
         let element = Element { tangent: vector, inverse_length: number, length: number };
-        Self([BlockElement { element, spin: vector, split: Split::none() }; BLOCK])
+        let none = BlockElement { element, spin: vector, split: Split::none() };
+        Self { air: [Vec3::ZERO; BLOCK], elements: [none; BLOCK] }
     }
 }
 
@@ -130,20 +137,17 @@ fn kinematics<S: Register>(
     integrator: &impl Integrator<S>,
     start: usize,
     block: &mut [BlockElement<S>],
-    wind: impl AirAtElements<S>,
+    air: &[Vec3<Lanes>],
     viscous: bool,
 ) {
     let mut upper = (integrator.position(start), integrator.drag_velocity(start));
-    let mut signal = wind.enter(start);
-    for (j, item) in (start + 1..).zip(block.iter_mut()) {
+    for (j, (item, air)) in (start + 1..).zip(block.iter_mut().zip(air)) {
         let lower = (integrator.position(j), integrator.drag_velocity(j));
         item.element = Element::between(upper.0, lower.0);
         if viscous {
             item.spin = item.element.tangent.cross_wide((lower.1 - upper.1) * item.element.inverse_length);
         }
-        // Element `j−1` is above node `j`.
-        let air = wind.at(j - 1, &mut signal);
-        let relative = (upper.1 + lower.1).neg_mul_add(Wide::splat(0.5), air);
+        let relative = (upper.1 + lower.1).neg_mul_add(Wide::splat(0.5), Vec3::load(air));
         item.split = DragLanes::split(relative, item.element.tangent);
         upper = lower;
     }

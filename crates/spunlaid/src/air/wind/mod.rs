@@ -53,6 +53,8 @@ pub struct Wind {
     weights: Vec<[(f64, f64); SPREAD]>,
     cells_per_sample: u64,
     cell: Option<u64>,
+    /// Time since the start of the cell, in cells.
+    since_start: f64,
     /// Value and slope at the two ends of the cell, `[eddy][component]`.
     start: Vec<(Lanes, Lanes)>,
     end: Vec<(Lanes, Lanes)>,
@@ -145,6 +147,7 @@ impl Wind {
             weights: weights(cells_per_sample),
             cells_per_sample,
             cell: None,
+            since_start: 0.0,
             start: vec![(Lanes::ZERO, Lanes::ZERO); columns],
             end: vec![(Lanes::ZERO, Lanes::ZERO); columns],
             cubic: vec![[[Lanes::ZERO; 4]; 3]; eddies],
@@ -185,15 +188,21 @@ impl Wind {
         self.isa.run(At { t: t.max(0.0), wind: self })
     }
 
-    /// [`Wind::at`] for the kernel, to be asked eddy by eddy.
+    /// Goes to the time `t` [s] of the run.
     #[inline(always)]
-    pub(crate) fn blow<S: Register>(&mut self, t: f64) -> EddyVelocities<'_, S> {
+    pub(super) fn go_to<S: Register>(&mut self, t: f64) {
         let cells = t / self.spacing * self.cells_per_sample as f64;
         let cell = cells as u64;
         if self.cell != Some(cell) {
             S::ISA.run(Enter { wind: self, cell });
         }
-        EddyVelocities { cubic: &self.cubic, s: Wide::splat(cells - cell as f64) }
+        self.since_start = cells - cell as f64;
+    }
+
+    /// [`Wind::at`] for the kernel at the time to which it has gone, to be asked eddy by eddy.
+    #[inline(always)]
+    pub(super) fn now<S: Register>(&self) -> EddyVelocities<'_, S> {
+        EddyVelocities { cubic: &self.cubic, s: Wide::splat(self.since_start) }
     }
 
     /// The wind at time `t` [s] of the run straight from the samples, for times of which hardly two lie in a cell: there are
@@ -272,7 +281,8 @@ impl Task for At<'_> {
     #[inline(always)]
     fn call<S: Register>(self) -> Self::Output {
         let mut velocities = vec![Vec3::ZERO; self.wind.eddies];
-        let now = self.wind.blow::<S>(self.t);
+        self.wind.go_to::<S>(self.t);
+        let now = self.wind.now::<S>();
         for (eddy, velocity) in (0..).zip(&mut velocities) {
             *velocity = now.velocity(eddy).store();
         }
@@ -302,6 +312,12 @@ fn cubic<S: Register>(start: (Wide<S>, Wide<S>), end: (Wide<S>, Wide<S>)) -> [Wi
     let rise = end.0 - start.0;
     let bend = three.mul_add(rise, -two.mul_add(start.1, end.1));
     [start.0, start.1, bend, two.neg_mul_add(rise, start.1 + end.1)]
+}
+
+/// The coefficients of a cubic.
+#[inline(always)]
+fn loaded<S: Register>([c0, c1, c2, c3]: &[Lanes; 4]) -> [Wide<S>; 4] {
+    [Wide::load(c0), Wide::load(c1), Wide::load(c2), Wide::load(c3)]
 }
 
 /// The cubic with these coefficients.
@@ -365,9 +381,9 @@ impl<S: Register> EddyVelocities<'_, S> {
     /// Velocity of the air in an eddy [m/s].
     #[inline(always)]
     pub(crate) fn velocity(&self, eddy: u32) -> Vec3<Wide<S>> {
+        // No closures here, because the compiler does not inline them.
         let [x, y, z] = &self.cubic[eddy as usize];
-        let at = |cubic: &[Lanes; 4]| along(cubic.each_ref().map(Wide::load), self.s);
-        Vec3::new(at(x), at(y), at(z))
+        Vec3::new(along(loaded(x), self.s), along(loaded(y), self.s), along(loaded(z), self.s))
     }
 }
 

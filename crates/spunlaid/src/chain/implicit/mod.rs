@@ -24,7 +24,7 @@ pub(crate) use tensions::Tensions;
 use super::Chain;
 use super::force_pass::{ElementBlock, force_pass};
 use super::work::{Supports, WorkDone, WorkRegisters};
-use crate::air::AirAtElements;
+use crate::air::Atmosphere;
 use crate::lanes::{Register, Wide};
 use crate::vec3::Vec3;
 use accelerations::{Predictor, most_kept};
@@ -34,7 +34,7 @@ use corrections::{correct_and_move, predict_and_eliminate};
 #[inline(always)]
 pub(crate) fn step<S: Register, const FED: bool>(
     chain: &mut Chain,
-    wind: impl AirAtElements<S>,
+    air: &Atmosphere,
     h: f64,
     (damped, split): (bool, bool),
     work: &mut WorkDone,
@@ -55,7 +55,7 @@ pub(crate) fn step<S: Register, const FED: bool>(
         above: (Vec3::zero(), Wide::zero()),
         dissipation: Wide::zero(),
     };
-    force_pass(&mut predictor, c, wind, chain.position.len() - 1, block);
+    force_pass(&mut predictor, c, air, chain.position.len() - 1, block);
     work.dissipate(predictor.dissipation, c, h);
     predict_and_eliminate::<S, FED>(chain, h);
     if FED {
