@@ -1,10 +1,11 @@
 //! The explicit time-integration schemes: semi-implicit Euler and leapfrog.
 
+use super::Chain;
+use super::constants::{Constants, Node};
 use super::force_pass::{ElementBlock, Integrator, force_pass};
 use super::forces::Element;
 use super::laying::Laying;
 use super::work::{Supports, WorkDone, WorkRegisters};
-use super::{Chain, Constants, Node};
 use crate::air::Atmosphere;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
@@ -86,8 +87,9 @@ impl<S: Register, const LEAPFROG: bool, const FED: bool> Integrator<S>
     }
 
     #[inline(always)]
-    fn tension(&mut self, _: usize, element: &Element<S>) -> Wide<S> {
-        element.tension(Wide::load(&self.c.axial_stiffness), Wide::load(&self.c.rest_length))
+    fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S> {
+        let c = self.c.elements.at(j);
+        element.tension(Wide::load(&c.axial_stiffness), Wide::load(&c.rest_length))
     }
 
     #[inline(always)]

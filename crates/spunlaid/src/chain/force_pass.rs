@@ -1,6 +1,6 @@
 //! One pass along eight chains that computes all forces on every node.
 
-use super::Constants;
+use super::constants::Constants;
 use super::forces::{Element, couple, internal};
 use crate::air::Atmosphere;
 use crate::drag::{DragLanes, Split};
@@ -49,6 +49,8 @@ pub(crate) fn force_pass<S: Register>(
         length: Wide::zero(),
     };
     let viscosity = c.viscosity.as_ref();
+    // The fibres of a flight have the kinds of the laws in common.
+    let powers = c.elements.at(0).half_drag.is_powers();
     let mut spin_above = Vec3::zero();
     let mut dissipated = Wide::zero();
     // Sums so far on nodes j−1 and j: of all forces, and of the drag alone.
@@ -59,22 +61,17 @@ pub(crate) fn force_pass<S: Register>(
         let (velocity, elements) = (&mut block.air[..length], &mut block.elements[..length]);
         air.fill::<S>(start, velocity);
         kinematics(integrator, start, elements, velocity, viscosity.is_some());
-        if c.half_drag.is_powers() {
-            for item in &mut *elements {
-                c.half_drag.raise(&mut item.split);
+        if powers {
+            for (j, item) in (start..).zip(&mut *elements) {
+                c.elements.at(j).half_drag.raise(&mut item.split);
             }
         } else {
             for (j, item) in (start..).zip(&mut *elements) {
-                c.half_drag.look_up(j, &mut item.split);
+                c.elements.at(j).half_drag.look_up(j, &mut item.split);
             }
         }
         for (j, item) in (start..).zip(&*elements) {
-            let stiffness = match j {
-                0 => &c.root_stiffness,
-                1 => &c.second_stiffness,
-                _ => &c.bending_stiffness,
-            };
-            let stiffness = Wide::load(stiffness);
+            let stiffness = Wide::load(c.bending_stiffness(j));
             let tension = integrator.tension(j, &item.element);
             let (mut a, mut pull) = internal(&above, &item.element, stiffness, tension);
             if let Some(time) = viscosity {
@@ -88,7 +85,7 @@ pub(crate) fn force_pass<S: Register>(
             if j > 0 {
                 integrator.node(j - 1, force_above - a, drag_above);
             }
-            let blow = c.half_drag.force(&item.split, item.element.tangent);
+            let blow = c.elements.at(j).half_drag.force(&item.split, item.element.tangent);
             (force_above, force) = (force + (a + pull + blow), blow - pull);
             (drag_above, drag) = (drag + blow, blow);
             above = item.element;

@@ -1,6 +1,6 @@
 //! WorkRegisters of the work done on the nodes.
 
-use super::Constants;
+use super::constants::Constants;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 

@@ -8,9 +8,10 @@ use crate::vec3::Vec3;
 /// From the free end to the root: replaces the accelerations by the predicted velocities, and eliminates the
 /// rows `(λ+δ)/k_a = ℓ_{k+1} − l`.
 ///
-/// Let `d` be the predicted edge, `d̂` its direction and `w = h²k_a/m` of a node. The correction acts along `d̂`, so row
-/// `j` is `−w_j d̂_j·d̂_{j−1} δ_{j−1} + (1 + w_j + w_{j+1}) δ_j − w_{j+1} d̂_j·d̂_{j+1} δ_{j+1} = k_a (|d| − l) − λ`. The
-/// matrix is symmetric and positive definite.
+/// Let `d` be the predicted edge, `d̂` its direction and `w = h²k_a/m` of a node, with the `k_a` of the row. The correction acts
+/// along `d̂`, so row `j` is
+/// `−w_j d̂_j·d̂_{j−1} δ_{j−1} + (1 + w_j + w_{j+1}) δ_j − w_{j+1} d̂_j·d̂_{j+1} δ_{j+1} = k_a (|d| − l) − λ`. Divided by `k_a`,
+/// the matrix is symmetric and positive definite.
 #[inline(always)]
 pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Chain, h: f64) {
     let Chain { position, velocity, constants: c, tensions: t, laying, .. } = chain;
@@ -19,14 +20,14 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
     let elements = nodes - 1;
     let step = h;
     let h = Wide::<S>::splat(h);
-    let (stiffness, rest_length) = (Wide::load(&c.axial_stiffness), Wide::load(&c.rest_length));
-    let scale = h * h * stiffness;
+    let h_squared = h * h;
     let one = Wide::splat(1.0);
     let mut acceleration = Vec3::zero();
-    // The node below: where it is predicted, and its weight. Then the element below: its direction, and what it lacks.
+    // The node below: where it is predicted, and its mobility. Then the element below: the weights of its nodes, its direction,
+    // and what it lacks.
     let mut lower = (Vec3::zero(), Vec3::zero());
     let none = Weight { x: Wide::zero(), across: Wide::zero() };
-    let mut weights = (none, none);
+    let (mut mobility_below, mut weights) = (none, (none, none));
     let (mut below, mut here, mut wanted) = (Vec3::zero(), Vec3::zero(), Wide::zero());
     let (mut value, mut slope) = (Wide::zero(), Wide::zero());
     for i in (0..nodes).rev() {
@@ -56,8 +57,10 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
             predicted = Vec3::load(&landing);
         }
         link.acceleration = predicted.store();
-        let weight = Weight { x: scale * free_x, across: scale * free };
+        let mobility = Weight { x: free_x, across: free };
         if i < elements {
+            let element = c.elements.at(i);
+            let stiffness = Wide::load(&element.axial_stiffness);
             let edge = (lower.1 - predicted).mul_add(h, lower.0 - at);
             let length = edge.dot(edge).sqrt();
             let direction = edge * one.over(length);
@@ -70,9 +73,11 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
                 t.links[i + 1].correction = (value.store(), slope.store());
             }
             (below, here) = (here, direction);
-            wanted = stiffness * (length - rest_length) - Wide::load(&t.tension[i]);
+            wanted = stiffness * (length - Wide::load(&element.rest_length)) - Wide::load(&t.tension[i]);
+            let scale = h_squared * stiffness;
+            weights = (mobility.times(scale), mobility_below.times(scale));
         }
-        weights = (weight, weights.0);
+        mobility_below = mobility;
         lower = (at, predicted);
     }
     let row = Row { weights, here, below, wanted };
@@ -80,7 +85,7 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
     t.links[0].correction = (value.store(), slope.store());
 }
 
-/// `h²k_a/m` of a node: along x, where the belt may hold it, and across.
+/// `h²k_a/m` of a node, or its mobility `1/m`: along x, where the belt may hold it, and across.
 #[derive(Clone, Copy)]
 struct Weight<S: Register> {
     x: Wide<S>,
@@ -88,6 +93,11 @@ struct Weight<S: Register> {
 }
 
 impl<S: Register> Weight<S> {
+    #[inline(always)]
+    fn times(&self, factor: Wide<S>) -> Self {
+        Self { x: factor * self.x, across: factor * self.across }
+    }
+
     /// The weight between two directions.
     #[inline(always)]
     fn between<const FED: bool>(&self, a: Vec3<Wide<S>>, b: Vec3<Wide<S>>) -> Wide<S> {
@@ -150,10 +160,8 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
     let (mut change_above, mut pull_above) = (Vec3::zero(), Vec3::zero());
     // The node above: where it is now, and whether it moves.
     let (mut above, mut mobility) = (Vec3::zero(), Wide::zero());
-    let rest_length = Wide::load(&c.rest_length);
-    let compliance = Wide::splat(1.0).over(Wide::load(&c.axial_stiffness));
     // The length that belongs to the tension of the element above.
-    let mut natural = rest_length;
+    let mut natural = Wide::zero();
     let mut furthest = Wide::zero();
     for i in 0..nodes {
         let link = &t.links[i];
@@ -166,7 +174,8 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
             (change, pull) = (Vec3::load(&link.direction) * correction, Vec3::load(&link.tangent) * tension);
             let corrected = tension + correction;
             t.tension[i] = corrected.store();
-            natural = compliance.mul_add(corrected, rest_length);
+            let c = c.elements.at(i);
+            natural = Wide::load(&c.compliance).mul_add(corrected, Wide::load(&c.rest_length));
         }
         let node = c.node(i, nodes);
         let before = Vec3::load(&velocity[i]);
@@ -221,5 +230,7 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
         }
         (change_above, pull_above) = (change, pull);
     }
+    // What is fed is fed in equal lengths.
+    let rest_length = Wide::load(&c.elements.at(0).rest_length);
     furthest.over(rest_length * rest_length)
 }
