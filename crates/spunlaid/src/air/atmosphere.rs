@@ -1,18 +1,21 @@
 //! The kinds of air in which fibres fly, and the velocity that each gives at their elements.
 //!
 //! ```text
-//! look   once a step: the time and the places of the nodes → what the air needs to know
-//! fill   block by block: a buffer with the velocity at each element → forces
+//! look   once a step: the time and the places of the nodes → Velocities
+//! at     element by element: its velocity → forces
 //! ```
 //!
-//! The kernel reads the buffer and knows no kind of air. A kind is a variant here, and what it looks at is its own: it may
-//! belong to one flight, or be a handle to something that many flights read. The buffer is filled in blocks, because the
-//! signals of many eddies come from outside of the first-level cache while the forces of a block are computed; filled at once
-//! it cost up to a seventh of a step.
+//! The kernel asks for velocities and knows no kind of air. A kind is a variant of both types here, and what it looks at is its
+//! own: it may belong to one flight, or be a handle to something that many flights read. The kernel takes the velocities one by
+//! one while it computes the geometry. Written into a buffer beforehand they cost 6 to 15 % of a step, because the signals of
+//! many eddies do not fit into the first-level cache, and nothing else would be done while they arrive.
 
+use super::eddy_wind::{InEddies, LastEddy};
+use super::stations::OnTheWay;
+use super::surroundings::InFlow;
 use super::{Eddies, EddyWind, Stations, Surroundings, Wind};
 use crate::error::FlightFault;
-use crate::lanes::{Lanes, Register};
+use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
 /// The air in which up to eight fibres fly.
@@ -24,6 +27,27 @@ pub enum Atmosphere {
     Flow(EddyWind, Surroundings),
     /// The air along the way of fed fibres, with a signal for each station.
     Way(Wind, Stations),
+}
+
+/// The velocities of the air at the elements at one instant.
+pub(crate) enum Velocities<'a, S: Register> {
+    Uniform(InEddies<'a, S>),
+    Flow(InEddies<'a, S>, InFlow<'a, S>),
+    Way(OnTheWay<'a, S>),
+}
+
+impl<S: Register> Velocities<'_, S> {
+    /// Velocity of the air at element `j` [m/s].
+    ///
+    /// * `last` – the eddy of the element before, and its velocity
+    #[inline(always)]
+    pub(crate) fn at(&self, j: usize, last: &mut LastEddy<S>) -> Vec3<Wide<S>> {
+        match self {
+            Self::Uniform(eddies) => eddies.at(j, last),
+            Self::Flow(eddies, flow) => flow.carried(j, eddies.at(j, last)),
+            Self::Way(elements) => elements.at(j),
+        }
+    }
 }
 
 /// An instant of a flight.
@@ -52,28 +76,12 @@ impl Atmosphere {
     ///
     /// * `position` – of the `N+1` nodes [m]
     #[inline(always)]
-    pub(crate) fn look<S: Register>(&mut self, now: Instant, position: &[Vec3<Lanes>]) {
+    pub(crate) fn look<S: Register>(&mut self, now: Instant, position: &[Vec3<Lanes>]) -> Velocities<'_, S> {
         let Instant { step, time } = now;
         match self {
-            Self::Uniform(air) => air.wind.go_to::<S>(time),
-            Self::Flow(air, flow) => {
-                air.wind.go_to::<S>(time);
-                flow.look::<S>(step, position);
-            }
-            Self::Way(wind, stations) => stations.look::<S>(step, time, wind, position),
-        }
-    }
-
-    /// Writes the velocity of the air at each element from `start` on [m/s], at the instant of the look.
-    #[inline(always)]
-    pub(crate) fn fill<S: Register>(&self, start: usize, velocity: &mut [Vec3<Lanes>]) {
-        match self {
-            Self::Uniform(air) => air.fill::<S>(start, velocity),
-            Self::Flow(air, flow) => {
-                air.fill::<S>(start, velocity);
-                flow.carry::<S>(start, velocity);
-            }
-            Self::Way(_, stations) => stations.fill::<S>(start, velocity),
+            Self::Uniform(air) => Velocities::Uniform(air.look(time)),
+            Self::Flow(air, flow) => Velocities::Flow(air.look(time), flow.look(step, position)),
+            Self::Way(wind, stations) => Velocities::Way(stations.look(step, time, wind, position)),
         }
     }
 

@@ -1,7 +1,8 @@
 //! The wind of eddies, each of which several elements of a fibre share.
 
+use super::wind::EddyVelocities;
 use super::{Eddies, Wind};
-use crate::lanes::{Lanes, Register};
+use crate::lanes::{Register, Wide};
 use crate::vec3::Vec3;
 
 /// The wind of eddies, and which element lies in which of them.
@@ -14,17 +15,39 @@ pub struct EddyWind {
 }
 
 impl EddyWind {
-    /// Writes the wind at each element from `start` on.
+    /// Looks at the wind at a time [s].
     #[inline(always)]
-    pub(super) fn fill<S: Register>(&self, start: usize, velocity: &mut [Vec3<Lanes>]) {
-        let now = self.wind.now::<S>();
+    pub(super) fn look<S: Register>(&mut self, time: f64) -> InEddies<'_, S> {
+        InEddies { now: self.wind.blow(time), of_element: self.eddies.of_element() }
+    }
+}
+
+/// The wind of eddies at one instant.
+pub(crate) struct InEddies<'a, S: Register> {
+    now: EddyVelocities<'a, S>,
+    /// The eddy of each element.
+    of_element: &'a [u32],
+}
+
+/// The last eddy that was asked for, and its velocity [m/s].
+pub(crate) struct LastEddy<S: Register>(u32, Vec3<Wide<S>>);
+
+impl<S: Register> LastEddy<S> {
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
         // No eddy has this number.
-        let (mut last, mut wind) = (u32::MAX, Vec3::zero());
-        for (velocity, &eddy) in velocity.iter_mut().zip(&self.eddies.of_element()[start..]) {
-            if eddy != last {
-                (last, wind) = (eddy, now.velocity(eddy));
-            }
-            *velocity = wind.store();
+        Self(u32::MAX, Vec3::zero())
+    }
+}
+
+impl<S: Register> InEddies<'_, S> {
+    /// The wind at element `j`.
+    #[inline(always)]
+    pub(super) fn at(&self, j: usize, last: &mut LastEddy<S>) -> Vec3<Wide<S>> {
+        let eddy = self.of_element[j];
+        if eddy != last.0 {
+            *last = LastEddy(eddy, self.now.velocity(eddy));
         }
+        last.1
     }
 }

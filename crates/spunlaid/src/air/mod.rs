@@ -23,11 +23,12 @@ mod surroundings;
 mod wind;
 
 pub use atmosphere::Atmosphere;
-pub(crate) use atmosphere::Instant;
+pub(crate) use atmosphere::{Instant, Velocities};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
 pub use eddies::{Eddies, EddyModel};
 pub use eddy_turbulence::EddyTurbulence;
 pub use eddy_wind::EddyWind;
+pub(crate) use eddy_wind::LastEddy;
 pub use flow::{Flow, FromFlow, LocalAir};
 pub use from_file::FromFile;
 pub use measured::{APART, Measured, RecordLayout, Said};

@@ -127,8 +127,6 @@ pub struct Stations {
     still: Vec<[Lanes; 2]>,
     /// `2(1−ρ)` with the correlation `ρ` of a station's signal and the next one's.
     apart: Vec<Lanes>,
-    /// Steps since the last look.
-    since: u64,
     looked: bool,
     /// Of each station, at the last look, in each lane: fluctuation, and mean velocity along x [m/s].
     now: Vec<[[f64; 4]; WIDTH]>,
@@ -172,7 +170,6 @@ impl Stations {
             per_length: lanes.lanes(|(_, grid)| 1.0 / grid.spacing),
             still: (0..way.stations).map(still).collect(),
             apart: (0..way.stations).map(apart).collect(),
-            since: 0,
             looked: false,
             now: vec![[[0.0; 4]; WIDTH]; way.stations],
             elements: vec![nothing; elements].into(),
@@ -214,22 +211,20 @@ impl Stations {
         }
     }
 
-    /// Looks at the air before a step at the time `t` [s], if it is time for it.
+    /// Looks at the air at the elements before a step at the time `t` [s].
     #[inline(always)]
-    pub(super) fn look<S: Register>(&mut self, step: u64, t: f64, wind: &mut Wind, position: &[Vec3<Lanes>]) {
-        self.since = step % self.way.every;
-        if self.since == 0 {
+    pub(super) fn look<S: Register>(
+        &mut self,
+        step: u64,
+        t: f64,
+        wind: &mut Wind,
+        position: &[Vec3<Lanes>],
+    ) -> OnTheWay<'_, S> {
+        let since = step % self.way.every;
+        if since == 0 {
             S::ISA.run(Look { stations: self, t, wind, position });
         }
-    }
-
-    /// Writes the velocity of the air at the elements from `start` on [m/s].
-    #[inline(always)]
-    pub(super) fn fill<S: Register>(&self, start: usize, velocity: &mut [Vec3<Lanes>]) {
-        let steps = Wide::<S>::splat(self.since as f64);
-        for (velocity, Here { value, rise }) in velocity.iter_mut().zip(&self.elements[start..]) {
-            *velocity = Vec3::load(rise).mul_add(steps, Vec3::load(value)).store();
-        }
+        OnTheWay { elements: &self.elements, steps: Wide::splat(since as f64) }
     }
 
     /// Keeps the velocity at each station.
@@ -249,8 +244,7 @@ impl Stations {
         match wind.among_samples::<S>(t) {
             Some(signal) => self.hear(|k| signal.velocity(k)),
             None => {
-                wind.go_to::<S>(t);
-                let signal = wind.now::<S>();
+                let signal = wind.blow::<S>(t);
                 self.hear(|k| signal.velocity(k));
             }
         }
@@ -315,6 +309,22 @@ impl Task for Look<'_> {
     }
 }
 
+/// The air at the elements of fed fibres at one instant.
+pub(crate) struct OnTheWay<'a, S: Register> {
+    elements: &'a [Here],
+    /// Steps since the last look.
+    steps: Wide<S>,
+}
+
+impl<S: Register> OnTheWay<'_, S> {
+    /// Velocity of the air at element `j` [m/s].
+    #[inline(always)]
+    pub(super) fn at(&self, j: usize) -> Vec3<Wide<S>> {
+        let Here { value, rise } = &self.elements[j];
+        Vec3::load(rise).mul_add(self.steps, Vec3::load(value))
+    }
+}
+
 /// Longest time between two looks at the air [s]: fibre and air pass a quarter of a length scale.
 pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
     air.length_scale / air.velocity.abs().max(feed_speed) / LOOKS
@@ -323,8 +333,8 @@ pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{PerLane, StationGrid, Stations, Way};
-    use crate::air::atmosphere::{Atmosphere, Instant};
     use crate::air::{Air, EddyModel, Stream, StreamKey, Wind};
+    use crate::air::{Atmosphere, Instant, LastEddy};
     use crate::lanes::{Isa, Lanes, Plain, WIDTH};
     use crate::vec3::Vec3;
 
@@ -368,12 +378,12 @@ mod tests {
         /// At each element at a time: a number for each lane and component.
         fn at(&mut self, t: f64) -> Vec<Vec<f64>> {
             self.looks += 1;
-            let mut velocity = vec![Vec3::ZERO; self.position.len() - 1];
             let now = Instant { step: self.looks, time: t };
-            self.air.look::<Plain>(now, &self.position);
-            self.air.fill::<Plain>(0, &mut velocity);
-            (velocity.iter())
-                .map(|felt| {
+            let velocities = self.air.look::<Plain>(now, &self.position);
+            let mut last = LastEddy::none();
+            (0..self.position.len() - 1)
+                .map(|j| {
+                    let felt = velocities.at(j, &mut last).store();
                     (0..WIDTH).flat_map(|i| [felt.x.0[i] - SPEED, felt.y.0[i], felt.z.0[i]]).collect()
                 })
                 .collect()

@@ -54,8 +54,6 @@ pub struct Surroundings {
     hints: Nodes<[Hint; WIDTH]>,
     /// Steps from one look to the next.
     every: u64,
-    /// Steps since the last look.
-    since: u64,
     looked: bool,
     /// Number of each fibre's looks at elements outside of the flow's data, and number of all looks.
     outside: Lanes,
@@ -77,7 +75,7 @@ impl Surroundings {
         let places = vec![Place::default(); elements].into();
         let nearby = vec![UNKNOWN; elements].into();
         let hints = vec![[Hint::default(); WIDTH]; elements].into();
-        Self { airs, places, nearby, hints, every, since: 0, looked: false, outside: Lanes::ZERO, looks: 0 }
+        Self { airs, places, nearby, hints, every, looked: false, outside: Lanes::ZERO, looks: 0 }
     }
 
     /// Number of elements.
@@ -101,22 +99,6 @@ impl Surroundings {
         *self = Self::around_elements(self.airs.clone(), self.places.len(), self.every);
     }
 
-    /// Turns the signals of eddies at the elements from `start` on, which have the mean zero and the rms one, into velocities
-    /// of the air that carries the eddies [m/s].
-    #[inline(always)]
-    pub(super) fn carry<S: Register>(&self, start: usize, velocity: &mut [Vec3<Lanes>]) {
-        let steps = Wide::<S>::splat(self.since as f64);
-        for (velocity, Place { value, rise }) in velocity.iter_mut().zip(&self.places[start..]) {
-            let signal = Vec3::load(velocity);
-            // No closures here, because the compiler does not inline them.
-            let rms = Wide::load(&rise[3]).mul_add(steps, Wide::load(&value[3]));
-            let x = Wide::load(&rise[0]).mul_add(steps, Wide::load(&value[0]));
-            let y = Wide::load(&rise[1]).mul_add(steps, Wide::load(&value[1]));
-            let z = Wide::load(&rise[2]).mul_add(steps, Wide::load(&value[2]));
-            *velocity = signal.mul_add(rms, Vec3::new(x, y, z)).store();
-        }
-    }
-
     /// Mean velocity x, y, z and rms at an element at the last look [m/s].
     #[inline(always)]
     pub(super) fn value(&self, element: usize) -> &[Lanes; 4] {
@@ -135,13 +117,14 @@ impl Surroundings {
         self.hints.truncate(elements);
     }
 
-    /// Looks up the flow at the elements before a step, if it is time for it.
+    /// Looks at the flow at the elements before a step.
     #[inline(always)]
-    pub(super) fn look<S: Register>(&mut self, step: u64, position: &[Vec3<Lanes>]) {
-        self.since = step % self.every;
-        if self.since == 0 {
+    pub(super) fn look<S: Register>(&mut self, step: u64, position: &[Vec3<Lanes>]) -> InFlow<'_, S> {
+        let since = step % self.every;
+        if since == 0 {
             S::ISA.run(Look { surroundings: self, position });
         }
+        InFlow { places: &self.places, steps: Wide::splat(since as f64) }
     }
 
     /// Looks up the flow at the elements.
@@ -207,5 +190,26 @@ impl Task for Look<'_> {
     #[inline(always)]
     fn call<S: Register>(self) {
         self.surroundings.look_up::<S>(self.position);
+    }
+}
+
+/// The flow at the elements at one instant.
+pub(crate) struct InFlow<'a, S: Register> {
+    places: &'a [Place],
+    /// Steps since the last look.
+    steps: Wide<S>,
+}
+
+impl<S: Register> InFlow<'_, S> {
+    /// Velocity of the air at element `j` [m/s], where the flow carries an eddy with this signal of mean zero and rms one.
+    #[inline(always)]
+    pub(super) fn carried(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
+        let Place { value, rise } = &self.places[j];
+        // No closures here, because the compiler does not inline them.
+        let rms = Wide::load(&rise[3]).mul_add(self.steps, Wide::load(&value[3]));
+        let x = Wide::load(&rise[0]).mul_add(self.steps, Wide::load(&value[0]));
+        let y = Wide::load(&rise[1]).mul_add(self.steps, Wide::load(&value[1]));
+        let z = Wide::load(&rise[2]).mul_add(self.steps, Wide::load(&value[2]));
+        signal.mul_add(rms, Vec3::new(x, y, z))
     }
 }

@@ -2,9 +2,9 @@
 
 use super::constants::Constants;
 use super::forces::{Element, couple, internal};
-use crate::air::Atmosphere;
+use crate::air::{LastEddy, Velocities};
 use crate::drag::{DragLanes, Split};
-use crate::lanes::{Lanes, Register, Wide};
+use crate::lanes::{Register, Wide};
 use crate::vec3::Vec3;
 
 /// What a time-integration scheme gives to a force pass, and what it does with the forces.
@@ -39,7 +39,7 @@ pub(crate) trait Integrator<S: Register> {
 pub(crate) fn force_pass<S: Register>(
     integrator: &mut impl Integrator<S>,
     c: &Constants,
-    air: &Atmosphere,
+    air: &Velocities<'_, S>,
     count: usize,
     block: &mut ElementBlock<S>,
 ) {
@@ -57,10 +57,8 @@ pub(crate) fn force_pass<S: Register>(
     let (mut force, mut force_above) = (Vec3::zero(), Vec3::zero());
     let (mut drag, mut drag_above) = (Vec3::zero(), Vec3::zero());
     for start in (0..count).step_by(BLOCK) {
-        let length = BLOCK.min(count - start);
-        let (velocity, elements) = (&mut block.air[..length], &mut block.elements[..length]);
-        air.fill::<S>(start, velocity);
-        kinematics(integrator, start, elements, velocity, viscosity.is_some());
+        let elements = &mut block.0[..BLOCK.min(count - start)];
+        kinematics(integrator, start, elements, air, viscosity.is_some());
         if powers {
             for (j, item) in (start..).zip(&mut *elements) {
                 c.elements.at(j).half_drag.raise(&mut item.split);
@@ -112,11 +110,7 @@ struct BlockElement<S: Register> {
 }
 
 /// Memory for the elements of a block.
-pub(crate) struct ElementBlock<S: Register> {
-    /// Velocity of the air [m/s].
-    air: [Vec3<Lanes>; BLOCK],
-    elements: [BlockElement<S>; BLOCK],
-}
+pub(crate) struct ElementBlock<S: Register>([BlockElement<S>; BLOCK]);
 
 impl<S: Register> ElementBlock<S> {
     #[inline(always)]
@@ -124,7 +118,7 @@ impl<S: Register> ElementBlock<S> {
         let (vector, number) = (Vec3::zero(), Wide::zero());
         let element = Element { tangent: vector, inverse_length: number, length: number };
         let none = BlockElement { element, spin: vector, split: Split::none() };
-        Self { air: [Vec3::ZERO; BLOCK], elements: [none; BLOCK] }
+        Self([none; BLOCK])
     }
 }
 
@@ -134,17 +128,20 @@ fn kinematics<S: Register>(
     integrator: &impl Integrator<S>,
     start: usize,
     block: &mut [BlockElement<S>],
-    air: &[Vec3<Lanes>],
+    air: &Velocities<'_, S>,
     viscous: bool,
 ) {
     let mut upper = (integrator.position(start), integrator.drag_velocity(start));
-    for (j, (item, air)) in (start + 1..).zip(block.iter_mut().zip(air)) {
+    let mut last = LastEddy::none();
+    for (j, item) in (start + 1..).zip(block.iter_mut()) {
         let lower = (integrator.position(j), integrator.drag_velocity(j));
         item.element = Element::between(upper.0, lower.0);
         if viscous {
             item.spin = item.element.tangent.cross_wide((lower.1 - upper.1) * item.element.inverse_length);
         }
-        let relative = (upper.1 + lower.1).neg_mul_add(Wide::splat(0.5), Vec3::load(air));
+        // Element `j−1` is above node `j`.
+        let air = air.at(j - 1, &mut last);
+        let relative = (upper.1 + lower.1).neg_mul_add(Wide::splat(0.5), air);
         item.split = DragLanes::split(relative, item.element.tangent);
         upper = lower;
     }

@@ -46,6 +46,19 @@ impl Strand {
     }
 }
 
+/// How a step is made.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stride {
+    /// The velocities change by this time times the acceleration [s].
+    pub(crate) kick: f64,
+    /// The positions change by this time times the velocity [s].
+    pub(crate) drift: f64,
+    /// Whether there is any damping.
+    pub(crate) damped: bool,
+    /// Whether to store separately the work that belongs to the velocities before the kick.
+    pub(crate) split: bool,
+}
+
 shared! {
     /// What the chains of one flight have in common.
     pub(crate) struct Common {
@@ -95,7 +108,8 @@ impl Chain {
         Self::with_constants(Constants::new(common, strands, elements), elements, scheme)
     }
 
-    fn with_constants(constants: Constants, elements: usize, scheme: Scheme) -> Self {
+    /// Fibres with these constants, straight and at rest, with their roots at the origin.
+    pub(crate) fn with_constants(constants: Constants, elements: usize, scheme: Scheme) -> Self {
         let position = (0..=elements).map(|i| constants.root_direction * constants.distance(i)).collect();
         Self {
             position,

@@ -30,6 +30,8 @@ mod guard;
 mod set;
 mod start;
 mod steps;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use common::{Clock, Common};
 pub use end_node::{EndNodeMotion, EndNodeStatistics};

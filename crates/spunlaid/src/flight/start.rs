@@ -136,7 +136,7 @@ impl Flight {
     }
 
     /// Stores the start, and takes the first half kick of the staggered schemes.
-    fn begin(&mut self) {
+    pub(super) fn begin(&mut self) {
         let (position, velocity) = (self.chain.position.to_vec(), self.chain.velocity.to_vec());
         let energy = Energy::held(self.isa, &self.chain.constants, &position, &velocity, &position);
         self.start = Start { position, velocity, energy };

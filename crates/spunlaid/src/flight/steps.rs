@@ -1,11 +1,10 @@
 //! Steps of a flight, and what is seen of it between them.
 
 use super::{Flight, Snapshot};
-use crate::air::{Atmosphere, Instant};
-use crate::chain::Chain;
+use crate::air::Instant;
+use crate::chain::Stride;
 use crate::chain::force_pass::ElementBlock;
 use crate::chain::schemes::Scheme;
-use crate::chain::work::WorkDone;
 use crate::chain::{explicit, implicit};
 use crate::energy::Energy;
 use crate::error::{Error, FlightFault};
@@ -91,21 +90,26 @@ impl Flight {
         // The very first step always stores the work separately, because the sums begin with it.
         let first = steps.min(u64::from(self.steps_done == 0));
         for (steps, split) in [(first, true), (steps - first, split)] {
-            let how = How { steps, kick_and_drift, split };
+            let (kick, drift) = kick_and_drift;
+            let stride = Stride { kick, drift, damped: self.damped, split };
             match self.scheme {
                 _ if steps == 0 => {}
-                Scheme::SemiImplicitEuler => self.run_scheme::<{ Scheme::SemiImplicitEuler as u8 }>(how),
-                Scheme::Leapfrog => self.run_scheme::<{ Scheme::Leapfrog as u8 }>(how),
-                Scheme::ImplicitTension => self.run_scheme::<{ Scheme::ImplicitTension as u8 }>(how),
+                Scheme::SemiImplicitEuler => {
+                    self.run_scheme::<{ Scheme::SemiImplicitEuler as u8 }>(steps, stride)
+                }
+                Scheme::Leapfrog => self.run_scheme::<{ Scheme::Leapfrog as u8 }>(steps, stride),
+                Scheme::ImplicitTension => {
+                    self.run_scheme::<{ Scheme::ImplicitTension as u8 }>(steps, stride)
+                }
             }
         }
     }
 
-    fn run_scheme<const SCHEME: u8>(&mut self, how: How) {
+    fn run_scheme<const SCHEME: u8>(&mut self, steps: u64, stride: Stride) {
         let isa = self.isa;
         match self.chain.laying {
-            Some(_) => isa.run(Advance::<SCHEME, true> { flight: self, how }),
-            None => isa.run(Advance::<SCHEME, false> { flight: self, how }),
+            Some(_) => isa.run(Advance::<SCHEME, true> { flight: self, steps, stride }),
+            None => isa.run(Advance::<SCHEME, false> { flight: self, steps, stride }),
         }
     }
 
@@ -137,20 +141,12 @@ impl Flight {
     }
 }
 
-/// How a flight is advanced.
-#[derive(Clone, Copy)]
-struct How {
-    steps: u64,
-    kick_and_drift: (f64, f64),
-    /// Whether the work of the velocities before each kick is stored separately.
-    split: bool,
-}
-
 /// Steps of a flight with one scheme, of fibres that are fed or not. Each is compiled by itself: compilers take far longer
 /// for one large function than for many small ones.
 struct Advance<'a, const SCHEME: u8, const FED: bool> {
     flight: &'a mut Flight,
-    how: How,
+    steps: u64,
+    stride: Stride,
 }
 
 impl<const SCHEME: u8, const FED: bool> Task for Advance<'_, SCHEME, FED> {
@@ -158,44 +154,24 @@ impl<const SCHEME: u8, const FED: bool> Task for Advance<'_, SCHEME, FED> {
 
     #[inline(always)]
     fn call<S: Register>(self) {
-        let Self { flight, how } = self;
+        let Self { flight, steps, stride } = self;
         let mut block = ElementBlock::<S>::new();
-        for _ in 0..how.steps {
+        for _ in 0..steps {
             let now = Instant { step: flight.steps_done, time: flight.time() };
-            let Flight { chain, air, work, h, damped, .. } = flight;
-            air.look::<S>(now, &chain.position);
-            let moved = Moved { chain, work, block: &mut block, h: *h, damped: *damped, how };
-            moved.step::<SCHEME, FED>(air);
+            let Flight { chain, air, work, .. } = flight;
+            let air = air.look::<S>(now, &chain.position);
+            if SCHEME == Scheme::ImplicitTension as u8 {
+                implicit::step::<S, FED>(chain, &air, stride, work, &mut block);
+            } else if SCHEME == Scheme::Leapfrog as u8 {
+                explicit::step::<S, true, FED>(chain, &air, stride, work, &mut block);
+            } else {
+                explicit::step::<S, false, FED>(chain, &air, stride, work, &mut block);
+            }
             flight.count_step::<S>();
-            let moves = SCHEME == Scheme::ImplicitTension as u8 || how.kick_and_drift.1 != 0.0;
-            if FED && moves {
+            // The half kick of a start moves nothing.
+            if FED && stride.drift != 0.0 {
                 flight.feed_and_lay();
             }
-        }
-    }
-}
-
-/// What a step changes.
-struct Moved<'a, S: Register> {
-    chain: &'a mut Chain,
-    work: &'a mut WorkDone,
-    block: &'a mut ElementBlock<S>,
-    h: f64,
-    damped: bool,
-    how: How,
-}
-
-impl<S: Register> Moved<'_, S> {
-    #[inline(always)]
-    fn step<const SCHEME: u8, const FED: bool>(self, air: &Atmosphere) {
-        let Self { chain, work, block, h, damped, how: How { kick_and_drift, split, .. } } = self;
-        let how = (damped, split);
-        if SCHEME == Scheme::ImplicitTension as u8 {
-            implicit::step::<S, FED>(chain, air, h, how, work, block);
-        } else if SCHEME == Scheme::Leapfrog as u8 {
-            explicit::step::<S, true, FED>(chain, air, kick_and_drift, how, work, block);
-        } else {
-            explicit::step::<S, false, FED>(chain, air, kick_and_drift, how, work, block);
         }
     }
 }

@@ -53,8 +53,6 @@ pub struct Wind {
     weights: Vec<[(f64, f64); SPREAD]>,
     cells_per_sample: u64,
     cell: Option<u64>,
-    /// Time since the start of the cell, in cells.
-    since_start: f64,
     /// Value and slope at the two ends of the cell, `[eddy][component]`.
     start: Vec<(Lanes, Lanes)>,
     end: Vec<(Lanes, Lanes)>,
@@ -147,7 +145,6 @@ impl Wind {
             weights: weights(cells_per_sample),
             cells_per_sample,
             cell: None,
-            since_start: 0.0,
             start: vec![(Lanes::ZERO, Lanes::ZERO); columns],
             end: vec![(Lanes::ZERO, Lanes::ZERO); columns],
             cubic: vec![[[Lanes::ZERO; 4]; 3]; eddies],
@@ -188,21 +185,15 @@ impl Wind {
         self.isa.run(At { t: t.max(0.0), wind: self })
     }
 
-    /// Goes to the time `t` [s] of the run.
+    /// [`Wind::at`] for the kernel, to be asked eddy by eddy.
     #[inline(always)]
-    pub(super) fn go_to<S: Register>(&mut self, t: f64) {
+    pub(super) fn blow<S: Register>(&mut self, t: f64) -> EddyVelocities<'_, S> {
         let cells = t / self.spacing * self.cells_per_sample as f64;
         let cell = cells as u64;
         if self.cell != Some(cell) {
             S::ISA.run(Enter { wind: self, cell });
         }
-        self.since_start = cells - cell as f64;
-    }
-
-    /// [`Wind::at`] for the kernel at the time to which it has gone, to be asked eddy by eddy.
-    #[inline(always)]
-    pub(super) fn now<S: Register>(&self) -> EddyVelocities<'_, S> {
-        EddyVelocities { cubic: &self.cubic, s: Wide::splat(self.since_start) }
+        EddyVelocities { cubic: &self.cubic, s: Wide::splat(cells - cell as f64) }
     }
 
     /// The wind at time `t` [s] of the run straight from the samples, for times of which hardly two lie in a cell: there are
@@ -281,8 +272,7 @@ impl Task for At<'_> {
     #[inline(always)]
     fn call<S: Register>(self) -> Self::Output {
         let mut velocities = vec![Vec3::ZERO; self.wind.eddies];
-        self.wind.go_to::<S>(self.t);
-        let now = self.wind.now::<S>();
+        let now = self.wind.blow::<S>(self.t);
         for (eddy, velocity) in (0..).zip(&mut velocities) {
             *velocity = now.velocity(eddy).store();
         }

@@ -1,7 +1,6 @@
-//! The system of the corrections of the tensions, and the step of the nodes.
+//! The system of the corrections of the tensions.
 
 use crate::chain::Chain;
-use crate::chain::work::{Supports, WorkRegisters};
 use crate::lanes::{Register, Wide};
 use crate::vec3::Vec3;
 
@@ -139,98 +138,4 @@ impl<S: Register> Row<S> {
         let pivot = one.over(below.neg_mul_add(next.1, one + own));
         (below.neg_mul_add(next.0, self.wanted) * pivot, above * pivot)
     }
-}
-
-/// From the root to the free end: corrects the tensions and moves the nodes. Returns by how much the squared length of an
-/// element of a fed fibre is off at most from the one that belongs to its tension, in parts of it.
-#[inline(always)]
-pub(super) fn correct_and_move<S: Register, const FED: bool>(
-    chain: &mut Chain,
-    h: f64,
-    damped: bool,
-    (sums, supports): &mut (WorkRegisters<S>, Supports),
-) -> Wide<S> {
-    let Chain { position, velocity, earlier, constants: c, tensions: t, laying, .. } = chain;
-    let (position, velocity, earlier) = (&mut **position, &mut **velocity, &mut **earlier);
-    let nodes = position.len();
-    let (rate, h) = (Wide::<S>::splat(1.0 / h), Wide::<S>::splat(h));
-    let frame = Wide::load(&c.frame);
-    let mut correction = Wide::zero();
-    // Forces of the element above: from the correction of its tension, and from its last tension.
-    let (mut change_above, mut pull_above) = (Vec3::zero(), Vec3::zero());
-    // The node above: where it is now, and whether it moves.
-    let (mut above, mut mobility) = (Vec3::zero(), Wide::zero());
-    // The length that belongs to the tension of the element above.
-    let mut natural = Wide::zero();
-    let mut furthest = Wide::zero();
-    for i in 0..nodes {
-        let link = &t.links[i];
-        let (mut change, mut pull) = (Vec3::zero(), Vec3::zero());
-        let natural_above = natural;
-        if i + 1 < nodes {
-            let (value, slope) = &link.correction;
-            correction = Wide::load(slope).neg_mul_add(correction, Wide::load(value));
-            let tension = Wide::load(&t.tension[i]);
-            (change, pull) = (Vec3::load(&link.direction) * correction, Vec3::load(&link.tangent) * tension);
-            let corrected = tension + correction;
-            t.tension[i] = corrected.store();
-            let c = c.elements.at(i);
-            natural = Wide::load(&c.compliance).mul_add(corrected, Wide::load(&c.rest_length));
-        }
-        let node = c.node(i, nodes);
-        let before = Vec3::load(&velocity[i]);
-        let kick = h * Wide::load(&node.inverse_mass);
-        let predicted = Vec3::load(&link.acceleration);
-        let mut after = (change - change_above).mul_add(kick, predicted);
-        if FED && i > 0 && c.may_be_held(i, nodes) {
-            let zero = Wide::zero();
-            after.x = Wide::select_less(zero, Wide::load(&node.inverse_mass_x), after.x, predicted.x);
-        }
-        // The force that moved the node. What the other forces do not explain is the tension.
-        let force = (after - before) * (Wide::load(&node.mass) * rate);
-        let mut tension = force - Vec3::load(&link.force) + (pull - pull_above);
-        let mut damping = None;
-        if damped {
-            let v = (before - Vec3::load(&earlier[i])).mul_add(Wide::splat(0.5), before);
-            damping = Some(v * -(Wide::load(&node.mass) * Wide::load(&c.damping)));
-        }
-        let mut seen = [before, after];
-        if FED {
-            if c.may_be_held(i, nodes) {
-                let unexplained = force - Vec3::load(&link.force) - (change - change_above);
-                let mut free = Wide::load(&node.inverse_mass);
-                if let Some(laying) = laying {
-                    free = laying.unless_it_lands(i, free);
-                }
-                let held = supports.add(i, free, unexplained, seen, c);
-                tension -= held;
-                if i > 0 && c.friction.is_some() {
-                    supports.rub(Vec3::load(&t.belt_force[i]), seen, c);
-                    t.belt_force[i] = (Vec3::load(&t.belt_force[i]) + held).store();
-                }
-            }
-            seen = [before.less_y(frame), after.less_y(frame)];
-        }
-        let [seen_before, seen_after] = seen;
-        sums.add([force, Vec3::load(&link.drag)], damping, seen_before, seen_after);
-        sums.add_tension(tension, seen_before, seen_after);
-        earlier[i] = before.store();
-        velocity[i] = after.store();
-        let here = after.mul_add(h, Vec3::load(&position[i]));
-        position[i] = here.store();
-        if FED {
-            let edge = here - above;
-            let off = edge.dot(edge) - natural_above * natural_above;
-            let off = off.abs().max(furthest);
-            if i > 0 {
-                // What lies on the belt can no longer be corrected.
-                furthest = Wide::select_less(Wide::zero(), kick + mobility, off, furthest);
-            }
-            (above, mobility) = (here, kick);
-        }
-        (change_above, pull_above) = (change, pull);
-    }
-    // What is fed is fed in equal lengths.
-    let rest_length = Wide::load(&c.elements.at(0).rest_length);
-    furthest.over(rest_length * rest_length)
 }

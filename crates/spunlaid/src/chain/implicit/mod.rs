@@ -17,26 +17,27 @@
 mod accelerations;
 mod corrections;
 mod iterations;
+mod motion;
 mod tensions;
 
 pub(crate) use tensions::Tensions;
 
-use super::Chain;
 use super::force_pass::{ElementBlock, force_pass};
 use super::work::{Supports, WorkDone, WorkRegisters};
-use crate::air::Atmosphere;
+use super::{Chain, Stride};
+use crate::air::Velocities;
 use crate::lanes::{Register, Wide};
 use crate::vec3::Vec3;
 use accelerations::{Predictor, most_kept};
-use corrections::{correct_and_move, predict_and_eliminate};
+use corrections::predict_and_eliminate;
+use motion::correct_and_move;
 
-/// Advances eight chains by one step of `h` [s]. The arguments are those of the explicit step.
+/// Advances eight chains by one step. The arguments are those of the explicit step, with equal times of kick and drift.
 #[inline(always)]
 pub(crate) fn step<S: Register, const FED: bool>(
     chain: &mut Chain,
-    air: &Atmosphere,
-    h: f64,
-    (damped, split): (bool, bool),
+    air: &Velocities<'_, S>,
+    Stride { drift: h, damped, split, .. }: Stride,
     work: &mut WorkDone,
     block: &mut ElementBlock<S>,
 ) {
