@@ -1,8 +1,6 @@
 //! The errors of the program, their messages and exit codes.
 
-use spunlaid::error::{
-    Error, Fault, FileError, FileFault, FileKind, JournalError, RecordFault, ScanFault, StudyFault, WebFault,
-};
+use spunlaid::error::{Error, FileError, FileFault, FileKind, RecordFault, ScanFault};
 use spunlaid_results::Failure as Unwritten;
 use std::fmt;
 use std::io;
@@ -46,8 +44,8 @@ pub(crate) enum Failure {
     NotFlown { name: String, why: Vec<String> },
     /// The page of `live` cannot be served.
     NotServed { source: io::Error },
-    /// The positions of fibres became infinite or NaN.
-    FibresLost { lost: u64, of: u64, first: Vec<String> },
+    /// Fibres were lost; the results are those of all others.
+    FibresLost { lost: String },
     /// The program panicked; the message has been printed.
     Panicked,
 }
@@ -190,13 +188,7 @@ impl fmt::Display for Failure {
             Self::NoSuchPoint { point, points } => {
                 write!(f, "--print-point {point}: the study has {points} points, counted from 1")
             }
-            Self::FibresLost { lost, of, first } => {
-                write!(
-                    f,
-                    "{lost} of {of} fibres were lost because their positions became infinite; all others are in the results"
-                )?;
-                first.iter().try_for_each(|line| write!(f, "\n{line}"))
-            }
+            Self::FibresLost { lost } => f.write_str(lost),
             Self::Panicked => write!(
                 f,
                 "the program has a fault, see above; please report it with the case or study that shows it"
@@ -217,13 +209,8 @@ fn folder_options(failure: &Unwritten) -> String {
 }
 
 /// The options and commands that help with an error of the library.
-fn options(error: &Error) -> &'static str {
-    match error {
-        Error::Journal(JournalError::InUse { .. }) => " (--out)",
-        Error::Journal(JournalError::Foreign { .. } | JournalError::Format { .. }) => " (--out, --force)",
-        Error::Journal(JournalError::Unwritable { .. } | JournalError::Unsynced(_)) => {
-            " (repeat the command)"
-        }
+fn options(error: &Error) -> String {
+    let known = match error {
         Error::File(error) => match error.fault {
             FileFault::NotThere(FileKind::Case) => " (`spunlaid new` writes one)",
             FileFault::IsFolder(FileKind::Case) => " (--until flies a finished run for longer)",
@@ -231,23 +218,11 @@ fn options(error: &Error) -> &'static str {
             FileFault::NotThere(FileKind::Study) => " (`spunlaid help sweep` shows one)",
             _ => "",
         },
-        Error::Rejected(problems) => problems
-            .iter()
-            .map(|problem| of_problem(&problem.what))
-            .find(|text| !text.is_empty())
-            .unwrap_or(""),
         _ => "",
-    }
-}
-
-/// The options and commands that help with a problem of a case or of a study.
-fn of_problem(fault: &Fault) -> &'static str {
-    match fault {
-        Fault::IsStudy | Fault::Web(WebFault::IsStudy) => " (`spunlaid sweep`)",
-        Fault::IsWeb | Fault::Study(StudyFault::IsWeb) => " (`spunlaid web`)",
-        Fault::Study(StudyFault::TableOfCase) | Fault::Web(WebFault::IsCase) => " (`spunlaid run`)",
-        Fault::Study(StudyFault::TooManyPoints { .. } | StudyFault::OtherPoints { .. }) => " (--points)",
-        _ => "",
+    };
+    match error.option() {
+        "" => known.to_owned(),
+        option => format!(" ({option})"),
     }
 }
 
@@ -284,7 +259,8 @@ fn record_options(fault: &FileFault) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::error::{DivergenceSign, Error, FlightFault, JournalError};
+    use spunlaid::error::{Error, Fault};
+    use spunlaid::study::{foreign, in_use, unsynced};
     use std::sync::LazyLock;
 
     static FULL: LazyLock<io::Error> = LazyLock::new(|| io::ErrorKind::StorageFull.into());
@@ -309,10 +285,10 @@ mod tests {
             Failure::NotCompared { folder: path(), reason: "it holds no web".to_owned() },
             Failure::NotFlown { name: "a.toml".to_owned(), why: Vec::new() },
             Unwritten::NothingToLay { of: path(), reason: "it lies too regularly".to_owned() }.into(),
-            Error::Flight(FlightFault::Empty).into(),
+            Error::Flight(Fault::plain("no fibre")).into(),
             Error::Rejected(Vec::new()).into(),
-            Error::from(JournalError::InUse { path: path() }).into(),
-            Error::from(JournalError::Foreign { path: path() }).into(),
+            in_use(&path()).into(),
+            foreign(&path()).into(),
         ] {
             assert_eq!(wrong_input.exit_code(), 1, "{wrong_input:?}");
         }
@@ -322,19 +298,18 @@ mod tests {
             Unwritten::Figure { name: "9".to_owned(), reason: "no".to_owned() }.into(),
             Failure::NotServed { source: full() },
             Failure::Unheard { why: &FULL },
-            Failure::FibresLost { lost: 1, of: 2, first: Vec::new() },
+            Failure::FibresLost { lost: "1 of 2 fibres was lost".to_owned() },
             Failure::Panicked,
             Error::Diverged {
                 replicate: 1,
                 node: 2,
                 time: 0.1,
-                sign: DivergenceSign::NotFinite,
+                sign: "node 2 is no longer finite".to_owned(),
                 cause: "stiff".to_owned(),
             }
             .into(),
-            Error::from(JournalError::Unusable { path: path(), source: full() }).into(),
-            Error::from(JournalError::Unwritable { path: path(), source: full() }).into(),
-            Error::from(JournalError::Unsynced(full())).into(),
+            Error::system(&path(), Fault::plain("cannot be read")).into(),
+            unsynced(&full()).into(),
         ] {
             assert_eq!(not_the_inputs_fault.exit_code(), 2, "{not_the_inputs_fault:?}");
         }

@@ -20,7 +20,6 @@ pub(crate) fn raised(py: Python<'_>, failure: impl Into<Failure>) -> PyErr {
         }
         Failure::Simulation(Error::Flight(_)) => instance(py, "FlightError", (text,)),
         Failure::Simulation(Error::Interrupted) => instance(py, "Interrupted", (text,)),
-        Failure::Simulation(Error::Laying(_)) => instance(py, "CaseError", (text,)),
         Failure::Simulation(_) => instance(py, "FolderError", (text,)),
         _ => instance(py, "FolderError", (text,)),
     };
@@ -52,12 +51,7 @@ where
 fn listed<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Bound<'py, PyList>> {
     let list = PyList::empty(py);
     for problem in problems {
-        let what = problem.what.to_string();
-        // Messages say what is wrong, then after a semicolon the way out.
-        let (message, remedy) = match what.split_once("; ") {
-            Some((message, remedy)) => (message, Some(remedy)),
-            None => (what.as_str(), None),
-        };
+        let remedy = Some(&problem.what.remedy).filter(|remedy| !remedy.is_empty());
         let (file, line, column) = match &problem.place {
             Place::File { file, line, column } => (Some(file), *line, *column),
             Place::Point { study, .. } => (Some(study), None, None),
@@ -66,7 +60,7 @@ fn listed<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Bound<'py, PyL
         let of = PyDict::new(py);
         of.set_item("key", Some(&problem.key).filter(|key| !key.is_empty()))?;
         of.set_item("value", &problem.value)?;
-        of.set_item("message", message)?;
+        of.set_item("message", &problem.what.message)?;
         of.set_item("remedy", remedy)?;
         of.set_item("file", file)?;
         of.set_item("line", line)?;

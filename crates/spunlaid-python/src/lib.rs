@@ -20,6 +20,7 @@ mod merged;
 mod record;
 
 mod flight;
+mod flown;
 mod run;
 mod samples;
 mod state;
@@ -41,11 +42,13 @@ mod _spunlaid {
     #[pymodule_export]
     use super::flight::Flight;
     #[pymodule_export]
+    use super::flown::Flown;
+    #[pymodule_export]
     use super::keys::keys;
     #[pymodule_export]
     use super::record::analyse;
     #[pymodule_export]
-    use super::run::{Flown, fly, measures};
+    use super::run::{fly, measures};
     #[pymodule_export]
     use super::state::flown_from;
     #[pymodule_export]

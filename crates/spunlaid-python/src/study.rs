@@ -10,11 +10,12 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::ensemble::Computing;
-use spunlaid::error::{Error, JournalError};
 use spunlaid::input::{Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study};
 use spunlaid::lanes::Isa;
 use spunlaid::observe::MEASURES;
-use spunlaid::study::{Bundles, Journal, Landing, Progress, Rounds, rankings, results_of_point, run};
+use spunlaid::study::{
+    Bundles, Journal, Landing, Progress, Rounds, rankings, results_of_point, run, unsynced,
+};
 use spunlaid_results::Failure;
 use spunlaid_results::folders::study::StudyFolder;
 use std::path::PathBuf;
@@ -94,7 +95,7 @@ impl Study {
             isa: Isa::detect(),
             stop: &watch.stop,
             fibre_steps: &watch.done,
-            laid: None,
+            recorder: None,
         };
         // Progress is told in fibres, as it is on a cluster.
         let told = Watch::default();
@@ -157,11 +158,11 @@ impl Study {
             let mut new = records;
             let file = self.with_journal(|journal| {
                 new.retain(|record| !journal.holds(record.point as usize, record.replicate));
-                journal.add(&new).map_err(Error::from)?;
-                Ok(journal.handle().map_err(Error::from)?)
+                journal.add(&new)?;
+                Ok(journal.handle()?)
             })?;
             if let Some(file) = file {
-                file.sync_data().map_err(|error| Error::from(JournalError::Unsynced(error)))?;
+                file.sync_data().map_err(|error| unsynced(&error))?;
             }
             Ok(new.len())
         })
@@ -251,7 +252,7 @@ impl Study {
             self.with_journal(|journal| {
                 let mut rows = Vec::new();
                 for point in 0..self.file.study.points.len() {
-                    for record in journal.records(point, u64::MAX).map_err(Error::from)? {
+                    for record in journal.records(point, u64::MAX)? {
                         rows.extend([record.point as f64, record.replicate as f64]);
                         match record.landing {
                             Landing::Measured(values) => {

@@ -2,9 +2,9 @@
 
 use crate::Failure;
 use serde::{Deserialize, Serialize};
-use spunlaid::error::{Error, JournalError};
 use spunlaid::input::WebStudy;
 use spunlaid::statistics::Estimate;
+use spunlaid::study::{foreign, in_use, other_format};
 use spunlaid::web::{Fibres, Findings, Web};
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -119,7 +119,7 @@ impl WebJournal {
         let options = OpenOptions::new().read(true).write(true).create(true).truncate(false).clone();
         let mut file = options.open(path).map_err(&unwritable)?;
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
-            return Err(Error::from(JournalError::InUse { path: path.to_owned() }).into());
+            return Err(in_use(path).into());
         }
         if fresh {
             file.set_len(0).map_err(&unwritable)?;
@@ -160,11 +160,10 @@ impl WebJournal {
             }
             Ok(found) if found.format != wanted.format => {
                 let format = found.format.max(1).to_string();
-                let (path, known) = (path.to_owned(), wanted.format);
-                Err(Error::from(JournalError::Format { path, format, known }).into())
+                Err(other_format(path, &format, wanted.format).into())
             }
             Ok(_) => Err(Failure::OtherStudy { folder, differences: Vec::new() }),
-            Err(_) => Err(Error::from(JournalError::Foreign { path: path.to_owned() }).into()),
+            Err(_) => Err(foreign(path).into()),
         }
     }
 

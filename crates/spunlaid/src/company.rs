@@ -9,7 +9,7 @@
 //! lanes read has been compared, and a fibre has the same bits whatever flies beside it. Studies group their points by the
 //! same values.
 
-use crate::error::FlightFault;
+use crate::error::Error;
 use crate::lanes::{Lanes, WIDTH};
 use std::array::from_fn;
 
@@ -19,11 +19,14 @@ pub(crate) struct PerLane<T>(Vec<T>);
 
 impl<T> PerLane<T> {
     /// * `entries` – one to eight
-    pub(crate) fn new(entries: Vec<T>) -> Result<Self, FlightFault> {
+    pub(crate) fn new(entries: Vec<T>) -> Result<Self, Error> {
         match entries.len() {
-            0 => Err(FlightFault::Empty),
+            0 => Err(Error::no_fibre()),
             1..=WIDTH => Ok(Self(entries)),
-            fibres => Err(FlightFault::TooMany { fibres, most: WIDTH }),
+            fibres => Err(Error::flight(
+                format!("{fibres} fibres cannot fly in one flight"),
+                format!("it takes at most {WIDTH}"),
+            )),
         }
     }
 
@@ -67,11 +70,14 @@ impl<T> PerLane<T> {
     ///
     /// # Errors
     /// If one differs from the first; the fault says in what.
-    pub(crate) fn shared<S: Shared>(&self, mut of: impl FnMut(&T) -> S) -> Result<S, FlightFault> {
+    pub(crate) fn shared<S: Shared>(&self, mut of: impl FnMut(&T) -> S) -> Result<S, Error> {
         let first = of(&self.0[0]);
         for (lane, other) in self.0.iter().enumerate().skip(1) {
             if let Some(what) = first.difference(&of(other)) {
-                return Err(FlightFault::Differ { what, lane });
+                return Err(Error::flight(
+                    format!("fibre {} cannot fly beside the first: they differ in {what}", lane + 1),
+                    "fibres of one flight must agree in it",
+                ));
             }
         }
         Ok(first)

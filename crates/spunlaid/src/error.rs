@@ -1,47 +1,46 @@
-//! Errors. A message names the place, the key, the value, what is allowed, and how to correct it.
+//! Errors. A problem names the place, the key, the value, what is wrong, and what to do about it.
 
-mod case;
-mod divergence;
+mod fault;
 mod field;
 mod file;
-mod finding;
-mod flight;
-mod laying;
+mod problem;
 mod profile;
 mod record;
 mod scan;
-mod study;
-mod web;
 mod words;
 
-pub use case::Fault;
-pub use divergence::DivergenceSign;
+pub use fault::Fault;
 pub use field::FieldFault;
 pub use file::{FileError, FileFault, FileKind, FilePlace};
-pub use finding::{Finding, Place, Problem};
-pub use flight::FlightFault;
-pub use laying::LayingFault;
+pub use problem::{Finding, Place, Problem};
 pub use profile::ProfileFault;
 pub use record::RecordFault;
 pub use scan::ScanFault;
-pub use study::{JournalError, StudyFault};
-pub use web::WebFault;
 pub(crate) use words::{listed, memory, one_of};
 
-use crate::units::Dimension;
+use std::path::Path;
 
-/// What can go wrong.
+/// What can go wrong: what a program must tell apart.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// A case, a study or a web cannot be used. All problems found, in the order of the file.
+    #[error("{}", one_per_line(.0))]
+    Rejected(Vec<Problem>),
     /// A file that cannot be used.
     #[error(transparent)]
     File(#[from] Box<FileError>),
-    /// The case cannot be run. All problems found, in the order of the file.
-    #[error("{}", one_per_line(.0))]
-    Rejected(Vec<Problem>),
+    /// Fibres cannot fly side by side, or a flight cannot do what is asked of it.
+    #[error("{0}")]
+    Flight(Fault),
+    /// A folder of results, or a file in it, is in use or holds something else.
+    #[error("{0}")]
+    Folder(Box<Problem>),
+    /// The operating system does not let a file be read or written.
+    #[error("{0}")]
+    System(Box<Problem>),
     /// The computation of a fibre has diverged.
-    #[error("replicate {replicate}: {sign} at {time:e} s; {cause}", sign = sign.at(*node))]
+    #[error("replicate {replicate}: {sign} at {time:e} s; {cause}")]
     Diverged {
         /// The replicate, counted from 1.
         replicate: u64,
@@ -49,45 +48,65 @@ pub enum Error {
         node: usize,
         /// Time [s].
         time: f64,
-        /// What shows it.
-        sign: DivergenceSign,
+        /// What shows it: `node 3 is no longer finite`.
+        sign: String,
         /// Likely cause and remedy.
         cause: String,
     },
     /// A fed fibre does not come down.
-    #[error(
-        "replicate {replicate}: the fibre does not reach the belt: after {time:.3} s, {times} times the way to the belt has \
-         been fed and has not landed, and the lowest node is {} from the inlet of {}; give faster air towards the belt, more \
-         weight, or a belt that is nearer (belt.distance)",
-        Dimension::Length.pretty_to(*reached, 3), Dimension::Length.pretty(*distance)
-    )]
+    #[error("replicate {replicate}: {what}")]
     NotLanding {
         /// The replicate, counted from 1.
         replicate: u64,
-        /// Length of fibre in the air, in distances to the belt.
-        times: f64,
         /// Time [s].
         time: f64,
-        /// Distance of the lowest node from the inlet [m].
-        reached: f64,
-        /// Distance to the belt [m].
-        distance: f64,
+        /// What shows it, and what to do about it.
+        what: Fault,
     },
-    /// A web cannot be laid.
-    #[error(transparent)]
-    Laying(#[from] LayingFault),
-    /// Fibres cannot fly side by side, or a flight cannot do what is asked of it.
-    #[error(transparent)]
-    Flight(#[from] FlightFault),
-    /// The records of a study cannot be read or written.
-    #[error(transparent)]
-    Journal(#[from] JournalError),
     /// The computation was stopped from outside.
     #[error("interrupted before the end")]
     Interrupted,
 }
 
 impl Error {
+    /// What is wrong with a flight, and what to do about it.
+    pub(crate) fn flight(
+        message: impl Into<std::borrow::Cow<'static, str>>,
+        remedy: impl Into<std::borrow::Cow<'static, str>>,
+    ) -> Self {
+        Self::Flight(Fault::new(message, remedy))
+    }
+
+    /// A flight without fibres.
+    pub(crate) fn no_fibre() -> Self {
+        Self::Flight(Fault::plain("a flight needs at least one fibre"))
+    }
+
+    /// A folder of results, or a file in it, that is in use or holds something else.
+    pub fn folder(path: &Path, fault: Fault) -> Self {
+        Self::Folder(Box::new(Problem::with_path(path, fault)))
+    }
+
+    /// A file that the operating system does not let be read or written.
+    pub fn system(path: &Path, fault: Fault) -> Self {
+        Self::System(Box::new(Problem::with_path(path, fault)))
+    }
+
+    /// The problems that it consists of.
+    pub fn problems(&self) -> &[Problem] {
+        match self {
+            Self::Rejected(problems) => problems,
+            Self::Folder(problem) | Self::System(problem) => std::slice::from_ref(problem),
+            _ => &[],
+        }
+    }
+
+    /// What a user of the program types for the remedy of the first problem that has an option. Empty if none has.
+    pub fn option(&self) -> &str {
+        let mut options = self.problems().iter().map(|problem| &*problem.what.option);
+        options.find(|option| !option.is_empty()).unwrap_or_default()
+    }
+
     /// Node, counted from 1 at the root, and time [s] at which a fibre was lost; `None` for other errors. Such a replicate is
     /// counted as lost, and no mean contains it.
     pub const fn lost_fibre(&self) -> Option<(usize, f64)> {
@@ -101,10 +120,7 @@ impl Error {
     /// The exit code for a program: 1 if the input is wrong, 2 if the cause is something else.
     pub const fn exit_code(&self) -> u8 {
         match self {
-            Self::Diverged { .. } | Self::Interrupted => 2,
-            Self::Journal(
-                JournalError::Unusable { .. } | JournalError::Unwritable { .. } | JournalError::Unsynced(_),
-            ) => 2,
+            Self::Diverged { .. } | Self::Interrupted | Self::System(_) => 2,
             _ => 1,
         }
     }
@@ -113,6 +129,12 @@ impl Error {
 impl From<FileError> for Error {
     fn from(error: FileError) -> Self {
         Self::File(Box::new(error))
+    }
+}
+
+impl From<Fault> for Error {
+    fn from(fault: Fault) -> Self {
+        Self::Rejected(vec![fault.into()])
     }
 }
 

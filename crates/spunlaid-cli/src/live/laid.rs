@@ -1,7 +1,7 @@
 //! What fed fibres have laid on the belt since the last change.
 
 use super::fibres::Instant;
-use super::measured::Number;
+use super::number::Number;
 use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::lanes::WIDTH;

@@ -3,11 +3,12 @@
 use super::batches::{Batches, Settling};
 use super::fibres::Instant;
 use super::laid::Laid;
+use super::number::Number;
 use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::flight::{EndNodeMotion, Flight};
 use spunlaid::lanes::WIDTH;
-use spunlaid::observe::{DECLARED, Measure, Observer, Sample, Seen, Value};
+use spunlaid::observe::{DECLARED, Observer, Sample, Seen, Value};
 use spunlaid::statistics::{Welch, Window};
 use std::array::from_fn;
 
@@ -61,33 +62,6 @@ pub(super) struct Told {
     footprint: Option<super::laid::Map>,
 }
 
-/// A number with its standard error, in the unit in which it is shown.
-#[derive(Debug, Serialize)]
-pub(super) struct Number {
-    name: &'static str,
-    label: &'static str,
-    meaning: &'static str,
-    unit: &'static str,
-    value: Option<f64>,
-    error: Option<f64>,
-}
-
-impl Number {
-    /// * `value`, `error` – in SI units
-    pub(super) fn of(name: &str, value: f64, error: Option<f64>) -> Option<Self> {
-        let Measure { name, label, meaning, unit, .. } = *measure(name)?;
-        let finite = |x: f64| x.is_finite().then_some(x * unit.per_si);
-        Some(Self {
-            name,
-            label,
-            meaning,
-            unit: unit.shown,
-            value: finite(value),
-            error: error.and_then(finite),
-        })
-    }
-}
-
 /// Curves, averaged over the fibres.
 #[derive(Debug, Serialize)]
 struct Curves {
@@ -95,10 +69,6 @@ struct Curves {
     along: [Vec<f64>; 3],
     /// Frequency [Hz]; spectra of y and z [mm²/Hz].
     spectrum: [Vec<f64>; 3],
-}
-
-fn measure(name: &str) -> Option<&'static Measure> {
-    DECLARED.iter().flat_map(|declared| declared.measures).find(|measure| measure.name == name)
 }
 
 impl Measured {
@@ -259,6 +229,7 @@ impl Observer for Blind {
 #[cfg(test)]
 mod tests {
     use super::super::fibres::Fibres;
+    use super::super::number::measure;
     use super::*;
     use spunlaid::input::{parse_case, starter_case};
 
@@ -280,10 +251,10 @@ mod tests {
         let (case, _) = parse_case(starter_case(), "starter.toml", &values).unwrap();
         let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
         let computing =
-            Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, laid: None };
+            Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
         let mut results = Results::collector(0);
         fly::<Error>(&case, Keep::NUMBERS, computing, |flown| {
-            results.take(&flown);
+            results.take(flown);
             Ok(())
         })
         .unwrap();

@@ -1,7 +1,7 @@
 //! Reads back what the fibres of a finished run have laid.
 
 use crate::Failure;
-use crate::output::laid::LAID;
+use crate::output::tables::LAID;
 use parquet::column::reader::ColumnReader;
 use parquet::errors::{ParquetError, Result as Decoded};
 use parquet::file::reader::{FileReader, SerializedFileReader};

@@ -8,7 +8,6 @@ use crate::output::leftovers;
 use crate::output::{self};
 use crate::report::{StudyReport, study_html};
 use spunlaid::case::MOST_REPLICATES;
-use spunlaid::error::{Error, JournalError};
 use spunlaid::input::{StudyFile, StudyNote, differences};
 use spunlaid::study::{Found, Header, Journal, PointResults, rankings};
 use std::fs;
@@ -75,22 +74,16 @@ impl<'a> StudyFolder<'a> {
         }
         fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
         let folder = Self { path: path.to_owned(), stop };
-        let (mut journal, header) = match Journal::open(&at) {
-            Err(JournalError::Foreign { .. } | JournalError::Format { .. }) if force => {
-                fs::remove_file(&at).map_err(Failure::unwritable(&at))?;
-                Journal::open(&at).map_err(Error::from)?
-            }
-            opened => opened.map_err(Error::from)?,
-        };
+        let (mut journal, header) = Journal::open(&at, force)?;
         leftovers::remove_unclaimed(path);
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
-        let state = match header.filter(|_| !force) {
+        let state = match header {
             None => {
                 if !force {
                     holds_nothing_else(path)?;
                 }
                 folder.begin(file)?;
-                journal.begin(&wanted, file.study.points.len()).map_err(Error::from)?;
+                journal.begin(&wanted, file.study.points.len())?;
                 // The new file must survive a power cut. Some systems cannot sync folders, so an error is ignored.
                 let _ = fs::File::open(path).and_then(|folder| folder.sync_all());
                 State::New
@@ -101,7 +94,7 @@ impl<'a> StudyFolder<'a> {
             Some(found) if found != wanted => return Err(folder.other(file)),
             Some(_) => {
                 let points = file.study.points.len();
-                let found = journal.go_on(points, MOST_REPLICATES).map_err(Error::from)?;
+                let found = journal.go_on(points, MOST_REPLICATES)?;
                 let (held, asked) = (journal.most_held(), file.study.replicates.at_most);
                 if held > asked {
                     return Err(Failure::FewerReplicates { folder: folder.path, held, asked });

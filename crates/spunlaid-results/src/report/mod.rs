@@ -5,7 +5,6 @@
 //! ```
 
 mod analysis;
-mod belt;
 mod comparison;
 mod frames;
 mod page;

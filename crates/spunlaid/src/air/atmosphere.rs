@@ -14,7 +14,7 @@ use super::eddy_wind::{InEddies, LastEddy};
 use super::stations::OnTheWay;
 use super::surroundings::InFlow;
 use super::{Eddies, EddyWind, Stations, Surroundings, Wind};
-use crate::error::FlightFault;
+use crate::error::{Error, Fault};
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
@@ -89,10 +89,10 @@ impl Atmosphere {
     ///
     /// # Errors
     /// A part of it is made for another number of elements or of eddies.
-    pub(crate) fn check(&self, elements: usize) -> Result<(), FlightFault> {
-        let fits = |what, of, found, wanted| match found == wanted {
+    pub(crate) fn check(&self, elements: usize) -> Result<(), Error> {
+        let fits = |what, parts, found, wanted| match found == wanted {
             true => Ok(()),
-            false => Err(FlightFault::Size { what, of, found, wanted }),
+            false => Err(misfit(what, parts, found, wanted)),
         };
         if let Self::Uniform(air) | Self::Flow(air, _) = self {
             fits("air", "elements", air.eddies.of_element().len(), elements)?;
@@ -162,4 +162,11 @@ impl Atmosphere {
             Self::Way(_, stations) => stations.outside(lane),
         }
     }
+}
+
+/// The error of air, wind or a start that is made for another fibre.
+///
+/// * `what`, `parts` – what does not fit, and what it is counted in
+pub(crate) fn misfit(what: &str, parts: &str, found: usize, wanted: usize) -> Error {
+    Error::Flight(Fault::plain(format!("the {what} is for {found} {parts}, the fibres have {wanted}")))
 }

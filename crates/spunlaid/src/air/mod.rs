@@ -23,7 +23,7 @@ mod surroundings;
 mod wind;
 
 pub use atmosphere::Atmosphere;
-pub(crate) use atmosphere::{Instant, Velocities};
+pub(crate) use atmosphere::{Instant, Velocities, misfit};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
 pub use eddies::{Eddies, EddyModel};
 pub use eddy_turbulence::EddyTurbulence;

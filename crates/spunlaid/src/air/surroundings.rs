@@ -2,7 +2,7 @@
 
 use super::Air;
 use crate::company::PerLane;
-use crate::error::FlightFault;
+use crate::error::Error;
 use crate::field::{Around, Hint};
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::nodes::Nodes;
@@ -66,7 +66,7 @@ impl Surroundings {
     ///
     /// # Errors
     /// No air or more than eight.
-    pub fn new(airs: Vec<Air>, elements: usize, every: u64) -> Result<Self, FlightFault> {
+    pub fn new(airs: Vec<Air>, elements: usize, every: u64) -> Result<Self, Error> {
         Ok(Self::around_elements(PerLane::new(airs)?, elements, every))
     }
 

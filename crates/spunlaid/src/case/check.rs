@@ -6,9 +6,10 @@ use super::note::Note;
 use super::{Case, FEEDING, StepLimit};
 use crate::air::{FromFile, Measured};
 use crate::chain::schemes::Scheme;
-use crate::error::{Fault, Finding, Place, Problem};
+use crate::error::{self, Fault, Finding, Place, Problem};
 use crate::fibre::Root;
 use crate::line::Contact;
+use crate::units::Dimension;
 
 /// Largest number of steps of a run.
 pub const MOST_STEPS: u64 = 1_000_000_000_000;
@@ -97,29 +98,40 @@ impl Check<'_> {
             }
         }
         if elements == 0 {
-            let fault = Fault::OutOfRange { least: 1, most: u64::MAX };
+            let fault = Fault::out_of_range(1, u64::MAX);
             self.blame_key("fibre.elements", elements.to_string(), fault);
         }
         if run.steps > MOST_STEPS {
-            let (steps, most, time_step) = (run.steps as f64, MOST_STEPS as f64, run.time_step);
-            self.blame("run.duration", run.duration(), Fault::TooManySteps { steps, most, time_step });
+            let fault = too_many_steps(run.steps as f64, run.time_step);
+            self.blame("run.duration", run.duration(), fault);
         }
     }
 
     fn geometry(&mut self) {
         let fibre = self.case.fibre;
         if fibre.diameter >= fibre.length {
-            self.blame("fibre.diameter", fibre.diameter, Fault::TooThick { length: fibre.length });
+            let length = Dimension::Length.pretty(fibre.length);
+            let fault = Fault::new(
+                format!("is not smaller than fibre.length = {length}"),
+                "a fibre must be longer than it is thick",
+            );
+            self.blame("fibre.diameter", fibre.diameter, fault);
         }
         if let Some(line) = self.case.line
             && fibre.rest_length() > 0.5 * line.distance
         {
-            let fault = Fault::TooLongForBelt { distance: line.distance };
+            let distance = Dimension::Length.pretty(line.distance);
+            let fault = Fault::new(
+                format!(
+                    "is longer than half of belt.distance = {distance}, so that the fibre cannot bend on its way"
+                ),
+                "shorten the elements, or correct the distance",
+            );
             self.blame("fibre.element_length", fibre.rest_length(), fault);
         }
         if self.case.line.is_some() && fibre.root == Root::Free {
             let (other, remedy) = ("[feed]", "the feed drives the root, so choose \"clamped\" or \"pinned\"");
-            self.blame_key("fibre.root", "\"free\"".to_owned(), Fault::Excludes { other, remedy });
+            self.blame_key("fibre.root", "\"free\"".to_owned(), Fault::excludes(other, remedy));
         }
         let scheme = self.case.run.scheme;
         if self.case.line.is_some_and(|line| line.contact != Contact::Stick)
@@ -128,13 +140,13 @@ impl Check<'_> {
             let remedy =
                 "only implicit tension computes how a fibre slides; choose it, or let the fibre stick";
             let (other, shown) = ("this run.scheme", format!("\"{}\"", "friction"));
-            self.blame_key("belt.contact", shown, Fault::Excludes { other, remedy });
+            self.blame_key("belt.contact", shown, Fault::excludes(other, remedy));
         }
         if self.case.line.is_some() && fibre.direction.x <= 0.0 {
             let remedy = "the belt lies along +x, so the first number has to be above zero";
             let direction = fibre.direction;
             let shown = format!("[{}, {}, {}]", direction.x, direction.y, direction.z);
-            self.blame_key("fibre.direction", shown, Fault::Excludes { other: "[feed]", remedy });
+            self.blame_key("fibre.direction", shown, Fault::excludes("[feed]", remedy));
         }
     }
 
@@ -148,7 +160,7 @@ impl Check<'_> {
         ] {
             // The inverse must be finite as well.
             if !(value.is_normal() && (1.0 / value).is_normal()) {
-                self.blame("fibre.diameter", fibre.diameter, Fault::Degenerate { what, value });
+                self.blame("fibre.diameter", fibre.diameter, Fault::degenerate(what, value));
                 return;
             }
         }
@@ -185,7 +197,7 @@ impl Check<'_> {
             ),
         ] {
             if !value.is_finite() {
-                self.blame(quantity, of, Fault::Degenerate { what, value });
+                self.blame(quantity, of, Fault::degenerate(what, value));
                 return;
             }
         }
@@ -197,7 +209,13 @@ impl Check<'_> {
         if bytes <= most {
             return;
         }
-        let fault = |what, remedy| Fault::TooMuchMemory { bytes, most, what, remedy };
+        let (needed, allowed) = (error::memory(bytes), error::memory(most));
+        let fault = |what: &str, remedy: &'static str| {
+            let message = format!(
+                "needs {needed} of memory for eight fibres side by side, most of it for {what}; at most {allowed} is allowed"
+            );
+            Fault::new(message, remedy)
+        };
         let (air, largest) =
             (&case.air, memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.instants));
         let chosen = case.default_harmonics();
@@ -221,7 +239,6 @@ impl Check<'_> {
 
     fn times(&mut self) {
         let (run, fibre) = (self.case.run, self.case.fibre);
-        let duration = run.duration();
         let limits = self.case.stable_step_limits();
         let tightest = limits.into_iter().min_by(|a, b| a.limit.total_cmp(&b.limit));
         // The memory check may have reported these keys already.
@@ -231,26 +248,46 @@ impl Check<'_> {
             && !told("fibre.element_length")
             && run.time_step >= limit
         {
-            let element_length = fibre.rest_length();
-            let advice = two_digits_down(0.9 * limit);
+            let element_length = Dimension::Length.pretty(fibre.rest_length());
+            let [longest, advice] = [limit, two_digits_down(0.9 * limit)].map(|h| Dimension::Time.pretty(h));
             let fault = match cause {
                 FEEDING => {
-                    let steps = self.case.line.map_or(1, |line| line.fewest_steps());
-                    Fault::StepOverFeed { steps, limit, element_length }
+                    let steps = match self.case.line.map_or(1, |line| line.fewest_steps()) {
+                        1 => "one step at least".to_owned(),
+                        steps => format!("{steps} steps at least"),
+                    };
+                    Fault::new(
+                        format!("is too long: an element of {element_length} is fed in {steps}"),
+                        format!("lower it to at most {longest}, or lengthen fibre.element_length"),
+                    )
                 }
-                _ => Fault::StepTooLong { limit, cause, element_length, advice },
+                _ => Fault::new(
+                    format!("exceeds the stability limit {longest} ({cause} of {element_length} elements)"),
+                    format!("lower it to at most {advice} or lengthen fibre.element_length"),
+                ),
             };
             self.blame("run.time_step", run.time_step, fault);
         }
+        let whole = Dimension::Time.pretty(run.duration());
         if run.spin_up_steps >= run.steps {
-            self.blame("run.spin_up", run.spin_up(), Fault::SpinUpTooLong { duration });
+            let fault = Fault::new(
+                format!(
+                    "is not shorter than run.duration = {whole}, so that no time is left for the statistics"
+                ),
+                "shorten it",
+            );
+            self.blame("run.spin_up", run.spin_up(), fault);
         }
         if run.output_steps > run.steps {
-            self.blame("run.output_interval", run.output_interval(), Fault::IntervalTooLong { duration });
+            let fault = Fault::new(format!("is longer than run.duration = {whole}"), "shorten it");
+            self.blame("run.output_interval", run.output_interval(), fault);
         }
         let instants = (run.steps / run.output_steps + 1) as f64 * run.replicates as f64;
         if !told("run.output_interval") && instants > MOST_INSTANTS {
-            let fault = Fault::TooManyInstants { instants, most: MOST_INSTANTS };
+            let fault = Fault::new(
+                format!("records {instants:.1e} instants over all replicates, more than {MOST_INSTANTS:e}"),
+                "lengthen it or lower run.replicates",
+            );
             self.blame("run.output_interval", run.output_interval(), fault);
         }
     }
@@ -276,12 +313,16 @@ impl Check<'_> {
         if convected && turbulence.iter().any(|eddy| eddy.forgotten > 0.0) {
             let (other, remedy) =
                 ("air.decay_time", "a record is carried along unchanged; leave air.decay_time out");
-            self.blame_key("air.record", self.names(), Fault::Excludes { other, remedy });
+            self.blame_key("air.record", self.names(), Fault::excludes(other, remedy));
         } else if convected && records > 1 {
             let (other, remedy) = ("air.eddies = \"convected\"", "one record is carried along; name one");
-            self.blame_key("air.record", self.names(), Fault::Excludes { other, remedy });
+            self.blame_key("air.record", self.names(), Fault::excludes(other, remedy));
         } else if records > 1 && records != eddies.count() {
-            let fault = Fault::RecordsPerEddy { records, eddies: eddies.count() };
+            let eddies = eddies.count();
+            let fault = Fault::new(
+                format!("names {records} records, but the fibre has {eddies} eddies"),
+                "name one record for all, or one for each eddy",
+            );
             self.blame_key("air.record", self.names(), fault);
         }
         let delay: f64 = turbulence.iter().filter_map(|eddy| eddy.carried).sum();
@@ -290,8 +331,17 @@ impl Check<'_> {
         let stretches = (sharing * shared.stretches_each()) as f64;
         let records: Vec<FromFile<Measured>> = self.case.air.records.clone();
         for record in records.iter().filter(|record| record.stretches(duration) < stretches) {
-            let wanted = record.duration_for(stretches, duration);
-            let fault = Fault::RecordTooShort { stretches: stretches as u64, duration, wanted };
+            let [each, all] = [
+                Dimension::Time.pretty(duration),
+                Dimension::Time.pretty_to(record.duration_for(stretches, duration), 3),
+            ];
+            let fault = Fault::new(
+                format!(
+                    "is too short: the turbulence along one fibre needs {stretches} stretches of {each} that start 5 \
+                     integral times apart, which needs a record of {all}"
+                ),
+                "shorten run.duration, lengthen air.length_scale or record for longer",
+            );
             self.blame_key("air.record", format!("{}", record.path().display()), fault);
         }
     }
@@ -300,6 +350,15 @@ impl Check<'_> {
         let paths = self.case.air.records.iter().map(|record| record.path().display().to_string());
         paths.collect::<Vec<_>>().join(", ")
     }
+}
+
+/// The fault of a run of more than [`MOST_STEPS`] steps.
+pub(crate) fn too_many_steps(steps: f64, time_step: f64) -> Fault {
+    let step = Dimension::Time.pretty(time_step);
+    Fault::new(
+        format!("needs {steps:.1e} steps of {step}, more than {:e}", MOST_STEPS as f64),
+        "shorten it or lengthen run.time_step",
+    )
 }
 
 /// Rounds a positive number down to two significant digits.

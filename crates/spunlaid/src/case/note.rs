@@ -1,7 +1,7 @@
 //! Notes and warnings about a case that can be run.
 
 use super::StepChoice;
-use crate::error::Finding;
+use crate::error::{Fault, Finding, Problem};
 use crate::field::FieldWarning;
 use crate::units::Dimension;
 
@@ -299,6 +299,13 @@ pub enum Remark {
         /// Rest length of an element [m].
         element_length: f64,
     },
+}
+
+/// A warning becomes a problem where something else is wrong with the case, because it may be the cause.
+impl From<Note> for Problem {
+    fn from(Note { place, key, value, what }: Note) -> Self {
+        Self { place, key, value, what: Fault::plain(what.to_string()) }
+    }
 }
 
 impl Note {

@@ -4,7 +4,7 @@ use super::Case;
 use super::keys::{self, Key, Value, finding};
 use super::note::{Note, Remark, SLOW};
 use crate::air::Flow;
-use crate::error::{Fault, Finding, Place, Problem};
+use crate::error::{Place, Problem};
 use crate::field::Hint;
 use crate::units::Dimension;
 
@@ -51,9 +51,7 @@ impl Case {
     pub(crate) fn blame_slips(&self, problems: &mut Vec<Problem>) {
         for note in self.slips() {
             if !problems.iter().any(|problem| problem.key == note.key) {
-                let (what, Note { place, key, value, .. }) =
-                    (Fault::Slip { warning: note.what.to_string() }, note);
-                problems.push(Finding { place, key, value, what });
+                problems.push(note.into());
             }
         }
     }

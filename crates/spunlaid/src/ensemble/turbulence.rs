@@ -3,7 +3,7 @@
 use super::{Computing, Job};
 use crate::air::{Spectrum, Stream, StreamKey, Wind};
 use crate::case::Case;
-use crate::error::{Error, FlightFault};
+use crate::error::Error;
 use crate::lanes::{Isa, WIDTH};
 use crate::statistics::{Welch, Window};
 
@@ -19,7 +19,7 @@ pub struct SpectrumPoint {
 }
 
 /// Most velocities that are kept at a time; more would show nothing new.
-const MOST_VALUES: usize = 1 << 22;
+const MOST_VALUES: usize = 1 << 19;
 /// Samples of each of them that are needed for a spectrum.
 const FEWEST_SAMPLES: usize = 1 << 10;
 /// Most stations on the way of a fed fibre whose spectra are averaged.
@@ -41,7 +41,7 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
     let lanes = case.run.replicates.min(WIDTH as u64) as usize;
     let streams: Vec<Stream> =
         (0..lanes as u64).map(|replicate| Job { case, replicate }.stream(&eddies)).collect();
-    let turbulence = streams.first().ok_or(FlightFault::Empty)?.eddies.clone();
+    let turbulence = streams.first().ok_or_else(Error::no_fibre)?.eddies.clone();
     // A fed fibre passes the stations on its way; some of them say as much as all.
     let most = if case.line.is_some() { STATIONS } else { usize::MAX };
     let stride = turbulence.len().div_ceil(most).max(1);

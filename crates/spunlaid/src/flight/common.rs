@@ -6,7 +6,7 @@ use crate::case::Case;
 use crate::chain;
 use crate::chain::schemes::Scheme;
 use crate::company::{Bits, PerLane, shared};
-use crate::error::FlightFault;
+use crate::error::Error;
 
 shared! {
     /// The times of a flight, in steps.
@@ -71,7 +71,7 @@ impl Common {
     ///
     /// # Errors
     /// If one differs from the first.
-    pub(crate) fn of_all(jobs: &PerLane<Job<'_>>) -> Result<Self, FlightFault> {
+    pub(crate) fn of_all(jobs: &PerLane<Job<'_>>) -> Result<Self, Error> {
         // Replicates of one case usually share one reference.
         let mut last: Option<(*const Case, Self)> = None;
         jobs.shared(|job| match &last {

@@ -1,9 +1,10 @@
 //! The guard: a fibre whose computation has diverged, or which does not come down, is lost. No mean may contain it.
 
 use super::Flight;
-use crate::error::{DivergenceSign, Error};
+use crate::error::{Error, Fault};
 use crate::fibre::Root;
 use crate::line::Line;
+use crate::units::Dimension;
 
 /// By how much an element may be off from the length that belongs to its tension, in parts of its rest length [-]. Where
 /// the tensions are found it is a hundredth at most, after a landing in a single step some hundredths.
@@ -16,9 +17,10 @@ const MOST_SPEED: f64 = 20.0;
 const MOST_IN_AIR: f64 = 10.0;
 
 impl Flight {
-    /// The first fibre that is lost, if there is one.
-    pub(crate) fn lost(&self) -> Option<Error> {
-        (0..self.fibres()).find_map(|lane| self.diverged(lane)).or_else(|| self.adrift())
+    /// The lane of the first fibre that is lost and the reason, if there is one.
+    pub(crate) fn lost(&self) -> Option<(usize, Error)> {
+        let diverged = |lane: usize| Some((lane, self.diverged(lane)?));
+        (0..self.fibres()).find_map(diverged).or_else(|| self.adrift())
     }
 
     /// Whether the computation of the fibre in a lane has diverged. A lane is judged by itself, so a fibre is lost in any
@@ -38,24 +40,35 @@ impl Flight {
         })
     }
 
-    /// The node and what shows that the computation has diverged there.
-    fn sign_of_divergence(&self, lane: usize) -> Option<(usize, DivergenceSign)> {
+    /// The node, and in words what shows that the computation has diverged there.
+    fn sign_of_divergence(&self, lane: usize) -> Option<(usize, String)> {
         let (chain, nodes) = (&self.chain, self.chain.nodes()[lane]);
         let at = |i: usize| chain.position[i].lane(lane);
         let case = self.cases.get(lane).map(|(case, _)| case);
         if let Some(node) = (0..nodes).find(|&i| !at(i).norm().is_finite()) {
             // A held root becomes NaN only through the first element.
             let held = case.is_some_and(|case| case.fibre.root != Root::Free);
-            return Some((node.max(usize::from(held)), DivergenceSign::NotFinite));
+            let node = node.max(usize::from(held));
+            return Some((node, format!("node {} is no longer finite", node + 1)));
         }
         let (off, node) = chain.furthest_off(lane);
         if off > MOST_OFF {
-            return Some((node, DivergenceSign::Length { off }));
+            let (below, off) = (node + 1, percent(off));
+            return Some((
+                node,
+                format!(
+                    "the element below node {below} is off by {off} from the length that its tension gives it"
+                ),
+            ));
         }
         let rest_length = |j: usize| chain.constants.elements.at(j).rest_length.0[lane];
         let strain = |j: usize| (at(j + 1) - at(j)).norm() / rest_length(j) - 1.0;
         if let Some(node) = (0..nodes.saturating_sub(1)).find(|&j| strain(j) > MOST_STRAIN) {
-            return Some((node, DivergenceSign::Strain { strain: strain(node) }));
+            let (below, strain) = (node + 1, percent(strain(node)));
+            return Some((
+                node,
+                format!("the element below node {below} has a strain of {strain}, which no fibre can have"),
+            ));
         }
         let case = case?;
         let speeds = (0..nodes).map(|i| (chain.velocity[i].lane(lane).norm(), i));
@@ -63,24 +76,43 @@ impl Flight {
         // The air is looked at only where this may be so.
         let doubtful = speed > MOST_SPEED * case.air.velocity.abs();
         let given = if doubtful { case.driving_speed() } else { f64::INFINITY };
-        (speed > MOST_SPEED * given).then_some((node, DivergenceSign::Speed { speed, given }))
+        (speed > MOST_SPEED * given).then(|| {
+            let [speed, given] = [speed, given].map(|v| Dimension::Velocity.pretty_to(v, 3));
+            let moving = node + 1;
+            let sign = format!(
+                "node {moving} moves with {speed}, while air, feed, belt, gravity and elasticity together give no more \
+                 than about {given}"
+            );
+            (node, sign)
+        })
     }
 
     /// The first fibre that does not reach the belt, if there is one: ten times the way has been fed and has not landed.
-    fn adrift(&self) -> Option<Error> {
+    fn adrift(&self) -> Option<(usize, Error)> {
         let in_air = self.chain.in_air();
         let length = |lane: usize, line: &Line| {
             in_air[lane] as f64 * self.chain.constants.elements.at(0).rest_length.0[lane] / line.distance
         };
         self.cases.iter().enumerate().find_map(|(lane, (case, replicate))| {
             let line = case.line.as_ref()?;
-            (length(lane, line) > MOST_IN_AIR).then(|| Error::NotLanding {
-                replicate: replicate + 1,
-                times: MOST_IN_AIR,
-                time: self.time(),
-                reached: self.chain.position.iter().map(|p| p.x.0[lane]).fold(f64::NEG_INFINITY, f64::max),
-                distance: line.distance,
+            (length(lane, line) > MOST_IN_AIR).then(|| {
+                let time = self.time();
+                let reached = self.chain.position.iter().map(|p| p.x.0[lane]).fold(f64::NEG_INFINITY, f64::max);
+                let (reached, distance) =
+                    (Dimension::Length.pretty_to(reached, 3), Dimension::Length.pretty(line.distance));
+                let what = Fault::new(
+                    format!(
+                        "the fibre does not reach the belt: after {time:.3} s, {MOST_IN_AIR} times the way to the belt has \
+                         been fed and has not landed, and the lowest node is {reached} from the inlet of {distance}"
+                    ),
+                    "give faster air towards the belt, more weight, or a belt that is nearer (belt.distance)",
+                );
+                (lane, Error::NotLanding { replicate: replicate + 1, time, what })
             })
         })
     }
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", Dimension::Ratio.pretty_to(100.0 * share, 3))
 }

@@ -6,7 +6,7 @@ use crate::case::Case;
 use crate::case::keys::{self, Value};
 use crate::company::PerLane;
 use crate::energy::Energy;
-use crate::error::{Error, FlightFault};
+use crate::error::Error;
 
 impl Flight {
     /// Changes a key of the cases of all fibres while they fly: `flight.set("air.velocity", "20 m/s")`, or 20.0 as a
@@ -20,18 +20,20 @@ impl Flight {
     /// with it. The flight then stays unchanged.
     pub fn set(&mut self, key: &str, value: impl Into<Value>) -> Result<(), Error> {
         let key = keys::named(key)?;
-        let refused = |reason| Err(FlightFault::NotInFlight { key: key.name, reason }.into());
         if !key.in_flight {
-            return refused("a flight keeps its mesh, its times, its eddies and its files");
+            return Err(fixed(key.name, "a flight keeps its mesh, its times, its eddies and its files"));
         }
         let mut cases = self.cases.clone();
         if cases.is_empty() {
-            return Err(FlightFault::NoCase.into());
+            return Err(Error::flight(
+                "this flight was put together without a case, so its keys cannot be set",
+                "make it from cases",
+            ));
         }
         let value = value.into();
         for (case, _) in &mut cases {
             if key.get(case).is_none() {
-                return refused("it has no meaning for the case of this flight");
+                return Err(fixed(key.name, "it has no meaning for the case of this flight"));
             }
             key.set(case, value.clone())?;
             case.check().map_err(Error::Rejected)?;
@@ -48,7 +50,7 @@ impl Flight {
         let meshed_anew = self.chain.laying.is_none() && common.chain.elements != self.chain.elements();
         if !self.air.has_eddies_of(&air) || meshed_anew {
             let reason = "it would change which element lies in which eddy";
-            return Err(FlightFault::NotInFlight { key, reason }.into());
+            return Err(fixed(key, reason));
         }
 
         let before = self.held();
@@ -71,4 +73,9 @@ impl Flight {
         let Self { isa, chain, start, .. } = self;
         Energy::held(*isa, &chain.constants, &chain.position, &chain.velocity, chain.origin(&start.position))
     }
+}
+
+/// The error of a key that cannot change during a flight.
+fn fixed(key: &str, reason: &str) -> Error {
+    Error::flight(format!("{key} cannot change in flight: {reason}"), "start another flight with it")
 }

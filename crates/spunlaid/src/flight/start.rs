@@ -1,14 +1,14 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
 use super::{AirOf, Clock, Common, EndNodeStatistics, Flight, Job, Start};
-use crate::air::{Atmosphere, EddyWind, Stations, Surroundings, Wind};
+use crate::air::{Atmosphere, EddyWind, Stations, Surroundings, Wind, misfit};
 use crate::case::Case;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
 use crate::chain::{self, Chain, Strand};
 use crate::company::PerLane;
 use crate::energy::Energy;
-use crate::error::{Error, FlightFault};
+use crate::error::{Error, Fault};
 use crate::fibre::Fibre;
 use crate::lanes::{Isa, Lanes};
 use crate::vec3::Vec3;
@@ -22,7 +22,7 @@ impl Flight {
     /// scheme, kinds of drag laws, cut-off frequency, number of harmonics and records; and either all or none of
     /// them are damped.
     pub fn new(jobs: &[Job<'_>], isa: Isa) -> Result<Self, Error> {
-        let first = jobs.first().ok_or(FlightFault::Empty)?;
+        let first = jobs.first().ok_or_else(Error::no_fibre)?;
         Self::in_air(jobs, isa, AirOf::run(first.case))
     }
 
@@ -54,13 +54,13 @@ impl Flight {
         air: impl Into<Atmosphere>,
         scheme: Scheme,
         h: f64,
-    ) -> Result<Self, FlightFault> {
+    ) -> Result<Self, Error> {
         let air = air.into();
         let strands = PerLane::new(strands.to_vec())?;
         let common = strands.shared(|strand| chain::Common::of(strand, None))?;
         let elements = common.elements;
         if elements == 0 {
-            return Err(FlightFault::NoElements);
+            return Err(Error::Flight(Fault::plain("a fibre needs at least one element")));
         }
         air.check(elements)?;
         Self::with_chain(
@@ -80,10 +80,13 @@ impl Flight {
         air: Atmosphere,
         scheme: Scheme,
         clock: Clock,
-    ) -> Result<Self, FlightFault> {
+    ) -> Result<Self, Error> {
         let h = clock.time_step();
         if !(h > 0.0 && h.is_finite()) {
-            return Err(FlightFault::Step { step: h });
+            return Err(Error::flight(
+                format!("a time step of {h:e} s cannot be taken"),
+                "it must be positive and finite",
+            ));
         }
         let mut flight = Self {
             isa,
@@ -116,14 +119,14 @@ impl Flight {
         &mut self,
         position: Vec<Vec3<Lanes>>,
         velocity: Vec<Vec3<Lanes>>,
-    ) -> Result<(), FlightFault> {
+    ) -> Result<(), Error> {
         if self.chain.laying.is_some() {
-            return Err(FlightFault::Fed);
+            return Err(Error::flight("a fed fibre starts at its inlet", "start a new flight of it"));
         }
         let wanted = self.chain.position.len();
         for found in [position.len(), velocity.len()] {
             if found != wanted {
-                return Err(FlightFault::Size { what: "start", of: "nodes", found, wanted });
+                return Err(misfit("start", "nodes", found, wanted));
             }
         }
         (self.chain.position, self.chain.velocity) = (position.into(), velocity.into());
@@ -187,7 +190,7 @@ pub(super) fn surrounded(
     jobs: &PerLane<Job<'_>>,
     isa: Isa,
     air: AirOf<'_>,
-) -> Result<Atmosphere, FlightFault> {
+) -> Result<Atmosphere, Error> {
     let Common { way, every, chain, .. } = common;
     // Eddies of finer elements, if the air is that of finer elements.
     let eddies = if way.is_some() { common.eddies.clone() } else { air.case.eddies() };

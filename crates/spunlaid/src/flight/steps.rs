@@ -7,7 +7,7 @@ use crate::chain::force_pass::ElementBlock;
 use crate::chain::schemes::Scheme;
 use crate::chain::{explicit, implicit};
 use crate::energy::Energy;
-use crate::error::{Error, FlightFault};
+use crate::error::Error;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::vec3::Vec3;
 
@@ -24,14 +24,18 @@ impl Flight {
         let steps = (time / self.h).round();
         // Beyond 2^53 steps a number of steps is no whole number any more.
         if !(steps >= self.steps_done as f64 && steps < 9e15) {
-            return Err(FlightFault::TimePast { time, now: self.time() }.into());
+            let now = self.time();
+            return Err(Error::flight(
+                format!("the flight is at {now:e} s and cannot step to {time:e} s"),
+                "name a later time",
+            ));
         }
         let mut left = steps as u64 - self.steps_done;
         while left > 0 {
             let now = left.min(STEPS_UNSEEN);
             self.advance(now);
             left -= now;
-            if let Some(lost) = self.lost() {
+            if let Some((_, lost)) = self.lost() {
                 return Err(lost);
             }
         }

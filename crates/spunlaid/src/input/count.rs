@@ -5,8 +5,8 @@ use super::open::Open;
 use super::written::{Written, sorted};
 use crate::air::EddyModel;
 use crate::case::keys::{self, Value};
-use crate::case::{Case, MOST_STEPS, Note, Remark, unusual, whole_parts};
-use crate::error::{Error, Fault, Finding};
+use crate::case::{Case, MOST_STEPS, Note, Remark, too_many_steps, unusual, whole_parts};
+use crate::error::{Error, Finding};
 use crate::fibre::Fibre;
 
 /// How many times longer a suitable step must be than the written one to be mentioned.
@@ -113,7 +113,7 @@ impl Open {
         let (duration, time_step) = (self.number_of("run.duration"), self.case.run.time_step);
         let steps = (duration / time_step).ceil().max(1.0);
         if steps > MOST_STEPS as f64 {
-            let fault = Fault::TooManySteps { steps, most: MOST_STEPS as f64, time_step };
+            let fault = too_many_steps(steps, time_step);
             let mut problems = vec![keys::finding("run.duration", duration, fault)];
             self.case.blame_slips(&mut problems);
             return Err(

@@ -95,7 +95,7 @@ impl<'a> Document<'a> {
                 (Some(table), other) => {
                     self.written.excuse(format!("{table}."));
                     let wanted = format!("a table, [{table}]");
-                    let what = Fault::WrongType { found: kind(&other), wanted };
+                    let what = Fault::wrong_type(kind(&other), wanted);
                     self.reject(entry.place, table, entry.shown, what);
                 }
                 (None, DeValue::Table(keys)) => self.reject_table(entry.place, &name, &keys),
@@ -119,7 +119,7 @@ impl<'a> Document<'a> {
             None => match table_named(key) {
                 Some(table) => {
                     let wanted = format!("one of its keys, {word} {table}.key=value");
-                    let what = Fault::WrongType { found: "a table", wanted };
+                    let what = Fault::wrong_type("a table", wanted);
                     self.reject(entry.place, table, None, what);
                 }
                 None => self.take_entry("", key, entry),
@@ -140,19 +140,20 @@ impl<'a> Document<'a> {
         }
         let what = if let Some(home) = home_of(key) {
             self.written.excuse(home.name);
-            Fault::Misplaced { table: home.table(), key: home.short() }
+            Fault::misplaced(home.table(), home.short())
         } else {
             let nearest = keys::like_in(table, key).first().map(|key| key.name.to_owned());
             nearest.iter().for_each(|key| self.written.excuse(key));
-            let (where_, known) = if table.is_empty() {
+            let (takes, known) = if table.is_empty() {
                 (
-                    "the top of the file".to_owned(),
+                    "the top of the file takes".to_owned(),
                     std::iter::once(VERSION.to_owned()).chain(tables()).collect(),
                 )
             } else {
-                (format!("[{table}]"), keys::of_table(table).map(|key| key.short().to_owned()).collect())
+                let known = keys::of_table(table).map(|key| key.short().to_owned());
+                (format!("[{table}] takes"), known.collect::<Vec<_>>())
             };
-            Fault::UnknownKey { nearest, where_, known }
+            Fault::unknown("is not a key of a case file", nearest, &takes, &known)
         };
         self.reject(entry.place, &full, entry.shown, what);
     }
@@ -171,7 +172,12 @@ impl<'a> Document<'a> {
             place,
             &format!("[{}]", fit(name)),
             None,
-            Fault::UnknownTable { nearest, known: tables().collect() },
+            Fault::unknown(
+                "is not a table of a case file",
+                nearest,
+                "the tables are",
+                &tables().collect::<Vec<_>>(),
+            ),
         );
     }
 
@@ -193,8 +199,14 @@ impl<'a> Document<'a> {
 /// What a file is that has this key or table at its top, if it is no case.
 fn other_file(key: &str) -> Option<Fault> {
     match key {
-        "vary" | "design" => Some(Fault::IsStudy),
-        "web" | "layer" | "laydown" => Some(Fault::IsWeb),
+        "vary" | "design" => {
+            let fault = Fault::new("belongs to a study, not to a case", "read the file as a study");
+            Some(fault.option("`spunlaid sweep`"))
+        }
+        "web" | "layer" | "laydown" => {
+            let fault = Fault::new("belongs to the file of a web, not to a case", "read it as a web");
+            Some(fault.option("`spunlaid web`"))
+        }
         _ => None,
     }
 }

@@ -77,10 +77,10 @@ pub(super) fn check_version(entry: &Entry<'_>) -> Result<(), Box<Problem>> {
     let what = match &entry.value {
         DeValue::Integer(number) => match number.as_str().parse() {
             Ok(version) if (1..=i128::from(known)).contains(&version) => return Ok(()),
-            Ok(version) if version < 1 => Fault::OutOfRange { least: 1, most: u64::from(known) },
-            _ => Fault::NewerVersion { known },
+            Ok(version) if version < 1 => Fault::out_of_range(1, u64::from(known)),
+            _ => Fault::newer_version(known),
         },
-        other => Fault::WrongType { found: kind(other), wanted: format!("a whole number, {known}") },
+        other => Fault::wrong_type(kind(other), format!("a whole number, {known}")),
     };
     Err(Box::new(entry.problem(VERSION, what)))
 }

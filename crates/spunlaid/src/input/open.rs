@@ -56,12 +56,15 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                 LeftOut::Follows(_) if fed && REQUIRED_IF_FED.iter().any(|(name, _)| *name == key.name) => {
                     let (_, line) =
                         REQUIRED_IF_FED.iter().find(|(name, _)| *name == key.name).unwrap_or(&("", ""));
-                    let (table, line) = (key.table(), (*line).to_owned());
-                    let table_there = if table == "feed" { "belt" } else { "feed" };
+                    let table = key.table();
+                    let other = if table == "feed" { "belt" } else { "feed" };
                     let fault = if written.has_table(table) {
-                        Fault::Missing { table, line }
+                        Fault::missing(table, line)
                     } else {
-                        Fault::MissingBeside { table_there, table, line }
+                        Fault::new(
+                            format!("is missing, and a case with [{other}] needs it"),
+                            format!("add {line} to [{table}], or leave out [{other}]"),
+                        )
                     };
                     written.reject(key.name, fault);
                 }
@@ -77,8 +80,11 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                         _ => None,
                     };
                     let fault = match why {
-                        Some(why) => Fault::MissingOfField { why: why.to_owned(), table, line },
-                        None => Fault::Missing { table, line },
+                        Some(why) => Fault::new(
+                            format!("is missing, and the field does not contain it: {why}"),
+                            format!("write these arrays too, or add {line} to [{table}]"),
+                        ),
+                        None => Fault::missing(table, &line),
                     };
                     written.reject(key.name, fault);
                 }
@@ -94,7 +100,7 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
             (None, _) => continue,
             _ if twice && key.name == "air.profile" => {
                 let (other, remedy) = ("air.field", "the air is one or the other; leave one out");
-                Err(Fault::Excludes { other, remedy })
+                Err(Fault::excludes(other, remedy))
             }
             (Some(Value::Paths(paths)), Kind::File(kind)) => {
                 match load(files, kind, &paths, &layout(&written)) {
@@ -109,7 +115,7 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
                     }
                     Err(error) => {
                         written.excuse(missed_with(kind));
-                        written.reject(key.name, Fault::File(Box::new(error)));
+                        written.reject(key.name, error.into());
                         continue;
                     }
                 }
@@ -117,7 +123,7 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
             (Some(_), _) if key.counted => Ok(()),
             (Some(Value::Text(_)), Kind::Quantity(..)) => by_taylor(&mut case.air),
             (Some(value), _) => match rival(key.name, &written) {
-                Some((other, remedy)) => Err(Fault::Excludes { other, remedy }),
+                Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
                 None => key.apply(&mut case, &value),
             },
         };
@@ -172,7 +178,7 @@ fn rival(key: &str, written: &Written) -> Option<(&'static str, &'static str)> {
 fn by_taylor(air: &mut Air) -> Result<(), Fault> {
     if !air.is_uniform() || air.from_flow.length_scale {
         let (needed, remedy) = ("air.velocity and air.length_scale", "write a frequency, or leave it out");
-        return Err(Fault::Needs { needed, remedy });
+        return Err(Fault::needs(needed, remedy));
     }
     // NaN where either is missing, which has been reported.
     air.cutoff_frequency = air.velocity.abs() / (4.0 * air.length_scale);

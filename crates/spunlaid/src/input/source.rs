@@ -44,8 +44,8 @@ impl<'a> Source<'a> {
         let place = Place::File { file: self.name.clone(), line: Some(line), column: Some(column) };
         let message = fault.message().replace('\n', "; ");
         let what = match fault.span().and_then(|span| self.text.get(span)) {
-            Some(key) if message == "duplicate key" => Fault::Duplicate { key: fit(key) },
-            _ => Fault::Syntax { message },
+            Some(key) if message == "duplicate key" => Fault::duplicate(&fit(key)),
+            _ => Fault::plain(format!("not valid TOML: {message}")),
         };
         Finding { place, key: String::new(), value: None, what }
     }

@@ -12,11 +12,11 @@ use toml::de::{DeInteger, DeValue};
 ///
 /// * `beside` – gives the path for the name of a file
 pub(super) fn read(of: &Kind, value: &DeValue<'_>, beside: impl Fn(&str) -> PathBuf) -> Result<Value, Fault> {
-    let wrong = |found| Fault::WrongType { found, wanted: of.wanted() };
+    let wrong = |found| Fault::wrong_type(found, of.wanted());
     let read = match (of, value) {
         (Kind::Quantity(dimension, _), value) => Value::Number(number(*dimension, value)?),
         (&Kind::Whole(least, most), DeValue::Integer(number)) => {
-            Value::Whole(integer(number).ok_or(Fault::OutOfRange { least, most })?)
+            Value::Whole(integer(number).ok_or_else(|| Fault::out_of_range(least, most))?)
         }
         (Kind::Choice(_) | Kind::Text(_), DeValue::String(text)) => Value::Text(text.to_string()),
         (Kind::Direction, value) => Value::Vector(vector(value)?),
@@ -60,7 +60,7 @@ pub(super) fn number(dimension: Dimension, value: &DeValue<'_>) -> Result<f64, F
         DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
         DeValue::Float(number) => number.as_str(),
         other => {
-            return Err(Fault::WrongType { found: kind(other), wanted: Wanted(dimension).to_string() });
+            return Err(Fault::wrong_type(kind(other), Wanted(dimension)));
         }
     };
     if dimension == Dimension::Ratio {
@@ -71,19 +71,16 @@ pub(super) fn number(dimension: Dimension, value: &DeValue<'_>) -> Result<f64, F
 }
 
 fn vector(value: &DeValue<'_>) -> Result<Vec3<f64>, Fault> {
-    let wanted = || "three plain numbers, like [1.0, 0.0, 0.0]".to_owned();
-    let wrong = |found| Fault::WrongType { found, wanted: wanted() };
+    let wrong = |found| Fault::wrong_type(found, "three plain numbers, like [1.0, 0.0, 0.0]");
     let DeValue::Array(list) = value else {
         return Err(wrong(kind(value)));
     };
     let mut components = list.iter().map(|component| match component.get_ref() {
-        text @ DeValue::String(_) => Err(wrong(kind(text))),
-        other => number(Dimension::Ratio, other).map_err(|fault| match fault {
-            Fault::Quantity(QuantityFault::NotFinite { .. } | QuantityFault::TooLarge { .. }) => {
-                Fault::NotFinite
-            }
-            _ => wrong(kind(other)),
-        }),
+        one @ DeValue::Float(_) => number(Dimension::Ratio, one).map_err(|_| Fault::not_finite()),
+        DeValue::Integer(one) if one.radix() == 10 => {
+            number(Dimension::Ratio, component.get_ref()).map_err(|_| Fault::not_finite())
+        }
+        other => Err(wrong(kind(other))),
     });
     match (components.next(), components.next(), components.next(), components.next()) {
         (Some(x), Some(y), Some(z), None) => Ok(Vec3::new(x?, y?, z?)),

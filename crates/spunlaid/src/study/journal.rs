@@ -9,7 +9,7 @@
 //! count, and its fibre is flown again.
 
 use super::measures::{Landing, Record};
-use crate::error::JournalError;
+use crate::error::{Error, Fault};
 use crate::observe::MEASURES;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -73,26 +73,31 @@ impl Journal {
     /// Returns the journal, which is empty until [`begin`](Self::begin) or [`go_on`](Self::go_on), and the header;
     /// `None` if the file is new or its header is incomplete.
     ///
+    /// * `fresh` – what the file holds is removed
+    ///
     /// # Errors
     /// When another process has locked it, when it is not a journal or has another format, and when it cannot be read.
-    pub fn open(path: &Path) -> Result<(Self, Option<Header>), JournalError> {
-        let failed = |source| JournalError::Unusable { path: path.to_owned(), source };
+    pub fn open(path: &Path, fresh: bool) -> Result<(Self, Option<Header>), Error> {
+        let failed = |source| unusable(path, &source);
         let mut options = OpenOptions::new();
         let mut file = options.read(true).append(true).create(true).open(path).map_err(failed)?;
         match file.try_lock() {
             Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(JournalError::InUse { path: path.to_owned() }),
+            Err(TryLockError::WouldBlock) => return Err(in_use(path)),
             // Some file systems have no locks; the user must then start one process only.
             Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
             Err(TryLockError::Error(error)) => return Err(failed(error)),
+        }
+        if fresh {
+            file.set_len(0).map_err(|source| unwritable(path, &source))?;
         }
         let mut head = Vec::new();
         (&mut file).take(LONGEST_HEADER as u64).read_to_end(&mut head).map_err(failed)?;
         let (header, start) = match head.iter().position(|byte| *byte == b'\n') {
             Some(end) => {
                 let line = head.get(..end).unwrap_or_default();
-                let parsed = parse_header(&String::from_utf8_lossy(line));
-                (Some(parsed.map_err(|fault| fault.at(path))?), end as u64 + 1)
+                let header = parse_header(path, &String::from_utf8_lossy(line))?;
+                (Some(header), end as u64 + 1)
             }
             // An incomplete header, as left by a crash.
             None if head.len() < LONGEST_HEADER
@@ -100,7 +105,7 @@ impl Journal {
             {
                 (None, 0)
             }
-            None => return Err(JournalError::Foreign { path: path.to_owned() }),
+            None => return Err(foreign(path)),
         };
         let backing = Backing::File { file, path: path.to_owned(), start };
         Ok((Self { backing, slots: Vec::new(), records: 0 }, header))
@@ -110,7 +115,7 @@ impl Journal {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn begin(&mut self, header: &Header, points: usize) -> Result<(), JournalError> {
+    pub fn begin(&mut self, header: &Header, points: usize) -> Result<(), Error> {
         self.slots = vec![Vec::new(); points];
         self.records = 0;
         match &mut self.backing {
@@ -120,7 +125,7 @@ impl Journal {
                 let line = format!("{MAGIC} format={FORMAT} version={version} study={study:08x}\n");
                 let written = file.set_len(0).and_then(|()| file.write_all(line.as_bytes()));
                 let written = written.and_then(|()| file.sync_all());
-                written.map_err(|source| JournalError::Unwritable { path: path.clone(), source })?;
+                written.map_err(|source| unwritable(path, &source))?;
                 *start = line.len() as u64;
             }
         }
@@ -131,12 +136,12 @@ impl Journal {
     ///
     /// # Errors
     /// When the file cannot be read or shortened.
-    pub fn go_on(&mut self, points: usize, most_replicates: u64) -> Result<Found, JournalError> {
+    pub fn go_on(&mut self, points: usize, most_replicates: u64) -> Result<Found, Error> {
         let Backing::File { file, path, start } = &mut self.backing else {
             return Ok(Found::default());
         };
-        let (start, path) = (*start, path.clone());
-        let failed = |source| JournalError::Unusable { path: path.clone(), source };
+        let start = *start;
+        let failed = |source| unusable(path, &source);
         file.seek(SeekFrom::Start(start)).map_err(failed)?;
         self.slots = vec![Vec::new(); points];
         self.records = 0;
@@ -179,14 +184,14 @@ impl Journal {
     ///
     /// # Errors
     /// When the file cannot be written; a part that was written is removed again.
-    pub fn add(&mut self, records: &[Record]) -> Result<(), JournalError> {
+    pub fn add(&mut self, records: &[Record]) -> Result<(), Error> {
         match &mut self.backing {
             Backing::Memory(kept) => kept.extend_from_slice(records),
             Backing::File { file, path, start } => {
                 let bytes: Vec<u8> = records.iter().flat_map(encode).collect();
                 if let Err(source) = file.write_all(&bytes) {
                     let _ = file.set_len(*start + u64::from(self.records) * RECORD as u64);
-                    return Err(JournalError::Unwritable { path: path.clone(), source });
+                    return Err(unwritable(path, &source));
                 }
             }
         }
@@ -201,11 +206,11 @@ impl Journal {
     ///
     /// # Errors
     /// When the operating system cannot provide it.
-    pub fn handle(&self) -> Result<Option<File>, JournalError> {
+    pub fn handle(&self) -> Result<Option<File>, Error> {
         match &self.backing {
             Backing::Memory(_) => Ok(None),
             Backing::File { file, path, .. } => {
-                let failed = |source| JournalError::Unusable { path: path.clone(), source };
+                let failed = |source| unusable(path, &source);
                 file.try_clone().map(Some).map_err(failed)
             }
         }
@@ -230,7 +235,7 @@ impl Journal {
     ///
     /// # Errors
     /// When the file cannot be read, or another program has changed it.
-    pub fn records(&mut self, point: usize, replicates: u64) -> Result<Vec<Record>, JournalError> {
+    pub fn records(&mut self, point: usize, replicates: u64) -> Result<Vec<Record>, Error> {
         let slots = self.slots.get(point).map_or(&[][..], Vec::as_slice);
         let slots = slots.iter().take(replicates as usize).filter(|slot| **slot != 0).map(|slot| slot - 1);
         match &mut self.backing {
@@ -242,7 +247,7 @@ impl Journal {
                     file.read_exact(&mut bytes)?;
                     decode(&bytes).ok_or_else(|| std::io::Error::from(ErrorKind::InvalidData))
                 };
-                let failed = |source| JournalError::Unusable { path: path.clone(), source };
+                let failed = |source| unusable(path, &source);
                 slots.map(|i| read(i).map_err(failed)).collect()
             }
         }
@@ -262,33 +267,62 @@ fn slot<'a>(slots: &'a mut [Vec<u32>], record: &Record) -> &'a mut u32 {
     &mut of[replicate]
 }
 
-enum HeaderFault {
-    Foreign,
-    Format(String),
+/// Another process has the journal open.
+pub fn in_use(path: &Path) -> Error {
+    let remedy = "wait until it ends, or use another folder";
+    Error::folder(path, Fault::new("another spunlaid process is using this folder", remedy).option("--out"))
 }
 
-impl HeaderFault {
-    fn at(self, path: &Path) -> JournalError {
-        match self {
-            Self::Foreign => JournalError::Foreign { path: path.to_owned() },
-            Self::Format(format) => JournalError::Format { path: path.to_owned(), format, known: FORMAT },
-        }
-    }
+/// The file is not a journal.
+pub fn foreign(path: &Path) -> Error {
+    let fault = Fault::new(
+        "is not the journal of a study, or its first line is damaged, so its records cannot be used",
+        "use another folder, or start again",
+    );
+    Error::folder(path, fault.option("--out, --force"))
 }
 
-fn parse_header(line: &str) -> Result<Header, HeaderFault> {
-    let rest = line.strip_prefix(MAGIC).ok_or(HeaderFault::Foreign)?;
+/// The journal has another format.
+pub fn other_format(path: &Path, format: &str, known: u32) -> Error {
+    let fault = Fault::new(
+        format!("is a journal of format {format}, but this spunlaid reads format {known}"),
+        "continue with the version of spunlaid that wrote it, use another folder, or start again",
+    );
+    Error::folder(path, fault.option("--out, --force"))
+}
+
+/// The file cannot be opened or read.
+fn unusable(path: &Path, source: &std::io::Error) -> Error {
+    Error::system(path, Fault::plain(format!("cannot be read: {source}")))
+}
+
+/// Records cannot be appended.
+fn unwritable(path: &Path, source: &std::io::Error) -> Error {
+    let message = format!("cannot be written: {source}. All finished fibres are kept");
+    let fault = Fault::new(message, "solve this problem, then continue the study");
+    Error::system(path, fault.option("repeat the command"))
+}
+
+/// The records cannot be flushed to the disk.
+pub fn unsynced(source: &std::io::Error) -> Error {
+    let message = format!("the journal cannot be saved to the disk: {source}");
+    let fault = Fault::new(message, "solve this problem, then continue the study");
+    Error::System(Box::new(fault.option("repeat the command").into()))
+}
+
+fn parse_header(path: &Path, line: &str) -> Result<Header, Error> {
+    let rest = line.strip_prefix(MAGIC).ok_or_else(|| foreign(path))?;
     let field = |name: &str| {
         let fields = rest.split_whitespace().filter_map(|field| field.split_once('='));
         fields.filter(|(key, _)| *key == name).map(|(_, value)| value).next()
     };
-    let format = field("format").ok_or(HeaderFault::Foreign)?;
+    let format = field("format").ok_or_else(|| foreign(path))?;
     if format != FORMAT.to_string() {
-        return Err(HeaderFault::Format(crate::units::excerpt(format, 20)));
+        return Err(other_format(path, &crate::units::excerpt(format, 20), FORMAT));
     }
     match (field("version"), field("study").map(|text| u32::from_str_radix(text, 16))) {
         (Some(version), Some(Ok(study))) => Ok(Header { version: version.to_owned(), study }),
-        _ => Err(HeaderFault::Foreign),
+        _ => Err(foreign(path)),
     }
 }
 

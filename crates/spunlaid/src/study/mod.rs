@@ -21,7 +21,7 @@ mod sobol;
 pub use crate::observe::MEASURES;
 pub use design::{Design, Factor, Levels, Spacing};
 pub use effects::{Effect, Ranking, Rankings, Refusal, Term, rankings};
-pub use journal::{Found, Header, Journal};
+pub use journal::{Found, Header, Journal, foreign, in_use, other_format, unsynced};
 pub use measures::{Landing, Measured, Record, measure, measured};
 pub use pack::{Batch, Bundles, fly_batches};
 pub use rounds::{PointResults, Rounds, results_of_point};

@@ -1,12 +1,12 @@
 //! Flies the missing fibres of a study.
 
-use super::journal::Journal;
+use super::journal::{Journal, unsynced};
 use super::measures::{Landing, Record, measured};
 use super::pack::{Batch, Lost, fly_and_land};
 use super::rounds::Rounds;
 use super::{Point, Study};
 use crate::ensemble::{Computing, Keep, Trajectory};
-use crate::error::{Error, JournalError};
+use crate::error::Error;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -108,8 +108,7 @@ fn with_sync<T>(
     let (finished, failure) = (AtomicBool::new(false), Mutex::new(None));
     let sync = || {
         if let Err(error) = file.sync_data() {
-            *failure.lock().unwrap_or_else(PoisonError::into_inner) =
-                Some(JournalError::Unsynced(error).into());
+            *failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(unsynced(&error));
         }
     };
     let failed = || failure.lock().unwrap_or_else(PoisonError::into_inner).take();

@@ -1,7 +1,7 @@
 //! Curves that fibres have laid, to be laid again in a web.
 
 use super::lay::Points;
-use crate::error::LayingFault;
+use crate::error::Fault;
 use crate::lanes::Lanes;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
@@ -29,14 +29,14 @@ impl Curves {
     /// * `curves` – of each fibre the places (md, cd) of its points on the belt [m], in the order of feed
     ///
     /// # Errors
-    /// [`LayingFault::NoCurves`] if there is no curve, or one of less than 16 pieces or with a point that is not finite.
-    pub fn new(spacing: f64, belt_ratio: f64, mut curves: Vec<Vec<[f64; 2]>>) -> Result<Self, LayingFault> {
+    /// If there is no curve, or one of less than 16 pieces or with a point that is not finite.
+    pub fn new(spacing: f64, belt_ratio: f64, mut curves: Vec<Vec<[f64; 2]>>) -> Result<Self, Fault> {
         let usable = |curve: &Vec<[f64; 2]>| {
             curve.len() > Self::FEWEST && curve.iter().flatten().all(|x| x.is_finite())
         };
         let known = spacing > 0.0 && spacing.is_finite() && belt_ratio > 0.0 && belt_ratio.is_finite();
         if !known || curves.is_empty() || !curves.iter().all(usable) {
-            return Err(LayingFault::NoCurves);
+            return Err(no_curves());
         }
         for curve in &mut curves {
             for (i, point) in curve.iter_mut().enumerate() {
@@ -56,12 +56,12 @@ impl Curves {
     /// * `delays` – of each point the length of fibre that is fed between its own feed and its touch-down [m]
     ///
     /// # Errors
-    /// [`LayingFault::NoCurves`] if there is not one finite delay for each point.
-    pub fn with_delays(mut self, mut delays: Vec<Vec<f64>>) -> Result<Self, LayingFault> {
+    /// If there is not one finite delay for each point.
+    pub fn with_delays(mut self, mut delays: Vec<Vec<f64>>) -> Result<Self, Fault> {
         let alike = delays.len() == self.curves.len()
             && delays.iter().zip(&self.curves).all(|(delays, curve)| delays.len() == curve.len());
         if !alike || !delays.iter().flatten().all(|delay| delay.is_finite()) {
-            return Err(LayingFault::NoCurves);
+            return Err(no_curves());
         }
         for delays in &mut delays {
             let mean = delays.iter().sum::<f64>() / delays.len() as f64;
@@ -191,6 +191,14 @@ impl Points for Stretches {
         self.taken = first + count;
         count
     }
+}
+
+/// The fault of curves that cannot be laid.
+pub(super) fn no_curves() -> Fault {
+    Fault::new(
+        "there are no laid curves, or they are too short: each needs more than 16 points at a spacing above zero",
+        "fly the case for longer (run.duration)",
+    )
 }
 
 #[cfg(test)]

@@ -9,7 +9,8 @@ use super::sensitivity::{Sensitivity, Source, sensitivities};
 use super::threads::each;
 use super::uniformity::{Unevenness, unevenness_at};
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
-use crate::error::{Error, LayingFault};
+use crate::error::{Error, Fault};
+use crate::units::Dimension;
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::atomic::AtomicU64;
@@ -106,7 +107,13 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
     let margins = [columns.start, sheet.cells()[0] - columns.end].map(|cells| cells as f64 * sheet.cell);
     if columns.is_empty() || (sides.is_empty() && !sheet.patches.is_empty()) {
         let smallest = sheet.patches.iter().copied().fold(f64::INFINITY, f64::min);
-        return Err(LayingFault::OnlyEdges { width: sheet.width, margins, smallest }.into());
+        let [left, right, width, smallest] =
+            [margins[0], margins[1], sheet.width, smallest].map(|size| Dimension::Length.pretty(size));
+        let message = format!(
+            "the edges of the web, where it is thin, take {left} and {right} of its width of {width} (3 σ_CD inwards of the \
+             outermost filament), and no two patches of {smallest} fit between them"
+        );
+        return Err(Fault::new(message, "write web.edges = \"periodic\", or a larger web.width").into());
     }
     let laid = lay(web, by)?;
     // The progress is that of the web; what comes after it is short.

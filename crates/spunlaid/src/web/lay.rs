@@ -6,9 +6,9 @@ use super::raster::{Draw, Pens};
 use super::strip::Strip;
 use super::threads::each;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
-use crate::error::{Error, LayingFault};
+use crate::error::{Error, Fault};
 use crate::lanes::{Isa, Lanes, WIDTH};
-use crate::surrogate::{PATH_POINTS, PathKey, Paths};
+use crate::surrogate::{PATH_POINTS, PathKey, Paths, Surrogate};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::ops::Range;
@@ -122,7 +122,7 @@ fn cheapest_piece(longest: f64, part: f64) -> f64 {
 }
 
 impl<'a> Plan<'a> {
-    fn new(web: &Web, number: usize, layer: &'a Layer) -> Result<Self, LayingFault> {
+    fn new(web: &Web, number: usize, layer: &'a Layer) -> Result<Self, Fault> {
         let sheet = &web.sheet;
         let fed = layer.fed_length(sheet);
         let (wanted, longest) = match &layer.fibres {
@@ -136,24 +136,26 @@ impl<'a> Plan<'a> {
             Fibres::Curves(curves) => {
                 let [_, longest] = curves.reach();
                 if (curves.belt_ratio() / layer.belt_ratio() - 1.0).abs() > 1e-9 {
-                    return Err(LayingFault::OtherLine {
-                        curves: curves.belt_ratio(),
-                        layer: layer.belt_ratio(),
-                    });
+                    let message = format!(
+                        "the curves were laid at a belt speed of {} times the feed speed, the layer has {} times",
+                        curves.belt_ratio(),
+                        layer.belt_ratio()
+                    );
+                    return Err(Fault::new(message, "fly the case at the belt speed of the web"));
                 }
                 (curves.spacing(), Some(longest))
             }
         };
         let pieces = (fed / wanted).round().max(1.0);
         if !(fed > 0.0 && pieces < 1e12) {
-            return Err(LayingFault::NoLayer { layer: number + 1 });
+            return Err(no_layer(number + 1));
         }
         let piece = fed / pieces;
         let advance = layer.belt_ratio() * piece;
         let parts = Pens::parts_of((longest.unwrap_or(piece) + advance) / sheet.cell);
         let places = places(web, number, layer);
         if places.is_empty() {
-            return Err(LayingFault::NoLayer { layer: number + 1 });
+            return Err(no_layer(number + 1));
         }
         Ok(Self { number: number as u64, layer, places, pieces: pieces as usize, piece, parts, quanta: 0 })
     }
@@ -177,19 +179,19 @@ impl<'a> Plan<'a> {
     }
 
     /// The curves of the filaments from the number `first` on.
-    fn points(
-        &self,
-        web: &Web,
-        isa: Isa,
-        first: usize,
-        count: usize,
-    ) -> Result<Box<dyn Points>, LayingFault> {
+    fn points(&self, web: &Web, isa: Isa, first: usize, count: usize) -> Result<Box<dyn Points>, Fault> {
         match &self.layer.fibres {
             Fibres::Surrogate(surrogate) => {
                 let keys: Vec<PathKey> = (first..first + count).map(|f| self.key(web, f)).collect();
-                let paths = Paths::new(isa, *surrogate, self.piece, &keys).ok_or(LayingFault::NoPath {
-                    sigmas: [surrogate.sigma_md, surrogate.sigma_cd],
-                    noise: surrogate.noise,
+                let paths = Paths::new(isa, *surrogate, self.piece, &keys).ok_or_else(|| {
+                    let Surrogate { sigma_md, sigma_cd, noise } = surrogate;
+                    Fault::new(
+                        format!(
+                            "no path can be made with the standard deviations {sigma_md:e} m and {sigma_cd:e} m and the \
+                             noise {noise:e} m^-0.5"
+                        ),
+                        "all must be above zero",
+                    )
                 })?;
                 Ok(Box::new(Wandering { paths, last: None }))
             }
@@ -317,7 +319,7 @@ pub(super) fn places(web: &Web, number: usize, layer: &Layer) -> Vec<f64> {
     places
 }
 
-pub(super) fn plans(web: &Web) -> Result<Vec<Plan<'_>>, LayingFault> {
+pub(super) fn plans(web: &Web) -> Result<Vec<Plan<'_>>, Fault> {
     web.layers.iter().enumerate().map(|(number, layer)| Plan::new(web, number, layer)).collect()
 }
 
@@ -341,7 +343,12 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<Laid, Error> {
     let sheet = &web.sheet;
     let [columns, rows] = sheet.cells();
     let mut plans = plans(web)?;
-    let quantum = quantum(web, &plans).ok_or(LayingFault::NoSheet)?;
+    let quantum = quantum(web, &plans).ok_or_else(|| {
+        Fault::new(
+            "the web has no layer or no cells, or its cells are too large for the fibre that they would hold",
+            "choose smaller cells (web.cell)",
+        )
+    })?;
     for plan in &mut plans {
         plan.quanta = (plan.mass_of_part() / quantum).round() as u32;
     }
@@ -370,9 +377,21 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<Laid, Error> {
     })?;
     let (map, cut, is_full) = sum.into_inner().unwrap_or_else(PoisonError::into_inner);
     if is_full {
-        return Err(LayingFault::FullCell { cell: sheet.cell }.into());
+        let message = format!(
+            "a cell of {:e} m holds more fibre than can be counted, since the filaments lie in few places",
+            sheet.cell
+        );
+        return Err(Fault::new(message, "choose smaller cells (web.cell)").into());
     }
     Ok(Laid { map, cut: cut as f64 * quantum })
+}
+
+/// The fault of a layer without filaments or without fibre.
+fn no_layer(number: usize) -> Fault {
+    Fault::new(
+        format!("layer {number} of the web lays nothing"),
+        "it needs filaments, a feed speed and a belt speed above zero",
+    )
 }
 
 /// The quantum of mass [kg]: a part of a piece is a power of two of them, as many as the fullest cell can count.

@@ -4,7 +4,7 @@ use super::lay::{Laying, lay};
 use super::threads::each;
 use super::uniformity::boxes;
 use super::{Edges, Fibres, Filaments, Layer, Row, Sheet, Web};
-use crate::error::{Error, LayingFault};
+use crate::error::Error;
 use crate::statistics::Estimate;
 use std::sync::Arc;
 
@@ -82,7 +82,7 @@ pub fn one_fibre(layer: &Layer, sides: &[usize], of: OneFibre, by: Laying<'_>) -
             for curve in curves.single() {
                 let rows = (curve.length() * layer.belt_ratio() / of.cell).floor() as usize;
                 if rows < largest {
-                    return Err(LayingFault::NoCurves.into());
+                    return Err(super::curves::no_curves().into());
                 }
                 let alone = Layer { fibres: Fibres::Curves(Arc::new(curve)), ..layer.clone() };
                 add(&alone, sides, OneFibre { fibres: 1, ..of }, [apart, trace, rows], by, &mut found)?;

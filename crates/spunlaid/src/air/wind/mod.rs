@@ -22,7 +22,7 @@ use self::taper::{SPREAD, Taper};
 use self::windows::Windows;
 use super::Air;
 use crate::company::PerLane;
-use crate::error::FlightFault;
+use crate::error::Error;
 use crate::lanes::{Isa, Lanes, Register, Task, Wide};
 use crate::vec3::Vec3;
 
@@ -76,12 +76,7 @@ impl Wind {
     ///
     /// # Errors
     /// As of [`Wind::along`].
-    pub fn uniform(
-        isa: Isa,
-        lanes: &[(Air, StreamKey)],
-        eddies: usize,
-        horizon: f64,
-    ) -> Result<Self, FlightFault> {
+    pub fn uniform(isa: Isa, lanes: &[(Air, StreamKey)], eddies: usize, horizon: f64) -> Result<Self, Error> {
         Self::along(isa, Stream::uniform(lanes, eddies), horizon)
     }
 
@@ -90,10 +85,10 @@ impl Wind {
     ///
     /// # Errors
     /// As of [`Wind::along`], and for air with records.
-    pub fn repeating(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, FlightFault> {
+    pub fn repeating(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, Error> {
         let (sampling, streams) = Sampling::of_all(streams)?;
         if !sampling.records.is_empty() {
-            return Err(FlightFault::RepeatingRecord);
+            return Err(Error::flight("a repeating wind is made from harmonics", "leave air.record out"));
         }
         let mean = means(&sampling, &streams);
         let windows = Windows::repeating(isa, sampling, streams, horizon);
@@ -107,7 +102,7 @@ impl Wind {
     /// # Errors
     /// No fibre or more than eight, and fibres that do not agree in number of eddies, cut-off frequency, number
     /// of harmonics and records; an air without harmonics.
-    pub fn along(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, FlightFault> {
+    pub fn along(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, Error> {
         let (sampling, streams) = Sampling::of_all(streams)?;
         Ok(Self::sampled(isa, sampling, streams, horizon))
     }

@@ -3,7 +3,7 @@
 use super::super::{Air, FromFile, Measured};
 use super::Stream;
 use crate::company::{Bits, PerLane, shared};
-use crate::error::FlightFault;
+use crate::error::{Error, Fault};
 use std::cmp::Ordering;
 use std::ops::Deref;
 
@@ -34,15 +34,17 @@ impl Sampling {
     }
 
     /// That of the fibres of a flight.
-    pub(super) fn of_all(streams: Vec<Stream>) -> Result<(Self, PerLane<Stream>), FlightFault> {
+    pub(super) fn of_all(streams: Vec<Stream>) -> Result<(Self, PerLane<Stream>), Error> {
         let streams = PerLane::new(streams)?;
         let sampling = streams.shared(|stream| Self::of(&stream.air, stream.eddies.len()))?;
         if sampling.eddies == 0 {
-            return Err(FlightFault::NoEddies);
+            return Err(Error::Flight(Fault::plain("a wind needs at least one eddy")));
         }
         let makes_turbulence = (1..=1 << 30).contains(&sampling.harmonics) && sampling.repeat_time() > 0.0;
         if sampling.records.is_empty() && !makes_turbulence {
-            return Err(FlightFault::NoHarmonics);
+            return Err(Error::Flight(Fault::plain(
+                "turbulence cannot be made: air.harmonics must be from 1 to 2^30 and air.cutoff_frequency above zero",
+            )));
         }
         Ok((sampling, streams))
     }

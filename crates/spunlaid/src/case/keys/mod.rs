@@ -82,14 +82,14 @@ pub fn find(name: &str) -> Option<&'static Key> {
 pub fn named(name: &str) -> Result<&'static Key, Box<Problem>> {
     find(name).ok_or_else(|| {
         let (table, _) = name.split_once('.').unwrap_or(("", name));
-        let known: Vec<String> = of_table(table).map(|key| key.short().to_owned()).collect();
-        let (where_, known) = if known.is_empty() {
-            ("a case".to_owned(), all().iter().map(|key| key.name.to_owned()).collect())
+        let known: Vec<&str> = of_table(table).map(Key::short).collect();
+        let (takes, known) = if known.is_empty() {
+            ("a case takes".to_owned(), all().iter().map(|key| key.name).collect())
         } else {
-            (format!("[{table}]"), known)
+            (format!("[{table}] takes"), known)
         };
         let nearest = nearest(name).map(|key| key.name.to_owned());
-        let what = Fault::UnknownKey { nearest, where_, known };
+        let what = Fault::unknown("is not a key of a case file", nearest, &takes, &known);
         let key = crate::units::excerpt(name, 60);
         Box::new(Finding { place: Place::Code, key, value: None, what })
     })

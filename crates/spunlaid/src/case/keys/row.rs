@@ -76,10 +76,10 @@ macro_rules! of_record {
             set: |case, value| {
                 let said = $read(value)?;
                 match case.air.records.first() {
-                    None => Err(Fault::Needs { needed: "air.record", remedy: "leave it out" }),
+                    None => Err(Fault::needs("air.record", "leave it out")),
                     // The records have been read with it.
                     Some(record) if record.layout.$field == Some(said) => Ok(()),
-                    Some(_) => Err(Fault::ReadWithCase),
+                    Some(_) => Err(read_with_case()),
                 }
             },
         }
@@ -114,7 +114,7 @@ macro_rules! of_friction {
                 }
                 Contact::Stick => {
                     let remedy = "leave it out, or write this line, with which the fibre slides on the belt";
-                    Err(Fault::Needs { needed: "belt.contact = \"friction\"", remedy })
+                    Err(Fault::needs("belt.contact = \"friction\"", remedy))
                 }
             },
         }
@@ -219,7 +219,15 @@ impl Key {
 
 /// The fault of a value of the wrong kind. It only occurs if the caller has not checked the value.
 fn unfit(value: &Value, wanted: &str) -> Fault {
-    Fault::WrongType { found: value.what(), wanted: wanted.to_owned() }
+    Fault::wrong_type(value.what(), wanted)
+}
+
+/// The fault of a value that can only be set by reading the case again.
+pub(super) fn read_with_case() -> Fault {
+    Fault::new(
+        "is read from a file together with the case",
+        "write it in the case file and read the case again",
+    )
 }
 
 pub(super) fn number(value: &Value) -> Result<f64, Fault> {
@@ -281,7 +289,7 @@ pub(super) fn placed_mut(case: &mut Case) -> Result<&mut PlacedField, Fault> {
         Flow::Field(placed) => Ok(placed),
         _ => {
             let remedy = "leave it out, or name the file of a CFD field";
-            Err(Fault::Needs { needed: "air.field", remedy })
+            Err(Fault::needs("air.field", remedy))
         }
     }
 }
@@ -289,5 +297,5 @@ pub(super) fn placed_mut(case: &mut Case) -> Result<&mut PlacedField, Fault> {
 /// Feed and belt of a fed fibre.
 pub(super) fn line(case: &mut Case) -> Result<&mut Line, Fault> {
     let remedy = "leave it out, or feed the fibre on to a belt";
-    case.line.as_mut().ok_or(Fault::Needs { needed: "feed.speed", remedy })
+    case.line.as_mut().ok_or_else(|| Fault::needs("feed.speed", remedy))
 }

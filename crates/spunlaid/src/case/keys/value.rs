@@ -218,35 +218,39 @@ impl Kind {
     pub(crate) fn fault(&self, value: &Value) -> Option<Fault> {
         let not_finite = |v: &Vec3<f64>| ![v.x, v.y, v.z].iter().all(|c| c.is_finite());
         match (self, value) {
-            (Self::Quantity(_, _), Value::Number(value)) if !value.is_finite() => Some(Fault::NotFinite),
+            (Self::Quantity(_, _), Value::Number(value)) if !value.is_finite() => Some(Fault::not_finite()),
             (Self::Quantity(dimension, sign), Value::Number(value)) => {
                 let quantity = dimension.name();
                 match sign {
-                    Sign::Positive if *value <= 0.0 => Some(Fault::NotPositive { quantity }),
-                    Sign::NotNegative if *value < 0.0 => Some(Fault::Negative { quantity }),
+                    Sign::Positive if *value <= 0.0 => {
+                        Some(Fault::new("is not positive", format!("{quantity} above zero is needed")))
+                    }
+                    Sign::NotNegative if *value < 0.0 => {
+                        Some(Fault::new("is negative", format!("{quantity} of zero or more is needed")))
+                    }
                     _ => None,
                 }
             }
             (&Self::Whole(least, most), Value::Whole(value)) => {
-                (!(least..=most).contains(value)).then_some(Fault::OutOfRange { least, most })
+                (!(least..=most).contains(value)).then(|| Fault::out_of_range(least, most))
             }
-            (Self::Direction | Self::Point, Value::Vector(v)) if not_finite(v) => Some(Fault::NotFinite),
-            (Self::Direction, Value::Vector(v)) => ((v.norm() - 1.0).abs() > 1e-12).then_some(Fault::NotUnit),
+            (Self::Direction | Self::Point, Value::Vector(v)) if not_finite(v) => Some(Fault::not_finite()),
+            (Self::Direction, Value::Vector(v)) => ((v.norm() - 1.0).abs() > 1e-12)
+                .then(|| Fault::new("is not a unit vector", "divide it by its length")),
             (Self::Choice(_) | Self::File(FileKind::Spectrum), Value::Text(text)) => {
                 let names = self.names();
                 if names.contains(&text.as_str()) {
                     return None;
                 }
                 let nearest = super::nearest_word(text, names.iter().copied());
-                Some(Fault::NotOneOf { nearest: nearest.map(|name| format!("\"{name}\"")), allowed: names })
+                Some(Fault::not_one_of(nearest, &names))
             }
             (Self::Text(_), Value::Text(text)) => {
-                let found = "an empty text";
-                text.trim().is_empty().then(|| Fault::WrongType { found, wanted: self.wanted() })
+                text.trim().is_empty().then(|| Fault::wrong_type("an empty text", self.wanted()))
             }
             (Self::Lengths, Value::Numbers(lengths)) => lengths_fault(lengths, self),
             (Self::Point, Value::Vector(_)) | (Self::File(_), Value::Paths(_) | Value::Content(_)) => None,
-            (_, value) => Some(Fault::WrongType { found: value.what(), wanted: self.wanted() }),
+            (_, value) => Some(Fault::wrong_type(value.what(), self.wanted())),
         }
     }
 
@@ -325,15 +329,13 @@ impl Kind {
             [x, y, z] => {
                 Ok(Value::Vector(Vec3::new(dimension.parse(x)?, dimension.parse(y)?, dimension.parse(z)?)))
             }
-            _ => Err(Fault::WrongType { found: "a text", wanted: self.wanted() }),
+            _ => Err(Fault::wrong_type("a text", self.wanted())),
         };
         match self {
             Self::Quantity(dimension, _) => Ok(Value::Number(dimension.parse(text)?)),
-            Self::Whole(..) => text
-                .trim()
-                .parse()
-                .map(Value::Whole)
-                .map_err(|_| Fault::WrongType { found: "a text", wanted: self.wanted() }),
+            Self::Whole(..) => {
+                text.trim().parse().map(Value::Whole).map_err(|_| Fault::wrong_type("a text", self.wanted()))
+            }
             Self::Direction => match vector(Dimension::Ratio)? {
                 Value::Vector(v) => Ok(Value::Vector(unit(v)?)),
                 other => Ok(other),
@@ -372,7 +374,7 @@ impl Kind {
 /// What is wrong with a list of lengths, if anything.
 fn lengths_fault(lengths: &[f64], kind: &Kind) -> Option<Fault> {
     if lengths.is_empty() {
-        return Some(Fault::WrongType { found: "an empty list", wanted: kind.wanted() });
+        return Some(Fault::wrong_type("an empty list", kind.wanted()));
     }
     let of_one = Kind::Quantity(Dimension::Length, Sign::Positive);
     lengths.iter().find_map(|length| of_one.fault(&Value::Number(*length)))
@@ -389,7 +391,7 @@ fn unit(v: Vec3<f64>) -> Result<Vec3<f64>, Fault> {
     }
     let largest = v.x.abs().max(v.y.abs()).max(v.z.abs());
     if largest == 0.0 {
-        return Err(Fault::ZeroDirection);
+        return Err(Fault::new("has length zero", "write a vector like [1.0, 0.0, 0.0] of any other length"));
     }
     // Dividing by the largest component first keeps the squares from overflowing or vanishing.
     let v = Vec3::new(v.x / largest, v.y / largest, v.z / largest);

@@ -1,10 +1,10 @@
 //! The design of a study: which keys vary, and how many points they make.
 
 use super::super::entry::Entry;
-use super::reader::Reader;
+use super::reader::{Reader, not_varied, not_written, unknown_key};
 use super::{MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, Varied, varied};
 use crate::case::keys::{Key, nearest_word};
-use crate::error::{Fault, StudyFault};
+use crate::error::Fault;
 use crate::study::{Design, Factor};
 use toml::de::DeValue;
 
@@ -15,7 +15,7 @@ impl Reader<'_> {
         let points = points_entry.as_ref().and_then(|entry| self.whole_in(entry, "points", 1, MOST_POINTS));
         let Some(entry) = entry else {
             let line = "design = \"grid\" (or \"one-at-a-time\", \"paired\", \"latin-hypercube\", \"sobol\")";
-            self.reject_whole("design", StudyFault::Missing { line });
+            self.missing("design", line);
             return Design::Grid;
         };
         let DeValue::String(text) = &entry.value else {
@@ -35,23 +35,19 @@ impl Reader<'_> {
             "sobol" => Design::Sobol(points.unwrap_or(1)),
             other => {
                 let nearest = nearest_word(other, NAMES.into_iter());
-                let nearest = nearest.map(|name| format!("\"{name}\""));
-                self.reject(entry, "design", Fault::NotOneOf { nearest, allowed: NAMES.to_vec() });
+                self.reject(entry, "design", Fault::not_one_of(nearest, &NAMES));
                 return Design::Grid;
             }
         };
         match points_entry {
             None if draws => {
-                self.reject_whole(
-                    "points",
-                    StudyFault::Missing { line: "points = 64, the number of points of the design" },
-                );
+                self.missing("points", "points = 64, the number of points of the design");
             }
             Some(points) if !draws => {
                 let advice = format!(
                     "the number of points of design = \"{text}\" follows from its values; remove this key"
                 );
-                self.reject(&points, "points", StudyFault::UnknownKey { advice });
+                self.reject(&points, "points", unknown_key(advice));
             }
             _ => {}
         }
@@ -62,7 +58,7 @@ impl Reader<'_> {
     pub(super) fn varied(&mut self, entry: &Entry<'_>, name: &str) -> Option<&'static Key> {
         let key = varied(name);
         if key.is_none() {
-            self.reject(entry, name, StudyFault::NotVaried { advice: super::advice(name) });
+            self.reject(entry, name, not_varied(super::advice(name)));
         }
         key
     }
@@ -78,7 +74,7 @@ impl Reader<'_> {
         let Some(entry) = self.entries.remove("vary") else {
             let line =
                 "[vary] and below it a key and its values, like \"air.velocity\" = [\"5 m/s\", \"10 m/s\"]";
-            self.reject_whole("vary", StudyFault::Missing { line });
+            self.missing("vary", line);
             return Vec::new();
         };
         let DeValue::Table(table) = entry.value else {
@@ -88,7 +84,11 @@ impl Reader<'_> {
         let flat = self.flat(table);
         if flat.is_empty() {
             let entry = Entry { value: DeValue::Boolean(true), ..entry };
-            self.reject(&entry, "[vary]", StudyFault::NothingVaries);
+            let fault = Fault::new(
+                "names no key to vary",
+                "write a key and its values, as in \"air.velocity\" = [\"5 m/s\", \"10 m/s\"]",
+            );
+            self.reject(&entry, "[vary]", fault);
         }
         let mut factors = Vec::new();
         for (key, entry) in flat {
@@ -97,7 +97,7 @@ impl Reader<'_> {
             };
             if factors.iter().any(|factor: &Factor| factor.key == varied.name) {
                 let entry = Entry { shown: None, ..entry };
-                self.reject(&entry, "", Fault::Duplicate { key });
+                self.reject(&entry, "", Fault::duplicate(&key));
                 continue;
             }
             if let Some(levels) = self.levels(varied, entry, design) {
@@ -119,20 +119,25 @@ impl Reader<'_> {
     ) {
         let (found, most) = (factors.len(), design.most_factors());
         if found > most {
-            self.reject(entry, "design", StudyFault::TooManyFactors { found, design: design.name(), most });
+            let message =
+                format!("varies {found} keys; design = \"{}\" allows at most {most}", design.name());
+            self.reject(entry, "design", Fault::new(message, "vary fewer keys, or choose another design"));
         }
         if let (Design::Paired, Some(first)) = (design, factors.first()) {
             let wanted = first.levels.count();
             for factor in factors.iter().filter(|factor| factor.levels.count() != wanted) {
                 let found = factor.levels.count();
-                self.reject_whole(factor.key, StudyFault::Unpaired { found, first: first.key, wanted });
+                let fault = Fault::new(
+                    format!("has {found} values, but \"{}\" has {wanted}", first.key),
+                    "paired lists must have the same length",
+                );
+                self.reject_whole(factor.key, fault);
             }
         }
         if design == Design::OneAtATime {
             for (factor, base) in factors.iter().zip(base) {
                 if base.is_nan() {
-                    let purpose = "vary it around this value";
-                    self.reject_whole(factor.key, StudyFault::NotWritten { purpose });
+                    self.reject_whole(factor.key, not_written("vary it around this value"));
                 }
             }
         }
@@ -146,19 +151,32 @@ impl Reader<'_> {
             let advice = format!(
                 "at most {MOST_POINTS} are possible: vary fewer keys or values, or write design = \"latin-hypercube\""
             );
-            let most = MOST_POINTS_UNASKED;
-            self.reject(entry, "design", StudyFault::TooManyPoints { points, most, advice });
+            self.reject(entry, "design", too_many_points(&points, advice));
         } else if let Some(asked) = asked.filter(|asked| *asked != exact) {
-            self.reject(entry, "design", StudyFault::OtherPoints { points: exact, asked });
+            let fault = Fault::new(
+                format!("makes {exact} points, but {asked} were requested"),
+                format!("request {exact} points"),
+            );
+            self.reject(entry, "design", fault.option("--points"));
         } else if exact > MOST_POINTS_UNASKED && asked.is_none() {
             let advice = format!("request {exact} points by this number");
-            let (points, most) = (exact.to_string(), MOST_POINTS_UNASKED);
-            self.reject(entry, "design", StudyFault::TooManyPoints { points, most, advice });
+            self.reject(entry, "design", too_many_points(&exact.to_string(), advice));
         }
         let fibres = count * replicates as f64;
         if fibres > MOST_FIBRES as f64 && count <= MOST_POINTS as f64 {
             let most = MOST_FIBRES as f64;
-            self.reject(entry, "design", StudyFault::TooManyFibres { fibres, most });
+            let fault = Fault::new(
+                format!("needs {fibres:.1e} fibres in total; at most {most:e} are possible"),
+                "reduce the replicates or the points",
+            );
+            self.reject(entry, "design", fault);
         }
     }
+}
+
+/// The fault of a design of more points than are flown without a request.
+fn too_many_points(points: &str, remedy: String) -> Fault {
+    let message =
+        format!("makes {points} points; more than {MOST_POINTS_UNASKED} must be requested by their number");
+    Fault::new(message, remedy).option("--points")
 }

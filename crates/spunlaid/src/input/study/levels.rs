@@ -3,9 +3,9 @@
 use super::super::entry::{Entry, in_order, kind};
 use super::super::values::{integer, number};
 use super::Varied;
-use super::reader::Reader;
+use super::reader::{Reader, missing, unknown_key};
 use crate::case::keys::{Value, nearest_word};
-use crate::error::{Fault, StudyFault};
+use crate::error::Fault;
 use crate::study::{Design, Levels, Spacing};
 use toml::de::DeValue;
 
@@ -29,22 +29,27 @@ impl<'a> Reader<'a> {
                     if entry.shown.as_ref().is_some_and(|text| text.trim_matches(['[', ']', ' ']).is_empty())
                     {
                         let entry = Entry { value: DeValue::Boolean(true), ..entry };
-                        self.reject(&entry, varied.name, StudyFault::NoValues);
+                        let fault = Fault::new(
+                            "has no values",
+                            "list some, as in [\"5 m/s\", \"10 m/s\"], or write { from, to, steps }",
+                        );
+                        self.reject(&entry, varied.name, fault);
                     }
                     return None;
                 }
                 sound.then_some(Levels::List(values))
             }
             DeValue::Table(_) if !varied.words().is_empty() => {
-                self.reject(&entry, varied.name, StudyFault::WordsInRange { words: varied.words() });
+                let words = varied.words();
+                let words: Vec<String> = words.iter().take(2).map(|word| format!("\"{word}\"")).collect();
+                let remedy = format!("list them, as in [{}]", words.join(", "));
+                self.reject(&entry, varied.name, Fault::new("takes words, which have no range", remedy));
                 None
             }
             DeValue::Table(_) => self.range(varied, entry, design),
             _ => {
-                let wanted =
-                    "a list of values, or { from, to, steps }; a formula belongs in [link]".to_owned();
-                let fault = Fault::WrongType { found: kind(&entry.value), wanted };
-                self.reject(&entry, varied.name, fault);
+                let wanted = "a list of values, or { from, to, steps }; a formula belongs in [link]";
+                self.wrong_type(&entry, varied.name, wanted);
                 None
             }
         }
@@ -53,25 +58,24 @@ impl<'a> Reader<'a> {
     fn value(&mut self, varied: Varied, key: &str, entry: &Entry<'_>) -> Option<f64> {
         let words = varied.words();
         let read = match &entry.value {
-            DeValue::String(word) if !words.is_empty() => {
-                words.iter().position(|one| one == word).map(|i| i as f64).ok_or_else(|| {
-                    let nearest = nearest_word(word, words.iter().copied()).map(|near| format!("\"{near}\""));
-                    Fault::NotOneOf { nearest, allowed: words }
-                })
-            }
+            DeValue::String(word) if !words.is_empty() => words
+                .iter()
+                .position(|one| one == word)
+                .map(|i| i as f64)
+                .ok_or_else(|| Fault::not_one_of(nearest_word(word, words.iter().copied()), &words)),
             value if !words.is_empty() => {
                 let wanted = format!("one of the words {}", words.join(", "));
-                Err(Fault::WrongType { found: kind(value), wanted })
+                Err(Fault::wrong_type(kind(value), wanted))
             }
             value if !varied.is_whole() => number(varied.dimension(), value)
                 .and_then(|value| varied.kind.fault(&Value::Number(value)).map_or(Ok(value), Err)),
             DeValue::Integer(number) => match integer(number) {
                 Some(number) if (1..=1 << 50).contains(&number) => Ok(number as f64),
-                _ => Err(Fault::OutOfRange { least: 1, most: 1 << 50 }),
+                _ => Err(Fault::out_of_range(1, 1 << 50)),
             },
             value => {
-                let wanted = "whole numbers without quotes, like 256".to_owned();
-                Err(Fault::WrongType { found: kind(value), wanted })
+                let wanted = "whole numbers without quotes, like 256";
+                Err(Fault::wrong_type(kind(value), wanted))
             }
         };
         read.map_err(|fault| self.reject(entry, key, fault)).ok()
@@ -99,7 +103,7 @@ impl<'a> Reader<'a> {
                         steps = integer(number);
                     }
                     _ => {
-                        self.reject(&entry, &key, Fault::OutOfRange { least: 2, most: MOST_VALUES });
+                        self.reject(&entry, &key, Fault::out_of_range(2, MOST_VALUES));
                         sound = false;
                     }
                 },
@@ -107,8 +111,7 @@ impl<'a> Reader<'a> {
                     DeValue::String(text) if text == "linear" => {}
                     DeValue::String(text) if text == "log" => spacing = Spacing::Logarithmic,
                     _ => {
-                        let allowed = vec!["linear", "log"];
-                        self.reject(&entry, &key, Fault::NotOneOf { nearest: None, allowed });
+                        self.reject(&entry, &key, Fault::not_one_of(None, &["linear", "log"]));
                         sound = false;
                     }
                 },
@@ -117,7 +120,7 @@ impl<'a> Reader<'a> {
                         || "a range has the keys from, to, steps and spacing".to_owned(),
                         |key| format!("did you mean {key}?"),
                     );
-                    self.reject(&entry, &key, StudyFault::UnknownKey { advice });
+                    self.reject(&entry, &key, unknown_key(advice));
                     sound = false;
                 }
             }
@@ -132,19 +135,28 @@ impl<'a> Reader<'a> {
             {
                 if end.is_none() {
                     let key = format!("{}.{}", varied.name, &line[..line.find(' ').unwrap_or(0)]);
-                    self.reject(&whole, &key, StudyFault::Missing { line });
+                    self.reject(&whole, &key, missing(line));
                 }
             }
             return None;
         };
-        let design_name = design.name();
+        let name = design.name();
         let fault = match steps {
-            None if !design.draws() => Some(StudyFault::NoSteps { design: design_name }),
-            Some(_) if design.draws() => Some(StudyFault::NeedlessSteps { design: design_name }),
-            _ if from == to => Some(StudyFault::NoWidth),
-            _ if spacing == Spacing::Logarithmic && (from <= 0.0 || to <= 0.0) => {
-                Some(StudyFault::LogThroughZero)
+            None if !design.draws() => Some(Fault::new(
+                format!("has no steps, which design = \"{name}\" needs"),
+                "add steps = 5, or list the values",
+            )),
+            Some(_) if design.draws() => Some(Fault::new(
+                format!("has steps, but design = \"{name}\" draws its values from the range"),
+                "leave steps out",
+            )),
+            _ if from == to => {
+                Some(Fault::new("has two equal ends", "write two different ends, or a list of one value"))
             }
+            _ if spacing == Spacing::Logarithmic && (from <= 0.0 || to <= 0.0) => Some(Fault::new(
+                "has logarithmic spacing, which needs both ends above zero",
+                "write spacing = \"linear\"",
+            )),
             _ => None,
         };
         match fault {

@@ -2,10 +2,10 @@
 
 use super::super::entry::Entry;
 use super::super::open::Open;
-use super::reader::Reader;
+use super::reader::{Reader, not_written};
 use super::{advice, dimension, numeric};
 use crate::case::keys::{self, Key};
-use crate::error::{Fault, Finding, StudyFault};
+use crate::error::{Fault, Finding};
 use crate::study::{Factor, Link};
 use crate::units::{Expression, ExpressionFault, Powers};
 use std::collections::BTreeMap;
@@ -32,16 +32,18 @@ impl Reader<'_> {
                 continue;
             };
             if numeric(linked.name).is_none() {
-                self.reject(&entry, &key, StudyFault::WordsLinked);
+                let fault =
+                    Fault::new("takes words, and a formula gives a number", "list the words under [vary]");
+                self.reject(&entry, &key, fault);
                 continue;
             }
             if factors.iter().any(|factor| factor.key == linked.name) {
-                self.reject(&entry, &key, StudyFault::Twice);
+                self.reject(&entry, &key, Fault::new("is both varied and linked", "keep one"));
                 continue;
             }
             if links.iter().any(|link: &Link| link.key == linked.name) {
                 let entry = Entry { shown: None, ..entry };
-                self.reject(&entry, "", Fault::Duplicate { key });
+                self.reject(&entry, "", Fault::duplicate(&key));
                 continue;
             }
             let DeValue::String(text) = &entry.value else {
@@ -64,9 +66,8 @@ impl Reader<'_> {
         let keys: Vec<&str> = keys.collect();
         for (link, entry) in links.iter().zip(&entries) {
             if let Some(name) = unwritten(link, &keys, base) {
-                let purpose = "use it in a formula";
                 let (place, key) = (entry.place.clone(), name.to_owned());
-                let what = StudyFault::NotWritten { purpose }.into();
+                let what = not_written("use it in a formula");
                 self.problems.push(Finding { place, key, value: None, what });
             }
         }
@@ -78,7 +79,7 @@ impl Reader<'_> {
 }
 
 /// Reads the formula of a key.
-pub(super) fn read(key: &Key, text: &str) -> Result<Link, StudyFault> {
+pub(super) fn read(key: &Key, text: &str) -> Result<Link, Fault> {
     let text = text.trim();
     let text = text.strip_prefix('=').unwrap_or(text).trim();
     let named = READY_MADE.iter().find(|(name, of, _)| *name == text && *of == key.name);
@@ -106,7 +107,7 @@ pub(super) fn read(key: &Key, text: &str) -> Result<Link, StudyFault> {
 ///
 /// # Errors
 /// Index of a link that depends on itself, and the keys of the circle.
-pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, StudyFault)> {
+pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, Fault)> {
     let mut order: Vec<usize> = Vec::new();
     let of_key: BTreeMap<&str, usize> = links.iter().enumerate().map(|(i, link)| (link.key, i)).collect();
     while order.len() < links.len() {
@@ -133,7 +134,8 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, StudyFault)> {
                 };
                 let circle = way.iter().skip_while(|i| **i != last).chain([&last]);
                 let circle: Vec<&str> = circle.map(|i| links[*i].key).collect();
-                return Err((last, StudyFault::Circle(circle.join(" ← "))));
+                let message = format!("depends on itself: {}", circle.join(" ← "));
+                return Err((last, Fault::new(message, "remove one of these links")));
             }
         }
     }

@@ -6,11 +6,11 @@ use super::super::open::Open;
 use super::super::values::integer;
 use super::super::write::quoted;
 use super::super::{FORMAT_VERSION, Overrides};
-use super::reader::Reader;
+use super::reader::{self, Reader, not_varied, set_twice};
 use super::replicates::MOST_REPLICATES;
 use super::{StudyChanges, Varied, level, links, varied};
 use crate::case::keys::{self, Kind};
-use crate::error::{Fault, StudyFault};
+use crate::error::Fault;
 use crate::study::{Design, Factor, Link, Point, Replicates, Study};
 use toml::de::DeValue;
 
@@ -41,7 +41,7 @@ impl<'a> Reader<'a> {
         }
         let line = "case = \"table1.toml\" (the case to vary, beside this file)";
         let Some(entry) = self.entries.remove("case") else {
-            self.reject_whole("case", StudyFault::Missing { line });
+            self.missing("case", line);
             return None;
         };
         match &entry.value {
@@ -65,10 +65,10 @@ impl<'a> Reader<'a> {
                 Some(number) if (1..=u64::from(known)).contains(&number) => {}
                 Some(number) if number > u64::from(known) => {
                     self.problems.clear();
-                    self.reject(&version, "version", Fault::NewerVersion { known });
+                    self.reject(&version, "version", Fault::newer_version(known));
                     return false;
                 }
-                _ => self.reject(&version, "version", Fault::OutOfRange { least: 1, most: u64::from(known) }),
+                _ => self.reject(&version, "version", Fault::out_of_range(1, u64::from(known))),
             }
         }
         true
@@ -105,11 +105,12 @@ impl<'a> Reader<'a> {
             return;
         };
         if matches!(key.name, "run.replicates" | "run.seed") {
-            self.reject(entry, name, StudyFault::NotVaried { advice: super::advice(name) });
+            self.reject(entry, name, not_varied(super::advice(name)));
         }
         let is_word = |word: &str| word == AUTO || key.kind.words().contains(&word);
         if matches!(key.kind, Kind::File(_)) && !entry.value.as_str().is_some_and(is_word) {
-            self.reject(entry, name, StudyFault::FileSet);
+            let fault = Fault::new("names a file, which a study takes from its case", "write it there");
+            self.reject(entry, name, fault);
         }
     }
 
@@ -117,7 +118,7 @@ impl<'a> Reader<'a> {
     fn check_once(&mut self, set: &[(String, String)], factors: &[Factor], links: &[Link]) {
         let varied = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
         for key in varied.filter(|key| set.iter().any(|(set, _)| set == key)) {
-            self.reject_whole(key, StudyFault::SetTwice);
+            self.reject_whole(key, set_twice());
         }
     }
 
@@ -137,7 +138,7 @@ impl<'a> Reader<'a> {
         let mut replicates = self.replicates(base);
         if let Some(asked) = changes.replicates {
             if !(1..=MOST_REPLICATES).contains(&asked) {
-                self.reject_whole("replicates", StudyFault::Replicates { asked, most: MOST_REPLICATES });
+                self.reject_whole("replicates", reader::replicates(asked, MOST_REPLICATES));
             }
             replicates = Replicates::fixed(asked);
         }

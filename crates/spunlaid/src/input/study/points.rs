@@ -136,17 +136,14 @@ impl Resolver<'_> {
     fn open(&self, written: Written, set: &[(&'static Key, f64)]) -> (Result<Open, Error>, Vec<Note>) {
         let opened = open::open(written.clone(), self.files);
         let is_unneeded = |problem: &&Problem| {
-            matches!(problem.what, Fault::Needs { .. }) && set.iter().all(|(key, _)| key.name != problem.key)
+            problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
         };
         let unneeded: Vec<Note> = match &opened {
             Err(Error::Rejected(problems)) if self.plan.factors.iter().any(|of| !of.words.is_empty()) => {
-                let note = |problem: &Problem| match problem.what {
-                    Fault::Needs { needed, .. } => {
-                        let (place, key, value) =
-                            (problem.place.clone(), problem.key.clone(), problem.value.clone());
-                        Some(Note { place, key, value, what: Remark::Unneeded { needed } })
-                    }
-                    _ => None,
+                let note = |problem: &Problem| {
+                    let what = Remark::Unneeded { needed: problem.what.needs? };
+                    let Problem { place, key, value, .. } = problem.clone();
+                    Some(Note { place, key, value, what })
                 };
                 problems.iter().filter(is_unneeded).filter_map(note).collect()
             }
@@ -172,7 +169,7 @@ fn value_of(key: &Key, value: f64) -> Result<Value, Fault> {
     if (1.0..1e15).contains(&value) {
         Ok(Value::Whole(value as u64))
     } else {
-        Err(Fault::OutOfRange { least: 1, most: 1_000_000_000_000_000 })
+        Err(Fault::out_of_range(1, 1_000_000_000_000_000))
     }
 }
 

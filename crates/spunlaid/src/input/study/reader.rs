@@ -6,7 +6,8 @@ use super::super::source::Source;
 use super::super::values::integer;
 use super::super::web::WEB_TABLES;
 use crate::case::keys::nearest_word;
-use crate::error::{Error, Fault, Finding, Problem, StudyFault};
+use crate::error::{Error, Fault, Finding, Problem};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -48,7 +49,12 @@ impl<'a> Reader<'a> {
         };
         if let Some((key, _)) = root.iter().find(|(key, value)| is_of_web(key.get_ref(), value.get_ref())) {
             let (place, key) = (source.place(key.span().start), format!("[{}]", key.get_ref()));
-            return Err(vec![Finding { place, key, value: None, what: StudyFault::IsWeb.into() }].into());
+            let what = Fault::new(
+                "is a table of the file of a web",
+                "a study names its web, as in web = \"web.toml\". To lay a single web, name its file itself",
+            );
+            let what = what.option("`spunlaid web`");
+            return Err(vec![Finding { place, key, value: None, what }].into());
         }
         let mut reader = Self { source, entries: BTreeMap::new(), problems: Vec::new(), excused: Vec::new() };
         let mut tables = Vec::new();
@@ -69,7 +75,7 @@ impl<'a> Reader<'a> {
                     }
                     None => format!("the keys are {} and {}", KEYS[..10].join(", "), KEYS[10]),
                 };
-                reader.reject(&entry, &name, StudyFault::UnknownKey { advice });
+                reader.reject(&entry, &name, unknown_key(advice));
             }
         }
         tables.sort_by_key(|(entry, _)| entry.at);
@@ -79,7 +85,11 @@ impl<'a> Reader<'a> {
                 reader.problems.clear();
                 reader.excused.push("case");
             }
-            reader.reject(entry, &format!("[{name}]"), StudyFault::TableOfCase);
+            let fault = Fault::new(
+                "is a table of a case file",
+                "a study names its case, as in case = \"table1.toml\". To fly a single case, name the case itself",
+            );
+            reader.reject(entry, &format!("[{name}]"), fault.option("`spunlaid run`"));
         }
         Ok(reader)
     }
@@ -88,22 +98,25 @@ impl<'a> Reader<'a> {
         Entry::of_file(&self.source, at, value)
     }
 
-    pub(super) fn reject(&mut self, entry: &Entry<'_>, key: &str, fault: impl Into<Fault>) {
+    pub(super) fn reject(&mut self, entry: &Entry<'_>, key: &str, fault: Fault) {
         self.problems.push(entry.problem(key, fault));
     }
 
     /// Notes a problem of the whole file.
-    pub(super) fn reject_whole(&mut self, key: &str, fault: StudyFault) {
-        if self.excused.contains(&key) && matches!(fault, StudyFault::Missing { .. }) {
-            return;
-        }
+    pub(super) fn reject_whole(&mut self, key: &str, what: Fault) {
         let place = self.source.whole();
-        self.problems.push(Finding { place, key: key.to_owned(), value: None, what: fault.into() });
+        self.problems.push(Finding { place, key: key.to_owned(), value: None, what });
+    }
+
+    /// Notes that a required key is missing, unless it is misspelt.
+    pub(super) fn missing(&mut self, key: &str, line: &str) {
+        if !self.excused.contains(&key) {
+            self.reject_whole(key, missing(line));
+        }
     }
 
     pub(super) fn wrong_type(&mut self, entry: &Entry<'_>, key: &str, wanted: &str) {
-        let fault = Fault::WrongType { found: kind(&entry.value), wanted: wanted.to_owned() };
-        self.reject(entry, key, fault);
+        self.reject(entry, key, Fault::wrong_type(kind(&entry.value), wanted));
     }
 
     /// Whether a problem has been noted.
@@ -127,7 +140,7 @@ impl<'a> Reader<'a> {
         match &entry.value {
             DeValue::Integer(number) => match integer(number) {
                 Some(number) if (least..=most).contains(&number) => return Some(number),
-                _ => self.reject(entry, key, Fault::OutOfRange { least, most }),
+                _ => self.reject(entry, key, Fault::out_of_range(least, most)),
             },
             _ => self.wrong_type(entry, key, "a whole number without quotes, like 10"),
         }
@@ -162,4 +175,37 @@ impl<'a> Reader<'a> {
         flat.sort_by_key(|(_, entry)| entry.at);
         flat
     }
+}
+
+/// A required key is missing.
+///
+/// * `line` – a line that would do
+pub(super) fn missing(line: &str) -> Fault {
+    Fault::new("is missing", format!("add {line}"))
+}
+
+/// No key of a study has this name.
+pub(super) fn unknown_key(remedy: String) -> Fault {
+    Fault::new("is not a key of a study file", remedy)
+}
+
+/// A study cannot vary, link or set this key.
+pub(super) fn not_varied(remedy: impl Into<Cow<'static, str>>) -> Fault {
+    Fault::new("cannot be set by a study", remedy)
+}
+
+/// A key that is both set and varied or linked.
+pub(super) fn set_twice() -> Fault {
+    Fault::new("is set to one value for all points, and varied or linked as well", "keep one")
+}
+
+/// A number of replicates that is asked for, and that is out of range.
+pub(super) fn replicates(asked: u64, most: u64) -> Fault {
+    Fault::new(format!("= {asked} are asked for"), format!("ask for 1 to {most}"))
+}
+
+/// The case does not give the key a value of its own.
+pub(super) fn not_written(purpose: &str) -> Fault {
+    let message = "has no value in the case, where it follows from other keys";
+    Fault::new(message, format!("write it there to {purpose}"))
 }

@@ -3,9 +3,9 @@
 use super::super::entry::{Entry, in_order};
 use super::super::open::Open;
 use super::super::values;
-use super::reader::Reader;
+use super::reader::{Reader, unknown_key};
 use crate::case::keys::nearest_word;
-use crate::error::StudyFault;
+use crate::error::Fault;
 use crate::study::{MEASURES, Replicates};
 use crate::units::Dimension;
 use toml::de::DeValue;
@@ -39,18 +39,19 @@ impl<'a> Reader<'a> {
                         || "the keys are at_least, at_most and until".to_owned(),
                         |key| format!("did you mean {key}?"),
                     );
-                    self.reject(&entry, &name, StudyFault::UnknownKey { advice });
+                    self.reject(&entry, &name, unknown_key(advice));
                 }
             }
         }
         let line = "[replicates] until = { amplitude_y = \"5 %\" }, the wanted standard error as a fraction of the mean";
         if until.is_empty() && self.problems.is_empty() {
-            self.reject_whole("replicates.until", StudyFault::Missing { line });
+            self.missing("replicates.until", line);
         }
         let at_most = bounds[1].unwrap_or(100);
         let at_least = bounds[0].unwrap_or_else(|| at_most.min(8));
         if let Some(entry) = least.filter(|_| at_least > at_most) {
-            self.reject(&entry, "replicates.at_least", StudyFault::MoreThanMost { most: at_most });
+            let fault = Fault::new(format!("is larger than at_most = {at_most}"), "lower it");
+            self.reject(&entry, "replicates.at_least", fault);
         }
         Replicates { at_least, at_most, until }
     }
@@ -70,12 +71,18 @@ impl<'a> Reader<'a> {
                     || format!("the results are {}", names.join(", ")),
                     |name| format!("did you mean {name}?"),
                 );
-                self.reject(&entry, &key, StudyFault::UnknownResult { advice });
+                self.reject(&entry, &key, Fault::new("is not the name of a result", advice));
                 continue;
             };
             match values::number(Dimension::Ratio, &entry.value) {
                 Ok(fraction) if fraction > 0.0 && fraction < 1.0 => until.push((measure, fraction)),
-                Ok(_) => self.reject(&entry, &key, StudyFault::NoFraction),
+                Ok(_) => {
+                    let fault = Fault::new(
+                        "is not a fraction of the mean",
+                        "write a number between 0 and 1, like 0.05 or \"5 %\"",
+                    );
+                    self.reject(&entry, &key, fault);
+                }
                 Err(fault) => self.reject(&entry, &key, fault),
             }
         }

@@ -2,12 +2,12 @@
 
 use super::super::web::{WEB_KEYS, WebFile, WebSpec, document, parse_web_of_case, write_web};
 use super::super::{FORMAT_VERSION, Overrides, file};
-use super::reader::Reader;
+use super::reader::{self, Reader, not_varied, set_twice, unknown_key};
 use super::write::write_values;
 use super::{StudyChanges, StudyNote, Varied, level, points, varied};
 use crate::case::Case;
 use crate::case::keys::nearest_word;
-use crate::error::{Error, FileKind, Place, Problem, StudyFault};
+use crate::error::{Error, Fault, FileKind, Place, Problem};
 use crate::study::{Design, Factor, enter_keys};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -222,7 +222,9 @@ impl<'a> Reader<'a> {
             return None;
         }
         if let Some(entry) = self.entries.remove("case") {
-            self.reject(&entry, "case", StudyFault::CaseAndWeb);
+            let fault =
+                Fault::new("stands beside web", "a study varies a case or a web, so keep one of them");
+            self.reject(&entry, "case", fault);
             return None;
         }
         let entry = self.entries.remove(WEB);
@@ -235,7 +237,7 @@ impl<'a> Reader<'a> {
             }
             None => {
                 let line = "web = \"web.toml\" (the web to vary, beside this file)";
-                self.reject_whole(WEB, StudyFault::Missing { line });
+                self.missing(WEB, line);
             }
         }
         None
@@ -269,7 +271,7 @@ impl<'a> Reader<'a> {
         for key in ["common_phases", "link"] {
             if let Some(entry) = self.entries.remove(key) {
                 let advice = "it belongs to studies of a case; leave it out".to_owned();
-                self.reject(&entry, key, StudyFault::UnknownKey { advice });
+                self.reject(&entry, key, unknown_key(advice));
             }
         }
         let entry = self.entries.remove("design");
@@ -278,7 +280,7 @@ impl<'a> Reader<'a> {
         let mut replicates = self.whole("replicates", 1, MOST_WEBS).unwrap_or(1);
         if let Some(asked) = changes.replicates {
             if !(1..=MOST_WEBS).contains(&asked) {
-                self.reject_whole("replicates", StudyFault::Replicates { asked, most: MOST_WEBS });
+                self.reject_whole("replicates", reader::replicates(asked, MOST_WEBS));
             }
             replicates = asked;
         }
@@ -294,7 +296,7 @@ impl<'a> Reader<'a> {
                 (None, None) => match nearest_word(name, WEB_KEYS.iter().map(|key| key.name)) {
                     Some(near) if near != name => {
                         let advice = format!("did you mean {near}?");
-                        reader.reject(entry, name, StudyFault::NotVaried { advice });
+                        reader.reject(entry, name, not_varied(advice));
                         return None;
                     }
                     _ => {
@@ -302,11 +304,11 @@ impl<'a> Reader<'a> {
                     }
                 },
             };
-            reader.reject(entry, name, StudyFault::NotVaried { advice: refusal.to_owned() });
+            reader.reject(entry, name, not_varied(refusal));
             None
         });
         for factor in factors.iter().filter(|factor| set.iter().any(|(set, _)| set == factor.key)) {
-            self.reject_whole(factor.key, StudyFault::SetTwice);
+            self.reject_whole(factor.key, set_twice());
         }
         if let Some(entry) = entry.filter(|_| !self.has_problems()) {
             let values: Vec<f64> = factors.iter().map(|factor| base.value(factor)).collect();

@@ -2,7 +2,7 @@
 
 use super::read::{Reading, SAME};
 use super::{LaydownSource, LayerSpec, too_small};
-use crate::error::{Fault, WebFault};
+use crate::error::Fault;
 use crate::units::Dimension;
 use crate::web::{Edges, Filaments, Row, Sheet};
 use std::collections::BTreeMap;
@@ -15,7 +15,13 @@ impl Reading<'_> {
             let key = format!("{prefix}name");
             let Some(name) = self.written.text(&key) else { continue };
             match seen.get(&name) {
-                Some(other) => self.written.reject(&key, WebFault::NameTwice { other: other + 1 }.into()),
+                Some(other) => {
+                    let fault = Fault::new(
+                        format!("is also the name of layer {}", other + 1),
+                        "give each layer a name of its own",
+                    );
+                    self.written.reject(&key, fault);
+                }
                 None => drop(seen.insert(name, i)),
             }
         }
@@ -28,7 +34,12 @@ impl Reading<'_> {
             let belt = layer.as_ref().map_or(first, |layer| layer.belt_speed);
             if (belt / first - 1.0).abs() > SAME {
                 let key = format!("{prefix}line.belt_speed");
-                self.refuse(&key, Dimension::Velocity.pretty(belt), WebFault::TwoBelts { first });
+                let [belt, first] = [belt, first].map(|speed| Dimension::Velocity.pretty(speed));
+                let fault = Fault::new(
+                    format!("differs from the belt speed of layer 1, {first}"),
+                    "all layers lie on one belt",
+                );
+                self.refuse(&key, belt, fault);
             }
         }
     }
@@ -38,8 +49,12 @@ impl Reading<'_> {
         match &layer.filaments {
             Filaments::AtRandom { per_metre } if (per_metre * sheet.width).round() < 1.0 => {
                 let least = (0.5 / sheet.width).ceil() as u64;
-                let (key, width) = (format!("{prefix}line.filaments_per_metre"), sheet.width);
-                self.written.reject(&key, WebFault::LaysNothing { width, least }.into());
+                let width = Dimension::Length.pretty(sheet.width);
+                let fault = Fault::new(
+                    format!("lays no filament on a web of web.width = {width}"),
+                    format!("write {least} or more"),
+                );
+                self.written.reject(&format!("{prefix}line.filaments_per_metre"), fault);
             }
             Filaments::AtRandom { .. } => {}
             Filaments::Rows(rows) => {
@@ -54,13 +69,17 @@ impl Reading<'_> {
             }
         }
         let fed = sheet.length * layer.feed_speed / layer.belt_speed;
-        for (key, what, value) in [
-            ("fibre.diameter", "the mass per length", layer.linear_density()),
-            ("line.belt_speed", "the length that a filament lays on the web, in metres,", fed),
-        ] {
-            if !(value.is_normal() && value > 0.0) {
-                self.written.reject(&format!("{prefix}{key}"), Fault::Degenerate { what, value });
-            }
+        let density = layer.linear_density();
+        if !density.is_normal() {
+            let fault = Fault::degenerate("the mass per length", density);
+            self.written.reject(&format!("{prefix}fibre.diameter"), fault);
+        }
+        if !fed.is_finite() {
+            let fault = Fault::new(
+                "is so small that a filament would lay an infinite length on the web",
+                "write a higher speed",
+            );
+            self.written.reject(&format!("{prefix}line.belt_speed"), fault);
         }
     }
 
@@ -70,11 +89,28 @@ impl Reading<'_> {
         let (width, beam) = (sheet.width, pitch * filaments as f64);
         let last = offset + pitch * (filaments - 1) as f64;
         if sheet.edges == Edges::Periodic && (beam / width - 1.0).abs() > SAME {
-            let fault = WebFault::RowNotPeriodic { pitch, beam, width };
-            self.written.reject(&format!("{before}filaments"), fault.into());
+            let [pitch, shown, width] = [pitch, beam, width].map(|size| Dimension::Length.pretty_to(size, 8));
+            let beam = Dimension::Length.pretty_to(beam, 12);
+            let fault = Fault::new(
+                format!(
+                    "at a pitch of {pitch} make a row of {shown}, and with web.edges = \"periodic\" a row must be as wide as \
+                     the web, {width}"
+                ),
+                format!(
+                    "write web.width = \"{beam}\"; or write web.edges = \"cut\", and the edges, where the web is thin, are \
+                     left out of the CV"
+                ),
+            );
+            self.written.reject(&format!("{before}filaments"), fault);
         } else if sheet.edges == Edges::Cut && (offset > width || last < 0.0) {
-            let fault = WebFault::RowBeside { from: offset, to: last, width };
-            self.refuse(&format!("{before}offset"), Dimension::Length.pretty(offset), fault);
+            let [offset, last, width] = [offset, last, width].map(|size| Dimension::Length.pretty(size));
+            let fault = Fault::new(
+                format!(
+                    "begins a row from {offset} to {last}, beside the web, which goes from 0 mm to {width}"
+                ),
+                "move the row, or widen the web",
+            );
+            self.refuse(&format!("{before}offset"), offset, fault);
         }
     }
 }

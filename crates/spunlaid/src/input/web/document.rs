@@ -6,7 +6,7 @@ use super::super::written::{Said, Written};
 use super::super::{Overrides, values};
 use super::keys::{self, WEB_KEYS, WEB_TABLES, WebKey};
 use crate::case::keys::{Value, nearest_word};
-use crate::error::{Error, Fault, Finding, Place, WebFault};
+use crate::error::{Error, Fault, Finding, Place};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use toml::de::{DeTable, DeValue};
@@ -50,7 +50,7 @@ pub(in crate::input) fn read(text: &str, name: &str, overrides: Overrides<'_>) -
     let root = root(&source, text)?;
     if let Some((key, what)) = root.keys().find_map(|key| Some((key, other_file(key.get_ref())?))) {
         let (place, key) = (source.place(key.span().start), format!("[{}]", key.get_ref()));
-        return Err(vec![Finding { place, key, value: None, what: what.into() }].into());
+        return Err(vec![Finding { place, key, value: None, what }].into());
     }
     let (entries, rows) = (BTreeMap::new(), BTreeMap::new());
     let mut document = Entries { source, written, version: None, entries, rows, names: None };
@@ -64,10 +64,19 @@ pub(in crate::input) fn read(text: &str, name: &str, overrides: Overrides<'_>) -
 }
 
 /// What a file is that has this key or table at its top, if it is no web.
-fn other_file(key: &str) -> Option<WebFault> {
+fn other_file(key: &str) -> Option<Fault> {
     match key {
-        "vary" | "design" => Some(WebFault::IsStudy),
-        key if OF_A_CASE.contains(&key) => Some(WebFault::IsCase),
+        "vary" | "design" => {
+            let fault = Fault::new("belongs to a study, not to a web", "read the file as a study");
+            Some(fault.option("`spunlaid sweep`"))
+        }
+        key if OF_A_CASE.contains(&key) => {
+            let fault = Fault::new(
+                "belongs to a case, not to a web",
+                "a web names its case, as in [laydown] case = \"spunbond.toml\"",
+            );
+            Some(fault.option("`spunlaid run`"))
+        }
         _ => None,
     }
 }
@@ -114,7 +123,10 @@ impl<'a> Entries<'a> {
                 OF_THE_WEB => self.take_table("", OF_THE_WEB, entry),
                 name => match table_of(&OF_A_LAYER, name) {
                     Some(table) if layered => {
-                        let what = WebFault::BesideLayers { table };
+                        let what = Fault::new(
+                            "cannot stand beside [[layer]]",
+                            format!("write [layer.{table}] below the [[layer]] that it belongs to"),
+                        );
                         let problem = entry.problem(&format!("[{table}]"), what);
                         self.written.problems.push(Finding { value: None, ..problem });
                     }
@@ -135,7 +147,7 @@ impl<'a> Entries<'a> {
             DeValue::Array(list) if !list.is_empty() => list,
             other => {
                 let found = if other.is_array() { "an empty list" } else { kind(&other) };
-                let what = Fault::WrongType { found, wanted: wanted() };
+                let what = Fault::wrong_type(found, wanted());
                 self.written.problems.push(Finding {
                     place,
                     key: "layer".to_owned(),
@@ -154,7 +166,7 @@ impl<'a> Entries<'a> {
                 self.take_layer(&prefix, table);
             } else {
                 self.written.excuse(prefix.clone());
-                let what = Fault::WrongType { found: kind(&entry.value), wanted: wanted() };
+                let what = Fault::wrong_type(kind(&entry.value), wanted());
                 let key = format!("layer.{number}");
                 self.written.problems.push(entry.problem(&key, what));
             }
@@ -172,8 +184,8 @@ impl<'a> Entries<'a> {
                     let nearest = nearest_word(name, OF_A_LAYER.into_iter());
                     nearest.iter().for_each(|table| self.written.excuse(format!("{prefix}{table}.")));
                     let nearest = nearest.map(|table| format!("[layer.{table}]"));
-                    let known = vec!["name", "[layer.fibre]", "[layer.laydown]", "[layer.line]"];
-                    let what = WebFault::Unknown { nearest, where_: "[[layer]]".to_owned(), known };
+                    let known = ["name", "[layer.fibre]", "[layer.laydown]", "[layer.line]"];
+                    let what = unknown(nearest, "[[layer]]", &known);
                     self.written.problems.push(entry.problem(&format!("{prefix}{name}"), what));
                 }
             }
@@ -185,7 +197,7 @@ impl<'a> Entries<'a> {
         let DeValue::Table(keys) = entry.value else {
             self.written.excuse(format!("{prefix}{table}."));
             let wanted = format!("a table, [{}{table}]", if prefix.is_empty() { "" } else { "layer." });
-            let what = Fault::WrongType { found: kind(&entry.value), wanted };
+            let what = Fault::wrong_type(kind(&entry.value), wanted);
             self.written.problems.push(entry.problem(&format!("{prefix}{table}"), what));
             return;
         };
@@ -212,7 +224,7 @@ impl<'a> Entries<'a> {
             other => {
                 self.written.excuse(format!("{prefix}line.filaments_per_metre"));
                 let found = if other.is_array() { "an empty list" } else { kind(&other) };
-                let what = Fault::WrongType { found, wanted: wanted() };
+                let what = Fault::wrong_type(found, wanted());
                 self.written.problems.push(Finding { place, key: full, value: shown, what });
                 return;
             }
@@ -236,7 +248,7 @@ impl<'a> Entries<'a> {
                 }
                 other => {
                     self.written.excuse(of_row);
-                    let what = Fault::WrongType { found: kind(&other), wanted: wanted() };
+                    let what = Fault::wrong_type(kind(&other), wanted());
                     let (place, value) = (place.clone(), shown.clone());
                     self.written.problems.push(Finding { place, key: full.clone(), value, what });
                 }
@@ -256,7 +268,7 @@ impl<'a> Entries<'a> {
         let what = match home_of(key) {
             Some(home) => {
                 self.written.excuse(home.name);
-                Fault::Misplaced { table: home.table(), key: home.short() }
+                Fault::misplaced(home.table(), home.short())
             }
             None => {
                 let nearest = keys::nearest(table, key).map(|key| {
@@ -269,7 +281,7 @@ impl<'a> Entries<'a> {
                 nearest.iter().for_each(|key| self.written.excuse(key));
                 let known =
                     keys::of_table(table).map(WebKey::short).chain((table == "line").then_some("rows"));
-                WebFault::Unknown { nearest, where_: format!("[{table}]"), known: known.collect() }.into()
+                unknown(nearest, &format!("[{table}]"), &known.collect::<Vec<_>>())
             }
         };
         self.written.problems.push(entry.problem(&full, what));
@@ -289,7 +301,7 @@ impl<'a> Entries<'a> {
         let what = match home_of(name).filter(|_| !is_table) {
             Some(home) => {
                 self.written.excuse(home.name);
-                Fault::Misplaced { table: home.table(), key: home.short() }
+                Fault::misplaced(home.table(), home.short())
             }
             None => {
                 let nearest = nearest_word(word, WEB_TABLES.into_iter());
@@ -298,13 +310,18 @@ impl<'a> Entries<'a> {
                     nearest.map(
                         |table| if table == "layer" { "[[layer]]".to_owned() } else { format!("[{table}]") },
                     );
-                let known = vec![VERSION, "[fibre]", "[laydown]", "[line]", "[web]", "[[layer]]"];
-                WebFault::Unknown { nearest, where_: "the top of the file".to_owned(), known }.into()
+                let known = [VERSION, "[fibre]", "[laydown]", "[line]", "[web]", "[[layer]]"];
+                unknown(nearest, "the top of the file", &known)
             }
         };
         let key = if is_table { format!("[{}]", fit(name)) } else { name.to_owned() };
         self.written.problems.push(entry.problem(&key, what));
     }
+}
+
+/// The fault of a name that `place`, a table or the top of the file, does not take.
+fn unknown(nearest: Option<String>, place: &str, known: &[&str]) -> Fault {
+    Fault::unknown("is unknown in the file of a web", nearest, &format!("{place} takes"), known)
 }
 
 /// The key with this short name, if exactly one table has such a key.

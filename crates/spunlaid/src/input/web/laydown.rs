@@ -5,7 +5,7 @@ use super::LaydownSource;
 use super::read::{Reading, table_of};
 use crate::case::Case;
 use crate::case::keys::Value;
-use crate::error::{Error, Fault, Place, WebFault};
+use crate::error::{Error, Fault, Place};
 use crate::surrogate::Surrogate;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -35,16 +35,21 @@ impl Reading<'_> {
         match ways[..] {
             [] if self.written.is_excused(&format!("{prefix}laydown.")) => Ok(None),
             [] => {
-                self.written.reject(&format!("{prefix}laydown"), WebFault::NoLaydown.into());
+                let fault = Fault::new(
+                    "says nothing of how the fibres lie",
+                    "write in it case = \"spunbond.toml\" (a case to fly), results = \"results/spunbond\" (a finished run), \
+                     or sigma_md, sigma_cd and noise",
+                );
+                self.written.reject(&format!("{prefix}laydown"), fault);
                 Ok(None)
             }
             [CASE] => self.case(&format!("{prefix}{CASE}")),
             [RESULTS] => self.results(&format!("{prefix}{RESULTS}")),
             [_] => Ok(self.surrogate(prefix).map(LaydownSource::Surrogate)),
             [other, ref more @ ..] => {
-                let remedy = "how the fibres lie is told in one way; keep one";
+                let remedy = "keep one of a case, results, and the numbers sigma_md, sigma_cd and noise";
                 for way in more {
-                    self.written.reject(&format!("{prefix}{way}"), Fault::Excludes { other, remedy });
+                    self.written.reject(&format!("{prefix}{way}"), Fault::excludes(other, remedy));
                 }
                 Ok(None)
             }
@@ -69,7 +74,11 @@ impl Reading<'_> {
         if let Some(missing) =
             [SUMMARY, CASE_OF_RESULTS].into_iter().find(|name| !folder.join(name).is_file())
         {
-            self.written.reject(key, WebFault::NotARun { missing }.into());
+            let fault = Fault::new(
+                format!("does not hold the results of a run ({missing} is not there)"),
+                "name a folder that `spunlaid run` has written",
+            );
+            self.written.reject(key, fault);
             return Ok(None);
         }
         let case = self.fed_case(key, &folder.join(CASE_OF_RESULTS), (&[]).into())?;
@@ -96,7 +105,7 @@ impl Reading<'_> {
         let (case, notes) = match read_case(path, changes) {
             Ok(read) => read,
             Err(Error::File(error)) => {
-                self.written.reject(key, Fault::File(error));
+                self.written.reject(key, (*error).into());
                 return Ok(None);
             }
             Err(Error::Rejected(problems)) => {
@@ -106,14 +115,20 @@ impl Reading<'_> {
             Err(other) => return Err(other),
         };
         let fault = match case.line {
-            None => WebFault::NotFed,
-            Some(line) if line.belt_speed <= 0.0 => WebFault::StillBelt,
+            None => Fault::new(
+                "is the case of a fibre of fixed length, which lays nothing",
+                "name a case with [feed] and [belt]",
+            ),
+            Some(line) if line.belt_speed <= 0.0 => Fault::new(
+                "has a belt that stands still (belt.speed = 0 m/s), on which no web is laid",
+                "give the belt of the case a speed",
+            ),
             Some(_) => {
                 self.note(notes);
                 return Ok(Some(Arc::new(case)));
             }
         };
-        self.written.reject(key, fault.into());
+        self.written.reject(key, fault);
         Ok(None)
     }
 }

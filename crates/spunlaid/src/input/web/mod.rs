@@ -14,7 +14,7 @@ pub use write::write_web;
 
 use super::{Overrides, file};
 use crate::case::{Case, Note};
-use crate::error::{Error, FileKind, Finding, Place, Problem, WebFault};
+use crate::error::{Error, Fault, FileKind, Finding, Place, Problem};
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
 use crate::web::{Edges, Fibres, Filaments, Layer, Sheet, Web};
@@ -147,7 +147,7 @@ impl WebSpec {
         let problems: Vec<Problem> = too_small(&self.sheet, spreads)
             .map(|(key, side, what)| {
                 let value = Some(Dimension::Length.pretty(side));
-                Finding { place: Place::Code, key: key.to_owned(), value, what: what.into() }
+                Finding { place: Place::Code, key: key.to_owned(), value, what }
             })
             .collect();
         if problems.is_empty() { Ok(()) } else { Err(problems.into()) }
@@ -155,13 +155,23 @@ impl WebSpec {
 }
 
 /// The sides of a sheet that are too short for filaments that spread so far: key, size [m] and what is wrong.
-fn too_small(sheet: &Sheet, spreads: [f64; 2]) -> impl Iterator<Item = (&'static str, f64, WebFault)> {
+fn too_small(sheet: &Sheet, spreads: [f64; 2]) -> impl Iterator<Item = (&'static str, f64, Fault)> {
     let closed = [true, sheet.edges == Edges::Periodic];
     let sides =
         [("web.length", sheet.length, "laydown.sigma_md"), ("web.width", sheet.width, "laydown.sigma_cd")];
     let of = move |(((key, side, sigma), spread), closed)| {
         let is_short = closed && side < LEAST_SPREADS * spread;
-        is_short.then_some((key, side, WebFault::TooSmall { sigma, spread }))
+        let [spread, least] = [spread, LEAST_SPREADS * spread].map(|size| Dimension::Length.pretty(size));
+        let fault = || {
+            Fault::new(
+                format!(
+                    "is shorter than {LEAST_SPREADS} times {sigma} = {spread}, and a filament that leaves the web at one end \
+                     comes in at the other and would meet itself"
+                ),
+                format!("write {least} or more"),
+            )
+        };
+        is_short.then(|| (key, side, fault()))
     };
     sides.into_iter().zip(spreads).zip(closed).filter_map(of)
 }

@@ -5,7 +5,7 @@ use super::super::entry::{Entry, VERSION};
 use super::super::source::fit;
 use super::document::{Entries, OF_A_LAYER, table_of};
 use super::keys::WEB_TABLES;
-use crate::error::{Fault, Finding, WebFault};
+use crate::error::{Fault, Finding};
 
 impl<'a> Entries<'a> {
     /// Takes an override, which replaces the value in the file. The value `auto` removes it.
@@ -32,7 +32,10 @@ impl<'a> Entries<'a> {
                 match row.filter(|(row, _)| (1..=there).any(|number| number.to_string() == *row)) {
                     Some((row, key)) => self.take_entry(&format!("{rows}.{row}."), "line.rows", key, entry),
                     None => {
-                        let what = WebFault::NoSuchRow { rows: there };
+                        let what = Fault::new(
+                            format!("is of a row of nozzles that is not there: line.rows has {there}"),
+                            "write the whole list of rows",
+                        );
                         self.written.problems.push(entry.problem(key, what));
                     }
                 }
@@ -42,7 +45,7 @@ impl<'a> Entries<'a> {
             None if rest == "name" && !prefix.is_empty() => self.take_entry(&prefix, "layer", rest, entry),
             None if table_of(tables, rest).is_some() => {
                 let wanted = format!("one of its keys, {word} {prefix}{rest}.key=value");
-                let what = Fault::WrongType { found: "a table", wanted };
+                let what = Fault::wrong_type("a table", wanted);
                 self.written.problems.push(Finding { value: None, ..entry.problem(key, what) });
             }
             _ => self.unknown_at_top(rest, &entry),
@@ -50,12 +53,15 @@ impl<'a> Entries<'a> {
     }
 
     /// What comes before the names of the layer that an override is for, and the rest of its key.
-    fn layer_of<'k>(&self, key: &'k str) -> Result<(String, &'k str), WebFault> {
+    fn layer_of<'k>(&self, key: &'k str) -> Result<(String, &'k str), Fault> {
         let names = self.names.as_deref();
         let Some(rest) = key.strip_prefix("layer.") else {
             let (table, _) = key.split_once('.').unwrap_or((key, ""));
             let of_a_layer = names.is_some() && table_of(&OF_A_LAYER, table).is_some();
-            let which = || WebFault::WhichLayer { key: fit(key) };
+            let which = || {
+                let remedy = format!("write layer.1.{}, or the layer's name in place of 1", fit(key));
+                Fault::new("does not say of which layer", remedy)
+            };
             return if of_a_layer { Err(which()) } else { Ok((String::new(), key)) };
         };
         let layers = names.map_or(0, <[_]>::len);
@@ -63,7 +69,14 @@ impl<'a> Entries<'a> {
         let numbers = (1..=layers).find_map(|number| Some((number, after(&number.to_string())?)));
         let by_name =
             || (1..).zip(names?).find_map(|(number, name)| Some((number, after(name.as_deref()?)?)));
-        let (number, rest) = numbers.or_else(by_name).ok_or(WebFault::NoSuchLayer { layers })?;
+        let (number, rest) = numbers.or_else(by_name).ok_or_else(|| {
+            let there = match layers {
+                0 => "it has no [[layer]], so write the key without layer".to_owned(),
+                1 => "it has one, layer.1".to_owned(),
+                _ => format!("it has layer.1 to layer.{layers}, which may also be called by their names"),
+            };
+            Fault::new("is of a layer that the file does not have", there)
+        })?;
         Ok((format!("layer.{number}."), rest))
     }
 }

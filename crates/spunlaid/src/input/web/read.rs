@@ -7,7 +7,7 @@ use super::keys::{self, METHODS};
 use super::{LaydownSource, LayerSpec, Method, WebSpec};
 use crate::case::keys::{LeftOut, Value};
 use crate::case::{Note, unusual};
-use crate::error::{Error, Fault, Finding, WebFault};
+use crate::error::{Error, Fault, Finding};
 use crate::units::Dimension;
 use crate::web::{Filaments, Row};
 use std::f64::consts::PI;
@@ -60,9 +60,7 @@ pub(super) fn spec(
         // They may be why the web cannot be laid.
         for note in unusual {
             if !written.problems.iter().any(|problem| problem.key == note.key) {
-                let (what, Note { place, key, value, .. }) =
-                    (Fault::Slip { warning: note.what.to_string() }, note);
-                written.problems.push(Finding { place, key, value, what });
+                written.problems.push(note.into());
             }
         }
     }
@@ -101,13 +99,8 @@ impl Reading<'_> {
     }
 
     /// Records a problem with a value, which may be a default.
-    pub(super) fn refuse(&mut self, key: &str, value: String, what: impl Into<Fault>) {
-        let finding = Finding {
-            place: self.written.whole(),
-            key: key.to_owned(),
-            value: Some(value),
-            what: what.into(),
-        };
+    pub(super) fn refuse(&mut self, key: &str, value: String, what: Fault) {
+        let finding = Finding { place: self.written.whole(), key: key.to_owned(), value: Some(value), what };
         let problem = self.written.placed(finding);
         self.written.problems.push(problem);
     }
@@ -130,7 +123,7 @@ impl Reading<'_> {
         if let Err(line) = otherwise
             && !self.written.is_excused(full)
         {
-            self.written.reject(full, Fault::Missing { table, line: line.to_owned() });
+            self.written.reject(full, Fault::missing(table, line));
         }
         otherwise.ok()
     }
@@ -172,7 +165,12 @@ impl Reading<'_> {
             && belt > feed
         {
             let value = Dimension::Velocity.pretty(belt);
-            self.refuse(&format!("{prefix}line.belt_speed"), value, WebFault::BeltTooFast { feed });
+            let feed = Dimension::Velocity.pretty(feed);
+            let fault = Fault::new(
+                format!("is more than line.feed_speed = {feed}, which would tear the fibre"),
+                "slow the belt, or feed faster",
+            );
+            self.refuse(&format!("{prefix}line.belt_speed"), value, fault);
         }
         let all = (density, diameter, source, feed_speed, belt_speed, filaments);
         let (
@@ -210,8 +208,14 @@ impl Reading<'_> {
         if (number / value - 1.0).abs() > SAME {
             let shown = crate::case::keys::find(of_case).and_then(|key| key.dimension());
             let value = shown.unwrap_or(Dimension::Ratio).pretty(value);
-            let case = flown.path.clone();
-            self.written.reject(key, WebFault::OtherThanFlown { key: of_case, value, case }.into());
+            let case = &flown.path;
+            let fault = Fault::new(
+                format!(
+                    "differs from {of_case} = {value} of {case}, with which the fibres are flown, and they would lie otherwise"
+                ),
+                "leave it out here, and set it in the case",
+            );
+            self.written.reject(key, fault);
         }
         Some(value)
     }
@@ -225,7 +229,7 @@ impl Reading<'_> {
         }
         if self.written.get(&format!("{prefix}{NAME}")).is_some() {
             let remedy = "either gives the other; write one of the two";
-            self.written.reject(&linear, Fault::Excludes { other: NAME, remedy });
+            self.written.reject(&linear, Fault::excludes(NAME, remedy));
             return None;
         }
         let diameter = (4.0 * self.written.number(&linear)? / (PI * density?)).sqrt();
@@ -237,7 +241,7 @@ impl Reading<'_> {
         match (self.written.get(&at_random).is_some(), self.whole(&rows)) {
             (true, Some(_)) => {
                 let remedy = "filaments come down at random places or in rows; keep one";
-                self.written.reject(&at_random, Fault::Excludes { other: "line.rows", remedy });
+                self.written.reject(&at_random, Fault::excludes("line.rows", remedy));
                 None
             }
             (true, None) => Some(Filaments::AtRandom { per_metre: self.whole(&at_random)? as f64 }),
@@ -248,8 +252,15 @@ impl Reading<'_> {
             }
             (false, None) => {
                 if !self.written.is_excused(&at_random) {
-                    let fault = WebFault::NoFilaments { table: table_of(prefix, "line.") };
-                    self.written.reject(&at_random, fault.into());
+                    let table = table_of(prefix, "line.");
+                    let fault = Fault::new(
+                        "is missing",
+                        format!(
+                            "add filaments_per_metre = 5000 to [{table}], or rows = [{{ offset = \"0 mm\", pitch = \"0.2 mm\", \
+                             filaments = 5000 }}]"
+                        ),
+                    );
+                    self.written.reject(&at_random, fault);
                 }
                 None
             }
@@ -280,7 +291,11 @@ impl Reading<'_> {
         };
         if let Some((prefix, _)) = prefixes.iter().zip(layers).find(|(_, layer)| numbers(layer)) {
             let laydown = format!("{prefix}laydown");
-            self.written.reject("web.method", WebFault::NothingFlown { laydown }.into());
+            let fault = Fault::new(
+                format!("lays the curves of flown fibres, and {laydown} gives numbers"),
+                "write method = \"surrogate\", or name a case or results there",
+            );
+            self.written.reject("web.method", fault);
         }
         Method::Dynamics
     }

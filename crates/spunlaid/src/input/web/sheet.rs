@@ -4,7 +4,7 @@ use super::keys::EDGES;
 use super::read::Reading;
 use crate::case::keys::Value;
 use crate::case::whole_parts;
-use crate::error::WebFault;
+use crate::error::Fault;
 use crate::units::Dimension;
 use crate::web::{Edges, Sheet};
 
@@ -34,15 +34,20 @@ impl Reading<'_> {
         };
         let cells = width / cell * (length / cell);
         if !cells.is_finite() || cells > MOST_CELLS {
-            let fault = WebFault::TooManyCells { cells, most: MOST_CELLS, cell };
-            self.refuse("web.cell", Dimension::Length.pretty(cell), fault);
+            let cell = Dimension::Length.pretty(cell);
+            let fault = Fault::new(
+                format!("makes {cells:.1e} cells of {cell} in the web; at most {MOST_CELLS:e} are possible"),
+                "make the cells larger, or the web smaller",
+            );
+            self.refuse("web.cell", cell, fault);
             return None;
         }
         let mut whole = true;
         for (key, size) in [("web.width", width), ("web.length", length)] {
             if !is_whole(size, cell) {
                 whole = false;
-                self.written.reject(key, WebFault::NotWholeCells { size, cell }.into());
+                let fault = not_whole("is", size, cell);
+                self.written.reject(key, fault);
             }
         }
         let patches = if whole { self.patches(width.min(length), cell) } else { None };
@@ -56,7 +61,15 @@ impl Reading<'_> {
             let fits = |patch: &f64| is_whole(*patch, cell) && *patch <= 0.5 * side;
             let patches: Vec<f64> = PATCHES.into_iter().filter(fits).collect();
             if patches.is_empty() && !self.written.is_excused(KEY) {
-                self.written.reject(KEY, WebFault::NoPatches { cell }.into());
+                let [shown, exact] = [4, 12].map(|digits| Dimension::Length.pretty_to(cell, digits));
+                let fault = Fault::new(
+                    format!(
+                        "is missing, and none of the usual patches, 1, 2, 5, 10, 20 and 50 mm, is a whole number of cells of \
+                         {shown} and at most half as large as the web"
+                    ),
+                    format!("add patches = [\"{exact}\"] to [web], or change web.cell"),
+                );
+                self.written.reject(KEY, fault);
             }
             return Some(patches).filter(|patches| !patches.is_empty());
         };
@@ -65,15 +78,28 @@ impl Reading<'_> {
         patches.dedup();
         let before = self.written.problems.len();
         if patches.len() > MOST_PATCHES {
-            let fault = WebFault::TooManyPatches { patches: patches.len(), most: MOST_PATCHES };
-            self.written.reject(KEY, fault.into());
+            let fault = Fault::new(
+                format!("lists {} patches", patches.len()),
+                format!("at most {MOST_PATCHES} are compared"),
+            );
+            self.written.reject(KEY, fault);
             return None;
         }
         for &patch in &patches {
             if !is_whole(patch, cell) {
-                self.written.reject(KEY, WebFault::PatchNotWholeCells { patch, cell }.into());
+                let shown = Dimension::Length.pretty(patch);
+                let fault = not_whole(&format!("has {shown}, which is"), patch, cell);
+                self.written.reject(KEY, fault);
             } else if patch > 0.5 * side {
-                self.written.reject(KEY, WebFault::PatchTooLarge { patch, side }.into());
+                let [patch, side] = [patch, side].map(|size| Dimension::Length.pretty(size));
+                let fault = Fault::new(
+                    format!(
+                        "has {patch}, which is more than half of the web's smaller side, {side}, so that there is nothing to \
+                         compare"
+                    ),
+                    "leave it out, or make the web larger",
+                );
+                self.written.reject(KEY, fault);
             }
         }
         (self.written.problems.len() == before).then_some(patches)
@@ -87,10 +113,25 @@ impl Reading<'_> {
         }
         let window = self.written.number("web.window")?;
         if window > side {
-            self.written.reject("web.window", WebFault::WindowTooLarge { side }.into());
+            let side = Dimension::Length.pretty(side);
+            let fault =
+                Fault::new(format!("is larger than the web's smaller side, {side}"), "write a smaller one");
+            self.written.reject("web.window", fault);
         }
         Some(window)
     }
+}
+
+/// The fault of a size that is not a whole number of cells.
+fn not_whole(is: &str, size: f64, cell: f64) -> Fault {
+    let below = (size / cell).floor();
+    let shown = |cells: f64| Dimension::Length.pretty_to(cells * cell, 12);
+    let nearest =
+        if below < 1.0 { shown(1.0) } else { format!("{} or {}", shown(below), shown(below + 1.0)) };
+    Fault::new(
+        format!("{is} not a whole number of cells of {}", Dimension::Length.pretty(cell)),
+        format!("write {nearest}, or another web.cell"),
+    )
 }
 
 fn is_whole(size: f64, cell: f64) -> bool {

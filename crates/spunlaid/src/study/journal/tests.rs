@@ -13,7 +13,7 @@ fn header() -> Header {
 fn written() -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("journal");
-    let (mut journal, found) = Journal::open(&path).unwrap();
+    let (mut journal, found) = Journal::open(&path, false).unwrap();
     assert_eq!(found, None);
     journal.begin(&header(), 3).unwrap();
     journal.add(&[record(0, 0), record(2, 1)]).unwrap();
@@ -22,7 +22,7 @@ fn written() -> (tempfile::TempDir, PathBuf) {
 }
 
 fn reopened(path: &Path) -> (Journal, Found) {
-    let (mut journal, found) = Journal::open(path).unwrap();
+    let (mut journal, found) = Journal::open(path, false).unwrap();
     assert_eq!(found, Some(header()));
     let found = journal.go_on(3, 2).unwrap();
     (journal, found)
@@ -69,7 +69,7 @@ fn a_header_cut_off_counts_as_none() {
     let start = whole.iter().position(|byte| *byte == b'\n').unwrap();
     for length in 0..start {
         std::fs::write(&path, &whole[..length]).unwrap();
-        assert_eq!(Journal::open(&path).unwrap().1, None);
+        assert_eq!(Journal::open(&path, false).unwrap().1, None);
     }
 }
 
@@ -111,17 +111,18 @@ fn zeros_at_the_end_are_no_records() {
 #[test]
 fn records_of_points_that_are_not_there_do_not_count() {
     let (_folder, path) = written();
-    let (mut journal, _) = Journal::open(&path).unwrap();
+    let (mut journal, _) = Journal::open(&path, false).unwrap();
     assert_eq!(journal.go_on(2, 2).unwrap(), Found { fibres: 4, damaged: 2, torn: false });
 }
 
 #[test]
 fn rejects_a_second_process() {
     let (_folder, path) = written();
-    let (journal, _) = Journal::open(&path).unwrap();
-    assert!(matches!(Journal::open(&path), Err(JournalError::InUse { .. })));
+    let (journal, _) = Journal::open(&path, false).unwrap();
+    let refusal = Journal::open(&path, false).unwrap_err();
+    assert!(refusal.to_string().contains("another spunlaid process is using this folder"), "{refusal}");
     drop(journal);
-    Journal::open(&path).unwrap();
+    Journal::open(&path, false).unwrap();
 }
 
 #[test]
@@ -130,18 +131,36 @@ fn rejects_other_files_and_other_formats() {
     let path = folder.path().join("journal");
     let said = |text: &[u8]| {
         std::fs::write(&path, text).unwrap();
-        Journal::open(&path).unwrap_err()
+        Journal::open(&path, false).unwrap_err()
     };
-    assert!(matches!(said(b"shopping list\n"), JournalError::Foreign { .. }));
-    assert!(matches!(said(b"shopping list"), JournalError::Foreign { .. }));
-    assert!(matches!(said(&[0xff; 500]), JournalError::Foreign { .. }));
-    assert!(matches!(said(b"spunlaid-journal format=4 study=zz version=1\n"), JournalError::Foreign { .. }));
+    for text in [
+        &b"shopping list\n"[..],
+        b"shopping list",
+        &[0xff; 500],
+        b"spunlaid-journal format=4 study=zz version=1\n",
+    ] {
+        let refusal = said(text);
+        assert!(matches!(refusal, Error::Folder(_)));
+        assert!(refusal.to_string().contains("is not the journal of a study"), "{refusal}");
+    }
     let format = said(b"spunlaid-journal format=9 version=9.9.9 study=00000000\n");
     assert!(format.to_string().contains("format 9, but this spunlaid reads format 4"), "{format}");
     // Of a build whose identities nobody else can compute.
     let former = said(b"spunlaid-journal format=3 version=0.1.0 study=00000000\n").to_string();
     assert!(
-        former.contains("format 3, but this spunlaid reads format 4. Continue with the version"),
+        former.contains("format 3, but this spunlaid reads format 4; continue with the version"),
         "{former}"
     );
+}
+
+/// What another process holds is not removed, and what is removed is no obstacle whatever it was.
+#[test]
+fn a_fresh_journal_replaces_any_file_that_is_not_in_use() {
+    let (_folder, path) = written();
+    let (journal, _) = Journal::open(&path, false).unwrap();
+    Journal::open(&path, true).unwrap_err();
+    drop(journal);
+    reopened(&path);
+    std::fs::write(&path, "shopping list\n").unwrap();
+    assert_eq!(Journal::open(&path, true).unwrap().1, None);
 }

@@ -2,7 +2,8 @@
 
 use super::super::Key;
 use super::super::row::{
-    Access, change, choose, file, key, named, number, placed, placed_mut, quantity, text, vector, whole,
+    Access, change, choose, file, key, named, number, placed, placed_mut, quantity, read_with_case, text,
+    vector, whole,
 };
 use super::super::value::Sign::{Any, NotNegative, Positive};
 use super::super::value::{Content, FileKind, Kind, SPECTRA, Value};
@@ -28,7 +29,10 @@ pub(super) const KEYS: &[Key] = &[
                 Flow::Profile(_) => "air.profile",
                 Flow::Field(_) => "air.field",
             };
-            Err(Fault::FlowTells { flow })
+            Err(Fault::new(
+                format!("has no effect because {flow} gives the velocity"),
+                "leave it out, and scale the flow with air.speed_factor",
+            ))
         },
     })
     .told(|case| !case.air.is_uniform())
@@ -46,7 +50,7 @@ pub(super) const KEYS: &[Key] = &[
         },
         set: |case, value| {
             let Value::Content(Content::Profile(profile)) = value else {
-                return Err(Fault::ReadWithCase);
+                return Err(read_with_case());
             };
             case.air.flow = Flow::Profile(profile.clone());
             Ok(())
@@ -58,7 +62,7 @@ pub(super) const KEYS: &[Key] = &[
         get: |case| Some(Content::Field(placed(case)?.field.clone()).into()),
         set: |case, value| {
             let Value::Content(Content::Field(field)) = value else {
-                return Err(Fault::ReadWithCase);
+                return Err(read_with_case());
             };
             let (field, axis, unit) = (field.clone(), Axis::ALL[0], 1.0);
             let root = PlacedField::middle_of_inlet(&field, axis, unit);
@@ -119,7 +123,7 @@ pub(super) const KEYS: &[Key] = &[
         set: |case, value| {
             if case.air.is_uniform() {
                 let (needed, remedy) = ("air.profile or air.field", "change air.velocity");
-                return Err(Fault::Needs { needed, remedy });
+                return Err(Fault::needs(needed, remedy));
             }
             case.air.speed_factor = number(value)?;
             Ok(())
@@ -180,7 +184,10 @@ pub(super) const KEYS: &[Key] = &[
             let temperature = number(value)?;
             if !SUTHERLAND_RANGE.contains(&temperature) {
                 let (least, most) = (*SUTHERLAND_RANGE.start(), *SUTHERLAND_RANGE.end());
-                return Err(Fault::Temperature { least, most });
+                return Err(Fault::new(
+                    format!("is not between {least} and {most} K, where the formula of the air's viscosity holds"),
+                    "correct the temperature or its unit, or write air.density and air.kinematic_viscosity instead",
+                ));
             }
             case.air.density = density_at(temperature);
             case.air.kinematic_viscosity = kinematic_viscosity_at(temperature);
@@ -204,7 +211,7 @@ pub(super) const KEYS: &[Key] = &[
                 Value::Content(Content::Spectrum(table)) => SpectrumShape::Measured(table.clone()),
                 Value::Text(name) if name == SPECTRA[0] => SpectrumShape::Flat,
                 Value::Text(name) if name == SPECTRA[1] => SpectrumShape::VonKarman,
-                _ => return Err(Fault::ReadWithCase),
+                _ => return Err(read_with_case()),
             };
             Ok(())
         },
@@ -220,12 +227,15 @@ pub(super) const KEYS: &[Key] = &[
         },
         set: |case, value| {
             let Value::Content(Content::Records(records)) = value else {
-                return Err(Fault::ReadWithCase);
+                return Err(read_with_case());
             };
             let rates = || records.iter().map(|record| 1.0 / record.interval);
             let first = rates().next().unwrap_or(0.0);
             if let Some(other) = rates().find(|rate| (rate / first - 1.0).abs() >= 1e-9) {
-                return Err(Fault::RecordRates { first, other });
+                return Err(Fault::new(
+                    format!("names records of different sampling rates, {first} and {other} Hz"),
+                    "resample them to the same rate",
+                ));
             }
             case.air.records = records.clone();
             Ok(())
@@ -269,7 +279,7 @@ pub(super) const KEYS: &[Key] = &[
             }
             EddyModel::Independent => {
                 let remedy = "leave it out, or have the eddies convected";
-                Err(Fault::Needs { needed: "air.eddies = \"convected\"", remedy })
+                Err(Fault::needs("air.eddies = \"convected\"", remedy))
             }
         },
     })

@@ -44,7 +44,7 @@ pub(super) const KEYS: &[Key] = &[
             }
             _ => {
                 let (needed, remedy) = ("drag.along = \"matsui\"", "remove it, this law has its own");
-                Err(Fault::Needs { needed, remedy })
+                Err(Fault::needs(needed, remedy))
             }
         },
     })

@@ -16,7 +16,7 @@ pub(super) const KEYS: &[Key] = &[
         set: |case, value| {
             if case.line.is_some() {
                 let (other, remedy) = ("[feed]", "a fed fibre has no length of its own; leave it out, or leave out [feed] and [belt]");
-                return Err(Fault::Excludes { other, remedy });
+                return Err(Fault::excludes(other, remedy));
             }
             case.fibre.length = number(value)?;
             Ok(())

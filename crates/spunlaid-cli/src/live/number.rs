@@ -1,0 +1,35 @@
+//! A number as the page shows it.
+
+use serde::Serialize;
+use spunlaid::observe::{DECLARED, Measure};
+
+/// A number with its standard error, in the unit in which it is shown.
+#[derive(Debug, Serialize)]
+pub(super) struct Number {
+    pub(super) name: &'static str,
+    label: &'static str,
+    meaning: &'static str,
+    unit: &'static str,
+    pub(super) value: Option<f64>,
+    pub(super) error: Option<f64>,
+}
+
+impl Number {
+    /// * `value`, `error` – in SI units
+    pub(super) fn of(name: &str, value: f64, error: Option<f64>) -> Option<Self> {
+        let Measure { name, label, meaning, unit, .. } = *measure(name)?;
+        let finite = |x: f64| x.is_finite().then_some(x * unit.per_si);
+        Some(Self {
+            name,
+            label,
+            meaning,
+            unit: unit.shown,
+            value: finite(value),
+            error: error.and_then(finite),
+        })
+    }
+}
+
+pub(super) fn measure(name: &str) -> Option<&'static Measure> {
+    DECLARED.iter().flat_map(|declared| declared.measures).find(|measure| measure.name == name)
+}

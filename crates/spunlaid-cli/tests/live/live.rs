@@ -1,0 +1,140 @@
+//! `spunlaid live` as its page meets it: messages, frames, time, what is saved.
+
+use crate::served::{Live, Page};
+use serde_json::{Value, json};
+use std::process::Command;
+use tungstenite::Message;
+
+#[test]
+fn what_can_change_in_flight_changes_at_once_and_the_case_follows() {
+    let live = Live::start(&["table1.toml"]);
+    let mut page = live.page();
+    let settings = page.told("settings");
+    let keys: Vec<&str> =
+        settings["settings"].as_array().unwrap().iter().map(|s| s["key"].as_str().unwrap()).collect();
+    assert!(keys.contains(&"air.velocity") && keys.contains(&"drag.along"), "{keys:?}");
+    let before = page.told("state");
+    assert!(before["text"].as_str().unwrap().contains("scheme = \"implicit-tension\""), "{before}");
+    assert!(before["remark"].as_str().unwrap().contains("semi-implicit-euler"), "{before}");
+    let (_, _, time) = page.frame();
+
+    page.ask(&json!({ "do": "set", "key": "air.velocity", "value": 20, "stamp": 5 }));
+    let applied = page.told("applied");
+    assert_eq!(applied["stamp"], 5);
+    let state = page.told("state");
+    assert!(state["text"].as_str().unwrap().contains("velocity = \"20 m/s\""), "{state}");
+    assert!(state["command"].as_str().unwrap().contains("--set 'air.velocity=20 m/s'"), "{state}");
+    assert_eq!(state["air"], 20.0);
+    let (generation, _, later) = page.frame();
+    assert!(u64::from(generation) >= applied["generation"].as_u64().unwrap() && later >= time);
+
+    page.ask(&json!({ "do": "set", "key": "air.length_scale", "value": "60 mm", "stamp": 6 }));
+    assert_eq!(page.told("applied")["stamp"], 6);
+    // A new flight, but the time of the page goes on.
+    assert!(page.frame().2 >= later);
+}
+
+#[test]
+fn rejects_bad_values_by_key_and_bad_cases_by_line() {
+    let live = Live::start(&["table1.toml"]);
+    let mut page = live.page();
+    let text = page.told("state")["text"].as_str().unwrap().to_owned();
+    let set = |key: &str, value: Value| json!({ "do": "set", "key": key, "value": value, "stamp": 1 });
+    for (message, line, wanted) in [
+        (set("air.velocitiy", json!(1)), None, "did you mean"),
+        (set("fibre.diameter", json!(-1e-5)), Some(6), "fibre.diameter = \"-10 µm\" is not positive"),
+        (set("fibre.diameter", json!("5 s")), Some(6), "is a time; write a length"),
+        (set("fibre.root", json!("glued")), Some(9), "is unknown"),
+        (set("air.profile", json!("/etc/passwd")), None, "may not name other files"),
+        (json!({ "do": "case", "text": text.replace("50 mm", "50 mmm") }), Some(14), "air.length_scale"),
+        (json!({ "do": "case", "text": "a =\n= b" }), Some(1), ""),
+        (json!({ "do": "case", "text": "" }), None, "fibre"),
+        (json!({ "do": "dance" }), None, "not understood"),
+    ] {
+        let problem = page.refused(&message);
+        assert!(problem["text"].as_str().unwrap().contains(wanted), "{message}: {problem}");
+        assert_eq!(problem["line"].as_u64(), line, "{message}: {problem}");
+    }
+    page.0.send(Message::binary(vec![1, 2, 3])).unwrap();
+    assert!(page.told("refused")["problems"][0]["text"].as_str().unwrap().contains("messages are text"));
+    page.ask(&json!({ "do": "forget" }));
+    assert_eq!(page.told("state")["text"], text);
+}
+
+#[test]
+fn only_what_is_saved_by_a_plain_name_is_written() {
+    let live = Live::start(&["spunbond.toml"]);
+    let mut page = live.page();
+    let save = |name: &str, replace: bool| json!({ "do": "save", "name": name, "replace": replace });
+    for name in ["../a", "/tmp/a", "a/b", "", ".hidden", "..", "a\u{0}b"] {
+        assert!(
+            page.refused(&save(name, true))["text"].as_str().unwrap().contains("no plain name"),
+            "{name}"
+        );
+    }
+    assert_eq!(live.files(), Vec::<String>::new());
+    page.ask(&save("mine", false));
+    assert_eq!(page.told("saved")["name"], "mine.toml");
+    page.ask(&save("mine.toml", false));
+    assert_eq!(page.told("exists")["name"], "mine.toml");
+    page.ask(&save("mine.toml", true));
+    assert_eq!(page.told("saved")["name"], "mine.toml");
+    assert_eq!(live.files(), ["mine.toml"]);
+    // The saved case runs from where it is, with the profile that it names.
+    let done = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
+        .args(["check", "mine.toml"])
+        .current_dir(&live.folder)
+        .output();
+    let done = done.unwrap();
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+}
+
+#[test]
+fn time_stands_goes_step_by_step_and_rests_when_nobody_looks() {
+    let live = Live::start(&["table1.toml"]);
+    let (mut page, mut other) = (live.page(), live.page());
+    page.ask(&json!({ "do": "pause" }));
+    let standing = |page: &mut Page| loop {
+        let (_, bits, time) = page.frame();
+        if bits & 1 == 1 {
+            return time;
+        }
+    };
+    let time = standing(&mut page);
+    assert_eq!(standing(&mut other), time);
+    // The picture is that of the last step but one, from the first step on.
+    let mut stepped = |from: f64| {
+        page.ask(&json!({ "do": "step" }));
+        loop {
+            let (_, bits, time) = page.frame();
+            assert_eq!(bits & 1, 1);
+            if time != from {
+                return time;
+            }
+        }
+    };
+    let first = stepped(time);
+    let second = stepped(first);
+    assert!((second - first - 1e-3).abs() < 1e-9, "{time} {first} {second}");
+    // Nobody looks any more: the time does not go on, and a message is answered all the same.
+    page.ask(&json!({ "do": "go" }));
+    for page in [&mut page, &mut other] {
+        page.ask(&json!({ "do": "look", "visible": false }));
+    }
+    other.0.close(None).unwrap();
+    let rested = |page: &mut Page| {
+        page.ask(&json!({ "do": "forget" }));
+        page.told("state");
+        page.frame().2
+    };
+    let first = loop {
+        let [first, second] = [rested(&mut page), rested(&mut page)];
+        if first == second {
+            break first;
+        }
+    };
+    page.ask(&json!({ "do": "look", "visible": true }));
+    while page.frame().2 <= first {}
+    page.ask(&json!({ "do": "pace", "pace": "free" }));
+    assert_eq!(page.told("state")["pace"], "free");
+}

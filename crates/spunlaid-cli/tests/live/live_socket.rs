@@ -1,0 +1,160 @@
+//! `spunlaid live`: whatever comes through its socket, it goes on.
+
+use crate::served::{Live, Page};
+use serde_json::json;
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use tungstenite::protocol::Role;
+use tungstenite::{Message, WebSocket};
+
+/// Numbers that look random (Knuth's linear congruence).
+struct Chance(u64);
+
+impl Chance {
+    fn below(&mut self, end: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) as usize) % end.max(1)
+    }
+
+    fn of<'a>(&mut self, all: &[&'a str]) -> &'a str {
+        all[self.below(all.len())]
+    }
+
+    /// A message: mostly almost right, sometimes right, sometimes noise.
+    fn message(&mut self, case: &str) -> Message {
+        const VALUES: &[&str] = &[
+            "20",
+            "-1",
+            "1e-300",
+            "1e308",
+            "1e999",
+            "null",
+            "\"20 m/s\"",
+            "\"NaN\"",
+            "\"\"",
+            "[]",
+            "{}",
+            "\"clamped\"",
+            "true",
+            "0",
+            "\"\\u0000\"",
+            "\"/etc/passwd\"",
+            "0.2",
+        ];
+        const KEYS: &[&str] = &[
+            "air.velocity",
+            "fibre.diameter",
+            "fibre.root",
+            "air.length_scale",
+            "run.seed",
+            "air.profile",
+            "run.scheme",
+            "belt.speed",
+            "",
+            ".",
+            "a.b.c",
+            "fibre.length",
+            "drag.across",
+            "run",
+            "\\u0000",
+        ];
+        let mut text = match self.below(12) {
+            0 => format!(r#"{{"do":"set","key":"{}","value":{},"stamp":{}}}"#, self.of(KEYS), self.of(VALUES), self.of(&["1", "-1", "1e9"])),
+            1 => {
+                let mut case = case.as_bytes().to_vec();
+                for _ in 0..1 + self.below(4) {
+                    let at = self.below(case.len());
+                    case[at] = self.below(256) as u8;
+                }
+                json!({ "do": "case", "text": String::from_utf8_lossy(&case) }).to_string()
+            }
+            2 => format!(r#"{{"do":"pace","pace":"{}"}}"#, self.of(&["real", "tenth", "free", "", "REAL"])),
+            3 => format!(r#"{{"do":"{}"}}"#, self.of(&["pause", "go", "step", "reset", "forget", "look", "save", "case"])),
+            4 => json!({ "do": "save", "name": self.of(&["../x", "", "a/b", "/etc/x", "\u{0}", "a:b"]), "replace": self.below(2) == 1 }).to_string(),
+            5 => self.of(&["[[[[[[[[", "{\"do\":", "\"", "0", "{}", "{\"do\":{\"do\":1}}"]).repeat(1 + self.below(200)),
+            6 => format!(r#"{{"do":"look","visible":{}}}"#, self.of(VALUES)),
+            7 => return Message::binary((0..self.below(300)).map(|_| self.below(256) as u8).collect::<Vec<u8>>()),
+            8 => return Message::Ping(vec![0; self.below(126)].into()),
+            _ => (0..self.below(80)).filter_map(|_| char::from_u32(self.below(0x500) as u32)).collect(),
+        };
+        if self.below(3) == 0 && !text.is_empty() {
+            let mut bytes = text.into_bytes();
+            let at = self.below(bytes.len());
+            bytes[at] = self.below(256) as u8;
+            text = String::from_utf8_lossy(&bytes).into_owned();
+        }
+        Message::text(text)
+    }
+}
+
+/// Whether a text comes out of a stream before it ends.
+fn contains(stream: &mut TcpStream, text: &[u8]) -> bool {
+    let (mut kept, mut bytes) = (Vec::new(), [0; 1 << 16]);
+    loop {
+        match stream.read(&mut bytes) {
+            Ok(read) if read > 0 => kept.extend_from_slice(&bytes[..read]),
+            _ => return false,
+        }
+        if kept.windows(text.len()).any(|window| window == text) {
+            return true;
+        }
+        kept.drain(..kept.len().saturating_sub(text.len()));
+    }
+}
+
+/// `SPUNLAID_LIVE_MESSAGES` sets how many; 1000000 take some minutes.
+#[test]
+fn whatever_comes_through_the_socket_the_program_goes_on() {
+    let messages = std::env::var("SPUNLAID_LIVE_MESSAGES").map_or(20_000, |count| count.parse().unwrap());
+    let mut live = Live::start(&["table1.toml"]);
+    let mut chance = Chance(7);
+    let case = live.page().told("state")["text"].as_str().unwrap().to_owned();
+    let mut sent = 0;
+    while sent < messages {
+        // Frames and answers are read by a thread, so that the program can send them. The answer to the last message comes
+        // when the program has read all others.
+        let Page(socket) = live.page();
+        let stream = socket.get_ref().try_clone().unwrap();
+        let last = format!("last-{sent}");
+        let reading = std::thread::spawn({
+            let (mut reader, last) = (stream.try_clone().unwrap(), last.clone().into_bytes());
+            move || contains(&mut reader, &last)
+        });
+        let mut socket = WebSocket::from_raw_socket(stream.try_clone().unwrap(), Role::Client, None);
+        for _ in 0..5000.min(messages - sent) {
+            socket.send(chance.message(&case)).unwrap();
+            sent += 1;
+        }
+        socket.send(Message::text(json!({ "do": last }).to_string())).unwrap();
+        assert!(reading.join().unwrap(), "{sent}: {}", live.said());
+        // And what is no message: raw bytes after them, headers that do not end, halves of requests.
+        let mut stream = stream;
+        let noise: Vec<u8> = (0..500).map(|_| chance.below(256) as u8).collect();
+        let _ = stream.write_all(&noise);
+        let _ = live.connect().write_all(&noise);
+        let _ = live.connect().write_all(format!("GET /{}/flight HTTP/1.1\r\nHost: ", live.token).as_bytes());
+        let _ = stream.shutdown(std::net::Shutdown::Both);
+    }
+    assert!(live.program.try_wait().unwrap().is_none(), "{}", live.said());
+    assert!(!live.said().contains("panicked"), "{}", live.said());
+    let mut page = live.page();
+    page.ask(&json!({ "do": "case", "text": case }));
+    page.ask(&json!({ "do": "go" }));
+    page.ask(&json!({ "do": "set", "key": "air.velocity", "value": 15, "stamp": 99 }));
+    while page.told("applied")["stamp"] != 99 {}
+    // The fibres fly on.
+    let first = page.frame().2;
+    while page.frame().2 <= first {}
+    // A message that has become right by chance may save a case, and nothing else.
+    assert!(live.files().iter().all(|name| name.ends_with(".toml")), "{:?}", live.files());
+}
+
+#[test]
+fn messages_that_are_too_large_end_the_connection_only() {
+    let live = Live::start(&[]);
+    let mut page = live.page();
+    let _ = page.0.send(Message::text("x".repeat(1 << 20)));
+    while page.0.read().is_ok() {}
+    assert!(live.page().frame().2 >= 0.0);
+    assert!(!live.said().contains("panicked"));
+}

@@ -1,0 +1,44 @@
+//! `check` tells the memory that a run takes.
+
+use crate::desk::{Desk, success};
+use serde_json::Value;
+use std::fs;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+/// Largest resident memory of a command so far [bytes], as the system keeps it; read until the command ends.
+fn peak(command: &mut Command) -> f64 {
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let status = format!("/proc/{}/status", child.id());
+    let mut peak = 0.0_f64;
+    while child.try_wait().unwrap().is_none() {
+        let text = fs::read_to_string(&status).unwrap_or_default();
+        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kilobytes = line.and_then(|line| line.trim().strip_suffix(" kB")?.trim().parse::<f64>().ok());
+        peak = peak.max(1024.0 * kilobytes.unwrap_or(0.0));
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(child.wait().unwrap().success() && peak > 0.0);
+    peak
+}
+
+#[test]
+fn check_tells_the_memory_of_a_run() {
+    let desk = Desk::new();
+    let field = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/openfoam_diffuser.toml");
+    for (name, case, changes) in [
+        // Little but the program itself, many recorded instants, many replicates, a field and many shapes.
+        ("little", "brief.toml", &["run.duration=0.1 s"][..]),
+        ("instants", "brief.toml", &["run.duration=1 s", "run.output_interval=20 us", "run.replicates=16"]),
+        ("replicates", "brief.toml", &["run.duration=0.3 s", "run.replicates=800"]),
+        ("field", field, &["run.replicates=8"]),
+    ] {
+        let told = success(&mut desk.with(&format!("check {case} --json"), changes));
+        let told: Value = serde_json::from_str(&told).unwrap();
+        let told = told["expected"]["memory_bytes"].as_f64().unwrap();
+        let taken = peak(&mut desk.with(&format!("run {case} --out {name}"), changes));
+        println!("{name}: {:.0} MB told, {:.0} MB taken", told / 1e6, taken / 1e6);
+        let share = told / taken;
+        assert!((0.67..1.5).contains(&share), "{name}: {told:e} bytes told, {taken:e} taken");
+    }
+}

@@ -1,0 +1,109 @@
+//! `spunlaid compare`: differences of runs, and what is refused.
+
+use crate::desk::{Desk, names, refusal, success};
+use serde_json::Value;
+
+const LONGER: [&str; 4] =
+    ["run.duration=80 ms", "run.output_interval=0.2 ms", "run.replicates=8", "run.spin_up=10 ms"];
+
+fn flown(desk: &Desk, name: &str, more: &[&str]) {
+    let changes: Vec<&str> = LONGER.iter().chain(more).copied().collect();
+    success(&mut desk.with(&format!("run brief.toml --out {name}"), &changes));
+}
+
+fn json(desk: &Desk, arguments: &str) -> Value {
+    serde_json::from_str(&success(&mut desk.spunlaid(&format!("compare {arguments} --json")))).unwrap()
+}
+
+/// The values of the replicates of a measure.
+fn values(desk: &Desk, run: &str, group: &str, column: &str) -> Vec<f64> {
+    let summary = desk.summary(run);
+    summary[group][column]["values"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn runs_in_the_same_turbulence_are_compared_pair_by_pair() {
+    let desk = Desk::new();
+    flown(&desk, "a", &[]);
+    flown(&desk, "b", &["air.density=1.5 kg/m³"]);
+    let said = success(&mut desk.spunlaid("compare a b --out c"));
+    assert!(said.contains("b against a: paired by replicate") && said.contains("(8 pairs)"), "{said}");
+    assert!(said.contains("beyond chance"), "{said}");
+    assert_eq!(desk.entries("c"), names(&["comparison.json", "figures", "report.html"]));
+    let found = json(&desk, "a b");
+    let one = &found["comparisons"][0];
+    assert_eq!((one["paired"].as_bool(), one["pairs"].as_u64()), (Some(true), Some(8)));
+    // By hand: mean and standard error of the differences.
+    let (a, b) =
+        (values(&desk, "a", "end_node", "amplitude_y_m"), values(&desk, "b", "end_node", "amplitude_y_m"));
+    let d: Vec<f64> = a.iter().zip(&b).map(|(a, b)| b - a).collect();
+    let mean = d.iter().sum::<f64>() / 8.0;
+    let error = (d.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 56.0).sqrt();
+    let of = &one["measures"]["amplitude_y_m"];
+    let close = |found: &Value, wanted: f64| (found.as_f64().unwrap() / wanted - 1.0).abs() < 1e-9;
+    assert!(close(&of["difference"], mean) && close(&of["standard_error"], error), "{of}");
+    // Student's t for seven degrees of freedom.
+    assert!(close(&of["half_width"], 2.36462 * error), "{of}");
+    assert_eq!(of["beyond_chance"].as_bool(), Some(mean.abs() > 2.36462 * error));
+    // The curves of both stand in one picture.
+    let numbers = String::from_utf8(desk.read("c/figures/motion_spectrum.csv")).unwrap();
+    assert!(numbers.contains("\"a, y\",") && numbers.contains("\"b, z\","), "{numbers}");
+    // Only the means are drawn of the energy errors, not the area up to the largest.
+    let page = String::from_utf8(desk.read("c/report.html")).unwrap();
+    assert!(page.contains("Errors of the energy checks over time.") && !page.contains("shaded area"));
+    let page = String::from_utf8(desk.read("a/report.html")).unwrap();
+    assert!(page.contains("the shaded area reaches to the largest of any replicate"));
+}
+
+#[test]
+fn runs_in_different_turbulence_are_compared_by_welch() {
+    let desk = Desk::new();
+    flown(&desk, "a", &[]);
+    flown(&desk, "b", &["run.seed=8"]);
+    flown(&desk, "c", &["air.length_scale=100 mm"]);
+    let found = json(&desk, "a b c");
+    let comparisons = found["comparisons"].as_array().unwrap();
+    let reason = |i: usize| comparisons[i]["reason"].as_str().unwrap();
+    assert!(reason(0).contains("because run.seed differs"), "{}", reason(0));
+    assert!(reason(1).contains("because air.length_scale_m differs"), "{}", reason(1));
+    let of = &comparisons[0]["measures"]["amplitude_y_m"];
+    let square = |name: &str| {
+        let summary = desk.summary(name);
+        summary["end_node"]["amplitude_y_m"]["standard_error"].as_f64().unwrap().powi(2)
+    };
+    let wanted = (square("a") + square("b")).sqrt();
+    assert!((of["standard_error"].as_f64().unwrap() / wanted - 1.0).abs() < 1e-9, "{of}");
+    // Seven to fourteen degrees of freedom.
+    let t = of["half_width"].as_f64().unwrap() / wanted;
+    assert!((2.1447..=2.3647).contains(&t), "{t}");
+    // Without --out, --json writes no files.
+    assert!(!desk.path("results").exists());
+}
+
+#[test]
+fn a_run_does_not_differ_from_itself() {
+    let desk = Desk::new();
+    flown(&desk, "a", &[]);
+    flown(&desk, "again", &[]);
+    let said = success(&mut desk.spunlaid("compare a again --out c"));
+    assert!(said.contains("the same") && said.contains("  0 of "), "{said}");
+    success(&mut desk.spunlaid("compare a again --out c --force --quiet"));
+}
+
+#[test]
+fn rejects_what_is_no_run() {
+    let desk = Desk::new();
+    flown(&desk, "a", &[]);
+    assert!(
+        refusal(&mut desk.spunlaid("compare a nothing"), 1)
+            .contains("nothing: does not hold the results of a run: there is no such folder")
+    );
+    std::fs::create_dir(desk.path("empty")).unwrap();
+    assert!(refusal(&mut desk.spunlaid("compare a empty"), 1).contains("summary.json"));
+    std::fs::write(desk.path("empty/summary.json"), "{}").unwrap();
+    assert!(refusal(&mut desk.spunlaid("compare a empty"), 1).contains("is not that of a run"));
+    std::fs::write(desk.path("empty/results.csv"), "").unwrap();
+    assert!(refusal(&mut desk.spunlaid("compare a empty"), 1).contains("holds a study or an analysis"));
+    assert!(refusal(&mut desk.spunlaid("compare a a a a a a a"), 1).contains("at most 6"));
+    assert!(!desk.path("results").exists());
+}

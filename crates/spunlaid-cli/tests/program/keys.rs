@@ -1,0 +1,61 @@
+//! `spunlaid keys` and the page it makes.
+
+use crate::desk::{Desk, refusal, success};
+use std::path::Path;
+
+#[test]
+fn the_page_of_keys_is_up_to_date() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/keys.md");
+    let written = std::fs::read_to_string(path).unwrap_or_default();
+    let made = success(&mut Desk::new().spunlaid("keys --markdown"));
+    assert!(
+        made == written,
+        "docs/keys.md is out of date; renew it: cargo run --release -- keys --markdown > docs/keys.md"
+    );
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/web_keys.md");
+    let of_webs = success(&mut Desk::new().spunlaid("keys --web --markdown"));
+    assert!(
+        of_webs == std::fs::read_to_string(path).unwrap_or_default(),
+        "docs/web_keys.md is out of date; renew it: cargo run --release -- keys --web --markdown > docs/web_keys.md"
+    );
+    assert!(
+        of_webs
+            .contains("| `rows.pitch` | a length above zero; in m, cm, mm, µm or nm; usually 1 µm to 1 m |"),
+        "{of_webs}"
+    );
+    for key in ["field_root", "field_axis", "field_unit", "spin_up", "error_tolerance"] {
+        assert!(written.contains(&format!("| `{key}` |")), "{key}");
+    }
+}
+
+#[test]
+fn keys_are_explained_by_a_word_in_their_name_or_meaning() {
+    let desk = Desk::new();
+    let one = success(&mut desk.spunlaid("keys run.spin_up"));
+    assert!(
+        one.starts_with("run.spin_up\n    Time at the start that the statistics of the motion leave out;"),
+        "{one}"
+    );
+    assert!(
+        one.contains("    takes      a time, zero or above; in s, ms, µs, ns or min; usually 1 ns to"),
+        "{one}"
+    );
+    assert!(one.contains("    default    0 s\n"), "{one}");
+    let by_meaning = success(&mut desk.spunlaid("keys SPINNERET"));
+    assert!(by_meaning.starts_with("air.field_root\n") && by_meaning.matches("takes").count() == 1);
+    let all = success(&mut desk.spunlaid("keys"));
+    assert!(all.matches("\n    takes").count() > 35 && all.lines().all(|line| line.chars().count() <= 100));
+}
+
+#[test]
+fn rejects_a_word_that_no_key_has() {
+    let desk = Desk::new();
+    assert_eq!(
+        refusal(&mut desk.spunlaid("keys air.velocty"), 1),
+        "error: no key has \"air.velocty\" in its name or meaning; did you mean air.velocity?\n"
+    );
+    assert_eq!(
+        refusal(&mut desk.spunlaid("keys zebra"), 1),
+        "error: no key has \"zebra\" in its name or meaning; `spunlaid keys` lists them all\n"
+    );
+}

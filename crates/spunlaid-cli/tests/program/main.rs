@@ -1,0 +1,22 @@
+//! The program, as it is called in a shell: what each command writes, says and refuses.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../desk/mod.rs"]
+mod desk;
+
+mod air;
+mod cases;
+mod commands;
+mod compare;
+mod continued;
+mod keys;
+mod refusals;
+mod results;
+mod scan;
+mod signals;
+mod sweep;
+mod sweep_killed;
+mod web;
+mod web_study;

@@ -1,0 +1,199 @@
+//! Wrong input: exit code 1, a message with the way out, nothing written. What is not the fault of the input: 2.
+
+use crate::desk::{BRIEF, Desk, ENTRIES, names, refusal, success};
+use std::fs;
+
+/// A brief case with one line written otherwise.
+fn spoilt(line: &str, otherwise: &str) -> String {
+    assert!(BRIEF.contains(line));
+    BRIEF.replace(line, otherwise)
+}
+
+#[test]
+fn rejects_bad_cases_and_writes_nothing() {
+    let desk = Desk::new();
+    let diameter = r#"diameter = "50 µm""#;
+    for (text, wanted) in [
+        (
+            spoilt(diameter, r#"diametre = "50 µm""#),
+            &["case.toml:6: fibre.diametre", "did you mean fibre.diameter?"][..],
+        ),
+        (spoilt(diameter, ""), &["fibre.diameter is missing; add diameter = \"50 µm\" to [fibre]"]),
+        (spoilt(diameter, "diameter = 50e-6"), &["case.toml:6: fibre.diameter = 50e-6", "unit"]),
+        (spoilt(diameter, r#"diameter = "50 µs""#), &["case.toml:6: fibre.diameter = \"50 µs\"", "length"]),
+        (spoilt(diameter, r#"diameter = "-50 µm""#), &["is not positive"]),
+        (spoilt(diameter, "diameter = nan"), &["case.toml:6: fibre.diameter = nan"]),
+        (
+            spoilt(r#"time_step = "20 µs""#, r#"time_step = "50 µs""#),
+            &["exceeds the stability limit 34.", "lower it"],
+        ),
+        (
+            spoilt("version = 1", "version = 2"),
+            &["case.toml:2: version = 2 is newer than the format that this spunlaid reads (1)"],
+        ),
+        (spoilt("[run]", "[run"), &["not valid TOML"]),
+        (spoilt("seed = 7", "seed = 7\nharmonics = 3"), &["run.harmonics = 3 is out of place", "[air]"]),
+        (
+            spoilt(r#"cutoff_frequency = "100 Hz""#, "cutoff_frequency = \"100 Hz\"\nharmonics = 0"),
+            &["air.harmonics = 0 is out of range"],
+        ),
+        (
+            spoilt("[air]", "element_length = \"1 nm\"\n[air]"),
+            &["fibre.element_length = \"1 nm\"", "needs", "GiB"],
+        ),
+        (String::new(), &["fibre.length is missing", "run.duration is missing"]),
+    ] {
+        fs::write(desk.path("case.toml"), &text).unwrap();
+        let said = refusal(&mut desk.spunlaid("run case.toml"), 1);
+        assert!(said.lines().all(|line| line.starts_with("error: case.toml")), "{said}");
+        for part in wanted {
+            assert!(said.contains(part), "{text}\n{said}\n{part}");
+        }
+        assert_eq!(refusal(&mut desk.spunlaid("check case.toml"), 1), said);
+        assert_eq!(desk.entries(""), names(&["brief.toml", "case.toml"]));
+    }
+}
+
+#[test]
+fn rejects_files_that_are_no_case() {
+    let desk = Desk::new();
+    fs::write(desk.path("binary.toml"), [0x5b, 0x0a, 0xff, 0x00]).unwrap();
+    let sparse = fs::File::create(desk.path("large.toml")).unwrap();
+    sparse.set_len(2 << 30).unwrap();
+    fs::create_dir(desk.path("folder.toml")).unwrap();
+    for (name, wanted) in [
+        ("nowhere.toml", "nowhere.toml: there is no such file; name a case file (`spunlaid new` writes one)"),
+        ("folder.toml", "folder.toml: is a folder"),
+        ("large.toml", "large.toml: is larger than"),
+        ("binary.toml", "binary.toml:2: byte 0xff (number 3 of the file) is not UTF-8 text"),
+        ("brief.toml/case.toml", "brief.toml/case.toml: "),
+        #[cfg(unix)]
+        ("/dev/zero", "/dev/zero: is larger than"),
+        #[cfg(unix)]
+        ("/dev/null", "/dev/null: fibre.length is missing"),
+    ] {
+        let said = refusal(&mut desk.spunlaid(&format!("run {name}")), 1);
+        assert!(said.starts_with(&format!("error: {wanted}")), "{said}");
+    }
+    assert_eq!(desk.entries(""), names(&["binary.toml", "brief.toml", "folder.toml", "large.toml"]));
+}
+
+#[test]
+fn rejects_bad_arguments() {
+    let desk = Desk::new();
+    for (arguments, wanted) in [
+        ("run", "<CASE>"),
+        ("fly brief.toml", "unrecognized subcommand 'fly'"),
+        ("run brief.toml --set", "--set <KEY=VALUE>"),
+        ("run brief.toml --set air.velocity", "write a key and a value, as air.velocity=\"20 m/s\""),
+        ("run brief.toml --set air.velocty=20", "did you mean"),
+        ("run brief.toml --set air.velocity=20", "unit"),
+        ("run brief.toml --set =20", "error:"),
+        ("run brief.toml --replicates 0", "run.replicates = 0 is out of range"),
+        ("run brief.toml --replicates -1", "error:"),
+        ("run brief.toml --seed 1.5", "error:"),
+        ("run brief.toml --threads 0", "--threads"),
+        (
+            "run brief.toml --set run.time_step=50us",
+            "error: --set run.time_step = \"50us\" exceeds the stability",
+        ),
+    ] {
+        let said = refusal(&mut desk.spunlaid(arguments), 1);
+        assert!(said.contains(wanted), "{said}");
+    }
+    assert_eq!(desk.entries(""), names(&["brief.toml"]));
+}
+
+#[test]
+fn refuses_results_that_are_there_without_force() {
+    let desk = Desk::new();
+    success(&mut desk.spunlaid("run brief.toml --out r"));
+    for entry in ENTRIES {
+        // Each of them alone is something of value.
+        let alone = desk.path("alone");
+        fs::create_dir(&alone).unwrap();
+        fs::write(alone.join(entry), "mine").unwrap();
+        let said = refusal(&mut desk.spunlaid("run brief.toml --out alone --seed 8"), 1);
+        let wanted = format!(
+            "error: alone: holds results already ({entry}); name another folder, or replace them (--out, "
+        );
+        assert!(said.starts_with(&wanted) && said.contains("--force"), "{said}");
+        assert_eq!(desk.entries("alone"), names(&[entry]));
+        assert_eq!(desk.read(&format!("alone/{entry}")), b"mine");
+        fs::remove_dir_all(alone).unwrap();
+    }
+}
+
+#[test]
+fn force_replaces_results_and_keeps_what_others_put_there() {
+    let desk = Desk::new();
+    success(&mut desk.with("run brief.toml --out r", &["run.output_interval=0.5 ms"]));
+    fs::write(desk.path("r/thesis.tex"), "mine").unwrap();
+    fs::create_dir(desk.path("r/notes")).unwrap();
+    fs::write(desk.path("r/notes/shape.pvd"), "mine").unwrap();
+    let before = desk.entries("r/shape").len();
+    success(&mut desk.spunlaid("run brief.toml --out r --force --seed 8"));
+    assert_eq!(desk.read("r/thesis.tex"), b"mine");
+    assert_eq!(desk.read("r/notes/shape.pvd"), b"mine");
+    assert_eq!(desk.summary("r")["case"]["run"]["seed"], 8);
+    let mut wanted = names(&ENTRIES);
+    wanted.extend(names(&["thesis.tex", "notes"]));
+    assert_eq!(desk.entries("r"), wanted);
+    assert_eq!((before, desk.entries("r/shape").len()), (21, 11), "no shapes of the old run among the new");
+    // A run that fails leaves the old results as they are.
+    refusal(&mut desk.spunlaid("run brief.toml --out r --force --set run.seed=-1"), 1);
+    assert_eq!(desk.summary("r")["case"]["run"]["seed"], 8);
+}
+
+#[test]
+fn results_go_beside_files_of_others_without_force() {
+    let desk = Desk::new();
+    success(&mut desk.spunlaid("run brief.toml --out ."));
+    let mut wanted = names(&ENTRIES);
+    wanted.insert("brief.toml".to_owned());
+    assert_eq!(desk.entries(""), wanted);
+}
+
+#[test]
+fn refuses_folders_that_cannot_be_written() {
+    let desk = Desk::new();
+    let said = refusal(&mut desk.spunlaid("run brief.toml --out brief.toml"), 1);
+    assert_eq!(said, "error: brief.toml: is a file; name a folder (--out)\n");
+    let said = refusal(&mut desk.spunlaid("run brief.toml --out brief.toml/below/it"), 2);
+    assert!(said.starts_with("error: brief.toml/below/it: cannot be written: "), "{said}");
+    assert!(said.ends_with("name another folder (--out)\n"), "{said}");
+    if cfg!(target_os = "linux") {
+        let said = refusal(&mut desk.spunlaid("run brief.toml --out /proc/spunlaid/r"), 2);
+        assert!(said.starts_with("error: /proc/spunlaid/r: cannot be written: "), "{said}");
+    }
+    assert_eq!(desk.entries(""), names(&["brief.toml"]));
+}
+
+#[test]
+fn a_run_that_blows_up_names_node_time_and_cause() {
+    let desk = Desk::new();
+    // Stable for the mesh, but stiff against the air: a fibre as light as this is swept along at once.
+    let changes = ["fibre.diameter=0.05 µm", "fibre.density=20 kg/m³", "run.time_step=4 us"];
+    let said = refusal(&mut desk.with("run brief.toml --out some/where", &changes), 2);
+    let last = said.lines().last().unwrap();
+    assert!(last.starts_with("error: replicate ") && last.contains("node "), "{said}");
+    assert!(
+        last.contains("node 2 moves with ") && last.contains(" m/s at ") && last.contains(" s; "),
+        "{said}"
+    );
+    assert_eq!(desk.entries(""), names(&["brief.toml"]));
+}
+
+#[test]
+fn a_record_that_cannot_be_used_is_told_with_the_option_that_helps() {
+    let desk = Desk::new();
+    for (text, wanted) in [
+        ("u_m_s\n1\n2\n", "or give the sampling rate (--rate)\n"),
+        ("time_s,u\n0,1\n1,2\n", "like u_m_s (or --time-unit, --velocity-unit)\n"),
+        ("time_s,p\n0,1\n1,2\n", "in which unit (--columns, --velocity-unit)\n"),
+    ] {
+        fs::write(desk.path("a.csv"), text).unwrap();
+        let said = refusal(&mut desk.spunlaid("analyse a.csv"), 1);
+        assert!(said.starts_with("error: a.csv: ") && said.ends_with(wanted), "{said}");
+    }
+}

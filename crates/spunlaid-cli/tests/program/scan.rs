@@ -1,0 +1,268 @@
+//! `spunlaid analyse` of a scanned web, and `spunlaid compare` of it with a laid one.
+
+use crate::desk::{Desk, names, refusal, success};
+use serde_json::Value;
+use std::fs;
+use std::fs::File;
+use std::io::BufWriter;
+
+/// A web of 100 by 150 mm that is laid in an instant.
+const WEB: &str = r#"
+[fibre]
+diameter = "18 µm"
+density = "910 kg/m³"
+
+[laydown]
+sigma_md = "5 mm"
+sigma_cd = "5 mm"
+noise = "20 m^-0.5"
+
+[line]
+feed_speed = "50 m/s"
+belt_speed = "5 m/s"
+filaments_per_metre = 5000
+
+[web]
+width = "100 mm"
+length = "150 mm"
+cell = "0.5 mm"
+patches = ["2 mm", "4 mm", "10 mm"]
+"#;
+
+fn desk() -> Desk {
+    let desk = Desk::new();
+    fs::write(desk.path("web.toml"), WEB).unwrap();
+    desk
+}
+
+/// The numbers of a map, a row after the other, from `map.npy`.
+fn map(desk: &Desk, folder: &str) -> Vec<f64> {
+    let bytes = desk.read(&format!("{folder}/map.npy"));
+    let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    bytes[start..].chunks_exact(4).map(|x| f64::from(f32::from_le_bytes(x.try_into().unwrap()))).collect()
+}
+
+/// Writes a scan in transmitted light of 16 bits, with an optical density of 0.4 on average and a lamp of 60000.
+fn scan(desk: &Desk, name: &str, columns: usize, weights: &[f64]) {
+    let mean = weights.iter().sum::<f64>() / weights.len() as f64;
+    let level = |weight: &f64| (60_000.0 * (-0.4 * weight / mean).exp()).round() as u16;
+    let bytes: Vec<u8> = weights.iter().flat_map(|weight| level(weight).to_be_bytes()).collect();
+    let file = BufWriter::new(File::create(desk.path(name)).unwrap());
+    let mut encoder = png::Encoder::new(file, columns as u32, (weights.len() / columns) as u32);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    encoder.write_header().unwrap().write_image_data(&bytes).unwrap();
+}
+
+fn number(of: &Value) -> f64 {
+    of.as_f64().unwrap()
+}
+
+#[test]
+fn a_laid_web_and_its_scan_have_the_same_unevenness() {
+    let desk = desk();
+    success(&mut desk.spunlaid("web web.toml --out laid"));
+    let laid = map(&desk, "laid");
+    scan(&desk, "scan.png", 200, &laid);
+    let command = "analyse scan.png --pixel 0.5mm --white 60000 --keep-shading --patches 2mm,4mm,10mm";
+    let said = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out scan")));
+    assert!(said.contains("basis weight 18 g/m²") && said.contains("95 % interval"), "{said}");
+    assert!(said.contains("open scan/report.html"), "{said}");
+    assert_eq!(desk.entries("scan"), names(&["figures", "map.npy", "report.html", "summary.json"]));
+    let [web, found] = ["laid", "scan"].map(|folder| desk.summary(folder)["web"].take());
+    assert!((number(&found["basis_weight_kg_m2"]) / 18e-3 - 1.0).abs() < 1e-12);
+    assert_eq!((&found["cells"], &found["cell_m"]), (&web["cells"], &web["cell_m"]));
+    for i in 0..3 {
+        let [a, b] = [&web, &found].map(|of| &of["patches"][i]);
+        assert_eq!(a["patch_m"], b["patch_m"]);
+        // The laid web is closed to a ring; the scan is cut out of it, and its mean is known from itself only.
+        let (one, other) = (number(&a["cv"]), number(&b["cv"]));
+        let error = number(&found["patches"][2]["cv_standard_error"]) / number(&found["patches"][2]["cv"]);
+        assert!((one - other).abs() < error * other, "{a} {b}");
+        assert!(b.get("cv_one_fibre").is_none() && number(&b["blur_of_a_pixel"]) > 0.0, "{b}");
+    }
+    // Four pixels are not above the blur of whatever camera; twenty are.
+    let [small, large] = [&found["patches"][0], &found["patches"][2]];
+    assert_eq!(small["no_interval"], "below the blur of the scan");
+    assert!(small["cv_standard_error"].is_null() && small.get("cv_interval").is_none(), "{small}");
+    assert!(
+        number(&large["cv_interval"][0]) < number(&large["cv"]) && large.get("no_interval").is_none(),
+        "{large}"
+    );
+    // The map is the laid one, but for its mean and the 16 bits of the picture.
+    let mean = laid.iter().sum::<f64>() / laid.len() as f64;
+    let far =
+        map(&desk, "scan").iter().zip(&laid).map(|(a, b)| (a / 18e-3 - b / mean).abs()).fold(0.0, f64::max);
+    assert!(far < 1e-3, "{far}");
+    let page = String::from_utf8(desk.read("scan/report.html")).unwrap();
+    for part in [
+        "A web of 18",
+        "spunlaid analyse · scan",
+        "The scan",
+        "Lost by one more pixel of blur",
+        "Texture along",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("id=\"fibres\"") && !page.contains("map.parquet"));
+
+    // A picture that lies on its side, without its weight.
+    let turned: Vec<f64> = (0..laid.len()).map(|i| laid[i % 300 * 200 + i / 300]).collect();
+    scan(&desk, "turned.png", 300, &turned);
+    let json =
+        success(&mut desk.spunlaid(&format!("{command} --md rows --json").replace("scan.png", "turned.png")));
+    let json: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["web"]["patches"], found["patches"]);
+    assert!(json["web"]["basis_weight_kg_m2"].is_null());
+    assert!(json["notes"][0].as_str().unwrap().contains("mean basis weight is not known"), "{json}");
+    assert!(desk.path("results/turned/report.html").exists());
+
+    // Both beside each other.
+    let said = success(&mut desk.spunlaid("compare laid scan --out both"));
+    assert!(
+        said.contains("scan against laid: as independent pieces of web; basis weight 18 g/m² against "),
+        "{said}"
+    );
+    assert!(said.contains("CV over patches of 10 mm") && said.contains("  0 of "), "{said}");
+    assert_eq!(desk.entries("both"), names(&["comparison.json", "figures", "report.html"]));
+    let both: Value = serde_json::from_slice(&desk.read("both/comparison.json")).unwrap();
+    let of = &both["comparisons"][0]["measures"]["cv_10_mm"];
+    let [a, b] = [&web, &found].map(|of| &of["patches"][2]);
+    // The scan's end that faces the laid web.
+    let end = usize::from(number(&a["cv"]) > number(&b["cv"]));
+    let towards = |of: &Value, end: usize| number(&of["cv_interval"][end]) - number(&of["cv"]);
+    let half_width = towards(a, 1 - end).hypot(towards(b, end));
+    assert!((number(&of["half_width"]) / half_width - 1.0).abs() < 1e-4, "{of}");
+    // Nothing is said about a number that is not to be had, and the reason stands there.
+    let of = &both["comparisons"][0]["measures"]["cv_2_mm"];
+    assert_eq!(of["no_verdict"], "below the blur of the scan (scan)");
+    assert!(
+        of["beyond_chance"].is_null() && said.contains("below the blur of the scan (scan)"),
+        "{of} {said}"
+    );
+    // The lamp is not known.
+    let command = command.replace(" --white 60000 --keep-shading", "");
+    let told = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out guessed")));
+    assert!(told.contains("none: the level of the lamp is a guess"), "{told}");
+    let notes = desk.summary("guessed")["notes"].to_string();
+    assert!(notes.contains("so no interval is told: take a picture of the lamp"), "{notes}");
+    let told = success(&mut desk.spunlaid("compare laid guessed --out guesses"));
+    assert!(
+        told.contains("  0 of 1 measures differ")
+            && told.contains("the level of the lamp is a guess (guessed)"),
+        "{told}"
+    );
+    let curves = String::from_utf8(desk.read("both/figures/web_cv.csv")).unwrap();
+    assert!(curves.contains("laid") && curves.contains("scan"), "{curves}");
+}
+
+#[test]
+fn a_map_is_read_as_basis_weights() {
+    let desk = desk();
+    success(&mut desk.spunlaid("web web.toml --out laid"));
+    let said = success(&mut desk.spunlaid("analyse laid/map.npy --pixel 0.5mm --out again --quiet"));
+    assert_eq!(said, "");
+    let [web, found] = ["laid", "again"].map(|folder| desk.summary(folder)["web"].take());
+    assert!((number(&found["basis_weight_kg_m2"]) / number(&web["basis_weight_kg_m2"]) - 1.0).abs() < 1e-6);
+    // The picture of the same tells its cells and its weights. A level is 1/65535 of the heaviest cell.
+    let said = success(&mut desk.spunlaid("analyse laid/map.png --out drawn"));
+    assert!(!said.contains("dots per inch") && !said.contains("lamp"), "{said}");
+    let drawn = desk.summary("drawn")["web"].take();
+    for name in ["basis_weight_kg_m2", "cell_m"] {
+        assert!((number(&drawn[name]) / number(&web[name]) - 1.0).abs() < 1e-5, "{name}: {drawn}");
+    }
+    for (a, b) in found["patches"].as_array().unwrap().iter().zip(drawn["patches"].as_array().unwrap()) {
+        assert!((number(&a["cv"]) / number(&b["cv"]) - 1.0).abs() < 1e-4, "{a} {b}");
+    }
+    // As a picture in transmitted light, its lightest cells are the lamp.
+    success(&mut desk.spunlaid("analyse laid/map.png --light transmitted --keep-shading --out light"));
+    // A table of the same, in g/m².
+    let rows = map(&desk, "laid");
+    let rows = rows.chunks(200).map(|row| row.iter().map(|x| format!("{:.4}", 1e3 * x)).collect::<Vec<_>>());
+    fs::write(desk.path("gauge.csv"), rows.map(|row| row.join(";") + "\n").collect::<String>()).unwrap();
+    success(&mut desk.spunlaid("analyse gauge.csv --pixel 0.5mm --weight 18g/m² --patches 4mm --out gauge"));
+    let gauge = desk.summary("gauge")["web"].take();
+    let [a, b] =
+        [&gauge["patches"][0], &found["patches"][3]].map(|of| (number(&of["patch_m"]), number(&of["cv"])));
+    assert!(a.0 == 0.004 && b.0 == 0.005 && a.1 > b.1 && a.1 < 1.3 * b.1, "{a:?} {b:?}");
+}
+
+#[test]
+fn rejects_scans_with_the_option_that_helps() {
+    let desk = desk();
+    scan(&desk, "scan.png", 40, &(0..1600).map(|i| 1.0 + f64::from(i * i % 7)).collect::<Vec<_>>());
+    scan(&desk, "other.png", 20, &(0..1600).map(|i| 1.0 + f64::from(i * i % 7)).collect::<Vec<_>>());
+    fs::write(desk.path("photo.png"), b"\xff\xd8\xff\xe0").unwrap();
+    for (arguments, message) in [
+        (
+            "analyse scan.png",
+            "error: scan.png: does not say how large its pixels are; give the side of a pixel, as \"0.1 mm\" (--pixel)\n",
+        ),
+        (
+            "analyse photo.png --pixel 1mm",
+            "error: photo.png: is a JPEG picture, which loses the fine structure; save the scan",
+        ),
+        (
+            "analyse nowhere.png --pixel 1mm",
+            "error: nowhere.png: there is no such file; name a scan of a web, a picture",
+        ),
+        ("analyse scan.png --pixel 1", "has no unit; write a length with its unit"),
+        ("analyse scan.png --pixel 0mm", "is not above zero"),
+        (
+            "analyse scan.png --pixel 1mm --weight 15mm",
+            "is a length; write a basis weight with its unit: kg/m², g/m² or gsm",
+        ),
+        ("analyse scan.png --pixel 1mm --white 100", "(--white, --lamp, --light weight)\n"),
+        ("analyse scan.png --pixel 1mm --white x", "write a number above zero, like 240"),
+        (
+            "analyse scan.png --pixel 1mm --patches 2mm,50mm",
+            "has no patches of 50 mm: they can have sides from a pixel, 1 mm, to the shorter side of the picture, 40 mm (--patches)\n",
+        ),
+        (
+            "analyse scan.png --pixel 1mm --noise 60000",
+            "alone would; give the noise of a single pixel, from two pictures of the same place (--noise)\n",
+        ),
+        (
+            "analyse scan.png --pixel 1mm --lamp other.png",
+            "take both with the same camera from the same place (--lamp)\n",
+        ),
+        (
+            "analyse scan.png --pixel 1mm --rate 1kHz",
+            "and --rate is for velocity records only; leave it out\n",
+        ),
+        ("analyse scan.png --window hamming", "and --window is for velocity records only; leave it out\n"),
+        ("analyse scan.png --columns u", "and --columns is for velocity records only; leave it out\n"),
+        (
+            "analyse gauge.csv --weight 15gsm",
+            "--weight is for scans and maps of a web only; if it is one, give",
+        ),
+    ] {
+        let said = refusal(&mut desk.spunlaid(arguments), 1);
+        assert!(said.contains(message), "{arguments}: {said}");
+    }
+    // Nothing is left behind.
+    assert_eq!(desk.entries("."), names(&["brief.toml", "other.png", "photo.png", "scan.png", "web.toml"]));
+}
+
+#[test]
+fn rejects_webs_that_cannot_be_compared() {
+    let desk = desk();
+    success(&mut desk.spunlaid("web web.toml --out laid --quiet"));
+    success(&mut desk.spunlaid("run brief.toml --out run --quiet"));
+    success(&mut desk.spunlaid("analyse laid/map.npy --pixel 0.5mm --patches 3mm --out other --quiet"));
+    for (arguments, message) in [
+        (
+            "compare laid run",
+            "error: run: cannot be compared: it holds no web, and laid does; compare webs with webs\n",
+        ),
+        ("compare run laid", "laid: does not hold the results of a run: summary.json is not that of a run"),
+        (
+            "compare laid other",
+            "error: other: cannot be compared: it has no patches of the same size as laid: 2, 4, 10 mm there, 3 mm here; name the same",
+        ),
+    ] {
+        let said = refusal(&mut desk.spunlaid(arguments), 1);
+        assert!(said.contains(message), "{arguments}: {said}");
+    }
+    assert!(!desk.path("results").exists());
+}

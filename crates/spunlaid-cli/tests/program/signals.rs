@@ -1,0 +1,251 @@
+//! Runs that are stopped, killed or cannot write: nothing is left, or the next run clears it up.
+#![cfg(unix)]
+
+use crate::desk::{Desk, ENTRIES, FED, entries, entries_of_fed, names, success};
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+/// A run that would take hours, up to where it has begun to fly.
+fn long_run(desk: &Desk, arguments: &str, home: &str) -> Child {
+    let long = ["run.duration=10000 s", "run.output_interval=1 s", "air.cutoff_frequency=1 Hz"];
+    flying(desk, desk.with("run brief.toml", &long).args(arguments.split_whitespace()), home)
+}
+
+/// Starts a run and waits until it has begun to fly.
+fn flying(desk: &Desk, command: &mut Command, home: &str) -> Child {
+    let before = hidden(&desk.path(home));
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let flying = |folder: &Path| {
+        let begun = |name: &String| folder.join(name).join("new/energy.parquet").exists();
+        hidden(folder).iter().any(|name| !before.contains(name) && begun(name))
+    };
+    while !flying(&desk.path(home)) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child
+}
+
+fn hidden(folder: &Path) -> Vec<String> {
+    let all = if folder.exists() { entries(folder) } else { Default::default() };
+    all.into_iter().filter(|name| name.starts_with(".spunlaid-")).collect()
+}
+
+fn signal(child: &Child, name: &str) {
+    let kill = format!("kill -{name} {}", child.id());
+    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+}
+
+fn end(child: Child, name: &str) -> Output {
+    signal(&child, name);
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn interrupted_nothing_is_left() {
+    let desk = Desk::new();
+    for signal in ["INT", "TERM"] {
+        let output = end(long_run(&desk, "--out some/where/deep", "some/where"), signal);
+        assert_eq!(output.status.code(), Some(130));
+        assert!(output.stdout.is_empty());
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            said.ends_with("error: interrupted; nothing was written. Repeat the command to start again\n"),
+            "{said}"
+        );
+        assert_eq!(desk.entries(""), names(&["brief.toml"]));
+    }
+}
+
+#[test]
+fn interrupted_old_results_stay() {
+    let desk = Desk::new();
+    success(&mut desk.spunlaid("run brief.toml --out r"));
+    let before = desk.read("r/summary.json");
+    assert_eq!(end(long_run(&desk, "--out r --force", "r"), "INT").status.code(), Some(130));
+    assert_eq!(desk.entries("r"), names(&ENTRIES));
+    assert!(desk.read("r/summary.json") == before);
+}
+
+#[test]
+fn interrupted_while_it_goes_on_a_run_stays_as_it_was() {
+    let desk = Desk::new();
+    success(&mut desk.with("run brief.toml --out r", &["run.output_interval=10 ms"]));
+    let before = desk.read("r/summary.json");
+    for (signal, code) in [("INT", Some(130)), ("KILL", None)] {
+        let longer = flying(&desk, &mut desk.spunlaid("run r --until 3000s"), "r");
+        assert_eq!(end(longer, signal).status.code(), code);
+        assert!(desk.read("r/summary.json") == before);
+    }
+    success(&mut desk.spunlaid("run r --until 20ms"));
+    assert_eq!(desk.entries("r"), names(&ENTRIES));
+}
+
+#[test]
+fn killed_nothing_looks_like_results_and_the_next_run_clears_up() {
+    let desk = Desk::new();
+    assert_eq!(end(long_run(&desk, "--out r", ""), "KILL").status.code(), None);
+    assert!(!desk.path("r").exists());
+    assert_eq!(hidden(&desk.path("")).len(), 1);
+    // A run that lives is left alone, whoever clears up.
+    let live = long_run(&desk, "--out elsewhere", "");
+    success(&mut desk.spunlaid("run brief.toml --out r"));
+    assert_eq!(hidden(&desk.path("")).len(), 1);
+    assert_eq!(end(live, "INT").status.code(), Some(130));
+    assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
+
+    // The same inside a folder that is there.
+    end(long_run(&desk, "--out r --force", "r"), "KILL");
+    assert_eq!(hidden(&desk.path("r")).len(), 1);
+    assert_eq!(desk.summary("r")["steps"], 500, "the old results are still there");
+    success(&mut desk.spunlaid("run brief.toml --out r --force"));
+    assert_eq!(desk.entries("r"), names(&ENTRIES));
+}
+
+#[test]
+fn what_only_looks_like_a_leftover_stays() {
+    let desk = Desk::new();
+    fs::create_dir(desk.path(".spunlaid-mine.partial")).unwrap();
+    fs::write(desk.path(".spunlaid-notes.partial"), "mine").unwrap();
+    success(&mut desk.spunlaid("run brief.toml --out r"));
+    assert_eq!(hidden(&desk.path("")).len(), 2);
+}
+
+#[test]
+fn results_that_appear_during_a_run_are_not_overwritten() {
+    let desk = Desk::new();
+    // Held up while another run is done with the same folder.
+    let slow = long_run(&desk, "--out r --set run.duration=200s", "");
+    signal(&slow, "STOP");
+    success(&mut desk.spunlaid("run brief.toml --out r --seed 8"));
+    let output = end(slow, "CONT");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.starts_with("error: r: holds results already"), "{said}");
+    assert_eq!(desk.summary("r")["case"]["run"]["seed"], 8);
+    assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
+}
+
+#[test]
+fn a_disk_that_takes_no_more_leaves_nothing() {
+    let desk = Desk::new();
+    // Files may grow to so many blocks of 512 or 1024 bytes.
+    for blocks in [1, 16, 100] {
+        let shell = format!(
+            "trap '' XFSZ; ulimit -f {blocks}; exec {} run brief.toml --out a/b",
+            env!("CARGO_BIN_EXE_spunlaid")
+        );
+        let output =
+            Command::new("sh").args(["-c", &shell]).current_dir(desk.folder.path()).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.starts_with("error: a/b/") && said.contains(": cannot be written: "), "{said}");
+        assert!(said.ends_with("name another folder (--out)\n"), "{said}");
+        assert_eq!(desk.entries(""), names(&["brief.toml"]));
+    }
+}
+
+#[test]
+fn a_reader_that_has_enough_is_no_error() {
+    let desk = Desk::new();
+    for arguments in
+        ["check brief.toml", "run brief.toml --json --out results/brief", "completions bash", "run --help"]
+    {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
+            .current_dir(desk.folder.path())
+            .args(arguments.split_whitespace())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!((output.status.code(), said.as_str()), (Some(0), ""), "{arguments}");
+    }
+    assert_eq!(desk.entries("results/brief"), names(&ENTRIES));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_standard_output_that_is_full_is_told() {
+    let desk = Desk::new();
+    for arguments in ["check brief.toml", "run brief.toml --json"] {
+        let output = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
+            .current_dir(desk.folder.path())
+            .args(arguments.split_whitespace())
+            .stdout(fs::File::create("/dev/full").unwrap())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(said.starts_with("error: standard output: cannot be written: "), "{said}");
+    }
+}
+
+#[test]
+fn a_fed_fibre_that_is_killed_or_cannot_be_written_leaves_nothing() {
+    let desk = Desk::of(FED);
+    let long = ["run.duration=600 s", "run.output_interval=0.1 s", "air.cutoff_frequency=10 Hz"];
+    let mut command = desk.with("run brief.toml --out r", &long);
+    assert_eq!(end(flying(&desk, &mut command, ""), "KILL").status.code(), None);
+    assert!(!desk.path("r").exists());
+    assert_eq!(hidden(&desk.path("")).len(), 1);
+    // What it had laid lies in files that the next run clears up.
+    let output = end(flying(&desk, &mut command, ""), "INT");
+    assert_eq!(output.status.code(), Some(130));
+    success(&mut desk.spunlaid("run brief.toml --out r"));
+    assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
+    assert_eq!(desk.entries("r"), entries_of_fed());
+
+    // Files may grow to so many blocks of 512 or 1024 bytes: the points of one replicate do not fit.
+    let finer = "--set fibre.element_length=1mm --set run.duration=100ms --set run.output_interval=10ms";
+    let program = env!("CARGO_BIN_EXE_spunlaid");
+    let shell = format!("trap '' XFSZ; ulimit -f 100; exec {program} run brief.toml {finer} --out a/b");
+    let output = Command::new("sh").args(["-c", &shell]).current_dir(desk.folder.path()).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("error: a/b/laid.parquet: cannot be written: "), "{said}");
+    assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
+}
+
+const WEB: &str = "[fibre]\ndiameter = '18 µm'\ndensity = '910 kg/m³'\n[laydown]\nsigma_md = '18 mm'\nsigma_cd = '18 mm'\nnoise = '12 m^-0.5'\n\
+                   [line]\nfeed_speed = '50 m/s'\nbelt_speed = '5 m/s'\nfilaments_per_metre = 100\n\
+                   [web]\nwidth = '0.5 m'\nlength = '0.5 m'\ncell = '1 mm'\n";
+
+#[test]
+fn a_web_that_is_killed_or_cannot_be_written_leaves_nothing() {
+    let desk = Desk::new();
+    fs::write(desk.path("web.toml"), WEB).unwrap();
+    let there = names(&["brief.toml", "web.toml"]);
+    // It would take minutes.
+    let laying = || {
+        let mut command = desk.spunlaid("web web.toml --out w --set line.filaments_per_metre=10000000");
+        let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        while !hidden(&desk.path("")).iter().any(|name| desk.path(name).join("new").exists()) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        std::thread::sleep(Duration::from_millis(100));
+        child
+    };
+    let output = end(laying(), "INT");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.ends_with("nothing was written. Repeat the command to start again\n"), "{said}");
+    assert_eq!(desk.entries(""), there);
+    assert_eq!(end(laying(), "KILL").status.code(), None);
+    assert!(!desk.path("w").exists());
+    assert_eq!(hidden(&desk.path("")).len(), 1);
+    success(&mut desk.spunlaid("web web.toml --out w"));
+    assert_eq!(desk.entries(""), names(&["brief.toml", "w", "web.toml"]));
+
+    // Files may grow to so many blocks of 512 or 1024 bytes.
+    let program = env!("CARGO_BIN_EXE_spunlaid");
+    let shell = format!("trap '' XFSZ; ulimit -f 100; exec {program} web web.toml --out a/b");
+    let output = Command::new("sh").args(["-c", &shell]).current_dir(desk.folder.path()).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("error: a/b/") && said.contains(": cannot be written: "), "{said}");
+    assert!(!desk.path("a").exists());
+}

@@ -1,0 +1,134 @@
+//! A study that is killed at any moment continues, and ends with the same bits.
+
+use crate::common::{Place, assert_same, case, results, said};
+use std::fs;
+use std::thread::sleep;
+use std::time::Duration;
+
+/// Pseudo-random moments.
+struct Moments(u64);
+
+impl Moments {
+    /// A time of at most this many milliseconds.
+    fn next(&mut self, most: u64) -> Duration {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        Duration::from_micros((self.0 >> 33) % (most * 1000))
+    }
+}
+
+/// Number of records in a journal.
+fn records(place: &Place, out: &str) -> u64 {
+    const RECORD: u64 = 24 + 8 * spunlaid::study::MEASURES.len() as u64;
+    fs::metadata(place.path(out).join("journal")).map_or(0, |about| about.len() / RECORD)
+}
+
+/// Kills sweeps at random moments until one completes or the limit is reached; returns the number of kills.
+fn killed(place: &Place, out: &str, most_kills: u32, most_ms: u64) -> u32 {
+    let mut moments = Moments(42);
+    let mut kept = 0;
+    for kills in 0..most_kills {
+        let mut child = place.under_way(out, &["--threads", "2"]);
+        sleep(moments.next(most_ms));
+        child.kill().unwrap();
+        if child.wait().unwrap().success() {
+            return kills;
+        }
+        let now = records(place, out);
+        assert!(now >= kept, "{kept} records were kept and {now} are left");
+        kept = now;
+    }
+    most_kills
+}
+
+const STUDY: &str = "case = 'case.toml'
+design = 'grid'
+common_phases = false
+[replicates]
+at_least = 6
+at_most = 12
+until = { amplitude_y = '8 %' }
+[vary]
+'air.velocity' = { from = '5 m/s', to = '20 m/s', steps = 6 }
+'air.length_scale' = ['50 mm', '100 mm', '200 mm']
+'fibre.diameter' = ['30 µm', '60 µm']
+";
+
+#[test]
+fn identical_after_many_kills() {
+    let place = Place::new(&case(0.5), STUDY);
+    place.swept("whole", &["--threads", "2"]);
+    let expected = results(&place.path("whole"));
+    let kills = killed(&place, "killed", 25, 60);
+    assert!(kills >= 10, "only {kills} kills before the end");
+    let output = said(&place.swept("killed", &["--threads", "1"]));
+    assert!(output.contains("continuing: "), "{output}");
+    assert_same(&expected, &results(&place.path("killed")));
+    // The journal holds every fibre once, so no kept fibre was flown again.
+    assert_eq!(records(&place, "killed"), records(&place, "whole"));
+}
+
+#[test]
+fn identical_when_killed_while_files_are_begun_and_written() {
+    let study = STUDY.replace("steps = 6", "steps = 2").replace("'100 mm', ", "");
+    let place = Place::new(&case(0.002), &study);
+    place.swept("whole", &[]);
+    let mut moments = Moments(7);
+    for round in 0..60 {
+        let mut child = place.under_way("killed", &[]);
+        sleep(moments.next(if round % 2 == 0 { 25 } else { 300 }));
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    place.swept("killed", &[]);
+    assert_same(&results(&place.path("whole")), &results(&place.path("killed")));
+}
+
+#[test]
+fn rejects_a_second_process_and_forgets_the_lock_of_a_dead_one() {
+    let place = Place::new(&case(20.0), STUDY);
+    let mut child = place.under_way("out", &[]);
+    while !place.path("out").join("journal").exists() {
+        sleep(Duration::from_millis(5));
+    }
+    // The file exists a moment before it is locked.
+    sleep(Duration::from_millis(100));
+    for more in [&[][..], &["--force"]] {
+        let output = place.sweep("out", more).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+        assert!(said(&output).contains("another spunlaid process is using this folder"), "{}", said(&output));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let mut child = place.under_way("out", &[]);
+    sleep(Duration::from_millis(300));
+    assert_eq!(child.try_wait().unwrap(), None, "the lock of the dead process is still held");
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn interrupted_it_says_how_to_go_on() {
+    let place = Place::new(&case(2.0), STUDY);
+    let child = place
+        .sweep("out", &[])
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    // Wait until a flight is finished.
+    while records(&place, "out") < 2 {
+        sleep(Duration::from_millis(5));
+    }
+    let interrupted =
+        std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(interrupted.success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", said(&output));
+    assert!(
+        said(&output).contains("fibres are done and kept. Repeat the command to continue"),
+        "{}",
+        said(&output)
+    );
+    assert!(!place.path("out").join("results.csv").exists());
+}

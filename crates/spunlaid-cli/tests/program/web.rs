@@ -1,0 +1,191 @@
+//! `spunlaid web`: what it refuses, and how.
+
+use crate::desk;
+use crate::desk::{Desk, FED, refusal};
+use std::fs;
+
+const WEB: &str = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n";
+
+fn desk() -> Desk {
+    // So long elements show too little of the autocorrelation to see a surrogate in it.
+    let desk = Desk::of(&FED.replace("element_length = \"4 mm\"", "element_length = \"25 mm\""));
+    fs::write(desk.path("web.toml"), WEB).unwrap();
+    desk
+}
+
+#[test]
+fn rejects_bad_webs_with_the_command_that_helps() {
+    let desk = desk();
+    for (arguments, message) in [
+        (
+            "web nowhere.toml",
+            "error: nowhere.toml: there is no such file; name the file of a web (`spunlaid help web` shows one)\n",
+        ),
+        ("web brief.toml", "case = \"spunbond.toml\" (`spunlaid run`)\n"),
+        ("run web.toml", "belongs to the file of a web, not to a case; read it as a web (`spunlaid web`)\n"),
+        (
+            "web web.toml --set line.belt_speed=6m/s",
+            "error: --set line.belt_speed = \"6m/s\" differs from belt.speed = 3 m/s of brief.toml",
+        ),
+        ("web web.toml --set web.width", "write a key and a value"),
+        ("web web.toml --threads 0", "--threads"),
+    ] {
+        let said = refusal(&mut desk.spunlaid(arguments), 1);
+        assert!(said.contains(message), "{arguments}: {said}");
+    }
+    // Nothing is left behind.
+    assert_eq!(desk.entries("."), desk::names(&["brief.toml", "web.toml"]));
+}
+
+#[test]
+fn rejects_a_flight_in_which_no_surrogate_is_found() {
+    let desk = desk();
+    let said = refusal(&mut desk.spunlaid("web web.toml --out w"), 1);
+    let error = "\nerror: brief.toml: no surrogate was identified in what its fibres lay: the autocorrelation of the position";
+    assert!(said.contains(error), "{said}");
+    assert_eq!(desk.entries("."), desk::names(&["brief.toml", "web.toml"]));
+}
+
+/// Two beams, one above the other, in numbers.
+const BEAMS: &str = r#"
+version = 1
+
+[[layer]]
+name = "S1"
+fibre = { diameter = "18 µm", density = "910 kg/m³" }
+laydown = { sigma_md = "9 mm", sigma_cd = "8 mm", noise = "15 m^-0.5" }
+line = { feed_speed = "50 m/s", belt_speed = "5 m/s", rows = [{ offset = "0 mm", pitch = "2 mm", filaments = 100 }] }
+
+[[layer]]
+name = "S2"
+fibre = { linear_density = "2 dtex", density = "910 kg/m³" }
+laydown = { sigma_md = "6 mm", sigma_cd = "6 mm", noise = "20 m^-0.5" }
+line = { feed_speed = "40 m/s", belt_speed = "5 m/s", filaments_per_metre = 400 }
+
+[web]
+width = "0.2 m"
+length = "0.3 m"
+cell = "1 mm"
+patches = ["1 mm", "5 mm", "20 mm"]
+"#;
+
+#[test]
+fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
+    let desk = desk();
+    fs::write(desk.path("beams.toml"), BEAMS).unwrap();
+    desk::success(&mut desk.spunlaid("web beams.toml --out w --quiet"));
+    let files = [
+        "fibres.vtp",
+        "figures",
+        "map.npy",
+        "map.parquet",
+        "map.png",
+        "report.html",
+        "summary.json",
+        "web.toml",
+    ];
+    assert_eq!(desk.entries("w"), desk::names(&files));
+    desk::success(&mut desk.spunlaid("web w/web.toml --out again --threads 1 --quiet"));
+    for file in ["map.npy", "map.png", "map.parquet", "fibres.vtp", "web.toml", "figures/web_cv.csv"] {
+        let [one, other] = ["w", "again"].map(|folder| desk.read(&format!("{folder}/{file}")));
+        assert!(one == other, "{file}");
+    }
+
+    let summary = desk.summary("w");
+    let number = |path: &str| summary.pointer(path).and_then(serde_json::Value::as_f64).unwrap();
+    // Line density times filaments per metre times feed speed over belt speed, of both beams.
+    let first = 910.0 * std::f64::consts::PI * 18e-6_f64.powi(2) / 4.0 * 500.0 * 10.0;
+    let weight = first + 2e-7 * 400.0 * 8.0;
+    assert!((number("/web/basis_weight_kg_m2") / weight - 1.0).abs() < 1e-5, "{weight}");
+    assert!((number("/layers/1/basis_weight_kg_m2") / 6.4e-4 - 1.0).abs() < 1e-9);
+    assert!((number("/web/fibre_length_m") / (0.3 * (100.0 * 10.0 + 80.0 * 8.0)) - 1.0).abs() < 1e-9);
+    for patch in 0..3 {
+        let of = |name: &str| number(&format!("/web/patches/{patch}/{name}"));
+        assert!(of("cv") > of("cv_straight_fibres") * 0.5 && of("cv") < 4.0 * of("cv_straight_fibres"));
+        let apart = (of("cv") - of("cv_one_fibre")).abs();
+        assert!(apart < 5.0 * of("cv_standard_error").hypot(of("cv_one_fibre_standard_error")), "{summary}");
+    }
+
+    // The array: a head that says its shape, then as many 32-bit numbers, whose mean is the basis weight.
+    let array = desk.read("w/map.npy");
+    let head = String::from_utf8_lossy(&array[10..128]).into_owned();
+    assert!(array.starts_with(b"\x93NUMPY\x01\x00") && head.contains("'shape': (300, 200)"), "{head}");
+    let start = array.len() - 4 * 300 * 200;
+    assert!(start.is_multiple_of(64));
+    let numbers =
+        array[start..].chunks_exact(4).map(|of| f64::from(f32::from_le_bytes(of.try_into().unwrap())));
+    assert!((numbers.sum::<f64>() / 6e4 / weight - 1.0).abs() < 1e-4);
+
+    // Results are not replaced unless this is asked for, and asking for the summary alone writes nothing.
+    let said = refusal(&mut desk.spunlaid("web beams.toml --out w"), 1);
+    assert!(said.contains("--force"), "{said}");
+    let json = desk::success(&mut desk.spunlaid("web beams.toml --json --quiet"));
+    assert!(json.contains("\"cv_one_fibre\""), "{json}");
+    assert!(!desk.path("results").exists());
+}
+
+#[test]
+fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() {
+    let desk = Desk::of(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\""));
+    let web = WEB.replace(
+        "width = \"1 m\"\nlength = \"1 m\"",
+        "width = \"0.4 m\"\nlength = \"0.5 m\"\npatches = [\"5 mm\", \"10 mm\"]",
+    );
+    fs::write(desk.path("web.toml"), &web).unwrap();
+    let table = desk::success(&mut desk.spunlaid("web web.toml --out s"));
+    for head in
+        ["this map", "by chance", "few fibres", "model", "surrogate", "flown curves", "straight fibres"]
+    {
+        assert!(table.contains(head), "{head}: {table}");
+    }
+    fs::write(desk.path("dynamics.toml"), format!("{web}method = \"dynamics\"\n")).unwrap();
+    desk::success(&mut desk.spunlaid("web dynamics.toml --out d --quiet"));
+    let (s, d) = (desk.summary("s"), desk.summary("d"));
+    assert_eq!(s["schema_version"], 2);
+    for patch in 0..2 {
+        let number = |of: &serde_json::Value, name: &str| of["web"]["patches"][patch][name].as_f64().unwrap();
+        // The same number under the same name, whichever of the two the map was laid from.
+        assert_eq!(number(&s, "cv_flown"), number(&d, "cv_flown"));
+        assert_eq!(number(&s, "cv_one_fibre"), number(&s, "cv_surrogate"));
+        assert_eq!(number(&d, "cv_one_fibre"), number(&d, "cv_flown"));
+        assert!(s["web"]["patches"][patch].get("cv_compared").is_none());
+        let parts = ["cv_standard_error", "cv_flight_error", "cv_model_error"].map(|name| number(&s, name));
+        let whole = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
+        assert!((number(&s, "cv_whole_error") / whole - 1.0).abs() < 1e-12, "{s}");
+        let model = number(&s, "cv") * (number(&s, "cv_flown") / number(&s, "cv_surrogate") - 1.0).abs();
+        assert!((parts[2] - model).abs() < 1e-12, "{parts:?} {model}");
+        assert_eq!(number(&d, "cv_model_error"), 0.0);
+    }
+    let residual = |name: &str| s["layers"][0][name].as_f64().unwrap();
+    assert!(residual("fit_residual") > 0.0 && residual("fit_residual") < 1.0, "{s}");
+    assert!(residual("fit_residual_by_chance") > 0.0);
+    let page = String::from_utf8(desk.read("s/report.html")).unwrap();
+    for words in
+        ["by the few fibres that were flown", "CV expected, from the flown curves", "Residual of the fit"]
+    {
+        assert!(page.contains(words), "{words}");
+    }
+    let curves = String::from_utf8(desk.read("s/figures/web_cv.csv")).unwrap();
+    assert!(curves.contains("from the flown curves"), "{curves}");
+
+    // Compared, each web has its whole error, and the flown curves stand beside it; a folder of an older version has neither.
+    let mut old = s.clone();
+    for patch in old["web"]["patches"].as_array_mut().unwrap() {
+        patch
+            .as_object_mut()
+            .unwrap()
+            .retain(|name, _| !name.starts_with("cv_flown") && name != "cv_whole_error");
+    }
+    fs::create_dir(desk.path("old")).unwrap();
+    fs::write(desk.path("old/summary.json"), old.to_string()).unwrap();
+    let errors = |other: &str| {
+        let said = desk::success(&mut desk.spunlaid(&format!("compare s {other} --json")));
+        let found: serde_json::Value = serde_json::from_str(&said).unwrap();
+        found["comparisons"][0]["measures"].clone()
+    };
+    let found = errors("d");
+    let whole = &s["web"]["patches"][0]["cv_whole_error"];
+    assert_eq!(&found["cv_5_mm"]["against"]["standard_error"], whole, "{found}");
+    assert_eq!(found["cv_5_mm_flown"]["run"]["mean"], d["web"]["patches"][0]["cv_flown"], "{found}");
+    assert!(errors("old").get("cv_5_mm_flown").is_none());
+}

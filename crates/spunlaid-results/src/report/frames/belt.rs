@@ -1,0 +1,142 @@
+//! A fed fibre above its moving belt as data of the page. Every node keeps its number in the order of feed, so that the
+//! page can follow it from one instant to the next, although the number of nodes changes.
+
+use super::data::{Belt, Data, Frames, Laid, POSITIONS, encode};
+use crate::report::words::{count, time};
+use spunlaid::case::Case;
+use spunlaid::ensemble::{Results, Trajectory};
+use spunlaid::line::Line;
+use spunlaid::vec3::Vec3;
+
+/// Most nodes of a fibre in the air that are drawn.
+const NODES: usize = 500;
+/// Instants that are wanted before another replicate is packed.
+const INSTANTS: usize = 300;
+/// Most replicates, instants and laid points of a replicate.
+const REPLICATES: usize = 8;
+const MOST_INSTANTS: usize = 1000;
+const LAID: usize = 8192;
+/// Length of belt that is shown behind the inlet: in distances from the inlet to the belt at least and at most, and in
+/// widths of the lay-down.
+const SHOWN: (f64, f64) = (0.6, 3.0);
+const WIDTHS: f64 = 4.0;
+
+/// The nodes of a run that are shown: each `stride`-th in the order of feed.
+struct Chosen<'a> {
+    case: &'a Case,
+    line: Line,
+    stride: u64,
+    /// Number of the root at the start.
+    first_root: u64,
+    /// Length of belt that is shown behind the inlet [m].
+    shown: f64,
+}
+
+impl Chosen<'_> {
+    /// Number of the root at a time.
+    fn root(&self, time: f64) -> u64 {
+        let step = (time / self.case.run.time_step).round() as u64;
+        self.first_root + step / self.line.steps_per_element
+    }
+
+    /// The chosen nodes of a shape, the newest first, and the strided number of the newest.
+    fn nodes(&self, of: &Trajectory, instant: usize) -> (u64, Vec<Vec3<f64>>) {
+        let Some(shape) = of.shapes.get(instant) else { return (0, Vec::new()) };
+        let skipped = self.root(shape.time) % self.stride;
+        let nodes = shape.position.iter().skip(skipped as usize).step_by(self.stride as usize);
+        (self.root(shape.time) / self.stride, nodes.copied().collect())
+    }
+
+    /// Number of the oldest node at an instant.
+    fn oldest(&self, of: &Trajectory, instant: usize) -> u64 {
+        let shape = &of.shapes[instant];
+        (self.root(shape.time) + 1).saturating_sub(shape.position.len() as u64)
+    }
+
+    /// Number of a laid point.
+    fn number(&self, fed: f64) -> u64 {
+        (fed / self.case.fibre.rest_length()).round() as u64
+    }
+}
+
+/// Chooses and packs the shapes and laid points of a run of fed fibres.
+pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames> {
+    let flown: Vec<&Trajectory> = results.trajectories.iter().filter(|t| !t.shapes.is_empty()).collect();
+    let shapes = &flown.first()?.shapes;
+    let longest = shapes.iter().map(|shape| shape.position.len()).max()?;
+    let first_root = shapes.first()?.position.len().checked_sub(1)? as u64;
+    let nodes = shapes.iter().flat_map(|shape| &shape.position).map(|p| p.z.abs());
+    let aside = nodes.filter(|z| z.is_finite()).fold(0.0, f64::max);
+    let shown = (WIDTHS * aside).clamp(SHOWN.0 * line.distance, SHOWN.1 * line.distance);
+    let chosen = Chosen { case, line, stride: longest.div_ceil(NODES) as u64, first_root, shown };
+    let nodes = longest / chosen.stride as usize + 1;
+    let replicates = (POSITIONS / (nodes * INSTANTS)).clamp(1, REPLICATES);
+    let trajectories: Vec<&Trajectory> =
+        flown.iter().filter(|t| t.shapes.len() == shapes.len()).take(replicates).copied().collect();
+    let most = (POSITIONS / (nodes * trajectories.len())).clamp(2, MOST_INSTANTS);
+    let instants = instants(&chosen, &trajectories, most);
+
+    let all: Vec<Vec<(u64, Vec<Vec3<f64>>)>> =
+        trajectories.iter().map(|t| instants.clone().map(|i| chosen.nodes(t, i)).collect()).collect();
+    let points = || all.iter().flatten().flat_map(|(_, nodes)| nodes.iter().copied());
+    let times: Vec<f64> = instants.clone().map(|i| shapes[i].time).collect();
+    let belt = Belt {
+        speed: line.belt_speed,
+        feed_speed: line.feed_speed,
+        shown_mm: shown * 1e3,
+        newest: all.first()?.iter().map(|(newest, _)| *newest).collect(),
+        counts: all.iter().map(|of| of.iter().map(|(_, nodes)| nodes.len()).collect()).collect(),
+        laid: trajectories.iter().map(|t| laid(&chosen, t, &times)).collect(),
+    };
+    let mut data = Data::of(case, &trajectories, times, points);
+    data.belt = Some(belt);
+    let mut remarks = vec![format!(
+        "The belt moves at {} m/s and carries the fibre to the right.",
+        crate::numbers::number(line.belt_speed)
+    )];
+    if chosen.stride > 1 {
+        remarks.push(format!("One of {} is drawn.", count(chosen.stride, "node")));
+    }
+    if instants.len() < shapes.len()
+        && let (Some(first), Some(last)) = (data.times.first(), data.times.last())
+    {
+        remarks.push(format!("The animation shows {} of {}.", time(last - first), time(case.run.duration())));
+    }
+    data.frames(remarks)
+}
+
+/// The last instants at which the laid points that are kept go on where the fibre in the air ends, in all replicates.
+fn instants(chosen: &Chosen<'_>, trajectories: &[&Trajectory], most: usize) -> std::ops::Range<usize> {
+    let goes_on = |instant: usize| {
+        trajectories.iter().all(|t| {
+            let number = |point: Option<&spunlaid::flight::LaidPoint>| point.map(|p| chosen.number(p.fed));
+            let (Some(first), Some(last)) = (number(t.laid.first()), number(t.laid.last())) else {
+                return false;
+            };
+            (first..=last + 1).contains(&chosen.oldest(t, instant))
+        })
+    };
+    let total = trajectories.first().map_or(0, |t| t.shapes.len());
+    let Some(end) = (0..total).rfind(|&instant| goes_on(instant)) else {
+        return total.saturating_sub(most)..total;
+    };
+    let start = (0..end).find(|&instant| goes_on(instant)).unwrap_or(end);
+    // Some belt has been covered before the picture begins, if there is time for it.
+    let covered = chosen.shown / chosen.line.belt_speed;
+    let shapes = &trajectories[0].shapes;
+    let wanted = (start..end).find(|&i| shapes[i].time >= shapes[start].time + covered).unwrap_or(start);
+    let start = wanted.min(start + (end - start) / 3);
+    start.max((end + 1).saturating_sub(most))..end + 1
+}
+
+/// The laid points that can be seen between the first and the last of the times.
+fn laid(chosen: &Chosen<'_>, of: &Trajectory, times: &[f64]) -> Laid {
+    let seen = chosen.shown / chosen.line.belt_speed;
+    let from = times.first().map_or(0.0, |time| time - 1.5 * seen);
+    let points =
+        of.laid.iter().filter(|p| p.time >= from && chosen.number(p.fed).is_multiple_of(chosen.stride));
+    let points: Vec<_> = points.take(LAID).collect();
+    let first = points.first().map_or(0, |p| chosen.number(p.fed) / chosen.stride);
+    let numbers = points.iter().flat_map(|p| [p.md, p.cd]).map(|v| (v * 1e3) as f32);
+    Laid { first, points: encode(&numbers.flat_map(f32::to_le_bytes).collect::<Vec<u8>>()) }
+}

@@ -1,0 +1,25 @@
+//! Data from elsewhere: fields of air, velocity records, scans of webs.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
+
+#[path = "../common/air.rs"]
+mod air;
+#[path = "../common/meshes.rs"]
+mod meshes;
+#[path = "../common/normal.rs"]
+mod normal;
+#[path = "../common/scans.rs"]
+mod scans;
+#[path = "../common/vtk.rs"]
+mod vtk;
+
+mod field_cases;
+mod field_files;
+mod field_lists;
+mod field_points;
+mod field_refusals;
+mod fields;
+mod record_files;
+mod record_short;
+mod record_statistics;
+mod scan;
+mod scan_files;

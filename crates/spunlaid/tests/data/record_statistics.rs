@@ -1,0 +1,322 @@
+//! What a record is said to hold, against records that are known to hold it.
+
+use crate::normal::normal;
+use spunlaid::air::{Air, StreamKey, Wind};
+use spunlaid::lanes::Isa;
+use spunlaid::record::{
+    Analysis, IntegralRule, Interval, Record, Samples, Settings, SpectrumSettings, Warning, analyse,
+};
+use spunlaid::statistics::Window;
+use std::f64::consts::PI;
+
+fn record(interval: f64, components: Vec<Vec<f64>>) -> Record {
+    let components = (["u", "v", "w"].iter().zip(components))
+        .map(|(name, values)| Samples { name: (*name).to_owned(), values })
+        .collect();
+    Record { file: "made".to_owned(), interval, components, ..Record::default() }
+}
+
+fn of(values: Vec<f64>, interval: f64) -> Analysis {
+    analyse(&record(interval, vec![values]), &Settings::default()).unwrap()
+}
+
+/// Integral time of [`autoregression`] [s].
+const TAU: f64 = 0.01;
+
+/// Fluctuation of rms 1 and correlation `e^{−t/τ}`: a first-order autoregression, `per_time` samples in τ.
+fn autoregression(seed: u64, per_time: f64, times: f64) -> Vec<f64> {
+    let mut next = normal(seed);
+    let keep = (-1.0 / per_time).exp();
+    let kick = (1.0 - keep * keep).sqrt();
+    let mut u = next();
+    let mut step = || {
+        u = keep * u + kick * next();
+        u
+    };
+    (0..(per_time * times) as usize).map(|_| step()).collect()
+}
+
+fn in_wind(values: Vec<f64>) -> Vec<f64> {
+    values.into_iter().map(|u| 10.0 + u).collect()
+}
+
+/// The air of Table 1 as a probe sees it that sits in one eddy: [component][sample].
+fn probe(air: Air, seed: u64, interval: f64, samples: usize) -> Vec<Vec<f64>> {
+    let stream = [(air.clone(), StreamKey { seed, replicate: 0 })];
+    let mut wind =
+        Wind::uniform(Isa::detect(), &stream, 1, interval * samples as f64).expect("fibres that agree");
+    let mut components = vec![Vec::new(); 3];
+    for k in 0..samples {
+        let v = wind.at(k as f64 * interval)[0].lane(0);
+        for (component, value) in components.iter_mut().zip([v.x, v.y, v.z]) {
+            component.push(value);
+        }
+    }
+    components
+}
+
+/// 100 Hz, 10 m/s, a tenth; enough harmonics to be Gaussian, and longer than any record made of it.
+fn air() -> Air {
+    Air { harmonics: 1 << 14, ..Air::uniform(10.0, 0.1, 0.05, 100.0) }
+}
+
+#[test]
+fn stat_intervals_hold_the_known_values_nineteen_times_in_twenty() {
+    const SEEDS: u64 = 200;
+    // 190 of 200 are meant; that number scatters by √(200 · 0.95 · 0.05) = 3.1. Held to 90 and 99 of 100, three
+    // of these off.
+    let bounds = 180.0..=198.0;
+    for times in [1000.0, 4000.0] {
+        let mut held: Vec<(&str, f64)> = Vec::new();
+        for seed in 0..SEEDS {
+            let of = of(in_wind(autoregression(seed, 10.0, times)), TAU / 10.0);
+            let u = &of.components[0];
+            let results: [(&str, Interval, f64); 9] = [
+                ("mean velocity", of.mean_velocity, 10.0),
+                ("turbulence intensity", of.turbulence_intensity, 0.1),
+                ("rms", u.rms, 1.0),
+                ("skewness", u.skewness, 0.0),
+                ("flatness", u.flatness, 3.0),
+                ("integral time", of.integral_time, TAU),
+                ("length scale", of.length_scale, 10.0 * TAU),
+                ("cut-off", of.cutoff_frequency, 0.25 / TAU),
+                ("plateau", u.flat.density, 4.0 * TAU),
+            ];
+            held.resize(results.len(), ("", 0.0));
+            for (sum, (name, interval, known)) in held.iter_mut().zip(results) {
+                *sum = (name, sum.1 + f64::from(u8::from(interval.holds(known))));
+            }
+        }
+        for (name, count) in held {
+            println!(
+                "{times} integral times, {name}: {:.1} % of the intervals",
+                count / SEEDS as f64 * 100.0
+            );
+            assert!(bounds.contains(&count), "{name}: {count} of {SEEDS} intervals");
+        }
+    }
+}
+
+#[test]
+fn stat_what_was_synthesised_is_found_again() {
+    // 41 s, nine samples to the shortest wave. The flat spectrum's autocorrelation is sin x/x with x = ω_c τ: to
+    // its first zero the integral is Si(π)/ω_c, over all lags ¼/f.
+    let first_zero = 1.851_937 / (2.0 * PI * 100.0);
+    for seed in 0..3 {
+        let components = probe(air(), seed, 1.0 / 900.0, 37_000);
+        let made = record(1.0 / 900.0, components);
+        let of = analyse(&made, &Settings::default()).unwrap();
+        // The trapezoidal rule takes x²/36 off the first step of each curvature: (π/4.5)²/12 of sin x/x at worst.
+        let rule = 1.0 + 0.5 * (2.0 * PI / 9.0f64).powi(2) / 12.0;
+        let widened = |i: Interval| Interval { low: i.low / rule, high: i.high * rule, ..i };
+        for (name, interval, known) in [
+            ("mean velocity", of.mean_velocity, 10.0),
+            ("turbulence intensity", of.turbulence_intensity, 0.1),
+            ("integral time", widened(of.integral_time), first_zero),
+            ("length scale", widened(of.length_scale), 10.0 * first_zero),
+            ("cut-off", of.cutoff_frequency, 100.0),
+            ("plateau", of.components[0].flat.density, 0.01),
+        ] {
+            assert!(interval.holds(known), "seed {seed}, {name}: {interval:?} without {known}");
+        }
+        // To the 20th zero of the whole, where Si is 1 − 1/(20π) of its limit less, the integral is ¼/f.
+        let settings = Settings { integral: IntegralRule::Fixed(0.1), ..Settings::default() };
+        let fixed = analyse(&made, &settings).unwrap();
+        assert!(fixed.integral_time.holds(0.0025), "seed {seed}: {:?}", fixed.integral_time);
+        assert!((of.components[0].flat.integral_time() * 400.0 - 1.0).abs() < 0.2);
+    }
+}
+
+#[test]
+fn stat_rules_of_the_integral_keep_what_they_say_of_an_exponential() {
+    let made = record(TAU / 10.0, vec![in_wind(autoregression(5, 10.0, 20_000.0))]);
+    let by = |integral| analyse(&made, &Settings { integral, ..Settings::default() }).unwrap().integral_time;
+    let share = |lag: f64| TAU * (1.0 - (-lag / TAU).exp());
+    assert!(by(IntegralRule::EFold).holds(share(TAU)), "{:?}", by(IntegralRule::EFold));
+    assert!(by(IntegralRule::Fixed(0.02)).holds(share(0.02)));
+    assert!(by(IntegralRule::FirstZero).holds(TAU));
+}
+
+#[test]
+fn stat_spectrum_is_the_same_by_any_window_overlap_and_segment() {
+    let made = record(TAU / 10.0, vec![in_wind(autoregression(9, 10.0, 10_000.0))]);
+    for window in Window::ALL {
+        for (overlap, segment) in [(0.0, None), (0.5, Some(1024)), (0.75, Some(8192))] {
+            let spectrum = SpectrumSettings { window, overlap, segment };
+            let of = analyse(&made, &Settings { spectrum, ..Settings::default() }).unwrap();
+            let u = &of.components[0];
+            // Σ P Δf is the variance but for what lies below the first frequency.
+            let sum = u.spectrum.density.iter().sum::<f64>() * u.spectrum.step;
+            assert!(
+                (sum / u.rms.value.powi(2) - 1.0).abs() < 0.02,
+                "{window:?} {overlap} {segment:?}: {sum}"
+            );
+            assert!(
+                of.cutoff_frequency.holds(25.0),
+                "{window:?} {overlap} {segment:?}: {:?}",
+                of.cutoff_frequency
+            );
+        }
+    }
+}
+
+#[test]
+fn stat_noise_without_memory_is_told() {
+    let mut next = normal(1);
+    let of = of((0..100_000).map(|_| 5.0 + next()).collect(), 1e-3);
+    // Trapezia of a correlation that is 1 at lag 0 and 0 beyond; the first zero may be the second lag.
+    assert!((0.49e-3..0.52e-3).contains(&of.integral_time.value), "{:?}", of.integral_time);
+    assert!(of.cutoff_frequency.holds(500.0), "{:?}", of.cutoff_frequency);
+    let told = |kind: fn(&Warning) -> bool| of.warnings.iter().any(kind);
+    assert!(
+        told(|w| matches!(w, Warning::Unresolved { .. })) && told(|w| matches!(w, Warning::Aliased { .. }))
+    );
+}
+
+#[test]
+fn analytic_sine() {
+    let values = (0..100_000).map(|i| 5.0 + (2.0 * PI * 20.0 * f64::from(i) * 1e-3).sin()).collect();
+    let of = of(values, 1e-3);
+    let u = &of.components[0];
+    // Whole periods: mean 0, variance ½, flatness 3/2; to a quarter period the integral is 1/ω.
+    assert!((of.mean_velocity.value - 5.0).abs() < 1e-12);
+    assert!((u.rms.value - 0.5f64.sqrt()).abs() < 1e-12 && (u.flatness.value - 1.5).abs() < 1e-12);
+    let trapezium = 1.0 - (2.0 * PI * 20.0 * 1e-3f64).powi(2) / 12.0;
+    assert!(
+        (of.integral_time.value * 2.0 * PI * 20.0 / trapezium - 1.0).abs() < 1e-3,
+        "{:?}",
+        of.integral_time
+    );
+    let tone = of.warnings.iter().find_map(|w| match w {
+        Warning::Periodic { frequency, share, .. } => Some((*frequency, *share)),
+        _ => None,
+    });
+    let (frequency, share) = tone.unwrap();
+    assert!((frequency - 20.0).abs() <= u.spectrum.step && share > 0.99);
+}
+
+#[test]
+fn stat_components_make_one_turbulence() {
+    let slow = in_wind(autoregression(1, 10.0, 4000.0));
+    let across =
+        |seed, rms: f64| autoregression(seed, 10.0, 4000.0).iter().map(|v| rms * v).collect::<Vec<_>>();
+    let of = analyse(&record(TAU / 10.0, vec![slow, across(2, 0.5), across(3, 0.5)]), &Settings::default())
+        .unwrap();
+    // √((1 + ¼ + ¼)/3) of a tenth.
+    assert!(of.turbulence_intensity.holds(0.1 * 0.5f64.sqrt()), "{:?}", of.turbulence_intensity);
+    assert!(of.warnings.iter().any(|w| matches!(w, Warning::Anisotropic { .. })), "{:?}", of.warnings);
+    assert_eq!(of.components.len(), 3);
+}
+
+#[test]
+fn a_steady_record_gives_no_warnings() {
+    for seed in 0..20 {
+        let of = of(in_wind(autoregression(seed, 10.0, 4000.0)), TAU / 10.0);
+        assert!(of.warnings.is_empty(), "seed {seed}: {:?}", of.warnings);
+    }
+}
+
+#[test]
+fn faults_of_a_record_are_pointed_out() {
+    let steady = in_wind(autoregression(4, 10.0, 4000.0));
+    let samples = steady.len() as f64;
+    let made = |change: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
+        steady.iter().enumerate().map(|(i, u)| change(i as f64 / samples, *u)).collect()
+    };
+    let told = |values: Vec<f64>| of(values, TAU / 10.0).warnings;
+    let drifting = told(made(&|t, u| u + 2.0 * t));
+    let change = drifting.iter().find_map(|w| match w {
+        Warning::MeanDrifts { change, .. } => Some(*change),
+        _ => None,
+    });
+    assert!(change.unwrap().holds(2.0), "{change:?}");
+    let swelling = told(made(&|t, u| 10.0 + (u - 10.0) * (0.5 + t)));
+    assert!(swelling.iter().any(|w| matches!(w, Warning::RmsDrifts { .. })), "{swelling:?}");
+    let clipped = told(made(&|_, u| u.min(11.5)));
+    assert!(clipped.iter().any(|w| matches!(w, Warning::Clipped { at: 11.5, .. })), "{clipped:?}");
+    let humming = told(made(&|t, u| u + (2.0 * PI * 50.0 * t * samples * TAU / 10.0).sin()));
+    assert!(humming.iter().any(|w| matches!(w, Warning::Periodic { .. })), "{humming:?}");
+    let short = told(steady[..1500].to_vec());
+    assert!(short.iter().any(|w| matches!(w, Warning::TooShort { .. })), "{short:?}");
+    let spiked = told(made(&|t, u| if t == 0.5 { 1e4 } else { u }));
+    let outlier = spiked.iter().find_map(|w| match w {
+        Warning::Outlier { row, value, samples, .. } => Some((*row, *value, *samples)),
+        _ => None,
+    });
+    assert_eq!(outlier, Some((steady.len() / 2 + 1, 1e4, 1)), "{spiked:?}");
+    let wild = told(made(&|_, u| u - 8.0));
+    assert!(wild.iter().any(|w| matches!(w, Warning::Turbulent { .. })), "{wild:?}");
+}
+
+#[test]
+fn short_records_have_no_tones() {
+    for seed in 0..200 {
+        let of = of(in_wind(autoregression(seed, 8.0, 62.5)), TAU / 8.0);
+        assert_eq!(of.samples, 500);
+        assert!(
+            !of.warnings.iter().any(|w| matches!(w, Warning::Periodic { .. })),
+            "{seed}: {:?}",
+            of.warnings
+        );
+    }
+}
+
+#[test]
+fn rejects_what_says_nothing() {
+    let refused = |values: Vec<f64>, settings: &Settings| -> String {
+        match analyse(&record(1e-3, vec![values]), settings) {
+            Err(error) => error.to_string(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let plain = Settings::default();
+    let noise = autoregression(1, 10.0, 100.0);
+    assert_eq!(
+        refused(vec![3.0; 1000], &plain),
+        "made: column u: is constant, 3 m/s in every sample; there is no turbulence in it. Is the probe connected?"
+    );
+    assert!(refused(vec![3.0], &plain).starts_with("made: has 1 samples; at least 64 are needed"));
+    assert!(refused(vec![1e200; 100], &plain).contains("as large as 1e200 m/s"));
+    assert!(refused(noise.clone(), &plain).ends_with("give the mean velocity"));
+    let fixed = Settings { integral: IntegralRule::Fixed(5.0), ..plain };
+    assert!(refused(in_wind(noise.clone()), &fixed).contains("a quarter of the record, 250 ms"));
+    let odd = |segment| Settings {
+        spectrum: SpectrumSettings { segment: Some(segment), ..SpectrumSettings::default() },
+        ..plain
+    };
+    assert!(refused(in_wind(noise.clone()), &odd(100)).ends_with("like 128"));
+    assert!(refused(in_wind(noise.clone()), &odd(1 << 40)).ends_with("like 512"));
+    // With the mean given, a record of the fluctuation will do.
+    let given = Settings { mean_velocity: Some(10.0), ..plain };
+    let of = analyse(&record(1e-3, vec![noise]), &given).unwrap();
+    assert_eq!(of.mean_velocity, Interval::exactly(10.0));
+}
+
+#[test]
+fn any_record_can_be_analysed() {
+    let mut next = normal(3);
+    let walk: Vec<f64> = (0..5000)
+        .scan(50.0, |u, _| {
+            *u += next();
+            Some(*u)
+        })
+        .collect();
+    let odd: [Vec<f64>; 6] = [
+        walk,
+        (0..64).map(|i| f64::from(i % 2)).collect(),
+        (0..64).map(f64::from).collect(),
+        (0..300).map(|i| if i == 77 { 1e60 } else { 1.0 }).collect(),
+        (0..300).map(|i| 1e-60 * f64::from(1 + i % 3)).collect(),
+        (0..5000).map(|i| f64::from(i / 2500)).collect(),
+    ];
+    for values in odd {
+        for integral in [IntegralRule::FirstZero, IntegralRule::EFold] {
+            for mean_velocity in [None, Some(1.0)] {
+                let settings = Settings { integral, mean_velocity, ..Settings::default() };
+                if let Ok(of) = analyse(&record(1e-3, vec![values.clone()]), &settings) {
+                    of.warnings.iter().for_each(|w| assert!(!w.to_string().is_empty()));
+                }
+            }
+        }
+    }
+}

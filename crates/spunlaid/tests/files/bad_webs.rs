@@ -1,0 +1,95 @@
+//! Bad files of webs and their messages: each file `bad_webs/NAME.toml` is rejected with the message in
+//! `bad_webs/NAME.txt`. With `BLESS=1` in the environment the test writes the messages, to be reviewed.
+
+use crate::messages;
+use spunlaid::error::{Error, FileFault, FileKind};
+use spunlaid::input::{parse_case, parse_web, read_web};
+use std::fs;
+use std::path::Path;
+
+#[test]
+fn rejects_every_bad_web_with_its_message() {
+    messages::are_as_meant("bad_webs", 50, |path| read_web(path, &[]));
+}
+
+#[test]
+fn rejects_a_web_that_is_read_as_a_case() {
+    let text = fs::read_to_string("../../cases/web_known.toml").unwrap();
+    let said = parse_case(&text, "web_known.toml", &[]).unwrap_err().to_string();
+    assert!(said.contains("belongs to the file of a web, not to a case"), "{said}");
+}
+
+#[test]
+fn rejects_what_is_no_readable_file() {
+    let fault = |path: &Path| match read_web(path, &[]).unwrap_err() {
+        Error::File(error) => error.fault,
+        other => panic!("{other}"),
+    };
+    assert!(matches!(fault(Path::new("no/such/web.toml")), FileFault::NotThere(FileKind::Web)));
+    assert!(matches!(fault(Path::new("tests")), FileFault::IsFolder(FileKind::Web)));
+}
+
+/// What is said of the known web with one override.
+fn refusal(text: &str, key: &str, value: &str) -> String {
+    parse_web(text, "web.toml", &[(key.to_owned(), value.to_owned())]).unwrap_err().to_string()
+}
+
+#[test]
+fn rejects_overrides_by_their_name() {
+    let known = fs::read_to_string("../../cases/web_known.toml").unwrap();
+    for (key, value, message) in [
+        (
+            "line.belt_speed",
+            "60 m/s",
+            "override line.belt_speed = \"60 m/s\" is more than line.feed_speed = 50 m/s, which would tear the fibre; slow \
+             the belt, or feed faster",
+        ),
+        (
+            "line.belt_speed",
+            "3",
+            "override line.belt_speed = 3 has no unit; write a velocity with its unit: m/s, cm/s, mm/s, km/h or m/min",
+        ),
+        (
+            "line.belt_sped",
+            "3 m/s",
+            "override line.belt_sped = \"3 m/s\" is unknown in the file of a web; did you mean line.belt_speed?",
+        ),
+        (
+            "belt_speed",
+            "3 m/s",
+            "override belt_speed = \"3 m/s\" is out of place; it belongs in [line], as line.belt_speed",
+        ),
+        ("line", "fast", "override line is a table; write one of its keys, override line.key=value"),
+        (
+            "layer.1.line.belt_speed",
+            "3 m/s",
+            "override layer.1.line.belt_speed = \"3 m/s\" is of a layer that the file does not have; it has no [[layer]], so \
+             write the key without layer",
+        ),
+        (
+            "line.rows",
+            "[{ pitch = \"0.2 mm\", filaments = 5000 }]",
+            "web.toml:16: line.filaments_per_metre = 5000 cannot be combined with line.rows; filaments come down at random \
+             places or in rows; keep one",
+        ),
+        (
+            "line.rows.1.pitch",
+            "1 mm",
+            "override line.rows.1.pitch = \"1 mm\" is of a row of nozzles that is not there: line.rows has 0; write the \
+             whole list of rows",
+        ),
+    ] {
+        assert_eq!(refusal(&known, key, value), message);
+    }
+    let layers = "[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n[[layer]]\nname = \"S 1.2\"\n[layer.line]\nbelt_speed = \"3 m/s\"\n";
+    let of = |key: &str| refusal(layers, key, "-1 m/s").lines().map(ToOwned::to_owned).collect::<Vec<_>>();
+    let told = |said: &[String], part: &str| said.iter().any(|line| line.contains(part));
+    for key in ["layer.1.line.belt_speed", "layer.S 1.2.line.belt_speed"] {
+        let said = of(key);
+        assert!(told(&said, "override layer.1.line.belt_speed = \"-1 m/s\" is not positive"), "{said:?}");
+    }
+    let said = of("line.belt_speed");
+    assert!(told(&said, "does not say of which layer; write layer.1.line.belt_speed"), "{said:?}");
+    let said = of("layer.3.line.belt_speed");
+    assert!(told(&said, "is of a layer that the file does not have; it has one, layer.1"), "{said:?}");
+}

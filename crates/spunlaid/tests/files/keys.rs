@@ -1,0 +1,145 @@
+//! The table of keys: what is said of each holds, and a case can be read and set through it.
+
+use spunlaid::case::keys::{self, Kind, LeftOut, Value};
+use spunlaid::case::{Case, ERROR_TOLERANCE};
+use spunlaid::input::{parse_case, read_case, starter_case};
+use std::fs;
+
+fn starter() -> Case {
+    parse_case(starter_case(), "starter.toml", &[]).unwrap().0
+}
+
+fn refusal(case: &Case, key: &str, value: impl Into<Value>) -> String {
+    keys::find(key).unwrap().set(&mut case.clone(), value).unwrap_err().to_string()
+}
+
+#[test]
+fn every_row_is_whole() {
+    let mut names: Vec<&str> = keys::all().iter().map(|key| key.name).collect();
+    let by_table = keys::TABLES.iter().flat_map(|table| keys::of_table(table)).map(|key| key.name);
+    assert!(by_table.eq(keys::all().iter().map(|key| key.name)), "in the order of the tables");
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), keys::all().len());
+    for key in keys::all() {
+        assert!(key.meaning.ends_with('.') && key.meaning.len() > 20, "{}", key.name);
+        assert!(!key.varies || key.label != key.name, "{} varies and has no label", key.name);
+        let (LeftOut::Required(words) | LeftOut::Value(words) | LeftOut::Follows(words)) = key.left_out;
+        assert!(!words.is_empty(), "{}", key.name);
+        if let (Some((least, greatest)), Kind::Quantity(..)) = (key.slider, key.kind) {
+            assert!(least < greatest, "{}", key.name);
+            // Both ends are allowed.
+            let mut case = read_case("../../cases/profile.toml".as_ref(), &[]).unwrap().0;
+            let set = [least, greatest].map(|end| key.set(&mut case, end));
+            let told = |problem: &spunlaid::error::Problem| {
+                let text = problem.to_string();
+                text.contains("has no effect") || text.contains("is read from a file")
+            };
+            assert!(
+                set.iter().all(|set| set.as_ref().err().is_none_or(|problem| told(problem))),
+                "{}: {set:?}",
+                key.name
+            );
+        }
+    }
+}
+
+/// What a case says of a key can be set again and changes nothing, in every case of the repository.
+#[test]
+fn identical_after_getting_and_setting() {
+    let mut seen = std::collections::BTreeSet::new();
+    let mut cases: Vec<_> =
+        fs::read_dir("../../cases").unwrap().map(|entry| (entry.unwrap().path(), Vec::new())).collect();
+    // Webs are no cases.
+    cases.retain(|(path, _)| path.is_file() && !fs::read_to_string(path).unwrap().contains("\n[web]\n"));
+    let of_record = [("rate", "2 kHz"), ("skip", "2"), ("columns", "u,v"), ("velocity_unit", "m/s")];
+    let set = of_record.map(|(key, value)| (format!("air.record_{key}"), value.to_owned()));
+    cases.push(("../../cases/record.toml".into(), set.to_vec()));
+    let slides = ("belt.contact".to_owned(), "friction".to_owned());
+    cases.push(("../../cases/spunbond.toml".into(), vec![slides]));
+    for (path, set) in cases {
+        let (case, _) = read_case(&path, &set).unwrap();
+        let mut again = case.clone();
+        for key in keys::all() {
+            // The flow tells it, so that it cannot be set.
+            let is_told = key.name == "air.velocity" && !case.air.is_uniform();
+            if let Some(value) = key.get(&case).filter(|_| !is_told) {
+                key.set(&mut again, value).unwrap();
+                seen.insert(key.name);
+            }
+        }
+        again.air.from_flow = case.air.from_flow;
+        assert_eq!(format!("{again:?}"), format!("{case:?}"), "{}", path.display());
+    }
+    let mut never: Vec<_> =
+        keys::all().iter().map(|key| key.name).filter(|name| !seen.contains(name)).collect();
+    // A case has what these two stand for.
+    never.retain(|name| !["fibre.linear_density", "air.temperature"].contains(name));
+    assert!(never.len() < 3, "{never:?}");
+}
+
+#[test]
+fn values_are_set_as_numbers_texts_and_names() {
+    let mut case = starter();
+    let mut set = |key: &str, value: Value| keys::named(key).unwrap().set(&mut case, value).unwrap();
+    set("air.velocity", 20.0.into());
+    set("fibre.diameter", "18 um".into());
+    set("drag.along", "sakiadis".into());
+    set("run.replicates", 7u64.into());
+    set("run.seed", 8.0.into());
+    set("fibre.direction", [0.0, 3.0, 0.0].into());
+    set("fibre.element_length", "25 mm".into());
+    set("run.time_step", "2 µs".into());
+    assert_eq!((case.air.velocity, case.fibre.diameter, case.drag.along.name()), (20.0, 18e-6, "sakiadis"));
+    assert_eq!((case.run.replicates, case.run.seed, case.fibre.direction.y), (7, 8, 1.0));
+    // Times are kept when the step changes.
+    assert_eq!((case.fibre.elements, case.run.steps, case.run.output_steps), (40, 500_000, 500));
+}
+
+#[test]
+fn rejects_values_with_the_way_out() {
+    let case = starter();
+    for (key, value, message) in [
+        (
+            "air.velocity",
+            Value::from("20"),
+            "air.velocity = \"20\" has no unit; write a velocity with its unit: m/s, cm/s, mm/s, km/h or m/min",
+        ),
+        (
+            "air.velocity",
+            f64::NAN.into(),
+            "air.velocity = NaN m/s is not a finite number; write a finite one",
+        ),
+        (
+            "fibre.diameter",
+            (-1.0).into(),
+            "fibre.diameter = -1 m is not positive; a length above zero is needed",
+        ),
+        ("fibre.root", "clampd".into(), "fibre.root = \"clampd\" is unknown; did you mean \"clamped\"?"),
+        ("run.seed", 1.5.into(), "run.seed = 1.5 is a number; write a whole number without quotes, like 10"),
+        ("fibre.root", 1.0.into(), "fibre.root = 1 is a number; write \"pinned\", \"clamped\" or \"free\""),
+        (
+            "air.profile",
+            "air.csv".into(),
+            "air.profile = \"air.csv\" is read from a file together with the case; write it in the case file and read the \
+             case again",
+        ),
+        (
+            "air.speed_factor",
+            2.0.into(),
+            "air.speed_factor = 2 has no effect without air.profile or air.field; change air.velocity",
+        ),
+    ] {
+        assert_eq!(refusal(&case, key, value), message);
+    }
+    let unknown = keys::named("air.velocty").unwrap_err().to_string();
+    assert_eq!(unknown, "air.velocty is not a key of a case file; did you mean air.velocity?");
+}
+
+/// The table's default is the one that code takes.
+#[test]
+fn identical_default_of_the_tolerance() {
+    let tolerance = keys::find("run.error_tolerance").unwrap();
+    assert_eq!(tolerance.left_out, LeftOut::Value("0.003"));
+    assert_eq!("0.003".parse(), Ok(ERROR_TOLERANCE));
+}

@@ -1,0 +1,255 @@
+//! Files of webs: what is read is what was written, and nothing that is written makes the reader fail in another way than by
+//! saying what is wrong.
+
+use proptest::prelude::*;
+use spunlaid::input::{LaydownSource, Method, WEB_KEYS, WEB_TABLES, WebFile, WebSpec, parse_web, read_web};
+use spunlaid::surrogate::Surrogate;
+use spunlaid::web::{Edges, Fibres, Filaments, Row};
+use std::fs;
+
+const KNOWN: &str = "../../cases/web_known.toml";
+const FLOWN: &str = "../../cases/web.toml";
+
+/// Three layers in all three ways, with rows and at random.
+const LAYERS: &str = r#"
+version = 1
+[web]
+width = "1 m"
+length = "2 m"
+edges = "cut"
+patches = ["5 mm", "1 mm", "5 mm"]
+seed = 7
+window = "1 cm"
+[[layer]]
+name = "first \"beam\""
+[layer.laydown]
+case = "../../cases/spunbond.toml"
+[layer.line]
+rows = [{ pitch = "0.5 mm", filaments = 2100 }, { offset = "-0.25 mm", pitch = "0.5 mm", filaments = 2100 }]
+[[layer]]
+[layer.fibre]
+linear_density = "1.1 dtex"
+density = "910 kg/m³"
+[layer.laydown]
+sigma_md = "30 mm"
+sigma_cd = "12 mm"
+noise = "7.95 1/√m"
+[layer.line]
+feed_speed = "60 m/s"
+belt_speed = "3 m/s"
+filaments_per_metre = 1200
+"#;
+
+fn set(key: &str, value: &str) -> Vec<(String, String)> {
+    vec![(key.to_owned(), value.to_owned())]
+}
+
+/// Equal texts mean equal bits.
+fn bits(spec: &WebSpec) -> String {
+    format!("{spec:?}")
+}
+
+fn assert_reads_back(file: &WebFile) {
+    let again =
+        parse_web(&file.text, "web.toml", &[]).unwrap_or_else(|error| panic!("{error}\n{}", file.text));
+    assert_eq!(bits(&again.spec), bits(&file.spec), "{}", file.text);
+    assert_eq!(again.text, file.text);
+}
+
+#[test]
+fn every_row_of_the_table_of_keys_is_whole() {
+    let mut names: Vec<&str> = WEB_KEYS.iter().map(|key| key.name).collect();
+    let of =
+        |table: &'static str| WEB_KEYS.iter().filter(move |key| key.name.starts_with(&format!("{table}.")));
+    assert!(
+        WEB_TABLES.into_iter().flat_map(of).map(|key| key.name).eq(names.iter().copied()),
+        "in the tables' order"
+    );
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), WEB_KEYS.len());
+    for key in WEB_KEYS {
+        assert!(key.meaning.ends_with('.') && key.meaning.len() > 20, "{}", key.name);
+    }
+}
+
+#[test]
+fn identical_after_writing_and_reading() {
+    assert_reads_back(&read_web(KNOWN.as_ref(), &[]).unwrap());
+    assert_reads_back(&read_web(FLOWN.as_ref(), &[]).unwrap());
+    assert_reads_back(&parse_web(LAYERS, "layers.toml", &[]).unwrap());
+}
+
+#[test]
+fn the_known_web_is_what_its_file_says() {
+    let WebFile { spec, notes, text } = read_web(KNOWN.as_ref(), &[]).unwrap();
+    assert!(notes.is_empty());
+    let [layer] = &spec.layers[..] else { panic!("{text}") };
+    let LaydownSource::Surrogate(surrogate) = layer.source else { panic!("{text}") };
+    assert_eq!(surrogate, Surrogate { sigma_md: 18.4e-3, sigma_cd: 18.3e-3, noise: 12.4 });
+    // The defaults.
+    assert_eq!(spec.sheet.patches, [1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3]);
+    assert_eq!(
+        (spec.sheet.cell, spec.sheet.edges, spec.method),
+        (0.5e-3, Edges::Periodic, Method::Surrogate)
+    );
+    assert_eq!((spec.seed, spec.window, spec.sheet.cells()), (1, 20e-3, [2000, 2000]));
+    // 5000 filaments of π/4 (18 µm)² 910 kg/m³ a metre, fed at 50 m/s, on a belt for 15 g/m².
+    let web = spec.web([Fibres::Surrogate(surrogate)]);
+    assert!((web.basis_weight() / 15e-3 - 1.0).abs() < 1e-4, "{}", web.basis_weight());
+    for key in ["patches = [\"1e-3 m\", ", "cell = \"5e-4 m\"", "edges = \"periodic\"", "window = \"0.02 m\""]
+    {
+        assert!(text.contains(key), "{key}: {text}");
+    }
+}
+
+#[test]
+fn a_case_gives_the_fibre_and_the_speeds() {
+    let spec = read_web(FLOWN.as_ref(), &[]).unwrap().spec;
+    let [layer] = &spec.layers[..] else { panic!("one layer") };
+    assert_eq!((layer.diameter, layer.density), (18e-6, 910.0));
+    assert_eq!((layer.feed_speed, layer.belt_speed), (50.0, 3.0));
+    assert!(
+        matches!(&layer.source, LaydownSource::Case { path, .. } if path.ends_with("cases/spunbond.toml"))
+    );
+    // The same numbers may be written again, also in other units.
+    let text = fs::read_to_string(FLOWN).unwrap().replace("[line]", "[line]\nbelt_speed = \"180 m/min\"");
+    let again = parse_web(&text, FLOWN, &[]).unwrap().spec;
+    assert_eq!(bits(&again), bits(&spec));
+}
+
+#[test]
+fn rows_and_layers_are_read_in_their_order() {
+    let spec = parse_web(LAYERS, "layers.toml", &[]).unwrap().spec;
+    let [first, second] = &spec.layers[..] else { panic!("two layers") };
+    assert_eq!(first.name.as_deref(), Some("first \"beam\""));
+    let row = |offset: f64| Row { offset, pitch: 0.5e-3, filaments: 2100 };
+    assert_eq!(first.filaments, Filaments::Rows(vec![row(0.0), row(-0.25e-3)]));
+    assert_eq!(second.filaments, Filaments::AtRandom { per_metre: 1200.0 });
+    assert!((second.linear_density() / 1.1e-7 - 1.0).abs() < 1e-12, "{}", second.linear_density());
+    // Patches come sorted, each once.
+    assert_eq!((spec.sheet.patches, spec.sheet.edges), (vec![1e-3, 5e-3], Edges::Cut));
+}
+
+#[test]
+fn overrides_reach_every_layer_and_row() {
+    let read = |key: &str, value: &str| parse_web(LAYERS, "layers.toml", &set(key, value)).unwrap().spec;
+    assert_eq!(
+        read("layer.2.line.filaments_per_metre", "7").layers[1].filaments,
+        Filaments::AtRandom { per_metre: 7.0 }
+    );
+    for key in ["layer.1.line.rows.2.filaments", "layer.first \"beam\".line.rows.2.filaments"] {
+        let Filaments::Rows(rows) = &read(key, "9").layers[0].filaments else { panic!("rows") };
+        assert_eq!((rows[0].filaments, rows[1].filaments), (2100, 9));
+    }
+    let rows = "[{ pitch = \"1 mm\", filaments = 3 }]";
+    let Filaments::Rows(rows) = &read("layer.1.line.rows", rows).layers[0].filaments else { panic!("rows") };
+    assert_eq!((rows.len(), rows[0].filaments), (1, 3));
+    let [patches, seed] =
+        [("web.patches", "auto"), ("web.seed", "auto")].map(|(key, value)| read(key, value));
+    assert_eq!((patches.sheet.patches.len(), seed.seed), (6, 1));
+    // A list of rows can be undone to lay filaments at random.
+    let mut undone = set("layer.1.line.rows", "auto");
+    undone.extend(set("layer.1.line.filaments_per_metre", "5000"));
+    let spec = parse_web(LAYERS, "layers.toml", &undone).unwrap().spec;
+    assert_eq!(spec.layers[0].filaments, Filaments::AtRandom { per_metre: 5000.0 });
+}
+
+#[test]
+fn cells_grow_with_the_web_and_divide_it() {
+    let cell = |width: &str, length: &str| {
+        let mut sizes = set("web.width", width);
+        sizes.extend(set("web.length", length));
+        read_web(KNOWN.as_ref(), &sizes).unwrap().spec.sheet.cell
+    };
+    assert_eq!(cell("2 m", "1 m"), 0.5e-3);
+    assert_eq!(cell("3 m", "2 m"), 1e-3);
+    // 100 m² at 2 mm are 25 million cells.
+    assert_eq!(cell("10 m", "10 m"), 5e-3);
+    // Twelve million cells of 0.5 mm are too many, and those of 1 mm do not divide it.
+    assert_eq!(cell("1.602 m", "2.5 m"), 1e-3);
+}
+
+#[test]
+fn spreads_that_are_known_only_after_the_flight_are_checked_too() {
+    // A row as wide as the narrow web.
+    let narrow = [("web.width", "140 mm"), ("line.rows.1.filaments", "700")];
+    let narrow = narrow.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let spec = read_web(FLOWN.as_ref(), &narrow).unwrap().spec;
+    spec.check_spreads([18e-3, 17e-3]).unwrap();
+    let said = spec.check_spreads([18e-3, 18e-3]).unwrap_err().to_string();
+    assert!(
+        said.starts_with("web.width = 140 mm is shorter than 8 times laydown.sigma_cd = 18 mm"),
+        "{said}"
+    );
+    let mut cut = spec;
+    cut.sheet.edges = Edges::Cut;
+    cut.check_spreads([18e-3, 18e-3]).unwrap();
+}
+
+/// A web of text that is like a file: one of the files with some pieces replaced by others.
+fn mutated() -> impl Strategy<Value = String> {
+    let files = [fs::read_to_string(KNOWN).unwrap(), fs::read_to_string(FLOWN).unwrap(), LAYERS.to_owned()];
+    let pieces = [
+        "",
+        "0",
+        "-1",
+        "1e400",
+        "nan",
+        "true",
+        "\"",
+        "[",
+        "]",
+        "{",
+        "}",
+        "=",
+        "\n",
+        "#",
+        "[[layer]]\n",
+        "[web]\n",
+        "\"1e-300 m\"",
+        "\"1e300 m\"",
+        "\"3 m/s\"",
+        "5000",
+        "rows = [{}]\n",
+        "rows = [[]]\n",
+        "layer = 3\n",
+        "name = \"\"\n",
+        "case = \"spunbond.toml\"\n",
+        "results = \".\"\n",
+        "18446744073709551615",
+        "line.rows = 1\n",
+        "\u{7f}",
+        "é",
+    ];
+    let cut = (0.0..1.0f64, 0usize..40, prop::sample::select(pieces.to_vec()));
+    (prop::sample::select(files.to_vec()), prop::collection::vec(cut, 1..4)).prop_map(|(mut text, cuts)| {
+        for (at, length, piece) in cuts {
+            let near = |byte: usize| {
+                (byte.min(text.len())..=text.len()).find(|i| text.is_char_boundary(*i)).unwrap()
+            };
+            let start = near((at * text.len() as f64) as usize);
+            let end = near(start + length);
+            text.replace_range(start..end, piece);
+        }
+        text
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn a_mutated_file_is_read_or_refused_in_words(text in mutated(), value in "[ -~]{0,12}", key in 0..WEB_KEYS.len()) {
+        for overrides in [vec![], set(WEB_KEYS[key].name, &value)] {
+            match parse_web(&text, "../../cases/web.toml", &overrides) {
+                Ok(file) => assert_reads_back(&file),
+                Err(error) => {
+                    let said = error.to_string();
+                    prop_assert!(!said.is_empty() && said.lines().count() <= 21);
+                    prop_assert!(said.chars().all(|c| c == '\n' || !c.is_control()), "{:?}", said);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! The physics of air and fibres: forces, drag, schemes, turbulence, what is laid on a belt.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
+
+#[path = "../common/cases.rs"]
+mod cases;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/meshes.rs"]
+mod meshes;
+
+mod air_flows;
+mod air_signals;
+mod coiling;
+mod coiling_flights;
+mod drag_laws;
+mod eddies;
+mod flights;
+mod forces;
+mod friction;
+mod laydown;
+mod laydown_statistics;
+mod schemes;
+mod slack;
+mod statics;
+mod turbulence;
+mod vibrations;

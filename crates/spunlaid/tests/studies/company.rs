@@ -1,0 +1,521 @@
+//! A fibre has the same bits alone and in company: every key of the table, varied in a study of two points, gives what
+//! two single runs give, in every measure.
+
+use spunlaid::air::{Air, EddyModel, Flow, FromFlow};
+use spunlaid::case::Case;
+use spunlaid::case::keys::{self, Key, Kind, LeftOut, Value};
+use spunlaid::ensemble::{Computing, Job, Keep, Trajectory, fly, fly_together};
+use spunlaid::error::Error;
+use spunlaid::input::{parse_case, parse_study, write_case};
+use spunlaid::lanes::Isa;
+use spunlaid::observe::Value as Measured;
+use spunlaid::study::{Batch, Bundles, Point, fly_batches};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+use tempfile::TempDir;
+
+/// Replicates of each point: both points together fill half a flight.
+const REPLICATES: u64 = 2;
+
+/// Cases to start from, of each kind of fibre and air. Between them, every key has a meaning.
+const CASES: [(&str, &str); 9] = [
+    ("fixed", FIXED),
+    ("fixed, convected", CONVECTED),
+    ("fixed, in a profile", PROFILE),
+    ("fixed, in a field", FIELD),
+    ("fixed, in a record", RECORD),
+    ("fixed, step and diameter from others", FROM_OTHERS),
+    ("fed", FED),
+    ("fed, sliding in a profile", SLIDING),
+    ("fed, in a field", FED_IN_FIELD),
+];
+
+const FIXED: &str = "version = 1
+[fibre]
+length = '1 m'
+diameter = '50 µm'
+density = '950 kg/m³'
+youngs_modulus = '2 GPa'
+element_length = '50 mm'
+[air]
+velocity = '10 m/s'
+turbulence_intensity = 0.1
+length_scale = '50 mm'
+cutoff_frequency = '100 Hz'
+[run]
+duration = '12 ms'
+spin_up = '2 ms'
+output_interval = '0.4 ms'
+time_step = '20 µs'
+";
+
+const CONVECTED: &str = "version = 1
+[fibre]
+length = '0.2 m'
+diameter = '30 µm'
+density = '950 kg/m³'
+youngs_modulus = '2 GPa'
+bending_viscosity_time = '10 µs'
+element_length = '10 mm'
+root = 'clamped'
+[air]
+velocity = '10 m/s'
+turbulence_intensity = 0.1
+length_scale = '20 mm'
+cutoff_frequency = '200 Hz'
+spectrum = 'von-karman'
+eddies = 'convected'
+decay_time = '10 ms'
+harmonics = 128
+[drag]
+along = 'sakiadis'
+across = 'marheineke-wegener'
+[run]
+duration = '12 ms'
+spin_up = '1 ms'
+output_interval = '0.5 ms'
+scheme = 'implicit-tension'
+time_step = '100 µs'
+damping = '2 1/s'
+shapes = 3
+";
+
+const PROFILE: &str = "version = 1
+[fibre]
+length = '0.5 m'
+diameter = '50 µm'
+density = '950 kg/m³'
+youngs_modulus = '2 GPa'
+element_length = '25 mm'
+[air]
+profile = '../../cases/tables/diffuser.csv'
+speed_factor = 1.1
+cutoff_frequency = '150 Hz'
+[run]
+duration = '12 ms'
+spin_up = '1 ms'
+output_interval = '0.5 ms'
+scheme = 'leapfrog'
+time_step = '10 µs'
+";
+
+const FIELD: &str = "version = 1
+[fibre]
+length = '0.2 m'
+diameter = '20 µm'
+density = '950 kg/m³'
+youngs_modulus = '2 GPa'
+element_length = '10 mm'
+[air]
+field = 'FIELD'
+[run]
+duration = '8 ms'
+spin_up = '1 ms'
+output_interval = '0.5 ms'
+scheme = 'implicit-tension'
+time_step = '100 µs'
+";
+
+const RECORD: &str = "version = 1
+[fibre]
+length = '0.2 m'
+diameter = '50 µm'
+density = '950 kg/m³'
+youngs_modulus = '2 GPa'
+element_length = '20 mm'
+[air]
+record = 'RECORD'
+[run]
+duration = '8 ms'
+spin_up = '1 ms'
+output_interval = '0.5 ms'
+scheme = 'implicit-tension'
+time_step = '100 µs'
+";
+
+const FROM_OTHERS: &str = "version = 1
+[fibre]
+length = '0.2 m'
+linear_density = '1.8e-6 kg/m'
+density = '950 kg/m³'
+youngs_modulus = '2 GPa'
+element_length = '20 mm'
+[air]
+velocity = '10 m/s'
+turbulence_intensity = 0.1
+length_scale = '20 mm'
+cutoff_frequency = '100 Hz'
+temperature = '320 K'
+[run]
+duration = '10 ms'
+spin_up = '1 ms'
+output_interval = '1 ms'
+scheme = 'implicit-tension'
+error_tolerance = 0.003
+";
+
+const FED: &str = "version = 1
+[fibre]
+diameter = '18 µm'
+density = '910 kg/m³'
+youngs_modulus = '2 GPa'
+element_length = '4 mm'
+root = 'clamped'
+[feed]
+speed = '20 m/s'
+[belt]
+distance = '40 mm'
+speed = '2 m/s'
+[air]
+velocity = '25 m/s'
+turbulence_intensity = 0.1
+length_scale = '16 mm'
+cutoff_frequency = '400 Hz'
+[drag]
+across = 'marheineke-wegener'
+[run]
+duration = '8 ms'
+spin_up = '3 ms'
+output_interval = '0.2 ms'
+time_step = '20 µs'
+";
+
+const SLIDING: &str = "version = 1
+[fibre]
+diameter = '18 µm'
+density = '910 kg/m³'
+youngs_modulus = '2 GPa'
+element_length = '4 mm'
+[feed]
+speed = '20 m/s'
+[belt]
+distance = '40 mm'
+speed = '2 m/s'
+contact = 'friction'
+friction = 0.2
+suction = '100 Pa'
+kept_length = '12 mm'
+[air]
+profile = '../../cases/tables/diffuser.csv'
+eddies = 'convected'
+decay_time = '20 ms'
+[run]
+duration = '8 ms'
+spin_up = '3 ms'
+output_interval = '0.2 ms'
+time_step = '20 µs'
+";
+
+const FED_IN_FIELD: &str = "version = 1
+[fibre]
+diameter = '18 µm'
+density = '910 kg/m³'
+youngs_modulus = '2 GPa'
+element_length = '4 mm'
+[feed]
+speed = '20 m/s'
+[belt]
+distance = '40 mm'
+speed = '2 m/s'
+[air]
+field = 'FIELD'
+[run]
+duration = '8 ms'
+spin_up = '3 ms'
+output_interval = '0.4 ms'
+time_step = '40 µs'
+";
+
+/// A few points of a flow that widens along x, with its turbulence, and the beginning of a record: small, because every study
+/// reads them anew.
+fn files() -> &'static Path {
+    static FILES: OnceLock<TempDir> = OnceLock::new();
+    let folder = FILES.get_or_init(|| {
+        let folder = tempfile::tempdir().unwrap();
+        let mut field = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s,k_m2_s2,epsilon_m2_s3\n".to_owned();
+        for (i, j, k) in (0..75).map(|n| (n / 15, n / 3 % 5, n % 3)) {
+            let (x, y, z) = (0.06 * f64::from(i), 0.04 * f64::from(j - 2), 0.06 * f64::from(k - 1));
+            let u = 20.0 / (1.0 + 2.0 * x) - 30.0 * y * y;
+            let (v, energy) = (u * y / (1.0 + x), 1.0 + x + z);
+            field += &format!("{x},{y},{z},{u},{v},{z},{energy},{}\n", 60.0 * energy);
+        }
+        std::fs::write(folder.path().join("field.csv"), field).unwrap();
+        let record = std::fs::read_to_string("../../cases/records/probe.csv").unwrap();
+        let start: Vec<&str> = record.lines().take(1500).collect();
+        std::fs::write(folder.path().join("record.csv"), start.join("\n")).unwrap();
+        folder
+    });
+    folder.path()
+}
+
+/// The text of a case with its files.
+fn with_files(text: &str) -> String {
+    let path = |name: &str| files().join(name).display().to_string();
+    text.replace("FIELD", &path("field.csv")).replace("RECORD", &path("record.csv"))
+}
+
+fn read(text: &str) -> Case {
+    let replicates = [("run.replicates".to_owned(), REPLICATES.to_string())];
+    parse_case(text, "case.toml", &replicates).unwrap_or_else(|error| panic!("{error}")).0
+}
+
+/// The points of a study that varies a key, or why there are none.
+fn points(case: &str, key: &str, values: &[String; 2]) -> Result<Vec<Point>, String> {
+    let [a, b] = values;
+    let text = format!(
+        "case = 'case.toml'\ndesign = 'grid'\nreplicates = {REPLICATES}\n[vary]\n{key} = [{a}, {b}]\n"
+    );
+    let study = parse_study(&text, "study.toml", None, |_| Ok((case.to_owned(), "case.toml".to_owned())));
+    study.map(|file| file.study.points).map_err(|error| error.to_string())
+}
+
+/// Two values so close to each other that they share a flight if any do.
+const CLOSE: usize = 0;
+/// Others; words have further numbers.
+const FAR: usize = 1;
+
+/// Pairs of values of a key, as they are written in a study: [`CLOSE`] or [`FAR`]. Of several of a kind, the first that can be
+/// run will do. They follow from the row of the table: its value in the case, its slider, its words.
+fn pairs(key: &Key, case: &Case) -> Vec<(usize, [String; 2])> {
+    let written = |value: f64| match key.kind {
+        Kind::Quantity(dimension, _) => format!("'{}'", dimension.exact(value)),
+        _ => format!("{value:.0}"),
+    };
+    let there = key.get(case);
+    match key.kind {
+        Kind::Quantity(..) => {
+            let (least, greatest) = key.slider.unwrap_or((0.5, 2.0));
+            let middle = 0.5 * (least + greatest);
+            let centre = there.as_ref().and_then(Value::number).unwrap_or(middle);
+            let at = |share: f64| least + share * (greatest - least);
+            let all = [
+                (CLOSE, centre, centre * (1.0 + 1.0 / 1024.0)),
+                (FAR, centre, 1.5 * centre),
+                (FAR, centre, 0.7 * centre),
+                // Where the value is zero, or others cannot be run.
+                (CLOSE, at(0.5), at(0.501)),
+                (FAR, at(0.0), at(0.4)),
+            ];
+            let all = all.into_iter().filter(|(_, a, b)| a != b);
+            all.map(|(how, a, b)| (how, [written(a), written(b)])).collect()
+        }
+        Kind::Whole(least, _) => {
+            let centre = there.as_ref().and_then(Value::number).unwrap_or(0.0).max(least as f64 + 1.0);
+            let pair = |how, other: f64| (how, [written(centre), written(other)]);
+            vec![pair(CLOSE, centre + 1.0), pair(FAR, 2.0 * centre)]
+        }
+        _ => {
+            let words = key.kind.words();
+            let here = words.iter().find(|word| there == Some(Value::Text((**word).to_owned())));
+            let Some(here) = here.or(words.first()) else { return Vec::new() };
+            let quoted = |word: &str| format!("'{word}'");
+            let others = words.iter().filter(|word| *word != here);
+            others.enumerate().map(|(i, word)| (FAR + i, [quoted(here), quoted(word)])).collect()
+        }
+    }
+}
+
+/// All that may differ.
+const KEPT: Keep = Keep { samples: true, ..Keep::CURVES };
+
+fn computing<'a>(stop: &'a AtomicBool, steps: &'a AtomicU64) -> Computing<'a> {
+    Computing { threads: 1, isa: Isa::detect(), stop, fibre_steps: steps, recorder: None }
+}
+
+/// What a run of a case alone gives, or why it gives nothing.
+fn alone(case: &Case) -> Result<Vec<Trajectory>, String> {
+    let (stop, steps, mut all) = (AtomicBool::new(false), AtomicU64::new(0), Vec::new());
+    let done: Result<(), Error> = fly(case, KEPT, computing(&stop, &steps), |one| {
+        all.push(one);
+        Ok(())
+    });
+    done.map(|()| all).map_err(|error| error.to_string())
+}
+
+/// What the points of a study give, by point.
+fn together(points: &[Point]) -> Result<Vec<Vec<Trajectory>>, String> {
+    let (stop, steps, mut all) = (AtomicBool::new(false), AtomicU64::new(0), vec![Vec::new(); points.len()]);
+    let done: Result<(), Error> =
+        fly_batches(points, &batches(points), KEPT, computing(&stop, &steps), |point, one| {
+            all[point].push(one);
+            Ok(())
+        });
+    done.map(|()| all).map_err(|error| error.to_string())
+}
+
+fn batches(points: &[Point]) -> Vec<Batch> {
+    (0..points.len()).map(|point| Batch { point, replicates: 0..REPLICATES }).collect()
+}
+
+/// The bits of a measure, of its places too if it is a curve.
+fn bits(value: &Measured) -> Vec<u64> {
+    match value {
+        Measured::Number(number) => vec![number.to_bits()],
+        Measured::Curve(places, values) => places.iter().chain(values).map(|x| x.to_bits()).collect(),
+    }
+}
+
+/// The measures of a fibre that differ in any bit, and `samples` if the energies on the way do.
+fn differences(one: &Trajectory, other: &Trajectory) -> BTreeSet<&'static str> {
+    let values = |of: &Trajectory| -> BTreeMap<&'static str, Vec<u64>> {
+        of.values.iter().map(|(measure, value)| (measure.name, bits(value))).collect()
+    };
+    let (a, b) = (values(one), values(other));
+    let names = a.keys().chain(b.keys()).copied();
+    let mut differ: BTreeSet<_> = names.filter(|name| a.get(name) != b.get(name)).collect();
+    if format!("{:?}", one.samples) != format!("{:?}", other.samples) {
+        differ.insert("samples");
+    }
+    differ
+}
+
+/// Which measures differ between a study of these points and single runs, each with the number of fibres.
+fn differing(points: &[Point], known: &mut BTreeMap<String, Result<Vec<Trajectory>, String>>) -> Vec<String> {
+    let single: Vec<_> = (points.iter())
+        .map(|point| known.entry(write_case(&point.case)).or_insert_with(|| alone(&point.case)).clone())
+        .collect();
+    match together(points) {
+        Ok(flown) => {
+            let mut differ = BTreeSet::new();
+            for (flown, single) in flown.iter().zip(&single) {
+                match single {
+                    Ok(single) if single.len() == flown.len() => {
+                        flown.iter().zip(single).for_each(|(a, b)| differ.extend(differences(a, b)));
+                    }
+                    Ok(_) => drop(differ.insert("the number of replicates")),
+                    Err(_) => drop(differ.insert("alone it is lost")),
+                }
+            }
+            differ.into_iter().map(str::to_owned).collect()
+        }
+        Err(error) if single.iter().any(|one| one.as_ref().err() == Some(&error)) => Vec::new(),
+        Err(error) => vec![format!("together: {error}")],
+    }
+}
+
+/// What is found when every key of a case varies.
+#[derive(Default)]
+struct Found {
+    wrong: Vec<String>,
+    /// Keys that have varied, and those of which two values have shared a flight.
+    varied: BTreeSet<&'static str>,
+    shared: BTreeSet<&'static str>,
+}
+
+fn vary_every_key(name: &str, text: &str) -> Found {
+    let text = &with_files(text);
+    let case = read(text);
+    let (mut found, mut known) = (Found::default(), BTreeMap::new());
+    for key in keys::all().iter().filter(|key| key.varies) {
+        let (mut refused, mut flown) = (Vec::new(), BTreeSet::new());
+        for (how, values) in pairs(key, &case) {
+            if flown.contains(&how) {
+                continue;
+            }
+            let points = match points(text, key.name, &values) {
+                Ok(points) => points,
+                Err(reason) => {
+                    refused.push(reason);
+                    continue;
+                }
+            };
+            flown.insert(how);
+            let differ = differing(&points, &mut known);
+            if !differ.is_empty() {
+                found.wrong.push(format!("{name}: {} = {values:?}: {}", key.name, differ.join(", ")));
+            }
+            if how == CLOSE && Bundles::of(&points, &batches(&points), 1).count() == 1 {
+                found.shared.insert(key.name);
+            }
+        }
+        // Some keys have no meaning for a case, some are told by a file or by other keys.
+        let is_there = key.get(&case).is_some() && !key.is_told(&case);
+        let excluded = refused.iter().all(|reason| reason.contains("cannot be combined with"));
+        if is_there && !excluded && key.kind.words().is_empty() && !flown.contains(&CLOSE) {
+            found.wrong.push(format!("{name}: no two close values of {}: {refused:?}", key.name));
+        }
+        if flown.iter().any(|how| *how >= FAR) {
+            found.varied.insert(key.name);
+        }
+    }
+    found
+}
+
+#[test]
+fn identical_alone_and_in_company_for_every_key() {
+    let found: Vec<Found> = std::thread::scope(|scope| {
+        let all = CASES.map(|(name, text)| scope.spawn(move || vary_every_key(name, text)));
+        all.into_iter().map(|one| one.join().unwrap()).collect()
+    });
+    let mut wrong: Vec<String> = found.iter().flat_map(|found| found.wrong.clone()).collect();
+    for key in keys::all().iter().filter(|key| key.varies) {
+        if !found.iter().any(|found| found.varied.contains(key.name)) {
+            wrong.push(format!("no case of this test varies {}; add one", key.name));
+        }
+        // What may change in flight is a number of its own lane.
+        let is_number = matches!(key.kind, Kind::Quantity(..));
+        if key.in_flight && is_number && !found.iter().any(|found| found.shared.contains(key.name)) {
+            wrong.push(format!("no two values of {} share a flight, so that none is tested", key.name));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A study refuses the other keys, and says what to do.
+#[test]
+fn rejects_keys_that_a_study_cannot_vary_with_the_way_out() {
+    for key in keys::all().iter().filter(|key| !key.varies) {
+        let value = match key.left_out {
+            LeftOut::Value(text) if matches!(key.kind, Kind::Whole(..)) => text.to_owned(),
+            _ => "'1 m'".to_owned(),
+        };
+        let message = points(FIXED, key.name, &[value.clone(), value]).unwrap_err();
+        let way_out = message.split(" cannot be set by a study; ").nth(1);
+        assert!(
+            way_out.is_some_and(|way_out| way_out.len() > 20) && message.contains(key.name),
+            "{}: {message}",
+            key.name
+        );
+    }
+}
+
+/// A flow that varies from place to place, and the same air everywhere: all else is equal, so that they would share a flight.
+#[test]
+fn identical_alone_and_in_company_of_another_kind_of_flow() {
+    let cases = CASES.iter().map(|(name, text)| (name, read(&with_files(text))));
+    let varied: Vec<_> = cases.filter(|(_, case)| !case.air.is_uniform()).collect();
+    assert!(varied.iter().any(|(_, case)| case.line.is_some()));
+    let (mut wrong, mut known) = (Vec::new(), BTreeMap::new());
+    for (name, case) in varied {
+        let air = Air { eddies: EddyModel::Independent, ..case.air.clone() };
+        let uniform = Air { flow: Flow::Uniform, from_flow: FromFlow::default(), ..air.clone() };
+        let cases = [air, uniform].map(|air| Case { air, ..case.clone() });
+        assert!(cases.iter().all(|case| case.check().is_ok()), "{name}");
+        for order in [[0, 1], [1, 0]] {
+            let point = |i: usize| Point { values: Vec::new(), case: cases[i].clone() };
+            let differ = differing(&order.map(point), &mut known);
+            if !differ.is_empty() {
+                wrong.push(format!("{name}, {order:?}: {}", differ.join(", ")));
+            }
+            // Told that they cannot fly together, or the same bits as alone.
+            let jobs = order.map(|i| Job { case: &cases[i], replicate: 0 });
+            let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
+            match fly_together(&jobs, KEPT, computing(&stop, &steps)) {
+                Err(Error::Flight(fault))
+                    if fault.message.starts_with("fibre 2 cannot fly beside the first") => {}
+                Err(other) => panic!("{other}"),
+                Ok(flown) => {
+                    for (flown, i) in flown.iter().zip(order) {
+                        let differ = differences(flown, &alone(&cases[i]).unwrap()[0]);
+                        if !differ.is_empty() {
+                            wrong.push(format!("{name}, {order:?}, in one flight: {differ:?}"));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}

@@ -1,0 +1,14 @@
+//! Many flights: ensembles, studies, their effects, and fibres that are flown together.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/studies.rs"]
+mod short;
+
+mod company;
+mod effects;
+mod ensembles;
+mod paper;
+mod studies;
+mod web_studies;

@@ -1,0 +1,125 @@
+//! Studies of webs: what they vary, and what they refuse.
+
+use spunlaid::error::Error;
+use spunlaid::input::{
+    LaydownSource, Overrides, StudyChanges, WebStudyFile, parse_web, parse_web_study, write_web,
+};
+use std::path::Path;
+
+const WEB: &str = r#"
+[fibre]
+diameter = "18 µm"
+density = "910 kg/m³"
+[laydown]
+sigma_md = "9 mm"
+sigma_cd = "8 mm"
+noise = "15 m^-0.5"
+[line]
+feed_speed = "50 m/s"
+belt_speed = "5 m/s"
+filaments_per_metre = 200
+[web]
+width = "250 mm"
+length = "250 mm"
+seed = 3
+"#;
+
+fn changes<'a>(set: &'a [(String, String)]) -> StudyChanges<'a> {
+    StudyChanges { set: Overrides { values: set, word: "--set" }, ..StudyChanges::points(None) }
+}
+
+fn study_of(web: &str, study: &str, set: &[(String, String)]) -> Result<WebStudyFile, Error> {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web.toml");
+    parse_web_study(study, "study.toml", &changes(set), |_| Ok((web.to_owned(), cases.display().to_string())))
+}
+
+fn study(text: &str) -> Result<WebStudyFile, Error> {
+    study_of(WEB, text, &[])
+}
+
+#[test]
+fn points_are_webs_with_these_values() {
+    let file = study(
+        "web = 'web.toml'\ndesign = 'grid'\nreplicates = 3\n[set]\nweb.cell = '5 mm'\n[vary]\n\
+         line.belt_speed = ['4 m/s', '5 m/s']\n'line.filaments_per_metre' = [100, 200, 300]\n",
+    )
+    .unwrap();
+    assert_eq!((file.study.replicates, file.study.points.len()), (3, 6));
+    for point in &file.study.points {
+        // The same file with the values written in it.
+        let set = [
+            ("line.belt_speed", format!("{} m/s", point.values[0])),
+            ("line.filaments_per_metre", format!("{}", point.values[1])),
+            ("web.cell", "5 mm".to_owned()),
+        ];
+        let set = set.map(|(key, value)| (key.to_owned(), value));
+        let alone = parse_web(WEB, "web.toml", &set).unwrap();
+        assert_eq!(write_web(&point.spec), alone.text);
+    }
+    // The study as it was run gives the same points.
+    let again = study_of(&file.web_text, &file.text, &[]).unwrap();
+    assert_eq!(again.study.identity(), file.study.identity());
+    assert_eq!(again.text, file.text);
+    // More webs of each point are the same study; another seed is not.
+    let set = [("web.seed".to_owned(), "4".to_owned())];
+    let other = study_of(&file.web_text, &file.text, &set).unwrap();
+    assert_ne!(other.study.identity(), file.study.identity());
+}
+
+#[test]
+fn keys_of_the_case_that_is_flown_vary_too() {
+    let web = "[laydown]\ncase = 'spunbond.toml'\n[line]\nfilaments_per_metre = 5000\n\
+               [web]\nwidth = '1 m'\nlength = '1 m'\n";
+    let text = "web = 'web.toml'\ndesign = 'one-at-a-time'\n[vary]\n'belt.speed' = ['2 m/s', '4 m/s']\n";
+    let file = study_of(web, text, &[]).unwrap();
+    let belts: Vec<f64> = (file.study.points.iter())
+        .map(|point| {
+            let LaydownSource::Case { case, .. } = &point.spec.layers[0].source else { panic!("no case") };
+            assert_eq!(case.line.unwrap().belt_speed, point.spec.layers[0].belt_speed);
+            point.spec.layers[0].belt_speed
+        })
+        .collect();
+    // The first point is the web as it stands.
+    assert_eq!(belts, [3.0, 2.0, 4.0]);
+}
+
+#[test]
+fn rejects_what_cannot_vary() {
+    let vary = |line: &str| format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n{line}\n");
+    for (text, wanted) in [
+        (
+            vary("'line.belt_sped' = ['4 m/s']"),
+            "study.toml:4: line.belt_sped = ['4 m/s'] cannot be set by a study; did you mean line.belt_speed?",
+        ),
+        (vary("'laydown.case' = ['a.toml']"), "take a key whose value is a number or one of a few words"),
+        (
+            vary("'air.velocity' = ['4 m/s']"),
+            "it is a key of a case, and this web flies none; write laydown.case in its file",
+        ),
+        (
+            vary("'line.belt_speed' = ['4 m/s', '60 m/s']"),
+            "study.toml: point 2 (line.belt_speed = 60 m/s): line.belt_speed",
+        ),
+        (vary("'web.width' = ['250 mm', '10 mm']"), "study.toml: point 2 (web.width = 10 mm): web.width"),
+        (vary("'line.belt_speed' = '4 m/s'"), "a list of values, or { from, to, steps }"),
+        (vary("'line.belt_speed' = [4]"), "line.belt_speed"),
+        (
+            format!("case = 'c.toml'\n{}", vary("")),
+            "stands beside web; a study varies a case or a web, keep one",
+        ),
+        ("web = 3\ndesign = 'grid'\n".to_owned(), "the path of the file of a web, in quotes"),
+        (
+            vary("'line.belt_speed' = ['4 m/s']\n[set]\n'line.belt_speed' = '5 m/s'"),
+            "is set to one value for all points, and varied",
+        ),
+        (
+            vary("'line.belt_speed' = ['4 m/s']\n[link]\n'line.feed_speed' = 'line.belt_speed'"),
+            "it belongs to studies of a case; leave it out",
+        ),
+        (format!("replicates = 0\n{}", vary("'line.belt_speed' = ['4 m/s']")), "replicates = 0"),
+        (vary(""), "names no key to vary"),
+    ] {
+        let said = study(&text).unwrap_err().to_string();
+        assert!(said.contains(wanted), "{text}\n{said}\n{wanted}");
+    }
+}

@@ -1,0 +1,340 @@
+//! The web: nothing is lost, and its unevenness is that of the laws.
+
+use proptest::prelude::*;
+use spunlaid::lanes::Isa;
+use spunlaid::surrogate::Surrogate;
+use spunlaid::web::uniformity::unevenness;
+use spunlaid::web::{
+    Curves, Edges, Fibres, Filaments, Laid, Layer, Laying, Lever, Map, OneFibre, Row, Sheet, Source, Strand,
+    Web, Window, find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
+};
+use std::f64::consts::PI;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+const SPUNBOND: Surrogate = Surrogate { sigma_md: 18.4e-3, sigma_cd: 18.3e-3, noise: 12.4 };
+/// 18 µm at 910 kg/m³ [kg/m].
+const LINEAR_DENSITY: f64 = 910.0 * PI * 18e-6 * 18e-6 / 4.0;
+
+fn sheet(width: f64, length: f64, cell: f64) -> Sheet {
+    Sheet { width, length, cell, patches: Vec::new(), edges: Edges::Periodic }
+}
+
+fn layer(fibres: Fibres, per_metre: f64) -> Layer {
+    let filaments = Filaments::AtRandom { per_metre };
+    Layer {
+        linear_density: LINEAR_DENSITY,
+        feed_speed: 50.0,
+        belt_speed: 3.0,
+        filaments,
+        fibres,
+        compared: None,
+    }
+}
+
+fn laid_by(web: &Web, isa: Isa, threads: usize) -> Laid {
+    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+    lay(web, Laying { threads, isa, stop: &stop, laid: &laid }).expect("a web that can be laid")
+}
+
+fn laid(web: &Web) -> Laid {
+    laid_by(web, Isa::detect(), 2)
+}
+
+fn close(found: f64, wanted: f64, relative: f64) {
+    assert!((found / wanted - 1.0).abs() <= relative, "{found} where {wanted} is wanted");
+}
+
+/// Straight fibres, each thrown at random: one filament each.
+fn straight(count: usize, length: f64, width: f64, cell: f64) -> Web {
+    const PIECES: usize = 1000;
+    let spacing = length / PIECES as f64;
+    let curves = (0..4096).map(|i| {
+        let (sin, cos) = (PI * (f64::from(i) + 0.5) / 2048.0).sin_cos();
+        (0..=PIECES).map(|j| [cos, sin].map(|c| c * spacing * j as f64)).collect()
+    });
+    let ratio = width / length;
+    let curves = Curves::new(spacing, ratio, curves.collect()).expect("curves");
+    let filaments = Filaments::AtRandom { per_metre: count as f64 / width };
+    let fibres = Fibres::Curves(Arc::new(curves));
+    Web {
+        sheet: sheet(width, width, cell),
+        layers: vec![Layer {
+            linear_density: LINEAR_DENSITY,
+            feed_speed: 1.0,
+            belt_speed: ratio,
+            filaments,
+            fibres,
+            compared: None,
+        }],
+        seed: 7,
+    }
+}
+
+#[test]
+fn straight_fibres_at_random_have_the_unevenness_of_the_law() {
+    let web = straight(4000, 10.0, 1.0, 1e-3);
+    let map = laid(&web).map;
+    let tau = web.basis_weight() / LINEAR_DENSITY;
+    for side in [1, 2, 5, 10, 20] {
+        let found = unevenness(&map, side).expect("an unevenness");
+        let law = straight_fibres(tau, found.patch);
+        let error = found.standard_error.expect("an error");
+        assert!((found.cv - law).abs() < 4.0 * error, "{found:?} where {law} is wanted");
+    }
+}
+
+#[test]
+fn one_fibre_says_how_uneven_the_web_is() {
+    let by_surrogate = layer(Fibres::Surrogate(SPUNBOND), 5000.0);
+    let web = Web { sheet: sheet(1.0, 1.0, 1e-3), layers: vec![by_surrogate.clone()], seed: 3 };
+    let map = laid(&web).map;
+    close(map.basis_weight(), web.basis_weight(), 1e-9);
+    let tau = web.basis_weight() / LINEAR_DENSITY;
+    let sides = [1, 2, 5, 10, 20, 50];
+    let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+    let of = OneFibre { cell: 1e-3, fibres: 64, seed: 1 };
+    let alone = one_fibre(&by_surrogate, &sides, of, by).expect("single fibres");
+    for (side, alone) in sides.into_iter().zip(alone.into_iter().map(|alone| alone.at_random)) {
+        let found = unevenness(&map, side).expect("an unevenness");
+        let wanted = (alone.mean / tau).sqrt();
+        let own = alone.standard_error.expect("an error") / alone.mean / 2.0 * wanted;
+        let error = found.standard_error.expect("an error");
+        assert!((found.cv - wanted).abs() < 4.0 * error.hypot(own), "{found:?} where {wanted} is wanted");
+    }
+}
+
+/// Nozzles at an even pitch leave no streaks, and what is expected knows it; so do nozzles that stand far apart.
+#[test]
+fn rows_of_nozzles_have_the_unevenness_that_is_expected_of_them() {
+    for (pitch, count) in [(0.25e-3, 2000), (50e-3, 10)] {
+        let rows = Filaments::Rows(vec![Row { offset: 0.1e-3, pitch, filaments: count }]);
+        let narrow = Surrogate { sigma_cd: 12e-3, ..SPUNBOND };
+        let layer = Layer { filaments: rows, ..layer(Fibres::Surrogate(narrow), 0.0) };
+        let sheet = Sheet { patches: [2e-3, 10e-3, 40e-3].to_vec(), ..sheet(0.5, 1.0, 1e-3) };
+        let web = Web { sheet, layers: vec![layer], seed: 4 };
+        let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
+        let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+        for patch in find(&web, by).expect("findings").patches {
+            let (wanted, own) = patch.one_fibre;
+            let error = patch.map.standard_error.expect("an error");
+            assert!(
+                (patch.map.cv - wanted).abs() < 4.0 * error.hypot(own) && error < 0.1 * wanted,
+                "{patch:?}, pitch {pitch}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_web_has_the_same_bits_on_all_machines_and_threads() {
+    let rows = Filaments::Rows(vec![Row { offset: 1e-3, pitch: 2e-3, filaments: 50 }]);
+    let one = Layer { filaments: rows, ..layer(Fibres::Surrogate(SPUNBOND), 0.0) };
+    let two = layer(Fibres::Surrogate(Surrogate { sigma_cd: 30e-3, ..SPUNBOND }), 700.0);
+    let web = Web { sheet: sheet(0.1, 0.2, 0.5e-3), layers: vec![one, two], seed: 5 };
+    let first = laid_by(&web, Isa::Baseline, 1).map;
+    close(first.basis_weight(), web.basis_weight(), 1e-5);
+    for isa in Isa::available() {
+        for threads in [1, 3] {
+            assert!(laid_by(&web, isa, threads).map == first, "{isa:?}, {threads} threads");
+        }
+    }
+    let other = laid(&Web { seed: 6, ..web }).map;
+    assert!(other != first);
+}
+
+/// A window some cells off the edges.
+fn inside(web: &Web, off: usize) -> Window {
+    let off = off as f64 * web.sheet.cell;
+    Window { corner: [off; 2], sides: [web.sheet.width - 2.0 * off, web.sheet.length - 2.0 * off] }
+}
+
+fn fibres(web: &Web, window: Window) -> Vec<Strand> {
+    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+    strands(web, window, Laying { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid }).expect("fibres")
+}
+
+/// Mass of a straight piece in each cell, by Liang and Barsky's clipping [kg].
+fn clipped(map: &Map, from: [f64; 2], to: [f64; 2], mass: f64, into: &mut [f64]) {
+    let range = |of: usize, size: usize| {
+        let [low, high] = [from[of].min(to[of]), from[of].max(to[of])].map(|x| (x / map.cell).floor());
+        (low.max(0.0) as usize)..=(high.clamp(0.0, size as f64 - 1.0) as usize)
+    };
+    for row in range(1, map.rows) {
+        for column in range(0, map.columns) {
+            let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+            for (of, number) in [column, row].into_iter().enumerate() {
+                let by = to[of] - from[of];
+                let ends = [number, number + 1].map(|edge| (edge as f64 * map.cell - from[of]) / by);
+                enters = enters.max(ends[0].min(ends[1]));
+                leaves = leaves.min(ends[0].max(ends[1]));
+            }
+            into[row * map.columns + column] += mass * (leaves - enters).max(0.0);
+        }
+    }
+}
+
+#[test]
+fn a_cell_holds_what_independent_clipping_gives_it() {
+    for (edges, cell) in [(Edges::Cut, 2e-3), (Edges::Periodic, 2e-3), (Edges::Periodic, 0.4e-3)] {
+        let sheet = Sheet { width: 0.04, length: 0.06, cell, patches: Vec::new(), edges };
+        let web = Web { sheet, layers: vec![layer(Fibres::Surrogate(SPUNBOND), 250.0)], seed: 11 };
+        let map = laid(&web).map;
+        // Further off than a piece is long.
+        let off = (2e-3 / cell).round() as usize;
+        let mut wanted = vec![0.0; map.cells.len()];
+        // All pieces have the same mass; on the belt they are longer or shorter.
+        let layer = &web.layers[0];
+        let length = layer.fed_length(&web.sheet) * layer.count(&web.sheet) as f64;
+        let mass = LINEAR_DENSITY * length / pieces(&web).expect("pieces") as f64;
+        for strand in &fibres(&web, inside(&web, off)) {
+            let place = |point: [f64; 2]| point.map(|x| x + off as f64 * cell);
+            for pair in strand.points.windows(2) {
+                clipped(&map, place(pair[0]), place(pair[1]), mass, &mut wanted);
+            }
+        }
+        let largest = wanted.iter().copied().fold(0.0, f64::max);
+        // A piece that only cuts a corner of the window is no strand, so the cells are a piece further inside.
+        for row in 2 * off..map.rows - 2 * off {
+            for column in 2 * off..map.columns - 2 * off {
+                let found = f64::from(map.row(row)[column]) * map.quantum;
+                let wanted = wanted[row * map.columns + column];
+                // A part is rounded to a quantum, and a cell has some thousand parts at most.
+                assert!(
+                    (found - wanted).abs() < 1e-4 * largest,
+                    "{found:e} where {wanted:e} is wanted, {edges:?}"
+                );
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+    #[test]
+    fn no_fibre_is_lost_or_made(
+        seed in 0u64..1000, columns in 20usize..120, rows in 10usize..120, cell in 0.2e-3f64..5e-3,
+        filaments in 1u64..40, offset in -0.05f64..0.05, pitch in 0.0f64..0.01, ratio in 0.02f64..0.9,
+        sigma in 2e-3f64..40e-3, noise in 5.0f64..20.0, cut in any::<bool>(),
+    ) {
+        let edges = if cut { Edges::Cut } else { Edges::Periodic };
+        let (width, length) = (columns as f64 * cell, rows as f64 * cell);
+        let filaments = Filaments::Rows(vec![Row { offset, pitch, filaments }]);
+        let fibres = Fibres::Surrogate(Surrogate { sigma_md: sigma, sigma_cd: 0.7 * sigma, noise });
+        let belt_speed = 50.0 * ratio;
+        let layer = Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed, filaments, fibres, compared: None };
+        let web = Web { sheet: Sheet { edges, ..sheet(width, length, cell) }, layers: vec![layer], seed };
+        let laid = laid(&web);
+        let whole = LINEAR_DENSITY * web.fibre_length();
+        let found = laid.map.total() as f64 * laid.map.quantum + laid.cut;
+        prop_assert!((found / whole - 1.0).abs() < 1e-9, "{found:e} of {whole:e}");
+        prop_assert!(cut || laid.cut == 0.0);
+    }
+}
+
+/// By mass, directions on a moving belt are evenly spread about the machine direction: for a direction α uniform in length of
+/// fibre, the mean of cos² of the direction of (cos α − r, sin α) is ½ for any belt ratio r below one.
+#[test]
+fn half_of_the_mass_lies_along_the_machine_direction() {
+    for belt_speed in [3.0, 25.0] {
+        let layer = Layer { belt_speed, ..layer(Fibres::Surrogate(SPUNBOND), 640.0) };
+        let web = Web { sheet: sheet(0.1, belt_speed / 3.0, 1e-3), layers: vec![layer], seed: 2 };
+        let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+        let by = Laying { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
+        let found = orientation(&web, by).expect("an orientation");
+        let error = found.cos_squared.standard_error.expect("an error");
+        assert!(
+            (found.cos_squared.mean - 0.5).abs() < 4.0 * error && error < 2e-3,
+            "{:?}",
+            found.cos_squared
+        );
+        close(found.directions.iter().sum(), 1.0, 1e-12);
+    }
+}
+
+/// Curves that turn about two centres at once: as wide as those of a surrogate, but far more regular.
+fn rosettes() -> (Surrogate, Curves) {
+    const RADII: [f64; 2] = [20e-3, 15e-3];
+    const TURNS: [f64; 2] = [30.0, -23.0];
+    const PHASES: [f64; 2] = [5.5, 1.7];
+    const SPACING: f64 = 2e-3;
+    let belt_ratio = 0.06;
+    let curve = |number: i32| -> Vec<[f64; 2]> {
+        let point = |i: i32| {
+            let fed = SPACING * f64::from(i);
+            let mut at = [-belt_ratio * fed, 0.0];
+            for ((radius, turns), phase) in RADII.into_iter().zip(TURNS).zip(PHASES) {
+                let (sin, cos) = (turns * fed + phase * f64::from(number)).sin_cos();
+                at = [at[0] + radius * cos, at[1] + radius * sin];
+            }
+            at
+        };
+        (0..12_000).map(point).collect()
+    };
+    let all: Vec<_> = (0..6).map(curve).collect();
+    let delays = vec![vec![0.0; 12_000]; 6];
+    let curves =
+        Curves::new(SPACING, belt_ratio, all).and_then(|curves| curves.with_delays(delays)).expect("curves");
+    let sigma = (0.5 * RADII.iter().map(|radius| radius * radius).sum::<f64>()).sqrt();
+    (Surrogate { sigma_md: sigma, sigma_cd: sigma, noise: 9.0 }, curves)
+}
+
+/// A surrogate that does not lay as the flown curves do: the error of its map holds what they would give, and what it says of
+/// their levers is not told.
+#[test]
+fn the_error_of_a_surrogates_map_reaches_to_the_flown_curves() {
+    let (surrogate, curves) = rosettes();
+    let rows = Filaments::Rows(vec![Row { offset: 0.2e-3, pitch: 0.5e-3, filaments: 400 }]);
+    let curves = Fibres::Curves(Arc::new(curves));
+    let mut layer =
+        Layer { filaments: rows, compared: Some(curves.clone()), ..layer(Fibres::Surrogate(surrogate), 0.0) };
+    let sheet = Sheet { patches: [5e-3, 10e-3].to_vec(), ..sheet(0.2, 0.6, 1e-3) };
+    let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+    let by_surrogate =
+        find(&Web { sheet: sheet.clone(), layers: vec![layer.clone()], seed: 1 }, by).expect("findings");
+    layer.compared = Some(std::mem::replace(&mut layer.fibres, curves));
+    let by_curves = find(&Web { sheet, layers: vec![layer], seed: 1 }, by).expect("findings");
+    for (i, (patch, other)) in by_surrogate.patches.iter().zip(&by_curves.patches).enumerate() {
+        assert_eq!((patch.flown, patch.surrogate), (Some(other.one_fibre), Some(patch.one_fibre)));
+        assert_eq!(other.flown, Some(other.one_fibre));
+        let (apart, of_apart) = patch.surrogate_over_flown().expect("both");
+        assert!(patch.surrogate_is_far() && apart.abs() > 0.05 && apart.abs() > 2.0 * of_apart, "{patch:?}");
+        let error = patch.whole_error();
+        let whole = error.whole().expect("an error");
+        // The map of the curves themselves is within it, and far beyond chance.
+        let missed = (patch.map.cv - other.map.cv).abs();
+        assert!(missed < 2.0 * whole, "{missed} {error:?}");
+        assert!(missed > 3.0 * error.chance.expect("chance"), "{missed} {error:?}");
+        // A map of the curves has no error of the surrogate.
+        assert_eq!(other.whole_error().model, Some(0.0));
+        for found in [&by_surrogate, &by_curves] {
+            for of in &found.sensitivities {
+                let told = of.elasticity[i].is_some();
+                let source = match of.lever {
+                    Lever::BeltSpeed => Source::Flown,
+                    Lever::Filaments => Source::Law,
+                    _ => Source::Surrogate,
+                };
+                assert_eq!((of.source, told), (source, source != Source::Surrogate), "{:?}", of.lever);
+            }
+            assert_eq!(found.sensitivities.len(), 5);
+        }
+    }
+}
+
+/// Without a flight beside it nothing is known of the error of a surrogate, and nothing is made up.
+#[test]
+fn the_whole_error_of_a_surrogate_alone_is_not_known() {
+    let sheet = Sheet { patches: vec![5e-3], ..sheet(0.2, 0.2, 1e-3) };
+    let web = Web { sheet, layers: vec![layer(Fibres::Surrogate(SPUNBOND), 500.0)], seed: 1 };
+    let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+    let found = find(&web, by).expect("findings");
+    let patch = found.patches[0];
+    let error = patch.whole_error();
+    assert!(error.chance.is_some() && error.model.is_none() && error.whole().is_none(), "{error:?}");
+    assert!(patch.flown.is_none() && patch.surrogate.is_some() && !patch.surrogate_is_far());
+    assert!(found.sensitivities.iter().all(|of| of.source != Source::Flown && of.elasticity[0].is_some()));
+}

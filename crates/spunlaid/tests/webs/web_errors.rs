@@ -1,0 +1,144 @@
+//! The errors of webs, against the scatter of many webs of each kind.
+
+use spunlaid::error::Error;
+use spunlaid::lanes::Isa;
+use spunlaid::statistics::difference_of_deviations;
+use spunlaid::surrogate::Surrogate;
+use spunlaid::web::uniformity::{Unevenness, unevenness_at};
+use spunlaid::web::{
+    Clouds, Edges, Fibres, Filaments, Findings, Layer, Laying, Row, Sheet, Web, lay, measure,
+};
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+const WEBS: u64 = 80;
+/// Sides of patches [cells].
+const SIDES: [usize; 3] = [1, 5, 20];
+const CELL: f64 = 2e-3;
+/// Waves of the cloudiness [m].
+const BAND: [f64; 2] = [16e-3, 80e-3];
+
+fn web(filaments: Filaments, edges: Edges, [width, length]: [f64; 2]) -> Web {
+    let patches = SIDES.map(|side| side as f64 * CELL).to_vec();
+    Web {
+        sheet: Sheet { width, length, cell: CELL, patches, edges },
+        layers: vec![Layer {
+            linear_density: 2.3e-7,
+            feed_speed: 50.0,
+            belt_speed: 10.0,
+            filaments,
+            fibres: Fibres::Surrogate(Surrogate { sigma_md: 18e-3, sigma_cd: 16e-3, noise: 12.0 }),
+            compared: None,
+        }],
+        seed: 1,
+    }
+}
+
+fn rows(pitch: f64, filaments: u64) -> Filaments {
+    Filaments::Rows(vec![Row { offset: 0.5 * pitch, pitch, filaments }])
+}
+
+fn with<T>(run: impl FnOnce(Laying<'_>) -> T) -> T {
+    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+    run(Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid })
+}
+
+/// Deviations of independent webs, each with its standard error: intervals cover the truth, errors are those of the scatter, and equal webs do not differ.
+fn hold(what: &str, found: &[(f64, f64)]) {
+    let count = found.len() as f64;
+    let truth = (found.iter().map(|of| of.0 * of.0).sum::<f64>() / count).sqrt();
+    let covers = |(value, error): &(f64, f64)| {
+        let of = Unevenness { patch: 1.0, cv: *value, standard_error: Some(*error) };
+        let [low, high] = of.interval().expect("an interval");
+        (low..=high).contains(&truth)
+    };
+    let held = found.iter().filter(|of| covers(of)).count() as f64;
+    // 95 % of them, within four standard deviations of a binomial number.
+    let least = 0.95 * count - 4.0 * (0.95 * 0.05 * count).sqrt();
+    assert!(held >= least, "{what}: {held} of {count} intervals hold");
+    // Errors too wide are found by the scatter: that of a standard deviation from so many values is 1/√(2n), and four of them are allowed.
+    let mean = found.iter().map(|of| of.0).sum::<f64>() / count;
+    let scatter = (found.iter().map(|of| (of.0 - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
+    let error = (found.iter().map(|of| of.1 * of.1).sum::<f64>() / count).sqrt();
+    println!("{what}: {held} of {count} hold, error {error:.5}, scatter {scatter:.5}, truth {truth:.5}");
+    let off = (error / scatter).ln().abs();
+    assert!(off < 4.0 / (2.0 * count).sqrt(), "{what}: error {error}, scatter {scatter}");
+    let alarms =
+        found.chunks_exact(2).filter(|pair| difference_of_deviations([pair[0], pair[1]]).is_beyond_chance());
+    let most = 0.05 * count / 2.0 + 4.0 * (0.05 * 0.95 * count / 2.0).sqrt();
+    assert!((alarms.count() as f64) < most, "{what}: equal webs differ");
+}
+
+#[test]
+fn stat_intervals_of_cv_and_clouds_hold_for_webs_of_each_kind() {
+    for (name, filaments) in [
+        ("random places", Filaments::AtRandom { per_metre: 800.0 }),
+        ("rows, even", rows(2e-3, 240)),
+        ("rows far apart", rows(48e-3, 10)),
+    ] {
+        let web = web(filaments, Edges::Periodic, [0.48, 0.3]);
+        let mut found = vec![Vec::new(); SIDES.len() + 1];
+        for seed in 1..=WEBS {
+            let web = Web { seed, ..web.clone() };
+            let map = with(|by| lay(&web, by)).expect("a web").map;
+            let places = web.places(web.sheet.width);
+            for (side, found) in SIDES.iter().zip(&mut found) {
+                let of = unevenness_at(&map, *side, &places).expect("an unevenness");
+                found.extend(of.standard_error.map(|error| (of.cv, error)));
+            }
+            let (index, error) = Clouds::at(&map, &places).expect("clouds").cloudiness(BAND[0], BAND[1]);
+            found[SIDES.len()].extend(error.map(|error| (index, error)));
+        }
+        let names = SIDES.map(|side| format!("{name}, {side} cells")).into_iter();
+        for (what, found) in names.chain([format!("{name}, cloudiness")]).zip(&found) {
+            assert_eq!(found.len() as u64, WEBS, "{what}: a web without an error");
+            hold(&what, found);
+        }
+    }
+}
+
+/// Nothing tells of streaks where the sheet holds only a few.
+#[test]
+fn a_sheet_of_few_streaks_has_no_error() {
+    let mut web = web(Filaments::AtRandom { per_metre: 800.0 }, Edges::Periodic, [0.13, 0.3]);
+    // On a slow belt there is little else than streaks.
+    web.layers[0].belt_speed = 2.0;
+    let map = with(|by| lay(&web, by)).expect("a web").map;
+    let of = unevenness_at(&map, 20, &web.places(0.13)).expect("an unevenness");
+    assert_eq!((of.standard_error, of.interval()), (None, None));
+}
+
+fn measured(web: &Web) -> Result<Findings, Error> {
+    with(|by| measure(web, by))
+}
+
+/// A web whose edges are cut is as uneven as the same web without edges: what is thinner at the edges is no unevenness.
+#[test]
+fn stat_edges_that_cut_do_not_count() {
+    // The same pitch without edges, and on a sheet as wide as the row.
+    let sizes = [0.48, 0.6];
+    let whole = measured(&web(rows(1e-3, 480), Edges::Periodic, sizes)).expect("findings");
+    let cut = measured(&web(rows(1e-3, 480), Edges::Cut, sizes)).expect("findings");
+    assert_eq!(whole.margins, [0.0; 2]);
+    for margin in cut.margins {
+        // 3 σ_CD inwards of the first nozzle, in whole cells.
+        assert!((0.0..=CELL + 1e-9).contains(&(margin - 3.0 * 16e-3)), "{margin}");
+    }
+    for (whole, cut) in whole.patches.iter().zip(&cut.patches) {
+        let (wanted, own) = cut.one_fibre;
+        let error = cut.map.standard_error.expect("an error");
+        assert!((cut.map.cv - wanted).abs() < 4.0 * error.hypot(own), "{cut:?}");
+        // The edges add 0.14 % of the mean at most, to 2 % or more.
+        let both = own.hypot(whole.one_fibre.1);
+        assert!((wanted - whole.one_fibre.0).abs() < 4.0 * both + 0.01 * wanted, "{cut:?} {whole:?}");
+    }
+    let [sheet, between] = [&cut.laid.map, &*cut.within()].map(|map| map.basis_weight());
+    let dense = web(rows(1e-3, 480), Edges::Periodic, sizes).basis_weight();
+    assert!((between / dense - 1.0).abs() < 2e-3 && sheet < 0.99 * between, "{sheet} {between} {dense}");
+}
+
+#[test]
+fn rejects_a_web_that_is_nothing_but_edges() {
+    let fault = measured(&web(rows(1e-3, 100), Edges::Cut, [0.1, 0.3])).expect_err("only edges");
+    assert!(fault.to_string().starts_with("the edges of the web, where it is thin, take"), "{fault}");
+    assert!(fault.to_string().contains("write web.edges = \"periodic\""), "{fault}");
+}
