@@ -10,7 +10,6 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::ensemble::Computing;
-use spunlaid::error::Error;
 use spunlaid::input::{Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study};
 use spunlaid::lanes::Isa;
 use spunlaid::observe::MEASURES;

@@ -22,4 +22,4 @@ pub mod report;
 
 pub mod folders;
 
-pub use failure::Failure;
+pub use failure::{Failure, not_a_run};

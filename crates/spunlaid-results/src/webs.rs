@@ -1,6 +1,7 @@
 //! The results of a study of webs: what is kept of each web, the journal, and the statistics of each point.
 
 use crate::Failure;
+use crate::failure::{other_study, other_version};
 use serde::{Deserialize, Serialize};
 use spunlaid::input::WebStudy;
 use spunlaid::statistics::Estimate;
@@ -111,15 +112,21 @@ impl WebJournal {
     ///
     /// * `path` – its file
     /// * `fresh` – what it holds is replaced
+    /// * `differences` – between this study and another one that the folder holds
     ///
     /// # Errors
     /// If it cannot be written, is in use, or is that of another study or version.
-    pub fn open(path: &Path, study: &WebStudy, fresh: bool) -> Result<Self, Failure> {
+    pub fn open(
+        path: &Path,
+        study: &WebStudy,
+        fresh: bool,
+        differences: impl Fn() -> Vec<String>,
+    ) -> Result<Self, Failure> {
         let unwritable = Failure::unwritable(path);
         let options = OpenOptions::new().read(true).write(true).create(true).truncate(false).clone();
         let mut file = options.open(path).map_err(&unwritable)?;
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
-            return Err(in_use(path).into());
+            return Err(in_use(path));
         }
         if fresh {
             file.set_len(0).map_err(&unwritable)?;
@@ -135,7 +142,7 @@ impl WebJournal {
                 break;
             }
             if sound == 0 {
-                Self::check(path, &line, &wanted)?;
+                Self::check(path, &line, &wanted, &differences)?;
             } else if let Ok(record) = serde_json::from_slice::<Record>(&line) {
                 laid.insert((record.point, record.replicate), record.laid);
             }
@@ -151,19 +158,24 @@ impl WebJournal {
         Ok(journal)
     }
 
-    fn check(path: &Path, line: &[u8], wanted: &Header) -> Result<(), Failure> {
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    fn check(
+        path: &Path,
+        line: &[u8],
+        wanted: &Header,
+        differences: &impl Fn() -> Vec<String>,
+    ) -> Result<(), Failure> {
+        let folder = path.parent().unwrap_or(Path::new(""));
         match serde_json::from_slice::<Header>(line) {
             Ok(found) if found == *wanted => Ok(()),
             Ok(found) if found.spunlaid_version != wanted.spunlaid_version => {
-                Err(Failure::OtherVersion { folder, version: found.spunlaid_version })
+                Err(other_version(folder, &found.spunlaid_version))
             }
             Ok(found) if found.format != wanted.format => {
                 let format = found.format.max(1).to_string();
-                Err(other_format(path, &format, wanted.format).into())
+                Err(other_format(path, &format, wanted.format))
             }
-            Ok(_) => Err(Failure::OtherStudy { folder, differences: Vec::new() }),
-            Err(_) => Err(foreign(path).into()),
+            Ok(_) => Err(other_study(folder, differences())),
+            Err(_) => Err(foreign(path)),
         }
     }
 

@@ -10,7 +10,7 @@ use super::laid;
 use crate::Failure;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Computing, Keep, TakeLaid, fly};
-use spunlaid::error::Error;
+use spunlaid::error::{Error, Fault};
 use spunlaid::flight::LaidPoint;
 use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec};
 use spunlaid::lanes::Isa;
@@ -154,8 +154,10 @@ impl Flown {
     /// * `path` – of the case or of the results, for messages
     /// * `laid` – all points of each replicate
     fn of(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Failure> {
-        let nothing = |reason: &str| Failure::NothingToLay { of: path.to_owned(), reason: reason.to_owned() };
-        let line = case.line.ok_or_else(|| nothing("its fibre is not fed on to a belt"))?;
+        let line = case.line.ok_or_else(|| {
+            let fault = Fault::new("its fibre is not fed on to a belt", "name a case with [feed] and [belt]");
+            Failure::folder(path, fault)
+        })?;
         let spacing = case.fibre.rest_length();
         // As the measures of a run do, to the same bits.
         let skip = (line.feed_speed * case.run.spin_up() / spacing).round() as u64;
@@ -181,8 +183,7 @@ impl Flown {
         let delay = |point: &LaidPoint| line.feed_speed * point.time - point.fed;
         let delays = laid.iter().map(|points| points.iter().map(delay).collect());
         let curves = Curves::new(spacing, belt_ratio, places.collect())
-            .and_then(|curves| curves.with_delays(delays.collect()))
-            .map_err(Error::from)?;
+            .and_then(|curves| curves.with_delays(delays.collect()))?;
         let numbers = numbers.map(Estimate::of);
         let correlations: Vec<[&[f64]; 2]> =
             traces.iter().map(|of| [&of.correlation_md[..], &of.correlation_cd[..]]).collect();
@@ -203,11 +204,12 @@ impl Flown {
             return Ok(surrogate);
         }
         let why = self.unidentified.map_or_else(String::new, |why| format!(": {why}"));
-        let reason = format!(
-            "no surrogate was identified in what its fibres lay{why}. Write web.method = \"dynamics\" to lay the flown curves \
-             themselves, or give laydown.sigma_md, laydown.sigma_cd and laydown.noise"
+        let fault = Fault::new(
+            format!("no surrogate was identified in what its fibres lay{why}"),
+            "write web.method = \"dynamics\" to lay the flown curves themselves, or give laydown.sigma_md, laydown.sigma_cd \
+             and laydown.noise",
         );
-        Err(Failure::NothingToLay { of: path.to_owned(), reason })
+        Err(Failure::folder(path, fault))
     }
 }
 

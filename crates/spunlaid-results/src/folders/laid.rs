@@ -1,6 +1,7 @@
 //! Reads back what the fibres of a finished run have laid.
 
 use crate::Failure;
+use crate::failure::not_a_run;
 use crate::output::laid::LAID;
 use parquet::column::reader::ColumnReader;
 use parquet::errors::{ParquetError, Result as Decoded};
@@ -18,8 +19,7 @@ const COLUMNS: [&str; 5] = ["replicate", "s_m", "time_s", "md_m", "cd_m"];
 /// # Errors
 /// If the folder has no table of laid points, or one that cannot be read.
 pub(super) fn read(folder: &Path) -> Result<Vec<Vec<LaidPoint>>, Failure> {
-    let not_a_run =
-        |reason: String| Failure::NotARun { folder: folder.to_owned(), reason: format!("{LAID}: {reason}") };
+    let not_a_run = |reason: String| not_a_run(folder, &format!("{LAID}: {reason}"));
     let file = File::open(folder.join(LAID)).map_err(|error| not_a_run(error.to_string()))?;
     let curves = decode(file).map_err(|error| not_a_run(error.to_string()))?;
     Ok(curves.into_values().collect())

@@ -1,6 +1,7 @@
 //! The folder of a study of webs: its journal, and what is made from it.
 
 use crate::Failure;
+use crate::failure::{holds_results, not_a_folder};
 use crate::figures::figures_of_webs;
 use crate::output::folder::Staging;
 use crate::output::{leftovers, pictures, webs};
@@ -40,21 +41,16 @@ impl<'a> WebStudyFolder<'a> {
         stop: &'a AtomicBool,
     ) -> Result<(Self, WebJournal), Failure> {
         if path.exists() && !path.is_dir() {
-            return Err(Failure::NotAFolder { path: path.to_owned() });
+            return Err(not_a_folder(path));
         }
         let journal = path.join(JOURNAL);
         let others: &[&[&str]] = if journal.exists() { &[OF_OTHERS] } else { &[OF_OTHERS, MADE] };
         let found = others.iter().copied().flatten().find(|name| path.join(name).exists());
         if let Some(found) = found.filter(|_| !force) {
-            return Err(Failure::HoldsResults { folder: path.to_owned(), found: (*found).to_owned() });
+            return Err(holds_results(path, found));
         }
         fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
-        let journal = WebJournal::open(&journal, &file.study, force).map_err(|failure| match failure {
-            Failure::OtherStudy { folder, .. } => {
-                Failure::OtherStudy { differences: differ(&folder, file), folder }
-            }
-            other => other,
-        })?;
+        let journal = WebJournal::open(&journal, &file.study, force, || differ(path, file))?;
         leftovers::remove_unclaimed(path);
         Ok((Self { path: path.to_owned(), stop }, journal))
     }

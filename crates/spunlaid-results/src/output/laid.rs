@@ -76,7 +76,7 @@ impl Spill {
     /// The failure of a file, in place of the error that ended the flights because of it.
     pub fn failure(&self, ended: Failure) -> Failure {
         match self.held().failed.take() {
-            Some(source) => Failure::Unwritable { path: self.table.clone(), source },
+            Some(source) => Failure::unwritable(&self.table)(source),
             None => ended,
         }
     }
@@ -219,6 +219,6 @@ mod tests {
         let told = spill.failure(error.into()).to_string();
         assert!(told.starts_with("r/laid.parquet: cannot be written: "), "{told}");
         // Another error stays what it is.
-        assert!(matches!(spill.failure(Error::Interrupted.into()), Failure::Simulation(Error::Interrupted)));
+        assert!(matches!(spill.failure(Error::Interrupted), Error::Interrupted));
     }
 }

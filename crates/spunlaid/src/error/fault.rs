@@ -1,6 +1,6 @@
 //! What is wrong with a value or a file, and what to do about it.
 
-use super::FileError;
+use super::Problem;
 use super::words::{all_of, did_you_mean, one_of};
 use crate::units::{ExpressionFault, QuantityFault, shortest};
 use std::borrow::Cow;
@@ -144,10 +144,12 @@ impl From<ExpressionFault> for Fault {
     }
 }
 
-impl From<FileError> for Fault {
-    fn from(error: FileError) -> Self {
-        let Self { message, remedy, .. } = split(&error.to_string());
-        Self::new(format!("cannot be used: {message}"), remedy)
+/// The fault of a key that names a file which cannot be used.
+impl From<Box<Problem>> for Fault {
+    fn from(problem: Box<Problem>) -> Self {
+        // Options of the program are for a file that is named on the command line.
+        let Problem { place, what: Self { message, remedy, .. }, .. } = *problem;
+        Self::new(format!("cannot be used: {place}{message}"), remedy)
     }
 }
 

@@ -31,7 +31,7 @@ pub(super) fn sweep(asked: &Sweep) -> Result<(), Failure> {
         let points = study.points.len() as u64;
         let index = number.checked_sub(1).and_then(|index| usize::try_from(index).ok());
         let point = index.and_then(|index| study.points.get(index));
-        let point = point.ok_or(Failure::NoSuchPoint { point: number, points })?;
+        let point = point.ok_or_else(|| super::no_such_point(number, points))?;
         say::line(&format!("# point {number} of {points}"));
         say::text(&write_web(&point.spec));
         return Ok(());
@@ -53,12 +53,12 @@ pub(super) fn sweep(asked: &Sweep) -> Result<(), Failure> {
     let done = journal.laid().len() as u64;
     let written = laid.and_then(|()| folder.write(&name, &file, &journal).map_err(Failure::from));
     let results = written.map_err(|failure| match failure {
-        Failure::Library(Error::Interrupted) => Failure::Paused { done, of, what: "webs" },
+        Failure::Error(Error::Interrupted) => Failure::Paused { done, of, what: "webs" },
         other => other,
     })?;
     if asked.json {
         let path = folder.path().join("results.json");
-        say::text(&fs::read_to_string(&path).map_err(Failure::unwritable(&path))?);
+        say::text(&fs::read_to_string(&path).map_err(Error::unwritable(&path))?);
     } else if !asked.quiet {
         say::text(&told(&file, &results));
         say::line(&format!("open {}", folder.path().join("report.html").display()));

@@ -21,7 +21,7 @@ use super::web::WebKey;
 use super::{Overrides, file, open};
 use crate::case::Remark;
 use crate::case::keys::{self, Key, Kind, Value};
-use crate::error::{Error, FileKind, Finding, Place};
+use crate::error::{Error, FileKind, Finding, Place, Position};
 use crate::study::{Factor, Levels, Replicates, Study};
 use crate::units::Dimension;
 use std::path::{Path, PathBuf};
@@ -142,7 +142,7 @@ pub fn parse_changed_study(
     let (resolved, mut notes) = resolver.points()?;
     let Replicates { at_least, until, .. } = &plan.replicates;
     if !until.is_empty() && *at_least < FEWEST_REPLICATES {
-        let place = Place::File { file: name.to_owned(), line: None, column: None };
+        let place = Place::in_file(name, Position::Whole);
         let (key, value) = ("replicates.at_least".to_owned(), Some(at_least.to_string()));
         let note = Finding { place, key, value, what: Remark::FewReplicates };
         notes.push(StudyNote { note, points: resolved.len() as u64, all: true });

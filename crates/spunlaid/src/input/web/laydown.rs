@@ -105,7 +105,7 @@ impl Reading<'_> {
         let (case, notes) = match read_case(path, changes) {
             Ok(read) => read,
             Err(Error::File(error)) => {
-                self.written.reject(key, (*error).into());
+                self.written.reject(key, error.into());
                 return Ok(None);
             }
             Err(Error::Rejected(problems)) => {
