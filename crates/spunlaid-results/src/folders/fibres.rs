@@ -316,7 +316,7 @@ mod tests {
         // So long elements show too little of the autocorrelation to see a surrogate in it.
         let (spec, _) = web("25 mm", "surrogate");
         let said = flyer.fibres(&spec, &spec.layers[0]).unwrap_err();
-        assert!(said.is_wrong_input());
+        assert_eq!(said.exit_code(), 1);
         let said = said.to_string();
         assert!(
             said.starts_with("short.toml: no surrogate was identified in what its fibres lay: "),
