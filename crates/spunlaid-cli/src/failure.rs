@@ -12,8 +12,8 @@ pub(crate) enum Failure {
     Error(Error),
     /// A study was interrupted.
     Paused { done: u64, of: u64, what: &'static str },
-    /// The positions of fibres became infinite or NaN.
-    FibresLost { lost: u64, of: u64, first: Vec<String> },
+    /// Fibres were lost; the results are those of all others.
+    FibresLost { lost: String },
     /// The program panicked; the message has been printed.
     Panicked,
 }
@@ -66,13 +66,7 @@ impl fmt::Display for Failure {
                     "interrupted; {done} of {of} {what} are done and kept. Repeat the command to continue"
                 )
             }
-            Self::FibresLost { lost, of, first } => {
-                write!(
-                    f,
-                    "{lost} of {of} fibres were lost because their positions became infinite; all others are in the results"
-                )?;
-                first.iter().try_for_each(|line| write!(f, "\n{line}"))
-            }
+            Self::FibresLost { lost } => f.write_str(lost),
             Self::Panicked => write!(
                 f,
                 "the program has a fault, see above; please report it with the case or study that shows it"
@@ -120,7 +114,7 @@ mod tests {
         for not_the_inputs_fault in [
             Failure::from(Error::unwritable(path)(full())),
             Error::System(Box::new(Problem::from(Fault::plain("the page cannot be served")))).into(),
-            Failure::FibresLost { lost: 1, of: 2, first: Vec::new() },
+            Failure::FibresLost { lost: "1 of 2 fibres was lost".to_owned() },
             Failure::Panicked,
             Error::Diverged {
                 replicate: 1,

@@ -51,7 +51,7 @@ pub(crate) fn fly_bundle(
         isa: Isa::detect(),
         stop: &watch.stop,
         fibre_steps: &watch.done,
-        laid: None,
+        recorder: None,
     };
     let flown = watched(py, &watch, None, || {
         let mut points: Vec<Point> = Vec::new();

@@ -10,36 +10,22 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::case::Note;
 use spunlaid::ensemble::{
-    Computing, FinerCheck, FinerPlans, Keep, KeepShapes, Results, TakeLaid, Trajectory, fly_and_check,
+    Computing, FinerCheck, FinerPlans, Keep, KeepShapes, LaidCurves, LostFibre, Recorder, Results,
+    Trajectory, fly_and_check,
 };
 use spunlaid::error::Error;
-use spunlaid::flight::LaidPoint;
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::observe::{MEASURES, Measure};
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
 use spunlaid_results::output::folder::{ENTRIES, Staging};
-use spunlaid_results::output::laid::{LaidTable, Spill};
-use spunlaid_results::output::tables::{Table, tables};
-use std::collections::BTreeMap;
+use spunlaid_results::output::tables::{TableRecorder, Tables};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
-use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 /// Number of trajectories that are kept whole, for the report.
 const KEPT: usize = WIDTH;
-
-/// What the fibres of a run laid, by replicate.
-#[derive(Debug, Default)]
-struct Belt(Mutex<BTreeMap<u64, Vec<LaidPoint>>>);
-
-impl TakeLaid for Belt {
-    fn take(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
-        let mut laid = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        laid.entry(replicate).or_default().extend_from_slice(points);
-        Ok(())
-    }
-}
 
 /// Flies a case. See spunlaid.run, which calls it.
 #[pyfunction]
@@ -56,35 +42,47 @@ pub(crate) fn fly(
     let (of, run) = (Arc::clone(&case.case), case.case.run);
     let plans = if check_step { FinerPlans::of(&of) } else { FinerPlans::none("it was not asked for") };
     let watch = Watch::of(run.steps.saturating_mul(run.replicates).saturating_add(plans.fibre_steps()));
-    let belt = Belt::default();
+    let belt = LaidCurves::default();
     let computing = Computing {
         threads: self::threads(threads),
         isa: Isa::detect(),
         stop: &watch.stop,
         fibre_steps: &watch.done,
-        laid: of.line.is_some().then_some(&belt as &dyn TakeLaid),
+        recorder: of.line.is_some().then_some(&belt as &dyn Recorder),
     };
     let started = Instant::now();
     let (results, checks, collected) = watched(py, &watch, progress.as_ref(), || {
         let shapes = if shapes { KeepShapes::within(&of, POSITIONS) } else { KeepShapes::NONE };
         let (mut collector, mut collected) = (Results::collector(KEPT), Collected::default());
-        let take = |trajectory: Trajectory| {
-            if samples {
-                collected.take(&trajectory.samples);
+        let take = |landed: Result<Trajectory, LostFibre>| {
+            match landed {
+                Ok(mut trajectory) => {
+                    if samples {
+                        collected.take(&std::mem::take(&mut trajectory.samples));
+                    }
+                    collector.take(trajectory);
+                }
+                Err(lost) => {
+                    if samples {
+                        collected.lose();
+                    }
+                    collector.lose(lost);
+                }
             }
-            collector.take(&trajectory);
             Ok::<(), Error>(())
         };
-        let checks = fly_and_check(&of, &plans, Keep { curves: true, shapes }, computing, take)?;
+        let keep = Keep { curves: true, samples, shapes };
+        let checks = fly_and_check(&of, &plans, keep, computing, take)?;
         Ok((collector.finish(), checks, collected))
     })?;
     let performance = folder::performance(&of, &results, &plans, computing, started.elapsed().as_secs_f64());
     let mut notes = Note::of_results(&case.notes);
+    notes.extend(folder::lost(&of, &results));
     notes.extend(folder::outside(&results));
     notes.extend(folder::coarse_shapes(&of, &results));
-    let mut laid = belt.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let is_lost = |replicate| results.lost.iter().any(|fibre| fibre.replicate == replicate);
     let laid = (0..if of.line.is_some() { run.replicates } else { 0 })
-        .map(|replicate| laid.remove(&replicate).unwrap_or_default())
+        .map(|replicate| if is_lost(replicate) { Vec::new() } else { belt.take(replicate) })
         .collect();
     let samples = if samples { Some(collected.into_numpy(py)?) } else { None };
     Ok(Flown { name: case.stem(), case: of, results, checks, notes, performance, samples, laid })
@@ -124,6 +122,13 @@ impl Flown {
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.notes.clone()
+    }
+
+    /// The fibres that were lost: replicate, counted from 1, time and reason of each.
+    #[getter]
+    pub(crate) fn lost(&self) -> Vec<(u64, f64, String)> {
+        let lost = self.results.lost.iter();
+        lost.map(|fibre| (fibre.replicate + 1, fibre.time, fibre.reason.clone())).collect()
     }
 
     /// Columns of the free ends: times, or replicates x times.
@@ -213,24 +218,24 @@ impl Flown {
             let text = "the run was flown with samples=False, so its tables cannot be written";
             return Err(crate::failure::raised_as(py, "FolderError", text.to_owned()));
         };
-        let trajectories = samples.borrowed(py).trajectories();
+        let samples = samples.borrowed(py).all();
         let watch = Watch::default();
         watched(py, &watch, None, || {
             let staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
-            for (name, columns) in tables(self.case.line.is_some()) {
-                let mut table = Table::create(staging.place(name), columns)?;
-                trajectories.iter().try_for_each(|trajectory| table.add(trajectory))?;
-                table.finish()?;
-            }
-            if self.case.line.is_some() {
-                let spill = Spill::new(&staging);
-                let mut table = LaidTable::create(&staging, &spill)?;
-                for (replicate, points) in (0..).zip(&self.laid) {
-                    spill.take(replicate, points).map_err(|ended| spill.failure(ended.into()))?;
-                    table.add(replicate)?;
+            let recorder = TableRecorder::new(&staging, self.case.line.is_some());
+            let mut tables = Tables::create(&staging, &recorder)?;
+            for (replicate, samples) in (0..).zip(samples) {
+                if self.results.lost.iter().any(|fibre| fibre.replicate == replicate) {
+                    continue;
                 }
-                table.finish()?;
+                let laid = self.laid.get(replicate as usize).map_or(&[][..], Vec::as_slice);
+                let recorded = samples.iter().try_for_each(|sample| recorder.sample(replicate, sample));
+                recorded
+                    .and_then(|()| recorder.lay(replicate, laid))
+                    .map_err(|ended| recorder.failure(ended.into()))?;
+                tables.add(replicate)?;
             }
+            tables.finish()?;
             self.folder().write(&staging, self.computing(&watch.stop, &watch.done))?;
             staging.publish()
         })
@@ -255,7 +260,7 @@ impl Flown {
 
 impl Flown {
     fn computing<'a>(&self, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Computing<'a> {
-        Computing { threads: threads(None), isa: Isa::detect(), stop, fibre_steps, laid: None }
+        Computing { threads: threads(None), isa: Isa::detect(), stop, fibre_steps, recorder: None }
     }
 }
 

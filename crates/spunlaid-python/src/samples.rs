@@ -2,7 +2,7 @@
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
-use spunlaid::ensemble::{Sample, Trajectory};
+use spunlaid::ensemble::Sample;
 use spunlaid_results::output::tables::{Column, tables};
 
 /// A number of a sample: its name, and the place where it stands.
@@ -32,10 +32,14 @@ const FIELDS: [Field; 15] = [
 pub(crate) struct Collected {
     times: Vec<f64>,
     columns: [Vec<f64>; FIELDS.len()],
+    /// Number of fibres so far, and those of them that were lost.
+    fibres: usize,
+    lost: Vec<usize>,
 }
 
 impl Collected {
     pub(crate) fn take(&mut self, samples: &[Sample]) {
+        self.fibres += 1;
         if self.times.is_empty() {
             self.times = samples.iter().map(|sample| sample.time).collect();
         }
@@ -47,11 +51,22 @@ impl Collected {
         }
     }
 
+    /// Takes the place of a fibre that was lost: its numbers are NaN.
+    pub(crate) fn lose(&mut self) {
+        self.lost.push(self.fibres);
+        self.fibres += 1;
+    }
+
     /// Hands the columns over to NumPy.
     pub(crate) fn into_numpy(self, py: Python<'_>) -> PyResult<Samples> {
         let instants = self.times.len();
         let mut columns = Vec::with_capacity(FIELDS.len());
-        for column in self.columns {
+        for mut column in self.columns {
+            for fibre in &self.lost {
+                // How many instants there are is known from those that were not lost.
+                let at = fibre * instants;
+                column.splice(at..at, std::iter::repeat_n(f64::NAN, instants));
+            }
             let replicates = column.len().checked_div(instants).unwrap_or(0);
             let array = PyArray1::from_vec(py, column).reshape([replicates, instants])?;
             columns.push(locked(array.as_any())?.cast_into::<PyArray2<f64>>()?.unbind());
@@ -136,13 +151,8 @@ impl Borrowed<'_> {
         samples
     }
 
-    /// Trajectories with nothing but samples, in order.
-    pub(crate) fn trajectories(&self) -> Vec<Trajectory> {
-        let of = |replicate: usize| Trajectory {
-            replicate: replicate as u64,
-            samples: self.samples(replicate),
-            ..Trajectory::default()
-        };
-        (0..self.shape()[0]).map(of).collect()
+    /// The samples of all replicates, in order.
+    pub(crate) fn all(&self) -> Vec<Vec<Sample>> {
+        (0..self.shape()[0]).map(|replicate| self.samples(replicate)).collect()
     }
 }

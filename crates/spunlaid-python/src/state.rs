@@ -8,7 +8,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{
-    Change, Curve, FinerCheck, FinerChecks, Number, Place, Refined, Results, Shape, Statistic, Trajectory,
+    Change, Curve, FinerCheck, FinerChecks, LostFibre, Number, Place, Refined, Results, Shape, Statistic,
+    Trajectory,
 };
 use spunlaid::flight::LaidPoint;
 use spunlaid::input::{parse_case, write_case};
@@ -25,6 +26,7 @@ pub(crate) fn reduced<'py>(py: Python<'py>, of: &Flown) -> PyResult<Bound<'py, P
     state.set_item("name", &of.name)?;
     state.set_item("case", write_case(&absolute(&of.case)))?;
     state.set_item("notes", &of.notes)?;
+    state.set_item("lost", of.lost())?;
     let p = of.performance;
     state.set_item("performance", (p.wall_s, p.threads, p.element_steps, p.ns_per_element_step))?;
     for (name, check) in [("step_check", &of.checks.step), ("mesh_check", &of.checks.mesh)] {
@@ -90,7 +92,11 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
         step: checked("step_check", Refined::TimeStep)?,
         mesh: checked("mesh_check", Refined::Elements)?,
     };
-    let mut results = Results { numbers: Vec::new(), curves: Vec::new(), trajectories: Vec::new() };
+    let lost: Vec<(u64, f64, String)> = need("lost")?.extract()?;
+    let lost =
+        lost.into_iter().map(|(number, time, reason)| LostFibre { replicate: number - 1, time, reason });
+    let mut results =
+        Results { numbers: Vec::new(), curves: Vec::new(), trajectories: Vec::new(), lost: lost.collect() };
     let numbers: Vec<(String, Told)> = need("numbers")?.extract()?;
     for (name, estimate) in numbers {
         results.numbers.push(Number { measure: measure(&name)?, estimate: told(estimate)? });
@@ -125,7 +131,8 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
         results.trajectories.push(Trajectory {
             replicate,
             values: Vec::new(),
-            samples: recorded.unwrap_or_default(),
+            samples: Vec::new(),
+            path: recorded.iter().flatten().collect(),
             shapes: shapes.into_iter().map(shape).collect::<PyResult<_>>()?,
             laid: points_of(&laid),
         });

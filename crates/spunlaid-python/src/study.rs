@@ -95,7 +95,7 @@ impl Study {
             isa: Isa::detect(),
             stop: &watch.stop,
             fibre_steps: &watch.done,
-            laid: None,
+            recorder: None,
         };
         // Progress is told in fibres, as it is on a cluster.
         let told = Watch::default();

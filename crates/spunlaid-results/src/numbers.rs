@@ -100,6 +100,11 @@ fn superscript(exponent: i32) -> String {
     exponent.to_string().chars().map(raised).collect()
 }
 
+/// `1 of 10 fibres was lost`.
+pub fn lost_of(lost: u64, of: u64) -> String {
+    format!("{lost} of {of} fibres {} lost", if lost == 1 { "was" } else { "were" })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -77,9 +77,9 @@ fn memory_of<T>(work: impl FnOnce() -> T) -> (T, Memory) {
 fn flights(case: &Case) -> (Vec<Trajectory>, u64) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
+        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let jobs: Vec<Job<'_>> = (0..case.run.replicates).map(|replicate| Job { case, replicate }).collect();
-    let flights = fly_together(&jobs, Keep::NUMBERS, computing).expect("the case flies");
+    let flights = fly_together(&jobs, Keep::SAMPLES, computing).expect("the case flies");
     (flights, fibre_steps.into_inner())
 }
 
@@ -213,14 +213,40 @@ fn memory_of_flights_is_what_they_keep_and_their_turbulence() {
     assert!(grown <= most, "{grown} bytes more for ten times the duration, {most} expected at most");
 }
 
+/// Recorders take the instants, and observers keep some of them at most.
+#[test]
+fn memory_of_a_flight_does_not_grow_with_its_recorded_instants() {
+    let peak = |instants: u64| {
+        let mut case = table1(Scheme::ImplicitTension, 2e-4, 1.0, 2);
+        (case.run.steps, case.run.output_steps) = (instants, 1);
+        let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
+        let computing = Computing {
+            threads: 1,
+            isa: Isa::detect(),
+            stop: &stop,
+            fibre_steps: &fibre_steps,
+            recorder: None,
+        };
+        let jobs = [0, 1].map(|replicate| Job { case: &case, replicate });
+        let (flown, memory) =
+            memory_of(|| fly_together(&jobs, Keep::CURVES, computing).expect("the case flies"));
+        assert!(flown.iter().all(|flight| flight.samples.is_empty()));
+        memory.peak
+    };
+    // Beyond what is kept whole. If every instant were kept, these would be 40 000 more, of 1 kB of two fibres.
+    let [short, long] = [40_000, 80_000].map(peak);
+    assert!(long < short + 100_000, "{short} bytes for 40,000 instants, {long} for 80,000");
+}
+
 #[test]
 fn statistics_keep_a_few_numbers_of_each_flight_however_long() {
     let [short, long] = [0.2, 2.0].map(|duration| {
         let case = table1(Scheme::ImplicitTension, 2e-4, duration, WIDTH as u64);
         let (flights, _) = flights(&case);
         let mut collector = Results::collector(0);
-        collector.take(&flights[0]);
-        let taken = memory_of(|| flights[1..].iter().for_each(|flight| collector.take(flight))).1;
+        collector.take(flights[0].clone());
+        let rest = flights[1..].iter().cloned();
+        let taken = memory_of(|| rest.for_each(|flight| collector.take(flight))).1;
         (taken, bytes_of(&flights[0]))
     });
     // Each of the measures of every flight, in lists that may be half empty.

@@ -215,18 +215,21 @@ fn memory(case: &Case, threads: u64) -> f64 {
     const FIGURES: f64 = 20.0 * (1u64 << 20) as f64;
     /// A position that is kept, and once more while it is written.
     const POSITION: f64 = 2.0 * 24.0;
-    /// Rows of the tables that wait to be written, of 18 numbers.
-    const ROWS: f64 = (1 << 18) as f64;
+    /// Rows of the tables that wait to be written, of 18 numbers, in lists that may be half empty; and those of each fibre that
+    /// wait to go to its file.
+    const ROWS: f64 = (2 << 15) as f64;
     const ROW: f64 = 18.0 * 8.0;
+    const FIBRE: f64 = (2 << 15) as f64;
     let air = &case.air;
     let reading = match &air.flow {
         Flow::Field(placed) => placed.field.memory_while_made() as f64 + largest_file(air),
         Flow::Uniform | Flow::Profile(_) => 0.0,
     };
     let rows = instants(case) * case.run.replicates as f64;
-    // While some fly, what one has recorded is written.
-    let flight = case.flight_memory();
-    let flying = flight.total() * threads as f64 + flight.instants + ROW * rows.min(ROWS);
+    let fibres = (WIDTH as u64 * threads).min(case.run.replicates) as f64;
+    let flying = case.flight_memory().total() * threads as f64
+        + ROW * rows.min(ROWS)
+        + (ROW * rows).min(FIBRE * fibres);
     let kept = air.field_memory() as f64 + POSITION * positions(case);
     PROGRAM + reading.max(kept + flying.max(FIGURES))
 }

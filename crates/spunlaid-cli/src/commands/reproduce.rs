@@ -52,7 +52,7 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
         isa: Isa::detect(),
         stop,
         fibre_steps: &fibre_steps,
-        laid: None,
+        recorder: None,
     };
     let label = format!("flying {}", plural(flying.fibres(), "fibre"));
     let flown =
@@ -191,10 +191,10 @@ impl Flying {
         let mut steps = Vec::new();
         for case in &self.steps {
             let shapes = KeepShapes { replicates: 1, every: case.run.steps / case.run.output_steps };
-            let keep = Keep { curves: true, shapes };
+            let keep = Keep { shapes, ..Keep::CURVES };
             let mut collector = Results::collector(1);
             fly(case, keep, computing, |trajectory| {
-                collector.take(&trajectory);
+                collector.take(trajectory);
                 Ok::<(), Failure>(())
             })?;
             steps.push((case.run.time_step, collector.finish()));

@@ -40,7 +40,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         isa: Isa::detect(),
         stop,
         fibre_steps: &fibre_steps,
-        laid: None,
+        recorder: None,
     };
     let started = Instant::now();
     let plans = FinerPlans::of(&case);
@@ -53,6 +53,8 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     )?;
     let performance = files::performance(&case, &results, &plans, computing, started.elapsed().as_secs_f64());
 
+    let lost = files::lost(&case, &results);
+    notes.extend(lost.clone());
     if let Some(outside) = files::outside(&results) {
         say::warning(&outside);
         notes.push(outside);
@@ -76,12 +78,12 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     if run.json {
         say::text(&written.summary());
     } else if !run.quiet {
-        say::text(&table::results(&case, &results));
+        say::text(&table::results(&results));
         say::text(&finer::text(&checks, &case, &results));
         let seconds = performance.wall_s;
         say::line(&format!(
             "\n{} in {seconds:.2} s, {:.1} ns per element and step and thread ({}, {})",
-            plural(case.run.replicates, "fibre"),
+            plural(results.replicates() as u64, "fibre"),
             performance.ns_per_element_step,
             performance.instruction_set,
             plural(performance.threads as u64, "thread")
@@ -90,7 +92,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
             say::line(&format!("open {}", folder.join("report.html").display()));
         }
     }
-    Ok(())
+    lost.map_or(Ok(()), |lost| Err(Failure::FibresLost { lost }))
 }
 
 /// What the results are called: as the case file, or as the folder of a run that is continued.

@@ -251,10 +251,10 @@ mod tests {
         let (case, _) = parse_case(starter_case(), "starter.toml", &values).unwrap();
         let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
         let computing =
-            Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, laid: None };
+            Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
         let mut results = Results::collector(0);
         fly::<Error>(&case, Keep::NUMBERS, computing, |flown| {
-            results.take(&flown);
+            results.take(flown);
             Ok(())
         })
         .unwrap();

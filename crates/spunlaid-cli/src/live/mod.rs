@@ -1,8 +1,8 @@
 //! `spunlaid live`: a page on which fibres fly, and change while they do.
 //!
 //! ```text
-//! page ←→ server (loopback only, token) ← frames, statistics ← session, a thread of its own: clock → fibres → measured
-//!                                        → messages          →
+//! page ←→ server (loopback only, token) ← board: frames, statistics ← session, a thread of its own: clock → fibres → measured
+//!                                        → messages                 →
 //! ```
 //!
 //! ```text
@@ -12,15 +12,18 @@
 //! batches, laid, measured     statistics since the last change
 //! frame                       the moving picture
 //! session                     the thread
-//! guard, page, server         the server
+//! board                       what pages see
+//! guard, http, page, server   the server, with threads for each connection
 //! ```
 
 mod batches;
+mod board;
 mod clock;
 mod document;
 mod fibres;
 mod frame;
 mod guard;
+mod http;
 mod laid;
 mod measured;
 mod message;
@@ -35,6 +38,7 @@ use crate::failure::{Failure, not_served};
 use document::Document;
 use guard::Guard;
 use message::Complaint;
+use server::Server;
 use session::Session;
 use spunlaid::case::keys;
 use spunlaid::chain::schemes::Scheme;
@@ -42,7 +46,8 @@ use spunlaid::error::{Error, Fault, Problem};
 use spunlaid::units::Dimension;
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
-use tokio::sync::{mpsc, oneshot};
+use std::sync::mpsc;
+use std::thread;
 
 /// Messages that wait for the flight; then pages wait.
 const WAITING: usize = 64;
@@ -75,23 +80,19 @@ pub(crate) fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Resu
     let (document, remark) = at_real_time(Document::new(start.text, start.file)).map_err(rejected)?;
     let not_served = |source: std::io::Error| not_served(&source);
     let folder = std::env::current_dir().map_err(not_served)?;
-    let (session, shown) = Session::new(document, remark.clone(), folder).map_err(rejected)?;
+    let session = Session::new(document, remark.clone(), folder).map_err(rejected)?;
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, start.port)).map_err(not_served)?;
     let guard = Guard::new(listener.local_addr().map_err(not_served)?.port())?;
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().map_err(not_served)?;
 
-    let (asks, asked) = mpsc::channel(WAITING);
-    let (ends, ended) = oneshot::channel();
-    let thread = std::thread::Builder::new().name("flight".to_owned());
-    let flight = thread.spawn(move || {
-        // When the flight ends, by a fault of the program, so does the server.
-        let _ends: oneshot::Sender<()> = ends;
-        session.fly(asked);
-    });
+    let (asks, asked) = mpsc::sync_channel(WAITING);
+    let server = Server { guard, asks, board: session.board() };
+    let address = server.guard.address();
+    let flight = thread::Builder::new().name("flight".to_owned()).spawn(move || session.fly(&asked));
     let flight = flight.map_err(not_served)?;
-    ready(&guard.address(), remark.as_deref());
-    runtime.block_on(server::serve(listener, guard, asks, shown, ended)).map_err(not_served)?;
-    drop(runtime);
+    let serving = thread::Builder::new().name("server".to_owned()).spawn(move || server.serve(&listener));
+    serving.map_err(not_served)?;
+    ready(&address, remark.as_deref());
+    // The flight ends by a fault of the program only, and the server with it.
     flight.join().map_err(|_| Failure::Panicked)
 }
 

@@ -1,7 +1,6 @@
 //! The page and its files, which are part of the program.
 
-use axum::http::{HeaderName, HeaderValue, StatusCode, header};
-use axum::response::{IntoResponse, Response};
+use super::http::Response;
 
 const HTML: &str = "text/html; charset=utf-8";
 const CSS: &str = "text/css; charset=utf-8";
@@ -22,32 +21,29 @@ const FILES: [(&str, &str, &str); 11] = [
     ("live.js", SCRIPT, include_str!("../../assets/live/live.js")),
 ];
 
-/// The answer with a file.
-pub(super) fn file(name: &str) -> Response {
-    match FILES.iter().find(|(other, ..)| *other == name) {
-        Some((_, kind, text)) => {
-            // Page and program are of one version.
-            let text = text.replace("{{ version }}", env!("CARGO_PKG_VERSION"));
-            ([(header::CONTENT_TYPE, *kind)], text).into_response()
-        }
-        None => (StatusCode::NOT_FOUND, "There is no such file.\n").into_response(),
-    }
-}
-
 /// What every answer says: nothing is stored, nothing from elsewhere is loaded, no other page may show this one.
-pub(super) fn headers() -> [(HeaderName, HeaderValue); 5] {
-    [
-        (header::CACHE_CONTROL, "no-store"),
-        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
-        (header::REFERRER_POLICY, "no-referrer"),
-        (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
-        (
-            header::CONTENT_SECURITY_POLICY,
-            "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data: blob:; \
-             base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
-        ),
-    ]
-    .map(|(name, value)| (name, HeaderValue::from_static(value)))
+pub(super) const HEADERS: [(&str, &str); 5] = [
+    ("cache-control", "no-store"),
+    ("x-content-type-options", "nosniff"),
+    ("referrer-policy", "no-referrer"),
+    ("cross-origin-resource-policy", "same-origin"),
+    (
+        "content-security-policy",
+        "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data: blob:; \
+         base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    ),
+];
+
+/// The answer with a file.
+pub(super) fn file(name: Option<&str>) -> Response {
+    match FILES.iter().find(|(other, ..)| Some(*other) == name) {
+        // Page and program are of one version.
+        Some((_, kind, text)) => {
+            let body = text.replace("{{ version }}", env!("CARGO_PKG_VERSION"));
+            Response { status: "200 OK", kind, body }
+        }
+        None => Response::plain("404 Not Found", "There is no such file.\n"),
+    }
 }
 
 #[cfg(test)]

@@ -1,158 +1,222 @@
-//! The server: hands out the page, and carries messages and frames between pages and the flight.
+//! The server: hands out the page, and carries messages and frames between pages and the flight. Each connection has a thread of
+//! its own, so that one that is slow or silent keeps nobody waiting.
 
+use super::board::{Board, Bookmark, News, Page};
 use super::guard::Guard;
+use super::http::{self, Request, Response};
 use super::message::{self, Answer, Asked, LARGEST};
 use super::page;
-use super::session::{Ask, Page, Shown};
-use axum::Router;
-use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
-use axum::extract::{Path, Request, State};
-use axum::http::{HeaderMap, HeaderName, StatusCode, header};
-use axum::middleware::{self, Next};
-use axum::response::{IntoResponse, Response};
-use axum::routing::get;
-use axum::serve::ListenerExt;
+use super::session::Ask;
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::{Shutdown, TcpListener, TcpStream};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::SyncSender;
+use std::thread;
 use std::time::Duration;
-use tokio::sync::{Semaphore, mpsc, oneshot};
+use tungstenite::handshake::derive_accept_key;
+use tungstenite::protocol::frame::Frame;
+use tungstenite::protocol::frame::coding::{Data, OpCode};
+use tungstenite::protocol::{Role, WebSocketConfig};
+use tungstenite::{Message, WebSocket};
 
-/// Most pages at a time.
-const PAGES: usize = 16;
-/// A page that does not take a message within this time is given up; it may come back.
-const PATIENCE: Duration = Duration::from_secs(10);
-/// Answers that wait for a page.
-const ANSWERS: usize = 64;
+/// Most connections at a time.
+const CONNECTIONS: usize = 256;
+/// What a connection reads at once [bytes].
+const PIECE: usize = 1 << 14;
+/// Time after which a connection is accepted again, if the system has no more of them.
+const PAUSE: Duration = Duration::from_millis(50);
 
-/// What all requests share.
-struct Shared {
-    guard: Guard,
-    asks: mpsc::Sender<Ask>,
-    shown: Shown,
-    pages: Arc<Semaphore>,
-    next_page: AtomicU64,
+/// What all connections share.
+pub(super) struct Server {
+    pub(super) guard: Guard,
+    pub(super) asks: SyncSender<Ask>,
+    pub(super) board: Arc<Board>,
 }
 
-/// Serves until the flight has ended.
-///
-/// # Errors
-/// The server cannot go on.
-pub(super) async fn serve(
-    listener: std::net::TcpListener,
-    guard: Guard,
-    asks: mpsc::Sender<Ask>,
-    shown: Shown,
-    ended: oneshot::Receiver<()>,
-) -> std::io::Result<()> {
-    listener.set_nonblocking(true)?;
-    // A small message leaves at once; otherwise it waits until the page has confirmed the last one, 40 ms and more.
-    let listener = tokio::net::TcpListener::from_std(listener)?.tap_io(|stream| {
-        // It then only comes later.
-        let _ = stream.set_nodelay(true);
-    });
-    let pages = Arc::new(Semaphore::new(PAGES));
-    let shared = Arc::new(Shared { guard, asks, shown, pages, next_page: AtomicU64::new(0) });
-    let router = Router::new()
-        .route("/{token}/", get(|| async { page::file("") }))
-        .route("/{token}/flight", get(upgrade))
-        .route(
-            "/{token}/{file}",
-            get(|Path((_, file)): Path<(String, String)>| async move { page::file(&file) }),
-        )
-        .layer(middleware::from_fn_with_state(Arc::clone(&shared), guarded))
-        .with_state(shared);
-    tokio::select! {
-        served = axum::serve(listener, router) => served,
-        _ = ended => Ok(()),
+/// What a request leads to.
+enum Reaction {
+    Answer(Response),
+    /// A page has been opened; the key confirms it.
+    Talk {
+        page: Page,
+        key: String,
+    },
+}
+
+impl Reaction {
+    fn refusal(status: &'static str, line: &str) -> Self {
+        Self::Answer(Response::plain(status, line))
     }
 }
 
-/// Answers only what the guard lets pass, and adds what every answer says.
-async fn guarded(State(shared): State<Arc<Shared>>, request: Request, next: Next) -> Response {
-    let headers = request.headers();
-    let upgrades = headers.contains_key(header::UPGRADE);
-    let (host, origin) = (only(headers, &header::HOST), only(headers, &header::ORIGIN));
-    let two = headers.get_all(header::ORIGIN).iter().count() > 1;
-    let passed = shared.guard.check(request.uri().path(), host, origin, upgrades || two);
-    let mut response = match passed {
-        Ok(()) => next.run(request).await,
-        Err(refusal) => (StatusCode::FORBIDDEN, refusal.text()).into_response(),
-    };
-    response.headers_mut().extend(page::headers());
-    response
-}
-
-/// The text of a header that is there once.
-fn only<'a>(headers: &'a HeaderMap, name: &HeaderName) -> Option<&'a str> {
-    let mut all = headers.get_all(name).iter();
-    let first = all.next()?.to_str().ok()?;
-    all.next().is_none().then_some(first)
-}
-
-async fn upgrade(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) -> Response {
-    let Ok(place) = Arc::clone(&shared.pages).try_acquire_owned() else {
-        return (StatusCode::SERVICE_UNAVAILABLE, "Too many pages are open; close one.\n").into_response();
-    };
-    upgrade.max_message_size(LARGEST).max_frame_size(LARGEST).on_upgrade(move |socket| async move {
-        let page = shared.next_page.fetch_add(1, Ordering::Relaxed);
-        let (answers, heard) = mpsc::channel(ANSWERS);
-        let look = |visible| Ask { from: page, asked: Asked::Look { visible }, answers: answers.clone() };
-        if shared.asks.send(look(true)).await.is_ok() {
-            // However the talk ends, the page is gone.
-            let _ = talk(socket, page, &shared, answers.clone(), heard).await;
-            let _ = shared.asks.send(look(false)).await;
+impl Server {
+    /// Serves until the program ends.
+    pub(super) fn serve(self, listener: &TcpListener) {
+        let server = Arc::new(self);
+        for stream in listener.incoming() {
+            let Ok(mut stream) = stream else {
+                thread::sleep(PAUSE);
+                continue;
+            };
+            // Every connection has the server; one is here.
+            if Arc::strong_count(&server) > CONNECTIONS {
+                continue;
+            }
+            let server = Arc::clone(&server);
+            let thread = thread::Builder::new().name("connection".to_owned());
+            // Without a thread, the connection closes.
+            let _ = thread.spawn(move || server.connect(&mut stream));
         }
-        drop(place);
-    })
-}
-
-/// Talks with a page until one of both has had enough.
-async fn talk(
-    mut socket: WebSocket,
-    page: Page,
-    shared: &Shared,
-    answers: mpsc::Sender<String>,
-    mut heard: mpsc::Receiver<String>,
-) -> Option<()> {
-    let Shown { mut frame, texts: [mut settings, mut state, mut statistics] } = shared.shown.clone();
-    let mut had = Default::default();
-    for latest in [&mut settings, &mut state, &mut statistics] {
-        let text = latest.borrow_and_update().as_ref().clone();
-        send(&mut socket, Message::text(text)).await?;
     }
-    frame.mark_changed();
-    loop {
-        let message = tokio::select! {
-            biased;
-            asked = socket.recv() => {
-                match asked?.ok()? {
-                    Message::Text(text) => match message::read(&text) {
-                        Ok(asked) => {
-                            shared.asks.send(Ask { from: page, asked, answers: answers.clone() }).await.ok()?;
-                            continue;
-                        }
-                        Err(answer) => Message::text(answer.json()),
-                    },
-                    Message::Binary(_) => Message::text(Answer::refused("messages are text").json()),
-                    Message::Close(_) => return None,
-                    Message::Ping(_) | Message::Pong(_) => continue,
-                }
-            }
-            answer = heard.recv() => Message::text(answer?),
-            changed = settings.changed() => Message::text(changed.ok().map(|()| settings.borrow_and_update().as_ref().clone())?),
-            changed = state.changed() => Message::text(changed.ok().map(|()| state.borrow_and_update().as_ref().clone())?),
-            changed = statistics.changed() => Message::text(changed.ok().map(|()| statistics.borrow_and_update().as_ref().clone())?),
-            changed = frame.changed() => {
-                changed.ok()?;
-                let latest = Arc::clone(&frame.borrow_and_update());
-                Message::binary(latest.bytes(&mut had))
-            }
+
+    /// Answers the request of a connection, or talks with the page that it is of.
+    fn connect(&self, stream: &mut TcpStream) {
+        // A small message leaves at once; otherwise it waits until the page has confirmed the last one, 40 ms and more. Where this
+        // cannot be had, it only comes later.
+        let _ = stream.set_nodelay(true);
+        let request = match Request::read(stream) {
+            Ok(request) => request,
+            Err(Some(refusal)) => return http::answer(stream, &refusal, &page::HEADERS, false),
+            Err(None) => return,
         };
-        send(&mut socket, message).await?;
+        match self.reaction(&request) {
+            Reaction::Answer(response) => {
+                http::answer(stream, &response, &page::HEADERS, request.method == "HEAD");
+            }
+            Reaction::Talk { page, key } => {
+                // However the talk ends, the page is gone.
+                let _ = self.talk(stream, request.rest, page, &key);
+                self.board.close(page);
+            }
+        }
+    }
+
+    fn reaction(&self, request: &Request) -> Reaction {
+        let needs_origin = request.count("upgrade") > 0 || request.count("origin") > 1;
+        let (host, origin) = (request.only("host"), request.only("origin"));
+        if let Err(refusal) = self.guard.check(&request.path, host, origin, needs_origin) {
+            return Reaction::refusal("403 Forbidden", refusal.text());
+        }
+        if !["GET", "HEAD"].contains(&request.method.as_str()) {
+            return Reaction::refusal("405 Method Not Allowed", "The page and its files can only be read.\n");
+        }
+        // The first part of the path is the token.
+        let file = request.path.splitn(3, '/').nth(2);
+        if file != Some("flight") {
+            return Reaction::Answer(page::file(file));
+        }
+        let upgrades = request.lists("connection", "upgrade") && request.lists("upgrade", "websocket");
+        let known = request.method == "GET" && request.only("sec-websocket-version") == Some("13");
+        let Some(key) = request.only("sec-websocket-key").filter(|_| upgrades && known) else {
+            return Reaction::refusal("400 Bad Request", "This address is for a WebSocket of version 13.\n");
+        };
+        match self.board.open() {
+            Some(page) => Reaction::Talk { page, key: derive_accept_key(key.as_bytes()) },
+            None => Reaction::refusal("503 Service Unavailable", "Too many pages are open; close one.\n"),
+        }
+    }
+
+    /// Talks with a page until one of both has had enough: this thread reads, another one writes.
+    fn talk(&self, stream: &mut TcpStream, rest: Vec<u8>, page: Page, key: &str) -> io::Result<()> {
+        let head = format!(
+            "HTTP/1.1 101 Switching Protocols\r\nconnection: Upgrade\r\nupgrade: websocket\r\nsec-websocket-accept: {key}\r\n"
+        );
+        let headers: String = page::HEADERS.map(|(name, value)| format!("{name}: {value}\r\n")).concat();
+        http::send(stream, format!("{head}{headers}\r\n").as_bytes())?;
+        stream.set_read_timeout(None)?;
+        let mut outward = stream.try_clone()?;
+        self.ask(page, Asked::Look { visible: true })?;
+        let talked = thread::scope(|scope| {
+            let writer = thread::Builder::new().name("page".to_owned()).spawn_scoped(scope, || {
+                // A page that does not take its messages is given up; the reader hears of it.
+                let _ = write(&mut outward, page, &self.board);
+                self.board.close(page);
+                let _ = outward.shutdown(Shutdown::Both);
+            })?;
+            let _ = self.read(stream, rest, page);
+            self.board.post(page, News::End);
+            writer.join().map_err(|_| io::Error::from(ErrorKind::Other))
+        });
+        self.ask(page, Asked::Look { visible: false })?;
+        talked
+    }
+
+    /// Hands on what a page asks. If many pages ask much, they wait.
+    fn ask(&self, from: Page, asked: Asked) -> io::Result<()> {
+        self.asks.send(Ask { from, asked }).map_err(|_| ErrorKind::BrokenPipe.into())
+    }
+
+    /// Reads the messages of a page, until it leaves.
+    fn read(&self, stream: &TcpStream, rest: Vec<u8>, page: Page) -> tungstenite::Result<()> {
+        let config = WebSocketConfig::default()
+            .read_buffer_size(PIECE)
+            .max_message_size(Some(LARGEST))
+            .max_frame_size(Some(LARGEST));
+        let inward = Inward { stream, page, board: &self.board };
+        let mut socket = WebSocket::from_partially_read(inward, rest, Role::Server, Some(config));
+        loop {
+            let answer = match socket.read()? {
+                Message::Text(text) => match message::read(&text) {
+                    Ok(asked) => {
+                        self.ask(page, asked)?;
+                        continue;
+                    }
+                    Err(answer) => answer,
+                },
+                Message::Binary(_) => Answer::refused("messages are text"),
+                Message::Close(_) => return socket.flush(),
+                Message::Ping(_) | Message::Pong(_) | Message::Frame(_) => continue,
+            };
+            if !self.board.post(page, News::Text(answer.json().into())) {
+                return Ok(());
+            }
+        }
     }
 }
 
-/// Sends a message; `None` if the page does not take it.
-async fn send(socket: &mut WebSocket, message: Message) -> Option<()> {
-    tokio::time::timeout(PATIENCE, socket.send(message)).await.ok()?.ok()
+/// The stream of a page as its reader has it. What the protocol answers by itself, a ping and the end, is written between the messages
+/// of the writer.
+struct Inward<'a> {
+    stream: &'a TcpStream,
+    page: Page,
+    board: &'a Board,
+}
+
+impl Read for Inward<'_> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        self.stream.read(bytes)
+    }
+}
+
+impl Write for Inward<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let posted = self.board.post(self.page, News::Raw(bytes.to_vec()));
+        if posted { Ok(bytes.len()) } else { Err(ErrorKind::BrokenPipe.into()) }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Writes what there is for a page, until it leaves.
+fn write(stream: &mut TcpStream, page: Page, board: &Board) -> tungstenite::Result<()> {
+    let (mut mark, mut had) = (Bookmark::default(), Default::default());
+    let mut bytes = Vec::new();
+    loop {
+        bytes.clear();
+        match board.next(page, &mut mark) {
+            News::Text(text) => {
+                let payload = text.as_bytes().to_vec();
+                Frame::message(payload, OpCode::Data(Data::Text), true).format(&mut bytes)?;
+            }
+            News::Frame(latest) => {
+                let payload = latest.bytes(&mut had);
+                Frame::message(payload, OpCode::Data(Data::Binary), true).format(&mut bytes)?;
+            }
+            News::Raw(frame) => bytes = frame,
+            News::End => return Ok(()),
+        }
+        http::send(stream, &bytes)?;
+    }
 }

@@ -29,6 +29,9 @@ class Folder:
             raise FolderError(f"{self.path}: is not the results of a run: summary.json is that of something else")
         self.case = Case.read(self.path / "case.toml")
         self.notes: list[str] = self._read["notes"]
+        # Results of an earlier version have no such list: a lost fibre ended the run.
+        lost = self._read.get("lost_fibres", [])
+        self.lost: list[tuple[int, float, str]] = [(of["replicate"], of["time_s"], of["reason"]) for of in lost]
         self.curves: list[dict[str, Any]] = []
 
     @property
@@ -129,9 +132,18 @@ class Folder:
         if not table:
             return {}
         replicate, times = table.pop("replicate"), table.pop("time_s")
-        instants = int(np.searchsorted(replicate, 2)) or len(times)
-        shaped = {name: of.reshape(-1, instants) for name, of in table.items()}
+        instants = int(np.searchsorted(replicate, replicate[0], side="right"))
+        shaped = {name: self._with_lost(of.reshape(-1, instants), replicate[::instants]) for name, of in table.items()}
         return {"time_s": times[:instants], **shaped}
+
+    def _with_lost(self, rows: Any, replicate: Any) -> Any:
+        """The rows of a table, and NaN for each fibre that was lost."""
+        if len(rows) == self._read["replicates"]:
+            return rows
+        every = np.full((self._read["replicates"], rows.shape[1]), np.nan)
+        every[replicate - 1] = rows
+        every.setflags(write=False)
+        return every
 
     def _table(self, name: str) -> dict[str, Any]:
         if not (self.path / name).exists():

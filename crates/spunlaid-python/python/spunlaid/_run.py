@@ -140,6 +140,12 @@ class Run:
         """Notes and warnings."""
         return list(self._flown.notes)
 
+    @property
+    def lost(self) -> list[tuple[int, float, str]]:
+        """The fibres that were lost: replicate, counted from 1, time [s] and reason of each. They are in no mean, and NaN in
+        every array."""
+        return list(self._flown.lost)
+
     def report(self) -> str:
         """The report, one page of HTML that works offline."""
         return self._keep("report", self._flown.report)  # type: ignore[no-any-return]

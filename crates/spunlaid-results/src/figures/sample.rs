@@ -47,7 +47,7 @@ pub fn results(case: &Case, amplitude: f64) -> Results {
     let nodes = case.fibre.elements + 1;
     let mut collector = Results::collector(8);
     for replicate in 0..case.run.replicates {
-        collector.take(&trajectory(case, nodes, replicate, amplitude));
+        collector.take(trajectory(case, nodes, replicate, amplitude));
     }
     collector.finish()
 }
@@ -108,7 +108,7 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
         replicate,
         values: values.collect(),
         shapes: times.iter().map(shape).collect(),
-        samples,
+        path: samples.iter().collect(),
         ..Trajectory::default()
     }
 }
@@ -134,7 +134,7 @@ pub fn fed_case(instants: usize, replicates: u64) -> Case {
 /// Results of a fed fibre that lays circles of 20 mm, with six nodes on the belt that have not left the chain.
 pub fn fed_results(case: &Case, keep: usize) -> Results {
     let mut collector = Results::collector(keep);
-    (0..case.run.replicates).for_each(|replicate| collector.take(&fed_trajectory(case, replicate)));
+    (0..case.run.replicates).for_each(|replicate| collector.take(fed_trajectory(case, replicate)));
     collector.finish()
 }
 
@@ -169,7 +169,6 @@ fn fed_trajectory(case: &Case, replicate: u64) -> Trajectory {
         let at = fed_node(case, replicate, number, time);
         LaidPoint { fed, time, md: at.y - line.belt_speed * time, cd: at.z }
     });
-    let sample = |&time: &f64| Sample { time, air_work: time, feed_work: time, ..Sample::default() };
     let curve = |from: f64| {
         let at = |i: i32| f64::from(i) * 10.0;
         Value::Curve((0..36).map(at).collect(), (0..36).map(|i| from / (1.0 + at(i) / 100.0)).collect())
@@ -184,9 +183,9 @@ fn fed_trajectory(case: &Case, replicate: u64) -> Trajectory {
     Trajectory {
         replicate,
         values: values.collect(),
-        samples: times.iter().map(sample).collect(),
         shapes: times.iter().map(|&time| Shape { time, position: position(time) }).collect(),
         laid: laid.collect(),
+        ..Trajectory::default()
     }
 }
 

@@ -9,7 +9,7 @@
 use super::laid;
 use crate::Failure;
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Computing, Keep, TakeLaid, fly};
+use spunlaid::ensemble::{Computing, Keep, LaidCurves, fly};
 use spunlaid::error::{Error, Fault};
 use spunlaid::flight::LaidPoint;
 use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec};
@@ -18,10 +18,9 @@ use spunlaid::laydown::{Trace, Tracing};
 use spunlaid::statistics::Estimate;
 use spunlaid::surrogate::{Residual, Surrogate, Unidentified, identify};
 use spunlaid::web::{Curves, Fibres, Web};
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
-use std::sync::{Arc, Mutex, PoisonError};
 
 /// The fibres of a layer.
 #[derive(Clone, Debug)]
@@ -118,13 +117,13 @@ impl<'a> Flyer<'a> {
 
     /// Flies a case; the points that each replicate has laid.
     fn fly(&self, path: &Path, case: &Case) -> Result<Vec<Vec<LaidPoint>>, Failure> {
-        let (fibre_steps, laid) = (AtomicU64::new(0), Collected::default());
+        let (fibre_steps, laid) = (AtomicU64::new(0), LaidCurves::default());
         let computing = Computing {
             threads: self.threads,
             isa: Isa::detect(),
             stop: self.stop,
             fibre_steps: &fibre_steps,
-            laid: Some(&laid),
+            recorder: Some(&laid),
         };
         let replicates = case.run.replicates;
         let mut flown = Ok(());
@@ -132,21 +131,8 @@ impl<'a> Flyer<'a> {
             flown = fly::<Error>(case, Keep::NUMBERS, computing, |_| Ok(()));
         });
         flown?;
-        let mut curves = laid.0.into_inner().unwrap_or_else(PoisonError::into_inner);
         // A replicate that has laid nothing is missed by its number.
-        Ok((0..replicates).map(|replicate| curves.remove(&replicate).unwrap_or_default()).collect())
-    }
-}
-
-/// Collects in memory what fibres lay: a few megabytes for a kilometre.
-#[derive(Debug, Default)]
-struct Collected(Mutex<BTreeMap<u64, Vec<LaidPoint>>>);
-
-impl TakeLaid for Collected {
-    fn take(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
-        let mut curves = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        curves.entry(replicate).or_default().extend_from_slice(points);
-        Ok(())
+        Ok((0..replicates).map(|replicate| laid.take(replicate)).collect())
     }
 }
 
@@ -237,7 +223,7 @@ fn source(layer: &LayerSpec) -> &Path {
 mod tests {
     use super::*;
     use crate::output::folder::{ENTRIES, Staging};
-    use crate::output::laid::{LaidTable, Spill};
+    use crate::output::tables::{TableRecorder, Tables};
     use spunlaid::ensemble::Results;
     use spunlaid::input::{parse_web, read_case};
 
@@ -273,17 +259,19 @@ mod tests {
         let desk = tempfile::tempdir().unwrap();
         let folder = desk.path().join("r");
         let staging = Staging::new(&folder, ENTRIES, false, &STOP).unwrap();
-        let spill = Spill::new(&staging);
-        let mut table = LaidTable::create(&staging, &spill).unwrap();
+        let recorder = TableRecorder::new(&staging, true);
+        let mut tables = Tables::create(&staging, &recorder).unwrap();
         let (steps, isa) = (AtomicU64::new(0), Isa::detect());
-        let computing = Computing { threads: 2, isa, stop: &STOP, fibre_steps: &steps, laid: Some(&spill) };
+        let computing =
+            Computing { threads: 2, isa, stop: &STOP, fibre_steps: &steps, recorder: Some(&recorder) };
         let mut results = Results::collector(0);
         fly(&case, Keep::NUMBERS, computing, |trajectory| {
-            results.take(&trajectory);
-            table.add(trajectory.replicate)
+            tables.add(trajectory.replicate)?;
+            results.take(trajectory);
+            Ok::<(), Failure>(())
         })
         .unwrap();
-        table.finish().unwrap();
+        tables.finish().unwrap();
         staging.publish().unwrap();
         let results = results.finish();
         let measured = ["sigma_1", "sigma_2", "noise"].map(|name| results.estimate(name));

@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::failure::not_a_run;
-use crate::output::laid::LAID;
+use crate::output::tables::LAID;
 use parquet::column::reader::ColumnReader;
 use parquet::errors::{ParquetError, Result as Decoded};
 use parquet::file::reader::{FileReader, SerializedFileReader};

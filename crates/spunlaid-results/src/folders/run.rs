@@ -2,16 +2,15 @@
 
 use crate::Failure;
 use crate::figures::run_figures;
-use crate::numbers::significant;
+use crate::numbers::{lost_of, significant};
 use crate::output::folder::Staging;
-use crate::output::laid::{LaidTable, Spill};
 use crate::output::summary::{Performance, Summary};
-use crate::output::tables::{self, Table};
+use crate::output::tables::{TableRecorder, Tables};
 use crate::output::{beside, paraview, pictures};
 use crate::report::{self, ReportInput};
 use spunlaid::case::Case;
 use spunlaid::ensemble::{
-    Computing, FinerChecks, FinerPlans, Keep, KeepShapes, Results, TakeLaid, fly_and_check,
+    Computing, FinerChecks, FinerPlans, Keep, KeepShapes, Recorder, Results, fly_and_check,
     turbulence_spectrum,
 };
 use spunlaid::input::write_case;
@@ -22,46 +21,51 @@ use spunlaid_charts::Figure;
 const KEPT: usize = WIDTH;
 /// Fewest shapes in a period of the free end that follow its motion.
 const PER_PERIOD: f64 = 8.0;
+/// Most lost fibres that are listed.
+const LOST_LISTED: usize = 10;
 /// Number of node positions kept for the report and ParaView. Each takes 24 bytes.
 pub const POSITIONS: u64 = 4_000_000;
 
-/// Flies all replicates. If there is a results folder, the tables are written during the flights.
+/// Flies all replicates. If there is a results folder, the tables are written during the flights. A fibre that is lost is in
+/// [`Results::lost`], and in no table.
 ///
 /// * `plans` – also compares with a finer time step and finer elements
 ///
 /// # Errors
-/// If a fibre is lost, a table cannot be written, or the flights are interrupted.
+/// If too few fibres are left ([`fly_and_check`]), a table cannot be written, or the flights are interrupted.
 pub fn fly(
     case: &Case,
     plans: &FinerPlans,
     computing: Computing<'_>,
     staging: Option<&Staging<'_>>,
 ) -> Result<(Results, FinerChecks), Failure> {
-    let mut tables = Vec::new();
-    if let Some(staging) = staging {
-        for (name, columns) in tables::tables(case.line.is_some()) {
-            tables.push(Table::create(staging.place(name), columns)?);
-        }
-    }
-    let fed = staging.filter(|_| case.line.is_some());
-    let spill = fed.map(Spill::new);
-    let mut laid =
-        fed.zip(spill.as_ref()).map(|(staging, spill)| LaidTable::create(staging, spill)).transpose()?;
-    let computing = Computing { laid: spill.as_ref().map(|spill| spill as &dyn TakeLaid), ..computing };
+    let recorder = staging.map(|staging| TableRecorder::new(staging, case.line.is_some()));
+    let mut tables = staging
+        .zip(recorder.as_ref())
+        .map(|(staging, recorder)| Tables::create(staging, recorder))
+        .transpose()?;
+    let computing =
+        Computing { recorder: recorder.as_ref().map(|recorder| recorder as &dyn Recorder), ..computing };
     let mut collector = Results::collector(KEPT);
     let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
-    let checks = fly_and_check(case, plans, Keep { curves: true, shapes }, computing, |trajectory| {
-        tables.iter_mut().try_for_each(|table| table.add(&trajectory))?;
-        laid.iter_mut().try_for_each(|table| table.add(trajectory.replicate))?;
-        collector.take(&trajectory);
+    let checks = fly_and_check(case, plans, Keep { shapes, ..Keep::CURVES }, computing, |landed| {
+        match landed {
+            Ok(trajectory) => {
+                tables.iter_mut().try_for_each(|tables| tables.add(trajectory.replicate))?;
+                collector.take(trajectory);
+            }
+            Err(lost) => {
+                tables.iter().for_each(|tables| tables.leave_out(lost.replicate));
+                collector.lose(lost);
+            }
+        }
         Ok::<(), Failure>(())
     })
-    .map_err(|ended| match &spill {
-        Some(spill) => spill.failure(ended),
+    .map_err(|ended| match &recorder {
+        Some(recorder) => recorder.failure(ended),
         None => ended,
     })?;
-    tables.into_iter().try_for_each(Table::finish)?;
-    laid.map_or(Ok(()), LaidTable::finish)?;
+    tables.map_or(Ok(()), Tables::finish)?;
     Ok((collector.finish(), checks))
 }
 
@@ -152,6 +156,14 @@ pub fn outside(results: &Results) -> Option<String> {
          of the fibre",
         significant(share, 2)
     ))
+}
+
+/// A warning about fibres that were lost.
+pub fn lost(case: &Case, results: &Results) -> Option<String> {
+    let lost = lost_of(results.lost.len() as u64, case.run.replicates);
+    let each: String =
+        results.lost.iter().take(LOST_LISTED).map(|fibre| format!("\n{}", fibre.reason)).collect();
+    (!results.lost.is_empty()).then(|| format!("{lost}; all others are in the results{each}"))
 }
 
 /// A note about shapes for ParaView that are too far apart in time to follow the free end.

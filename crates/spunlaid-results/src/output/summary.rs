@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 use serde_json::Value as Json;
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Content, Key, Value};
-use spunlaid::ensemble::{FinerCheck, FinerChecks, Number, Results};
+use spunlaid::ensemble::{FinerCheck, FinerChecks, LostFibre, Number, Results};
 use spunlaid::observe::Over;
 use spunlaid::statistics::Estimate;
 use spunlaid::units::Dimension;
@@ -23,6 +23,9 @@ pub struct Summary<'a> {
     elements: usize,
     steps: u64,
     replicates: u64,
+    /// Number of fibres that were lost. They have no place in a mean, and a null among the values.
+    lost: usize,
+    lost_fibres: Vec<LostSummary<'a>>,
     /// `end_node`, `fibre`, `energy`, `laydown`: the measures by group.
     #[serde(flatten)]
     measures: GroupSummary<'a>,
@@ -32,6 +35,15 @@ pub struct Summary<'a> {
     mesh_check: Option<FinerSummary<'a>>,
     performance: Performance,
     notes: Vec<String>,
+}
+
+/// A fibre that was lost.
+#[derive(Debug, Serialize)]
+struct LostSummary<'a> {
+    /// Counted from 1.
+    replicate: u64,
+    time_s: f64,
+    reason: &'a str,
 }
 
 /// Change of the free end's motion, or of the laid fibre, from a finer discretisation to that of the run, in the same
@@ -137,6 +149,8 @@ impl<'a> Summary<'a> {
             elements: case.fibre.elements,
             steps: case.run.steps,
             replicates: case.run.replicates,
+            lost: results.lost.len(),
+            lost_fibres: results.lost.iter().map(lost_summary).collect(),
             measures,
             step_check: checks.step.as_ref().ok().map(FinerSummary::of),
             mesh_check: checks.mesh.as_ref().ok().map(FinerSummary::of),
@@ -165,6 +179,10 @@ fn insert<'a>(into: &mut GroupSummary<'a>, group: &'static str, number: &'a Numb
 fn summary_of(number: &Number) -> NumberSummary<'_> {
     let over = |over| (number.measure.over_replicates == over).then(|| number.value());
     NumberSummary { median: over(Over::Median), largest: over(Over::Largest), ..of_mean(&number.estimate) }
+}
+
+fn lost_summary(fibre: &LostFibre) -> LostSummary<'_> {
+    LostSummary { replicate: fibre.replicate + 1, time_s: fibre.time, reason: &fibre.reason }
 }
 
 fn of_mean(estimate: &Estimate) -> NumberSummary<'_> {

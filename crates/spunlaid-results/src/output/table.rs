@@ -1,14 +1,13 @@
 //! The table of results on the terminal.
 
 use crate::numbers::{number, rounded};
-use spunlaid::case::Case;
 use spunlaid::ensemble::{Number, Results};
 use spunlaid::observe::{Group, Over};
 use std::fmt::Write;
 
 /// The results of a run, with a heading for each group of measures and a row for each result.
-pub fn results(case: &Case, results: &Results) -> String {
-    let n = case.run.replicates;
+pub fn results(results: &Results) -> String {
+    let n = results.replicates() as u64;
     let mut text = format!("mean ± standard error over {n} replicate{}\n", if n == 1 { "" } else { "s" });
     let widest = results.numbers.iter().map(|number| number.measure.label.chars().count()).max().unwrap_or(0);
     let mut heading: Option<Group> = None;

@@ -1,9 +1,13 @@
-//! The Parquet tables of a run, which are written trajectory by trajectory.
+//! The Parquet tables of a run: what is recorded of the fibres in flight goes to files, and from there to the tables, fibre
+//! by fibre in the order of the replicates.
 
+use super::folder::Staging;
 use super::parquet::{self, Holds, Parquet};
+use super::spill::Spill;
 use crate::Failure;
-use spunlaid::ensemble::{Sample, Trajectory};
-use std::path::PathBuf;
+use spunlaid::ensemble::{Recorder, Sample};
+use spunlaid::error::Error;
+use spunlaid::flight::LaidPoint;
 
 /// A column of doubles: its name with the unit, and its value at an instant.
 pub type Column = (&'static str, fn(&Sample) -> f64);
@@ -47,36 +51,116 @@ pub fn tables(fed: bool) -> Vec<(&'static str, Vec<Column>)> {
     end.into_iter().chain([("energy.parquet", energy)]).collect()
 }
 
-/// Number of rows in a row group.
-const ROWS: usize = 1 << 18;
+/// `laid.parquet`: what fed fibres have laid, in the order of feed.
+pub const LAID: &str = "laid.parquet";
+/// Its columns.
+const POINT: [(&str, fn(&LaidPoint) -> f64); 4] =
+    [("s_m", |p| p.fed), ("time_s", |p| p.time), ("md_m", |p| p.md), ("cd_m", |p| p.cd)];
 
-/// A table with one row for each replicate and recorded instant: `replicate` (counted from 1), then the columns.
-pub struct Table {
-    writer: Parquet,
-    columns: Vec<Column>,
+/// Number of rows in a row group, which is held in memory.
+const ROWS: usize = 1 << 15;
+
+/// Takes what is recorded of the fibres in flight, for [`Tables`].
+#[derive(Debug)]
+pub struct TableRecorder {
+    samples: Vec<(Vec<Column>, Spill)>,
+    laid: Option<Spill>,
 }
 
-impl Table {
-    /// * `place` – present and final path of the table
-    pub fn create(place: (PathBuf, PathBuf), columns: Vec<Column>) -> Result<Self, Failure> {
-        let replicate = parquet::Column { name: "replicate".to_owned(), holds: Holds::Whole };
-        let number = |(name, _): &Column| parquet::Column { name: (*name).to_owned(), holds: Holds::Number };
-        let all: Vec<_> = std::iter::once(replicate).chain(columns.iter().map(number)).collect();
-        Ok(Self { writer: Parquet::create(place, &all, ROWS)?, columns })
-    }
-
-    /// Adds a trajectory.
-    pub fn add(&mut self, trajectory: &Trajectory) -> Result<(), Failure> {
-        let samples = &trajectory.samples;
-        self.writer.extend_whole(0, std::iter::repeat_n(trajectory.replicate as i64 + 1, samples.len()));
-        for (index, (_, of)) in self.columns.iter().enumerate() {
-            self.writer.extend(index + 1, samples.iter().map(of));
+impl TableRecorder {
+    /// * `fed` – whether the fibres are fed
+    pub fn new(staging: &Staging<'_>, fed: bool) -> Self {
+        let spill = |(name, columns): (_, Vec<Column>)| {
+            let spill = Spill::new(staging, name, columns.len());
+            (columns, spill)
+        };
+        Self {
+            samples: tables(fed).into_iter().map(spill).collect(),
+            laid: fed.then(|| Spill::new(staging, LAID, POINT.len())),
         }
-        self.writer.flush_when_full()
     }
 
-    /// Writes the remaining rows and closes the file.
+    /// The failure of a file, in place of the error that ended the flights because of it.
+    pub fn failure(&self, ended: Failure) -> Failure {
+        self.spills().find_map(Spill::failure).unwrap_or(ended)
+    }
+
+    fn spills(&self) -> impl Iterator<Item = &Spill> {
+        self.samples.iter().map(|(_, spill)| spill).chain(&self.laid)
+    }
+}
+
+impl Recorder for TableRecorder {
+    fn begin(&self, replicate: u64) {
+        self.spills().for_each(|spill| spill.forget(replicate));
+    }
+
+    fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error> {
+        self.samples
+            .iter()
+            .try_for_each(|(columns, spill)| spill.push(replicate, columns.iter().map(|(_, of)| of(sample))))
+    }
+
+    fn lay(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
+        self.laid.as_ref().map_or(Ok(()), |spill| {
+            points.iter().try_for_each(|point| spill.push(replicate, POINT.map(|(_, of)| of(point))))
+        })
+    }
+}
+
+/// The tables of a run. Each has a row for each replicate and recorded instant, or laid point: `replicate` (counted from 1),
+/// then its columns.
+pub struct Tables<'a> {
+    recorder: &'a TableRecorder,
+    writers: Vec<Parquet>,
+}
+
+impl<'a> Tables<'a> {
+    /// Begins the tables.
+    ///
+    /// # Errors
+    /// If one cannot be written.
+    pub fn create(staging: &Staging<'_>, recorder: &'a TableRecorder) -> Result<Self, Failure> {
+        let samples =
+            recorder.samples.iter().map(|(columns, _)| columns.iter().map(|(name, _)| *name).collect());
+        let laid = recorder.laid.iter().map(|_| POINT.iter().map(|(name, _)| *name).collect());
+        let create = |(columns, spill): (Vec<&str>, &Spill)| {
+            let replicate = parquet::Column { name: "replicate".to_owned(), holds: Holds::Whole };
+            let number = |name: &&str| parquet::Column { name: (*name).to_owned(), holds: Holds::Number };
+            let all: Vec<_> = std::iter::once(replicate).chain(columns.iter().map(number)).collect();
+            Parquet::create(staging.place(spill.name()), &all, ROWS)
+        };
+        let writers = samples.chain(laid).zip(recorder.spills()).map(create).collect::<Result<_, _>>()?;
+        Ok(Self { recorder, writers })
+    }
+
+    /// Adds what was recorded of a replicate.
+    ///
+    /// # Errors
+    /// If it cannot be read back or written.
+    pub fn add(&mut self, replicate: u64) -> Result<(), Failure> {
+        self.writers.iter_mut().zip(self.recorder.spills()).try_for_each(|(writer, spill)| {
+            let width = spill.width();
+            spill.drain(replicate, |rows| {
+                writer.extend_whole(0, std::iter::repeat_n(replicate as i64 + 1, rows.len() / width));
+                for column in 0..width {
+                    writer.extend(column + 1, rows.iter().skip(column).step_by(width).copied());
+                }
+                writer.flush_when_full()
+            })
+        })
+    }
+
+    /// Leaves out what was recorded of a replicate.
+    pub fn leave_out(&self, replicate: u64) {
+        self.recorder.spills().for_each(|spill| spill.forget(replicate));
+    }
+
+    /// Writes the remaining rows and closes the files.
+    ///
+    /// # Errors
+    /// If one cannot be written.
     pub fn finish(self) -> Result<(), Failure> {
-        self.writer.finish().map(drop)
+        self.writers.into_iter().try_for_each(|writer| writer.finish().map(drop))
     }
 }

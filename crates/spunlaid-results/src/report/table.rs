@@ -66,13 +66,18 @@ pub(super) fn replicate_heads(results: &Results) -> Vec<String> {
     results.numbers.iter().map(head).collect()
 }
 
-/// One row per replicate, up to `most`.
+/// One row per replicate that was not lost, up to `most`.
 pub(super) fn replicate_rows(results: &Results, most: usize) -> Vec<ReplicateRow> {
-    let n = results.replicates().min(most);
-    let of = |one: &Number| column(one.estimate.values.get(..n).unwrap_or_default(), one.measure.unit.per_si);
+    let is_lost = |i: &usize| results.lost.iter().any(|fibre| fibre.replicate == *i as u64);
+    let all = results.replicates() + results.lost.len();
+    let listed: Vec<usize> = (0..all).filter(|i| !is_lost(i)).take(most).collect();
+    let of = |one: &Number| {
+        let values: Vec<f64> = listed.iter().filter_map(|i| one.estimate.values.get(*i).copied()).collect();
+        column(&values, one.measure.unit.per_si)
+    };
     let columns: Vec<Vec<String>> = results.numbers.iter().map(of).collect();
-    let values = |i: usize| columns.iter().filter_map(|c| c.get(i).cloned()).collect();
-    (0..n).map(|i| ReplicateRow { number: i + 1, values: values(i) }).collect()
+    let values = |row: usize| columns.iter().filter_map(|c| c.get(row).cloned()).collect();
+    listed.iter().enumerate().map(|(row, i)| ReplicateRow { number: i + 1, values: values(row) }).collect()
 }
 
 /// Values with as many decimals as give the largest four digits; far from one each with its power of ten.

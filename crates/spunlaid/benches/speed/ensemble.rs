@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 
 fn computing<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Computing<'a> {
-    Computing { threads, isa: Isa::detect(), stop, fibre_steps, laid: None }
+    Computing { threads, isa: Isa::detect(), stop, fibre_steps, recorder: None }
 }
 
 fn fly_all(case: &Case, threads: usize) {
@@ -23,7 +23,7 @@ fn fly_all(case: &Case, threads: usize) {
     let mut collector = Results::collector(0);
     let done: Result<(), Error> =
         fly(case, Keep::NUMBERS, computing(threads, &stop, &fibre_steps), |flight| {
-            collector.take(&flight);
+            collector.take(flight);
             Ok(())
         });
     done.expect("the case flies");
@@ -59,7 +59,10 @@ pub fn costs() {
         let flights = trajectories_of(case);
         trials.push(Trial::new(WIDTH as f64, move || {
             let mut collector = Results::collector(0);
-            let time = processor_time(|| flights.iter().for_each(|flight| collector.take(flight)));
+            let time = {
+                let flights = flights.clone();
+                processor_time(|| flights.into_iter().for_each(|flight| collector.take(flight)))
+            };
             black_box(collector.finish());
             time
         }));

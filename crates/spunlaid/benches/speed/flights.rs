@@ -10,9 +10,9 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 pub fn trajectories_of(case: &Case) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
+        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case, replicate }).collect();
-    fly_together(&jobs, Keep::NUMBERS, computing).expect("the case flies")
+    fly_together(&jobs, Keep::SAMPLES, computing).expect("the case flies")
 }
 
 /// How flights differ from others with the same phases.

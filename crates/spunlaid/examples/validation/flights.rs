@@ -37,10 +37,10 @@ fn results(case: &Case) -> Results {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let computing =
-        Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
+        Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let mut collector = Results::collector(0);
     let done: Result<(), Error> = fly(case, Keep::NUMBERS, computing, |flight| {
-        collector.take(&flight);
+        collector.take(flight);
         Ok(())
     });
     done.expect("the case flies");

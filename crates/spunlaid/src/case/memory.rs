@@ -10,9 +10,10 @@ pub const FLIGHT_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
 const VECTORS_PER_NODE: f64 = 12.0;
 /// Bytes of such a vector.
 const VECTOR: f64 = 192.0;
-/// Bytes of a recorded instant of eight fibres: 896 of end nodes and energies, 600 of what observers keep, in lists that
-/// grow by doubling, half of which may be empty.
-const INSTANT: f64 = 2200.0;
+/// Bytes that observers of eight fibres keep of a recorded instant, and of how many instants at most: what quantiles are
+/// found in, and what waits to be transformed into spectra.
+const QUANTILES: (f64, f64) = (400.0, (1 << 14) as f64);
+const SPECTRA: (f64, f64) = (200.0, (17 << 11) as f64);
 /// Bytes of the air around an element of eight fibres in a flow that is not uniform.
 const SURROUNDINGS: f64 = 2000.0;
 /// Bytes of scratch space that the synthesis of turbulence takes per harmonic.
@@ -27,7 +28,7 @@ pub struct FlightMemory {
     pub turbulence: f64,
     /// What making the turbulence takes besides.
     pub synthesis: f64,
-    /// What is recorded of the eight fibres until they have landed.
+    /// What observers keep of the recorded instants.
     pub instants: f64,
 }
 
@@ -59,8 +60,9 @@ impl Case {
         };
         let number_of_instants = (self.run.steps / self.run.output_steps.max(1) + 1) as f64;
         let surroundings = if air.is_uniform() { 0.0 } else { elements * SURROUNDINGS };
-        let (chain, instants) = ((elements + 1.0) * VECTORS_PER_NODE * VECTOR, number_of_instants * INSTANT);
-        let chain = chain + surroundings;
+        let chain = (elements + 1.0) * VECTORS_PER_NODE * VECTOR + surroundings;
+        let kept = |(bytes, most): (f64, f64)| bytes * number_of_instants.min(most);
+        let instants = kept(QUANTILES) + kept(SPECTRA);
         FlightMemory { chain, turbulence, synthesis, instants }
     }
 }

@@ -95,13 +95,12 @@ const FED_ROOT: f64 = 0.84;
 const FIRST_ELEMENTS: usize = 2;
 
 /// A limit on the time step and what sets it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct StepLimit {
     /// What sets the limit, for example `axial waves`.
     pub cause: &'static str,
     /// The longest stable step [s]; steps must stay below it.
-    #[cfg_attr(feature = "serde", serde(rename = "limit_s"))]
+    #[serde(rename = "limit_s")]
     pub limit: f64,
 }
 

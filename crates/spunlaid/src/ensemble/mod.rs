@@ -1,24 +1,26 @@
 //! Ensembles: replicates packed eight to a flight, flights shared out to threads.
 
+mod end_path;
 mod finer;
 mod order;
+mod recorder;
 mod results;
 mod trajectory;
 mod turbulence;
 
 pub use crate::flight::Job;
 pub use crate::observe::Sample;
-pub use finer::{Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refined, Statistic};
+pub use end_path::{EndPath, EndPoint};
+pub use finer::{Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refined, Refinements, Statistic};
 pub use order::in_order;
-pub use results::{Collector, Curve, Number, Place, Results};
-pub use trajectory::{Keep, KeepShapes, Shape, Trajectory, fly_together, pace};
+pub use recorder::{LaidCurves, Recorder};
+pub use results::{Collector, Curve, LostFibre, Number, Place, Results};
+pub use trajectory::{Keep, KeepShapes, Shape, Trajectory, fly_each, fly_together, pace};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 
 use crate::case::Case;
 use crate::error::Error;
-use crate::flight::LaidPoint;
 use crate::lanes::{Isa, WIDTH};
-use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// How an ensemble is computed. None of it changes a bit of the results.
@@ -32,18 +34,8 @@ pub struct Computing<'a> {
     pub stop: &'a AtomicBool,
     /// Counts fibre steps done, for a progress display.
     pub fibre_steps: &'a AtomicU64,
-    /// Takes what fed fibres lay.
-    pub laid: Option<&'a dyn TakeLaid>,
-}
-
-/// Takes what fed fibres lay on the belt while they fly, so that no run has to keep it in memory.
-pub trait TakeLaid: std::fmt::Debug + Sync {
-    /// Receives the next points of a replicate, in the order in which they were fed. Flights of other replicates may call
-    /// it at the same time.
-    ///
-    /// # Errors
-    /// An error ends the flight.
-    fn take(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error>;
+    /// Takes what is recorded of the fibres. Flights of several cases take none.
+    pub recorder: Option<&'a dyn Recorder>,
 }
 
 /// Computes the replicates of a case and passes on each trajectory, in the order of the replicates.
@@ -63,65 +55,75 @@ pub fn fly<E: From<Error>>(
         flights(case),
         computing.threads,
         |index| fly_one(case, index, keep, computing),
-        |flown| flown?.into_iter().try_for_each(&mut take),
+        |flown| flown?.into_iter().try_for_each(|trajectory| take(trajectory?)),
     )
 }
 
 /// [`fly`], and computes what finer steps and finer elements change. The checks are some more flights beside the others;
 /// `plans` are those of the case.
 ///
+/// A fibre that is lost does not stop the others; `take` receives it in its turn.
+///
 /// # Errors
-/// Those of [`fly`]. A check whose own fibres are lost says so in its place.
+/// Another thread stops the ensemble, or `take` returns an error; and with the reason of the first lost fibre, if so many
+/// are lost that fewer than two are left, or none of a single one. A check whose own fibres are lost says so in its place.
 pub fn fly_and_check<E: From<Error>>(
     case: &Case,
     plans: &FinerPlans,
     keep: Keep,
     computing: Computing<'_>,
-    mut take: impl FnMut(Trajectory) -> Result<(), E>,
+    mut take: impl FnMut(Result<Trajectory, LostFibre>) -> Result<(), E>,
 ) -> Result<FinerChecks, E> {
+    enum Landed {
+        Run(Result<Vec<Result<Trajectory, Error>>, Error>),
+        Check(Result<finer::Flight, Error>),
+    }
     let flights = flights(case);
-    let more: Vec<_> = plans.all().flat_map(|plan| plan.flights().map(move |which| (plan, which))).collect();
-    let (mut paths, mut flown) = (Vec::new(), BTreeMap::new());
-    let mut index = 0;
+    let more: Vec<_> = plans.all().flat_map(|plan| plan.flights().map(move |case| (plan, case))).collect();
+    let paths = finer::Paths::of_run(plans.step.as_ref(), computing.recorder);
+    let watched = Computing { recorder: Some(&paths), ..computing };
+    let (mut flown, mut replicate, mut left, mut first_lost) = (Vec::new(), 0, 0, None);
     in_order(
         flights + more.len(),
         computing.threads,
         |index| match index.checked_sub(flights).and_then(|index| more.get(index)) {
-            Some((plan, which)) => plan.fly(*which, computing),
-            None => fly_one(case, index, keep, computing).map(finer::Flight::of_run),
+            Some((plan, case)) => Landed::Check(plan.fly(case, computing)),
+            None => Landed::Run(fly_one(case, index, keep, watched)),
         },
         |landed| {
-            if index >= flights {
+            match landed {
                 // A run is not lost with a check of it.
-                if matches!(landed, Err(Error::Interrupted)) {
-                    landed?;
-                } else {
-                    flown.insert(index - flights, landed);
-                }
-            } else {
-                for trajectory in landed?.into_trajectories() {
-                    paths.extend(
-                        plans.step.iter().map(|plan| plan.path(&trajectory)).filter(|p| !p.is_empty()),
-                    );
-                    take(trajectory)?;
+                Landed::Check(Err(Error::Interrupted)) => return Err(Error::Interrupted.into()),
+                Landed::Check(check) => flown.push(check),
+                Landed::Run(landed) => {
+                    for landed in landed? {
+                        match landed {
+                            Ok(trajectory) => {
+                                left += 1;
+                                take(Ok(trajectory))?;
+                            }
+                            Err(error) => {
+                                paths.forget(replicate);
+                                take(Err(LostFibre::new(replicate, &error)))?;
+                                first_lost.get_or_insert(error);
+                            }
+                        }
+                        replicate += 1;
+                    }
                 }
             }
-            index += 1;
             Ok::<(), E>(())
         },
     )?;
-    let mut flown = more.iter().map(|(plan, which)| (plan.refined, *which)).zip(flown.into_values());
-    let mut compare = |plan: &Result<FinerPlan, String>| {
-        let plan = plan.as_ref().map_err(String::clone)?;
-        let mut pair = [finer::Flight::default(), finer::Flight::default()];
-        for which in plan.flights() {
-            let landed = flown.next().map_or_else(|| Ok(finer::Flight::default()), |(_, landed)| landed);
-            pair[usize::from(which == finer::Flown::Fine)] =
-                landed.map_err(|lost| format!("a fibre of the check was lost: {lost}"))?;
-        }
-        plan.compare(&paths, &pair[0], &pair[1])
-    };
-    Ok(FinerChecks { step: compare(&plans.step), mesh: compare(&plans.mesh) })
+    if let Some(error) = first_lost.filter(|_| left < case.run.replicates.min(2)) {
+        return Err(error.into());
+    }
+    let (paths, mut flown) = (paths.into_paths(), flown.into_iter());
+    Ok(plans.and_then(|plan| {
+        let flights: Vec<_> = flown.by_ref().take(plan.flights().count()).collect();
+        let flights: Result<Vec<_>, Error> = flights.into_iter().collect();
+        plan.compare(&paths, &flights.map_err(|lost| format!("a fibre of the check was lost: {lost}"))?)
+    }))
 }
 
 /// Number of flights of a case.
@@ -129,15 +131,15 @@ fn flights(case: &Case) -> usize {
     case.run.replicates.div_ceil(WIDTH as u64) as usize
 }
 
-/// Computes one flight of a case.
+/// Computes one flight of a case: for each fibre its trajectory, or the reason why it is lost.
 fn fly_one(
     case: &Case,
     index: usize,
     keep: Keep,
     computing: Computing<'_>,
-) -> Result<Vec<Trajectory>, Error> {
+) -> Result<Vec<Result<Trajectory, Error>>, Error> {
     let first = index as u64 * WIDTH as u64;
     let last = case.run.replicates.min(first + WIDTH as u64);
     let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
-    fly_together(&jobs, keep, computing)
+    fly_each(&jobs, keep, computing)
 }

@@ -1,6 +1,7 @@
 //! The results of an ensemble.
 
 use super::Trajectory;
+use crate::error::Error;
 use crate::observe::{Measure, Over, Value};
 use crate::statistics::{Estimate, median};
 
@@ -13,6 +14,27 @@ pub struct Results {
     pub curves: Vec<Curve>,
     /// The first trajectories, whole; see [`Results::collector`].
     pub trajectories: Vec<Trajectory>,
+    /// The fibres that were lost. They are in no mean.
+    pub lost: Vec<LostFibre>,
+}
+
+/// A fibre that was lost: its computation has diverged, or it does not come down.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LostFibre {
+    /// Number of the replicate in its case, from 0.
+    pub replicate: u64,
+    /// When it was lost [s].
+    pub time: f64,
+    /// Why, in a sentence that names the replicate, and what to do.
+    pub reason: String,
+}
+
+impl LostFibre {
+    /// * `error` – why it was lost
+    pub fn new(replicate: u64, error: &Error) -> Self {
+        let time = error.lost_fibre().map_or(f64::NAN, |(_, time)| time);
+        Self { replicate, time, reason: error.to_string() }
+    }
 }
 
 /// A measure that is a number, over the replicates.
@@ -21,7 +43,7 @@ pub struct Number {
     /// Which measure.
     pub measure: &'static Measure,
     /// Mean and standard error over the replicates for which the measure is defined, and the values of all
-    /// replicates in their order, NaN if not defined. SI units.
+    /// replicates in their order, NaN if not defined or if the fibre was lost. SI units.
     pub estimate: Estimate,
 }
 
@@ -67,6 +89,7 @@ pub struct Collector {
     numbers: Vec<(&'static Measure, Vec<f64>)>,
     curves: Vec<(&'static Measure, Vec<f64>, Vec<Sums>)>,
     trajectories: Vec<Trajectory>,
+    lost: Vec<LostFibre>,
 }
 
 /// Running mean and sum of squares over the replicates (Welford), and the largest.
@@ -111,9 +134,9 @@ impl Results {
         Collector { keep, ..Collector::default() }
     }
 
-    /// Number of replicates collected.
+    /// Number of replicates that were collected; fibres that were lost do not count.
     pub fn replicates(&self) -> usize {
-        self.numbers.first().map_or(0, |number| number.estimate.values.len())
+        self.numbers.first().map_or(0, |number| number.estimate.values.len() - self.lost.len())
     }
 
     /// A number by its measure's name; `None` if it does not apply to the case.
@@ -135,7 +158,7 @@ impl Results {
 
 impl Collector {
     /// Adds one more trajectory.
-    pub fn take(&mut self, trajectory: &Trajectory) {
+    pub fn take(&mut self, trajectory: Trajectory) {
         if self.numbers.is_empty() && self.curves.is_empty() {
             for (measure, value) in &trajectory.values {
                 match value {
@@ -156,12 +179,23 @@ impl Collector {
             }
         }
         if self.trajectories.len() < self.keep {
-            self.trajectories.push(trajectory.clone());
+            self.trajectories.push(trajectory);
         }
+    }
+
+    /// Adds a fibre that was lost, in its turn.
+    pub fn lose(&mut self, fibre: LostFibre) {
+        self.lost.push(fibre);
     }
 
     /// The results of all trajectories.
     pub fn finish(self) -> Results {
+        let lost = self.lost;
+        let with_gaps = |mut values: Vec<f64>| {
+            lost.iter()
+                .for_each(|fibre| values.insert((fibre.replicate as usize).min(values.len()), f64::NAN));
+            values
+        };
         let numbers = self.numbers.into_iter();
         let curves = self.curves.into_iter().map(|(measure, places, sums)| {
             let places = places.into_iter().zip(sums).map(|(place, sums)| sums.at(place)).collect();
@@ -169,10 +203,11 @@ impl Collector {
         });
         Results {
             numbers: numbers
-                .map(|(measure, values)| Number { measure, estimate: of_the_defined(values) })
+                .map(|(measure, values)| Number { measure, estimate: of_the_defined(with_gaps(values)) })
                 .collect(),
             curves: curves.collect(),
             trajectories: self.trajectories,
+            lost,
         }
     }
 }

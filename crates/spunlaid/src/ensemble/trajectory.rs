@@ -1,8 +1,8 @@
 //! The trajectory of one replicate.
 
-use super::Computing;
+use super::{Computing, EndPath};
 use crate::case::Case;
-use crate::error::Error;
+use crate::error::{Error, Fault};
 use crate::flight::{AirOf, Flight, Job, LaidPoint};
 use crate::lanes::{Isa, WIDTH};
 use crate::observe::{Measure, Observers, Sample, Seen, Value};
@@ -17,8 +17,10 @@ pub struct Trajectory {
     pub replicate: u64,
     /// Its measures, in the order of the declarations.
     pub values: Vec<(&'static Measure, Value)>,
-    /// End node and energies at the recorded instants, including the start.
+    /// End node and energies at the recorded instants, including the start; empty unless asked for.
     pub samples: Vec<Sample>,
+    /// Where the free end was, of the first fibre of each flight; empty if curves are not measured, and of a fed fibre.
+    pub path: EndPath,
     /// The whole fibre at some of the recorded instants; empty unless asked for.
     pub shapes: Vec<Shape>,
     /// The first points that a fed fibre has laid after the spin-up, of the replicates whose shapes are stored.
@@ -48,20 +50,24 @@ pub struct Shape {
     pub position: Vec<Vec3<f64>>,
 }
 
-/// What to store of an ensemble besides the numbers and samples of each fibre.
+/// What to store of an ensemble besides the numbers of each fibre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Keep {
-    /// Whether curves are measured too: profiles, series, spectra.
+    /// Whether curves are measured too: profiles, series, spectra, and the path of a free end.
     pub curves: bool,
+    /// Whether the recorded instants are kept in memory. A [`Recorder`](super::Recorder) receives them without.
+    pub samples: bool,
     /// The whole shapes that are stored.
     pub shapes: KeepShapes,
 }
 
 impl Keep {
-    /// Numbers and samples only.
-    pub const NUMBERS: Self = Self { curves: false, shapes: KeepShapes::NONE };
-    /// Curves, but no shapes.
-    pub const CURVES: Self = Self { curves: true, shapes: KeepShapes::NONE };
+    /// Numbers only.
+    pub const NUMBERS: Self = Self { curves: false, samples: false, shapes: KeepShapes::NONE };
+    /// Numbers and the recorded instants.
+    pub const SAMPLES: Self = Self { samples: true, ..Self::NUMBERS };
+    /// Curves, but no recorded instants and no shapes.
+    pub const CURVES: Self = Self { curves: true, ..Self::NUMBERS };
 }
 
 /// Which shapes of an ensemble to store.
@@ -116,6 +122,42 @@ fn first_counted(case: &Case) -> f64 {
     case.line.map_or(0.0, |line| line.feed_speed * case.run.spin_up())
 }
 
+/// [`fly_together`], where a fibre that is lost does not stop the others: for each job, its trajectory or the reason why its
+/// fibre is lost.
+///
+/// # Errors
+/// The jobs cannot fly together ([`Flight::new`]), or another thread stops the flight.
+pub fn fly_each(
+    jobs: &[Job<'_>],
+    keep: Keep,
+    computing: Computing<'_>,
+) -> Result<Vec<Result<Trajectory, Error>>, Error> {
+    let mut lost: Vec<(usize, Error)> = Vec::new();
+    loop {
+        let flying: Vec<usize> =
+            (0..jobs.len()).filter(|job| lost.iter().all(|(other, _)| other != job)).collect();
+        let together: Vec<Job<'_>> = flying.iter().map(|job| jobs[*job]).collect();
+        let flown = match together.first() {
+            Some(first) => fly_until_lost(&together, keep, AirOf::run(first.case), computing),
+            None if jobs.is_empty() => {
+                Err(Error::Flight(Fault::plain("a flight needs at least one fibre")).into())
+            }
+            None => Ok(Vec::new()),
+        };
+        match flown {
+            Ok(flown) => {
+                let mut all: Vec<_> = flying.into_iter().zip(flown.into_iter().map(Ok)).collect();
+                all.extend(lost.into_iter().map(|(job, error)| (job, Err(error))));
+                all.sort_by_key(|(job, _)| *job);
+                return Ok(all.into_iter().map(|(_, flown)| flown).collect());
+            }
+            // The others fly again without it, with the same bits.
+            Err(Ended::Lost { lane, error }) => lost.push((flying[lane], error)),
+            Err(Ended::Otherwise(error)) => return Err(error),
+        }
+    }
+}
+
 /// [`fly_together`], in the air of another run.
 pub(super) fn fly_in_air(
     jobs: &[Job<'_>],
@@ -123,7 +165,37 @@ pub(super) fn fly_in_air(
     air: AirOf<'_>,
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
+    fly_until_lost(jobs, keep, air, computing).map_err(|ended| match ended {
+        Ended::Lost { error, .. } | Ended::Otherwise(error) => error,
+    })
+}
+
+/// Why a flight has ended before its time.
+enum Ended {
+    /// The fibre in a lane is lost.
+    Lost {
+        lane: usize,
+        error: Error,
+    },
+    Otherwise(Error),
+}
+
+impl From<Error> for Ended {
+    fn from(error: Error) -> Self {
+        Self::Otherwise(error)
+    }
+}
+
+fn fly_until_lost(
+    jobs: &[Job<'_>],
+    keep: Keep,
+    air: AirOf<'_>,
+    computing: Computing<'_>,
+) -> Result<Vec<Trajectory>, Ended> {
     let mut flight = Flight::in_air(jobs, computing.isa, air)?;
+    if let Some(recorder) = computing.recorder {
+        jobs.iter().for_each(|job| recorder.begin(job.replicate));
+    }
     let clock = flight.clock().clone();
     let mut observers = Observers::of(&flight, keep.curves);
     let mut trajectories: Vec<Trajectory> =
@@ -132,19 +204,26 @@ pub(super) fn fly_in_air(
     for instant in 0.. {
         // A snapshot needs one step. The last one takes that step on a copy.
         let snapshot = if step < clock.steps { flight.observe() } else { flight.snapshot() };
-        match flight.lost() {
-            Some(Error::Diverged { .. }) => {
-                return Err(divergence(jobs, computing.isa, air, step - clock.output_steps.min(step)));
-            }
-            Some(adrift) => return Err(adrift),
-            None => {}
+        if let Some((lane, error)) = flight.lost() {
+            // The fibres that are left fly again.
+            computing.fibre_steps.fetch_sub(step * jobs.len() as u64, Ordering::Relaxed);
+            let good_steps = step - clock.output_steps.min(step);
+            return Err(match error {
+                Error::Diverged { .. } => divergence(jobs, computing.isa, air, good_steps)?,
+                adrift => Ended::Lost { lane, error: adrift },
+            });
         }
         let samples: [Sample; WIDTH] = std::array::from_fn(|lane| Sample::of(&snapshot, lane));
         let laid: [Vec<LaidPoint>; WIDTH] = std::array::from_fn(|lane| flight.take_laid(lane));
         let settled = step >= clock.spin_up_steps;
         observers.see(&Seen { snapshot: &snapshot, samples: &samples, settled, laid: &laid });
         for (lane, trajectory) in trajectories.iter_mut().enumerate() {
-            trajectory.samples.push(samples[lane]);
+            if keep.samples {
+                trajectory.samples.push(samples[lane]);
+            }
+            if keep.curves && lane == 0 && jobs[lane].case.line.is_none() {
+                trajectory.path.push(&samples[lane]);
+            }
             if trajectory.replicate < keep.shapes.replicates && instant % keep.shapes.every == 0 {
                 let nodes = snapshot.position.iter().take(snapshot.nodes[lane]);
                 let position = nodes.map(|p| p.lane(lane)).collect();
@@ -156,10 +235,11 @@ pub(super) fn fly_in_air(
                 let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);
                 trajectory.laid.extend(counted.take(room));
             }
-            if let Some(take) = computing.laid
-                && !laid[lane].is_empty()
-            {
-                take.take(trajectory.replicate, &laid[lane])?;
+            if let Some(recorder) = computing.recorder {
+                recorder.sample(trajectory.replicate, &samples[lane])?;
+                if !laid[lane].is_empty() {
+                    recorder.lay(trajectory.replicate, &laid[lane])?;
+                }
             }
         }
         if step >= clock.steps {
@@ -170,7 +250,7 @@ pub(super) fn fly_in_air(
         step += steps;
         computing.fibre_steps.fetch_add(steps * jobs.len() as u64, Ordering::Relaxed);
         if computing.stop.load(Ordering::Relaxed) {
-            return Err(Error::Interrupted);
+            return Err(Error::Interrupted.into());
         }
     }
     for (lane, trajectory) in trajectories.iter_mut().enumerate() {
@@ -201,15 +281,12 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
 }
 
 /// Finds where a fibre is first seen to be lost: repeats the flight, step by step after the last good instant.
-fn divergence(jobs: &[Job<'_>], isa: Isa, air: AirOf<'_>, good_steps: u64) -> Error {
-    let mut flight = match Flight::in_air(jobs, isa, air) {
-        Ok(flight) => flight,
-        Err(error) => return error,
-    };
+fn divergence(jobs: &[Job<'_>], isa: Isa, air: AirOf<'_>, good_steps: u64) -> Result<Ended, Error> {
+    let mut flight = Flight::in_air(jobs, isa, air)?;
     flight.advance(good_steps);
     loop {
-        if let Some(lost) = flight.lost() {
-            return lost;
+        if let Some((lane, error)) = flight.lost() {
+            return Ok(Ended::Lost { lane, error });
         }
         flight.advance(1);
     }

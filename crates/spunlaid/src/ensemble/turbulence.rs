@@ -19,7 +19,7 @@ pub struct SpectrumPoint {
 }
 
 /// Most velocities that are kept at a time; more would show nothing new.
-const MOST_VALUES: usize = 1 << 22;
+const MOST_VALUES: usize = 1 << 19;
 /// Samples of each of them that are needed for a spectrum.
 const FEWEST_SAMPLES: usize = 1 << 10;
 /// Most stations on the way of a fed fibre whose spectra are averaged.

@@ -17,9 +17,10 @@ const MOST_SPEED: f64 = 20.0;
 const MOST_IN_AIR: f64 = 10.0;
 
 impl Flight {
-    /// The first fibre that is lost, if there is one.
-    pub(crate) fn lost(&self) -> Option<Error> {
-        (0..self.fibres()).find_map(|lane| self.diverged(lane)).or_else(|| self.adrift())
+    /// The lane of the first fibre that is lost and the reason, if there is one.
+    pub(crate) fn lost(&self) -> Option<(usize, Error)> {
+        let diverged = |lane: usize| Some((lane, self.diverged(lane)?));
+        (0..self.fibres()).find_map(diverged).or_else(|| self.adrift())
     }
 
     /// Whether the computation of the fibre in a lane has diverged. A lane is judged by itself, so a fibre is lost in any
@@ -87,7 +88,7 @@ impl Flight {
     }
 
     /// The first fibre that does not reach the belt, if there is one: ten times the way has been fed and has not landed.
-    fn adrift(&self) -> Option<Error> {
+    fn adrift(&self) -> Option<(usize, Error)> {
         let in_air = self.chain.in_air();
         let length = |lane: usize, line: &Line| {
             in_air[lane] as f64 * self.chain.constants.rest_length.0[lane] / line.distance
@@ -106,7 +107,7 @@ impl Flight {
                     ),
                     "give faster air towards the belt, more weight, or a belt that is nearer (belt.distance)",
                 );
-                Error::NotLanding { replicate: replicate + 1, time, what }
+                (lane, Error::NotLanding { replicate: replicate + 1, time, what })
             })
         })
     }

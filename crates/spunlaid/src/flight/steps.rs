@@ -36,7 +36,7 @@ impl Flight {
             let now = left.min(STEPS_UNSEEN);
             self.advance(now);
             left -= now;
-            if let Some(lost) = self.lost() {
+            if let Some((_, lost)) = self.lost() {
                 return Err(lost);
             }
         }

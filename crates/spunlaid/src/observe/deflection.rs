@@ -3,7 +3,7 @@
 use super::{Declaration, Figure, MILLIMETRES, Measure, Observer, Seen, Value, fixed};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
-use crate::statistics::quantile;
+use crate::statistics::{Thinned, quantile};
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
@@ -42,28 +42,44 @@ const DEFLECTION: Measure = Measure {
     ..Measure::NUMBER
 };
 
-/// Distances of the free ends from the axis at the recorded instants after the spin-up [m].
-#[derive(Debug, Default)]
-struct Deflection([Vec<f64>; WIDTH]);
+/// Distances of the free ends from the axis at the recorded instants after the spin-up, and the largest ones [m].
+#[derive(Debug)]
+struct Deflection {
+    distances: [Thinned<f64>; WIDTH],
+    largest: [f64; WIDTH],
+}
+
+impl Default for Deflection {
+    fn default() -> Self {
+        Self { distances: Default::default(), largest: [f64::NAN; WIDTH] }
+    }
+}
+
+impl Deflection {
+    fn add(&mut self, lane: usize, distance: f64) {
+        self.distances[lane].push(distance);
+        self.largest[lane] = self.largest[lane].max(distance);
+    }
+
+    /// The distance that is not exceeded at 99 % of the instants, and the largest one [m].
+    fn known(&self, lane: usize) -> [f64; 2] {
+        [quantile(self.distances[lane].values(), 0.99), self.largest[lane]]
+    }
+}
 
 impl Observer for Deflection {
     fn see(&mut self, seen: &Seen<'_>) {
         if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
-            for (lane, distances) in self.0.iter_mut().enumerate() {
+            for lane in 0..WIDTH {
                 let (y, z) = (end.y.0[lane], end.z.0[lane]);
-                distances.push((y * y + z * z).sqrt());
+                self.add(lane, (y * y + z * z).sqrt());
             }
         }
     }
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
-        known(&self.0[lane]).map(Value::Number).to_vec()
+        self.known(lane).map(Value::Number).to_vec()
     }
-}
-
-/// The distance that is not exceeded at 99 % of the instants, and the largest one [m].
-fn known(distances: &[f64]) -> [f64; 2] {
-    [quantile(distances, 0.99), distances.iter().copied().fold(f64::NAN, f64::max)]
 }
 
 #[cfg(test)]
@@ -72,10 +88,11 @@ mod tests {
 
     #[test]
     fn analytic_quantile_and_largest_of_known_distances() {
-        let distances: Vec<f64> = (0..=1000).map(|i| f64::from(i) * 1e-3).collect();
-        let [most_of_the_time, largest] = known(&distances);
+        let mut seen = Deflection::default();
+        assert_eq!(seen.known(2).map(f64::is_nan), [true; 2]);
+        (0..=1000).for_each(|i| seen.add(2, f64::from(i) * 1e-3));
+        let [most_of_the_time, largest] = seen.known(2);
         assert!((most_of_the_time - 0.99).abs() < 1e-12);
         assert_eq!(largest, 1.0);
-        assert!(known(&[]).iter().all(|distance| distance.is_nan()));
     }
 }

@@ -3,7 +3,7 @@
 use super::{Declaration, END_NODE, Figure, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Value, fixed};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
-use crate::statistics::quantile;
+use crate::statistics::{Thinned, quantile};
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[Measure {
@@ -35,7 +35,7 @@ const SHARE: f64 = 0.9;
 
 /// y and z of the free ends at the recorded instants after the spin-up [m].
 #[derive(Debug, Default)]
-struct Residence([Vec<(f64, f64)>; WIDTH]);
+struct Residence([Thinned<(f64, f64)>; WIDTH]);
 
 impl Observer for Residence {
     fn see(&mut self, seen: &Seen<'_>) {
@@ -47,7 +47,7 @@ impl Observer for Residence {
     }
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
-        vec![Value::Number(radius(&self.0[lane]))]
+        vec![Value::Number(radius(self.0[lane].values()))]
     }
 }
 

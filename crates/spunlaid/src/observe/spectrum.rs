@@ -24,7 +24,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
     ],
     applies: fixed,
-    observer: |_| Box::new(EndPositions::default()),
+    observer: |flight| Box::new(EndPositions::of(flight)),
 };
 
 const SPECTRUM: Measure = Measure {
@@ -43,14 +43,24 @@ const SPECTRUM: Measure = Measure {
     ..Measure::NUMBER
 };
 
-/// y and z of the free ends at the recorded instants after the spin-up [m].
-#[derive(Debug, Default)]
-struct EndPositions([[Vec<f64>; 2]; WIDTH]);
+/// Most instants in a segment. A longer run has more segments, so that its spectrum is smoother.
+const SEGMENT: usize = 1 << 12;
+
+/// Spectra of y and z of the free ends at the recorded instants after the spin-up, of each fibre.
+#[derive(Debug)]
+struct EndPositions(Vec<[Welch; 2]>);
+
+impl EndPositions {
+    fn of(flight: &Flight) -> Self {
+        let cases = (0..WIDTH).filter_map(|lane| flight.case(lane));
+        Self(cases.map(|case| [welch(&case.run), welch(&case.run)]).collect())
+    }
+}
 
 /// Welch's method for a run, before any record.
 fn welch(run: &Run) -> Welch {
     let samples = (run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1)) as usize + 1;
-    let segment = Welch::segment_length(samples);
+    let segment = Welch::segment_length(samples).min(SEGMENT);
     Welch::new(run.output_interval(), segment, Window::Hann, 0.5)
 }
 
@@ -58,18 +68,16 @@ impl Observer for EndPositions {
     fn see(&mut self, seen: &Seen<'_>) {
         if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
             for (lane, [y, z]) in self.0.iter_mut().enumerate() {
-                y.push(end.y.0[lane]);
-                z.push(end.z.0[lane]);
+                y.push(end.y.0[lane], None);
+                z.push(end.z.0[lane], None);
             }
         }
     }
 
-    fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
-        let Some(case) = flight.case(lane) else { return Vec::new() };
-        let empty = welch(&case.run);
-        let density = |record: &Vec<f64>| {
-            let mut welch = empty.clone();
-            welch.add(record, None);
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        let density = |record: &Welch| {
+            let mut welch = record.clone();
+            welch.end_record(None);
             let (frequency, density) = welch.finish().points().unzip();
             Value::Curve(frequency, density)
         };

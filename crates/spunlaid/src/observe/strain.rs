@@ -1,10 +1,13 @@
 //! Strain of the elements.
 
-use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PERCENT, Seen, Value, fixed};
+use super::{
+    Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PERCENT, Seen, Value, fixed, of_each,
+};
 use crate::fibre::Root;
 use crate::flight::Flight;
-use crate::lanes::Lanes;
-use crate::statistics::quantile;
+use crate::lanes::{Lanes, WIDTH};
+use crate::statistics::{Thinned, quantile};
+use std::collections::VecDeque;
 
 /// The strain that does not depend on the time step.
 pub(super) const USUAL: Declaration = Declaration {
@@ -18,7 +21,7 @@ pub(super) const USUAL: Declaration = Declaration {
         "99 % of the time",
     )],
     applies: |case| case.fibre.root != Root::Free,
-    observer: |_| Box::new(Averaged::default()),
+    observer: |flight| Box::new(Averaged::of(flight)),
 };
 
 /// The extreme.
@@ -55,39 +58,68 @@ const fn measure(
     Measure { name, column, label, meaning, unit, kind, group, over_replicates, figure, series }
 }
 
-/// Strain at the root, averaged over some intervals between recorded instants.
-#[derive(Debug, Default)]
+/// Strain at the root, averaged over some intervals that end at the recorded instants after the spin-up.       theory.md (57)
+#[derive(Debug)]
 struct Averaged {
-    /// Times of the recorded instants after the spin-up [s], and the integral of the strain over time [s].
-    integrals: Vec<(f64, Lanes)>,
+    /// Number of intervals over which is averaged, of each fibre.
+    intervals: [usize; WIDTH],
+    /// Times of the first and the last recorded instants [s], and the integral of the strain over time [s]: as many of the
+    /// last as the longest average needs. The period of an axial wave is a few times as many stable steps as there are elements.
+    first: Option<(f64, Lanes)>,
+    last: VecDeque<(f64, Lanes)>,
+    means: [Thinned<f64>; WIDTH],
+}
+
+impl Averaged {
+    fn of(flight: &Flight) -> Self {
+        let intervals =
+            of_each(flight, |case| (case.fibre.axial_period() / case.run.output_interval()).round());
+        // More intervals than the run has mean the whole run.
+        Self::over(intervals.map(|intervals| intervals.clamp(1.0, 1e15) as usize))
+    }
+
+    fn over(intervals: [usize; WIDTH]) -> Self {
+        Self { intervals, first: None, last: VecDeque::new(), means: Default::default() }
+    }
+
+    fn add(&mut self, time: f64, integral: Lanes) {
+        let now = (time, integral);
+        self.first.get_or_insert(now);
+        for (lane, (intervals, means)) in self.intervals.iter().zip(&mut self.means).enumerate() {
+            let before = self.last.len().checked_sub(*intervals).and_then(|at| self.last.get(at));
+            if let Some(before) = before {
+                means.push(mean(before, &now, lane));
+            }
+        }
+        self.last.push_back(now);
+        if self.last.len() > self.intervals.iter().copied().max().unwrap_or(0) {
+            self.last.pop_front();
+        }
+    }
+
+    /// The average that is not exceeded for 99 % of the time [-].
+    fn usual(&self, lane: usize) -> f64 {
+        match (self.means[lane].values(), self.first, self.last.back()) {
+            ([], Some(first), Some(last)) if last.0 > first.0 => mean(&first, last, lane),
+            (means, ..) => quantile(means, 0.99),
+        }
+    }
+}
+
+/// Mean strain between two instants [-].
+fn mean((from, before): &(f64, Lanes), (to, after): &(f64, Lanes), lane: usize) -> f64 {
+    (after.0[lane] - before.0[lane]) / (to - from)
 }
 
 impl Observer for Averaged {
     fn see(&mut self, seen: &Seen<'_>) {
         if seen.settled {
-            self.integrals.push((seen.snapshot.time, seen.snapshot.root_strain_integral));
+            self.add(seen.snapshot.time, seen.snapshot.root_strain_integral);
         }
     }
 
-    fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
-        let intervals = flight
-            .case(lane)
-            .map_or(1.0, |case| (case.fibre.axial_period() / case.run.output_interval()).round());
-        // More intervals than the run has mean the whole run.
-        let means = self.means(lane, intervals.clamp(1.0, 1e15) as usize);
-        vec![Value::Number(quantile(&means, 0.99))]
-    }
-}
-
-impl Averaged {
-    /// The averages over some intervals that end at the recorded instants [-].       theory.md (57)
-    fn means(&self, lane: usize, intervals: usize) -> Vec<f64> {
-        let intervals = intervals.min(self.integrals.len().saturating_sub(1)).max(1);
-        let mean = |((from, before), (to, after)): (&(f64, Lanes), &(f64, Lanes))| {
-            (after.0[lane] - before.0[lane]) / (to - from)
-        };
-        let later = self.integrals.iter().skip(intervals);
-        self.integrals.iter().zip(later).map(mean).collect()
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        vec![Value::Number(self.usual(lane))]
     }
 }
 
@@ -120,7 +152,11 @@ mod tests {
         };
         let integrals: Vec<_> = (0..=1000).map(wave).collect();
         let found = |intervals, integrals: &[(f64, Lanes)]| {
-            quantile(&Averaged { integrals: integrals.to_vec() }.means(3, intervals), 0.99)
+            // The other fibres average over other times.
+            let mut averaged =
+                Averaged::over(std::array::from_fn(|lane| if lane == 3 { intervals } else { 7 }));
+            integrals.iter().for_each(|(time, integral)| averaged.add(*time, *integral));
+            averaged.usual(3)
         };
         // 99 % of the way from the first average, over 0 to 10 ms, to the last one, over 0.99 to 1 s.
         assert!((found(10, &integrals) - (0.005 + 0.99 * 0.99)).abs() < 1e-12);

@@ -39,7 +39,6 @@ impl Verdict {
 }
 
 /// Written as its name.
-#[cfg(feature = "serde")]
 impl serde::Serialize for Verdict {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.name())
@@ -47,8 +46,7 @@ impl serde::Serialize for Verdict {
 }
 
 /// A claim of the paper about a figure.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Claim {
     /// The figure.
     pub figure: &'static str,

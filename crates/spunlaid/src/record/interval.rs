@@ -3,8 +3,7 @@
 use crate::statistics::{NORMAL_95, student_t_95};
 
 /// A value with its 95 % confidence interval.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Interval {
     /// The estimate.
     pub value: f64,

@@ -2,9 +2,11 @@
 
 mod difference;
 mod spectrum;
+mod thinned;
 
 pub use difference::{Difference, difference_of_deviations, student_t_95_at};
 pub use spectrum::{Spectrum, Welch, Window};
+pub use thinned::Thinned;
 
 /// A result over the replicates of an ensemble.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -77,6 +77,8 @@ impl Spectrum {
 }
 
 /// Welch's method: the mean spectrum of overlapping segments of one or more records.           theory.md (40)
+///
+/// A record is taken value by value, and not kept: sixteen segments wait at most.
 #[derive(Clone, Debug)]
 pub struct Welch {
     interval: f64,
@@ -88,7 +90,13 @@ pub struct Welch {
     segments: usize,
     /// Over all samples: the sum and the sum of squares of `w̄`, which is the sum of the squared windows at a sample.
     carried: (f64, f64),
+    /// Values of the present record that are not transformed, and its segments that are.
+    waiting: Vec<f64>,
+    transformed: usize,
 }
+
+/// Segments that are transformed together: each lane holds two, as the real and the imaginary part.
+const TOGETHER: usize = 2 * WIDTH;
 
 impl Welch {
     /// An empty average.
@@ -106,6 +114,8 @@ impl Welch {
             sums: vec![0.0; segment / 2],
             segments: 0,
             carried: (0.0, 0.0),
+            waiting: Vec::new(),
+            transformed: 0,
         }
     }
 
@@ -118,39 +128,67 @@ impl Welch {
     ///
     /// * `mean` – subtracted from the values; `None` subtracts the mean of each segment
     pub fn add(&mut self, values: &[f64], mean: Option<f64>) {
+        values.iter().for_each(|value| self.push(*value, mean));
+        self.end_record(mean);
+    }
+
+    /// Adds the next value of a record, as [`Welch::add`] does.
+    pub fn push(&mut self, value: f64, mean: Option<f64>) {
+        self.waiting.push(value);
+        if self.waiting.len() == (TOGETHER - 1) * self.hop() + self.weights.len() {
+            self.transform_waiting(mean);
+            self.waiting.drain(..TOGETHER * self.hop());
+        }
+    }
+
+    /// Ends a record whose values were pushed.
+    pub fn end_record(&mut self, mean: Option<f64>) {
+        self.transform_waiting(mean);
+        self.waiting.clear();
+        let segments = std::mem::take(&mut self.transformed);
+        self.segments += segments;
+        let (hop, segment) = (self.hop(), self.weights.len());
+        let samples = if segments == 0 { 0 } else { (segments - 1) * hop + segment };
+        self.carried = (0..samples).fold(self.carried, |(sum, squares), t| {
+            let first = (t + 1).saturating_sub(segment).div_ceil(hop);
+            let over = first..=(t / hop).min(segments - 1);
+            let weight = over.map(|i| self.weights[t - i * hop]).fold(0.0, |all, w| all + w * w);
+            (sum + weight, squares + weight * weight)
+        });
+    }
+
+    /// Samples from the start of a segment to that of the next.
+    fn hop(&self) -> usize {
         let segment = self.weights.len();
-        let hop = ((segment as f64 * (1.0 - self.overlap)).round() as usize).clamp(1, segment);
-        let segments: Vec<&[f64]> = values.windows(segment).step_by(hop).collect();
-        // Each lane holds two segments, as the real and the imaginary part.
-        for sixteen in segments.chunks(2 * WIDTH) {
-            let of = |values: &&[f64]| values.iter().sum::<f64>() / segment as f64;
-            let means: Vec<f64> = sixteen.iter().map(|values| mean.unwrap_or_else(|| of(values))).collect();
-            let at = |i: usize, t: usize| {
-                sixteen.get(i).map_or(0.0, |values| (values[t] - means[i]) * self.weights[t])
-            };
-            let mut data: Vec<Complex> = (0..segment)
-                .map(|t| Complex {
-                    re: Lanes::from_fn(|i| at(2 * i, t)),
-                    im: Lanes::from_fn(|i| at(2 * i + 1, t)),
-                })
-                .collect();
-            self.transform.run(&mut data);
-            for (k, sum) in (1..).zip(&mut self.sums) {
-                // The powers of both segments are half the sum of the powers at k and at −k.
-                let (a, b) = (&data[k], &data[segment - k]);
-                let both = a.re * a.re + a.im * a.im + b.re * b.re + b.im * b.im;
-                *sum += 0.5 * both.0.iter().sum::<f64>();
-            }
+        ((segment as f64 * (1.0 - self.overlap)).round() as usize).clamp(1, segment)
+    }
+
+    /// Adds the segments of the values that wait, at most [`TOGETHER`].
+    fn transform_waiting(&mut self, mean: Option<f64>) {
+        let segment = self.weights.len();
+        let segments: Vec<&[f64]> = self.waiting.windows(segment).step_by(self.hop()).collect();
+        if segments.is_empty() {
+            return;
         }
-        self.segments += segments.len();
-        let mut weight =
-            vec![0.0; if segments.is_empty() { 0 } else { (segments.len() - 1) * hop + segment }];
-        for start in (0..segments.len()).map(|i| i * hop) {
-            for (weight, w) in weight[start..].iter_mut().zip(&self.weights) {
-                *weight += w * w;
-            }
+        let of = |values: &&[f64]| values.iter().sum::<f64>() / segment as f64;
+        let means: Vec<f64> = segments.iter().map(|values| mean.unwrap_or_else(|| of(values))).collect();
+        let at = |i: usize, t: usize| {
+            segments.get(i).map_or(0.0, |values| (values[t] - means[i]) * self.weights[t])
+        };
+        let mut data: Vec<Complex> = (0..segment)
+            .map(|t| Complex {
+                re: Lanes::from_fn(|i| at(2 * i, t)),
+                im: Lanes::from_fn(|i| at(2 * i + 1, t)),
+            })
+            .collect();
+        self.transformed += segments.len();
+        self.transform.run(&mut data);
+        for (k, sum) in (1..).zip(&mut self.sums) {
+            // The powers of both segments are half the sum of the powers at k and at −k.
+            let (a, b) = (&data[k], &data[segment - k]);
+            let both = a.re * a.re + a.im * a.im + b.re * b.re + b.im * b.im;
+            *sum += 0.5 * both.0.iter().sum::<f64>();
         }
-        self.carried = weight.iter().fold(self.carried, |(sum, squares), w| (sum + w, squares + w * w));
     }
 
     /// The spectrum of all records.
@@ -211,6 +249,33 @@ mod tests {
             assert!((variance - 0.5).abs() < 1e-12, "{window:?}: {variance}");
             let peak = (0..of.density.len()).max_by(|a, b| of.density[*a].total_cmp(&of.density[*b]));
             assert_eq!(peak.map(|p| of.frequency(p)), Some(0.25));
+        }
+    }
+
+    #[test]
+    fn identical_a_record_that_comes_in_pieces() {
+        // As the whole record was transformed at once, before it could come value by value: sums over sixteen segments.
+        let values: Vec<f64> = (0..5000).map(|i| f64::from(i * i % 1009) + 0.01 * f64::from(i)).collect();
+        for (segment, overlap) in [(64, 0.5), (64, 0.0), (64, 0.75), (128, 0.9), (4096, 0.5), (8192, 0.5)] {
+            let mut welch = Welch::new(0.25, segment, Window::Hann, overlap);
+            welch.add(&values, None);
+            let hop = welch.hop();
+            let all: Vec<&[f64]> = values.windows(segment).step_by(hop).collect();
+            let mut weight = vec![0.0; all.len().checked_sub(1).map_or(0, |last| last * hop + segment)];
+            for start in (0..all.len()).map(|i| i * hop) {
+                weight[start..].iter_mut().zip(&welch.weights).for_each(|(sum, w)| *sum += w * w);
+            }
+            let carried = weight.iter().fold((0.0, 0.0), |(sum, squares), w| (sum + w, squares + w * w));
+            assert_eq!((welch.segments, welch.carried), (all.len(), carried), "{segment} {overlap}");
+            // Groups of sixteen as records of their own leave the same sums.
+            let mut groups = Welch::new(0.25, segment, Window::Hann, overlap);
+            for sixteen in 0..all.len().div_ceil(TOGETHER) {
+                let first = sixteen * TOGETHER * hop;
+                let last = (first + (TOGETHER - 1) * hop + segment).min(values.len());
+                groups.add(&values[first..last], None);
+            }
+            assert_eq!(groups.sums, welch.sums, "{segment} {overlap}");
+            assert!(welch.waiting.capacity() <= 2 * ((TOGETHER - 1) * hop + segment));
         }
     }
 

@@ -2,7 +2,7 @@
 //! lanes stay empty.
 
 use super::Point;
-use crate::ensemble::{Computing, Job, Keep, Trajectory, fly_together, in_order};
+use crate::ensemble::{Computing, Job, Keep, Trajectory, fly_each, in_order};
 use crate::error::Error;
 use crate::flight::Common;
 use crate::lanes::WIDTH;
@@ -151,31 +151,18 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     mut take: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
     let packing = Packing::new(points, batches);
-    let fly = |jobs: &[(usize, u64)]| {
-        let jobs: Vec<Job<'_>> =
-            jobs.iter().map(|&(point, replicate)| Job { case: &points[point].case, replicate }).collect();
-        fly_together(&jobs, keep, computing)
-    };
     let work = |flight: usize| {
         let jobs = packing.jobs(flight);
-        match fly(&jobs) {
-            Ok(trajectories) => land(jobs.iter().map(|job| job.0).zip(trajectories).collect(), Vec::new()),
-            Err(error) if error.lost_fibre().is_some() => {
-                // Each fibre flies again alone, with the same bits, to find those that are lost.
-                let (mut trajectories, mut lost) = (Vec::new(), Vec::new());
-                for &(point, replicate) in &jobs {
-                    match fly(&[(point, replicate)]) {
-                        Ok(flown) => {
-                            trajectories.extend(flown.into_iter().map(|trajectory| (point, trajectory)))
-                        }
-                        Err(error) if error.lost_fibre().is_some() => lost.push((point, replicate, error)),
-                        Err(error) => return Err(error),
-                    }
-                }
-                land(trajectories, lost)
+        let flying: Vec<Job<'_>> =
+            jobs.iter().map(|&(point, replicate)| Job { case: &points[point].case, replicate }).collect();
+        let (mut trajectories, mut lost) = (Vec::new(), Vec::new());
+        for (&(point, replicate), flown) in jobs.iter().zip(fly_each(&flying, keep, computing)?) {
+            match flown {
+                Ok(trajectory) => trajectories.push((point, trajectory)),
+                Err(error) => lost.push((point, replicate, error)),
             }
-            Err(error) => Err(error),
         }
+        land(trajectories, lost)
     };
     in_order(packing.count, computing.threads, work, |landed| take(landed?))
 }

@@ -26,11 +26,11 @@ fn table1(changes: &[(&str, &str)]) -> Case {
 fn flights(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, laid: None };
+        Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
     let mut flights = Vec::new();
     fly::<Error>(
         case,
-        Keep { curves: false, shapes: KeepShapes { replicates: 1, every: 1 } },
+        Keep { shapes: KeepShapes { replicates: 1, every: 1 }, ..Keep::SAMPLES },
         computing,
         |flight| {
             flights.push(flight);
@@ -343,12 +343,12 @@ fn check_identical(flow: impl Fn() -> Flow) {
     for isa in Isa::available() {
         for threads in [1, 3] {
             let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-            let computing = Computing { threads, isa, stop: &stop, fibre_steps: &steps, laid: None };
+            let computing = Computing { threads, isa, stop: &stop, fibre_steps: &steps, recorder: None };
             let mut fewer = case.clone();
             fewer.run.replicates = 3;
             fewer.air.flow = flow();
             let mut n = 0;
-            fly::<Error>(&fewer, Keep::NUMBERS, computing, |flight| {
+            fly::<Error>(&fewer, Keep::SAMPLES, computing, |flight| {
                 assert_eq!(bits(&flight), bits(&whole[n]), "{} {threads}", isa.name());
                 n += 1;
                 Ok(())

@@ -317,7 +317,7 @@ fn stat_turbulence_on_the_way_has_the_spectrum_that_is_wanted() {
     let case = spunbond(&[("run.duration", "1 s"), ("run.replicates", "8")]);
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, laid: None };
+        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
     let points = turbulence_spectrum(&case, computing).unwrap();
     // The air slows down on its way, so the cut-off falls, and the mean of all places falls in steps.
     for (from, to) in [(20.0, 180.0), (260.0, 310.0), (460.0, 500.0), (600.0, 630.0), (800.0, 830.0)] {

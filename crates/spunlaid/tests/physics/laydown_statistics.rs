@@ -2,12 +2,11 @@
 
 use crate::common::laying::{flight, laid_until, spunbond};
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Computing, Keep, TakeLaid, fly};
+use spunlaid::ensemble::{Computing, Keep, LaidCurves, fly};
 use spunlaid::error::Error;
 use spunlaid::flight::{Flight, Job, LaidPoint};
 use spunlaid::lanes::Isa;
 use spunlaid::laydown::{Trace, Tracing};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Mean and standard error over replicates.
@@ -82,17 +81,6 @@ fn bits(laid: &[LaidPoint]) -> Vec<[u64; 4]> {
     laid.iter().map(|p| [p.fed, p.time, p.md, p.cd].map(f64::to_bits)).collect()
 }
 
-/// What each replicate of an ensemble lays.
-#[derive(Debug)]
-struct Kept(Mutex<Vec<Vec<LaidPoint>>>);
-
-impl TakeLaid for Kept {
-    fn take(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
-        self.0.lock().unwrap()[replicate as usize].extend_from_slice(points);
-        Ok(())
-    }
-}
-
 #[test]
 fn identical_lay_down_for_any_packing_instruction_set_and_number_of_threads() {
     let mut case = spunbond(&[("run.duration", "0.06 s")]);
@@ -111,17 +99,17 @@ fn identical_lay_down_for_any_packing_instruction_set_and_number_of_threads() {
         }
     }
     let ensemble = |threads| {
-        let kept = Kept(Mutex::new(vec![Vec::new(); 11]));
+        let curves = LaidCurves::default();
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
         let computing = Computing {
             threads,
             isa: Isa::detect(),
             stop: &stop,
             fibre_steps: &fibre_steps,
-            laid: Some(&kept),
+            recorder: Some(&curves),
         };
         fly::<Error>(&case, Keep::NUMBERS, computing, |_| Ok(())).unwrap();
-        kept.0.into_inner().unwrap().iter().map(|laid| bits(laid)).collect::<Vec<_>>()
+        (0..11).map(|replicate| bits(&curves.take(replicate))).collect::<Vec<_>>()
     };
     let one = ensemble(1);
     assert_eq!(one, ensemble(3));

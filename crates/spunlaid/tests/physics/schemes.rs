@@ -220,8 +220,13 @@ fn invariant_strain_99_hardly_depends_on_the_step() {
         (case.run.time_step, case.run.steps, case.run.output_steps) = (h, steps(1.0), steps(1e-3));
         let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case: &case, replicate }).collect();
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing =
-            Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
+        let computing = Computing {
+            threads: 1,
+            isa: Isa::detect(),
+            stop: &stop,
+            fibre_steps: &fibre_steps,
+            recorder: None,
+        };
         let flown = fly_together(&jobs, Keep::NUMBERS, computing).expect("the case flies");
         ["strain_99", "max_strain"]
             .map(|name| flown.iter().map(|fibre| fibre.number(name)).sum::<f64>() / 8.0)

@@ -317,14 +317,17 @@ fn pairs(key: &Key, case: &Case) -> Vec<(usize, [String; 2])> {
     }
 }
 
+/// All that may differ.
+const KEPT: Keep = Keep { samples: true, ..Keep::CURVES };
+
 fn computing<'a>(stop: &'a AtomicBool, steps: &'a AtomicU64) -> Computing<'a> {
-    Computing { threads: 1, isa: Isa::detect(), stop, fibre_steps: steps, laid: None }
+    Computing { threads: 1, isa: Isa::detect(), stop, fibre_steps: steps, recorder: None }
 }
 
 /// What a run of a case alone gives, or why it gives nothing.
 fn alone(case: &Case) -> Result<Vec<Trajectory>, String> {
     let (stop, steps, mut all) = (AtomicBool::new(false), AtomicU64::new(0), Vec::new());
-    let done: Result<(), Error> = fly(case, Keep::CURVES, computing(&stop, &steps), |one| {
+    let done: Result<(), Error> = fly(case, KEPT, computing(&stop, &steps), |one| {
         all.push(one);
         Ok(())
     });
@@ -335,7 +338,7 @@ fn alone(case: &Case) -> Result<Vec<Trajectory>, String> {
 fn together(points: &[Point]) -> Result<Vec<Vec<Trajectory>>, String> {
     let (stop, steps, mut all) = (AtomicBool::new(false), AtomicU64::new(0), vec![Vec::new(); points.len()]);
     let done: Result<(), Error> =
-        fly_batches(points, &batches(points), Keep::CURVES, computing(&stop, &steps), |point, one| {
+        fly_batches(points, &batches(points), KEPT, computing(&stop, &steps), |point, one| {
             all[point].push(one);
             Ok(())
         });
@@ -499,7 +502,7 @@ fn identical_alone_and_in_company_of_another_kind_of_flow() {
             // Told that they cannot fly together, or the same bits as alone.
             let jobs = order.map(|i| Job { case: &cases[i], replicate: 0 });
             let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-            match fly_together(&jobs, Keep::CURVES, computing(&stop, &steps)) {
+            match fly_together(&jobs, KEPT, computing(&stop, &steps)) {
                 Err(Error::Flight(fault))
                     if fault.message.starts_with("fibre 2 cannot fly beside the first") => {}
                 Err(other) => panic!("{other}"),

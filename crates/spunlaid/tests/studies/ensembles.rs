@@ -25,9 +25,9 @@ fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
 fn flights(case: &Case, threads: usize) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
+        Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let mut flights = Vec::new();
-    let done: Result<(), Error> = fly(case, Keep::NUMBERS, computing, |flight| {
+    let done: Result<(), Error> = fly(case, Keep::SAMPLES, computing, |flight| {
         flights.push(flight);
         Ok(())
     });
@@ -39,7 +39,7 @@ fn flights(case: &Case, threads: usize) -> Vec<Trajectory> {
 fn results(case: &Case) -> Results {
     let mut collector = Results::collector(0);
     for flight in flights(case, 2) {
-        collector.take(&flight);
+        collector.take(flight);
     }
     collector.finish()
 }
@@ -180,8 +180,8 @@ fn rejects_a_flight_that_diverges() {
     (case.fibre.diameter, case.air.velocity) = (2e-6, 3000.0);
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
-    let done: Result<(), Error> = fly(&case, Keep::NUMBERS, computing, |_| Ok(()));
+        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+    let done: Result<(), Error> = fly(&case, Keep::SAMPLES, computing, |_| Ok(()));
     let message = done.expect_err("must blow up").to_string();
     assert!(
         message.contains("which no fibre can have") && message.contains("lower run.time_step"),
@@ -198,15 +198,15 @@ fn checked_by(
     stop: bool,
 ) -> Result<(Vec<Trajectory>, Result<FinerCheck, String>), Error> {
     let (stop, fibre_steps) = (AtomicBool::new(stop), AtomicU64::new(0));
-    let computing = Computing { threads, isa, stop: &stop, fibre_steps: &fibre_steps, laid: None };
+    let computing = Computing { threads, isa, stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let none = || Err("it was not asked for".to_owned());
     let plans = match (refined, FinerPlans::of(case)) {
         (Refined::TimeStep, FinerPlans { step, .. }) => FinerPlans { step, mesh: none() },
         (Refined::Elements, FinerPlans { mesh, .. }) => FinerPlans { step: none(), mesh },
     };
     let mut flown = Vec::new();
-    let checks = fly_and_check(case, &plans, Keep::NUMBERS, computing, |trajectory| {
-        flown.push(trajectory);
+    let checks = fly_and_check(case, &plans, Keep::SAMPLES, computing, |trajectory| {
+        flown.push(trajectory.expect("no fibre is lost"));
         Ok::<(), Error>(())
     })?;
     assert_eq!(fibre_steps.into_inner(), case.run.steps * case.run.replicates + plans.fibre_steps());
@@ -289,8 +289,8 @@ fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves
     let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job { case: &fine, replicate }).collect();
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, laid: None };
-    let resolved = fly_together(&jobs, Keep::NUMBERS, computing).unwrap();
+        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+    let resolved = fly_together(&jobs, Keep::SAMPLES, computing).unwrap();
     let spread = off(&flown, &resolved, ["sigma_md", "sigma_cd"]);
     let found = change(&check, "spread");
     // A touch-down more or less at the ends of the compared time, of 250 elements.

@@ -9,5 +9,6 @@ mod short;
 mod company;
 mod effects;
 mod ensembles;
+mod paper;
 mod studies;
 mod web_studies;

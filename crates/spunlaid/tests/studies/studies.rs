@@ -21,7 +21,7 @@ fn study(text: &str) -> StudyFile {
 }
 
 fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> Computing<'a> {
-    Computing { threads, isa: Isa::detect(), stop, fibre_steps: steps, laid: None }
+    Computing { threads, isa: Isa::detect(), stop, fibre_steps: steps, recorder: None }
 }
 
 fn flown(study: &Study, threads: usize) -> Journal {
@@ -83,7 +83,7 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
             }
             // The means have the same bits, too.
             let mut collector = Results::collector(0);
-            flights.iter().for_each(|flight| collector.take(flight));
+            flights.into_iter().for_each(|flight| collector.take(flight));
             let (all, of_point) = (collector.finish(), results_of_point(&mut journal, index).unwrap());
             for number in &all.numbers {
                 let i = MEASURES.iter().position(|measure| measure.name == number.measure.name).unwrap();

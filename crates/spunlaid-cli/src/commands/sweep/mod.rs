@@ -15,12 +15,13 @@ use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, va
 use spunlaid::lanes::Isa;
 use spunlaid::study::{Journal, Landing, Progress, Study, run};
 use spunlaid_results::folders::study::{State, StudyFolder, Written};
+use spunlaid_results::numbers::lost_of;
 use std::fs;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 
 /// Largest number of lost fibres that are listed.
-const LOST_LISTED: usize = 10;
+const LOST_LISTED: u64 = 10;
 
 pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     if varies_a_web(&sweep.study) {
@@ -110,7 +111,7 @@ fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Err
         isa: Isa::detect(),
         stop: stop_on_ctrl_c(),
         fibre_steps: &fibre_steps,
-        laid: None,
+        recorder: None,
     };
     progress::follow(study.points.len() as u64, &progress, &fibre_steps, sweep.quiet, || {
         run(study, journal, computing, &progress)
@@ -147,22 +148,26 @@ fn write(
 
 /// The error that lists the lost fibres, if any.
 fn lost(study: &Study, journal: &mut Journal, flown: u64) -> Result<(), Failure> {
-    let (mut lost, mut first) = (0, Vec::new());
+    let (mut lost, mut first) = (0, String::new());
     for (index, point) in study.points.iter().enumerate() {
         for record in journal.records(index, u64::MAX).map_err(Error::from)? {
             if let Landing::Lost { node, time } = record.landing {
                 lost += 1;
-                if first.len() < LOST_LISTED {
+                if lost <= LOST_LISTED {
                     let (number, cause) = (index + 1, point.case.likely_cause_of_divergence());
                     let replicate = record.replicate + 1;
-                    first.push(format!(
-                        "point {number}, replicate {replicate}: node {node} at {time:e} s; {cause}"
+                    first.push_str(&format!(
+                        "\npoint {number}, replicate {replicate}: node {node} at {time:e} s; {cause}"
                     ));
                 }
             }
         }
     }
-    if lost == 0 { Ok(()) } else { Err(Failure::FibresLost { lost, of: flown, first }) }
+    if lost == 0 {
+        return Ok(());
+    }
+    let lost = format!("{}; all others are in the results{first}", lost_of(lost, flown));
+    Err(Failure::FibresLost { lost })
 }
 
 /// The study has fewer points.

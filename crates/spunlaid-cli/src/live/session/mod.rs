@@ -3,6 +3,7 @@
 mod obey;
 mod show;
 
+use super::board::{Board, Page};
 use super::clock::Clock;
 use super::document::{Document, complaints};
 use super::fibres::Fibres;
@@ -12,9 +13,8 @@ use super::message::{Answer, Asked, Complaint, Pace};
 use spunlaid::error::Error;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, mpsc};
 use std::time::{Duration, Instant};
-use tokio::sync::{mpsc, watch};
 
 /// Time between two tellings of the statistics.
 const TELLING: Duration = Duration::from_millis(250);
@@ -27,24 +27,11 @@ const PIECE: u64 = 16;
 /// Messages that are heard between two ticks.
 const MOST_HEARD: usize = 256;
 
-/// Number of a page.
-pub(super) type Page = u64;
-
 /// A message of a page.
 #[derive(Debug)]
 pub(super) struct Ask {
     pub(super) from: Page,
     pub(super) asked: Asked,
-    /// Where answers go. One that a page does not fetch is lost.
-    pub(super) answers: mpsc::Sender<String>,
-}
-
-/// What all pages see; each sees the latest only.
-#[derive(Clone, Debug)]
-pub(super) struct Shown {
-    pub(super) frame: watch::Receiver<Arc<Frame>>,
-    /// The settings, the state and the statistics, as JSON.
-    pub(super) texts: [watch::Receiver<Arc<String>>; 3],
 }
 
 /// A flight that pages look at.
@@ -66,8 +53,7 @@ pub(super) struct Session {
     /// The pages that can be seen.
     pages: BTreeSet<Page>,
     folder: PathBuf,
-    frames: watch::Sender<Arc<Frame>>,
-    texts: [watch::Sender<Arc<String>>; 3],
+    board: Arc<Board>,
     told: Instant,
 }
 
@@ -81,13 +67,11 @@ impl Session {
         document: Document,
         remark: Option<String>,
         folder: PathBuf,
-    ) -> Result<(Self, Shown), Vec<Complaint>> {
+    ) -> Result<Self, Vec<Complaint>> {
         let read = document.read()?;
         let fibres = Fibres::new(read.case).map_err(|error| complaints(&error))?;
         let lately = Lately::new();
-        let (frames, frame) = watch::channel(Arc::new(Frame::of(fibres.seen(), &lately)));
-        let channels: [_; 3] = std::array::from_fn(|_| watch::channel(Arc::new(String::new())));
-        let shown = Shown { frame, texts: channels.each_ref().map(|(_, shown)| shown.clone()) };
+        let board = Arc::new(Board::new(Frame::of(fibres.seen(), &lately)));
         let now = Instant::now();
         let mut clock = Clock::new(now);
         if fibres.case().line.is_some() {
@@ -108,28 +92,32 @@ impl Session {
             trouble: None,
             pages: BTreeSet::new(),
             folder,
-            frames,
-            texts: channels.map(|(texts, _)| texts),
+            board,
             told: now,
         };
         session.show_all();
-        Ok((session, shown))
+        Ok(session)
+    }
+
+    /// Where pages see the flight.
+    pub(super) fn board(&self) -> Arc<Board> {
+        Arc::clone(&self.board)
     }
 
     /// Flies until there is nobody any more who could ask.
-    pub(super) fn fly(mut self, mut asks: mpsc::Receiver<Ask>) {
+    pub(super) fn fly(mut self, asks: &mpsc::Receiver<Ask>) {
         loop {
             if self.is_idle() {
-                let Some(ask) = asks.blocking_recv() else { return };
-                self.hear(ask, &mut asks);
+                let Ok(ask) = asks.recv() else { return };
+                self.hear(ask, asks);
                 self.clock.begin(Instant::now());
                 self.show_frame();
                 continue;
             }
             match asks.try_recv() {
-                Ok(ask) => self.hear(ask, &mut asks),
-                Err(mpsc::error::TryRecvError::Empty) => {}
-                Err(mpsc::error::TryRecvError::Disconnected) => return,
+                Ok(ask) => self.hear(ask, asks),
+                Err(mpsc::TryRecvError::Empty) => {}
+                Err(mpsc::TryRecvError::Disconnected) => return,
             }
             if !self.is_idle() {
                 self.tick();
@@ -144,7 +132,7 @@ impl Session {
     }
 
     /// Hears a message, and all that have come after it.
-    fn hear(&mut self, first: Ask, asks: &mut mpsc::Receiver<Ask>) {
+    fn hear(&mut self, first: Ask, asks: &mpsc::Receiver<Ask>) {
         let mut heard = vec![first];
         while heard.len() < MOST_HEARD
             && let Ok(ask) = asks.try_recv()
@@ -153,7 +141,7 @@ impl Session {
         }
         let mut changed = false;
         for i in 0..heard.len() {
-            let Ask { from, asked, answers } = &heard[i];
+            let Ask { from, asked } = &heard[i];
             // Of several values of one key that came at once, only the last counts; each gets its answer.
             let replaced = matches!(asked, Asked::Set { key, .. }
                 if heard[i + 1..].iter().any(|later| matches!(&later.asked, Asked::Set { key: other, .. } if other == key)));
@@ -175,8 +163,7 @@ impl Session {
                 }
             };
             if let Some(answer) = answer {
-                // A page that does not listen misses its answers.
-                let _ = answers.try_send(answer.json());
+                self.board.answer(*from, answer.json());
             }
         }
         if changed {

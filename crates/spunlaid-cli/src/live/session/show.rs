@@ -1,6 +1,7 @@
 //! What pages see: frames, and as JSON the settings, the state and the statistics.
 
 use super::Session;
+use crate::live::board::Topic;
 use crate::live::frame::Frame;
 use crate::live::message::Pace;
 use crate::live::settings::{Present, Setting, present, settings};
@@ -10,7 +11,6 @@ use spunlaid::chain::schemes::Scheme;
 use spunlaid::fibre::Root;
 use spunlaid::lanes::WIDTH;
 use spunlaid::units::Dimension;
-use std::sync::Arc;
 use std::time::Instant;
 
 /// The state of the flight, as it is told to pages.
@@ -51,9 +51,9 @@ struct Offered {
     settings: Vec<Setting>,
 }
 
-fn json(value: &impl Serialize) -> Arc<String> {
+fn json(value: &impl Serialize) -> String {
     // These values always have a text.
-    Arc::new(serde_json::to_string(value).unwrap_or_default())
+    serde_json::to_string(value).unwrap_or_default()
 }
 
 impl Session {
@@ -67,27 +67,23 @@ impl Session {
         frame.belt_run = fed.map_or(0.0, |line| line.belt_speed * frame.time);
         frame.time = self.now();
         frame.speed = if self.stands { 0.0 } else { self.clock.speed() };
-        self.frames.send_replace(Arc::new(frame));
+        self.board.show_frame(frame);
     }
 
     pub(super) fn tell(&mut self) {
         self.told = Instant::now();
         let told = self.measured.told(self.generation, self.fibres.flight());
-        self.texts[2].send_replace(json(&told));
+        self.board.show_text(Topic::Statistics, json(&told));
     }
 
     /// Shows settings, state, statistics and a frame.
     pub(super) fn show_all(&mut self) {
         let case = self.fibres.case();
         let offered = json(&Offered { settings: settings(case) });
-        self.texts[0].send_if_modified(|old| {
-            let other = *old != offered;
-            if other {
-                *old = offered;
-            }
-            other
-        });
-        self.texts[1].send_replace(json(&self.state(case)));
+        if !self.board.shows(Topic::Settings, &offered) {
+            self.board.show_text(Topic::Settings, offered);
+        }
+        self.board.show_text(Topic::State, json(&self.state(case)));
         self.tell();
         self.show_frame();
     }

@@ -3,7 +3,7 @@
 use super::{MM, swings};
 use crate::numbers::significant;
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Results, Sample};
+use spunlaid::ensemble::{EndPath, EndPoint, Results};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{GREEN, GREY, INK, ORANGE},
@@ -11,23 +11,23 @@ use spunlaid_charts::{
 
 /// Most swings that can be told apart in a history.
 const SWINGS: f64 = 60.0;
-/// Most swings of a path, and most of its points.
-const PATH: (f64, usize) = (40.0, 20_000);
+/// Most swings of a path.
+const PATH: f64 = 40.0;
 
-/// What is recorded of the first replicate.
-fn recorded(results: &Results) -> &[Sample] {
-    results.trajectories.first().map_or(&[][..], |trajectory| &trajectory.samples)
+/// The path of the first replicate that was not lost.
+fn recorded(results: &Results) -> EndPath {
+    results.trajectories.first().map_or_else(EndPath::default, |trajectory| trajectory.path.clone())
 }
 
 /// The free end's y and z over time; of a long run the whole, and its last swings below.
 pub(super) fn end_node_history(case: &Case, results: &Results) -> Figure {
-    let samples = recorded(results);
-    let end = samples.last().map_or(0.0, |s| s.time);
+    let path = recorded(results);
+    let end = path.last().last().map_or(0.0, |(time, _)| *time);
     let spin_up = case.run.spin_up();
     let history = |name: &str, from: f64| {
-        let shown = samples.iter().filter(|s| s.time >= from);
+        let shown = path.since(from);
         let (y, z): (Vec<_>, Vec<_>) =
-            shown.map(|s| ((s.time, s.end.y * MM), (s.time, s.end.z * MM))).unzip();
+            shown.map(|(time, end)| ((*time, end.y * MM), (*time, end.z * MM))).unzip();
         let x = Axis::linear("Time *t* (s)").tight();
         let chart = Chart::new(
             name,
@@ -68,12 +68,12 @@ pub(super) fn end_node_history(case: &Case, results: &Results) -> Figure {
 
 /// The path of the free end, seen along the flow.
 pub(super) fn end_node_path(case: &Case, results: &Results) -> Figure {
-    let flown: Vec<&Sample> = recorded(results).iter().filter(|s| s.time >= case.run.spin_up()).collect();
-    let end = flown.last().map_or(0.0, |s| s.time);
-    let from = swings(results, PATH.0).map_or(0.0, |part| end - part);
-    let first = flown.partition_point(|s| s.time < from).max(flown.len().saturating_sub(PATH.1));
-    let drawn = &flown[first..];
-    let points: Vec<_> = drawn.iter().map(|s| (s.end.y * MM, s.end.z * MM)).collect();
+    let path = recorded(results);
+    let spin_up = case.run.spin_up();
+    let end = path.last().last().map_or(0.0, |(time, _)| *time);
+    let from = swings(results, PATH).map_or(0.0, |part| end - part).max(spin_up);
+    let drawn: Vec<&EndPoint> = path.last().filter(|(time, _)| *time >= from).collect();
+    let points: Vec<_> = drawn.iter().map(|(_, end)| (end.y * MM, end.z * MM)).collect();
     let spot = |p: Option<&(f64, f64)>| -> Vec<_> { p.map(|&(y, z)| (y, z, None)).into_iter().collect() };
     let chart = Chart::new(
         "end_node_path",
@@ -90,8 +90,9 @@ pub(super) fn end_node_path(case: &Case, results: &Results) -> Figure {
         "The path of the free end across the mean flow in the first replicate, with the same scale in both \
                        directions."
             .to_owned();
-    if let (true, Some(start)) = (first > 0, drawn.first()) {
-        caption.push_str(&format!(" Only the last {} s are drawn.", significant(end - start.time, 2)));
+    let flown = path.since(spin_up).next().map_or(end, |(time, _)| *time);
+    if let Some((start, _)) = drawn.first().filter(|(start, _)| *start > flown) {
+        caption.push_str(&format!(" Only the last {} s are drawn.", significant(end - start, 2)));
     }
     Figure::of(&chart, caption)
 }

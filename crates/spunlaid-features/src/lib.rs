@@ -1,0 +1,1 @@
+//! No code: `Cargo.toml` says which features of other crates the packages of spunlaid share, and why.

@@ -1,0 +1,105 @@
+//! The flights of a check, and the paths of the free ends that are compared.
+
+use super::FinerPlan;
+use crate::air::EddyModel;
+use crate::case::Case;
+use crate::ensemble::trajectory::fly_in_air;
+use crate::ensemble::{Computing, Keep, Recorder, Sample, Trajectory};
+use crate::error::Error;
+use crate::flight::{AirOf, Job, LaidPoint};
+use std::collections::BTreeMap;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// The position across the flow at the recorded instants after the start [m].
+pub(super) type Path = Vec<[f64; 2]>;
+
+/// What one flight of a check has flown: the numbers of its fibres, and the paths by replicate if they are compared.
+#[derive(Debug)]
+pub(in crate::ensemble) struct Flight {
+    pub(super) trajectories: Vec<Trajectory>,
+    pub(super) paths: BTreeMap<u64, Path>,
+}
+
+impl FinerPlan {
+    /// Flies one of its cases. Nothing that is recorded is kept, but for the paths that are compared.
+    pub(in crate::ensemble) fn fly(&self, case: &Case, computing: Computing<'_>) -> Result<Flight, Error> {
+        let jobs: Vec<Job<'_>> = (0..self.replicates).map(|replicate| Job { case, replicate }).collect();
+        // A carried pattern has a signal for each element. Both feel the one of the finer elements.
+        let carried = case.line.is_none() && matches!(case.air.eddies, EddyModel::Convected { .. });
+        let of = if carried { &self.fine } else { case };
+        let air = AirOf { case: of, horizon: self.horizon };
+        let paths = Paths { every: 1, ..Paths::of_run(Ok(self), None) };
+        let computing = Computing { recorder: Some(&paths), ..computing };
+        let trajectories = fly_in_air(&jobs, Keep::NUMBERS, air, computing)?;
+        Ok(Flight { trajectories, paths: paths.into_paths() })
+    }
+}
+
+/// Passes on what is recorded, and keeps the paths that a check compares.
+#[derive(Debug)]
+pub(in crate::ensemble) struct Paths<'a> {
+    passed_on: Option<&'a dyn Recorder>,
+    /// Number of replicates, from the first on, whose paths are kept.
+    replicates: u64,
+    /// Of so many recorded instants after the start one is kept, and most of them that are.
+    every: u64,
+    most: u64,
+    /// Recorded instants so far, and the path, by replicate.
+    paths: Mutex<BTreeMap<u64, (u64, Path)>>,
+}
+
+impl<'a> Paths<'a> {
+    /// The paths of a run that the plan of its time step needs; none where it needs none.
+    pub(in crate::ensemble) fn of_run(
+        plan: Result<&FinerPlan, &String>,
+        passed_on: Option<&'a dyn Recorder>,
+    ) -> Self {
+        let (replicates, every, most) = match plan {
+            Ok(plan) if plan.own.is_none() => {
+                (plan.replicates, plan.every, plan.fine.run.steps / plan.fine.run.output_steps)
+            }
+            _ => (0, 1, 0),
+        };
+        Self { passed_on, replicates, every, most, paths: Mutex::default() }
+    }
+
+    /// Leaves out the path of a fibre that was lost.
+    pub(in crate::ensemble) fn forget(&self, replicate: u64) {
+        self.paths().remove(&replicate);
+    }
+
+    /// The paths.
+    pub(in crate::ensemble) fn into_paths(self) -> BTreeMap<u64, Path> {
+        let paths = self.paths.into_inner().unwrap_or_else(PoisonError::into_inner);
+        paths.into_iter().map(|(replicate, (_, path))| (replicate, path)).collect()
+    }
+
+    fn paths(&self) -> MutexGuard<'_, BTreeMap<u64, (u64, Path)>> {
+        self.paths.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Recorder for Paths<'_> {
+    fn begin(&self, replicate: u64) {
+        self.forget(replicate);
+        if let Some(recorder) = self.passed_on {
+            recorder.begin(replicate);
+        }
+    }
+
+    fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error> {
+        if replicate < self.replicates {
+            let mut paths = self.paths();
+            let (instants, path) = paths.entry(replicate).or_default();
+            if *instants > 0 && instants.is_multiple_of(self.every) && *instants / self.every <= self.most {
+                path.push([sample.end.y, sample.end.z]);
+            }
+            *instants += 1;
+        }
+        self.passed_on.map_or(Ok(()), |recorder| recorder.sample(replicate, sample))
+    }
+
+    fn lay(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
+        self.passed_on.map_or(Ok(()), |recorder| recorder.lay(replicate, points))
+    }
+}

@@ -1,0 +1,234 @@
+//! What is flown again for the checks of a run, and how much of it is worth its computing time.
+
+use super::{Refined, Refinements};
+use crate::case::{Case, ERROR_TOLERANCE, MOST_STEPS};
+use crate::chain::schemes::Scheme;
+use crate::lanes::WIDTH;
+use crate::line::{Contact, Line};
+
+/// Share of the computing time of a run that a check may always take. It is counted in steps of flights, so that
+/// it does not depend on the machine.
+const SHARE: f64 = 0.1;
+/// Steps, times elements, that a check may always take: some tenths of a second. A short run is then checked for its whole
+/// duration.
+const ALWAYS: f64 = 2e6;
+/// The same where shorter flights could say nothing: some seconds.
+const AT_MOST: f64 = 2e7;
+/// Longest time over which paths are compared [s].
+const LONGEST: f64 = 1.0;
+/// Fewest recorded instants from which a difference is computed. Runs that are too short for them are not checked.
+const FEWEST: u64 = 20;
+/// Time that a fed fibre needs to come down and to forget its start, and the time that is then compared, in `distance /
+/// speed`.
+const COMES_DOWN: f64 = 2.0;
+const COMPARED: f64 = 2.0;
+/// Part of the stability limit up to which finer elements are flown.
+const PART_OF_LIMIT: f64 = 0.75;
+/// Time over which the motion of a fibre of fixed length is compared at least, in the time in which the air passes it.
+const PASSES: f64 = 5.0;
+/// Most recorded instants at which paths are compared, so that they take little memory.
+const MOST_COMPARED: u64 = 1 << 14;
+
+/// What is flown for a check.
+#[derive(Clone, Debug)]
+pub struct FinerPlan {
+    /// What is finer.
+    pub refined: Refined,
+    /// As the run; `None` if the paths of the run itself are compared.
+    pub(super) own: Option<Case>,
+    pub(super) fine: Case,
+    /// Of so many recorded instants of the run, one is compared in a path.
+    pub(super) every: u64,
+    /// Until when the air has to last [s].
+    pub(super) horizon: f64,
+    /// Number of replicates, from the first on. A flight costs the same for all its lanes.
+    pub replicates: u64,
+    /// Computing time as a share of that of the run [-].
+    pub share_of_run: f64,
+}
+
+/// The plans of the checks of a run.
+pub type FinerPlans = Refinements<FinerPlan>;
+
+impl FinerPlans {
+    /// The plans for a case.
+    pub fn of(case: &Case) -> Self {
+        let step = if case.line.is_some() { step_of_the_laid(case) } else { step_of_a_path(case) };
+        Self { step, mesh: mesh(case) }
+    }
+
+    /// Number of steps of single elements of all checks.
+    pub fn element_steps(&self) -> f64 {
+        let of = |plan: &FinerPlan| plan.flights().map(cost).sum::<f64>() * plan.replicates as f64;
+        self.all().map(of).sum()
+    }
+
+    /// Number of flights of all checks.
+    pub fn flights(&self) -> usize {
+        self.all().map(|plan| plan.flights().count()).sum()
+    }
+
+    /// Number of fibre steps of all checks, as in [`Computing::fibre_steps`](crate::ensemble::Computing::fibre_steps).
+    pub fn fibre_steps(&self) -> u64 {
+        self.all().map(FinerPlan::fibre_steps).sum()
+    }
+
+    /// Computing time of all checks as a share of that of the run, counted in steps of elements [-].
+    pub fn share_of_run(&self) -> f64 {
+        self.all().map(|plan| plan.share_of_run).sum()
+    }
+}
+
+/// Steps of the elements of a flight.
+fn cost(case: &Case) -> f64 {
+    case.run.steps as f64 * case.fibre.elements as f64
+}
+
+/// Steps of the elements of all flights of a run.
+fn cost_of_run(case: &Case) -> f64 {
+    cost(case) * case.run.replicates.div_ceil(WIDTH as u64) as f64
+}
+
+fn too_short() -> String {
+    "the run is too short for it".to_owned()
+}
+
+/// Flies the paths of the first replicates again with half the step.
+fn step_of_a_path(case: &Case) -> Result<FinerPlan, String> {
+    let run = &case.run;
+    // Half the step takes two steps for one.
+    let affordable = 0.5 * (SHARE * cost_of_run(case)).max(ALWAYS) / case.fibre.elements as f64;
+    let most = affordable.min(LONGEST / run.time_step).min(run.steps as f64);
+    let instants = (most / run.output_steps as f64 * (1.0 + 1e-9)) as u64;
+    let every = instants.div_ceil(MOST_COMPARED).max(1);
+    if instants < FEWEST || 2 * instants * run.output_steps > MOST_STEPS {
+        return Err(too_short());
+    }
+    let mut fine = case.clone();
+    fine.run.time_step *= 0.5;
+    fine.run.output_steps *= 2 * every;
+    fine.run.steps = instants / every * fine.run.output_steps;
+    fine.run.spin_up_steps = 0;
+    let share_of_run = cost(&fine) / cost_of_run(case);
+    let replicates = run.replicates.min(WIDTH as u64);
+    let horizon = case.air_horizon();
+    Ok(FinerPlan { refined: Refined::TimeStep, own: None, fine, every, horizon, replicates, share_of_run })
+}
+
+/// Compares what is laid with what leapfrog lays, with steps in which the axial waves are resolved. That is another scheme,
+/// and close to its limit for short steps: its error falls with the square of the step. Half of a long step would say
+/// little, because implicit tension damps axial waves by as much at half the step.         theory.md (58)
+fn step_of_the_laid(case: &Case) -> Result<FinerPlan, String> {
+    let mut fine = case.clone();
+    let slides = case.line.is_some_and(|line| line.contact != Contact::Stick);
+    fine.run.scheme = Scheme::Leapfrog;
+    let resolved = 0.5 * shortest_limit(&fine);
+    if slides || resolved >= 0.99 * case.run.time_step {
+        // Sliding fibres need implicit tension. Steps that resolve the axial waves are halved as any others.
+        fine.run.scheme = case.run.scheme;
+    }
+    fine.set_time_step(resolved.min(0.5 * case.run.time_step));
+    statistics(Refined::TimeStep, case, case.clone(), fine)
+}
+
+/// Compares the statistics of the case's elements with those of half their length, both with the same long steps of
+/// implicit tension: the elements matter whatever the scheme.
+fn mesh(case: &Case) -> Result<FinerPlan, String> {
+    let (mut own, mut fine) = (case.clone(), case.clone());
+    fine.fibre.elements *= 2;
+    fine.run.scheme = Scheme::ImplicitTension;
+    let suggested = fine.suggested_time_step(ERROR_TOLERANCE, case.run.duration()).0;
+    // Bending limits the step with the square of the elements, and then the longest steps are long enough.
+    let suggested = match case.line {
+        Some(_) => suggested,
+        None => {
+            own.run.scheme = Scheme::ImplicitTension;
+            let accurate = own.suggested_time_step(ERROR_TOLERANCE, case.run.duration()).0;
+            suggested.max(accurate.min(PART_OF_LIMIT * shortest_limit(&fine)))
+        }
+    };
+    let is_implicit = case.run.scheme == Scheme::ImplicitTension;
+    let longest = if is_implicit { suggested.min(case.run.time_step) } else { suggested };
+    // Whole steps from one recorded instant to the next.
+    let interval = case.run.output_interval();
+    let step =
+        if case.line.is_some() { longest } else { interval / (interval / longest - 1e-9).ceil().max(1.0) };
+    own.run.scheme = Scheme::ImplicitTension;
+    fine.set_time_step(step);
+    own.set_time_step(fine.run.time_step);
+    statistics(Refined::Elements, case, own, fine)
+}
+
+fn shortest_limit(case: &Case) -> f64 {
+    let limits = case.stable_step_limits().into_iter();
+    limits.map(|limit| limit.limit).fold(f64::INFINITY, f64::min)
+}
+
+/// A plan that compares statistics, over as much time as is worth its computing time.
+fn statistics(refined: Refined, case: &Case, mut own: Case, mut fine: Case) -> Result<FinerPlan, String> {
+    let all = case.run.duration();
+    let per_second = |case: &Case| case.fibre.elements as f64 / case.run.time_step;
+    let per_second = per_second(&own) + per_second(&fine);
+    let (spin_up, least) = match &case.line {
+        Some(line) => {
+            let way = way(line);
+            ((COMES_DOWN * way).min(case.run.spin_up()), (COMES_DOWN + COMPARED) * way)
+        }
+        None => {
+            let passes =
+                if case.air.velocity > 0.0 { PASSES * case.fibre.length / case.air.velocity } else { 0.0 };
+            (case.run.spin_up(), case.run.spin_up() + passes)
+        }
+    };
+    // A fed fibre stays close to its pair, so little of it says enough.
+    let usual = if case.line.is_some() { 0.0 } else { ALWAYS };
+    let share = SHARE * cost_of_run(case);
+    let least = least.min(all);
+    if least * per_second > AT_MOST.max(share) {
+        let times = least * per_second / cost_of_run(case);
+        return Err(format!("it would take about {:.0} times the run's computing time", times.ceil()));
+    }
+    let duration = (share.max(usual) / per_second).max(least).min(all);
+    for of in [&mut own, &mut fine] {
+        let steps = |time: f64| (time / of.run.time_step * (1.0 + 1e-9)) as u64;
+        (of.run.steps, of.run.spin_up_steps) = (steps(duration).max(1), steps(spin_up));
+        of.run.output_steps = of.run.output_steps.min(of.run.steps);
+        if of.run.steps > MOST_STEPS || of.check().is_err() {
+            return Err("the finer flights are beyond what the program can fly".to_owned());
+        }
+    }
+    if duration < spin_up || fine.run.steps / fine.run.output_steps < FEWEST && case.line.is_none() {
+        return Err(too_short());
+    }
+    if case.line.as_ref().is_some_and(|line| duration < (COMES_DOWN + COMPARED) * way(line) * (1.0 - 1e-9)) {
+        return Err(too_short());
+    }
+    let share_of_run = (cost(&own) + cost(&fine)) / cost_of_run(case);
+    // Replicates of a record need a record that is long enough.
+    let replicates =
+        if case.air.records.is_empty() { WIDTH as u64 } else { case.run.replicates.min(WIDTH as u64) };
+    let horizon = case.air_horizon();
+    Ok(FinerPlan { refined, own: Some(own), fine, every: 1, horizon, replicates, share_of_run })
+}
+
+/// Time in which a fed fibre comes down at the speed of its feed [s].
+fn way(line: &Line) -> f64 {
+    line.distance / line.feed_speed
+}
+
+impl FinerPlan {
+    /// The cases that are flown: as the run where its own paths are not compared, and finer.
+    pub(in crate::ensemble) fn flights(&self) -> impl Iterator<Item = &Case> {
+        self.own.iter().chain([&self.fine])
+    }
+
+    /// Number of fibre steps, as in [`Computing::fibre_steps`](crate::ensemble::Computing::fibre_steps).
+    pub fn fibre_steps(&self) -> u64 {
+        self.flights().map(|case| case.run.steps).sum::<u64>() * self.replicates
+    }
+
+    pub(super) fn is_resolved(&self) -> bool {
+        let own = self.own.as_ref();
+        own.is_some_and(|own| self.refined == Refined::TimeStep && own.run.scheme == Scheme::ImplicitTension)
+    }
+}
