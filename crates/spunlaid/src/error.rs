@@ -8,7 +8,7 @@ mod words;
 pub use fault::Fault;
 pub use file::FileKind;
 pub use problem::{FileError, Finding, Place, Position, Problem};
-pub(crate) use words::{listed, memory, one_of};
+pub(crate) use words::{excerpt, listed, memory, one_of, shortest};
 
 use std::borrow::Cow;
 use std::io;

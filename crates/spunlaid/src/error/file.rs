@@ -1,7 +1,6 @@
 //! Faults that any file can have: case, study, record, field, table, scan.
 
-use super::{Fault, memory};
-use crate::units::shortest;
+use super::{Fault, memory, shortest};
 use std::fmt;
 
 /// The kind of a file that is read.

@@ -1,7 +1,7 @@
 //! A problem: what is wrong with something that a user gave, where it was written, and what to do about it.
 
 use super::Fault;
-use crate::units::{Printable, excerpt};
+use super::words::{Printable, excerpt};
 use std::fmt::{self, Write};
 use std::path::Path;
 

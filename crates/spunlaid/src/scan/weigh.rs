@@ -245,11 +245,8 @@ fn unusable(values: &[f64], what: &'static str, advice: &'static str) -> Result<
     let unusable = values.iter().filter(|value| value.is_nan()).count();
     if unusable > values.len() / FILLED {
         return Err(Fault::new(
-            format!(
-                "has {unusable} pixels of {} that are {what}; at most one in a hundred can be filled from its neighbours",
-                values.len()
-            ),
-            format!("{advice}"),
+            format!("has {unusable} pixels of {} that are {what}", values.len()),
+            format!("at most one in a hundred can be filled from its neighbours; {advice}"),
         ));
     }
     let first = values.iter().copied().find(|value| !value.is_nan());

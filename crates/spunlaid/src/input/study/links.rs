@@ -7,7 +7,7 @@ use super::{advice, dimension, numeric};
 use crate::case::keys::{self, Key};
 use crate::error::{Fault, Finding};
 use crate::study::{Factor, Link};
-use crate::units::{Expression, ExpressionFault, Powers};
+use crate::units::{Expression, Powers, unknown_name};
 use std::collections::BTreeMap;
 use toml::de::DeValue;
 
@@ -90,7 +90,7 @@ pub(super) fn read(key: &Key, text: &str) -> Result<Link, Fault> {
                 Some(_) => "a formula needs keys whose value is a number".to_owned(),
                 None => advice(name),
             };
-            return Err(ExpressionFault::UnknownName { name: name.to_owned(), advice }.into());
+            return Err(unknown_name(name, advice));
         }
     }
     // Units do not depend on values, so any value serves for this check.
@@ -98,7 +98,8 @@ pub(super) fn read(key: &Key, text: &str) -> Result<Link, Fault> {
     let wanted = Powers::of(dimension(key));
     if !found.agree(wanted) {
         let name = dimension(key).name();
-        return Err(ExpressionFault::WrongDimension { found, name, wanted }.into());
+        let message = format!("gives a value in {found}, but {name} in {wanted} is needed");
+        return Err(Fault::new(message, "check the formula"));
     }
     Ok(Link { key: key.name, dimension: dimension(key), expression })
 }

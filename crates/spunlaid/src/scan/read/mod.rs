@@ -151,8 +151,7 @@ fn format(bytes: &[u8]) -> Result<Format, Fault> {
         Err(Fault::new(
             format!("is {found}"),
             "save the scan as PNG or TIFF in shades of grey, or the map as NumPy array (.npy) or CSV",
-        )
-        .into())
+        ))
     } else {
         Ok(Format::Table)
     }
