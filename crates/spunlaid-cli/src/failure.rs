@@ -92,7 +92,6 @@ mod tests {
     use super::*;
     use spunlaid::error::Problem;
     use spunlaid::study::{foreign, in_use, unsynced};
-    use spunlaid_results::not_a_run;
     use std::path::Path;
 
     /// Every failure of the program, and those of the library that are not about the text of an input.
@@ -103,7 +102,7 @@ mod tests {
         for wrong_input in [
             Failure::from(Fault::plain("there is no such figure")),
             FileError::from(Fault::plain("there is no such file")).into(),
-            not_a_run(path, "it is a file").into(),
+            Error::not_a_run(path, "it is a file").into(),
             Error::Flight(Fault::plain("no fibre")).into(),
             Error::Rejected(Vec::new()).into(),
             in_use(path).into(),

@@ -1,4 +1,4 @@
-//! Bundles of a study: what a machine needs to fly some of its fibres, and what it gives back.
+//! Bundles of a study: what a machine needs to make some of its replicates, and what it gives back.
 
 use crate::failure::raised_as;
 use crate::watched::{Watch, watched};
@@ -7,42 +7,101 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use spunlaid::case::Case;
 use spunlaid::ensemble::Computing;
-use spunlaid::input::{parse_case, write_case};
+use spunlaid::error::Error;
+use spunlaid::input::{parse_case, parse_web_and_cases, write_case, write_web};
 use spunlaid::lanes::Isa;
+use spunlaid::layers::{LaydownSource, WebSpec};
 use spunlaid::observe::MEASURES;
-use spunlaid::study::{Batch, Landing, Point, Record, fly_bundle as fly};
+use spunlaid::study::{Batch, Experiment, Landing, Point, Record, fly_bundle as fly};
 use spunlaid_results::Failure;
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::path::PathBuf;
+use std::sync::Arc;
 
-/// A point of a bundle: its index in the study, the text of its case, the checksum of the case, and the replicates to fly,
-/// from the first to before the last.
-pub(crate) type Part = (u64, String, u32, u64, u64);
+/// A point of a bundle: its index in the study, the text of its case, or of its web with those of the cases that it flies and the
+/// numbers of their layers, a checksum over all of it, and the replicates to make, from the first to before the last.
+pub(crate) type Part = (u64, String, Cases, u32, u64, u64);
+/// Layers of a web, and the texts of their cases; None for a case.
+type Cases = Option<Vec<(usize, String)>>;
 
-/// Columns of the records: point, replicate, whether the fibre was lost, then the measures; of a lost fibre the node and
-/// the time.
-const COLUMNS: usize = 3 + MEASURES.len();
+/// Columns of the records before the numbers: point, replicate, whether the fibre was lost. Of a lost fibre the numbers are the
+/// node and the time.
+const HEAD: usize = 3;
 
-/// What a machine needs to fly batches of points.
+/// What a machine needs to make batches of points.
 pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<Part> {
     let part = |Batch { point, replicates: Range { start, end } }: &Batch| {
-        let case = crate::state::absolute(&points[*point].case);
-        (*point as u64, write_case(&case), checksum(&case), *start, *end)
+        let experiment = anywhere(&points[*point].experiment);
+        let (text, cases) = match &experiment {
+            Experiment::Case(case) => (write_case(case), None),
+            Experiment::Web(web) => {
+                (write_web(web), Some(flown(web).map(|(layer, case)| (layer, write_case(case))).collect()))
+            }
+        };
+        (*point as u64, text, cases, checksum(&experiment), *start, *end)
     };
     batches.iter().map(part).collect()
 }
 
-/// A checksum over all that a fibre's results depend on, also over the content of files.
-fn checksum(case: &Case) -> u32 {
-    crc32fast::hash(format!("{case:?}").as_bytes())
+/// The same on any machine that has the files: full paths of files, and names in place of the paths of cases, which are sent
+/// along.
+fn anywhere(experiment: &Experiment) -> Experiment {
+    match experiment {
+        Experiment::Case(case) => Experiment::Case(crate::state::absolute(case)),
+        Experiment::Web(web) => {
+            let mut web = web.clone();
+            for (number, layer) in web.layers.iter_mut().enumerate() {
+                match &mut layer.source {
+                    LaydownSource::Case { path, case } => {
+                        *path = sent(number);
+                        *case = Arc::new(crate::state::absolute(case));
+                    }
+                    LaydownSource::Results { folder, .. } => {
+                        *folder = std::path::absolute(&*folder).unwrap_or_else(|_| folder.clone());
+                    }
+                    LaydownSource::Surrogate(_) => {}
+                }
+            }
+            Experiment::Web(web)
+        }
+    }
+}
+
+/// The name of the case of a layer that is sent along.
+fn sent(layer: usize) -> PathBuf {
+    PathBuf::from(format!("layer-{}.toml", layer + 1))
+}
+
+/// The cases that a web flies, with the numbers of their layers.
+fn flown(web: &WebSpec) -> impl Iterator<Item = (usize, &Case)> {
+    web.layers.iter().enumerate().filter_map(|(number, layer)| match &layer.source {
+        LaydownSource::Case { case, .. } => Some((number, &**case)),
+        _ => None,
+    })
+}
+
+/// What was sent, read again.
+fn read(text: &str, cases: &Cases) -> Result<Experiment, Error> {
+    let Some(cases) = cases else {
+        return Ok(Experiment::Case(parse_case(text, "case.toml", &[])?.0));
+    };
+    let cases: Vec<_> = cases.iter().map(|(layer, text)| (sent(*layer), text.clone())).collect();
+    Ok(Experiment::Web(parse_web_and_cases(text, "web.toml", &cases)?.spec))
+}
+
+/// A checksum over all that the results depend on, also over the content of files.
+fn checksum(experiment: &Experiment) -> u32 {
+    crc32fast::hash(format!("{experiment:?}").as_bytes())
 }
 
 /// Flies a bundle. See Study.bundle, which makes it.
 #[pyfunction]
-#[pyo3(signature = (parts, threads = 1))]
+#[pyo3(signature = (parts, sides, threads = 1))]
 pub(crate) fn fly_bundle(
     py: Python<'_>,
     parts: Vec<Part>,
+    sides: Vec<f64>,
     threads: usize,
 ) -> PyResult<Bound<'_, PyArray2<f64>>> {
     let watch = Watch::default();
@@ -55,35 +114,38 @@ pub(crate) fn fly_bundle(
     };
     let flown = watched(py, &watch, None, || {
         let mut points: Vec<Point> = Vec::new();
-        let mut read: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut known: BTreeMap<(&str, &Cases), usize> = BTreeMap::new();
         let mut batches = Vec::new();
-        for (number, text, sum, start, end) in &parts {
-            let point = match read.get(text.as_str()) {
+        for (number, text, cases, sum, start, end) in &parts {
+            let point = match known.get(&(text.as_str(), cases)) {
                 Some(point) => *point,
                 None => {
-                    let (case, _) = parse_case(text, "case.toml", &[])?;
-                    if checksum(&case) != *sum {
+                    let experiment = read(text, cases)?;
+                    if checksum(&experiment) != *sum {
                         return Ok(Err(*number));
                     }
-                    read.insert(text, points.len());
-                    points.push(Point { values: Vec::new(), case });
+                    known.insert((text, cases), points.len());
+                    points.push(Point { values: Vec::new(), experiment });
                     points.len() - 1
                 }
             };
             batches.push(Batch { point, replicates: *start..*end });
         }
-        Ok::<_, Failure>(Ok((fly(&points, &batches, computing)?, batches)))
+        Ok::<_, Failure>(Ok((fly((&points, &sides), &batches, computing)?, batches)))
     })?;
     let (records, batches) = flown.map_err(|number| {
         let text = format!(
-            "point {}: its case is another one on this machine, because a file that it names has another content here, or \
+            "point {}: its case or web is another one on this machine, because a file that it names has another content here, or \
              this machine has another version of spunlaid; give all machines the same",
             number + 1
         );
         raised_as(py, "ClusterError", text)
     })?;
+    // Webs are never lost, so their first record has all their numbers.
+    let numbers =
+        records.first().and_then(|record| record.landing.measured()).map_or(MEASURES.len(), <[f64]>::len);
     // Two points may have the same case, so a record is found by its point here and its replicate there.
-    let mut rows = Vec::with_capacity(records.len() * COLUMNS);
+    let mut rows = Vec::with_capacity(records.len() * (HEAD + numbers));
     let mut at: BTreeMap<(usize, u64), Vec<u64>> = BTreeMap::new();
     for (batch, (number, ..)) in batches.iter().zip(&parts) {
         for replicate in batch.replicates.clone() {
@@ -92,29 +154,30 @@ pub(crate) fn fly_bundle(
     }
     for record in &records {
         let owner = at.get_mut(&(record.point as usize, record.replicate)).and_then(Vec::pop);
-        let (lost, values) = match record.landing {
-            Landing::Measured(values) => (0.0, values),
+        let (lost, values) = match &record.landing {
+            Landing::Measured(values) => (0.0, values.to_vec()),
             Landing::Lost { node, time } => {
-                let mut values = [0.0; MEASURES.len()];
-                (values[0], values[1]) = (node as f64, time);
+                let mut values = vec![0.0; numbers];
+                (values[0], values[1]) = (*node as f64, *time);
                 (1.0, values)
             }
         };
         rows.extend([owner.unwrap_or(record.point) as f64, record.replicate as f64, lost]);
         rows.extend(values);
     }
-    PyArray1::from_vec(py, rows).reshape([records.len(), COLUMNS])
+    PyArray1::from_vec(py, rows).reshape([records.len(), HEAD + numbers])
 }
 
-/// The records of [`fly_bundle`].
-pub(crate) fn records(rows: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Record>> {
+/// The records of [`fly_bundle`], with so many numbers each.
+pub(crate) fn records(rows: &PyReadonlyArray2<'_, f64>, numbers: usize) -> PyResult<Vec<Record>> {
     let rows = rows.as_array();
-    if rows.ncols() != COLUMNS {
-        return Err(PyValueError::new_err(format!("records have {COLUMNS} columns, not {}", rows.ncols())));
+    let columns = HEAD + numbers;
+    if rows.ncols() != columns {
+        return Err(PyValueError::new_err(format!("records have {columns} columns, not {}", rows.ncols())));
     }
     let of = |row: numpy::ndarray::ArrayView1<'_, f64>| {
         let landing = if row[2] == 0.0 {
-            Landing::Measured(std::array::from_fn(|i| row[3 + i]))
+            Landing::Measured((0..numbers).map(|i| row[HEAD + i]).collect())
         } else {
             Landing::Lost { node: row[3] as u64, time: row[4] }
         };

@@ -10,11 +10,13 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::ensemble::Computing;
-use spunlaid::input::{Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study};
+use spunlaid::error::FileKind;
+use spunlaid::input::{
+    Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text, write_experiment,
+};
 use spunlaid::lanes::Isa;
-use spunlaid::observe::MEASURES;
 use spunlaid::study::{
-    Bundles, Journal, Landing, Progress, Rounds, rankings, results_of_point, run, unsynced,
+    Bundles, Experiment, Journal, Landing, Progress, Rounds, rankings, results_of_point, run, unsynced,
 };
 use spunlaid_results::Failure;
 use spunlaid_results::folders::study::StudyFolder;
@@ -40,15 +42,16 @@ pub(crate) struct Study {
 
 #[pymethods]
 impl Study {
-    /// * study: the path of a study file, or its text with the case (text, name, changes) that it varies
+    /// * study: the path of a study file, or its text with the case (text, name, changes) or the path of the web that it varies
     /// * out: the folder of the journal and the results; without one they stay in memory
     #[new]
-    #[pyo3(signature = (study, case = None, out = None, force = false, points = None, replicates = None, set = None))]
+    #[pyo3(signature = (study, case = None, web = None, out = None, force = false, points = None, replicates = None, set = None))]
     #[expect(clippy::too_many_arguments, reason = "they are those of spunlaid.sweep")]
     fn new(
         py: Python<'_>,
         study: &Bound<'_, PyAny>,
         case: Option<&Case>,
+        web: Option<PathBuf>,
         out: Option<PathBuf>,
         force: bool,
         points: Option<u64>,
@@ -56,19 +59,29 @@ impl Study {
         set: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let changed = set.map_or_else(|| Ok(Vec::new()), overrides)?;
-        let (name, file) = match case {
-            Some(case) => {
+        let (name, file) = match (case, web) {
+            (None, Some(web)) => {
+                let text: String = study.extract()?;
+                let set = Overrides { values: &changed, word: "sweep:" };
+                let changes = StudyChanges { points, replicates, set };
+                let file = guarded(py, || {
+                    let base = |_: &str, _| Ok((read_text(&web, FileKind::Web)?, web.display().to_string()));
+                    Ok(parse_changed_study(&text, "study", &changes, base)?)
+                })?;
+                ("study".to_owned(), file)
+            }
+            (Some(case), _) => {
                 let text: String = study.extract()?;
                 let (case_text, case_name) = case.source();
                 let set = Overrides { values: &changed, word: "sweep:" };
                 let changes = StudyChanges { points, replicates, set };
                 let file = guarded(py, || {
                     let named = (case_text, case_name.to_owned());
-                    Ok(parse_changed_study(&text, "study", &changes, |_| Ok(named))?)
+                    Ok(parse_changed_study(&text, "study", &changes, |_, _| Ok(named))?)
                 })?;
                 ("study".to_owned(), file)
             }
-            None => {
+            (None, None) => {
                 let path: PathBuf = study.extract()?;
                 let set = Overrides { values: &changed, word: "sweep:" };
                 let changes = StudyChanges { points, replicates, set };
@@ -137,19 +150,20 @@ impl Study {
         })
     }
 
-    /// What a machine needs to fly a bundle of this round.
-    fn bundle(&self, py: Python<'_>, index: usize) -> PyResult<Vec<Part>> {
+    /// What a machine needs to fly a bundle of this round: its points, and the sides of patches.
+    fn bundle(&self, py: Python<'_>, index: usize) -> PyResult<(Vec<Part>, Vec<f64>)> {
         guarded(py, || {
             let round = self.round();
             let batches = round.1.as_ref().map_or_else(Vec::new, |bundles| bundles.batches(index));
-            Ok(parts(&self.file.study.points, &batches))
+            let study = &self.file.study;
+            Ok((parts(&study.points, &batches), study.patch_sides()))
         })
     }
 
     /// Adds the records of a bundle to the journal and puts them on the disk. Fibres that it holds already are left as they
     /// are. Returns the number of fibres added.
     fn add(&self, py: Python<'_>, rows: PyReadonlyArray2<'_, f64>) -> PyResult<usize> {
-        let records = records(&rows)?;
+        let records = records(&rows, self.file.study.quantities.len())?;
         let (points, most) = (self.file.study.points.len() as u64, self.file.study.replicates.at_most);
         if records.iter().any(|record| record.point >= points || record.replicate >= most) {
             return Err(PyIndexError::new_err("these records belong to another study"));
@@ -191,11 +205,15 @@ impl Study {
         self.file.study.points.len()
     }
 
-    /// Work of one flight of the dearest point: steps times elements.
+    /// Work of one flight of the dearest point: steps times elements. Infinite for webs, of which those of a point make a
+    /// bundle.
     #[getter]
     fn work(&self) -> f64 {
-        let of = |case: &spunlaid::case::Case| case.run.steps as f64 * case.fibre.elements as f64;
-        self.file.study.points.iter().map(|point| of(&point.case)).fold(0.0, f64::max)
+        let of = |experiment: &Experiment| match experiment {
+            Experiment::Case(case) => case.run.steps as f64 * case.fibre.elements as f64,
+            Experiment::Web(_) => f64::INFINITY,
+        };
+        self.file.study.points.iter().map(|point| of(&point.experiment)).fold(0.0, f64::max)
     }
 
     /// The keys that differ between points: name, SI unit, whether a factor, its words, its values at the points.
@@ -227,27 +245,30 @@ impl Study {
         let points = &self.file.study.points;
         let results = guarded(py, || {
             self.with_journal(|journal| {
-                let of = |point: usize| Ok(results_of_point(journal, point)?);
+                let of = |point: usize| Ok(results_of_point(&self.file.study, journal, point)?);
                 (0..points.len()).map(of).collect::<Result<Vec<_>, Failure>>()
             })
         })?;
         let all = PyDict::new(py);
-        let shape = [points.len(), MEASURES.len()];
-        let mean = PyArray1::from_vec(py, results.iter().flat_map(|of| of.mean).collect()).reshape(shape)?;
-        let errors = (results.iter())
-            .flat_map(|of| (0..MEASURES.len()).map(|i| of.standard_error(i).unwrap_or(f64::NAN)));
+        let numbers = self.file.study.quantities.len();
+        let shape = [points.len(), numbers];
+        let mean = PyArray1::from_vec(py, results.iter().flat_map(|of| of.mean.iter().copied()).collect())
+            .reshape(shape)?;
+        let errors =
+            (results.iter()).flat_map(|of| (0..numbers).map(|i| of.standard_error(i).unwrap_or(f64::NAN)));
         all.set_item("mean", mean)?;
         all.set_item("standard_error", PyArray1::from_vec(py, errors.collect()).reshape(shape)?)?;
         all.set_item("n", PyArray1::from_vec(py, results.iter().map(|of| of.n as i64).collect()))?;
         all.set_item("lost", PyArray1::from_vec(py, results.iter().map(|of| of.lost as i64).collect()))?;
-        let seeds = points.iter().map(|point| point.case.run.seed).collect();
+        let seeds = points.iter().map(|point| point.experiment.seed()).collect();
         all.set_item("seed", PyArray1::from_vec(py, seeds))?;
         Ok(all)
     }
 
     /// Every fibre: point, replicate, whether it was lost, and its measures (NaN if lost): an array of fibres x columns.
     fn replicates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let columns = 3 + MEASURES.len();
+        let numbers = self.file.study.quantities.len();
+        let columns = 3 + numbers;
         let rows = guarded(py, || {
             self.with_journal(|journal| {
                 let mut rows = Vec::new();
@@ -261,7 +282,7 @@ impl Study {
                             }
                             Landing::Lost { .. } => {
                                 rows.push(1.0);
-                                rows.extend([f64::NAN; MEASURES.len()]);
+                                rows.extend(std::iter::repeat_n(f64::NAN, numbers));
                             }
                         }
                     }
@@ -283,7 +304,7 @@ impl Study {
             for effect in &ranking.effects {
                 let of = PyDict::new(py);
                 let factor = &study.factors[effect.factor];
-                of.set_item("measure", MEASURES[ranking.measure].column)?;
+                of.set_item("measure", &study.quantities[ranking.measure].column)?;
                 of.set_item("factor", factor.key)?;
                 of.set_item("from", effect.from)?;
                 of.set_item("to", effect.to)?;
@@ -320,16 +341,25 @@ impl Study {
         })
     }
 
-    /// The case of a point, counted from 0, as text.
-    fn case_text(&self, point: usize) -> PyResult<String> {
+    /// The case or web of a point, counted from 0, as text.
+    fn point_text(&self, point: usize) -> PyResult<String> {
         let of = self.file.study.points.get(point);
         let of = of.ok_or_else(|| PyIndexError::new_err(format!("there is no point {point}")))?;
-        Ok(spunlaid::input::write_case(&crate::state::absolute(&of.case)))
+        Ok(match &of.experiment {
+            Experiment::Case(case) => spunlaid::input::write_case(&crate::state::absolute(case)),
+            web @ Experiment::Web(_) => write_experiment(web),
+        })
     }
 
     #[getter]
     fn name(&self) -> &str {
         &self.name
+    }
+
+    /// What a replicate is called: fibre or web.
+    #[getter]
+    fn noun(&self) -> &'static str {
+        self.file.study.noun()
     }
 
     /// How the factors are combined.
@@ -351,8 +381,9 @@ impl Study {
 
     /// The measures: column, name, label, meaning.
     #[getter]
-    fn measures(&self) -> Vec<(&'static str, &'static str, &'static str, &'static str)> {
-        MEASURES.iter().map(|of| (of.column, of.name, of.label, of.meaning)).collect()
+    fn measures(&self) -> Vec<(&str, &str, &str, &'static str)> {
+        let all = &self.file.study.quantities;
+        all.iter().map(|of| (&*of.column, &*of.name, &*of.label, of.meaning)).collect()
     }
 }
 

@@ -22,12 +22,6 @@ pub(crate) fn holds_results(folder: &Path, found: &str) -> Failure {
     Error::folder(folder, fault.option("--out, --force"))
 }
 
-/// A folder does not hold the results of a run.
-pub fn not_a_run(folder: &Path, reason: &str) -> Failure {
-    let message = format!("does not hold the results of a run: {reason}");
-    Error::folder(folder, Fault::new(message, "name folders that `spunlaid run` has written"))
-}
-
 /// The folder holds another study.
 ///
 /// * `differences` – how they differ, a line each

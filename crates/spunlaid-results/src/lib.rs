@@ -12,7 +12,6 @@
 // Each module imports only from the modules above it. The program's tests/rooms.rs checks this.
 mod failure;
 pub mod numbers;
-pub mod webs;
 
 pub mod figures;
 
@@ -22,4 +21,4 @@ pub mod report;
 
 pub mod folders;
 
-pub use failure::{Failure, not_a_run};
+pub use failure::Failure;

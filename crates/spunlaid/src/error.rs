@@ -81,6 +81,12 @@ impl Error {
         Self::Folder(vec![Problem::with_path(path, fault)])
     }
 
+    /// A folder that does not hold the results of a run.
+    pub fn not_a_run(folder: &Path, reason: &str) -> Self {
+        let message = format!("does not hold the results of a run: {reason}");
+        Self::folder(folder, Fault::new(message, "name folders that `spunlaid run` has written"))
+    }
+
     /// A file that the operating system does not let be read or written.
     pub fn system(path: &Path, fault: Fault) -> Self {
         Self::System(Box::new(Problem::with_path(path, fault)))

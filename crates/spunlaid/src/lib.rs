@@ -94,6 +94,8 @@ pub mod observe;
 
 pub mod ensemble;
 
+pub mod layers;
+
 pub mod study;
 
 pub mod input;

@@ -19,7 +19,7 @@ use spunlaid::ensemble::{Computing, Job, Keep, Results, Trajectory, fly_together
 use spunlaid::field::Field;
 use spunlaid::flight::Flight;
 use spunlaid::lanes::{Isa, WIDTH};
-use spunlaid::study::MEASURES;
+use spunlaid::observe::MEASURES;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::f64::consts::PI;

@@ -8,7 +8,6 @@ use spunlaid::case::{Case, Note, Remark, keys};
 use spunlaid::error::{Error, Fault, Finding, Place};
 use spunlaid::input::read_case;
 use spunlaid::units::Dimension;
-use spunlaid_results::not_a_run;
 use std::fs;
 use std::path::Path;
 
@@ -24,7 +23,7 @@ pub(super) fn summary(folder: &Path) -> Result<Json, Failure> {
     let summary = any_summary(folder)?;
     if summary.get("end_node").or_else(|| summary.get("laydown")).is_none() {
         let reason = format!("{SUMMARY} is not that of a run");
-        return Err(not_a_run(folder, &reason).into());
+        return Err(Error::not_a_run(folder, &reason).into());
     }
     Ok(summary)
 }
@@ -34,7 +33,7 @@ pub(super) fn summary(folder: &Path) -> Result<Json, Failure> {
 /// # Errors
 /// If the folder has none.
 pub(super) fn any_summary(folder: &Path) -> Result<Json, Failure> {
-    let not_a_run = |reason: String| not_a_run(folder, &reason);
+    let not_a_run = |reason: String| Error::not_a_run(folder, &reason);
     if folder.is_file() {
         return Err(not_a_run("it is a file".to_owned()).into());
     }

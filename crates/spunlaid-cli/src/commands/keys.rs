@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::keys::{self, Key, Kind, LeftOut, TABLES};
 use spunlaid::error::Fault;
-use spunlaid::input::{WEB_KEYS, WEB_TABLES, WebKey};
+use spunlaid::layers::{WEB_KEYS, WEB_TABLES};
 use spunlaid::units::{Dimension, Wanted};
 use std::fmt::Write;
 
@@ -27,14 +27,9 @@ struct Shown {
 }
 
 impl Shown {
-    fn of_case(key: &Key) -> Self {
-        let Key { name, kind, left_out, meaning, usual, varies, in_flight, .. } = *key;
+    fn new<T>(key: &Key<T>, usual: Option<(f64, f64)>) -> Self {
+        let Key { name, kind, left_out, meaning, varies, in_flight, .. } = *key;
         Self { name, kind, left_out, meaning, usual, may_change: [varies, in_flight] }
-    }
-
-    fn of_web(key: &WebKey) -> Self {
-        let WebKey { name, kind, left_out, meaning, .. } = *key;
-        Self { name, kind, left_out, meaning, usual: key.usual(), may_change: [false; 2] }
     }
 
     /// Its name within a table, if it belongs there.
@@ -47,9 +42,9 @@ pub(crate) fn keys(asked: &Keys) -> Result<(), Failure> {
     let pattern = asked.pattern.clone().unwrap_or_default();
     let word = pattern.trim().to_lowercase();
     let all: Vec<Shown> = if asked.web {
-        WEB_KEYS.iter().map(Shown::of_web).collect()
+        WEB_KEYS.iter().map(|key| Shown::new(key, key.usual_range())).collect()
     } else {
-        keys::all().iter().map(Shown::of_case).collect()
+        keys::all().iter().map(|key| Shown::new(key, key.usual)).collect()
     };
     let has = |text: &str| text.to_lowercase().contains(&word);
     let found: Vec<Shown> = all.into_iter().filter(|key| has(key.name) || has(key.meaning)).collect();
@@ -150,7 +145,7 @@ word in their name or meaning.
 
 A quantity is written with its unit, in quotes, as in a case ([keys.md](keys.md)). Each key can also be set for one web,
 `--set line.belt_speed=\"6 m/s\"`; of a file with `[[layer]]`, `--set layer.2.line.filaments_per_metre=4000`, or with the
-layer's name in place of its number.
+layer's name in place of its number. `spunlaid sweep` can vary keys marked *study*; those of a layer where the web has one layer.
 ";
 
 /// The keys as a Markdown document with one table for each table of the file.

@@ -152,7 +152,9 @@ impl Flying {
         let mut trends = Vec::new();
         for parameter in Parameter::ALL.into_iter().filter(|parameter| wants(parameter.figure())) {
             let study = parameter.study()?;
-            let points = study.points.into_iter().map(|point| (point.values[0], place(point.case)));
+            let points = study.points.iter();
+            let points =
+                points.filter_map(|point| Some((point.values[0], place(point.experiment.case()?.clone()))));
             trends.push(Trend { parameter, points: points.collect() });
         }
         let mut choices = Vec::new();
@@ -161,7 +163,8 @@ impl Flying {
                 choices.push((name, place(case)));
             }
         }
-        let mut steps: Vec<Case> = time_steps()?.points.into_iter().map(|point| point.case).collect();
+        let mut steps: Vec<Case> =
+            time_steps()?.points.iter().filter_map(|point| point.experiment.case().cloned()).collect();
         steps.truncate(if wants("8b") { usize::MAX } else { usize::from(wants("8a")) });
         for case in &mut steps {
             case.run.replicates = base.run.replicates;
@@ -176,7 +179,8 @@ impl Flying {
 
     /// Number of steps of all fibres.
     fn steps(&self) -> u64 {
-        let points = self.study.points.iter().map(|p| p.case.run.steps * p.case.run.replicates);
+        let cases = self.study.points.iter().filter_map(|point| point.experiment.case());
+        let points = cases.map(|case| case.run.steps * case.run.replicates);
         let steps = self.steps.iter().map(|case| case.run.steps * case.run.replicates);
         points.chain(steps).sum()
     }
@@ -186,7 +190,7 @@ impl Flying {
         run(&self.study, &journal, computing, &Progress::default())?;
         let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
         let points = (0..self.study.points.len())
-            .map(|point| results_of_point(&mut journal, point))
+            .map(|point| results_of_point(&self.study, &mut journal, point))
             .collect::<Result<Vec<_>, _>>()?;
         let mut steps = Vec::new();
         for case in &self.steps {
@@ -273,8 +277,10 @@ impl Flown {
     /// Table 1 with each choice: amplitudes [mm] and frequencies [Hz] with their errors.
     fn choices(&self) -> Vec<(String, Vec<String>)> {
         let cells = |point: usize| {
-            let shown = |name| shown::cell(&self.points[point], name);
-            ["amplitude_y", "amplitude_z", "frequency_y", "frequency_z"].map(shown).to_vec()
+            let study = &self.flying.study;
+            let names = ["amplitude_y", "amplitude_z", "frequency_y", "frequency_z"];
+            let all = names.into_iter().filter_map(|name| study.quantity(name));
+            all.map(|quantity| shown::cell(study, &self.points[point], quantity)).collect()
         };
         self.flying.choices.iter().map(|&(name, point)| (name.to_owned(), cells(point))).collect()
     }

@@ -8,9 +8,9 @@ use crate::{progress, say};
 use spunlaid::case::Note;
 use spunlaid::input::{Overrides, read_web};
 use spunlaid::lanes::Isa;
+use spunlaid::layers::{Flyer, OfLayer, to_lay};
 use spunlaid::web::{Findings, Laying, PatchFindings, find, pieces};
 use spunlaid_results::folders;
-use spunlaid_results::folders::fibres::{Flyer, OfLayer, to_lay};
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::{plus_minus, significant};
 use spunlaid_results::output::folder::Staging;
@@ -73,7 +73,7 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
 }
 
 /// Shows the progress of the flights of a case.
-pub(super) fn flying(quiet: bool) -> impl Fn(&Path, u64, (&AtomicU64, u64), &mut (dyn FnMut() + Send)) {
+fn flying(quiet: bool) -> impl Fn(&Path, u64, (&AtomicU64, u64), &mut (dyn FnMut() + Send)) {
     move |path, fibres, (done, of), work| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let label = format!("flying {} of {name}", plural(fibres, "fibre"));

@@ -49,22 +49,33 @@ fn identical_web_of_a_point_alone() {
     success(&mut desk.spunlaid("web point.toml --out w --quiet"));
     let (study, web) = (results(&desk, "r"), desk.summary("w"));
     let of_point = &study["points"][2];
-    assert_eq!(of_point["line.belt_speed_m_s"], 8.0);
+    assert_eq!(of_point["inputs"]["line.belt_speed_m_s"], 8.0);
+    let mean = |column: &str| &of_point["results"][column]["mean"];
     for patch in web["web"]["patches"].as_array().unwrap() {
         let side = patch["patch_m"].as_f64().unwrap() * 1e3;
-        for (column, key) in
-            [("", "cv"), ("_standard_error", "cv_standard_error"), ("_one_fibre", "cv_one_fibre")]
-        {
-            assert_eq!(of_point[format!("cv_{}_mm{column}", side.round())], patch[key], "{side} {key}");
+        for (column, key) in [("", "cv"), ("_chance", "cv_standard_error"), ("_one_fibre", "cv_one_fibre")] {
+            assert_eq!(*mean(&format!("cv_{}_mm{column}", side.round())), patch[key], "{side} {key}");
         }
+        // Of a single web, its parts tell the error.
+        let cv = &of_point["results"][format!("cv_{}_mm", side.round())];
+        assert_eq!(cv["standard_error"], patch["cv_standard_error"], "{side}");
     }
-    assert_eq!(of_point["basis_weight_kg_m2"], web["web"]["basis_weight_kg_m2"]);
-    let folder =
-        ["figures", "report.html", "results.csv", "results.json", "study.toml", "web.toml", "webs.jsonl"];
+    assert_eq!(*mean("basis_weight_kg_m2"), web["web"]["basis_weight_kg_m2"]);
+    let folder = [
+        "figures",
+        "journal",
+        "replicates.parquet",
+        "report.html",
+        "results.csv",
+        "results.json",
+        "results.parquet",
+        "study.toml",
+        "web.toml",
+    ];
     assert_eq!(desk.entries("r"), desk::names(&folder));
     let table = String::from_utf8(desk.read("r/results.csv")).unwrap();
     assert_eq!(table.lines().count(), 5);
-    assert!(table.starts_with("point,line.belt_speed_m_s,laydown.noise_m-0.5,webs,cv_1_mm,"), "{table}");
+    assert!(table.starts_with("point,seed,line.belt_speed_m_s,laydown.noise_m-0.5,n,lost,cv_1_mm,cv_1_mm_se,cv_1_mm_whole_error,"), "{table}");
 }
 
 #[test]
@@ -72,14 +83,18 @@ fn invariant_uneven_where_less_is_laid() {
     let desk = desk();
     success(&mut desk.spunlaid("sweep study.toml --out r --quiet"));
     let study = results(&desk, "r");
-    let cv = |point: usize| study["points"][point]["cv_1_mm_one_fibre"].as_f64().unwrap();
+    let cv = |point: usize| study["points"][point]["results"]["cv_1_mm_one_fibre"]["mean"].as_f64().unwrap();
     // With half the mass CV would be √2 times as large if the curves were the same; the faster belt carries the loops apart, so
     // that a fibre meets itself less often.
     for point in [0, 1] {
         let ratio = cv(point + 2) / cv(point);
         assert!(ratio > 1.1 && ratio < 2.0_f64.sqrt(), "{} {}", cv(point + 2), cv(point));
     }
-    assert!(study["points"].as_array().unwrap().iter().all(|point| point["webs"] == 2.0));
+    // Two keys with two values each: what matters more is told.
+    let ranking = &study["ranking"]["cv_1_mm_one_fibre"]["effects"];
+    assert_eq!(ranking[0]["factor"], "line.belt_speed", "{ranking}");
+    assert!(desk.path("r/figures/cv_ranking.svg").is_file());
+    assert!(study["points"].as_array().unwrap().iter().all(|point| point["n"] == 2));
 }
 
 #[test]
@@ -88,27 +103,56 @@ fn identical_after_a_kill_and_with_more_webs() {
     success(&mut desk.spunlaid("sweep study.toml --out whole --quiet --threads 1"));
     let mut child =
         desk.spunlaid("sweep study.toml --out killed --quiet").stderr(Stdio::null()).spawn().unwrap();
-    let journal = desk.path("killed/webs.jsonl");
+    let journal = desk.path("killed/journal");
+    let records = || {
+        let bytes = fs::read(&journal).unwrap_or_default();
+        let header = bytes.iter().position(|byte| *byte == b'\n').map_or(bytes.len(), |end| end + 1);
+        (bytes.len() - header, bytes)
+    };
     // Until some webs are there.
-    while fs::read_to_string(&journal).unwrap_or_default().lines().count() < 3 {
+    while records().0 < 2 * 300 {
         assert!(child.try_wait().unwrap().is_none_or(|status| status.success()));
         sleep(Duration::from_millis(2));
     }
     child.kill().unwrap();
     child.wait().unwrap();
-    // A torn line is laid again.
-    let mut text = fs::read_to_string(&journal).unwrap();
-    text.truncate(text.trim_end().len() - 5);
-    fs::write(&journal, text).unwrap();
+    // A torn record is laid again.
+    let bytes = records().1;
+    fs::write(&journal, &bytes[..bytes.len() - 5]).unwrap();
     success(&mut desk.spunlaid("sweep study.toml --out killed --quiet"));
-    for name in ["results.csv", "results.json", "report.html", "study.toml"] {
+    for name in ["results.csv", "results.json", "results.parquet", "report.html", "study.toml"] {
         assert!(desk.read(&format!("whole/{name}")) == desk.read(&format!("killed/{name}")), "{name}");
     }
     // More webs are added to those that are there.
-    let before = fs::read_to_string(&journal).unwrap();
+    let (before, text) = records();
     success(&mut desk.spunlaid("sweep study.toml --replicates 3 --out killed --quiet"));
-    let after = fs::read_to_string(&journal).unwrap();
-    assert!(after.starts_with(&before) && after.lines().count() == 1 + 4 * 3);
+    let (after, longer) = records();
+    assert!(longer.starts_with(&text) && 2 * after == 3 * before, "{before} {after}");
+}
+
+/// What a study of fibres can, one of webs can: keys that follow from others, and as many webs as an error asks for.
+#[test]
+fn keys_follow_from_others_and_webs_are_added_until_they_suffice() {
+    let desk = desk();
+    let study = "web = 'web.toml'\ndesign = 'grid'\n[replicates]\nat_least = 2\nat_most = 5\nuntil = { cv_1_mm = '0.0001 %' }\n\
+                 [vary]\n'line.belt_speed' = ['4 m/s', '8 m/s']\n\
+                 [link]\n'line.feed_speed' = '10 * line.belt_speed'\n";
+    fs::write(desk.path("study.toml"), study).unwrap();
+    success(&mut desk.spunlaid("sweep study.toml --out r --quiet"));
+    let found = results(&desk, "r");
+    for (point, belt) in [(0, 4.0), (1, 8.0)] {
+        let point = &found["points"][point];
+        assert_eq!(point["inputs"]["line.feed_speed_m_s"], 10.0 * belt);
+        assert_eq!(point["n"], 5, "so small an error is never reached");
+        // As much is laid, because feed and belt go together.
+        let same = point["results"]["basis_weight_kg_m2"]["mean"].as_f64().unwrap();
+        let first = found["points"][0]["results"]["basis_weight_kg_m2"]["mean"].as_f64().unwrap();
+        assert!((same / first - 1.0).abs() < 1e-4, "{same} {first}");
+    }
+    success(&mut desk.spunlaid("sweep r/study.toml --out again --quiet"));
+    for name in ["results.csv", "results.json", "study.toml", "web.toml"] {
+        assert!(desk.read(&format!("r/{name}")) == desk.read(&format!("again/{name}")), "{name}");
+    }
 }
 
 #[test]
@@ -119,12 +163,14 @@ fn rejects_folders_of_other_results() {
     assert!(said.contains("r: holds results of"), "{said}");
     let said = refusal(&mut desk.spunlaid("sweep study.toml --out r --print-point 5"), 1);
     assert!(said.contains("the study has 4 points"), "{said}");
-    // A journal of a build that knew its study in another way; it did not say of which format it was.
-    let journal = desk.path("r/webs.jsonl");
-    let text = fs::read_to_string(&journal).unwrap();
-    fs::write(&journal, text.replacen("\"format\":2,", "", 1)).unwrap();
-    let said = refusal(&mut desk.spunlaid("sweep study.toml --out r --replicates 1"), 1);
-    assert!(said.contains("is a journal of format 1, but this spunlaid reads format 2"), "{said}");
+    // The journal that earlier versions wrote for webs.
+    fs::create_dir(desk.path("old")).unwrap();
+    fs::write(desk.path("old/webs.jsonl"), "{}").unwrap();
+    let said = refusal(&mut desk.spunlaid("sweep study.toml --out old"), 1);
+    assert!(
+        said.contains("old: holds results already (webs.jsonl); name another folder, or replace them"),
+        "{said}"
+    );
     success(&mut desk.spunlaid("run brief.toml --out run --quiet"));
     let said = refusal(&mut desk.spunlaid("sweep study.toml --out run"), 1);
     assert!(said.contains("run: holds results already (summary.json)"), "{said}");

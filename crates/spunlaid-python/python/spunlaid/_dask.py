@@ -1,6 +1,6 @@
 """Studies on a cluster, with dask.distributed.
 
-The client keeps the journal. It cuts what the journal lacks into bundles of whole flights, hands out a few more of them
+The client keeps the journal. It cuts what the journal lacks into bundles of whole flights, or of the webs of a point, hands out a few more of them
 than the cluster has threads, and writes down what comes back before it hands out more. So neither it nor the scheduler
 ever holds more than that, whatever the size of the study.
 """
@@ -42,7 +42,7 @@ def fly_bundle(packed: bytes, version: str) -> NDArray[np.float64]:
             f"this worker has spunlaid {_spunlaid.__version__} and the client {version}; their numbers may differ in the last "
             "bits and are not mixed. Install the same version everywhere"
         )
-    return _spunlaid.fly_bundle(pickle.loads(zlib.decompress(packed)))
+    return _spunlaid.fly_bundle(*pickle.loads(zlib.decompress(packed)))
 
 
 def fly(
@@ -192,7 +192,7 @@ def _main(asked: argparse.Namespace) -> int:
         now = time.monotonic()
         if not asked.quiet and (now - last > 5.0 or done == of):
             last = now
-            print(f"fibres {done}/{of} after {now - began:.0f} s", file=sys.stderr)
+            print(f"replicates {done}/{of} after {now - began:.0f} s", file=sys.stderr)
 
     with Client(asked.scheduler, scheduler_file=asked.scheduler_file) as client:
         if not asked.quiet:
@@ -207,7 +207,7 @@ def _main(asked: argparse.Namespace) -> int:
             set=changes,
             progress=show,
         )
-    print(f"{int(study.n.sum())} fibres at {len(study)} points\nopen {Path(out) / 'report.html'}")
+    print(f"{int(study.n.sum())} {study.noun}s at {len(study)} points\nopen {Path(out) / 'report.html'}")
     lost = int(study.lost.sum())
     if lost:
         print(f"error: {lost} fibres were lost, because their positions became infinite", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""Studies: many cases, on this machine or on a cluster."""
+"""Studies: many cases or webs, on this machine or on a cluster."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Study:
 
     @property
     def n(self) -> NDArray[np.int64]:
-        """Number of fibres measured at each point."""
+        """Number of fibres or webs measured at each point."""
         return self._results["n"]  # type: ignore[no-any-return]
 
     @property
@@ -63,7 +63,7 @@ class Study:
 
     @property
     def standard_error(self) -> dict[str, NDArray[np.float64]]:
-        """The standard error of each mean; NaN from a single fibre."""
+        """The standard error of each mean; NaN from a single fibre. Of a single web it comes from the parts of the map."""
         return self._by_measure("standard_error")
 
     def _by_measure(self, name: str) -> dict[str, NDArray[np.float64]]:
@@ -78,7 +78,18 @@ class Study:
 
     def case(self, point: int) -> Case:
         """The case of a point, counted from 0."""
-        return Case.from_text(self._study.case_text(point))
+        if self.noun == "web":
+            raise ValueError("the points of this study are webs; point_text(point) has the file of one")
+        return Case.from_text(self._study.point_text(point))
+
+    def point_text(self, point: int) -> str:
+        """The file of a point, counted from 0: a case for `spunlaid run`, or a web for `spunlaid web`."""
+        return self._study.point_text(point)
+
+    @property
+    def noun(self) -> str:
+        """What a replicate is: `fibre` or `web`."""
+        return self._study.noun
 
     def effects(self) -> list[dict[str, Any]]:
         """How much each factor changes each measure from one end of its range to the other: `measure`, `factor`, `from`,
@@ -86,7 +97,7 @@ class Study:
         return self._study.effects()[0]
 
     def replicates(self) -> pandas.DataFrame:
-        """A row for each fibre: `point` and `replicate`, both counted from 1, whether it was `lost`, and its measures."""
+        """A row for each fibre or web: `point` and `replicate`, both counted from 1, whether it was `lost`, and its measures."""
         import pandas as pd
 
         columns = ["point", "replicate", "lost"] + [of[0] for of in self._study.measures]
@@ -121,7 +132,7 @@ class Study:
 
     def __repr__(self) -> str:
         factors = ", ".join(self.factors) or "no factors"
-        return f"<Study {self._study.name}: {len(self)} points of {factors}, {int(self.n.sum())} fibres>"
+        return f"<Study {self._study.name}: {len(self)} points of {factors}, {int(self.n.sum())} {self.noun}s>"
 
     def _repr_html_(self) -> str:
         return self.to_pandas().to_html(max_rows=20)  # type: ignore[no-any-return]
@@ -142,16 +153,17 @@ def sweep(
     """Flies a study: the same bits as `spunlaid sweep`, on any machine and any number of them.
 
     study: the path of a study file; or a dict with what such a file says, `{"case": case, "vary": {"air.velocity": [5, 10]},
-        "replicates": 8}`, where `case` is a Case, a dict or the path of a case file, numbers are in SI units, and the design
+        "replicates": 8}`, where `case` is a Case, a dict or the path of a case file, or `web` is the path of the file of a web,
+        numbers are in SI units, and the design
         is a grid if it is left out
-    client: a client of dask.distributed, whose workers then fly the fibres
+    client: a client of dask.distributed, whose workers then fly the fibres or lay the webs
     out: the folder for journal, tables, figures and report, as `spunlaid sweep` writes it; a study that was stopped goes
         on from there. Without it, results are kept in memory only
     force: whether other results in the folder are replaced
     points: number of points, which more than 10,000 need
     replicates, set: as of `spunlaid sweep`
     threads: number of threads on this machine
-    progress: None, True, False, or a function that gets the fibres done and their number
+    progress: None, True, False, or a function that gets the fibres or webs done and their number
     """
     begun = _begin(study, out, force, points, replicates, set)
     with shown(progress, f"{len(begun)} points") as show:
@@ -176,6 +188,9 @@ def _begin(
 ) -> _spunlaid.Study:
     out = None if out is None else os.fspath(out)
     if isinstance(study, Mapping):
+        if "web" in study and "case" not in study:
+            web = os.fspath(study["web"])
+            return _spunlaid.Study(study_toml(study), None, web, out, force, points, replicates, changes)
         if "case" not in study:
             raise ValueError('a study needs a case: {"case": spunlaid.Case.starter(), "vary": {...}}')
         case = study["case"]
@@ -183,5 +198,5 @@ def _begin(
             case = Case.from_dict(case)
         elif not isinstance(case, Case):
             case = Case.read(case)
-        return _spunlaid.Study(study_toml(study), case, out, force, points, replicates, changes)
-    return _spunlaid.Study(os.fspath(study), None, out, force, points, replicates, changes)
+        return _spunlaid.Study(study_toml(study), case, None, out, force, points, replicates, changes)
+    return _spunlaid.Study(os.fspath(study), None, None, out, force, points, replicates, changes)

@@ -17,8 +17,8 @@ def study_toml(study: Mapping[str, Any]) -> str:
     lines: list[str] = [] if "design" in study else ['design = "grid"']
     tables: list[str] = []
     for name, value in study.items():
-        if name == "case":
-            lines.append('case = "case.toml"')
+        if name in ("case", "web"):
+            lines.append(f'{name} = "{name}.toml"')
         elif isinstance(value, Mapping) and name in ("vary", "link", "set"):
             tables.append(f"\n[{name}]")
             for key, of in value.items():

@@ -14,7 +14,6 @@ mod study;
 #[cfg(test)]
 mod tests;
 mod web;
-mod webs;
 
 pub use compare::{Curves, MOST as MOST_COMPARED, Row, overlaid_figures};
 pub use record::record_figures;
@@ -22,7 +21,6 @@ pub use run::{run_figures, swing_frequency};
 pub use spunlaid::web::uniformity::Unevenness;
 pub use study::{name_of_key, study_figures};
 pub use web::{SEEN, overlaid_webs, scan_figures, web_figures};
-pub use webs::figures_of_webs;
 
 /// Label of an axis: `Length laid (m)`.
 fn with_unit(label: &str, unit: &str) -> String {

@@ -18,14 +18,14 @@ use std::sync::atomic::AtomicBool;
 
 const JOURNAL: &str = "journal";
 const STUDY: &str = "study.toml";
-const CASE: &str = "case.toml";
 /// Files that describe the study.
-const DESCRIPTION: &[&str] = &[CASE_FILES, CASE, STUDY];
+const DESCRIPTION: &[&str] = &[CASE_FILES, "case.toml", "web.toml", STUDY];
 /// Files that are made from the journal.
 const MADE: &[&str] =
     &["results.csv", "results.json", "results.parquet", "replicates.parquet", "figures", "report.html"];
-/// Files that only `spunlaid run` writes.
-const OF_A_RUN: &[&str] = &["summary.json", "end_node.parquet", "energy.parquet"];
+/// Files of other results, and the journal that studies of webs had before they were like all others.
+const OF_OTHERS: &[&str] =
+    &["summary.json", "end_node.parquet", "energy.parquet", "analysis.json", "webs.jsonl"];
 
 /// A results folder that this process has locked.
 #[derive(Debug)]
@@ -85,7 +85,7 @@ impl<'a> StudyFolder<'a> {
                     holds_nothing_else(path)?;
                 }
                 folder.begin(file)?;
-                journal.begin(&wanted, file.study.points.len())?;
+                journal.begin(&wanted, file.study.points.len(), file.study.quantities.len())?;
                 // The new file must survive a power cut. Some systems cannot sync folders, so an error is ignored.
                 let _ = fs::File::open(path).and_then(|folder| folder.sync_all());
                 State::New
@@ -96,7 +96,7 @@ impl<'a> StudyFolder<'a> {
             Some(found) if found != wanted => return Err(folder.other(file)),
             Some(_) => {
                 let points = file.study.points.len();
-                let found = journal.go_on(points, MOST_REPLICATES)?;
+                let found = journal.go_on(points, MOST_REPLICATES, file.study.quantities.len())?;
                 let (held, asked) = (journal.most_held(), file.study.replicates.at_most);
                 if held > asked {
                     let fault = Fault::new(
@@ -109,7 +109,7 @@ impl<'a> StudyFolder<'a> {
                 // These files follow from the study, so they are restored if someone has removed them. They are
                 // renewed for more replicates.
                 let was = fs::read_to_string(folder.path.join(STUDY)).unwrap_or_default();
-                if was != file.text || !folder.path.join(CASE).exists() {
+                if was != file.text || !folder.path.join(file.base_name()).exists() {
                     folder.describe(file)?;
                 }
                 State::Begun(found)
@@ -154,7 +154,7 @@ impl<'a> StudyFolder<'a> {
             figures: &figures,
             notes: &StudyNote::of_results(&file.notes),
             study_toml: &file.text,
-            case_toml: &file.case_text,
+            base_toml: &file.base_text,
             version: env!("CARGO_PKG_VERSION"),
         });
         staging.write("report.html", report)?;
@@ -164,7 +164,7 @@ impl<'a> StudyFolder<'a> {
 
     /// Removes the files of an earlier study, and describes this one.
     fn begin(&self, file: &StudyFile) -> Result<(), Failure> {
-        for name in MADE.iter().chain(OF_A_RUN) {
+        for name in OF_OTHERS.iter().chain(MADE) {
             remove(&self.path.join(name))?;
         }
         self.describe(file)
@@ -172,7 +172,7 @@ impl<'a> StudyFolder<'a> {
 
     fn describe(&self, file: &StudyFile) -> Result<(), Failure> {
         let staging = Staging::new(&self.path, DESCRIPTION, true, self.stop)?;
-        staging.write(CASE, keep_files(file, &staging)?)?;
+        staging.write(file.base_name(), keep_files(file, &staging)?)?;
         staging.write(STUDY, &file.text)?;
         staging.publish()
     }
@@ -180,7 +180,7 @@ impl<'a> StudyFolder<'a> {
     /// The error that lists how the study in this folder differs.
     fn other(self, file: &StudyFile) -> Failure {
         let mut all = Vec::new();
-        for (name, now) in [(STUDY, &file.text), (CASE, &file.case_text)] {
+        for (name, now) in [(STUDY, &file.text), (file.base_name(), &file.base_text)] {
             let was = fs::read_to_string(self.path.join(name)).unwrap_or_default();
             all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
         }
@@ -188,12 +188,12 @@ impl<'a> StudyFolder<'a> {
     }
 }
 
-/// Copies the files that the case names, and returns the text of the case with the paths of the copies.
+/// Copies the files that the case names, and returns the text of the case or web with the paths of the copies.
 fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure> {
-    let cases = file.study.points.iter().map(|point| &point.case);
+    let cases = file.study.points.iter().filter_map(|point| point.experiment.case());
     let copied = beside::copy(cases, &staging.place(CASE_FILES).0)?;
-    let folder = file.case_path.parent().unwrap_or(Path::new(""));
-    Ok(copied.iter().fold(file.case_text.clone(), |text, (from, to)| {
+    let folder = file.base_path.parent().unwrap_or(Path::new(""));
+    Ok(copied.iter().fold(file.base_text.clone(), |text, (from, to)| {
         let written = from.strip_prefix(folder).unwrap_or(from);
         let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());
         text.replace(&quoted(written), &quoted(to))
@@ -203,7 +203,7 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
 /// Refuses a folder with results but without a journal. A study that was killed before its journal existed has
 /// left no more than the files that describe it.
 fn holds_nothing_else(path: &Path) -> Result<(), Failure> {
-    match MADE.iter().chain(OF_A_RUN).find(|name| path.join(name).exists()) {
+    match OF_OTHERS.iter().chain(MADE).find(|name| path.join(name).exists()) {
         Some(found) => Err(holds_results(path, found)),
         None => Ok(()),
     }

@@ -1,6 +1,5 @@
 //! The folder of a web.
 
-use super::fibres::OfLayer;
 use crate::Failure;
 use crate::figures::web_figures;
 use crate::numbers::significant;
@@ -9,6 +8,7 @@ use crate::output::pictures;
 use crate::output::web::{self, Layer, Performance, Summary};
 use crate::report::{WebReport, web_html};
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
+use spunlaid::layers::OfLayer;
 use spunlaid::surrogate::Residual;
 use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, Web, Window, strands};
 

@@ -15,7 +15,6 @@ pub mod summary;
 pub mod table;
 pub mod tables;
 pub mod web;
-pub(crate) mod webs;
 
 use serde::Serialize;
 

@@ -52,7 +52,7 @@ pub fn tables(fed: bool) -> Vec<(&'static str, Vec<Column>)> {
 }
 
 /// `laid.parquet`: what fed fibres have laid, in the order of feed.
-pub const LAID: &str = "laid.parquet";
+pub use spunlaid::layers::LAID;
 /// Its columns.
 const POINT: [(&str, fn(&LaidPoint) -> f64); 4] =
     [("s_m", |p| p.fed), ("time_s", |p| p.time), ("md_m", |p| p.md), ("cd_m", |p| p.cd)];

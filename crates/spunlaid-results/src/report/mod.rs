@@ -15,7 +15,6 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod web;
-mod webs;
 mod words;
 
 pub use analysis::{AnalysisReport, analysis_html};
@@ -24,7 +23,6 @@ pub use paper::{PaperReport, paper_html};
 pub use scan::{ScanReport, scan_html};
 pub use study::{StudyReport, study_html};
 pub use web::{WebReport, web_html};
-pub use webs::{WebStudyReport, webs_html};
 
 use crate::output::summary::Performance;
 use askama::Template;

@@ -6,7 +6,7 @@ use crate::figures::name_of_key;
 use crate::numbers::{THIN, number};
 use crate::output::study::shown;
 use askama::Template;
-use spunlaid::study::{Design, Effect, PointResults, Ranking, Study, measure};
+use spunlaid::study::{Design, Effect, Experiment, PointResults, Ranking, Study};
 use spunlaid_charts::Figure;
 
 /// Largest number of points that are listed.
@@ -29,10 +29,10 @@ pub struct StudyReport<'a> {
     pub figures: &'a [Figure],
     /// Warnings and remarks for the reader.
     pub notes: &'a [String],
-    /// The study and its base case as files.
+    /// The study as a file.
     pub study_toml: &'a str,
-    /// The case that the study varies, as text.
-    pub case_toml: &'a str,
+    /// The case or web that the study varies, as text.
+    pub base_toml: &'a str,
     /// Version of the program.
     pub version: &'a str,
 }
@@ -55,7 +55,9 @@ struct Page<'a> {
     rows: Vec<Row>,
     unlisted: usize,
     study_toml: &'a str,
-    case_toml: &'a str,
+    base_toml: &'a str,
+    /// What the study varies, a case or a web, and the command that shows a point.
+    base: [&'static str; 2],
     version: &'a str,
 }
 
@@ -86,7 +88,10 @@ pub fn study_html(input: &StudyReport<'_>) -> String {
         summary: summary(study, input.results),
         phases: phases(study),
         notes: input.notes,
-        ranking_heads: shown::measures(study).map(shown::head).to_vec(),
+        ranking_heads: shown::quantities(study)
+            .into_iter()
+            .map(|i| shown::head(&study.quantities[i]))
+            .collect(),
         rankings: ranking_rows(study, shown),
         refusal: input.refusal,
         explained: explained(study, shown),
@@ -95,7 +100,8 @@ pub fn study_html(input: &StudyReport<'_>) -> String {
         rows: rows(study, input.results),
         unlisted: input.results.len().saturating_sub(LISTED),
         study_toml: input.study_toml,
-        case_toml: input.case_toml,
+        base_toml: input.base_toml,
+        base: if study.noun() == "web" { ["web", "web"] } else { ["case", "run"] },
         version: input.version,
     };
     rendered(&page)
@@ -103,9 +109,13 @@ pub fn study_html(input: &StudyReport<'_>) -> String {
 
 fn question(study: &Study) -> String {
     let names: Vec<String> = study.factors.iter().map(|factor| name_of_key(factor.key)).collect();
-    let fed = study.points.first().is_some_and(|point| point.case.line.is_some());
-    let what = if fed { "laid fibre" } else { "fibre’s motion" };
+    let what = match study.points.first().map(|point| &point.experiment) {
+        Some(Experiment::Web(_)) => "evenness of the web",
+        Some(Experiment::Case(case)) if case.line.is_some() => "laid fibre",
+        _ => "fibre’s motion",
+    };
     match names.as_slice() {
+        [] if study.noun() == "web" => "How even is the web?".to_owned(),
         [] => "How does the fibre move?".to_owned(),
         [one] => format!("How does the {what} depend on the {one}?"),
         [one, two] => format!("How does the {what} depend on the {one} and the {two}?"),
@@ -133,7 +143,7 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
         "{}: {how}. Each point has {}; the study has {} in total.",
         count(results.len() as u64, "point"),
         if most == 1 { "1 replicate".to_owned() } else { format!("{each} replicates") },
-        count(fibres, "fibre")
+        count(fibres, study.noun())
     );
     for link in &study.links {
         let (name, formula) = (name_of_key(link.key), link.expression.text());
@@ -150,7 +160,11 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
 }
 
 fn phases(study: &Study) -> &'static str {
-    if study.common_phases {
+    if study.noun() == "web" {
+        "Replicate 1 of every point has the same random numbers, and likewise replicate 2 and so on, as far as the keys \
+         allow. Errors are those of the scatter of the webs of a point, or of the parts of a single web; where fibres were \
+         flown, with the errors by these few fibres and by the surrogate. The flown CV is what the flown curves let expect."
+    } else if study.common_phases {
         "Common phases: replicate 1 of every point has the same random phases of the turbulence, and likewise replicate 2 \
          and so on. Differences between points are therefore more certain than their error bars suggest, while the \
          errors of all points have a common part."
@@ -161,14 +175,15 @@ fn phases(study: &Study) -> &'static str {
 
 fn heads(study: &Study) -> Vec<String> {
     let inputs = study.inputs().map(|input| input.key.to_owned());
-    inputs.chain(shown::measures(study).map(shown::head)).chain(["n".to_owned()]).collect()
+    let shown = shown::quantities(study).into_iter().map(|i| shown::head(&study.quantities[i]));
+    inputs.chain(shown).chain(["n".to_owned()]).collect()
 }
 
 fn rows(study: &Study, results: &[PointResults]) -> Vec<Row> {
     let row = |(index, point): (usize, &PointResults)| {
         let values = study.points[index].values.iter().zip(study.inputs());
         let inputs = values.map(|(value, input)| input.pretty(*value));
-        let results = shown::measures(study).map(|name| shown::cell(point, name));
+        let results = shown::quantities(study).into_iter().map(|i| shown::cell(study, point, i));
         Row { number: index + 1, cells: inputs.chain(results).chain([point.n.to_string()]).collect() }
     };
     results.iter().enumerate().take(LISTED).map(row).collect()
@@ -188,36 +203,38 @@ fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
             } else {
                 format!("{to} instead of {from}")
             },
-            cells: shown::measures(study).iter().map(|name| cell(rankings, name, effect)).collect(),
+            cells: shown::quantities(study).iter().map(|i| cell((study, rankings), *i, effect)).collect(),
         }
     };
     // The rows have the order of the effects on the amplitude.
     first.effects.iter().map(row).collect()
 }
 
-fn ranking_of<'a>(rankings: &'a [Ranking], name: &str) -> Option<&'a Ranking> {
-    let (index, _) = measure(name)?;
-    rankings.iter().find(|ranking| ranking.measure == index)
+fn ranking_of(rankings: &[Ranking], quantity: usize) -> Option<&Ranking> {
+    rankings.iter().find(|ranking| ranking.measure == quantity)
 }
 
-fn cell(rankings: &[Ranking], name: &str, of: &Effect) -> Cell {
-    let ranking = ranking_of(rankings, name);
+fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, of: &Effect) -> Cell {
+    let ranking = ranking_of(rankings, quantity);
     let effect = ranking.and_then(|ranking| ranking.effects.iter().find(|effect| effect.is_like(of)));
     effect.map_or_else(
         || Cell { text: "–".to_owned(), faint: true },
         |effect| {
             let faint = effect.half_width.is_none_or(|half| half.is_nan() || half >= effect.change.abs());
-            Cell { text: shown::in_unit(name, effect.change, effect.half_width), faint }
+            Cell {
+                text: shown::in_unit(&study.quantities[quantity], effect.change, effect.half_width),
+                faint,
+            }
         },
     )
 }
 
 fn explained(study: &Study, rankings: &[Ranking]) -> Vec<String> {
-    let of = |name: &&str| {
-        ranking_of(rankings, name).filter(|ranking| ranking.explained.is_finite()).map_or_else(
+    let of = |quantity: &usize| {
+        ranking_of(rankings, *quantity).filter(|ranking| ranking.explained.is_finite()).map_or_else(
             || "–".to_owned(),
             |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())),
         )
     };
-    shown::measures(study).iter().map(of).collect()
+    shown::quantities(study).iter().map(of).collect()
 }

@@ -16,19 +16,17 @@ mod web;
 mod write;
 mod written;
 
+pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
 pub use study::{
-    MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, WebPoint, WebStudy, WebStudyFile, differences,
-    parse_changed_study, parse_study, parse_web_study, read_changed_study, read_study, read_web_study,
-    varies_a_web,
+    MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
+    read_changed_study, read_study,
 };
-pub use web::{
-    LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebFile, WebKey, WebSpec, parse_web, read_web,
-    write_web,
-};
+pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};
 pub use write::write_case;
 
 use crate::case::{Case, Note};
 use crate::error::{Error, FileKind};
+use crate::study::Experiment;
 use std::path::Path;
 
 /// The version of the case file format that this library writes, and the newest one that it reads.
@@ -106,6 +104,14 @@ fn parse_with(
     overrides: Overrides<'_>,
 ) -> Result<(Case, Vec<Note>), Error> {
     open::open(document::Document::read(text, name, &[overrides])?, files)?.resolve()
+}
+
+/// Writes what a point of a study repeats, a case or a web, as a file.
+pub fn write_experiment(experiment: &Experiment) -> String {
+    match experiment {
+        Experiment::Case(case) => write_case(case),
+        Experiment::Web(web) => write_web(web),
+    }
 }
 
 /// A commented case file to start from: Table 1 of the paper, with every optional key and its default.

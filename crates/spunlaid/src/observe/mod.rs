@@ -20,9 +20,11 @@ mod root_tension;
 mod sample;
 mod spectrum;
 mod strain;
+mod web;
 
 pub use laydown::{LAYDOWN, SURROGATE};
 pub use sample::Sample;
+pub use web::{Deviation, OF_PATCHES, OF_WEBS, PatchMeasure, WebMeasure};
 
 use crate::case::Case;
 use crate::flight::{Flight, LaidPoint, Snapshot};

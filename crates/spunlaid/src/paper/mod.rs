@@ -96,7 +96,7 @@ impl Parameter {
 /// Reads a study that varies Table 1.
 fn study((name, text): (&str, &str)) -> Result<Study, Error> {
     let (case_name, case) = TABLE_1;
-    Ok(parse_study(text, name, None, |_| Ok((case.to_owned(), case_name.to_owned())))?.study)
+    Ok(parse_study(text, name, None, |_, _| Ok((case.to_owned(), case_name.to_owned())))?.study)
 }
 
 fn case((name, text): (&str, &str)) -> Result<Case, Error> {
@@ -137,7 +137,8 @@ pub fn time_steps() -> Result<Study, Error> {
 /// # Errors
 /// As [`parse_study`]. The built-in files give no error.
 pub fn choices() -> Result<Vec<(&'static str, Case)>, Error> {
-    let varied = study(file!("cases/paper/choices.toml"))?.points.into_iter().map(|point| point.case);
+    let points = study(file!("cases/paper/choices.toml"))?.points;
+    let varied = points.iter().filter_map(|point| point.experiment.case().cloned());
     let names = [
         "this project's choice: pinned root, β = 0.9, variance u²",
         "β = 0.78 (Majumdar & Shambaugh)",

@@ -1,4 +1,4 @@
-//! The journal: it stores a record of every fibre as soon as the fibre is finished.
+//! The journal: it stores a record of every replicate as soon as it is finished.
 //!
 //! ```text
 //! header   one line of text: magic word, format, version of the program, identity of the study
@@ -6,11 +6,10 @@
 //! ```
 //!
 //! Records are appended, never changed. A record that a crash has cut off or damaged fails its checksum; it does not
-//! count, and its fibre is flown again.
+//! count, and its replicate is made again.
 
 use super::measures::{Landing, Record};
 use crate::error::{Error, Fault};
-use crate::observe::MEASURES;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -20,8 +19,10 @@ const MAGIC: &str = "spunlaid-journal";
 const FORMAT: u32 = 4;
 /// Longest header [bytes].
 const LONGEST_HEADER: usize = 200;
-/// Length of a record [bytes].
-const RECORD: usize = 4 + 4 + 8 + 8 + 8 * MEASURES.len();
+/// Length of a record without its numbers [bytes].
+const HEAD: usize = 4 + 4 + 8 + 8;
+/// Fewest numbers of a record: a lost fibre has two.
+const FEWEST: usize = 2;
 /// Kinds of records.
 const MEASURED: u32 = 1;
 const LOST: u32 = 2;
@@ -38,7 +39,7 @@ pub struct Header {
 /// The content of an opened journal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Found {
-    /// Fibres.
+    /// Replicates.
     pub fibres: u64,
     /// Records with a wrong checksum.
     pub damaged: u64,
@@ -54,6 +55,8 @@ pub struct Journal {
     slots: Vec<Vec<u32>>,
     /// Number of records, including damaged ones.
     records: u32,
+    /// Numbers of each record.
+    numbers: usize,
 }
 
 #[derive(Debug)]
@@ -65,7 +68,12 @@ enum Backing {
 impl Journal {
     /// A journal in memory.
     pub fn in_memory(points: usize) -> Self {
-        Self { backing: Backing::Memory(Vec::new()), slots: vec![Vec::new(); points], records: 0 }
+        Self {
+            backing: Backing::Memory(Vec::new()),
+            slots: vec![Vec::new(); points],
+            records: 0,
+            numbers: FEWEST,
+        }
     }
 
     /// Opens the file, creates it if it does not exist, and locks it for this process until the journal is dropped.
@@ -108,14 +116,17 @@ impl Journal {
             None => return Err(foreign(path)),
         };
         let backing = Backing::File { file, path: path.to_owned(), start };
-        Ok((Self { backing, slots: Vec::new(), records: 0 }, header))
+        Ok((Self { backing, slots: Vec::new(), records: 0, numbers: FEWEST }, header))
     }
 
     /// Empties the journal and writes its header.
     ///
+    /// * `numbers` – those of each record
+    ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn begin(&mut self, header: &Header, points: usize) -> Result<(), Error> {
+    pub fn begin(&mut self, header: &Header, points: usize, numbers: usize) -> Result<(), Error> {
+        self.numbers = numbers.max(FEWEST);
         self.slots = vec![Vec::new(); points];
         self.records = 0;
         match &mut self.backing {
@@ -132,11 +143,14 @@ impl Journal {
         Ok(())
     }
 
-    /// Reads the records of a study with this number of points and replicates, and removes an incomplete last record.
+    /// Reads the records of a study with this number of points, replicates and numbers of each record, and removes an
+    /// incomplete last record.
     ///
     /// # Errors
     /// When the file cannot be read or shortened.
-    pub fn go_on(&mut self, points: usize, most_replicates: u64) -> Result<Found, Error> {
+    pub fn go_on(&mut self, points: usize, most_replicates: u64, numbers: usize) -> Result<Found, Error> {
+        self.numbers = numbers.max(FEWEST);
+        let length_of_record = self.record();
         let Backing::File { file, path, start } = &mut self.backing else {
             return Ok(Found::default());
         };
@@ -149,10 +163,10 @@ impl Journal {
         // Number of records up to the last valid one.
         let mut sound = 0;
         let mut reader = BufReader::with_capacity(1 << 16, file);
-        let mut bytes = [0; RECORD];
+        let mut bytes = vec![0; length_of_record];
         loop {
             let length = read_up_to(&mut reader, &mut bytes).map_err(failed)?;
-            if length < RECORD {
+            if length < length_of_record {
                 found.torn = length > 0;
                 break;
             }
@@ -174,7 +188,7 @@ impl Journal {
         if found.torn || sound < self.records {
             // New records must start at a multiple of the record length.
             let file = reader.into_inner();
-            file.set_len(start + u64::from(sound) * RECORD as u64).map_err(failed)?;
+            file.set_len(start + u64::from(sound) * length_of_record as u64).map_err(failed)?;
             self.records = sound;
         }
         Ok(found)
@@ -185,12 +199,13 @@ impl Journal {
     /// # Errors
     /// When the file cannot be written; a part that was written is removed again.
     pub fn add(&mut self, records: &[Record]) -> Result<(), Error> {
+        let (length, numbers) = (self.record(), self.numbers);
         match &mut self.backing {
             Backing::Memory(kept) => kept.extend_from_slice(records),
             Backing::File { file, path, start } => {
-                let bytes: Vec<u8> = records.iter().flat_map(encode).collect();
+                let bytes: Vec<u8> = records.iter().flat_map(|record| encode(record, numbers)).collect();
                 if let Err(source) = file.write_all(&bytes) {
-                    let _ = file.set_len(*start + u64::from(self.records) * RECORD as u64);
+                    let _ = file.set_len(*start + u64::from(self.records) * length as u64);
                     return Err(unwritable(path, &source));
                 }
             }
@@ -200,6 +215,11 @@ impl Journal {
             *slot(&mut self.slots, record) = self.records;
         }
         Ok(())
+    }
+
+    /// Length of a record [bytes].
+    const fn record(&self) -> usize {
+        HEAD + 8 * self.numbers
     }
 
     /// A second handle of the file, to flush records to the disk while others are appended.
@@ -236,14 +256,15 @@ impl Journal {
     /// # Errors
     /// When the file cannot be read, or another program has changed it.
     pub fn records(&mut self, point: usize, replicates: u64) -> Result<Vec<Record>, Error> {
+        let length = self.record();
         let slots = self.slots.get(point).map_or(&[][..], Vec::as_slice);
         let slots = slots.iter().take(replicates as usize).filter(|slot| **slot != 0).map(|slot| slot - 1);
         match &mut self.backing {
-            Backing::Memory(kept) => Ok(slots.filter_map(|i| kept.get(i as usize).copied()).collect()),
+            Backing::Memory(kept) => Ok(slots.filter_map(|i| kept.get(i as usize).cloned()).collect()),
             Backing::File { file, path, start } => {
                 let mut read = |i: u32| {
-                    let mut bytes = [0; RECORD];
-                    file.seek(SeekFrom::Start(*start + u64::from(i) * RECORD as u64))?;
+                    let mut bytes = vec![0; length];
+                    file.seek(SeekFrom::Start(*start + u64::from(i) * length as u64))?;
                     file.read_exact(&mut bytes)?;
                     decode(&bytes).ok_or_else(|| std::io::Error::from(ErrorKind::InvalidData))
                 };
@@ -340,27 +361,25 @@ fn read_up_to(reader: &mut impl Read, bytes: &mut [u8]) -> std::io::Result<usize
     Ok(length)
 }
 
-fn encode(record: &Record) -> Vec<u8> {
+/// The bytes of a record of so many numbers.
+fn encode(record: &Record, numbers: usize) -> Vec<u8> {
     let mut bytes = vec![0; 4];
-    let (kind, values) = match record.landing {
-        Landing::Measured(measured) => (MEASURED, measured),
-        Landing::Lost { node, time } => {
-            let mut values = [0.0; MEASURES.len()];
-            (values[0], values[1]) = (node as f64, time);
-            (LOST, values)
-        }
+    let (kind, values) = match &record.landing {
+        Landing::Measured(measured) => (MEASURED, measured.to_vec()),
+        Landing::Lost { node, time } => (LOST, vec![*node as f64, *time]),
     };
+    let missing = vec![0.0; numbers.saturating_sub(values.len())];
     bytes.extend(kind.to_le_bytes());
     bytes.extend(record.point.to_le_bytes());
     bytes.extend(record.replicate.to_le_bytes());
-    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    bytes.extend(values.iter().chain(&missing).take(numbers).flat_map(|value| value.to_le_bytes()));
     let sum = crc32fast::hash(&bytes[4..]);
     bytes[..4].copy_from_slice(&sum.to_le_bytes());
     bytes
 }
 
 /// The record; `None` if its checksum is wrong.
-fn decode(bytes: &[u8; RECORD]) -> Option<Record> {
+fn decode(bytes: &[u8]) -> Option<Record> {
     let (sum, rest) = bytes.split_first_chunk::<4>()?;
     if crc32fast::hash(rest) != u32::from_le_bytes(*sum) {
         return None;
@@ -368,10 +387,9 @@ fn decode(bytes: &[u8; RECORD]) -> Option<Record> {
     let (kind, rest) = rest.split_first_chunk::<4>()?;
     let (point, rest) = rest.split_first_chunk::<8>()?;
     let (replicate, rest) = rest.split_first_chunk::<8>()?;
-    let mut values = [0.0; MEASURES.len()];
-    for (value, bytes) in values.iter_mut().zip(rest.chunks_exact(8)) {
-        *value = f64::from_le_bytes(bytes.try_into().ok()?);
-    }
+    let values: Option<Box<[f64]>> =
+        rest.chunks_exact(8).map(|bytes| Some(f64::from_le_bytes(bytes.try_into().ok()?))).collect();
+    let values = values.filter(|values| values.len() >= FEWEST)?;
     let landing = match u32::from_le_bytes(*kind) {
         MEASURED => Landing::Measured(values),
         LOST => Landing::Lost { node: values[0] as u64, time: values[1] },

@@ -1,14 +1,124 @@
-//! The results of a trajectory that a study keeps.
+//! The numbers that a study keeps of each replicate: of a fibre, or of a web.
 
 use crate::ensemble::Trajectory;
-use crate::observe::{MEASURES, Measure, NUMBERS};
+use crate::layers::WebSpec;
+use crate::observe::{Deviation, Figure, MEASURES, Measure, OF_PATCHES, OF_WEBS, PatchMeasure, Unit};
+use crate::units::shortest;
+use crate::web::{Findings, Web};
 
-/// The numbers measured on one fibre, in the order of [`MEASURES`], in SI units and percent. NaN means that a
-/// measure does not apply to the case.
-pub type Measured = [f64; NUMBERS];
+/// A number that a study keeps, as its measure is declared in [`observe`](crate::observe). That of patches has their side in its
+/// name.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    /// Name in a study file, `amplitude_y`, `cv_10_mm`.
+    pub name: String,
+    /// Name in tables, with its SI unit: `amplitude_y_m`.
+    pub column: String,
+    /// Its label in a table: `Amplitude in y`.
+    pub label: String,
+    /// Its definition in words.
+    pub meaning: &'static str,
+    /// The unit in which it is shown.
+    pub unit: Unit,
+    /// The figure that shows it.
+    pub figure: &'static Figure,
+    /// Its label in that figure.
+    pub series: String,
+    /// Where its standard error comes from.
+    pub error: ErrorSource,
+    /// Further errors, which more replicates do not lower: indices of the quantities that are their sizes.
+    pub causes: Vec<usize>,
+}
+
+/// Where the standard error of the mean of a quantity comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorSource {
+    /// The scatter of the replicates.
+    Replicates,
+    /// The scatter of the replicates; of a single one, the quantity with this index.
+    OfOne(usize),
+    /// The quantity with this index.
+    Always(usize),
+}
+
+impl Quantity {
+    /// A declared measure, with the side of the patches in place of `#`.
+    fn new(measure: &'static Measure, side: &str) -> Self {
+        let named = |text: &str| text.replace('#', side);
+        Self {
+            name: named(measure.name),
+            column: named(measure.column),
+            label: named(measure.label),
+            meaning: measure.meaning,
+            unit: measure.unit,
+            figure: measure.figure,
+            series: named(measure.series),
+            error: ErrorSource::Replicates,
+            causes: Vec::new(),
+        }
+    }
+}
+
+/// The quantities of a fibre.
+pub(super) fn of_fibres() -> Vec<Quantity> {
+    MEASURES.iter().map(|measure| Quantity::new(measure, "")).collect()
+}
+
+/// The sides of the patches of some webs, each once, the smallest first [m].
+pub(super) fn sides<'a>(webs: impl Iterator<Item = &'a WebSpec>) -> Vec<f64> {
+    let mut sides: Vec<f64> = webs.flat_map(|web| web.sheet.patches.iter().copied()).collect();
+    sides.sort_by(f64::total_cmp);
+    sides.dedup_by(|a, b| is_same(*a, *b));
+    sides
+}
+
+fn is_same(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-9 * b
+}
+
+/// The quantities of some webs.
+pub(super) fn of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) -> Vec<Quantity> {
+    let mut all = Vec::new();
+    for side in sides(webs) {
+        let first = all.len();
+        let place = |end: &str| {
+            let is_it = |of: &PatchMeasure| of.measure.name.strip_prefix("cv_#") == Some(end);
+            first + OF_PATCHES.iter().position(is_it).unwrap_or(0)
+        };
+        // In millimetres, without the rounding of the file.
+        let side = shortest((side * 1e9).round() / 1e6);
+        all.extend(OF_PATCHES.iter().map(|declared| Quantity {
+            error: match declared.error {
+                None => ErrorSource::Replicates,
+                Some(Deviation::OfOne(end)) => ErrorSource::OfOne(place(end)),
+                Some(Deviation::Always(end)) => ErrorSource::Always(place(end)),
+            },
+            causes: declared.causes.iter().map(|end| place(end)).collect(),
+            ..Quantity::new(&declared.measure, &side)
+        }));
+    }
+    all.extend(OF_WEBS.iter().map(|declared| Quantity::new(&declared.measure, "")));
+    all
+}
+
+/// The numbers of a web, in the order of [`of_webs`].
+///
+/// * `sides` – of the patches of the study [m]
+pub(super) fn measured_of_web(sides: &[f64], web: &Web, found: &Findings) -> Measured {
+    let of_side = |&side: &f64| {
+        let patch = found.patches.iter().find(|patch| is_same(patch.map.patch, side));
+        OF_PATCHES.iter().map(move |declared| patch.map_or(f64::NAN, declared.number))
+    };
+    let of_web = OF_WEBS.iter().map(|declared| (declared.number)(web, found));
+    sides.iter().flat_map(of_side).chain(of_web).collect()
+}
+
+/// The numbers measured on one replicate, in the order of the study's quantities, in SI units and percent. NaN means that a
+/// measure does not apply.
+pub type Measured = Box<[f64]>;
 
 /// The outcome of one replicate of one point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     /// Index of the point.
     pub point: u64,
@@ -18,16 +128,12 @@ pub struct Record {
     pub landing: Landing,
 }
 
-/// How a flight ended.
-#[derive(Clone, Copy, Debug)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "nearly all flights are measured, and records are copied as they are"
-)]
+/// How a replicate ended.
+#[derive(Clone, Debug)]
 pub enum Landing {
-    /// The flight was completed and measured.
+    /// It was completed and measured.
     Measured(Measured),
-    /// The positions became infinite or NaN.
+    /// The positions of the fibre became infinite or NaN.
     Lost {
         /// Node, counted from 1 at the root.
         node: u64,
@@ -41,7 +147,7 @@ impl PartialEq for Landing {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Measured(a), Self::Measured(b)) => {
-                a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
             }
             (Self::Lost { node: a, time: t }, Self::Lost { node: b, time: u }) => {
                 a == b && t.to_bits() == u.to_bits()
@@ -52,8 +158,8 @@ impl PartialEq for Landing {
 }
 
 impl Landing {
-    /// The results of a completed flight.
-    pub fn measured(&self) -> Option<&Measured> {
+    /// The results of a completed replicate.
+    pub fn measured(&self) -> Option<&[f64]> {
         match self {
             Self::Measured(measured) => Some(measured),
             Self::Lost { .. } => None,
@@ -61,12 +167,7 @@ impl Landing {
     }
 }
 
-/// A measure with its index into the [`MEASURES`]. None without a measure of this name.
-pub fn measure(name: &str) -> Option<(usize, &'static Measure)> {
-    MEASURES.into_iter().enumerate().find(|(_, measure)| measure.name == name)
-}
-
 /// The numbers of a trajectory.
 pub fn measured(trajectory: &Trajectory) -> Measured {
-    MEASURES.map(|measure| trajectory.number(measure.name))
+    MEASURES.iter().map(|measure| trajectory.number(measure.name)).collect()
 }

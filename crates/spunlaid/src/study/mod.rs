@@ -1,33 +1,38 @@
-//! Studies: many cases that differ in a few keys, each flown several times, and the statistics of the results.
+//! Studies: many experiments that differ in a few keys, each repeated several times, and the statistics of the results. An
+//! experiment is a case whose fibres are flown, or a web that is laid.
 //!
 //! ```text
-//! factors → design (rows of values) → points (a whole case each) → jobs (one replicate of one point)
-//!   → pack (eight jobs to a flight, across points) → journal (a record per fibre) → statistics per point → effects
+//! factors → design (rows of values) → points (a whole experiment each) → jobs (one replicate of one point)
+//!   → pack (eight fibres to a flight, across points) or webs (one after another) → journal (a record per replicate)
+//!   → statistics per point → effects
 //! ```
 //!
 //! A study is data: it is read from a file (`input::read_study`) or made in code, [`Study::of_cases`].
-//! [`run`] flies the fibres that the journal does not hold yet. The record of a fibre has the same bits for any
-//! number of threads, any packing and any interruption, and equals the result of `ensemble::fly` for the same case.
+//! [`run`] makes the replicates that the journal does not hold yet. The record of a replicate has the same bits for any
+//! number of threads, any packing and any interruption, and equals the result of `ensemble::fly` or `web::measure`.
 
 mod design;
 mod effects;
+mod experiment;
 mod journal;
 mod measures;
 mod pack;
 mod rounds;
 mod run;
 mod sobol;
+mod webs;
 
-pub use crate::observe::MEASURES;
 pub use design::{Design, Factor, Levels, Spacing};
 pub use effects::{Effect, Ranking, Rankings, Refusal, Term, rankings};
+pub use experiment::Experiment;
 pub use journal::{Found, Header, Journal, foreign, in_use, other_format, unsynced};
-pub use measures::{Landing, Measured, Record, measure, measured};
+pub use measures::{ErrorSource, Landing, Measured, Quantity, Record, measured};
 pub use pack::{Batch, Bundles, fly_batches};
 pub use rounds::{PointResults, Rounds, results_of_point};
 pub use run::{Progress, fly_bundle, run};
 
-use crate::case::{Case, keys};
+use crate::case::Case;
+use crate::layers::WebSpec;
 use crate::units::{Dimension, Expression};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -49,6 +54,8 @@ pub struct Study {
     pub replicates: Replicates,
     /// The points.
     pub points: Vec<Point>,
+    /// The numbers that are kept of each replicate.
+    pub quantities: Vec<Quantity>,
 }
 
 /// A key that follows from other keys by a formula.
@@ -94,13 +101,13 @@ impl Input<'_> {
     }
 }
 
-/// A point of a study: a complete case with its seed.
+/// A point of a study: a complete experiment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     /// Values of the factors, then of the links: numbers in SI units, words as indices into those of the factor.
     pub values: Vec<f64>,
-    /// The case, with the point's seed and the largest number of replicates that may be flown.
-    pub case: Case,
+    /// What is repeated.
+    pub experiment: Experiment,
 }
 
 /// How many replicates of a point are flown.
@@ -110,7 +117,7 @@ pub struct Replicates {
     pub at_least: u64,
     /// Largest number.
     pub at_most: u64,
-    /// Pairs of a result, as index into [`MEASURES`], and a fraction of its mean. More replicates are flown until
+    /// Pairs of a result, as index into [`Study::quantities`], and a fraction of its mean. More replicates are flown until
     /// the standard error of each result is below this fraction.
     pub until: Vec<(usize, f64)>,
 }
@@ -125,13 +132,11 @@ impl Replicates {
 impl Study {
     /// A study of given cases. It keeps their seeds and replaces their replicates.
     pub fn of_cases(cases: impl IntoIterator<Item = Case>, replicates: Replicates) -> Self {
-        let mut points: Vec<Point> =
-            cases.into_iter().map(|case| Point { values: Vec::new(), case }).collect();
-        for point in &mut points {
-            point.case.run.replicates = replicates.at_most;
-        }
-        let seed = points.first().map_or(0, |point| point.case.run.seed);
-        let common_phases = points.iter().all(|point| point.case.run.seed == seed);
+        let mut cases: Vec<Case> = cases.into_iter().collect();
+        cases.iter_mut().for_each(|case| case.run.replicates = replicates.at_most);
+        let seed = cases.first().map_or(0, |case| case.run.seed);
+        let common_phases = cases.iter().all(|case| case.run.seed == seed);
+        let point = |case| Point { values: Vec::new(), experiment: Experiment::Case(case) };
         Self {
             factors: Vec::new(),
             links: Vec::new(),
@@ -139,8 +144,32 @@ impl Study {
             seed,
             common_phases,
             replicates,
-            points,
+            points: cases.into_iter().map(point).collect(),
+            quantities: measures::of_fibres(),
         }
+    }
+
+    /// The quantities that are kept of these points.
+    pub(crate) fn quantities_of(points: &[Point]) -> Vec<Quantity> {
+        match points.first().map(|point| &point.experiment) {
+            Some(Experiment::Web(_)) => measures::of_webs(webs(points)),
+            _ => measures::of_fibres(),
+        }
+    }
+
+    /// The sides of the patches over which the webs of all points are measured [m]; none for fibres.
+    pub fn patch_sides(&self) -> Vec<f64> {
+        measures::sides(webs(&self.points))
+    }
+
+    /// The index of a quantity by its name; None without one of this name.
+    pub fn quantity(&self, name: &str) -> Option<usize> {
+        self.quantities.iter().position(|quantity| quantity.name == name)
+    }
+
+    /// What a replicate is called, `fibre` or `web`.
+    pub fn noun(&self) -> &'static str {
+        self.points.first().map_or("fibre", |point| point.experiment.noun())
     }
 
     /// The keys of the points' values, in the same order.
@@ -149,7 +178,7 @@ impl Study {
         self.factors.iter().map(Factor::input).chain(self.links.iter().map(linked))
     }
 
-    /// Largest number of fibres that may be flown.
+    /// Largest number of replicates of all points.
     pub fn most_fibres(&self) -> u64 {
         (self.points.len() as u64).saturating_mul(self.replicates.at_most)
     }
@@ -178,7 +207,7 @@ fn stream(seed: u64, purpose: Use, index: u64) -> ChaCha8Rng {
 }
 
 impl Study {
-    /// A checksum over all that the records of a study depend on: the keys of every point's case, and the rule for more
+    /// A checksum over all that the records of a study depend on: the keys of every point's experiment, and the rule for more
     /// replicates. How many are flown at most is left out, so that a finished study can be given more.
     pub fn identity(&self) -> u32 {
         let mut sum = crc32fast::Hasher::new();
@@ -189,25 +218,15 @@ impl Study {
                 sum.update(&fraction.to_le_bytes());
             }
         }
-        for point in &self.points {
-            enter_keys(&mut sum, &point.case);
-        }
-        MEASURES.iter().for_each(|measure| sum.update(measure.column.as_bytes()));
+        self.points.iter().for_each(|point| point.experiment.enter(&mut sum));
+        self.quantities.iter().for_each(|quantity| sum.update(quantity.column.as_bytes()));
         sum.finalize()
     }
 }
 
-/// Enters the name and the value of every key of a case but the number of replicates. A case that is written and read again
-/// has the same values, to the last bit; of files, the contents count.
-pub(crate) fn enter_keys(sum: &mut crc32fast::Hasher, case: &Case) {
-    for key in keys::all().iter().filter(|key| key.name != "run.replicates") {
-        if let Some(value) = key.get(case) {
-            sum.update(key.name.as_bytes());
-            // A number that the flow tells along the way is another than the same number everywhere.
-            sum.update(&[u8::from(key.is_told(case))]);
-            sum.update(&value.bytes());
-        }
-    }
+/// The webs of points.
+fn webs(points: &[Point]) -> impl Iterator<Item = &WebSpec> {
+    points.iter().filter_map(|point| point.experiment.web())
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Distribution of jobs to flights of eight lanes. A flight may hold replicates of several points, so that few
 //! lanes stay empty.
 
-use super::Point;
+use super::{Experiment, Point};
 use crate::ensemble::{Computing, Job, Keep, Trajectory, fly_each, in_order};
 use crate::error::Error;
 use crate::flight::Common;
@@ -21,7 +21,7 @@ pub struct Batch {
 /// A fibre that was lost: point, replicate and error.
 pub(super) type Lost = (usize, u64, Error);
 
-/// Jobs distributed to flights.
+/// Jobs distributed to flights; some webs of a point count as one.
 #[derive(Debug, Default)]
 struct Packing {
     /// Batches that may fly together, each with the number of jobs before it.
@@ -36,10 +36,16 @@ impl Packing {
         let mut group_of = BTreeMap::new();
         let mut groups: Vec<(f64, Vec<(u64, Batch)>)> = Vec::new();
         for batch in batches.iter().filter(|batch| !batch.replicates.is_empty()) {
-            let case = &points[batch.point].case;
-            let group = *group_of.entry(Common::of(case)).or_insert(groups.len());
+            let (alike, work) = match &points[batch.point].experiment {
+                Experiment::Case(case) => {
+                    (Ok(Common::of(case)), case.run.steps as f64 * case.fibre.elements as f64)
+                }
+                // The webs of a point are laid of the same fibres.
+                Experiment::Web(_) => (Err(batch.point), 0.0),
+            };
+            let group = *group_of.entry(alike).or_insert(groups.len());
             if group == groups.len() {
-                groups.push((case.run.steps as f64 * case.fibre.elements as f64, Vec::new()));
+                groups.push((work, Vec::new()));
             }
             let members = &mut groups[group].1;
             let before = members.last().map_or(0, |(before, batch)| before + length(batch));
@@ -116,7 +122,7 @@ fn length(batch: &Batch) -> u64 {
     batch.replicates.end - batch.replicates.start
 }
 
-/// Flies batches; a flight may hold replicates of several points.
+/// Flies batches of cases; a flight may hold replicates of several points.
 ///
 /// * `keep` – the replicates that record the whole fibre over time
 /// * `take` – receives point and trajectory; the replicates of a batch come in order
@@ -153,8 +159,10 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     let packing = Packing::new(points, batches);
     let work = |flight: usize| {
         let jobs = packing.jobs(flight);
-        let flying: Vec<Job<'_>> =
-            jobs.iter().map(|&(point, replicate)| Job { case: &points[point].case, replicate }).collect();
+        let job = |&(point, replicate): &(usize, u64)| {
+            Some(Job { case: points[point].experiment.case()?, replicate })
+        };
+        let flying: Vec<Job<'_>> = jobs.iter().filter_map(job).collect();
         let (mut trajectories, mut lost) = (Vec::new(), Vec::new());
         for (&(point, replicate), flown) in jobs.iter().zip(fly_each(&flying, keep, computing)?) {
             match flown {
@@ -170,6 +178,7 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Case;
     use crate::drag::{FrictionLaw, NormalLaw};
     use crate::study::tests::table1;
 
@@ -179,10 +188,17 @@ mod tests {
             for &length_scale in lengths {
                 let mut case = table1();
                 (case.air.velocity, case.air.length_scale) = (velocity, length_scale);
-                points.push(Point { values: Vec::new(), case });
+                points.push(Point { values: Vec::new(), experiment: case.into() });
             }
         }
         points
+    }
+
+    fn case_of(point: &mut Point) -> &mut Case {
+        match &mut point.experiment {
+            Experiment::Case(case) => case,
+            Experiment::Web(_) => panic!("a point of a case"),
+        }
     }
 
     #[test]
@@ -202,7 +218,7 @@ mod tests {
             batches.iter().flat_map(|b| b.replicates.clone().map(|r| (b.point, r))).collect();
         assert_eq!(jobs, expected);
         let in_group = |flight: usize| {
-            let common = |job: &(usize, u64)| Common::of(&points[job.0].case);
+            let common = |job: &(usize, u64)| Common::of(points[job.0].experiment.case().unwrap());
             let jobs = packing.jobs(flight);
             jobs.iter().all(|job| common(job) == common(&jobs[0]))
         };
@@ -235,9 +251,9 @@ mod tests {
     #[test]
     fn drag_laws_of_one_form_fly_together() {
         let mut points = points(&[5.0, 10.0, 20.0, 30.0], &[0.05]);
-        points[1].case.drag.along = FrictionLaw::MajumdarShambaugh;
-        points[2].case.drag.across = NormalLaw::MarheinekeWegener;
-        points[3].case.drag.along = FrictionLaw::Sakiadis;
+        case_of(&mut points[1]).drag.along = FrictionLaw::MajumdarShambaugh;
+        case_of(&mut points[2]).drag.across = NormalLaw::MarheinekeWegener;
+        case_of(&mut points[3]).drag.along = FrictionLaw::Sakiadis;
         let batches: Vec<Batch> = (0..4).map(|point| Batch { point, replicates: 0..4 }).collect();
         // Power laws fly together, with any factors and exponents.
         assert_eq!(Packing::new(&points, &batches).count, 3);

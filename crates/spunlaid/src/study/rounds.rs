@@ -1,7 +1,7 @@
 //! Statistics of the points of a study, and how many replicates each of them still needs.
 
 use super::journal::Journal;
-use super::measures::measure;
+use super::measures::{ErrorSource, Quantity};
 use super::pack::Batch;
 use super::{Replicates, Study};
 use crate::error::Error;
@@ -9,28 +9,37 @@ use crate::observe::MEASURES;
 use crate::statistics::Estimate;
 
 /// Statistics of a point over its replicates.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PointResults {
-    /// Fibres measured.
+    /// Replicates measured.
     pub n: u64,
     /// Fibres lost because their positions became infinite or NaN.
     pub lost: u64,
-    /// Mean of each of the [`MEASURES`]; NaN without any fibre.
-    pub mean: [f64; MEASURES.len()],
-    /// Standard error of each mean; of no use from a single fibre. Kept without `Option`, which would take twice the
-    /// memory: a study has many points.
-    pub errors: [f64; MEASURES.len()],
+    /// Mean of each of the study's quantities; NaN without any replicate.
+    pub mean: Box<[f64]>,
+    /// Standard error of each mean; NaN if it is not known. Kept without `Option`, which would take twice the memory: a
+    /// study has many points.
+    pub errors: Box<[f64]>,
 }
 
 impl PointResults {
-    /// Mean and standard error of a measure. None without a measure of this name.
+    /// Mean and standard error of a measure of fibres. None without a measure of this name.
     pub fn of(&self, name: &str) -> Option<(f64, Option<f64>)> {
-        measure(name).map(|(index, _)| (self.mean[index], self.standard_error(index)))
+        let index = MEASURES.iter().position(|measure| measure.name == name)?;
+        Some((*self.mean.get(index)?, self.standard_error(index)))
     }
 
-    /// Standard error of the mean of a measure, by its index into the [`MEASURES`]; `None` from a single fibre.
-    pub fn standard_error(&self, measure: usize) -> Option<f64> {
-        (self.n > 1).then(|| self.errors[measure])
+    /// Standard error of the mean of a quantity, by its index; `None` if it is not known, as that of a single fibre.
+    pub fn standard_error(&self, quantity: usize) -> Option<f64> {
+        Some(self.errors[quantity]).filter(|error| !error.is_nan())
+    }
+
+    /// The error of the mean of a quantity by all its causes; None if one of them is not known, or if it has no other than
+    /// the standard error.
+    pub fn whole_error(&self, quantities: &[Quantity], quantity: usize) -> Option<f64> {
+        let causes = &quantities[quantity].causes;
+        let whole = causes.iter().map(|cause| self.mean[*cause]).fold(self.errors[quantity], f64::hypot);
+        Some(whole).filter(|whole| !causes.is_empty() && whole.is_finite())
     }
 }
 
@@ -38,20 +47,31 @@ impl PointResults {
 ///
 /// # Errors
 /// When the journal cannot be read.
-pub fn results_of_point(journal: &mut Journal, point: usize) -> Result<PointResults, Error> {
-    results_of(journal, point, u64::MAX)
+pub fn results_of_point(study: &Study, journal: &mut Journal, point: usize) -> Result<PointResults, Error> {
+    results_of(&study.quantities, journal, point, u64::MAX)
 }
 
-fn results_of(journal: &mut Journal, point: usize, replicates: u64) -> Result<PointResults, Error> {
+fn results_of(
+    quantities: &[Quantity],
+    journal: &mut Journal,
+    point: usize,
+    replicates: u64,
+) -> Result<PointResults, Error> {
     let records = journal.records(point, replicates)?;
     let measured: Vec<_> = records.iter().filter_map(|record| record.landing.measured()).collect();
-    let estimates: [Estimate; MEASURES.len()] =
-        std::array::from_fn(|i| Estimate::of(measured.iter().map(|values| values[i]).collect()));
+    let estimate = |i: usize| Estimate::of(measured.iter().map(|values| values[i]).collect());
+    let estimates: Vec<Estimate> = (0..quantities.len()).map(estimate).collect();
+    let scatter = |i: usize| estimates[i].standard_error.unwrap_or(f64::NAN);
+    let error = |i: usize| match quantities[i].error {
+        ErrorSource::OfOne(other) if measured.len() == 1 => estimates[other].mean,
+        ErrorSource::Always(other) => estimates[other].mean,
+        ErrorSource::OfOne(_) | ErrorSource::Replicates => scatter(i),
+    };
     Ok(PointResults {
         n: measured.len() as u64,
         lost: (records.len() - measured.len()) as u64,
-        mean: std::array::from_fn(|i| estimates[i].mean),
-        errors: std::array::from_fn(|i| estimates[i].standard_error.unwrap_or(f64::NAN)),
+        mean: estimates.iter().map(|estimate| estimate.mean).collect(),
+        errors: (0..quantities.len()).map(error).collect(),
     })
 }
 
@@ -108,7 +128,7 @@ impl Rounds {
         let mut more = false;
         for point in 0..self.open.len() {
             if self.open[point] {
-                let results = results_of(journal, point, self.wanted[point])?;
+                let results = results_of(&study.quantities, journal, point, self.wanted[point])?;
                 let next = more_replicates(&study.replicates, &results, self.wanted[point]);
                 self.open[point] = next.is_some();
                 self.wanted[point] = next.unwrap_or(self.wanted[point]);
@@ -148,8 +168,8 @@ mod tests {
         let results = |n: u64, mean: f64, error: f64| PointResults {
             n,
             lost: 0,
-            mean: [mean; MEASURES.len()],
-            errors: [error; MEASURES.len()],
+            mean: vec![mean].into(),
+            errors: vec![error].into(),
         };
         assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.1), 4), None);
         assert_eq!(more_replicates(&replicates, &results(4, -1.0, 0.1), 4), None);

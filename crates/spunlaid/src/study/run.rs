@@ -1,10 +1,10 @@
-//! Flies the missing fibres of a study.
+//! Makes the missing replicates of a study: flies its fibres or lays its webs.
 
 use super::journal::{Journal, unsynced};
 use super::measures::{Landing, Record, measured};
 use super::pack::{Batch, Lost, fly_and_land};
 use super::rounds::Rounds;
-use super::{Point, Study};
+use super::{Point, Study, webs};
 use crate::ensemble::{Computing, Keep, Trajectory};
 use crate::error::Error;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -17,19 +17,19 @@ const SYNC: Duration = Duration::from_millis(500);
 /// Progress of a study; another thread may read it.
 #[derive(Debug, Default)]
 pub struct Progress {
-    /// Fibres planned so far; the number grows when a point needs more replicates.
+    /// Replicates planned so far; the number grows when a point needs more replicates.
     pub fibres: AtomicU64,
-    /// Fibres finished.
+    /// Replicates finished.
     pub fibres_done: AtomicU64,
     /// Points with all replicates planned so far.
     pub points_done: AtomicU64,
-    /// Total steps of the fibres to fly; [`Computing::fibre_steps`] counts up to this number.
+    /// Total steps of the fibres to fly, and pieces of the webs to lay; [`Computing::fibre_steps`] counts up to this number.
     pub steps: AtomicU64,
 }
 
-/// Flies the fibres that the journal does not hold yet.
+/// Makes the replicates that the journal does not hold yet.
 ///
-/// With [`Replicates::until`], more replicates are flown in rounds. The decision for a point depends on its own
+/// With [`Replicates::until`], more replicates follow in rounds. The decision for a point depends on its own
 /// replicates only, never on threads or interruptions.
 ///
 /// # Errors
@@ -53,21 +53,32 @@ pub fn run(
 /// Flies a bundle of a study, wherever that is; the records are what [`run`] would add to the journal.
 ///
 /// * `points` – those to which the bundle's batches refer
+/// * `sides` – [`Study::patch_sides`]
 ///
 /// # Errors
 /// When the computation is stopped, and when a case cannot be flown. A lost fibre is a record.
 pub fn fly_bundle(
-    points: &[Point],
+    (points, sides): (&[Point], &[f64]),
     bundle: &[Batch],
     computing: Computing<'_>,
 ) -> Result<Vec<Record>, Error> {
-    let mut all = Vec::new();
+    let (mut all, steps) = (Vec::new(), AtomicU64::new(0));
+    webs::lay((points, sides), bundle, computing, &steps, |record| {
+        all.push(record);
+        Ok(())
+    })?;
+    let bundle: Vec<Batch> = flights(points, bundle);
     let land = |trajectories, lost| Ok(records(trajectories, lost));
-    fly_and_land(points, bundle, Keep::NUMBERS, computing, land, |records| {
+    fly_and_land(points, &bundle, Keep::NUMBERS, computing, land, |records| {
         all.extend(records);
         Ok::<(), Error>(())
     })?;
     Ok(all)
+}
+
+/// The batches that are flown.
+fn flights(points: &[Point], batches: &[Batch]) -> Vec<Batch> {
+    batches.iter().filter(|batch| points[batch.point].experiment.case().is_some()).cloned().collect()
 }
 
 fn fly_missing(
@@ -82,13 +93,18 @@ fn fly_missing(
     if batches.is_empty() {
         return Ok(());
     }
-    let land = |trajectories: Vec<(usize, Trajectory)>, lost: Vec<Lost>| {
-        let records = records(trajectories, lost);
-        lock(journal).add(&records)?;
-        lacking.landed(&records, progress);
+    let keep = |records: &[Record]| {
+        lock(journal).add(records)?;
+        lacking.landed(records, progress);
         Ok(())
     };
+    let land = |trajectories: Vec<(usize, Trajectory)>, lost: Vec<Lost>| keep(&records(trajectories, lost));
     with_sync(journal, |failed| {
+        webs::lay((&study.points, &study.patch_sides()), &batches, computing, &progress.steps, |record| {
+            failed().map_or(Ok(()), Err)?;
+            keep(&[record])
+        })?;
+        let batches = flights(&study.points, &batches);
         fly_and_land(&study.points, &batches, Keep::NUMBERS, computing, land, |()| match failed() {
             Some(error) => Err(error),
             None => Ok(()),
@@ -141,7 +157,7 @@ impl<F: FnMut()> Drop for OnDrop<F> {
     }
 }
 
-/// Number of fibres that each point still lacks.
+/// Number of replicates that each point still lacks.
 struct Lacking(Vec<AtomicU64>);
 
 impl Lacking {
@@ -151,7 +167,7 @@ impl Lacking {
         for Batch { point, replicates } in batches {
             let count = replicates.end - replicates.start;
             lacking[*point] += count;
-            steps += count * study.points[*point].case.run.steps;
+            steps += count * study.points[*point].experiment.case().map_or(0, |case| case.run.steps);
         }
         let total: u64 = wanted.iter().sum();
         progress.fibres.store(total, Ordering::Relaxed);

@@ -1,7 +1,9 @@
 //! A short case, and studies of it.
 #![allow(clippy::unwrap_used)]
 
+use spunlaid::case::Case;
 use spunlaid::input::{StudyFile, parse_study};
+use spunlaid::study::Point;
 
 /// Table 1 of the paper, 10 ms of it in steps of 20 µs.
 pub const SHORT: &str = "version = 1
@@ -23,5 +25,10 @@ time_step = '20 µs'
 
 /// Reads a study of a case.
 pub fn study(case: &str, text: &str) -> StudyFile {
-    parse_study(text, "study.toml", None, |_| Ok((case.to_owned(), "case.toml".to_owned()))).unwrap()
+    parse_study(text, "study.toml", None, |_, _| Ok((case.to_owned(), "case.toml".to_owned()))).unwrap()
+}
+
+/// The case of a point.
+pub fn case_of(point: &Point) -> &Case {
+    point.experiment.case().unwrap()
 }

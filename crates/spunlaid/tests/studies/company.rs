@@ -1,6 +1,7 @@
 //! A fibre has the same bits alone and in company: every key of the table, varied in a study of two points, gives what
 //! two single runs give, in every measure.
 
+use crate::short::case_of;
 use spunlaid::air::{Air, EddyModel, Flow, FromFlow};
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Key, Kind, LeftOut, Value};
@@ -182,8 +183,8 @@ output_interval = '0.2 ms'
 time_step = '20 µs'
 ";
 
-const SLIDING: &str = "version = 1
-[fibre]
+/// A fibre that is fed and falls on a belt, `DROP` in a case.
+const DROP: &str = "[fibre]
 diameter = '18 µm'
 density = '910 kg/m³'
 youngs_modulus = '2 GPa'
@@ -192,7 +193,10 @@ element_length = '4 mm'
 speed = '20 m/s'
 [belt]
 distance = '40 mm'
-speed = '2 m/s'
+speed = '2 m/s'";
+
+const SLIDING: &str = "version = 1
+DROP
 contact = 'friction'
 friction = 0.2
 suction = '100 Pa'
@@ -209,16 +213,7 @@ time_step = '20 µs'
 ";
 
 const FED_IN_FIELD: &str = "version = 1
-[fibre]
-diameter = '18 µm'
-density = '910 kg/m³'
-youngs_modulus = '2 GPa'
-element_length = '4 mm'
-[feed]
-speed = '20 m/s'
-[belt]
-distance = '40 mm'
-speed = '2 m/s'
+DROP
 [air]
 field = 'FIELD'
 [run]
@@ -253,7 +248,7 @@ fn files() -> &'static Path {
 /// The text of a case with its files.
 fn with_files(text: &str) -> String {
     let path = |name: &str| files().join(name).display().to_string();
-    text.replace("FIELD", &path("field.csv")).replace("RECORD", &path("record.csv"))
+    text.replace("DROP", DROP).replace("FIELD", &path("field.csv")).replace("RECORD", &path("record.csv"))
 }
 
 fn read(text: &str) -> Case {
@@ -267,7 +262,7 @@ fn points(case: &str, key: &str, values: &[String; 2]) -> Result<Vec<Point>, Str
     let text = format!(
         "case = 'case.toml'\ndesign = 'grid'\nreplicates = {REPLICATES}\n[vary]\n{key} = [{a}, {b}]\n"
     );
-    let study = parse_study(&text, "study.toml", None, |_| Ok((case.to_owned(), "case.toml".to_owned())));
+    let study = parse_study(&text, "study.toml", None, |_, _| Ok((case.to_owned(), "case.toml".to_owned())));
     study.map(|file| file.study.points).map_err(|error| error.to_string())
 }
 
@@ -374,7 +369,7 @@ fn differences(one: &Trajectory, other: &Trajectory) -> BTreeSet<&'static str> {
 /// Which measures differ between a study of these points and single runs, each with the number of fibres.
 fn differing(points: &[Point], known: &mut BTreeMap<String, Result<Vec<Trajectory>, String>>) -> Vec<String> {
     let single: Vec<_> = (points.iter())
-        .map(|point| known.entry(write_case(&point.case)).or_insert_with(|| alone(&point.case)).clone())
+        .map(|point| known.entry(write_case(case_of(point))).or_insert_with(|| alone(case_of(point))).clone())
         .collect();
     match together(points) {
         Ok(flown) => {
@@ -494,7 +489,7 @@ fn identical_alone_and_in_company_of_another_kind_of_flow() {
         let cases = [air, uniform].map(|air| Case { air, ..case.clone() });
         assert!(cases.iter().all(|case| case.check().is_ok()), "{name}");
         for order in [[0, 1], [1, 0]] {
-            let point = |i: usize| Point { values: Vec::new(), case: cases[i].clone() };
+            let point = |i: usize| Point { values: Vec::new(), experiment: cases[i].clone().into() };
             let differ = differing(&order.map(point), &mut known);
             if !differ.is_empty() {
                 wrong.push(format!("{name}, {order:?}: {}", differ.join(", ")));

@@ -3,7 +3,8 @@
 use crate::short;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::study::{Journal, Landing, MEASURES, Record, Study, rankings};
+use spunlaid::observe::MEASURES;
+use spunlaid::study::{Journal, Landing, Record, Study, rankings};
 
 /// The case is never flown; its intensity is in the middle of the range that the studies vary.
 fn study(text: &str) -> Study {
@@ -55,7 +56,7 @@ fn flown(study: &Study, replicates: u64, model: Model, noise: Noise, seed: u64) 
         for (replicate, [all, slopes @ ..]) in (0..).zip(&common) {
             let slope: f64 = slopes.iter().zip(&x).map(|(slope, x)| slope * x).sum();
             let y = model(&x) + noise.fibre * normal.next() + noise.replicate * all + noise.slopes * slope;
-            let landing = Landing::Measured([y; MEASURES.len()]);
+            let landing = Landing::Measured(vec![y; MEASURES.len()].into());
             journal.add(&[Record { point: index as u64, replicate, landing }]).unwrap();
         }
     }
@@ -241,7 +242,7 @@ fn effects_of_words(
         let y = WORDS.0[word] + WORDS.1 * study.factors[1].place(point.values[1]);
         for (replicate, all) in (0..).zip(&common) {
             let y = y + noise.fibre * normal.next() + noise.replicate * all;
-            let landing = Landing::Measured([y; MEASURES.len()]);
+            let landing = Landing::Measured(vec![y; MEASURES.len()].into());
             journal.add(&[Record { point: index as u64, replicate, landing }]).unwrap();
         }
     }

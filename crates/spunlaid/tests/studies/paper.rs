@@ -10,9 +10,9 @@ fn every_study_holds_table_1_and_varies_one_thing() {
     for parameter in Parameter::ALL {
         let study = parameter.study().unwrap();
         assert_eq!(study.inputs().count(), 1, "{parameter:?}");
-        assert!(study.points.iter().any(|point| point.case == table1), "{parameter:?}");
+        assert!(study.points.iter().any(|point| point.experiment.case() == Some(&table1)), "{parameter:?}");
     }
-    assert_eq!(time_steps().unwrap().points[0].case, table1);
+    assert_eq!(time_steps().unwrap().points[0].experiment.case(), Some(&table1));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Studies: points equal single runs, bits do not depend on packing, replicates by need, effects of synthetic models.
 
 use crate::short;
-use crate::short::SHORT;
+use crate::short::{SHORT, case_of};
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Value};
 use spunlaid::ensemble::{Computing, Keep, Results, Trajectory, fly};
@@ -10,8 +10,8 @@ use spunlaid::input::{StudyFile, parse_case, parse_study, starter_case, write_ca
 use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
 use spunlaid::study::{
-    Batch, Journal, Landing, MEASURES, PointResults, Progress, Record, Replicates, Study, fly_batches,
-    measured, results_of_point, run,
+    Batch, Journal, Landing, PointResults, Progress, Record, Replicates, Study, fly_batches, measured,
+    results_of_point, run,
 };
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -33,7 +33,7 @@ fn flown(study: &Study, threads: usize) -> Journal {
     assert_eq!(progress.fibres_done.load(Ordering::Relaxed), fibres);
     assert_eq!(progress.points_done.load(Ordering::Relaxed), study.points.len() as u64);
     // A lost fibre ends early, and its neighbours fly twice.
-    if (0..study.points.len()).all(|point| results_of_point(&mut journal, point).unwrap().lost == 0) {
+    if (0..study.points.len()).all(|point| results_of_point(study, &mut journal, point).unwrap().lost == 0) {
         assert_eq!(steps.into_inner(), progress.steps.into_inner());
     }
     journal
@@ -69,8 +69,8 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
         let mut journal = flown(&study, 2);
         for (index, point) in study.points.iter().enumerate() {
             // `--print-point` prints exactly the point.
-            let (case, _) = parse_case(&write_case(&point.case), "point.toml", &[]).unwrap();
-            assert_eq!(case, point.case);
+            let (case, _) = parse_case(&write_case(case_of(point)), "point.toml", &[]).unwrap();
+            assert_eq!(&case, case_of(point));
             assert_eq!(case.run.seed == 7, common);
             let flights = single(&case);
             let records = journal.records(index, 99).unwrap();
@@ -84,9 +84,10 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
             // The means have the same bits, too.
             let mut collector = Results::collector(0);
             flights.into_iter().for_each(|flight| collector.take(flight));
-            let (all, of_point) = (collector.finish(), results_of_point(&mut journal, index).unwrap());
+            let (all, of_point) =
+                (collector.finish(), results_of_point(&study, &mut journal, index).unwrap());
             for number in &all.numbers {
-                let i = MEASURES.iter().position(|measure| measure.name == number.measure.name).unwrap();
+                let i = study.quantity(number.measure.name).unwrap();
                 assert_eq!(of_point.mean[i], number.estimate.mean);
                 assert_eq!(of_point.standard_error(i), number.estimate.standard_error);
             }
@@ -97,7 +98,7 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
 #[test]
 fn seeds_of_points_differ_and_do_not_depend_on_other_points() {
     let seeds = |text: &str| -> Vec<u64> {
-        study(text).study.points.iter().map(|point| point.case.run.seed).collect()
+        study(text).study.points.iter().map(|point| case_of(point).run.seed).collect()
     };
     let some = seeds(&format!("common_phases = false\n{MIXED}"));
     let mut different = some.clone();
@@ -121,13 +122,13 @@ fn identical_for_any_threads_and_any_packing() {
     // Some fibres exist already, so the others are packed differently.
     for (offset, stride) in [(0, 2), (1, 3), (4, 7), (0, 60)] {
         let mut journal = Journal::in_memory(study.points.len());
-        let there: Vec<Record> = expected.iter().skip(offset).step_by(stride).copied().collect();
+        let there: Vec<Record> = expected.iter().skip(offset).step_by(stride).cloned().collect();
         journal.add(&there).unwrap();
         let journal = Mutex::new(journal);
         let (stop, steps, progress) = (AtomicBool::new(false), AtomicU64::new(0), Progress::default());
         run(&study, &journal, computing(2, &stop, &steps), &progress).unwrap();
         assert_eq!(all(&mut journal.into_inner().unwrap()), expected);
-        let steps_per_fibre = study.points[0].case.run.steps;
+        let steps_per_fibre = case_of(&study.points[0]).run.steps;
         assert_eq!(steps.into_inner(), (60 - there.len() as u64) * steps_per_fibre, "nothing is flown twice");
     }
 }
@@ -162,7 +163,7 @@ until = { amplitude_y = '10 %', frequency_y = 0.5 }
     let mut journal = flown(&study, 2);
     let counts: Vec<u64> = (0..2).map(|point| journal.held(point)).collect();
     for (point, count) in counts.iter().enumerate() {
-        let results = results_of_point(&mut journal, point).unwrap();
+        let results = results_of_point(&study, &mut journal, point).unwrap();
         let is_small =
             |i: usize, fraction: f64| results.standard_error(i).unwrap() <= fraction * results.mean[i];
         assert!(*count == 40 || is_small(0, 0.1) && is_small(2, 0.5), "{count} of point {point}");
@@ -212,7 +213,7 @@ fn a_lost_fibre_costs_its_neighbours_nothing() {
     }
     let lost = journal.records(1, 9).unwrap();
     assert!(lost.iter().all(|record| matches!(record.landing, Landing::Lost { .. })), "{lost:?}");
-    let results: PointResults = results_of_point(&mut journal, 1).unwrap();
+    let results: PointResults = results_of_point(&study, &mut journal, 1).unwrap();
     assert_eq!((results.n, results.lost), (0, 3));
     assert!(results.mean[0].is_nan() && results.standard_error(0).is_none());
 }
@@ -253,7 +254,9 @@ fn a_study_written_out_is_the_same_study() {
     }
     let mut other = study(MIXED).study;
     let before = other.identity();
-    other.points[3].case.fibre.density += 1e-9;
+    let mut denser = case_of(&other.points[3]).clone();
+    denser.fibre.density += 1e-9;
+    other.points[3].experiment = denser.into();
     assert_ne!(other.identity(), before);
 }
 
@@ -261,12 +264,13 @@ fn a_study_written_out_is_the_same_study() {
 fn the_identity_of_a_study_is_that_of_the_keys_of_its_points() {
     let grid = study(MIXED).study;
     // The same points, said in other words.
-    let mut again = Study::of_cases(grid.points.iter().map(|point| point.case.clone()), Replicates::fixed(9));
+    let mut again =
+        Study::of_cases(grid.points.iter().map(|point| case_of(point).clone()), Replicates::fixed(9));
     assert_eq!(again.identity(), grid.identity());
     // Every key of a point counts, to the last bit.
     let mut counted = 0;
     for key in keys::all().iter().filter(|key| key.name != "run.replicates") {
-        let mut case = grid.points[5].case.clone();
+        let mut case = case_of(&grid.points[5]).clone();
         let other: Value = match key.get(&case) {
             Some(Value::Number(number)) => number.next_up().into(),
             Some(Value::Whole(number)) => (number + 1).into(),
@@ -279,7 +283,7 @@ fn the_identity_of_a_study_is_that_of_the_keys_of_its_points() {
         let before = key.get(&case);
         // Times are whole steps, so the next number may be the same time.
         if key.set(&mut case, other).is_ok() && key.get(&case) != before {
-            again.points[5].case = case;
+            again.points[5].experiment = case.into();
             assert_ne!(again.identity(), grid.identity(), "{}", key.name);
             counted += 1;
         }
@@ -295,10 +299,13 @@ fn links_follow_what_varies() {
     let values: Vec<Vec<f64>> = study.points.iter().map(|point| point.values.clone()).collect();
     assert_eq!(values, [[5.0, 25.0, 0.004], [10.0, 50.0, 0.002]]);
     assert_eq!(
-        study.points.iter().map(|point| point.case.air.cutoff_frequency).collect::<Vec<_>>(),
+        study.points.iter().map(|point| case_of(point).air.cutoff_frequency).collect::<Vec<_>>(),
         [25.0, 50.0]
     );
-    assert_eq!(study.points.iter().map(|point| point.case.run.spin_up_steps).collect::<Vec<_>>(), [200, 100]);
+    assert_eq!(
+        study.points.iter().map(|point| case_of(point).run.spin_up_steps).collect::<Vec<_>>(),
+        [200, 100]
+    );
 }
 
 #[test]
@@ -308,11 +315,11 @@ fn defaults_follow_what_varies() {
     let without = lines.collect::<Vec<_>>().join("\n");
     let (case, _) = parse_case(&without, "starter.toml", &[]).unwrap();
     let text = "case = 'c'\ndesign = 'grid'\n[vary]\nair.length_scale = ['50 mm', '25 mm']\n";
-    let starter = |_: &str| Ok((without.clone(), "starter.toml".to_owned()));
+    let starter = |_: &str, _| Ok((without.clone(), "starter.toml".to_owned()));
     let study = parse_study(text, "study.toml", None, starter).unwrap().study;
-    let elements: Vec<usize> = study.points.iter().map(|point| point.case.fibre.elements).collect();
+    let elements: Vec<usize> = study.points.iter().map(|point| case_of(point).fibre.elements).collect();
     assert_eq!(elements, [20, 40]);
-    assert_eq!(study.points[0].case, case);
+    assert_eq!(case_of(&study.points[0]), &case);
 }
 
 #[test]
@@ -367,8 +374,8 @@ fn identical_to_single_runs_where_words_vary() {
     let mut journal = flown(&study, 2);
     let mut different = std::collections::BTreeSet::new();
     for (index, point) in study.points.iter().enumerate() {
-        let (case, _) = parse_case(&write_case(&point.case), "point.toml", &[]).unwrap();
-        assert_eq!(case, point.case);
+        let (case, _) = parse_case(&write_case(case_of(point)), "point.toml", &[]).unwrap();
+        assert_eq!(&case, case_of(point));
         let records = journal.records(index, 99).unwrap();
         assert_eq!(records.len(), 3);
         for (flight, record) in single(&case).iter().zip(&records) {
@@ -387,9 +394,9 @@ fn identical_to_single_runs_where_elements_of_equal_number_differ_in_length() {
     let mut journal = flown(&study, 1);
     for (index, point) in study.points.iter().enumerate() {
         let records = journal.records(index, 9).unwrap();
-        let landings: Vec<Landing> = records.iter().map(|record| record.landing).collect();
+        let landings: Vec<Landing> = records.iter().map(|record| record.landing.clone()).collect();
         let alone: Vec<Landing> =
-            single(&point.case).iter().map(|flight| Landing::Measured(measured(flight))).collect();
+            single(case_of(point)).iter().map(|flight| Landing::Measured(measured(flight))).collect();
         assert_eq!(landings, alone, "point {index}");
     }
 }
@@ -404,7 +411,8 @@ fn words_may_be_drawn_and_are_written_out_again() {
         let (first, again) = (study(&text), study(&study(&text).text));
         assert_eq!(first.study.points, again.study.points);
         assert!(first.text.contains("\"drag.along\" = [\"sakiadis\", \"matsui\"]"), "{}", first.text);
-        let laws: Vec<&str> = first.study.points.iter().map(|point| point.case.drag.along.name()).collect();
+        let laws: Vec<&str> =
+            first.study.points.iter().map(|point| case_of(point).drag.along.name()).collect();
         assert_eq!(laws.iter().filter(|law| **law == "matsui").count(), 8, "{laws:?}");
         for (point, law) in first.study.points.iter().zip(laws) {
             assert_eq!(first.study.inputs().next().unwrap().word(point.values[0]), Some(law));
@@ -416,9 +424,9 @@ fn words_may_be_drawn_and_are_written_out_again() {
 fn keys_of_another_word_are_left_out_where_they_mean_nothing() {
     let case = format!("{SHORT}[drag]\nfriction_coefficient = 0.5\n");
     let text = "case = 'c'\ndesign = 'grid'\n[vary]\ndrag.along = ['matsui', 'sakiadis']\n";
-    let file = parse_study(text, "study.toml", None, |_| Ok((case, "case.toml".to_owned()))).unwrap();
+    let file = parse_study(text, "study.toml", None, |_, _| Ok((case, "case.toml".to_owned()))).unwrap();
     let factors: Vec<Option<f64>> =
-        file.study.points.iter().map(|point| point.case.drag.along.factor()).collect();
+        file.study.points.iter().map(|point| case_of(point).drag.along.factor()).collect();
     assert_eq!(factors, [Some(0.5), None]);
     let notes: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
     assert_eq!(

@@ -2,8 +2,9 @@
 
 use spunlaid::error::Error;
 use spunlaid::input::{
-    LaydownSource, Overrides, StudyChanges, WebStudyFile, parse_web, parse_web_study, write_web,
+    LaydownSource, Overrides, StudyChanges, StudyFile, parse_changed_study, parse_web, write_experiment,
 };
+use spunlaid::study::Point;
 use std::path::Path;
 
 const WEB: &str = r#"
@@ -28,12 +29,19 @@ fn changes<'a>(set: &'a [(String, String)]) -> StudyChanges<'a> {
     StudyChanges { set: Overrides { values: set, word: "--set" }, ..StudyChanges::points(None) }
 }
 
-fn study_of(web: &str, study: &str, set: &[(String, String)]) -> Result<WebStudyFile, Error> {
+fn study_of(web: &str, study: &str, set: &[(String, String)]) -> Result<StudyFile, Error> {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web.toml");
-    parse_web_study(study, "study.toml", &changes(set), |_| Ok((web.to_owned(), cases.display().to_string())))
+    parse_changed_study(study, "study.toml", &changes(set), |_, _| {
+        Ok((web.to_owned(), cases.display().to_string()))
+    })
 }
 
-fn study(text: &str) -> Result<WebStudyFile, Error> {
+/// The only layer of a point's web.
+fn layer(point: &Point) -> &spunlaid::input::LayerSpec {
+    &point.experiment.web().unwrap().layers[0]
+}
+
+fn study(text: &str) -> Result<StudyFile, Error> {
     study_of(WEB, text, &[])
 }
 
@@ -44,7 +52,7 @@ fn points_are_webs_with_these_values() {
          line.belt_speed = ['4 m/s', '5 m/s']\n'line.filaments_per_metre' = [100, 200, 300]\n",
     )
     .unwrap();
-    assert_eq!((file.study.replicates, file.study.points.len()), (3, 6));
+    assert_eq!((file.study.replicates.at_most, file.study.points.len()), (3, 6));
     for point in &file.study.points {
         // The same file with the values written in it.
         let set = [
@@ -54,15 +62,15 @@ fn points_are_webs_with_these_values() {
         ];
         let set = set.map(|(key, value)| (key.to_owned(), value));
         let alone = parse_web(WEB, "web.toml", &set).unwrap();
-        assert_eq!(write_web(&point.spec), alone.text);
+        assert_eq!(write_experiment(&point.experiment), alone.text);
     }
     // The study as it was run gives the same points.
-    let again = study_of(&file.web_text, &file.text, &[]).unwrap();
+    let again = study_of(&file.base_text, &file.text, &[]).unwrap();
     assert_eq!(again.study.identity(), file.study.identity());
     assert_eq!(again.text, file.text);
     // More webs of each point are the same study; another seed is not.
     let set = [("web.seed".to_owned(), "4".to_owned())];
-    let other = study_of(&file.web_text, &file.text, &set).unwrap();
+    let other = study_of(&file.base_text, &file.text, &set).unwrap();
     assert_ne!(other.study.identity(), file.study.identity());
 }
 
@@ -74,9 +82,9 @@ fn keys_of_the_case_that_is_flown_vary_too() {
     let file = study_of(web, text, &[]).unwrap();
     let belts: Vec<f64> = (file.study.points.iter())
         .map(|point| {
-            let LaydownSource::Case { case, .. } = &point.spec.layers[0].source else { panic!("no case") };
-            assert_eq!(case.line.unwrap().belt_speed, point.spec.layers[0].belt_speed);
-            point.spec.layers[0].belt_speed
+            let LaydownSource::Case { case, .. } = &layer(point).source else { panic!("no case") };
+            assert_eq!(case.line.unwrap().belt_speed, layer(point).belt_speed);
+            layer(point).belt_speed
         })
         .collect();
     // The first point is the web as it stands.
@@ -113,8 +121,12 @@ fn rejects_what_cannot_vary() {
             "is set to one value for all points, and varied",
         ),
         (
-            vary("'line.belt_speed' = ['4 m/s']\n[link]\n'line.feed_speed' = 'line.belt_speed'"),
-            "it belongs to studies of a case; leave it out",
+            vary("'line.belt_speed' = ['4 m/s']\n[link]\n'line.feed_speed' = 'line.belt_sped'"),
+            "did you mean line.belt_speed?",
+        ),
+        (
+            vary("'line.belt_speed' = ['4 m/s']\n[link]\n'line.feed_speed' = 'web.width'"),
+            "a formula must give a velocity",
         ),
         (format!("replicates = 0\n{}", vary("'line.belt_speed' = ['4 m/s']")), "replicates = 0"),
         (vary(""), "names no key to vary"),

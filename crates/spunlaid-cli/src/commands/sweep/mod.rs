@@ -2,7 +2,6 @@
 
 mod progress;
 mod table;
-mod webs;
 
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, stem, threads};
@@ -11,7 +10,7 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::ensemble::Computing;
 use spunlaid::error::{Error, Fault};
-use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, varies_a_web, write_case};
+use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, write_experiment};
 use spunlaid::lanes::Isa;
 use spunlaid::study::{Journal, Landing, Progress, Study, run};
 use spunlaid_results::folders::study::{State, StudyFolder, Written};
@@ -24,9 +23,6 @@ use std::sync::{Mutex, PoisonError};
 const LOST_LISTED: u64 = 10;
 
 pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
-    if varies_a_web(&sweep.study) {
-        return webs::sweep(sweep);
-    }
     let (points, replicates) = (sweep.points, sweep.replicates);
     let set = Overrides { values: &sweep.set, word: "--set" };
     let file = read_changed_study(&sweep.study, &StudyChanges { points, replicates, set })?;
@@ -47,7 +43,8 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
         flown.map_err(Failure::from).and_then(|()| write(sweep, &file, &folder, &mut journal, before));
     written.map_err(|failure| match failure {
         Failure::Error(Error::Interrupted) => {
-            Failure::Paused { done, of: file.study.most_fibres(), what: "fibres" }
+            let what = if file.study.noun() == "web" { "webs" } else { "fibres" };
+            Failure::Paused { done, of: file.study.most_fibres(), what }
         }
         other => other,
     })
@@ -58,32 +55,40 @@ fn print_point(study: &Study, number: u64) -> Result<(), Failure> {
     let point = number.checked_sub(1).and_then(|index| study.points.get(usize::try_from(index).ok()?));
     let point = point.ok_or_else(|| no_such_point(number, points))?;
     say::line(&format!("# point {number} of {points}"));
-    say::text(&write_case(&point.case));
+    say::text(&write_experiment(&point.experiment));
     Ok(())
 }
 
 fn report_found(sweep: &Sweep, study: &Study, found: &State) {
     match found {
         State::New => {
-            let phases = if study.common_phases { "common phases" } else { "independent phases" };
+            let phases = match (study.noun(), study.common_phases) {
+                ("web", _) => "",
+                (_, true) => ", common phases",
+                (_, false) => ", independent phases",
+            };
             let points = plural(study.points.len() as u64, "point");
             if !sweep.quiet {
-                say::aside(&format!("{points}, each with {}, {phases}", times(study)));
+                say::aside(&format!("{points}, each with {}{phases}", times(study)));
             }
         }
         State::Begun(found) => {
-            let done = plural(found.fibres, "fibre");
+            let done = plural(found.fibres, study.noun());
             if !sweep.quiet {
                 say::aside(&format!("continuing: {done} of {} already done", study.most_fibres()));
             }
             if found.damaged > 0 {
                 let records = plural(found.damaged, "record");
                 say::warning(&format!(
-                    "the journal has damaged records ({records}); these fibres are flown again, all others are kept"
+                    "the journal has damaged records ({records}); these {}s are made again, all others are kept",
+                    study.noun()
                 ));
             }
             if found.torn {
-                say::aside("the last record of the journal was incomplete; its fibre is flown again");
+                let noun = study.noun();
+                say::aside(&format!(
+                    "the last record of the journal was incomplete; its {noun} is made again"
+                ));
             }
         }
     }
@@ -93,7 +98,7 @@ fn report_found(sweep: &Sweep, study: &Study, found: &State) {
 fn times(study: &Study) -> String {
     let replicates = &study.replicates;
     if replicates.until.is_empty() {
-        plural(replicates.at_most, "replicate")
+        plural(replicates.at_most, if study.noun() == "web" { "web" } else { "replicate" })
     } else {
         format!("{} to {} replicates", replicates.at_least, replicates.at_most)
     }
@@ -113,7 +118,7 @@ fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Err
         fibre_steps: &fibre_steps,
         recorder: None,
     };
-    progress::follow(study.points.len() as u64, &progress, &fibre_steps, sweep.quiet, || {
+    progress::follow(study, &progress, &fibre_steps, sweep.quiet, || {
         run(study, journal, computing, &progress)
     })
 }
@@ -138,9 +143,13 @@ fn write(
             say::line(&format!("the keys are not ranked: {refusal}"));
         }
         if before == flown {
-            say::line("the study was already complete: no fibre was flown, and the files were written again");
+            let noun = study.noun();
+            let done = if noun == "web" { "laid" } else { "flown" };
+            say::line(&format!(
+                "the study was already complete: no {noun} was {done}, and the files were written again"
+            ));
         }
-        say::line(&format!("{} at {}", plural(flown, "fibre"), plural(results.len() as u64, "point")));
+        say::line(&format!("{} at {}", plural(flown, study.noun()), plural(results.len() as u64, "point")));
         say::line(&format!("open {}", folder.path().join("report.html").display()));
     }
     lost(study, journal, flown)
@@ -154,7 +163,9 @@ fn lost(study: &Study, journal: &mut Journal, flown: u64) -> Result<(), Failure>
             if let Landing::Lost { node, time } = record.landing {
                 lost += 1;
                 if lost <= LOST_LISTED {
-                    let (number, cause) = (index + 1, point.case.likely_cause_of_divergence());
+                    let number = index + 1;
+                    let cause = point.experiment.case().map(|case| case.likely_cause_of_divergence());
+                    let cause = cause.unwrap_or_default();
                     let replicate = record.replicate + 1;
                     first.push_str(&format!(
                         "\npoint {number}, replicate {replicate}: node {node} at {time:e} s; {cause}"

@@ -3,7 +3,7 @@
 use crate::progress::ended;
 use crate::say;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use spunlaid::study::Progress;
+use spunlaid::study::{Progress, Study};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -14,7 +14,7 @@ const LINE_SOONEST: Duration = Duration::from_secs(2);
 
 /// Runs `work` and shows its progress, unless `quiet`.
 pub(super) fn follow<T>(
-    points: u64,
+    study: &Study,
     progress: &Progress,
     steps: &AtomicU64,
     quiet: bool,
@@ -35,7 +35,7 @@ pub(super) fn follow<T>(
             let mut before = None;
             while !finished.load(Ordering::Acquire) {
                 std::thread::park_timeout(Duration::from_millis(100));
-                let state = State::of(points, progress, steps, begun, &mut before);
+                let state = State::of(study, progress, steps, begun, &mut before);
                 if bar.is_hidden() {
                     log.show(&state);
                 } else {
@@ -54,6 +54,8 @@ pub(super) fn follow<T>(
 }
 
 struct State {
+    /// What a replicate is called.
+    noun: &'static str,
     points: (u64, u64),
     fibres: (u64, u64),
     /// Fibres finished since the program began.
@@ -65,7 +67,7 @@ struct State {
 
 impl State {
     fn of(
-        points: u64,
+        study: &Study,
         progress: &Progress,
         steps: &AtomicU64,
         begun: Instant,
@@ -78,7 +80,8 @@ impl State {
             *before = Some(done);
         }
         Self {
-            points: (load(&progress.points_done), points),
+            noun: study.noun(),
+            points: (load(&progress.points_done), study.points.len() as u64),
             fibres: (done, fibres),
             finished: done.saturating_sub(before.unwrap_or(done)),
             steps: load(&progress.steps),
@@ -89,10 +92,11 @@ impl State {
 
     fn words(&self) -> String {
         let ((points, of_points), (fibres, of_fibres)) = (self.points, self.fibres);
-        let mut words = format!("points {points}/{of_points}, fibres {fibres}/{of_fibres}");
+        let noun = self.noun;
+        let mut words = format!("points {points}/{of_points}, {noun}s {fibres}/{of_fibres}");
         if self.finished > 0 {
             let rate = self.finished as f64 / self.elapsed;
-            words += &format!(", {rate:.prec$} fibres/s", prec = usize::from(rate < 10.0));
+            words += &format!(", {rate:.prec$} {noun}s/s", prec = usize::from(rate < 10.0));
         }
         if self.steps_done > 0 && self.elapsed > 1.0 {
             let left = self.elapsed * (self.steps - self.steps_done) as f64 / self.steps_done as f64;

@@ -12,23 +12,35 @@ const SHOWN: usize = 4;
 
 /// A line per point: the values that vary, then mean ± standard error of the results.
 pub(super) fn results(study: &Study, results: &[PointResults]) -> String {
-    let mut rows: Vec<Vec<String>> = Vec::new();
-    let measures = shown::measures(study);
-    let measures = || measures.iter().take(SHOWN);
+    let is_of_webs = study.noun() == "web";
+    let shown = shown::quantities(study);
+    let shown = || shown.iter().take(if is_of_webs { usize::MAX } else { SHOWN });
+    let head = |quantity: &usize| {
+        let of = &study.quantities[*quantity];
+        match of.figure.name {
+            "cv" => of.series.clone(),
+            "cv_flown" => format!("flown {}", of.series),
+            _ => shown::head(of),
+        }
+    };
     let mut heads = vec!["point".to_owned()];
     heads.extend(study.inputs().map(|of| of.key.rsplit('.').next().unwrap_or(of.key).to_owned()));
-    heads.extend(measures().map(|name| shown::head(name)));
+    heads.extend(shown().map(head));
     heads.push("n".to_owned());
-    rows.push(heads);
+    let mut rows = vec![heads];
     for (index, point) in results.iter().enumerate().take(LISTED) {
         let mut row = vec![(index + 1).to_string()];
         let values = study.points[index].values.iter().zip(study.inputs());
         row.extend(values.map(|(value, input)| input.pretty(*value)));
-        row.extend(measures().map(|name| shown::cell(point, name)));
+        row.extend(shown().map(|quantity| shown::cell(study, point, *quantity)));
         row.push(point.n.to_string());
         rows.push(row);
     }
-    let mut text = aligned(&rows);
+    let mut text = String::new();
+    if is_of_webs {
+        text.push_str("unevenness, CV in % ± its error by all causes that are known, over patches of this side; flown: as the flown curves let expect\n");
+    }
+    text.push_str(&aligned(&rows));
     if results.len() > LISTED {
         let _ = writeln!(text, "  and {} more points in results.csv", results.len() - LISTED);
     }

@@ -21,8 +21,9 @@ pub(super) const BARS: &str = "The bars show one standard error of the mean over
 type Spot = (f64, f64, Option<f64>);
 
 fn series(group: &Group, position: usize) -> Series {
-    let label = group.of[position].1;
+    let label = &group.of[position].1;
     match (position, group.of.len()) {
+        (_, 3..) => Series::spots(label, COLOURS[position % FAMILY]),
         (_, 1) => Series::spots(label, GREEN).unlabelled(),
         (0, _) => Series::circles(label),
         _ => Series::triangles(label),
@@ -60,7 +61,7 @@ fn over(
     words: &str,
 ) -> Figure {
     let along = Along::of(study, factor);
-    let title = format!("{} {}", group.figure.title, words.split(',').next().unwrap_or(words));
+    let title = format!("{} {}", group.title, words.split(',').next().unwrap_or(words));
     let name = file_name(group, study.factors[factor].key);
     let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
     for (position, (measure, _)) in group.of.iter().enumerate() {
@@ -69,7 +70,7 @@ fn over(
         let series = series(group, position);
         chart = if along.is_joined() { drawn(chart, series, &spots) } else { chart.scatter(series, &spots) };
     }
-    let caption = format!("{} {words}, means over the replicates. {BARS}", group.figure.title);
+    let caption = format!("{} {words}, means over the replicates. {BARS}", group.title);
     Figure::of(&chart, caption)
 }
 
@@ -83,7 +84,7 @@ pub(super) fn family(
 ) -> Figure {
     let (of, key) = (&study.factors[family], study.factors[along].key);
     let place = Along::of(study, along);
-    let title = format!("{} over {} and {}", group.figure.title, name_of_key(key), name_of_key(of.key));
+    let title = format!("{} over {} and {}", group.title, name_of_key(key), name_of_key(of.key));
     let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
     let levels = of.levels();
     for (index, ((level, colour), dash)) in levels.iter().copied().zip(COLOURS).zip(DASHES).enumerate() {
@@ -118,7 +119,7 @@ pub(super) fn family(
     let told = if place.is_joined() { "a colour and a dash" } else { "a colour" };
     let caption = format!(
         "{} over {}, {told} for each value of the {}, means over the replicates.{signs} {BARS}",
-        group.figure.title,
+        group.title,
         name_of_key(key),
         name_of_key(of.key),
     );

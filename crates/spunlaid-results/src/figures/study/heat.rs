@@ -42,11 +42,8 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     let share = |value: f64| if most > least { (value - least) / (most - least) } else { 0.5 };
 
     let called = label.replace('*', "");
-    let which = if group.of.len() == 2 {
-        format!("{} in {called}", group.figure.title)
-    } else {
-        group.figure.title.to_owned()
-    };
+    let which =
+        if group.of.len() == 2 { format!("{} in {called}", group.title) } else { group.title.clone() };
     let names = [0, 1].map(|i| name_of_key(study.factors[i].key));
     let title = format!("{which} over {} and {}", names[1], names[0]);
     let mut svg = Svg::new(SIZE.0, SIZE.1, &title);

@@ -12,7 +12,6 @@ use quantity::Group;
 use spunlaid::study::{Design, PointResults, Ranking, Study};
 use spunlaid_charts::Figure;
 
-pub(super) use quantity::Along;
 pub use quantity::name_of_key;
 
 /// Largest number of values of a factor that are drawn as curves; more are drawn as a map.
@@ -20,7 +19,11 @@ const FAMILY: usize = 6;
 
 /// The figures of a study, the most important first.
 pub fn study_figures(study: &Study, results: &[PointResults], rankings: &[Ranking]) -> Vec<Figure> {
-    let groups: Vec<_> = quantity::groups().into_iter().filter_map(|group| group.applying(results)).collect();
+    let groups = quantity::groups(study).into_iter().filter_map(|group| group.applying(results));
+    let groups: Vec<_> = match (study.design, study.factors.len()) {
+        (_, 0 | 1) | (Design::Paired, _) => groups.collect(),
+        _ => groups.map(quantity::Group::of_few).collect(),
+    };
     let mut figures = Vec::new();
     match (study.design, study.factors.len()) {
         (_, 0) => {}
@@ -41,21 +44,21 @@ pub fn study_figures(study: &Study, results: &[PointResults], rankings: &[Rankin
             }
         }
         (Design::OneAtATime, _) => {
-            for group in groups.iter().filter(|group| group.is_motion()) {
+            for group in groups.iter().filter(|group| group.is_main()) {
                 let alone = |factor| curves::alone(study, results, group, factor);
                 figures.extend((0..study.factors.len()).map(alone));
             }
         }
         _ => {
-            for group in groups.iter().filter(|group| group.is_motion()) {
+            for group in groups.iter().filter(|group| group.is_main()) {
                 let of = |factor| main_effects::of(study, results, rankings, group, factor);
                 figures.extend((0..study.factors.len()).map(of));
             }
         }
     }
     if study.factors.len() > 1 && !rankings.is_empty() {
-        let motion = groups.iter().filter(|group| group.is_motion());
-        let ranks: Vec<Figure> = motion.map(|group| ranking::of(study, rankings, group)).collect();
+        let main = groups.iter().filter(|group| group.is_main());
+        let ranks: Vec<Figure> = main.map(|group| ranking::of(study, rankings, group)).collect();
         figures.splice(0..0, ranks);
     }
     figures

@@ -2,30 +2,33 @@
 
 use crate::figures::with_unit;
 use spunlaid::case::keys;
+use spunlaid::layers::WEB_KEYS;
 use spunlaid::observe::{self, Unit};
 use spunlaid::study;
-use spunlaid::study::{Design, Factor, MEASURES, PointResults, Study};
+use spunlaid::study::{Design, Factor, PointResults, Study};
 use spunlaid::units::Dimension;
 use spunlaid_charts::Axis;
 
-/// The results of one figure, as they are declared: one result, or one in y and one in z.
+/// The results of one figure, as they are declared: one result, one in y and one in z, or one for each size of patches.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     pub(super) figure: &'static observe::Figure,
+    pub(super) title: String,
     pub(super) unit: Unit,
-    /// Indices into the measures, and the names of the series.
-    pub(super) of: Vec<(usize, &'static str)>,
+    /// Indices into the quantities of the study, and the names of the series.
+    pub(super) of: Vec<(usize, String)>,
 }
 
-/// All groups, in the order of the declarations.
-pub(super) fn groups() -> Vec<Group> {
+/// All groups, in the order of the declarations. Quantities without a figure are left out.
+pub(super) fn groups(study: &Study) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    for (i, measure) in MEASURES.iter().enumerate() {
-        match groups.iter_mut().find(|group| group.figure.name == measure.figure.name) {
-            Some(group) => group.of.push((i, measure.series)),
+    for (i, quantity) in study.quantities.iter().enumerate().filter(|(_, of)| !of.figure.name.is_empty()) {
+        let of = (i, quantity.series.clone());
+        match groups.iter_mut().find(|group| group.figure.name == quantity.figure.name) {
+            Some(group) => group.of.push(of),
             None => {
-                let (figure, unit, of) = (measure.figure, measure.unit, vec![(i, measure.series)]);
-                groups.push(Group { figure, unit, of });
+                let (figure, unit) = (quantity.figure, quantity.unit);
+                groups.push(Group { figure, title: figure.title.to_owned(), unit, of: vec![of] });
             }
         }
     }
@@ -33,9 +36,19 @@ pub(super) fn groups() -> Vec<Group> {
 }
 
 impl Group {
+    /// The same group with one size of patches, the middle one, if it has many series.
+    pub(super) fn of_few(mut self) -> Self {
+        if self.of.len() > 2 {
+            let middle = self.of.swap_remove(self.of.len() / 2);
+            self.title = format!("{} over {}", self.title, middle.1);
+            self.of = vec![middle];
+        }
+        self
+    }
+
     /// Its axis.
     pub(super) fn axis(&self) -> Axis {
-        let label = with_unit(self.figure.title, self.unit.shown);
+        let label = with_unit(&self.title, self.unit.shown);
         match (self.figure.logarithmic, self.figure.from_zero) {
             (true, _) => Axis::logarithmic(&label).decades(9),
             (false, true) => Axis::linear(&label).zero_based(),
@@ -43,9 +56,10 @@ impl Group {
         }
     }
 
-    /// Whether it describes the motion across the flow.
-    pub(super) fn is_motion(&self) -> bool {
-        matches!(self.of[..], [(_, "*y*"), (_, "*z*")])
+    /// Whether it is drawn where there is a figure for each key: the motion across the flow, or the unevenness of a web.
+    pub(super) fn is_main(&self) -> bool {
+        let series: Vec<&str> = self.of.iter().map(|(_, series)| &**series).collect();
+        series == ["*y*", "*z*"] || self.figure.name == "cv"
     }
 
     /// Leaves out results that apply to no point, as the work check does with implicit tension. None if no result is left.
@@ -63,16 +77,8 @@ impl Group {
 
 /// Label of a key with its letter: `Mean velocity *U*`.
 pub(super) fn label_of_key(key: &str) -> &str {
-    let of_web = |key| match key {
-        "line.belt_speed" => "Belt speed",
-        "line.feed_speed" => "Feed speed",
-        "line.filaments_per_metre" => "Filaments per metre",
-        "laydown.sigma_md" => "Spread in machine direction",
-        "laydown.sigma_cd" => "Spread in cross direction",
-        "laydown.noise" => "Noise of the direction *A*",
-        other => other,
-    };
-    keys::find(key).map_or_else(|| of_web(key), |key| key.label)
+    let of_web = || WEB_KEYS.iter().find(|of| of.name == key).map(|of| of.label);
+    keys::find(key).map(|of| of.label).or_else(of_web).unwrap_or(key)
 }
 
 /// Name of a key within a sentence: `mean velocity`.
@@ -92,8 +98,8 @@ pub fn name_of_key(key: &str) -> String {
 
 /// The axis of a factor.
 #[derive(Clone, Debug)]
-pub(in crate::figures) struct Along {
-    pub(in crate::figures) axis: Axis,
+pub(super) struct Along {
+    pub(super) axis: Axis,
     /// Converts SI units to the units of the axis.
     scale: f64,
     pub(super) unit: &'static str,
@@ -103,7 +109,7 @@ pub(in crate::figures) struct Along {
 
 impl Along {
     /// * `base` – a word that comes before those of the factor
-    pub(in crate::figures) fn new(factor: &Factor, base: Option<f64>) -> Self {
+    pub(super) fn new(factor: &Factor, base: Option<f64>) -> Self {
         let mut words = if factor.words.is_empty() { Vec::new() } else { factor.levels() };
         if let Some(base) = base.filter(|base| !words.is_empty() && !words.contains(base)) {
             words.insert(0, base);
@@ -131,17 +137,17 @@ impl Along {
         Self::new(&study.factors[factor], base.map(|point| point.values[factor]))
     }
 
-    pub(in crate::figures) fn place(&self, value: f64) -> f64 {
+    pub(super) fn place(&self, value: f64) -> f64 {
         self.words.iter().position(|word| *word == value).map_or(value * self.scale, |place| place as f64)
     }
 
     /// Whether the values have an order and a distance, so that a line may join them.
-    pub(in crate::figures) fn is_joined(&self) -> bool {
+    pub(super) fn is_joined(&self) -> bool {
         self.words.is_empty()
     }
 
     /// How far the points of one of several series stand aside, so that those of a word do not hide each other.
-    pub(in crate::figures) fn aside(&self, series: usize, of: usize) -> f64 {
+    pub(super) fn aside(&self, series: usize, of: usize) -> f64 {
         if self.is_joined() { 0.0 } else { 0.5 * ((series as f64 + 0.5) / of as f64 - 0.5) }
     }
 }

@@ -33,7 +33,7 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     let shown: Vec<(&Ranking, Marker, &str, &str)> = (group.of.iter())
         .zip([(Marker::Circle, BLUE), (Marker::Triangle, VERMILION)])
         .filter_map(|((measure, label), (marker, colour))| {
-            Some((of_measure(*measure)?, marker, colour, *label))
+            Some((of_measure(*measure)?, marker, colour, label.as_str()))
         })
         .collect();
     let order: &[Effect] = shown.first().map_or(&[], |first| &first.0.effects);

@@ -2,7 +2,8 @@
 
 use super::super::sample;
 use super::*;
-use spunlaid::study::{Effect, Factor, Levels, MEASURES, Point, Replicates, Spacing};
+use spunlaid::observe::MEASURES;
+use spunlaid::study::{Effect, Factor, Levels, Point, Replicates, Spacing};
 use spunlaid::units::Dimension;
 use spunlaid_charts::png;
 
@@ -23,17 +24,20 @@ fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
         .collect();
     let rows = design.rows(&factors, &vec![1e-3; factors.len()], 1);
     let case = sample::case(2, 2, 1);
-    let points: Vec<Point> = rows.into_iter().map(|values| Point { values, case: case.clone() }).collect();
+    let point = |values| Point { values, experiment: case.clone().into() };
+    let points: Vec<Point> = rows.into_iter().map(point).collect();
     let results = (points.iter().enumerate())
         .map(|(i, point)| PointResults {
             n: 10,
             lost: 0,
-            mean: std::array::from_fn(|m| if i == 1 { f64::NAN } else { point.values[0] * (m + 1) as f64 }),
-            errors: [1e-3; MEASURES.len()],
+            mean: (0..MEASURES.len())
+                .map(|m| if i == 1 { f64::NAN } else { point.values[0] * (m + 1) as f64 })
+                .collect(),
+            errors: vec![1e-3; MEASURES.len()].into(),
         })
         .collect();
-    let (links, replicates) = (Vec::new(), Replicates::fixed(10));
-    (Study { factors, links, design, seed: 1, common_phases: true, replicates, points }, results)
+    let of_fibres = Study::of_cases([case], Replicates::fixed(10));
+    (Study { factors, design, seed: 1, points, ..of_fibres }, results)
 }
 
 fn rankings(study: &Study) -> Vec<Ranking> {

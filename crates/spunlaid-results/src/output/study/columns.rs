@@ -1,7 +1,7 @@
 //! Names and contents of the columns.
 
 use super::super::parquet::{Column, Holds};
-use spunlaid::study::{MEASURES, Study};
+use spunlaid::study::{Quantity, Study};
 
 /// A value in a row.
 #[derive(Clone, Copy, Debug)]
@@ -30,17 +30,23 @@ pub(super) fn of_points(study: &Study) -> Vec<Column> {
     let mut columns = vec![whole("point"), whole("seed")];
     columns.extend(inputs(study));
     columns.extend([whole("n"), whole("lost")]);
-    for measure in &MEASURES {
-        columns.extend([number(measure.column), number(format!("{}_se", measure.column))]);
+    for quantity in &study.quantities {
+        columns.extend(quantity_columns(quantity).map(number));
     }
     columns
 }
 
-pub(super) fn of_fibres(study: &Study) -> Vec<Column> {
+pub(super) fn of_replicates(study: &Study) -> Vec<Column> {
     let mut columns = vec![whole("point"), whole("replicate"), whole("seed")];
     columns.extend(inputs(study));
-    columns.extend(MEASURES.iter().map(|measure| number(measure.column)));
+    columns.extend(study.quantities.iter().map(|quantity| number(&quantity.column)));
     columns
+}
+
+/// The columns of a quantity: its mean, its standard error, and its error by all causes if it has others.
+fn quantity_columns(of: &Quantity) -> impl Iterator<Item = String> {
+    let ends = ["", "_se", "_whole_error"];
+    ends.into_iter().take(if of.causes.is_empty() { 2 } else { 3 }).map(|end| format!("{}{end}", of.column))
 }
 
 fn whole(name: &str) -> Column {

@@ -6,7 +6,7 @@ use super::columns::{Value, values};
 use crate::Failure;
 use serde::Serialize;
 use serde_json::Value as Json;
-use spunlaid::study::{Effect, MEASURES, PointResults, Ranking, Rankings, Study};
+use spunlaid::study::{Effect, PointResults, Ranking, Rankings, Study};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 
@@ -27,6 +27,9 @@ struct Point {
 struct Mean {
     mean: f64,
     standard_error: Option<f64>,
+    /// By all causes, if there are others than the scatter of the replicates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    whole_error: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -70,7 +73,7 @@ fn document(
     let ranking = |of: &Ranking| {
         let explained = Some(of.explained).filter(|share| share.is_finite());
         let effects = of.effects.iter().map(|effect| effect_of(study, effect)).collect();
-        (MEASURES[of.measure].column.to_owned(), RankingOf { explained, effects })
+        (study.quantities[of.measure].column.clone(), RankingOf { explained, effects })
     };
     // By the columns of the results; empty if the factors cannot be ranked.
     let ranking = InOrder(rankings.of_measures.iter().map(ranking).collect());
@@ -93,13 +96,14 @@ fn point(study: &Study, index: usize, of: &PointResults) -> Point {
     let inputs = study.inputs().zip(values(study, index));
     let inputs = inputs.map(|(input, value)| (input.column(), plain(value))).collect();
     let result = |i: usize| {
-        let mean = Mean { mean: of.mean[i], standard_error: of.standard_error(i) };
-        (MEASURES[i].column.to_owned(), mean)
+        let whole_error = of.whole_error(&study.quantities, i);
+        let mean = Mean { mean: of.mean[i], standard_error: of.standard_error(i), whole_error };
+        (study.quantities[i].column.clone(), mean)
     };
-    let results = (0..MEASURES.len()).filter(|&i| of.mean[i].is_finite()).map(result).collect();
+    let results = (0..study.quantities.len()).filter(|&i| of.mean[i].is_finite()).map(result).collect();
     Point {
         point: index + 1,
-        seed: study.points[index].case.run.seed,
+        seed: study.points[index].experiment.seed(),
         inputs: InOrder(inputs),
         n: of.n,
         lost: of.lost,

@@ -1,4 +1,4 @@
-//! Tables of a study: one with a row per point, one with a row per fibre.
+//! Tables of a study: one with a row per point, one with a row per replicate.
 
 mod columns;
 mod csv;
@@ -11,14 +11,14 @@ use self::columns::Value;
 use super::folder::Staging;
 use super::parquet::{Column, Parquet};
 use crate::Failure;
-use spunlaid::study::{Journal, Landing, MEASURES, PointResults, Record, Study, results_of_point};
+use spunlaid::study::{Journal, Landing, PointResults, Record, Study, results_of_point};
 
 /// Number of values that are collected before they are written.
 const VALUES: usize = 1 << 18;
 
 /// Writes `results.csv`, `results.parquet` and `replicates.parquet`, and returns the statistics of the points.
 ///
-/// Rows are written as they are read, so that memory does not grow with the number of fibres.
+/// Rows are written as they are read, so that memory does not grow with the number of replicates.
 pub fn write(
     staging: &Staging<'_>,
     study: &Study,
@@ -30,15 +30,15 @@ pub fn write(
     let points = columns::of_points(study);
     let mut csv = csv::Csv::create(staging.place("results.csv"), &points)?;
     let mut results = create("results.parquet", &points)?;
-    let mut replicates = create("replicates.parquet", &columns::of_fibres(study))?;
+    let mut replicates = create("replicates.parquet", &columns::of_replicates(study))?;
     let mut all = Vec::with_capacity(study.points.len());
     for index in 0..study.points.len() {
-        let point = results_of_point(journal, index)?;
+        let point = results_of_point(study, journal, index)?;
         let row = point_row(study, index, &point);
         csv.add(&row)?;
         add(&mut results, &row)?;
         for record in journal.records(index, u64::MAX).map_err(spunlaid::error::Error::from)? {
-            add(&mut replicates, &fibre_row(study, index, &record))?;
+            add(&mut replicates, &replicate_row(study, index, &record))?;
         }
         all.push(point);
     }
@@ -51,26 +51,32 @@ pub fn write(
 
 fn point_row(study: &Study, index: usize, results: &PointResults) -> Vec<Value> {
     let point = &study.points[index];
-    let mut row = vec![Value::Whole(index as i64 + 1), Value::Whole(point.case.run.seed as i64)];
+    let mut row = vec![Value::Whole(index as i64 + 1), Value::Whole(point.experiment.seed() as i64)];
     row.extend(columns::values(study, index));
     row.extend([Value::Whole(results.n as i64), Value::Whole(results.lost as i64)]);
-    for (mean, error) in results.mean.into_iter().zip(results.errors) {
-        row.extend([mean, error].map(Value::Number));
+    for (index, quantity) in study.quantities.iter().enumerate() {
+        row.extend([results.mean[index], results.errors[index]].map(Value::Number));
+        if !quantity.causes.is_empty() {
+            let whole = results.whole_error(&study.quantities, index);
+            row.push(Value::Number(whole.unwrap_or(f64::NAN)));
+        }
     }
     row
 }
 
-fn fibre_row(study: &Study, index: usize, record: &Record) -> Vec<Value> {
+fn replicate_row(study: &Study, index: usize, record: &Record) -> Vec<Value> {
     let point = &study.points[index];
     let mut row = vec![
         Value::Whole(index as i64 + 1),
         Value::Whole(record.replicate as i64 + 1),
-        Value::Whole(point.case.run.seed as i64),
+        Value::Whole(point.experiment.seed() as i64),
     ];
     row.extend(columns::values(study, index));
-    match record.landing {
+    match &record.landing {
         Landing::Measured(measured) => row.extend(measured.iter().map(|value| Value::Number(*value))),
-        Landing::Lost { .. } => row.extend([Value::Number(f64::NAN); MEASURES.len()]),
+        Landing::Lost { .. } => {
+            row.extend(std::iter::repeat_n(Value::Number(f64::NAN), study.quantities.len()))
+        }
     }
     row
 }

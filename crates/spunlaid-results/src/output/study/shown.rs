@@ -1,34 +1,53 @@
-//! Measures as tables for readers show them, by their names.
+//! Quantities as tables for readers show them.
 
 use crate::numbers::plus_minus;
-use spunlaid::study::{PointResults, Study, measure};
+use spunlaid::study::{PointResults, Quantity, Study};
 
-/// The measures that tables show, the most important first.
-pub fn measures(study: &Study) -> [&'static str; 6] {
-    if study.points.first().is_some_and(|point| point.case.line.is_some()) {
-        let lengths = ["half_correlation_length_md", "half_correlation_length_cd"];
-        return ["sigma_md", "sigma_cd", lengths[0], lengths[1], "noise", "orientation_md"];
-    }
-    ["amplitude_y", "amplitude_z", "frequency_y", "frequency_z", "mean_x", "strain_99"]
+/// The quantities that tables show, the most important first, by their indices.
+pub fn quantities(study: &Study) -> Vec<usize> {
+    let names: &[&str] = match study.points.first().map(|point| &point.experiment) {
+        Some(spunlaid::study::Experiment::Web(_)) => return of_webs(study),
+        Some(spunlaid::study::Experiment::Case(case)) if case.line.is_some() => &[
+            "sigma_md",
+            "sigma_cd",
+            "half_correlation_length_md",
+            "half_correlation_length_cd",
+            "noise",
+            "orientation_md",
+        ],
+        _ => &["amplitude_y", "amplitude_z", "frequency_y", "frequency_z", "mean_x", "strain_99"],
+    };
+    names.iter().filter_map(|name| study.quantity(name)).collect()
+}
+
+/// The unevenness of the maps, that which the flown curves let expect if anything is flown, and what else is in a web.
+fn of_webs(study: &Study) -> Vec<usize> {
+    let flies = |point: &spunlaid::study::Point| {
+        let web = point.experiment.web();
+        web.is_some_and(|web| web.layers.iter().any(|layer| layer.source.case().is_some()))
+    };
+    let figures: &[&str] = if study.points.iter().any(flies) { &["cv", "cv_flown"] } else { &["cv"] };
+    let of_figure = |figure: &&str| {
+        let all = study.quantities.iter().enumerate();
+        all.filter(move |(_, of)| of.figure.name == *figure).map(|(index, _)| index).collect::<Vec<_>>()
+    };
+    let others = ["basis_weight", "md_cd_ratio"].into_iter().filter_map(|name| study.quantity(name));
+    figures.iter().flat_map(of_figure).chain(others).collect()
 }
 
 /// The head of a column: `Amplitude in y (mm)`.
-pub fn head(name: &str) -> String {
-    match measure(name) {
-        Some((_, of)) if of.unit.shown.is_empty() => of.label.to_owned(),
-        Some((_, of)) => format!("{} ({})", of.label, of.unit.shown),
-        None => name.to_owned(),
-    }
+pub fn head(of: &Quantity) -> String {
+    if of.unit.shown.is_empty() { of.label.clone() } else { format!("{} ({})", of.label, of.unit.shown) }
 }
 
-/// Mean ± standard error at a point.
-pub fn cell(results: &PointResults, name: &str) -> String {
-    let (mean, error) = results.of(name).unwrap_or((f64::NAN, None));
-    in_unit(name, mean, error)
+/// Mean ± error at a point: by all causes, or else the standard error.
+pub fn cell(study: &Study, results: &PointResults, quantity: usize) -> String {
+    let whole = results.whole_error(&study.quantities, quantity);
+    let error = whole.or_else(|| results.standard_error(quantity));
+    in_unit(&study.quantities[quantity], results.mean[quantity], error)
 }
 
-/// A value ± its error, in the unit of a measure.
-pub fn in_unit(name: &str, value: f64, error: Option<f64>) -> String {
-    let factor = measure(name).map_or(1.0, |(_, of)| of.unit.per_si);
-    plus_minus(value * factor, error.map(|error| error * factor))
+/// A value ± its error, in the unit of a quantity.
+pub fn in_unit(of: &Quantity, value: f64, error: Option<f64>) -> String {
+    plus_minus(value * of.unit.per_si, error.map(|error| error * of.unit.per_si))
 }

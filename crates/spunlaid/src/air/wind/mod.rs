@@ -182,7 +182,7 @@ impl Wind {
 
     /// [`Wind::at`] for the kernel, to be asked eddy by eddy.
     #[inline(always)]
-    pub(crate) fn blow<S: Register>(&mut self, t: f64) -> EddyVelocities<'_, S> {
+    pub(super) fn blow<S: Register>(&mut self, t: f64) -> EddyVelocities<'_, S> {
         let cells = t / self.spacing * self.cells_per_sample as f64;
         let cell = cells as u64;
         if self.cell != Some(cell) {
@@ -299,6 +299,12 @@ fn cubic<S: Register>(start: (Wide<S>, Wide<S>), end: (Wide<S>, Wide<S>)) -> [Wi
     [start.0, start.1, bend, two.neg_mul_add(rise, start.1 + end.1)]
 }
 
+/// The coefficients of a cubic.
+#[inline(always)]
+fn loaded<S: Register>([c0, c1, c2, c3]: &[Lanes; 4]) -> [Wide<S>; 4] {
+    [Wide::load(c0), Wide::load(c1), Wide::load(c2), Wide::load(c3)]
+}
+
 /// The cubic with these coefficients.
 #[inline(always)]
 fn along<S: Register>([c0, c1, c2, c3]: [Wide<S>; 4], s: Wide<S>) -> Wide<S> {
@@ -360,9 +366,9 @@ impl<S: Register> EddyVelocities<'_, S> {
     /// Velocity of the air in an eddy [m/s].
     #[inline(always)]
     pub(crate) fn velocity(&self, eddy: u32) -> Vec3<Wide<S>> {
+        // No closures here, because the compiler does not inline them.
         let [x, y, z] = &self.cubic[eddy as usize];
-        let at = |cubic: &[Lanes; 4]| along(cubic.each_ref().map(Wide::load), self.s);
-        Vec3::new(at(x), at(y), at(z))
+        Vec3::new(along(loaded(x), self.s), along(loaded(y), self.s), along(loaded(z), self.s))
     }
 }
 

@@ -9,7 +9,7 @@
 
 mod nearest;
 #[macro_use]
-mod row;
+pub(crate) mod row;
 mod table;
 mod value;
 
@@ -37,9 +37,8 @@ pub enum LeftOut {
     Follows(&'static str),
 }
 
-/// A key of a case, which is a row of the table.
-#[derive(Clone, Copy, Debug)]
-pub struct Key {
+/// A key of a case or of another input, which is a row of its table.
+pub struct Key<T: 'static = Case> {
     /// Full name, `air.velocity`.
     pub name: &'static str,
     /// Which values it takes.
@@ -60,9 +59,24 @@ pub struct Key {
     pub usual: Option<(f64, f64)>,
     /// Whether it is rounded to whole elements, steps or harmonics. Such keys are set after all others.
     pub(crate) counted: bool,
-    get: fn(&Case) -> Option<Value>,
-    set: fn(&mut Case, &Value) -> Result<(), Fault>,
-    told: fn(&Case) -> bool,
+    get: fn(&T) -> Option<Value>,
+    set: fn(&mut T, &Value) -> Result<(), Fault>,
+    told: fn(&T) -> bool,
+}
+
+// Derived ones would ask the same of `T`.
+impl<T> Clone for Key<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Key<T> {}
+
+impl<T> std::fmt::Debug for Key<T> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Key").field("name", &self.name).field("kind", &self.kind).finish_non_exhaustive()
+    }
 }
 
 /// Every key, in the order of a case file.
@@ -118,15 +132,15 @@ pub fn of_table(table: &str) -> impl Iterator<Item = &'static Key> {
     all().iter().filter(move |key| key.table() == table)
 }
 
-impl Key {
-    /// The table that it belongs to: `air`.
+impl<T> Key<T> {
+    /// The table that it belongs to: `air`; `line.rows` of a row of nozzles.
     pub fn table(&self) -> &'static str {
-        self.name.split_once('.').map_or("", |(table, _)| table)
+        self.name.rsplit_once('.').map_or("", |(table, _)| table)
     }
 
     /// Its name within the table: `velocity`.
     pub fn short(&self) -> &'static str {
-        self.name.split_once('.').map_or(self.name, |(_, key)| key)
+        self.name.rsplit_once('.').map_or(self.name, |(_, key)| key)
     }
 
     /// The dimension of a quantity; none for other kinds.
@@ -139,9 +153,9 @@ impl Key {
         matches!(self.kind, Kind::Whole(..))
     }
 
-    /// The value in a case, in SI units. None if the key has no meaning for the case.
-    pub fn get(&self, case: &Case) -> Option<Value> {
-        (self.get)(case)
+    /// The value in a case or another input, in SI units. None if the key has no meaning for it.
+    pub fn get(&self, input: &T) -> Option<Value> {
+        (self.get)(input)
     }
 
     /// Sets the value in a case. Mesh and times stay the same: only reading a case file derives other keys from
@@ -153,23 +167,23 @@ impl Key {
     ///
     /// # Errors
     /// If the key does not take this value, or has no meaning for this case.
-    pub fn set(&self, case: &mut Case, value: impl Into<Value>) -> Result<(), Box<Problem>> {
+    pub fn set(&self, input: &mut T, value: impl Into<Value>) -> Result<(), Box<Problem>> {
         let value = value.into();
         let shown = self.kind.pretty(&value);
-        self.kind.accept(value).and_then(|value| (self.set)(case, &value)).map_err(|what| {
+        self.kind.accept(value).and_then(|value| (self.set)(input, &value)).map_err(|what| {
             let (place, key) = (Place::Code, self.name.to_owned());
             Box::new(Finding { place, key, value: Some(shown), what })
         })
     }
 
     /// Sets a value that has been checked already.
-    pub(crate) fn apply(&self, case: &mut Case, value: &Value) -> Result<(), Fault> {
-        (self.set)(case, value)
+    pub(crate) fn apply(&self, input: &mut T, value: &Value) -> Result<(), Fault> {
+        (self.set)(input, value)
     }
 
     /// Whether a flow or a file gives the value, so that a case file leaves it out.
-    pub fn is_told(&self, case: &Case) -> bool {
-        (self.told)(case)
+    pub fn is_told(&self, input: &T) -> bool {
+        (self.told)(input)
     }
 
     /// An example line of a case file.
@@ -184,7 +198,7 @@ impl Key {
 }
 
 /// An example line of a file: `velocity = "10 m/s"`.
-pub(crate) fn example(name: &str, kind: &Kind, left_out: LeftOut) -> String {
+fn example(name: &str, kind: &Kind, left_out: LeftOut) -> String {
     let (LeftOut::Required(value) | LeftOut::Value(value) | LeftOut::Follows(value)) = left_out;
     match kind {
         Kind::Quantity(dimension, _) if *dimension != Dimension::Ratio => format!("{name} = \"{value}\""),

@@ -10,14 +10,14 @@ pub(crate) fn like_in(table: &str, key: &str) -> Vec<&'static Key> {
 }
 
 /// The most similar word, if any is similar.
-pub(crate) fn nearest_word(word: &str, known: impl Iterator<Item = &'static str>) -> Option<&'static str> {
+pub(crate) fn nearest_word<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     by_similarity(word, known.map(|known| (known, known, 0.0))).first().copied()
 }
 
 /// The candidates that are similar to the word, the most similar first.
 ///
 /// * `known` – candidate, its spelling, and a number that is added to its similarity
-fn by_similarity<T>(word: &str, known: impl Iterator<Item = (T, &'static str, f64)>) -> Vec<T> {
+fn by_similarity<'a, T>(word: &str, known: impl Iterator<Item = (T, &'a str, f64)>) -> Vec<T> {
     // So long a word is not a typing error, and comparing it would take long.
     if word.len() > 60 {
         return Vec::new();

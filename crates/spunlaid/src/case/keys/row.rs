@@ -9,11 +9,14 @@ use crate::line::Line;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 
-/// How to get and set the value of a key in a case.
-pub(super) struct Access {
-    pub(super) get: fn(&Case) -> Option<Value>,
-    pub(super) set: fn(&mut Case, &Value) -> Result<(), Fault>,
+/// How to get and set the value of a key in a case or another input.
+pub(crate) struct AccessTo<T: 'static> {
+    pub(crate) get: fn(&T) -> Option<Value>,
+    pub(crate) set: fn(&mut T, &Value) -> Result<(), Fault>,
 }
+
+/// Access to a case.
+pub(super) type Access = AccessTo<Case>;
 
 /// Access to a number of the case: `number!(fibre.diameter)`.
 macro_rules! number {
@@ -134,8 +137,8 @@ macro_rules! steps {
     };
 }
 
-pub(super) const fn key(name: &'static str, kind: Kind, access: Access) -> Key {
-    let Access { get, set } = access;
+pub(crate) const fn key<T>(name: &'static str, kind: Kind, access: AccessTo<T>) -> Key<T> {
+    let AccessTo { get, set } = access;
     Key {
         name,
         kind,
@@ -154,12 +157,21 @@ pub(super) const fn key(name: &'static str, kind: Kind, access: Access) -> Key {
 }
 
 /// A quantity, which a study may vary.
-pub(super) const fn quantity(name: &'static str, dimension: Dimension, sign: Sign, access: Access) -> Key {
+pub(crate) const fn quantity<T>(
+    name: &'static str,
+    dimension: Dimension,
+    sign: Sign,
+    access: AccessTo<T>,
+) -> Key<T> {
     key(name, Kind::Quantity(dimension, sign), access).varies()
 }
 
 /// One of a few words, which a study may vary.
-pub(super) const fn choose(name: &'static str, names: fn() -> Vec<&'static str>, access: Access) -> Key {
+pub(crate) const fn choose<T>(
+    name: &'static str,
+    names: fn() -> Vec<&'static str>,
+    access: AccessTo<T>,
+) -> Key<T> {
     key(name, Kind::Choice(names), access).varies()
 }
 
@@ -167,52 +179,52 @@ pub(super) const fn file(name: &'static str, kind: FileKind, access: Access) -> 
     key(name, Kind::File(kind), access)
 }
 
-impl Key {
-    pub(super) const fn required(self, example: &'static str) -> Self {
+impl<T> Key<T> {
+    pub(crate) const fn required(self, example: &'static str) -> Self {
         Self { left_out: LeftOut::Required(example), ..self }
     }
 
-    pub(super) const fn value(self, value: &'static str) -> Self {
+    pub(crate) const fn value(self, value: &'static str) -> Self {
         Self { left_out: LeftOut::Value(value), ..self }
     }
 
-    pub(super) const fn follows(self, words: &'static str) -> Self {
+    pub(crate) const fn follows(self, words: &'static str) -> Self {
         Self { left_out: LeftOut::Follows(words), ..self }
     }
 
-    pub(super) const fn meaning(self, meaning: &'static str) -> Self {
+    pub(crate) const fn meaning(self, meaning: &'static str) -> Self {
         Self { meaning, ..self }
     }
 
-    pub(super) const fn label(self, label: &'static str) -> Self {
+    pub(crate) const fn label(self, label: &'static str) -> Self {
         Self { label, ..self }
     }
 
-    pub(super) const fn slider(self, least: f64, greatest: f64) -> Self {
+    pub(crate) const fn slider(self, least: f64, greatest: f64) -> Self {
         Self { slider: Some((least, greatest)), ..self }
     }
 
-    pub(super) const fn usual(self, least: f64, greatest: f64) -> Self {
+    pub(crate) const fn usual(self, least: f64, greatest: f64) -> Self {
         Self { usual: Some((least, greatest)), ..self }
     }
 
-    pub(super) const fn varies(self) -> Self {
+    pub(crate) const fn varies(self) -> Self {
         Self { varies: true, ..self }
     }
 
-    pub(super) const fn fixed(self) -> Self {
+    pub(crate) const fn fixed(self) -> Self {
         Self { varies: false, ..self }
     }
 
-    pub(super) const fn in_flight(self) -> Self {
+    pub(crate) const fn in_flight(self) -> Self {
         Self { in_flight: true, ..self }
     }
 
-    pub(super) const fn counted(self) -> Self {
+    pub(crate) const fn counted(self) -> Self {
         Self { counted: true, ..self }
     }
 
-    pub(super) const fn told(self, told: fn(&Case) -> bool) -> Self {
+    pub(crate) const fn told(self, told: fn(&T) -> bool) -> Self {
         Self { told, ..self }
     }
 }
@@ -223,25 +235,25 @@ fn unfit(value: &Value, wanted: &str) -> Fault {
 }
 
 /// The fault of a value that can only be set by reading the case again.
-pub(super) fn read_with_case() -> Fault {
+pub(crate) fn read_with_case() -> Fault {
     Fault::new(
         "is read from a file together with the case",
         "write it in the case file and read the case again",
     )
 }
 
-pub(super) fn number(value: &Value) -> Result<f64, Fault> {
+pub(crate) fn number(value: &Value) -> Result<f64, Fault> {
     value.number().ok_or_else(|| unfit(value, "a number"))
 }
 
-pub(super) fn whole(value: &Value) -> Result<u64, Fault> {
+pub(crate) fn whole(value: &Value) -> Result<u64, Fault> {
     match value {
         Value::Whole(number) => Ok(*number),
         _ => Err(unfit(value, "a whole number")),
     }
 }
 
-pub(super) fn text(value: &Value) -> Result<String, Fault> {
+pub(crate) fn text(value: &Value) -> Result<String, Fault> {
     match value {
         Value::Text(text) => Ok(text.clone()),
         _ => Err(unfit(value, "a text")),
@@ -255,7 +267,7 @@ pub(super) fn vector(value: &Value) -> Result<Vec3<f64>, Fault> {
     }
 }
 
-pub(super) fn named<T: Copy>(value: &Value, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, Fault> {
+pub(crate) fn named<T: Copy>(value: &Value, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, Fault> {
     let found = match value {
         Value::Text(text) => all.iter().copied().find(|one| name(*one) == text),
         _ => None,

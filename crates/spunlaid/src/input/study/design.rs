@@ -2,8 +2,8 @@
 
 use super::super::entry::Entry;
 use super::reader::{Reader, not_varied, not_written, unknown_key};
-use super::{MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, Varied, varied};
-use crate::case::keys::{Key, nearest_word};
+use super::{Base, MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, Varied};
+use crate::case::keys::nearest_word;
 use crate::error::Fault;
 use crate::study::{Design, Factor};
 use toml::de::DeValue;
@@ -54,23 +54,14 @@ impl Reader<'_> {
         design
     }
 
-    /// The key of a case; `None` if a study cannot vary it, after noting the problem.
-    pub(super) fn varied(&mut self, entry: &Entry<'_>, name: &str) -> Option<&'static Key> {
-        let key = varied(name);
-        if key.is_none() {
-            self.reject(entry, name, not_varied(super::advice(name)));
-        }
-        key
+    /// The key with this name; `None` if a study cannot vary it, after noting the problem.
+    pub(super) fn varied(&mut self, base: &dyn Base, entry: &Entry<'_>, name: &str) -> Option<Varied> {
+        let key = base.varied(name);
+        key.map_err(|advice| self.reject(entry, name, not_varied(advice))).ok()
     }
 
     /// The keys that vary.
-    ///
-    /// * `find` – a key by its name; `None` if it cannot vary, after noting the problem
-    pub(super) fn factors(
-        &mut self,
-        design: Design,
-        mut find: impl FnMut(&mut Self, &Entry<'_>, &str) -> Option<Varied>,
-    ) -> Vec<Factor> {
+    pub(super) fn factors(&mut self, design: Design, base: &dyn Base) -> Vec<Factor> {
         let Some(entry) = self.entries.remove("vary") else {
             let line =
                 "[vary] and below it a key and its values, like \"air.velocity\" = [\"5 m/s\", \"10 m/s\"]";
@@ -92,7 +83,7 @@ impl Reader<'_> {
         }
         let mut factors = Vec::new();
         for (key, entry) in flat {
-            let Some(varied) = find(self, &entry, &key) else {
+            let Some(varied) = self.varied(base, &entry, &key) else {
                 continue;
             };
             if factors.iter().any(|factor: &Factor| factor.key == varied.name) {

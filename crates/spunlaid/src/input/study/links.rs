@@ -1,10 +1,8 @@
 //! Links: keys that follow from other keys by a formula.
 
 use super::super::entry::Entry;
-use super::super::open::Open;
 use super::reader::{Reader, not_written};
-use super::{advice, dimension, numeric};
-use crate::case::keys::{self, Key};
+use super::{Base, Varied};
 use crate::error::{Fault, Finding};
 use crate::study::{Factor, Link};
 use crate::units::{Expression, Powers, unknown_name};
@@ -18,7 +16,7 @@ const READY_MADE: [(&str, &str, &str); 1] =
 
 impl Reader<'_> {
     /// The keys that follow from others. Those that cannot are noted as problems.
-    pub(super) fn links(&mut self, factors: &[Factor], base: &Open) -> Vec<Link> {
+    pub(super) fn links(&mut self, factors: &[Factor], base: &dyn Base) -> Vec<Link> {
         let Some(entry) = self.entries.remove("link") else {
             return Vec::new();
         };
@@ -28,10 +26,10 @@ impl Reader<'_> {
         };
         let (mut links, mut entries) = (Vec::new(), Vec::new());
         for (key, entry) in self.flat(table) {
-            let Some(linked) = self.varied(&entry, &key) else {
+            let Some(linked) = self.varied(base, &entry, &key) else {
                 continue;
             };
-            if numeric(linked.name).is_none() {
+            if !linked.words().is_empty() {
                 let fault =
                     Fault::new("takes words, and a formula gives a number", "list the words under [vary]");
                 self.reject(&entry, &key, fault);
@@ -54,7 +52,7 @@ impl Reader<'_> {
                 );
                 continue;
             };
-            match read(linked, text) {
+            match read(base, linked, text) {
                 Ok(link) => {
                     links.push(link);
                     entries.push(entry);
@@ -79,29 +77,26 @@ impl Reader<'_> {
 }
 
 /// Reads the formula of a key.
-pub(super) fn read(key: &Key, text: &str) -> Result<Link, Fault> {
+pub(super) fn read(base: &dyn Base, key: Varied, text: &str) -> Result<Link, Fault> {
     let text = text.trim();
     let text = text.strip_prefix('=').unwrap_or(text).trim();
     let named = READY_MADE.iter().find(|(name, of, _)| *name == text && *of == key.name);
     let expression = Expression::parse(named.map_or(text, |(.., formula)| formula))?;
     for name in expression.names() {
-        if numeric(name).is_none() {
-            let advice = match keys::find(name) {
-                Some(_) => "a formula needs keys whose value is a number".to_owned(),
-                None => advice(name),
-            };
+        if let Err(advice) = base.numeric(name) {
             return Err(unknown_name(name, advice));
         }
     }
     // Units do not depend on values, so any value serves for this check.
-    let (_, found) = expression.value(&|name| Some((1.0, Powers::of(dimension(numeric(name)?)))))?;
-    let wanted = Powers::of(dimension(key));
+    let (_, found) =
+        expression.value(&|name| Some((1.0, Powers::of(base.numeric(name).ok()?.dimension()))))?;
+    let wanted = Powers::of(key.dimension());
     if !found.agree(wanted) {
-        let name = dimension(key).name();
+        let name = key.dimension().name();
         let message = format!("gives a value in {found}, but {name} in {wanted} is needed");
         return Err(Fault::new(message, "check the formula"));
     }
-    Ok(Link { key: key.name, dimension: dimension(key), expression })
+    Ok(Link { key: key.name, dimension: key.dimension(), expression })
 }
 
 /// An order in which every link comes after the links it depends on.
@@ -144,9 +139,9 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, Fault)> {
 }
 
 /// The first key in a link's formula that has no value: neither varied nor linked nor written in the case.
-pub(super) fn unwritten<'a>(link: &'a Link, set: &[&str], base: &Open) -> Option<&'a str> {
+pub(super) fn unwritten<'a>(link: &'a Link, set: &[&str], base: &dyn Base) -> Option<&'a str> {
     let has_value =
-        |name: &str| set.contains(&name) || numeric(name).is_some_and(|key| base.number(key).is_some());
+        |name: &str| set.contains(&name) || base.numeric(name).is_ok_and(|key| !base.value(key).is_nan());
     link.expression.names().into_iter().find(|name| !has_value(name))
 }
 
@@ -154,16 +149,21 @@ pub(super) fn unwritten<'a>(link: &'a Link, set: &[&str], base: &Open) -> Option
 ///
 /// * `order` – the order of [`order`]
 /// * `known` – returns the value of a key that is not linked
-pub(super) fn values(links: &[Link], order: &[usize], known: &dyn Fn(&str) -> Option<f64>) -> Vec<f64> {
+pub(super) fn values(
+    base: &dyn Base,
+    links: &[Link],
+    order: &[usize],
+    known: &dyn Fn(&str) -> Option<f64>,
+) -> Vec<f64> {
     let mut values: Vec<Option<f64>> = vec![None; links.len()];
     for &i in order {
         let of = |name: &str| {
             let linked = links.iter().position(|link| link.key == name);
             let value = linked.map_or_else(|| known(name), |other| values[other])?;
-            Some((value, Powers::of(dimension(numeric(name)?))))
+            Some((value, Powers::of(base.numeric(name).ok()?.dimension())))
         };
         let value = links[i].expression.value(&of).map_or(f64::NAN, |(value, _)| value);
-        let whole = numeric(links[i].key).is_some_and(Key::is_whole);
+        let whole = base.numeric(links[i].key).is_ok_and(Varied::is_whole);
         values[i] = Some(if whole { value.round() } else { value });
     }
     values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()

@@ -1,5 +1,6 @@
 //! Study files: reads a file to a [`Study`] with all its points, and writes it back.
 
+mod base;
 mod design;
 mod differences;
 mod levels;
@@ -8,22 +9,19 @@ mod plan;
 mod points;
 mod reader;
 mod replicates;
-mod webs;
+mod web;
 mod write;
 
 pub use differences::differences;
 pub use points::StudyNote;
-pub use webs::{WebPoint, WebStudy, WebStudyFile, parse_web_study, read_web_study, varies_a_web};
 
-use super::data::DataFiles;
-use super::document::Document;
-use super::web::WebKey;
-use super::{Overrides, file, open};
-use crate::case::Remark;
-use crate::case::keys::{self, Key, Kind, Value};
+use super::{Overrides, file};
+use crate::case::keys::{Key, Kind, Value};
+use crate::case::{Note, Remark};
 use crate::error::{Error, FileKind, Finding, Place, Position};
-use crate::study::{Factor, Levels, Replicates, Study};
+use crate::study::{Experiment, Factor, Levels, Quantity, Replicates, Study};
 use crate::units::Dimension;
+use plan::Plan;
 use std::path::{Path, PathBuf};
 
 /// Largest number of points that is flown without an explicit request.
@@ -42,12 +40,19 @@ pub struct StudyFile {
     pub study: Study,
     /// Remarks on its points.
     pub notes: Vec<StudyNote>,
-    /// The text of the base case, unchanged.
-    pub case_text: String,
-    /// Path of the base case, or its name if it is not a file.
-    pub case_path: PathBuf,
-    /// The study as a file with every default written out; it names the case `case.toml`.
+    /// The text of what the points vary: of a case, unchanged; of a web, with every default written out.
+    pub base_text: String,
+    /// Path of the base case or web, or its name if it is not a file.
+    pub base_path: PathBuf,
+    /// The study as a file with every default written out; it names [`StudyFile::base_name`].
     pub text: String,
+}
+
+impl StudyFile {
+    /// The name of the file of what the points vary, in the folder of the study: `case.toml` or `web.toml`.
+    pub fn base_name(&self) -> &'static str {
+        if self.study.noun() == "web" { "web.toml" } else { "case.toml" }
+    }
 }
 
 /// What is asked of a study besides its file.
@@ -72,7 +77,7 @@ impl StudyChanges<'_> {
     }
 }
 
-/// Reads a study file and the case it names, and resolves and checks every point.
+/// Reads a study file and the case or web it names, and resolves and checks every point.
 ///
 /// * `points` – the number of points requested; required above [`MOST_POINTS_UNASKED`]
 ///
@@ -88,16 +93,15 @@ pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Error> 
 /// As [`read_study`].
 pub fn read_changed_study(path: &Path, changes: &StudyChanges<'_>) -> Result<StudyFile, Error> {
     let text = file::read(path, FileKind::Study)?;
-    let beside = |case: &str| path.parent().map_or_else(|| PathBuf::from(case), |folder| folder.join(case));
-    parse_changed_study(&text, &path.display().to_string(), changes, |case| {
-        let case = beside(case);
-        Ok((file::read(&case, FileKind::Case)?, case.display().to_string()))
+    parse_changed_study(&text, &path.display().to_string(), changes, |named, kind| {
+        let base = path.parent().map_or_else(|| PathBuf::from(named), |folder| folder.join(named));
+        Ok((file::read(&base, kind)?, base.display().to_string()))
     })
 }
 
 /// Reads the text of a study file.
 ///
-/// * `case` – returns text and path of the case that the study names
+/// * `base` – returns text and path of the case or web that the study names
 ///
 /// # Errors
 /// As [`read_study`].
@@ -105,9 +109,9 @@ pub fn parse_study(
     text: &str,
     name: &str,
     points: Option<u64>,
-    case: impl FnOnce(&str) -> Result<(String, String), Error>,
+    base: impl FnOnce(&str, FileKind) -> Result<(String, String), Error>,
 ) -> Result<StudyFile, Error> {
-    parse_changed_study(text, name, &StudyChanges::points(points), case)
+    parse_changed_study(text, name, &StudyChanges::points(points), base)
 }
 
 /// [`parse_study`] with changes.
@@ -118,27 +122,28 @@ pub fn parse_changed_study(
     text: &str,
     name: &str,
     changes: &StudyChanges<'_>,
-    case: impl FnOnce(&str) -> Result<(String, String), Error>,
+    base: impl FnOnce(&str, FileKind) -> Result<(String, String), Error>,
 ) -> Result<StudyFile, Error> {
     let mut reader = reader::Reader::new(text, name)?;
-    let (case_text, case_name) = match reader.case() {
-        Some(named) => case(&named)?,
-        None => return Err(reader.rejected()),
-    };
-    let files = DataFiles::default();
-    let set = reader.set(changes.set);
+    let Some((named, kind)) = reader.base() else { return Err(reader.rejected()) };
+    let (base_text, base_name) = base(&named, kind)?;
+    let set = reader.set(changes.set, kind);
     if reader.has_problems() {
         return Err(reader.rejected());
     }
     let word = format!("{name}: [set]");
     let of_file: Vec<_> = set.iter().filter(|(key, _)| !changes.sets(key)).cloned().collect();
-    let overrides = [Overrides { values: &of_file, word: &word }, changes.set];
-    let base = open::open(Document::read(&case_text, &case_name, &overrides)?, &files)?;
-    let plan = reader.plan(&base, &set, changes);
+    let set_by = [Overrides { values: &of_file, word: &word }, changes.set];
+    let base: Box<dyn Base> = if kind == FileKind::Web {
+        Box::new(web::WebBase::new(base_text, base_name.clone(), set_by)?)
+    } else {
+        Box::new(base::CaseBase::new(base_text, &base_name, &set_by)?)
+    };
+    let plan = reader.plan(&*base, &set, changes);
     let Some(plan) = plan else {
         return Err(reader.rejected());
     };
-    let resolver = points::Resolver { study: name, files: &files, base: &base, plan: &plan };
+    let resolver = points::Resolver { study: name, base: &*base, plan: &plan };
     let (resolved, mut notes) = resolver.points()?;
     let Replicates { at_least, until, .. } = &plan.replicates;
     if !until.is_empty() && *at_least < FEWEST_REPLICATES {
@@ -148,9 +153,50 @@ pub fn parse_changed_study(
         notes.push(StudyNote { note, points: resolved.len() as u64, all: true });
     }
     let study = plan.study(resolved);
-    let text = write::write_study(&study, &set);
-    Ok(StudyFile { study, notes, case_path: PathBuf::from(&case_name), case_text, text })
+    let text = write::write_study(&study, &base.set_beside(set));
+    Ok(StudyFile { study, notes, base_path: PathBuf::from(base_name), base_text: base.text(), text })
 }
+
+/// What a study varies: a case, or a web.
+trait Base {
+    /// The key with this name, or why a study cannot vary it.
+    fn varied(&self, name: &str) -> Result<Varied, String>;
+
+    /// The key with this name, if its values are numbers, as formulas need; or why it cannot be used.
+    fn numeric(&self, name: &str) -> Result<Varied, String> {
+        let is_number = |key: &Varied| key.words().is_empty();
+        let key = self.varied(name)?;
+        if is_number(&key) { Ok(key) } else { Err("a formula needs keys whose value is a number".to_owned()) }
+    }
+
+    /// The value of a key before anything varies: a number, or the place of a word. NaN if it has none.
+    fn value(&self, key: Varied) -> f64;
+
+    /// The master seed, and the number of replicates, if the study does not say them.
+    fn seed_and_replicates(&self) -> (u64, u64);
+
+    /// The numbers that are kept of each replicate: `Study::quantities`, before there are points.
+    fn quantities(&self) -> Vec<Quantity>;
+
+    /// A point, with remarks on it.
+    ///
+    /// * `values` – of the keys that vary or follow from others
+    /// * `at` – the place of these values
+    /// * `seed` – if the point has one of its own
+    ///
+    /// # Errors
+    /// Every problem with it.
+    fn point(&self, values: &[(Varied, f64)], at: &Place, plan: &Plan, seed: Option<u64>) -> Made;
+
+    /// What of the keys that are the same at all points has to stand in the study, because [`Base::text`] does not have it.
+    fn set_beside(&self, set: Vec<(String, String)>) -> Vec<(String, String)>;
+
+    /// The file of what is varied.
+    fn text(&self) -> String;
+}
+
+/// An experiment, and the remarks on it.
+type Made = Result<(Experiment, Vec<Note>), Error>;
 
 /// What a study needs to know of a key that it varies, of a case or of a web.
 #[derive(Clone, Copy)]
@@ -168,6 +214,7 @@ impl Varied {
         self.kind.words()
     }
 
+    /// Physical dimension of its values.
     fn dimension(self) -> Dimension {
         self.kind.dimension().unwrap_or(Dimension::Ratio)
     }
@@ -178,6 +225,15 @@ impl Varied {
             Some(word) => format!("\"{word}\""),
             None if self.is_whole() => format!("{value:.0}"),
             None => format!("\"{}\"", self.dimension().exact(value)),
+        }
+    }
+
+    /// A value for people, as a case would show it.
+    fn pretty(self, value: f64) -> String {
+        match self.words().get(value as usize) {
+            Some(word) => format!("\"{word}\""),
+            None if self.is_whole() => format!("{value:.0}"),
+            None => self.dimension().pretty(value),
         }
     }
 
@@ -192,53 +248,16 @@ impl Varied {
     }
 }
 
-impl From<&'static Key> for Varied {
-    fn from(key: &'static Key) -> Self {
+impl<T> From<&'static Key<T>> for Varied {
+    fn from(key: &'static Key<T>) -> Self {
         Self { name: key.name, kind: &key.kind }
     }
-}
-
-impl From<&'static WebKey> for Varied {
-    fn from(key: &'static WebKey) -> Self {
-        Self { name: key.name, kind: &key.kind }
-    }
-}
-
-/// The key with this name, if a study may vary it.
-fn varied(name: &str) -> Option<&'static Key> {
-    keys::find(name).filter(|key| key.varies)
-}
-
-/// The key with this name, if a study may vary it and its values are numbers, as formulas need.
-fn numeric(name: &str) -> Option<&'static Key> {
-    varied(name).filter(|key| key.kind.words().is_empty())
 }
 
 /// The value of a key as a number: of a word, its place among the words of the key.
-fn level(key: &Key, value: &Value) -> Option<f64> {
+fn level(kind: &Kind, value: &Value) -> Option<f64> {
     match value {
-        Value::Text(word) => key.kind.words().iter().position(|one| one == word).map(|i| i as f64),
+        Value::Text(word) => kind.words().iter().position(|one| one == word).map(|i| i as f64),
         value => value.number(),
-    }
-}
-
-/// Physical dimension of a key's values.
-fn dimension(key: &Key) -> Dimension {
-    key.dimension().unwrap_or(Dimension::Ratio)
-}
-
-/// Advice for a name that a study cannot vary.
-fn advice(name: &str) -> String {
-    match name {
-        "run.replicates" => return "write replicates = 10 in the study file, above its tables".to_owned(),
-        "run.seed" => return "write seed = 1 in the study file, above its tables".to_owned(),
-        _ => {}
-    }
-    if keys::find(name).is_some() {
-        return "take a key whose value is a number or one of a few words".to_owned();
-    }
-    match keys::nearest(name) {
-        Some(key) if key.varies => format!("did you mean {}?", key.name),
-        _ => "write the full name of a key of the case, like air.velocity".to_owned(),
     }
 }

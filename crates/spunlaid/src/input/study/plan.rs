@@ -2,16 +2,15 @@
 
 use super::super::document::AUTO;
 use super::super::entry::Entry;
-use super::super::open::Open;
 use super::super::values::integer;
 use super::super::write::quoted;
 use super::super::{FORMAT_VERSION, Overrides};
 use super::reader::{self, Reader, not_varied, set_twice};
 use super::replicates::MOST_REPLICATES;
-use super::{StudyChanges, Varied, level, links, varied};
+use super::{Base, StudyChanges, base, links};
 use crate::case::keys::{self, Kind};
-use crate::error::Fault;
-use crate::study::{Design, Factor, Link, Point, Replicates, Study};
+use crate::error::{Fault, FileKind};
+use crate::study::{Design, Factor, Link, Point, Quantity, Replicates, Study};
 use toml::de::DeValue;
 
 /// A study before its points are made.
@@ -23,38 +22,55 @@ pub(super) struct Plan {
     pub(super) design: Design,
     pub(super) seed: u64,
     pub(super) common_phases: bool,
+    /// Their results are indices into the quantities.
     pub(super) replicates: Replicates,
+    pub(super) quantities: Vec<Quantity>,
 }
 
 impl Plan {
     pub(super) fn study(self, points: Vec<Point>) -> Study {
-        let Self { factors, links, design, seed, common_phases, replicates, .. } = self;
-        Study { factors, links, design, seed, common_phases, replicates, points }
+        let Self { factors, links, design, seed, common_phases, mut replicates, quantities: before, .. } =
+            self;
+        let quantities = Study::quantities_of(&points);
+        // Points may have patches that the web before them has not.
+        for (index, _) in &mut replicates.until {
+            let is_same = |of: &Quantity| of.name == before[*index].name;
+            *index = quantities.iter().position(is_same).unwrap_or(*index);
+        }
+        Study { factors, links, design, seed, common_phases, replicates, points, quantities }
     }
 }
 
 impl<'a> Reader<'a> {
-    /// The name of the case; `None` if it is missing or the file is newer, after noting the problem.
-    pub(super) fn case(&mut self) -> Option<String> {
+    /// The name of the case or web to vary; `None` if it is missing or the file is newer, after noting the problem.
+    pub(super) fn base(&mut self) -> Option<(String, FileKind)> {
         if !self.version() {
             return None;
         }
-        let line = "case = \"table1.toml\" (the case to vary, beside this file)";
-        let Some(entry) = self.entries.remove("case") else {
-            self.missing("case", line);
-            return None;
-        };
-        match &entry.value {
-            DeValue::String(text) => Some(text.clone().into_owned()),
-            _ => {
-                self.wrong_type(&entry, "case", "the path of a case file, in quotes");
-                None
+        let (case, web) = (self.entries.remove("case"), self.entries.remove("web"));
+        let (key, entry, kind, wanted) = match (case, web) {
+            (Some(case), Some(_)) => {
+                let fault =
+                    Fault::new("stands beside web", "a study varies a case or a web, so keep one of them");
+                self.reject(&case, "case", fault);
+                return None;
             }
+            (Some(case), None) => ("case", case, FileKind::Case, "the path of a case file, in quotes"),
+            (None, Some(web)) => ("web", web, FileKind::Web, "the path of the file of a web, in quotes"),
+            (None, None) => {
+                self.missing("case", "case = \"table1.toml\" (the case to vary, beside this file)");
+                return None;
+            }
+        };
+        let name = entry.value.as_str().map(|name| (name.to_owned(), kind));
+        if name.is_none() {
+            self.wrong_type(&entry, key, wanted);
         }
+        name
     }
 
     /// Checks the version; false if the file is newer, after noting the problem.
-    pub(super) fn version(&mut self) -> bool {
+    fn version(&mut self) -> bool {
         if let Some(version) = self.entries.remove("version") {
             let known = FORMAT_VERSION;
             let number = match &version.value {
@@ -76,7 +92,7 @@ impl<'a> Reader<'a> {
 
     /// The keys that are the same at all points, with their values as text: those of the file, and then those asked for
     /// from outside, which replace them.
-    pub(super) fn set(&mut self, asked: Overrides<'_>) -> Vec<(String, String)> {
+    pub(super) fn set(&mut self, asked: Overrides<'_>, base: FileKind) -> Vec<(String, String)> {
         let mut set: Vec<(String, String)> = Vec::new();
         if let Some(entry) = self.entries.remove("set") {
             let DeValue::Table(table) = entry.value else {
@@ -84,14 +100,14 @@ impl<'a> Reader<'a> {
                 return set;
             };
             for (key, entry) in self.flat(table) {
-                self.check_set(&key, &entry);
+                self.check_set(&key, &entry, base);
                 set.push((key, entry.text.to_owned()));
             }
         }
         for (key, text) in asked.values {
             let key = key.trim().to_owned();
             let entry = Entry::of_override(asked.word, text);
-            self.check_set(&key, &entry);
+            self.check_set(&key, &entry, base);
             let written = if DeValue::parse(text).is_ok() { text.clone() } else { quoted(text) };
             set.retain(|(other, _)| *other != key);
             set.push((key, written));
@@ -100,12 +116,12 @@ impl<'a> Reader<'a> {
     }
 
     /// Refuses to set what a study takes from elsewhere.
-    fn check_set(&mut self, name: &str, entry: &Entry<'_>) {
-        let Some(key) = keys::find(name) else {
+    fn check_set(&mut self, name: &str, entry: &Entry<'_>, base: FileKind) {
+        let Some(key) = keys::find(name).filter(|_| base == FileKind::Case) else {
             return;
         };
         if matches!(key.name, "run.replicates" | "run.seed") {
-            self.reject(entry, name, not_varied(super::advice(name)));
+            self.reject(entry, name, not_varied(base::advice(name)));
         }
         let is_word = |word: &str| word == AUTO || key.kind.words().contains(&word);
         if matches!(key.kind, Kind::File(_)) && !entry.value.as_str().is_some_and(is_word) {
@@ -127,13 +143,13 @@ impl<'a> Reader<'a> {
     /// * `set` – the keys that are the same at all points
     pub(super) fn plan(
         &mut self,
-        base: &Open,
+        base: &dyn Base,
         set: &[(String, String)],
         changes: &StudyChanges<'_>,
     ) -> Option<Plan> {
         let design_entry = self.entries.remove("design");
         let design = self.design(design_entry.as_ref());
-        let seed = self.whole("seed", 0, u64::MAX).unwrap_or(base.case.run.seed);
+        let seed = self.whole("seed", 0, u64::MAX).unwrap_or(base.seed_and_replicates().0);
         let common_phases = self.truth("common_phases").unwrap_or(true);
         let mut replicates = self.replicates(base);
         if let Some(asked) = changes.replicates {
@@ -142,8 +158,7 @@ impl<'a> Reader<'a> {
             }
             replicates = Replicates::fixed(asked);
         }
-        let factors =
-            self.factors(design, |reader, entry, name| reader.varied(entry, name).map(Varied::from));
+        let factors = self.factors(design, base);
         let links = self.links(&factors, base);
         self.check_once(set, &factors, &links);
         if !self.problems.is_empty() {
@@ -166,13 +181,12 @@ impl<'a> Reader<'a> {
             seed,
             common_phases,
             replicates,
+            quantities: base.quantities(),
         })
     }
 }
 
-/// The value of a factor in the base case; NaN if it has none.
-pub(super) fn of_base(base: &Open, factor: &Factor) -> f64 {
-    let value =
-        |key| if factor.words.is_empty() { base.number(key) } else { level(key, &key.get(&base.case)?) };
-    varied(factor.key).and_then(value).unwrap_or(f64::NAN)
+/// The value of a factor before anything varies; NaN if it has none.
+pub(super) fn of_base(base: &dyn Base, factor: &Factor) -> f64 {
+    base.varied(factor.key).map_or(f64::NAN, |key| base.value(key))
 }

@@ -1,13 +1,9 @@
-//! Makes a checked case of every point of a study.
+//! Makes a checked experiment of every point of a study.
 
-use super::super::data::DataFiles;
-use super::super::open::{self, Open};
-use super::super::written::{Said, Written};
 use super::plan::{Plan, of_base};
-use super::{dimension, links, numeric, varied};
-use crate::case::keys::{self, Key, Value};
+use super::{Base, Varied, links};
 use crate::case::{Note, Remark};
-use crate::error::{Error, Fault, Place, Problem};
+use crate::error::{Error, Place};
 use crate::study::{Point, seed_of_point};
 use std::fmt;
 use std::mem::{Discriminant, discriminant};
@@ -45,10 +41,7 @@ impl fmt::Display for StudyNote {
 /// Makes the points of a plan.
 pub(super) struct Resolver<'a> {
     pub(super) study: &'a str,
-    /// Files that the case names.
-    pub(super) files: &'a DataFiles,
-    /// The base case as written.
-    pub(super) base: &'a Open,
+    pub(super) base: &'a dyn Base,
     pub(super) plan: &'a Plan,
 }
 
@@ -75,101 +68,28 @@ impl Resolver<'_> {
     }
 
     fn point(&self, index: u64, mut values: Vec<f64>) -> Result<(Point, Vec<Note>), Error> {
-        let Plan { factors, links, order, replicates, seed, common_phases, .. } = self.plan;
+        let Plan { factors, links, order, seed, common_phases, .. } = self.plan;
         let known = |name: &str| match factors.iter().position(|factor| factor.key == name) {
             Some(i) => values.get(i).copied(),
-            None => self.base.number(numeric(name)?),
+            None => Some(self.base.value(self.base.numeric(name).ok()?)),
         };
-        let linked = links::values(links, order, &known);
+        let linked = links::values(self.base, links, order, &known);
         values.extend(linked);
         let names = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
-        let set: Vec<(&'static Key, f64)> = names.filter_map(varied).zip(values.iter().copied()).collect();
-        let pretty = |(key, value): &(&'static Key, f64)| match value_of(key, *value) {
-            Ok(value) => key.kind.pretty(&value),
-            Err(_) => dimension(key).pretty(*value),
-        };
-        let all: Vec<String> = set.iter().map(|one| format!("{} = {}", one.0.name, pretty(one))).collect();
-        let (study, number, all) = (self.study.to_owned(), index + 1, all.join(", "));
-        let at = Place::Point { study, number, values: all };
-        let (mut written, mut faults) = (self.base.written.clone(), Vec::new());
-        for one in &set {
-            let (key, value) = *one;
-            let said = |value| Said { place: at.clone(), shown: Some(pretty(one)), value: Some(value) };
-            match value_of(key, value) {
-                Ok(value) => written.set(key.name, said(value)),
-                Err(what) => faults.push(Problem {
-                    place: at.clone(),
-                    key: key.name.to_owned(),
-                    value: Some(pretty(one)),
-                    what,
-                }),
-            }
-        }
-        if !faults.is_empty() {
-            return Err(faults.into());
-        }
-        let seed = if *common_phases { *seed } else { seed_of_point(*seed, index) };
-        for (name, value) in [("run.seed", seed), ("run.replicates", replicates.at_most)] {
-            if let Some(key) = keys::find(name) {
-                let (shown, value) = (Some(value.to_string()), Some(Value::Whole(value)));
-                written.set(key.name, Said { place: at.clone(), shown, value });
-            }
-        }
-        let (opened, unneeded) = self.open(written, &set);
-        match opened.and_then(Open::resolve) {
-            Ok((case, mut notes)) => {
-                notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
-                Ok((Point { values, case }, notes))
-            }
+        let keys = names.filter_map(|name| self.base.varied(name).ok());
+        let set: Vec<(Varied, f64)> = keys.zip(values.iter().copied()).collect();
+        let shown = |(key, value): &(Varied, f64)| format!("{} = {}", key.name, key.pretty(*value));
+        let (study, number) = (self.study.to_owned(), index + 1);
+        let at = Place::Point { study, number, values: set.iter().map(shown).collect::<Vec<_>>().join(", ") };
+        let seed = (!*common_phases).then(|| seed_of_point(*seed, index));
+        match self.base.point(&set, &at, self.plan, seed) {
+            Ok((experiment, notes)) => Ok((Point { values, experiment }, notes)),
             Err(Error::Rejected(mut problems)) => {
                 problems.iter_mut().for_each(|problem| problem.place = at.clone());
                 Err(problems.into())
             }
             Err(other) => Err(other),
         }
-    }
-}
-
-impl Resolver<'_> {
-    /// Sets the written values. A word that varies may leave keys of the base case without a meaning, as
-    /// another drag law does with the coefficient of the first; these are left out, each with a remark.
-    fn open(&self, written: Written, set: &[(&'static Key, f64)]) -> (Result<Open, Error>, Vec<Note>) {
-        let opened = open::open(written.clone(), self.files);
-        let is_unneeded = |problem: &&Problem| {
-            problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
-        };
-        let unneeded: Vec<Note> = match &opened {
-            Err(Error::Rejected(problems)) if self.plan.factors.iter().any(|of| !of.words.is_empty()) => {
-                let note = |problem: &Problem| {
-                    let what = Remark::Unneeded { needed: problem.what.needs? };
-                    let Problem { place, key, value, .. } = problem.clone();
-                    Some(Note { place, key, value, what })
-                };
-                problems.iter().filter(is_unneeded).filter_map(note).collect()
-            }
-            _ => Vec::new(),
-        };
-        if unneeded.is_empty() {
-            return (opened, unneeded);
-        }
-        let mut fewer = written;
-        unneeded.iter().for_each(|note| drop(fewer.remove(&note.key)));
-        (open::open(fewer, self.files), unneeded)
-    }
-}
-
-/// A number as the value of a key: a quantity, a whole number, or the place of a word among the words of the key.
-fn value_of(key: &Key, value: f64) -> Result<Value, Fault> {
-    if let Some(word) = key.kind.words().get(value as usize) {
-        return Ok((*word).into());
-    }
-    if !key.is_whole() {
-        return key.kind.accept(Value::Number(value));
-    }
-    if (1.0..1e15).contains(&value) {
-        Ok(Value::Whole(value as u64))
-    } else {
-        Err(Fault::out_of_range(1, 1_000_000_000_000_000))
     }
 }
 

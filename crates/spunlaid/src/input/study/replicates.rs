@@ -1,12 +1,12 @@
 //! How many replicates a point of a study has: a number, or until its results are as exact as asked.
 
 use super::super::entry::{Entry, in_order};
-use super::super::open::Open;
 use super::super::values;
+use super::Base;
 use super::reader::{Reader, unknown_key};
 use crate::case::keys::nearest_word;
 use crate::error::Fault;
-use crate::study::{MEASURES, Replicates};
+use crate::study::Replicates;
 use crate::units::Dimension;
 use toml::de::DeValue;
 
@@ -14,11 +14,11 @@ use toml::de::DeValue;
 pub(super) const MOST_REPLICATES: u64 = 1_000_000;
 
 impl<'a> Reader<'a> {
-    pub(super) fn replicates(&mut self, base: &Open) -> Replicates {
+    pub(super) fn replicates(&mut self, base: &dyn Base) -> Replicates {
         const MOST: u64 = MOST_REPLICATES;
         const KEYS: [&str; 3] = ["at_least", "at_most", "until"];
         let Some(entry) = self.entries.remove("replicates") else {
-            return Replicates::fixed(base.case.run.replicates);
+            return Replicates::fixed(base.seed_and_replicates().1);
         };
         let DeValue::Table(table) = entry.value else {
             return Replicates::fixed(self.whole_in(&entry, "replicates", 1, MOST).unwrap_or(1));
@@ -33,7 +33,7 @@ impl<'a> Reader<'a> {
                     least = Some(entry);
                 }
                 "at_most" => bounds[1] = self.whole_in(&entry, &name, 2, MOST),
-                "until" => until = self.until(entry),
+                "until" => until = self.until(entry, base),
                 other => {
                     let advice = nearest_word(other, KEYS.into_iter()).map_or_else(
                         || "the keys are at_least, at_most and until".to_owned(),
@@ -56,18 +56,18 @@ impl<'a> Reader<'a> {
         Replicates { at_least, at_most, until }
     }
 
-    fn until(&mut self, entry: Entry<'a>) -> Vec<(usize, f64)> {
+    fn until(&mut self, entry: Entry<'a>, base: &dyn Base) -> Vec<(usize, f64)> {
         let DeValue::Table(table) = entry.value else {
             self.wrong_type(&entry, "replicates.until", "a table, like { amplitude_y = \"5 %\" }");
             return Vec::new();
         };
-        let mut until = Vec::new();
+        let (mut until, quantities) = (Vec::new(), base.quantities());
         for ((at, name), value) in in_order(table) {
             let key = format!("replicates.until.{name}");
             let entry = self.entry(at, value);
-            let Some(measure) = MEASURES.iter().position(|measure| measure.name == name) else {
-                let names = MEASURES.map(|measure| measure.name);
-                let advice = nearest_word(&name, names.into_iter()).map_or_else(
+            let Some(measure) = quantities.iter().position(|quantity| quantity.name == name) else {
+                let names: Vec<&str> = quantities.iter().map(|quantity| &*quantity.name).collect();
+                let advice = nearest_word(&name, names.iter().copied()).map_or_else(
                     || format!("the results are {}", names.join(", ")),
                     |name| format!("did you mean {name}?"),
                 );

@@ -1,18 +1,18 @@
 //! Writes a study as a file, with every default.
 
 use super::super::FORMAT_VERSION;
-use super::{Varied, varied};
-use crate::study::{Design, Factor, Levels, MEASURES, Study};
+use crate::study::{Design, Factor, Levels, Study};
 use crate::units::shortest;
 use std::fmt::Write;
 
-/// Writes a study as TOML; it names the case `case.toml`, in the same folder.
+/// Writes a study as TOML; it names `case.toml` or `web.toml`, in the same folder.
 ///
-/// Reading the text with the same case gives exactly the same points.
+/// Reading the text with the same case or web gives exactly the same points.
 ///
 /// * `set` – the keys that are the same at all points, with their values as TOML
 pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
-    let mut text = format!("version = {FORMAT_VERSION}\ncase = \"case.toml\"\n");
+    let base = if study.noun() == "web" { "web" } else { "case" };
+    let mut text = format!("version = {FORMAT_VERSION}\n{base} = \"{base}.toml\"\n");
     // Writing to a text cannot fail.
     let _ = writeln!(text, "design = \"{}\"", study.design.name());
     if let Design::LatinHypercube(points) | Design::Sobol(points) = study.design {
@@ -30,11 +30,10 @@ pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
         );
         text.push_str("\n[replicates.until]\n");
         for (measure, fraction) in &replicates.until {
-            let _ = writeln!(text, "{} = {}", MEASURES[*measure].name, shortest(*fraction));
+            let _ = writeln!(text, "{} = {}", study.quantities[*measure].name, shortest(*fraction));
         }
     }
-    let key = |name: &str| varied(name).map(Varied::from);
-    write_values(&mut text, set, &study.factors, key);
+    write_values(&mut text, set, &study.factors);
     if !study.links.is_empty() {
         text.push_str("\n[link]\n");
         for link in &study.links {
@@ -45,14 +44,7 @@ pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
 }
 
 /// Writes the tables `[set]` and `[vary]`.
-///
-/// * `key` – a key by its name
-pub(super) fn write_values(
-    text: &mut String,
-    set: &[(String, String)],
-    factors: &[Factor],
-    key: impl Fn(&str) -> Option<Varied>,
-) {
+fn write_values(text: &mut String, set: &[(String, String)], factors: &[Factor]) {
     if !set.is_empty() {
         text.push_str("\n[set]\n");
         for (key, value) in set {
@@ -61,7 +53,7 @@ pub(super) fn write_values(
     }
     text.push_str("\n[vary]\n");
     for factor in factors {
-        let exact = |value: f64| key(factor.key).map_or_else(String::new, |key| key.exact(value));
+        let exact = |value: f64| exact(factor, value);
         let _ = match &factor.levels {
             Levels::List(values) => {
                 let values: Vec<String> = values.iter().map(|value| exact(*value)).collect();
@@ -77,5 +69,14 @@ pub(super) fn write_values(
                 )
             }
         };
+    }
+}
+
+/// A value in the form of a study file, without rounding.
+fn exact(factor: &Factor, value: f64) -> String {
+    match factor.input().word(value) {
+        Some(word) => format!("\"{word}\""),
+        None if factor.whole => format!("{value:.0}"),
+        None => format!("\"{}\"", factor.dimension.exact(value)),
     }
 }

@@ -1,8 +1,8 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
 use super::read::{Reading, SAME};
-use super::{LaydownSource, LayerSpec, too_small};
 use crate::error::Fault;
+use crate::layers::{LaydownSource, LayerSpec, too_small};
 use crate::units::Dimension;
 use crate::web::{Edges, Filaments, Row, Sheet};
 use std::collections::BTreeMap;

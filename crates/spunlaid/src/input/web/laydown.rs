@@ -1,11 +1,11 @@
 //! What tells how the filaments of a layer lie.
 
-use super::super::{Overrides, read_case};
-use super::LaydownSource;
+use super::super::{Overrides, parse_case, read_case};
 use super::read::{Reading, table_of};
 use crate::case::Case;
 use crate::case::keys::Value;
 use crate::error::{Error, Fault, Place};
+use crate::layers::LaydownSource;
 use crate::surrogate::Surrogate;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -102,7 +102,11 @@ impl Reading<'_> {
         path: &Path,
         changes: Overrides<'_>,
     ) -> Result<Option<Arc<Case>>, Error> {
-        let (case, notes) = match read_case(path, changes) {
+        let read = match self.cases.iter().find(|(of, _)| of == path) {
+            Some((_, text)) => parse_case(text, &path.display().to_string(), changes),
+            None => read_case(path, changes),
+        };
+        let (case, notes) = match read {
             Ok(read) => read,
             Err(Error::File(error)) => {
                 self.written.reject(key, error.into());

@@ -4,8 +4,8 @@ use super::super::document::AUTO;
 use super::super::entry::{Entry, VERSION};
 use super::super::source::fit;
 use super::document::{Entries, OF_A_LAYER, table_of};
-use super::keys::WEB_TABLES;
 use crate::error::{Fault, Finding};
+use crate::layers::WEB_TABLES;
 
 impl<'a> Entries<'a> {
     /// Takes an override, which replaces the value in the file. The value `auto` removes it.

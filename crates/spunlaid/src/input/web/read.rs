@@ -3,14 +3,13 @@
 use super::super::Overrides;
 use super::super::written::{Said, Written, sorted};
 use super::document::WebDocument;
-use super::keys::{self, METHODS};
-use super::{LaydownSource, LayerSpec, Method, WebSpec};
 use crate::case::keys::{LeftOut, Value};
 use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding};
+use crate::layers::keys::{self, METHODS, diameter};
+use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
 use crate::units::Dimension;
 use crate::web::{Filaments, Row};
-use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 /// Relative difference up to which two written numbers are the same.
@@ -23,6 +22,8 @@ pub(super) struct Reading<'a> {
     pub(super) folder: PathBuf,
     /// Changes to the cases that are flown.
     pub(super) of_case: Overrides<'a>,
+    /// Texts of cases that are no files.
+    pub(super) cases: &'a [(PathBuf, String)],
     notes: Vec<Note>,
 }
 
@@ -33,11 +34,11 @@ pub(super) struct Reading<'a> {
 pub(super) fn spec(
     document: WebDocument,
     name: &str,
-    of_case: Overrides<'_>,
+    (of_case, cases): (Overrides<'_>, &[(PathBuf, String)]),
 ) -> Result<(WebSpec, Vec<Note>), Error> {
     let WebDocument { written, layers: prefixes } = document;
     let folder = Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
-    let mut reading = Reading { written, folder, of_case, notes: Vec::new() };
+    let mut reading = Reading { written, folder, of_case, cases, notes: Vec::new() };
     let mut layers = Vec::new();
     for prefix in &prefixes {
         layers.push(reading.layer(prefix)?);
@@ -77,7 +78,7 @@ impl Reading<'_> {
     fn unusual(&self) -> Vec<Note> {
         let of = |(full, said): (&str, &Said)| {
             let key = keys::of_full(full)?;
-            let (dimension, usual) = (key.kind.dimension()?, key.usual()?);
+            let (dimension, usual) = (key.kind.dimension()?, key.usual_range()?);
             let values = match said.value.as_ref()? {
                 Value::Number(value) => std::slice::from_ref(value),
                 Value::Numbers(values) => values.as_slice(),
@@ -232,7 +233,7 @@ impl Reading<'_> {
             self.written.reject(&linear, Fault::excludes(NAME, remedy));
             return None;
         }
-        let diameter = (4.0 * self.written.number(&linear)? / (PI * density?)).sqrt();
+        let diameter = diameter(self.written.number(&linear)?, density?);
         self.must_be(&linear, diameter, flown.and_then(|flown| flown.value(NAME)), flown)
     }
 
@@ -303,7 +304,7 @@ impl Reading<'_> {
 
 /// A line that would be valid for a key.
 fn example(name: &str) -> String {
-    keys::find(name).map_or_else(String::new, keys::WebKey::example)
+    keys::find(name).map_or_else(String::new, WebKey::example)
 }
 
 /// The table in which a key of a layer stands, as it is written in the file.

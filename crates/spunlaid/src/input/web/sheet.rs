@@ -1,10 +1,10 @@
 //! The sheet: its size, cells, patches and edges.
 
-use super::keys::EDGES;
 use super::read::Reading;
 use crate::case::keys::Value;
 use crate::case::whole_parts;
 use crate::error::Fault;
+use crate::layers::keys::EDGES;
 use crate::units::Dimension;
 use crate::web::{Edges, Sheet};
 

@@ -35,7 +35,6 @@ pub use refusal::Refusal;
 use super::journal::Journal;
 use super::{Design, Study};
 use crate::error::Error;
-use crate::observe::MEASURES;
 use fit::{Fit, fits};
 use solution::Solution;
 
@@ -51,7 +50,7 @@ pub struct Rankings {
 /// Main effects on one result, the largest first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ranking {
-    /// Index into the [`MEASURES`].
+    /// Index into [`Study::quantities`].
     pub measure: usize,
     /// Value in the middle of all ranges; NaN for one-at-a-time designs, whose lines have no common middle.
     pub middle: f64,
@@ -128,7 +127,10 @@ pub fn rankings(study: &Study, journal: &mut Journal) -> Result<Rankings, Error>
     let applies = |measure: &usize| {
         solved.iter().all(|solution| solution.coefficients[*measure].iter().all(|b| b.is_finite()))
     };
-    Ok(Rankings { of_measures: (0..MEASURES.len()).filter(applies).map(ranking).collect(), refusal: None })
+    Ok(Rankings {
+        of_measures: (0..study.quantities.len()).filter(applies).map(ranking).collect(),
+        refusal: None,
+    })
 }
 
 impl Ranking {

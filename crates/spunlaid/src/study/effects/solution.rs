@@ -4,7 +4,6 @@ use super::fit::{Contrast, Fit};
 use super::linear::{add, dot};
 use super::{Effect, Refusal};
 use crate::error::Error;
-use crate::observe::MEASURES;
 use crate::statistics::student_t_95_at;
 use crate::study::PointResults;
 use crate::study::journal::Journal;
@@ -30,7 +29,7 @@ impl Solution {
         };
         let contrasts = fit.contrasts();
         let rest = Rest::read(fit, journal, &fitted, &contrasts)?;
-        let effects = (0..MEASURES.len()).map(|m| {
+        let effects = (0..fit.study.quantities.len()).map(|m| {
             let of_contrasts = contrasts.iter().zip(&rest[m].contrasts);
             of_contrasts.map(|(contrast, noise)| fitted.effect(fit, m, &rest[m], contrast, *noise)).collect()
         });
@@ -46,7 +45,7 @@ impl Solution {
 }
 
 /// One number for each measure.
-type Each = [f64; MEASURES.len()];
+type Each = Vec<f64>;
 
 /// Deviations of a point's replicates from their mean, scaled so that the sum of their squares is the variance of the
 /// mean; by replicate.
@@ -55,7 +54,7 @@ fn deviations(results: &PointResults, records: &[Record]) -> Vec<(usize, Each)> 
     let scale = if n > 1.0 { 1.0 / (n * (n - 1.0)).sqrt() } else { 0.0 };
     let of = |record: &Record| {
         let measured = record.landing.measured()?;
-        let deviation = std::array::from_fn(|m| (measured[m] - results.mean[m]) * scale);
+        let deviation = measured.iter().zip(&results.mean).map(|(one, mean)| (one - mean) * scale).collect();
         Some((record.replicate as usize, deviation))
     };
     records.iter().filter_map(of).collect()
@@ -77,11 +76,11 @@ struct Fitted {
 
 impl Fitted {
     fn read(fit: &Fit<'_>, journal: &mut Journal) -> Result<Result<Self, Refusal>, Error> {
-        let zeros = || vec![vec![0.0; fit.size()]; MEASURES.len()];
+        let zeros = || vec![vec![0.0; fit.size()]; fit.study.quantities.len()];
         let (mut xy, mut of_replicates, mut weights) = (zeros(), Vec::new(), Vec::new());
         let mut replicated = true;
         for &point in &fit.points {
-            let results = results_of_point(journal, point)?;
+            let results = results_of_point(fit.study, journal, point)?;
             if results.n == 0 {
                 return Ok(Err(Refusal::NoResult { point: point + 1 }));
             }
@@ -180,9 +179,9 @@ impl Rest {
         contrasts: &[Contrast],
     ) -> Result<Vec<Self>, Error> {
         let none = Self { contrasts: vec![Variance::default(); contrasts.len()], ..Self::default() };
-        let mut rest = vec![none; MEASURES.len()];
+        let mut rest = vec![none; fit.study.quantities.len()];
         for &point in &fit.points {
-            let (row, results) = (fit.row(point), results_of_point(journal, point)?);
+            let (row, results) = (fit.row(point), results_of_point(fit.study, journal, point)?);
             let solved = fit.solve(&row);
             let leverage = dot(&row, &solved);
             for (m, rest) in rest.iter_mut().enumerate() {

@@ -1,7 +1,12 @@
 use super::*;
 
+/// Numbers of each record, and its length [bytes].
+const NUMBERS: usize = 5;
+const RECORD: usize = HEAD + 8 * NUMBERS;
+
 fn record(point: u64, replicate: u64) -> Record {
-    let measured = std::array::from_fn(|i| (point * 100 + replicate * 10) as f64 + i as f64 / 8.0);
+    let number = |i: usize| (point * 100 + replicate * 10) as f64 + i as f64 / 8.0;
+    let measured = (0..NUMBERS).map(number).collect();
     Record { point, replicate, landing: Landing::Measured(measured) }
 }
 
@@ -15,7 +20,7 @@ fn written() -> (tempfile::TempDir, PathBuf) {
     let path = folder.path().join("journal");
     let (mut journal, found) = Journal::open(&path, false).unwrap();
     assert_eq!(found, None);
-    journal.begin(&header(), 3).unwrap();
+    journal.begin(&header(), 3, NUMBERS).unwrap();
     journal.add(&[record(0, 0), record(2, 1)]).unwrap();
     journal.add(&[record(1, 0), record(0, 1), record(2, 0), record(1, 1)]).unwrap();
     (folder, path)
@@ -24,7 +29,7 @@ fn written() -> (tempfile::TempDir, PathBuf) {
 fn reopened(path: &Path) -> (Journal, Found) {
     let (mut journal, found) = Journal::open(path, false).unwrap();
     assert_eq!(found, Some(header()));
-    let found = journal.go_on(3, 2).unwrap();
+    let found = journal.go_on(3, 2, NUMBERS).unwrap();
     (journal, found)
 }
 
@@ -40,8 +45,8 @@ fn records_come_back_in_order_of_replicates() {
         assert!(journal.holds(point, 1) && !journal.holds(point, 2));
     }
     let lost = Record { point: 0, replicate: 0, landing: Landing::Lost { node: 7, time: 0.25 } };
-    journal.begin(&header(), 3).unwrap();
-    journal.add(&[lost]).unwrap();
+    journal.begin(&header(), 3, NUMBERS).unwrap();
+    journal.add(std::slice::from_ref(&lost)).unwrap();
     assert_eq!(journal.records(0, 1).unwrap(), [lost]);
 }
 
@@ -86,7 +91,8 @@ fn a_flipped_bit_anywhere_costs_one_record() {
         assert_eq!(found, Found { fibres: 5, damaged: 1, torn: false }, "byte {byte}");
         // The lost record can be added again.
         let lost = [record(0, 0), record(2, 1), record(1, 0), record(0, 1), record(2, 0), record(1, 1)]
-            [(byte - start) / RECORD];
+            [(byte - start) / RECORD]
+            .clone();
         assert!(!journal.holds(lost.point as usize, lost.replicate));
         journal.add(&[lost]).unwrap();
         drop(journal);
@@ -112,7 +118,7 @@ fn zeros_at_the_end_are_no_records() {
 fn records_of_points_that_are_not_there_do_not_count() {
     let (_folder, path) = written();
     let (mut journal, _) = Journal::open(&path, false).unwrap();
-    assert_eq!(journal.go_on(2, 2).unwrap(), Found { fibres: 4, damaged: 2, torn: false });
+    assert_eq!(journal.go_on(2, 2, NUMBERS).unwrap(), Found { fibres: 4, damaged: 2, torn: false });
 }
 
 #[test]

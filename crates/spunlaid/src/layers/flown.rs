@@ -6,18 +6,16 @@
 //! results folder ┘
 //! ```
 
-use super::laid;
-use crate::Failure;
-use spunlaid::case::Case;
-use spunlaid::ensemble::{Computing, Keep, LaidCurves, fly};
-use spunlaid::error::{Error, Fault};
-use spunlaid::flight::LaidPoint;
-use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec};
-use spunlaid::lanes::Isa;
-use spunlaid::laydown::{Trace, Tracing};
-use spunlaid::statistics::Estimate;
-use spunlaid::surrogate::{Residual, Surrogate, Unidentified, identify};
-use spunlaid::web::{Curves, Fibres, Web};
+use super::{LaydownSource, LayerSpec, Method, WebSpec, laid};
+use crate::case::Case;
+use crate::ensemble::{Computing, Keep, LaidCurves, fly};
+use crate::error::{Error, Fault};
+use crate::flight::LaidPoint;
+use crate::lanes::Isa;
+use crate::laydown::{Trace, Tracing};
+use crate::statistics::Estimate;
+use crate::surrogate::{Residual, Surrogate, Unidentified, identify};
+use crate::web::{Curves, Fibres, Web};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -80,7 +78,7 @@ impl<'a> Flyer<'a> {
     /// # Errors
     /// If the fibres cannot be flown or read, have laid nothing, or spread too far for the sheet; and if no surrogate is
     /// found where one is to be laid.
-    pub fn fibres(&mut self, spec: &WebSpec, layer: &LayerSpec) -> Result<OfLayer, Failure> {
+    pub fn fibres(&mut self, spec: &WebSpec, layer: &LayerSpec) -> Result<OfLayer, Error> {
         let (path, case) = match &layer.source {
             LaydownSource::Surrogate(surrogate) => {
                 return Ok(OfLayer { fibres: Fibres::Surrogate(*surrogate), flown: None });
@@ -116,7 +114,7 @@ impl<'a> Flyer<'a> {
     }
 
     /// Flies a case; the points that each replicate has laid.
-    fn fly(&self, path: &Path, case: &Case) -> Result<Vec<Vec<LaidPoint>>, Failure> {
+    fn fly(&self, path: &Path, case: &Case) -> Result<Vec<Vec<LaidPoint>>, Error> {
         let (fibre_steps, laid) = (AtomicU64::new(0), LaidCurves::default());
         let computing = Computing {
             threads: self.threads,
@@ -139,11 +137,9 @@ impl<'a> Flyer<'a> {
 impl Flown {
     /// * `path` – of the case or of the results, for messages
     /// * `laid` – all points of each replicate
-    fn of(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Failure> {
-        let line = case.line.ok_or_else(|| {
-            let fault = Fault::new("its fibre is not fed on to a belt", "name a case with [feed] and [belt]");
-            Failure::folder(path, fault)
-        })?;
+    fn of(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Error> {
+        let nothing = |reason: &str| Error::folder(path, Fault::plain(reason.to_owned()));
+        let line = case.line.ok_or_else(|| nothing("its fibre is not fed on to a belt"))?;
         let spacing = case.fibre.rest_length();
         // As the measures of a run do, to the same bits.
         let skip = (line.feed_speed * case.run.spin_up() / spacing).round() as u64;
@@ -185,17 +181,15 @@ impl Flown {
     }
 
     /// The surrogate with the mean numbers of the replicates.
-    pub fn surrogate(&self, path: &Path) -> Result<Surrogate, Failure> {
+    pub fn surrogate(&self, path: &Path) -> Result<Surrogate, Error> {
         if let Some(surrogate) = Self::known(&self.numbers) {
             return Ok(surrogate);
         }
         let why = self.unidentified.map_or_else(String::new, |why| format!(": {why}"));
-        let fault = Fault::new(
-            format!("no surrogate was identified in what its fibres lay{why}"),
-            "write web.method = \"dynamics\" to lay the flown curves themselves, or give laydown.sigma_md, laydown.sigma_cd \
-             and laydown.noise",
-        );
-        Err(Failure::folder(path, fault))
+        let message = format!("no surrogate was identified in what its fibres lay{why}");
+        let remedy = "write web.method = \"dynamics\" to lay the flown curves themselves, or give laydown.sigma_md, \
+                      laydown.sigma_cd and laydown.noise";
+        Err(Error::folder(path, Fault::new(message, remedy)))
     }
 }
 
@@ -216,114 +210,5 @@ fn source(layer: &LayerSpec) -> &Path {
     match &layer.source {
         LaydownSource::Case { path, .. } | LaydownSource::Results { folder: path, .. } => path,
         LaydownSource::Surrogate(_) => Path::new(""),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::output::folder::{ENTRIES, Staging};
-    use crate::output::tables::{TableRecorder, Tables};
-    use spunlaid::ensemble::Results;
-    use spunlaid::input::{parse_web, read_case};
-
-    /// The web of the spunbond line, with a case for a short flight.
-    fn web(element_length: &str, method: &str) -> (WebSpec, Case) {
-        let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
-        let set = [
-            ("fibre.element_length", element_length),
-            ("run.duration", "0.1 s"),
-            ("run.replicates", "3"),
-            ("belt.distance", "0.1 m"),
-        ];
-        let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
-        let case = read_case(&cases.join("spunbond.toml"), &set).unwrap().0;
-        let text = std::fs::read_to_string(cases.join("web.toml")).unwrap();
-        let path = cases.join("web.toml").display().to_string();
-        let method = [("web.method".to_owned(), method.to_owned())];
-        let mut spec = parse_web(&text, &path, &method).unwrap().spec;
-        let path = PathBuf::from("short.toml");
-        spec.layers[0].source = LaydownSource::Case { path, case: Arc::new(case.clone()) };
-        (spec, case)
-    }
-
-    #[test]
-    fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
-        static STOP: AtomicBool = AtomicBool::new(false);
-        let (mut spec, case) = web("4 mm", "surrogate");
-        let mut flyer = Flyer::new(2, &STOP, &|_, _, _, work| work());
-        let of_case = flyer.fibres(&spec, &spec.layers[0]).unwrap();
-        let Fibres::Surrogate(surrogate) = of_case.fibres else { panic!("{of_case:?}") };
-
-        // A run of the same case: its measures, and its table.
-        let desk = tempfile::tempdir().unwrap();
-        let folder = desk.path().join("r");
-        let staging = Staging::new(&folder, ENTRIES, false, &STOP).unwrap();
-        let recorder = TableRecorder::new(&staging, true);
-        let mut tables = Tables::create(&staging, &recorder).unwrap();
-        let (steps, isa) = (AtomicU64::new(0), Isa::detect());
-        let computing =
-            Computing { threads: 2, isa, stop: &STOP, fibre_steps: &steps, recorder: Some(&recorder) };
-        let mut results = Results::collector(0);
-        fly(&case, Keep::NUMBERS, computing, |trajectory| {
-            tables.add(trajectory.replicate)?;
-            results.take(trajectory);
-            Ok::<(), Failure>(())
-        })
-        .unwrap();
-        tables.finish().unwrap();
-        staging.publish().unwrap();
-        let results = results.finish();
-        let measured = ["sigma_1", "sigma_2", "noise"].map(|name| results.estimate(name));
-        assert_eq!(
-            [surrogate.sigma_md, surrogate.sigma_cd, surrogate.noise],
-            measured.clone().map(|of| of.mean)
-        );
-        assert_eq!(
-            of_case.flown.unwrap().numbers.clone().map(|of| of.standard_error),
-            measured.map(|of| of.standard_error)
-        );
-
-        spec.layers[0].source = LaydownSource::Results { folder, case: Arc::new(case) };
-        let of_results = flyer.fibres(&spec, &spec.layers[0]).unwrap();
-        let Fibres::Surrogate(again) = of_results.fibres else { panic!("{of_results:?}") };
-        assert_eq!(again, surrogate);
-        // The curves too.
-        let curves = |path: &Path| &flyer.flown.iter().find(|(of, ..)| of == path).unwrap().2.curves;
-        let [flown, read] = [Path::new("short.toml"), &desk.path().join("r")].map(curves);
-        assert_eq!(flown, read);
-        spec.method = Method::Dynamics;
-        let laid = flyer.fibres(&spec, &spec.layers[0]).unwrap().fibres;
-        assert!(matches!(laid, Fibres::Curves(_)), "{laid:?}");
-    }
-
-    #[test]
-    fn rejects_fibres_that_make_no_web() {
-        static STOP: AtomicBool = AtomicBool::new(false);
-        let mut flyer = Flyer::new(1, &STOP, &|_, _, _, work| work());
-        // So long elements show too little of the autocorrelation to see a surrogate in it.
-        let (spec, _) = web("25 mm", "surrogate");
-        let said = flyer.fibres(&spec, &spec.layers[0]).unwrap_err();
-        assert_eq!(said.exit_code(), 1);
-        let said = said.to_string();
-        assert!(
-            said.starts_with("short.toml: no surrogate was identified in what its fibres lay: "),
-            "{said}"
-        );
-        assert!(
-            said.contains("with points closer together") && said.contains("web.method = \"dynamics\""),
-            "{said}"
-        );
-        // A sheet on which these filaments would meet themselves.
-        let (mut small, _) = web("4 mm", "dynamics");
-        small.sheet.length = 1e-3;
-        let said = flyer.fibres(&small, &small.layers[0]).unwrap_err().to_string();
-        assert!(said.starts_with("web.length = 1 mm is shorter than 8 times laydown.sigma_md = "), "{said}");
-        // A folder without a table.
-        let desk = tempfile::tempdir().unwrap();
-        let said = laid::read(desk.path()).unwrap_err().to_string();
-        assert!(said.contains("laid.parquet: "), "{said}");
-        std::fs::write(desk.path().join("laid.parquet"), "PAR1 not at all PAR1").unwrap();
-        assert!(laid::read(desk.path()).unwrap_err().to_string().contains("laid.parquet: "));
     }
 }

@@ -1,16 +1,16 @@
 //! Reads back what the fibres of a finished run have laid.
 
-use crate::Failure;
-use crate::failure::not_a_run;
-use crate::output::tables::LAID;
+use crate::error::Error;
+use crate::flight::LaidPoint;
 use parquet::column::reader::ColumnReader;
 use parquet::errors::{ParquetError, Result as Decoded};
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use spunlaid::flight::LaidPoint;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;
 
+/// The table of laid points in the folder of a run.
+pub const LAID: &str = "laid.parquet";
 /// The columns that are read: number of the replicate; length fed before a point, time of its touch-down, and place on the belt.
 const COLUMNS: [&str; 5] = ["replicate", "s_m", "time_s", "md_m", "cd_m"];
 
@@ -18,8 +18,8 @@ const COLUMNS: [&str; 5] = ["replicate", "s_m", "time_s", "md_m", "cd_m"];
 ///
 /// # Errors
 /// If the folder has no table of laid points, or one that cannot be read.
-pub(super) fn read(folder: &Path) -> Result<Vec<Vec<LaidPoint>>, Failure> {
-    let not_a_run = |reason: String| not_a_run(folder, &format!("{LAID}: {reason}"));
+pub fn read(folder: &Path) -> Result<Vec<Vec<LaidPoint>>, Error> {
+    let not_a_run = |reason: String| Error::not_a_run(folder, &format!("{LAID}: {reason}"));
     let file = File::open(folder.join(LAID)).map_err(|error| not_a_run(error.to_string()))?;
     let curves = decode(file).map_err(|error| not_a_run(error.to_string()))?;
     Ok(curves.into_values().collect())

@@ -1,0 +1,151 @@
+//! The case that a study varies.
+
+use super::super::Overrides;
+use super::super::data::DataFiles;
+use super::super::document::Document;
+use super::super::open::{self, Open};
+use super::super::written::{Said, Written};
+use super::plan::Plan;
+use super::{Base, Made, Varied, level};
+use crate::case::keys::{self, Value};
+use crate::case::{Note, Remark};
+use crate::error::{Error, Fault, Place, Problem};
+use crate::study::{Experiment, Quantity, Study};
+
+/// The case as it is written, with the files that it names.
+pub(super) struct CaseBase {
+    text: String,
+    open: Open,
+    files: DataFiles,
+}
+
+impl CaseBase {
+    /// * `name` – of the file, for messages
+    /// * `set` – keys that are the same at all points
+    pub(super) fn new(text: String, name: &str, set: &[Overrides<'_>]) -> Result<Self, Error> {
+        let files = DataFiles::default();
+        let open = open::open(Document::read(&text, name, set)?, &files)?;
+        Ok(Self { text, open, files })
+    }
+}
+
+impl Base for CaseBase {
+    fn varied(&self, name: &str) -> Result<Varied, String> {
+        keys::find(name).filter(|key| key.varies).map(Varied::from).ok_or_else(|| advice(name))
+    }
+
+    fn value(&self, key: Varied) -> f64 {
+        let value = keys::find(key.name).and_then(|found| {
+            if key.words().is_empty() {
+                self.open.number(found)
+            } else {
+                level(key.kind, &found.get(&self.open.case)?)
+            }
+        });
+        value.unwrap_or(f64::NAN)
+    }
+
+    fn seed_and_replicates(&self) -> (u64, u64) {
+        (self.open.case.run.seed, self.open.case.run.replicates)
+    }
+
+    fn quantities(&self) -> Vec<Quantity> {
+        Study::quantities_of(&[])
+    }
+
+    fn point(&self, values: &[(Varied, f64)], at: &Place, plan: &Plan, seed: Option<u64>) -> Made {
+        let (mut written, mut faults) = (self.open.written.clone(), Vec::new());
+        for &(key, value) in values {
+            let shown = Some(key.pretty(value));
+            match value_of(key, value) {
+                Ok(value) => {
+                    written.set(key.name, Said { place: at.clone(), shown, value: Some(value) });
+                }
+                Err(what) => {
+                    faults.push(Problem { place: at.clone(), key: key.name.to_owned(), value: shown, what });
+                }
+            }
+        }
+        if !faults.is_empty() {
+            return Err(faults.into());
+        }
+        let seed = seed.unwrap_or(plan.seed);
+        for (name, value) in [("run.seed", seed), ("run.replicates", plan.replicates.at_most)] {
+            if let Some(key) = keys::find(name) {
+                let (shown, value) = (Some(value.to_string()), Some(Value::Whole(value)));
+                written.set(key.name, Said { place: at.clone(), shown, value });
+            }
+        }
+        let (opened, unneeded) = self.open(written, values);
+        let (case, mut notes) = opened.and_then(Open::resolve)?;
+        notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
+        Ok((Experiment::Case(case), notes))
+    }
+
+    fn set_beside(&self, set: Vec<(String, String)>) -> Vec<(String, String)> {
+        set
+    }
+
+    fn text(&self) -> String {
+        self.text.clone()
+    }
+}
+
+impl CaseBase {
+    /// Sets the written values. A word that varies may leave keys of the base case without a meaning, as
+    /// another drag law does with the coefficient of the first; these are left out, each with a remark.
+    fn open(&self, written: Written, set: &[(Varied, f64)]) -> (Result<Open, Error>, Vec<Note>) {
+        let opened = open::open(written.clone(), &self.files);
+        let is_unneeded = |problem: &&Problem| {
+            problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
+        };
+        let unneeded: Vec<Note> = match &opened {
+            Err(Error::Rejected(problems)) if set.iter().any(|(key, _)| !key.words().is_empty()) => {
+                let note = |problem: &Problem| {
+                    let what = Remark::Unneeded { needed: problem.what.needs? };
+                    let Problem { place, key, value, .. } = problem.clone();
+                    Some(Note { place, key, value, what })
+                };
+                problems.iter().filter(is_unneeded).filter_map(note).collect()
+            }
+            _ => Vec::new(),
+        };
+        if unneeded.is_empty() {
+            return (opened, unneeded);
+        }
+        let mut fewer = written;
+        unneeded.iter().for_each(|note| drop(fewer.remove(&note.key)));
+        (open::open(fewer, &self.files), unneeded)
+    }
+}
+
+/// A number as the value of a key: a quantity, a whole number, or the place of a word among the words of the key.
+fn value_of(key: Varied, value: f64) -> Result<Value, Fault> {
+    if let Some(word) = key.kind.words().get(value as usize) {
+        return Ok((*word).into());
+    }
+    if !key.is_whole() {
+        return key.kind.accept(Value::Number(value));
+    }
+    if (1.0..1e15).contains(&value) {
+        Ok(Value::Whole(value as u64))
+    } else {
+        Err(Fault::out_of_range(1, 1_000_000_000_000_000))
+    }
+}
+
+/// Advice for a name that a study cannot vary.
+pub(super) fn advice(name: &str) -> String {
+    match name {
+        "run.replicates" => return "write replicates = 10 in the study file, above its tables".to_owned(),
+        "run.seed" => return "write seed = 1 in the study file, above its tables".to_owned(),
+        _ => {}
+    }
+    if keys::find(name).is_some() {
+        return "take a key whose value is a number or one of a few words".to_owned();
+    }
+    match keys::nearest(name) {
+        Some(key) if key.varies => format!("did you mean {}?", key.name),
+        _ => "write the full name of a key of the case, like air.velocity".to_owned(),
+    }
+}

@@ -1,0 +1,173 @@
+//! The layers of a web: what is to be laid, as a file says it, and the fibres of which it is laid.
+//!
+//! ```text
+//! WebSpec (sheet and layers) → Flyer: the fibres of each layer, flown or read or known → Web, which `web` lays
+//! ```
+
+mod flown;
+pub(crate) mod keys;
+mod laid;
+
+pub use flown::{Flown, Flyer, Follow, OfLayer, to_lay};
+pub use keys::{WEB_KEYS, WEB_TABLES, WebKey};
+pub use laid::{LAID, read as read_laid};
+
+use crate::case::Case;
+use crate::error::{Error, Fault, Finding, Place, Problem};
+use crate::surrogate::Surrogate;
+use crate::units::Dimension;
+use crate::web::{Edges, Fibres, Filaments, Layer, Sheet, Web};
+use std::f64::consts::PI;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Fewest standard deviations of a filament's place that a closed side of the web is long.
+const LEAST_SPREADS: f64 = 8.0;
+
+/// A web before its fibres have been flown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WebSpec {
+    /// The sheet.
+    pub sheet: Sheet,
+    /// What lies on it.
+    pub layers: Vec<LayerSpec>,
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// What is laid.
+    pub method: Method,
+    /// Side of the square in the middle of the sheet whose single fibres are written out [m].
+    pub window: f64,
+}
+
+/// What a web is laid of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Paths of the surrogate.
+    Surrogate,
+    /// The curves of the flown fibres.
+    Dynamics,
+}
+
+/// A layer before its fibres have been flown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayerSpec {
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// Diameter of a filament [m].
+    pub diameter: f64,
+    /// Density of the polymer [kg/m³].
+    pub density: f64,
+    /// How the filaments lie, or what tells it.
+    pub source: LaydownSource,
+    /// Speed at which each filament is fed [m/s].
+    pub feed_speed: f64,
+    /// Speed of the belt [m/s].
+    pub belt_speed: f64,
+    /// Where the filaments come down.
+    pub filaments: Filaments,
+}
+
+/// What tells how a filament lies.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LaydownSource {
+    /// A case that is to be flown.
+    Case {
+        /// Its file.
+        path: PathBuf,
+        /// What is in it.
+        case: Arc<Case>,
+    },
+    /// The results of such a case.
+    Results {
+        /// Their folder.
+        folder: PathBuf,
+        /// The case that was flown.
+        case: Arc<Case>,
+    },
+    /// Known numbers.
+    Surrogate(Surrogate),
+}
+
+impl LaydownSource {
+    /// The case of the flown fibres, if there is one.
+    pub fn case(&self) -> Option<&Case> {
+        match self {
+            Self::Case { case, .. } | Self::Results { case, .. } => Some(case),
+            Self::Surrogate(_) => None,
+        }
+    }
+}
+
+impl LayerSpec {
+    /// Mass per length of a filament [kg/m].
+    pub fn linear_density(&self) -> f64 {
+        0.25 * PI * self.diameter * self.diameter * self.density
+    }
+
+    /// The layer, once its fibres are known.
+    pub fn layer(&self, fibres: Fibres) -> Layer {
+        Layer {
+            linear_density: self.linear_density(),
+            feed_speed: self.feed_speed,
+            belt_speed: self.belt_speed,
+            filaments: self.filaments.clone(),
+            fibres,
+            compared: None,
+        }
+    }
+}
+
+impl WebSpec {
+    /// The web of one of its layers alone.
+    pub fn alone(&self, layer: usize) -> Self {
+        Self { layers: self.layers.get(layer).cloned().into_iter().collect(), ..self.clone() }
+    }
+
+    /// The web, once the fibres of each layer are known, in their order.
+    pub fn web(&self, fibres: impl IntoIterator<Item = Fibres>) -> Web {
+        let layers = self.layers.iter().zip(fibres).map(|(layer, fibres)| layer.layer(fibres)).collect();
+        Web { sheet: self.sheet.clone(), layers, seed: self.seed }
+    }
+
+    /// Says whether the sheet is large enough for filaments that spread so far. One that leaves it at one end comes in at
+    /// the other, and must not meet itself there.
+    ///
+    /// * `spreads` – standard deviations of a filament's place in machine and in cross direction [m]
+    ///
+    /// # Errors
+    /// If a side that is closed to a ring is shorter than eight standard deviations.
+    pub fn check_spreads(&self, spreads: [f64; 2]) -> Result<(), Error> {
+        let problems: Vec<Problem> = too_small(&self.sheet, spreads)
+            .map(|(key, side, what)| {
+                let value = Some(Dimension::Length.pretty(side));
+                Finding { place: Place::Code, key: key.to_owned(), value, what }
+            })
+            .collect();
+        if problems.is_empty() { Ok(()) } else { Err(problems.into()) }
+    }
+}
+
+/// The sides of a sheet that are too short for filaments that spread so far: key, size [m] and what is wrong.
+pub(crate) fn too_small(
+    sheet: &Sheet,
+    spreads: [f64; 2],
+) -> impl Iterator<Item = (&'static str, f64, Fault)> {
+    let closed = [true, sheet.edges == Edges::Periodic];
+    let sides =
+        [("web.length", sheet.length, "laydown.sigma_md"), ("web.width", sheet.width, "laydown.sigma_cd")];
+    let of = move |(((key, side, sigma), spread), closed)| {
+        let is_short = closed && side < LEAST_SPREADS * spread;
+        let [spread, least] = [spread, LEAST_SPREADS * spread].map(|size| Dimension::Length.pretty(size));
+        let fault = || {
+            Fault::new(
+                format!(
+                    "is shorter than {LEAST_SPREADS} times {sigma} = {spread}, and a filament that leaves the web at one end \
+                     comes in at the other and would meet itself"
+                ),
+                format!("write {least} or more"),
+            )
+        };
+        is_short.then(|| (key, side, fault()))
+    };
+    sides.into_iter().zip(spreads).zip(closed).filter_map(of)
+}

@@ -1,0 +1,89 @@
+//! What a point of a study repeats: flights of a case, or webs.
+
+use crate::case::{Case, keys};
+use crate::layers::{WEB_KEYS, WebSpec};
+
+/// What a point repeats, with its seed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Experiment {
+    /// Each replicate is a fibre of this case, in turbulence of its own. The case has the largest number of replicates
+    /// that may be flown.
+    Case(Case),
+    /// Each replicate is such a web, with a seed of its own.
+    Web(WebSpec),
+}
+
+impl From<Case> for Experiment {
+    fn from(case: Case) -> Self {
+        Self::Case(case)
+    }
+}
+
+impl Experiment {
+    /// The case of fibres that are measured themselves.
+    pub const fn case(&self) -> Option<&Case> {
+        match self {
+            Self::Case(case) => Some(case),
+            Self::Web(_) => None,
+        }
+    }
+
+    /// The web.
+    pub const fn web(&self) -> Option<&WebSpec> {
+        match self {
+            Self::Web(web) => Some(web),
+            Self::Case(_) => None,
+        }
+    }
+
+    /// The seed of its random numbers.
+    pub const fn seed(&self) -> u64 {
+        match self {
+            Self::Case(case) => case.run.seed,
+            Self::Web(web) => web.seed,
+        }
+    }
+
+    /// What a replicate is called.
+    pub const fn noun(&self) -> &'static str {
+        match self {
+            Self::Case(_) => "fibre",
+            Self::Web(_) => "web",
+        }
+    }
+
+    /// Enters everything on which its records depend into a checksum.
+    pub(super) fn enter(&self, sum: &mut crc32fast::Hasher) {
+        match self {
+            Self::Case(case) => enter_keys(sum, case),
+            Self::Web(web) => {
+                for number in 0..web.layers.len() {
+                    let alone = web.alone(number);
+                    for key in WEB_KEYS {
+                        if let Some(value) = key.get(&alone) {
+                            sum.update(key.name.as_bytes());
+                            sum.update(&value.bytes());
+                        }
+                    }
+                    let layer = &alone.layers[0];
+                    // The keys of rows show the first row only.
+                    sum.update(format!("{:?}", layer.filaments).as_bytes());
+                    layer.source.case().iter().for_each(|case| enter_keys(sum, case));
+                }
+            }
+        }
+    }
+}
+
+/// Enters the name and the value of every key of a case but the number of replicates. A case that is written and read again
+/// has the same values, to the last bit; of files, the contents count.
+fn enter_keys(sum: &mut crc32fast::Hasher, case: &Case) {
+    for key in keys::all().iter().filter(|key| key.name != "run.replicates") {
+        if let Some(value) = key.get(case) {
+            sum.update(key.name.as_bytes());
+            // A number that the flow tells along the way is another than the same number everywhere.
+            sum.update(&[u8::from(key.is_told(case))]);
+            sum.update(&value.bytes());
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! Lays the webs of a study, one after another.
+
+use super::measures::{Landing, Record, measured_of_web};
+use super::pack::Batch;
+use super::{Point, seed_of_point};
+use crate::ensemble::Computing;
+use crate::error::Error;
+use crate::layers::{Flyer, WebSpec, to_lay};
+use crate::web::{Laying, measure, pieces};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Lays the webs of some batches. The fibres of a point are flown once for all its webs.
+///
+/// * `sides` – of the patches of the study [m]
+/// * `steps` – the number of steps and pieces to do becomes larger by those of each case and each web
+/// * `take` – receives the record of each web, in their order
+///
+/// # Errors
+/// If fibres cannot be flown or read, if a web cannot be laid, and every error of `take`.
+pub(super) fn lay(
+    (points, sides): (&[Point], &[f64]),
+    batches: &[Batch],
+    computing: Computing<'_>,
+    steps: &AtomicU64,
+    mut take: impl FnMut(Record) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let Computing { threads, isa, stop, fibre_steps, .. } = computing;
+    let follow = |_: &_, _, (done, all): (&AtomicU64, u64), work: &mut (dyn FnMut() + Send)| {
+        steps.fetch_add(all, Ordering::Relaxed);
+        work();
+        fibre_steps.fetch_add(done.load(Ordering::Relaxed), Ordering::Relaxed);
+    };
+    let mut flyer = Flyer::new(threads, stop, &follow);
+    for Batch { point, replicates } in batches {
+        let Some(spec) = points[*point].experiment.web() else { continue };
+        let layers = spec.layers.iter().map(|layer| flyer.fibres(spec, layer));
+        let layers = layers.collect::<Result<Vec<_>, _>>()?;
+        for replicate in replicates.clone() {
+            let web = to_lay(&WebSpec { seed: seed(spec, replicate), ..spec.clone() }, &layers);
+            steps.fetch_add(pieces(&web)?, Ordering::Relaxed);
+            let found = measure(&web, Laying { threads, isa, stop, laid: fibre_steps })?;
+            let landing = Landing::Measured(measured_of_web(sides, &web, &found));
+            take(Record { point: *point as u64, replicate, landing })?;
+        }
+    }
+    Ok(())
+}
+
+/// The seed of a web of a point. The same webs lie at each point, as far as the keys allow: what differs is then less by
+/// chance.
+fn seed(spec: &WebSpec, replicate: u64) -> u64 {
+    if replicate == 0 { spec.seed } else { seed_of_point(spec.seed, replicate) }
+}
