@@ -18,7 +18,7 @@ use std::path::Path;
 const PROGRAM: &[&[&str]] = &[&["args", "failure", "progress", "say"], &["live"], &["commands"]];
 
 const RESULTS: &[&[&str]] =
-    &[&["failure", "numbers"], &["webs"], &["figures"], &["output"], &["report"], &["folders"]];
+    &[&["failure", "numbers"], &["figures"], &["output"], &["report"], &["folders"]];
 
 const CHARTS: &[&[&str]] = &[
     &["decimate", "glyphs", "numbers", "palette"],

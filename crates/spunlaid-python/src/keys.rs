@@ -1,28 +1,37 @@
-//! The table of keys.
+//! The tables of keys.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::case::keys::{LeftOut, all};
+use spunlaid::case::keys::{Key, LeftOut, all};
+use spunlaid::layers::WEB_KEYS;
 
-/// Every key of a case: a dict for each. See spunlaid.keys, which calls it.
+/// Every key of a case or of a web: a dict for each. See spunlaid.keys, which calls it.
 #[pyfunction]
-pub(crate) fn keys(py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
+#[pyo3(signature = (web = false))]
+pub(crate) fn keys(py: Python<'_>, web: bool) -> PyResult<Bound<'_, PyList>> {
     let list = PyList::empty(py);
-    for key in all() {
-        let of = PyDict::new(py);
-        of.set_item("name", key.name)?;
-        of.set_item("unit", key.dimension().map(|dimension| dimension.si_unit()))?;
-        of.set_item("allowed", key.allowed())?;
-        of.set_item("words", key.kind.words())?;
-        of.set_item("required", matches!(key.left_out, LeftOut::Required(_)))?;
-        let (LeftOut::Required(text) | LeftOut::Value(text) | LeftOut::Follows(text)) = key.left_out;
-        of.set_item("left_out", text)?;
-        of.set_item("meaning", key.meaning)?;
-        of.set_item("label", key.label)?;
-        of.set_item("varies", key.varies)?;
-        of.set_item("in_flight", key.in_flight)?;
-        of.set_item("usual", key.slider)?;
-        list.append(of)?;
+    if web {
+        WEB_KEYS.iter().try_for_each(|key| list.append(about(py, key)?))?;
+    } else {
+        all().iter().try_for_each(|key| list.append(about(py, key)?))?;
     }
     Ok(list)
+}
+
+/// What is told of a key.
+fn about<'py, T>(py: Python<'py>, key: &Key<T>) -> PyResult<Bound<'py, PyDict>> {
+    let of = PyDict::new(py);
+    of.set_item("name", key.name)?;
+    of.set_item("unit", key.dimension().map(|dimension| dimension.si_unit()))?;
+    of.set_item("allowed", key.allowed())?;
+    of.set_item("words", key.kind.words())?;
+    of.set_item("required", matches!(key.left_out, LeftOut::Required(_)))?;
+    let (LeftOut::Required(text) | LeftOut::Value(text) | LeftOut::Follows(text)) = key.left_out;
+    of.set_item("left_out", text)?;
+    of.set_item("meaning", key.meaning)?;
+    of.set_item("label", key.label)?;
+    of.set_item("varies", key.varies)?;
+    of.set_item("in_flight", key.in_flight)?;
+    of.set_item("usual", key.slider)?;
+    Ok(of)
 }

@@ -75,6 +75,29 @@ def test_identical_with_a_worker_killed_half_way(
     assert spunlaid.sweep(study, client=cluster).to_pandas().equals(found.to_pandas())
 
 
+def test_identical_webs_on_a_cluster(cluster: Any, tmp_path: Path) -> None:
+    """Webs of known numbers, and webs whose case is flown by each worker."""
+    cases = Path(__file__).parents[3] / "cases"
+    known = {
+        "web": cases / "web_known.toml",
+        "replicates": 2,
+        "set": {"web.width": "0.2 m", "web.length": "0.2 m"},
+        "vary": {"line.belt_speed": [3.0, 4.0]},
+    }
+    short = {"run.duration": "0.15 s", "run.replicates": 3, "belt.distance": "0.1 m", "fibre.element_length": "4 mm"}
+    flown = {
+        "web": cases / "web.toml",
+        "set": {"web.width": "0.4 m", "web.length": "0.4 m", **short},
+        "vary": {"belt.speed": [3.0, 4.0]},
+    }
+    for number, study in enumerate((known, flown)):
+        here, there = (tmp_path / f"{where}{number}" for where in ("here", "there"))
+        spunlaid.sweep(study, out=here)
+        found = spunlaid.sweep(study, client=cluster, out=there)
+        assert_same(here, there)
+        assert found.noun == "web" and (found.mean["cv_10_mm"] > 0.0).all()
+
+
 def test_rounds_are_those_of_one_machine(cluster: Any) -> None:
     case = Case.starter().with_({"run.duration": 0.02, "run.time_step": "20 us", "run.output_interval": "1 ms", "run.spin_up": 0})
     until = {"at_least": 6, "at_most": 64, "until": {"amplitude_y": "15 %"}}
@@ -139,9 +162,9 @@ def test_other_content_of_a_file_on_a_worker_is_seen(cluster: Any) -> None:
 
     study = _spunlaid.Study('case = "case.toml"\ndesign = "grid"\nreplicates = 1\n[vary]\n"air.velocity" = ["10 m/s"]\n', Case.starter())
     study.begin_round(1)
-    ((point, text, checksum, first, last),) = study.bundle(0)
+    ((point, text, cases, checksum, first, last),), sides = study.bundle(0)
     with pytest.raises(spunlaid.ClusterError, match="another one on this machine"):
-        _spunlaid.fly_bundle([(point, text, checksum ^ 1, first, last)])
+        _spunlaid.fly_bundle([(point, text, cases, checksum ^ 1, first, last)], sides)
 
 
 def test_rejects_what_is_no_client(study: dict[str, object]) -> None:

@@ -79,3 +79,26 @@ def test_flown_fibres_make_a_web(tmp_path: Path, fed: spunlaid.Case) -> None:
 def test_rejects_what_is_no_web(web: object, error: type[Exception]) -> None:
     with pytest.raises(error):
         spunlaid.web(web)  # type: ignore[arg-type]
+
+
+def test_a_study_of_webs(program: Path, tmp_path: Path) -> None:
+    study = {
+        "web": CASES / "web_known.toml",
+        "replicates": 2,
+        "set": {"web.width": "0.2 m", "web.length": "0.2 m"},
+        "vary": {"line.belt_speed": [3.0, 4.0]},
+    }
+    found = spunlaid.sweep(study, out=tmp_path / "here")
+    assert list(found.n) == [2, 2] and repr(found).endswith("4 webs>")
+    # A slower belt takes more fibre, which is more even.
+    basis, cv = found.mean["basis_weight_kg_m2"], found.mean["cv_10_mm_one_fibre"]
+    np.testing.assert_allclose(basis[0] / basis[1], 4 / 3, rtol=1e-4)
+    assert cv[0] < cv[1]
+    assert spunlaid.keys(web=True)["line.belt_speed"].varies
+    with pytest.raises(ValueError, match="webs"):
+        found.case(0)
+    # The program gives the same files from the study as it was written.
+    command = [program, "sweep", tmp_path / "here" / "study.toml", "--out", tmp_path / "there", "--quiet"]
+    subprocess.run(command, check=True, capture_output=True)
+    for name in ("results.csv", "results.json", "results.parquet"):
+        assert (tmp_path / "here" / name).read_bytes() == (tmp_path / "there" / name).read_bytes(), name

@@ -90,7 +90,13 @@ impl<T: Copy + PartialEq> Along<T> {
     /// The value of a place.
     #[inline(always)]
     pub(crate) fn at(&self, i: usize) -> &T {
-        &self.values[i * self.stride]
+        self.view().at(i)
+    }
+
+    /// The values for a loop along the chain.
+    #[inline(always)]
+    pub(crate) fn view(&self) -> View<'_, T> {
+        View { values: &self.values, stride: self.stride }
     }
 
     /// Whether all places are alike.
@@ -110,5 +116,19 @@ impl<T: Copy + PartialEq> Along<T> {
         if !self.is_uniform() {
             self.values.truncate(count);
         }
+    }
+}
+
+/// [`Along`] in a loop, where its parts stay in registers.
+pub(crate) struct View<'a, T> {
+    values: &'a [T],
+    stride: usize,
+}
+
+impl<'a, T> View<'a, T> {
+    /// The value of a place.
+    #[inline(always)]
+    pub(crate) fn at(&self, i: usize) -> &'a T {
+        &self.values[i * self.stride]
     }
 }

@@ -94,8 +94,8 @@ folder holds
   journal              the results of every fibre; with it the study can be continued
 
 A study may vary a web in place of a case, with `web = \"web.toml\"` in place of `case`, keys of the
-web or of the case that it flies, and `replicates` webs of each point. Its results are the unevenness
-over patches; webs.jsonl keeps each web that is laid.
+web or of the case that it flies, and `replicates` webs of each point. Designs, links, replicates and
+files are the same; the results are the unevenness over patches, and web.toml stands for case.toml.
 
 Examples:
   spunlaid sweep cases/studies/velocity.toml

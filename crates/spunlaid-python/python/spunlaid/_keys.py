@@ -1,4 +1,4 @@
-"""The keys of a case."""
+"""The keys of a case and of a web."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from . import _spunlaid
 
 
 class Key(NamedTuple):
-    """A key of a case."""
+    """A key of a case or of a web."""
 
     name: str
     """Full name, `air.velocity`."""
@@ -34,6 +34,6 @@ class Key(NamedTuple):
     """The usual smallest and largest value, in SI units."""
 
 
-def keys() -> dict[str, Key]:
-    """Every key of a case by its full name, in the order of a case file: `keys()["air.velocity"].meaning`."""
-    return {key["name"]: Key(**key) for key in _spunlaid.keys()}
+def keys(*, web: bool = False) -> dict[str, Key]:
+    """Every key of a case, or of a web, by its full name, in the order of a file: `keys()["air.velocity"].meaning`."""
+    return {key["name"]: Key(**key) for key in _spunlaid.keys(web)}

@@ -13,7 +13,7 @@ from ._keys import Key, keys
 
 def study_toml(study: Mapping[str, Any]) -> str:
     """The text of a study file. Numbers of keys with a dimension are in SI units."""
-    known = keys()
+    known = keys(web="web" in study) | keys()
     lines: list[str] = [] if "design" in study else ['design = "grid"']
     tables: list[str] = []
     for name, value in study.items():

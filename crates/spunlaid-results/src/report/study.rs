@@ -149,6 +149,7 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
         let (name, formula) = (name_of_key(link.key), link.expression.text());
         text += &format!(" The {name} follows from the others: {} = {formula}.", link.key);
     }
+    text += &most_even(study, results).unwrap_or_default();
     let lost: u64 = results.iter().map(|point| point.lost).sum();
     if lost > 0 {
         text += &format!(
@@ -157,6 +158,40 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
         );
     }
     text
+}
+
+/// The most even and the least even web, over patches of one size; by the flown curves, where all points have them. None for
+/// fibres, and where all points are alike.
+fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
+    let of_figure = |figure: &str| -> Vec<usize> {
+        let all = study.quantities.iter().enumerate();
+        all.filter(|(_, of)| of.figure.name == figure).map(|(index, _)| index).collect()
+    };
+    let known = |quantity: &usize| results.iter().all(|point| point.mean[*quantity].is_finite());
+    let middle = |figure| {
+        let all = of_figure(figure);
+        all.get(all.len() / 2).copied().filter(known)
+    };
+    let (how, quantity) = match (middle("cv_flown"), middle("cv")) {
+        (Some(flown), _) => ("By the flown curves, over", flown),
+        (None, cv) => ("Over", cv?),
+    };
+    let order = |a: &usize, b: &usize| results[*a].mean[quantity].total_cmp(&results[*b].mean[quantity]);
+    let (best, worst) = ((0..results.len()).min_by(order)?, (0..results.len()).max_by(order)?);
+    let told = |point: usize| {
+        let values = study.inputs().zip(&study.points[point].values);
+        let values = values.map(|(of, value)| format!("{} {}", name_of_key(of.key), of.pretty(*value)));
+        let cv = shown::cell(study, &results[point], quantity);
+        format!("{} (CV {cv} %)", values.collect::<Vec<_>>().join(", "))
+    };
+    let side = &study.quantities[quantity].series;
+    (best != worst).then(|| {
+        format!(
+            " {how} patches of {side} the web is most even at {} and least even at {}.",
+            told(best),
+            told(worst)
+        )
+    })
 }
 
 fn phases(study: &Study) -> &'static str {

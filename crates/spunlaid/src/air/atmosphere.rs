@@ -6,10 +6,8 @@
 //! ```
 //!
 //! The kernel asks for velocities and knows no kind of air. A kind is a variant of both types here, and what it looks at is its
-//! own: it may belong to one flight, or be a handle to something that many flights read. The kernel takes the velocities one by
-//! one while it computes the geometry. Written into a buffer beforehand they cost 6 to 15 % of a step, because the signals of
-//! many eddies do not fit into the first-level cache, and nothing else would be done while they arrive.
-
+//! own: it may belong to one flight, or be a handle to what many flights read. Velocities that are all written into a buffer
+//! beforehand cost up to a seventh of a step: the signals of many eddies do not fit into the first-level cache.
 use super::eddy_wind::{InEddies, LastEddy};
 use super::stations::OnTheWay;
 use super::surroundings::InFlow;
@@ -19,6 +17,8 @@ use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
 /// The air in which up to eight fibres fly.
+// A flight has one, so its size does not matter.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug)]
 pub enum Atmosphere {
     /// Eddies in a flow that is the same everywhere.

@@ -227,25 +227,31 @@ impl Stations {
         OnTheWay { elements: &self.elements, steps: Wide::splat(since as f64) }
     }
 
-    /// Keeps the velocity at each station.
+    /// Keeps the velocity at a station, which has this signal.
     #[inline(always)]
-    fn hear<S: Register>(&mut self, signal: impl Fn(u32) -> Vec3<Wide<S>>) {
-        for (k, (now, [mean, factor])) in (0..).zip(self.now.iter_mut().zip(&self.still)) {
-            let Vec3 { x, y, z } = (signal(k) * Wide::load(factor)).store();
-            for (lane, now) in now.iter_mut().enumerate() {
-                *now = [x.0[lane], y.0[lane], z.0[lane], mean.0[lane]];
-            }
+    fn hear<S: Register>(&mut self, station: usize, signal: Vec3<Wide<S>>) {
+        let [mean, factor] = &self.still[station];
+        let Vec3 { x, y, z } = (signal * Wide::load(factor)).store();
+        for (lane, now) in self.now[station].iter_mut().enumerate() {
+            *now = [x.0[lane], y.0[lane], z.0[lane], mean.0[lane]];
         }
     }
 
     /// Looks up the air at the elements at the time `t` [s].
     #[inline(always)]
     fn look_up<S: Register>(&mut self, t: f64, wind: &mut Wind, position: &[Vec3<Lanes>]) {
+        // No closures here, because the compiler does not always inline them.
         match wind.among_samples::<S>(t) {
-            Some(signal) => self.hear(|k| signal.velocity(k)),
+            Some(signal) => {
+                for k in 0..self.way.stations {
+                    self.hear(k, signal.velocity(k as u32));
+                }
+            }
             None => {
                 let signal = wind.blow::<S>(t);
-                self.hear(|k| signal.velocity(k));
+                for k in 0..self.way.stations {
+                    self.hear(k, signal.velocity(k as u32));
+                }
             }
         }
         if let Some(field) = &mut self.field {

@@ -8,7 +8,7 @@
 //! drift    r ← r + h v
 //! ```
 
-use super::constants::Constants;
+use super::constants::{Constants, ElementConstants};
 use super::force_pass::{ElementBlock, Integrator, force_pass};
 use super::forces::Element;
 use super::laying::Laying;
@@ -91,8 +91,7 @@ impl<S: Register, const LEAPFROG: bool, const FED: bool> Integrator<S>
     }
 
     #[inline(always)]
-    fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S> {
-        let c = self.c.elements.at(j);
+    fn tension(&mut self, _: usize, c: &ElementConstants, element: &Element<S>) -> Wide<S> {
         element.tension(Wide::load(&c.axial_stiffness), Wide::load(&c.rest_length))
     }
 

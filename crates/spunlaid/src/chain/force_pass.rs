@@ -1,6 +1,6 @@
 //! One pass along eight chains that computes all forces on every node.
 
-use super::constants::Constants;
+use super::constants::{Constants, ElementConstants};
 use super::forces::{Element, couple, internal};
 use crate::air::{LastEddy, Velocities};
 use crate::drag::{DragLanes, Split};
@@ -16,7 +16,7 @@ pub(crate) trait Integrator<S: Register> {
     fn drag_velocity(&self, i: usize) -> Vec3<Wide<S>>;
 
     /// Tension of element `j` [N], negative in compression.
-    fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S>;
+    fn tension(&mut self, j: usize, c: &ElementConstants, element: &Element<S>) -> Wide<S>;
 
     /// Takes the power that the bending viscosity dissipates [W].
     fn dissipated(&mut self, power: Wide<S>);
@@ -50,7 +50,8 @@ pub(crate) fn force_pass<S: Register>(
     };
     let viscosity = c.viscosity.as_ref();
     // The fibres of a flight have the kinds of the laws in common.
-    let powers = c.elements.at(0).half_drag.is_powers();
+    let constants = c.elements.view();
+    let powers = constants.at(0).half_drag.is_powers();
     let mut spin_above = Vec3::zero();
     let mut dissipated = Wide::zero();
     // Sums so far on nodes j−1 and j: of all forces, and of the drag alone.
@@ -61,16 +62,17 @@ pub(crate) fn force_pass<S: Register>(
         kinematics(integrator, start, elements, air, viscosity.is_some());
         if powers {
             for (j, item) in (start..).zip(&mut *elements) {
-                c.elements.at(j).half_drag.raise(&mut item.split);
+                constants.at(j).half_drag.raise(&mut item.split);
             }
         } else {
             for (j, item) in (start..).zip(&mut *elements) {
-                c.elements.at(j).half_drag.look_up(j, &mut item.split);
+                constants.at(j).half_drag.look_up(j, &mut item.split);
             }
         }
         for (j, item) in (start..).zip(&*elements) {
             let stiffness = Wide::load(c.bending_stiffness(j));
-            let tension = integrator.tension(j, &item.element);
+            let own = constants.at(j);
+            let tension = integrator.tension(j, own, &item.element);
             let (mut a, mut pull) = internal(&above, &item.element, stiffness, tension);
             if let Some(time) = viscosity {
                 let turning = item.spin - spin_above;
@@ -83,7 +85,7 @@ pub(crate) fn force_pass<S: Register>(
             if j > 0 {
                 integrator.node(j - 1, force_above - a, drag_above);
             }
-            let blow = c.elements.at(j).half_drag.force(&item.split, item.element.tangent);
+            let blow = own.half_drag.force(&item.split, item.element.tangent);
             (force_above, force) = (force + (a + pull + blow), blow - pull);
             (drag_above, drag) = (drag + blow, blow);
             above = item.element;

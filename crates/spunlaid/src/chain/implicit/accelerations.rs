@@ -1,7 +1,7 @@
 //! The forces with the tensions of the last step, and the system of the accelerations.
 
 use super::Tensions;
-use crate::chain::constants::{Constants, Node};
+use crate::chain::constants::{Constants, ElementConstants, Node};
 use crate::chain::force_pass::Integrator;
 use crate::chain::forces::Element;
 use crate::lanes::{Lanes, Register, Wide};
@@ -57,8 +57,7 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
     }
 
     #[inline(always)]
-    fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S> {
-        let c = self.c.elements.at(j);
+    fn tension(&mut self, j: usize, c: &ElementConstants, element: &Element<S>) -> Wide<S> {
         let mass = Wide::load(&c.mass);
         // Without the compression, the prediction does not fold elements that the correction has to unfold.
         let tension = Wide::load(&self.t.tension[j]).max(Wide::zero());
