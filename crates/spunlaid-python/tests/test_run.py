@@ -98,6 +98,32 @@ def test_identical_through_pickle_and_folder(kind: str, tmp_path: Path, request:
         loaded.save(tmp_path / "copy")
 
 
+def test_lost_fibres_are_told_and_in_no_mean(tmp_path: Path) -> None:
+    # A gust of 90 km/s in a record: the fibres whose stretch has it are lost.
+    velocity = ["1e5" if 400 <= i < 420 else f"{10 + i * i % 101 * 0.01}" for i in range(2000)]
+    rows = "".join(f"{i * 1e-3},{u}\n" for i, u in enumerate(velocity))
+    (tmp_path / "gust.csv").write_text(f"time_s,u_m_s\n{rows}")
+    (tmp_path / "gust.toml").write_text(
+        "version = 1\n[fibre]\nlength = '0.2 m'\ndiameter = '50 µm'\ndensity = '950 kg/m³'\nyoungs_modulus = '2 GPa'\n"
+        "element_length = '50 mm'\n[air]\nrecord = 'gust.csv'\nvelocity = '10 m/s'\nturbulence_intensity = 900\n"
+        "length_scale = '0.2 m'\n[run]\nduration = '50 ms'\ntime_step = '20 µs'\nreplicates = 12\n",
+        encoding="utf-8",
+    )
+    run = spunlaid.run(spunlaid.Case.read(tmp_path / "gust.toml"))
+    lost = [number - 1 for number, _, _ in run.lost]
+    assert 0 < len(lost) < 11 and lost == sorted(lost)
+    assert all(reason.startswith(f"replicate {number}: ") for number, _, reason in run.lost)
+    assert any("all others are in the results" in note for note in run.notes)
+    amplitude = run.measures["amplitude_y_m"]
+    assert np.array_equal(np.flatnonzero(np.isnan(amplitude.values)), lost)
+    assert np.isclose(amplitude.mean, np.nanmean(amplitude.values), rtol=1e-12)
+    assert np.array_equal(np.flatnonzero(np.isnan(run.end_node["y_m"][:, 0])), lost)
+    run.save(tmp_path / "r")
+    for again in (pickle.loads(pickle.dumps(run)), spunlaid.load(tmp_path / "r")):
+        assert again.lost == run.lost
+        assert np.array_equal(again.end_node["y_m"], run.end_node["y_m"], equal_nan=True)
+
+
 def test_rejects_folders_that_are_no_runs(tmp_path: Path) -> None:
     for text in (None, "", "[]", "{}", '{"web": 1}'):
         if text is not None:

@@ -1,6 +1,6 @@
 //! Energy of the chain, and the two checks of the work done on it.
 
-use crate::chain::Constants;
+use crate::chain::constants::Constants;
 use crate::chain::forces::Element;
 use crate::chain::laying::Carried;
 use crate::chain::schemes::Scheme;
@@ -117,10 +117,11 @@ impl Task for Held<'_> {
         }
         let (mut axial, mut bending, mut strain) = (Wide::zero(), Wide::zero(), Wide::zero());
         let mut above = Vec3::load(&c.root_direction);
-        let mut stiffness = Wide::load(&c.root_stiffness);
-        let rest_length = Wide::load(&c.rest_length);
         for (j, pair) in self.position.windows(2).enumerate() {
             let element = Element::<S>::between(Vec3::load(&pair[0]), Vec3::load(&pair[1]));
+            let properties = c.elements.at(j);
+            let (rest_length, mut stiffness) =
+                (Wide::load(&properties.rest_length), Wide::load(c.bending_stiffness(j)));
             let mut stretch = element.length - rest_length;
             if j > 0 && c.may_be_held(j, nodes) {
                 // Nodes that have left the chain have no mass, and their elements do not count.
@@ -128,11 +129,10 @@ impl Task for Held<'_> {
                 let counts = |x| Wide::select_less(zero, Wide::load(&c.node(j, nodes).mass), x, zero);
                 (stretch, stiffness) = (counts(stretch), counts(stiffness));
             }
-            axial = (Wide::load(&c.axial_stiffness) * stretch).mul_add(stretch, axial);
+            axial = (Wide::load(&properties.axial_stiffness) * stretch).mul_add(stretch, axial);
             strain = stretch.over(rest_length).abs().max(strain);
             bending = stiffness.mul_add(angle_squared(above, element.tangent), bending);
             above = element.tangent;
-            stiffness = Wide::load(if j == 0 { &c.second_stiffness } else { &c.bending_stiffness });
         }
         let half = Wide::splat(0.5);
         Energy {

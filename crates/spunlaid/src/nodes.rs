@@ -67,3 +67,68 @@ impl<'a, T> IntoIterator for &'a Nodes<T> {
         self.iter()
     }
 }
+
+/// Values along the chain: one for each place, or a single one where all places are alike.
+#[derive(Clone, Debug)]
+pub(crate) struct Along<T> {
+    values: Nodes<T>,
+    /// From the value of one place to that of the next: 0 or 1.
+    stride: usize,
+}
+
+impl<T: Copy + PartialEq> Along<T> {
+    /// * `count` – number of places
+    /// * `value` – of each place
+    pub(crate) fn new(count: usize, value: impl Fn(usize) -> T) -> Self {
+        let first = value(0);
+        if (1..count).all(|i| value(i) == first) {
+            return Self { values: vec![first].into(), stride: 0 };
+        }
+        Self { values: (0..count).map(value).collect(), stride: 1 }
+    }
+
+    /// The value of a place.
+    #[inline(always)]
+    pub(crate) fn at(&self, i: usize) -> &T {
+        self.view().at(i)
+    }
+
+    /// The values for a loop along the chain.
+    #[inline(always)]
+    pub(crate) fn view(&self) -> View<'_, T> {
+        View { values: &self.values, stride: self.stride }
+    }
+
+    /// Whether all places are alike.
+    pub(crate) fn is_uniform(&self) -> bool {
+        self.stride == 0
+    }
+
+    /// Puts a place like the first before it.
+    pub(crate) fn push_root(&mut self) {
+        if !self.is_uniform() {
+            self.values.push_root(self.values[0]);
+        }
+    }
+
+    /// Keeps so many places from the root on.
+    pub(crate) fn truncate(&mut self, count: usize) {
+        if !self.is_uniform() {
+            self.values.truncate(count);
+        }
+    }
+}
+
+/// [`Along`] in a loop, where its parts stay in registers.
+pub(crate) struct View<'a, T> {
+    values: &'a [T],
+    stride: usize,
+}
+
+impl<'a, T> View<'a, T> {
+    /// The value of a place.
+    #[inline(always)]
+    pub(crate) fn at(&self, i: usize) -> &'a T {
+        &self.values[i * self.stride]
+    }
+}

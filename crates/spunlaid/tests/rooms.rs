@@ -61,3 +61,25 @@ fn equations_named_in_the_source_are_in_the_theory() {
     }
     assert!(count > 20, "only {count} equations are named");
 }
+
+/// A file of tests that its program does not name is never compiled.
+#[test]
+fn every_file_of_tests_is_in_its_program() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("a folder of crates");
+    let mut count = 0;
+    for path in sources(crates) {
+        let main = path.with_file_name("main.rs");
+        let in_tests = path.iter().any(|part| part == "tests") && path != main && main.exists();
+        if in_tests && let Some(name) = path.file_stem().and_then(|name| name.to_str()) {
+            let program = fs::read_to_string(&main).expect("a readable source");
+            assert!(
+                program.contains(&format!("mod {name};")),
+                "{} is not in {}",
+                path.display(),
+                main.display()
+            );
+            count += 1;
+        }
+    }
+    assert!(count > 40, "only {count} files of tests");
+}

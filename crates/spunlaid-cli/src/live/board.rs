@@ -163,3 +163,59 @@ impl Board {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fibres::Fibres;
+    use super::super::frame::Lately;
+    use super::*;
+    use spunlaid::input::{parse_case, starter_case};
+
+    fn board() -> Board {
+        let fibres = Fibres::new(parse_case(starter_case(), "a.toml", &[]).unwrap().0).unwrap();
+        Board::new(Frame::of(fibres.seen(), &Lately::new()))
+    }
+
+    fn text(news: News) -> String {
+        let News::Text(text) = news else { panic!("{news:?}") };
+        text.to_string()
+    }
+
+    #[test]
+    fn a_page_gets_its_answers_first_and_the_latest_of_all_else() {
+        let board = board();
+        let (page, mut mark) = (board.open().unwrap(), Bookmark::default());
+        for (topic, shown) in [(Topic::State, "old"), (Topic::State, "new"), (Topic::Settings, "keys")] {
+            board.show_text(topic, shown.to_owned());
+        }
+        board.answer(page, "answer".to_owned());
+        assert!(board.shows(Topic::State, "new") && !board.shows(Topic::State, "old"));
+        let texts = [(); 4].map(|()| text(board.next(page, &mut mark)));
+        assert_eq!(texts, ["answer", "keys", "new", ""]);
+        assert!(matches!(board.next(page, &mut mark), News::Frame(_)));
+        // Nothing comes twice.
+        board.show_text(Topic::Statistics, "now".to_owned());
+        assert_eq!(text(board.next(page, &mut mark)), "now");
+    }
+
+    #[test]
+    fn a_page_that_fetches_nothing_misses_answers_and_a_closed_one_gets_nothing() {
+        let board = board();
+        let (page, mut mark) = (board.open().unwrap(), Bookmark::default());
+        (0..2 * WAITING).for_each(|i| board.answer(page, i.to_string()));
+        (0..WAITING).for_each(|i| assert_eq!(text(board.next(page, &mut mark)), i.to_string()));
+        assert_eq!(text(board.next(page, &mut mark)), "");
+        board.close(page);
+        assert!(matches!(board.next(page, &mut mark), News::End));
+        assert!(!board.post(page, News::End));
+    }
+
+    #[test]
+    fn as_many_pages_as_there_are_places() {
+        let board = board();
+        let pages: Vec<Page> = (0..PAGES).filter_map(|_| board.open()).collect();
+        assert_eq!((pages.len(), board.open()), (PAGES, None));
+        board.close(pages[3]);
+        assert!(board.open().is_some_and(|page| !pages.contains(&page)));
+    }
+}

@@ -158,3 +158,23 @@ fn messages_that_are_too_large_end_the_connection_only() {
     assert!(live.page().frame().2 >= 0.0);
     assert!(!live.said().contains("panicked"));
 }
+
+#[test]
+fn silent_and_slow_clients_keep_nobody_waiting() {
+    let live = Live::start(&[]);
+    let silent: Vec<TcpStream> = (0..100).map(|_| live.connect()).collect();
+    let mut slow = live.connect();
+    slow.write_all(format!("GET /{}/ HTTP/1.1\r\n", live.token).as_bytes()).unwrap();
+    // A page that reads nothing.
+    let deaf = live.page();
+    assert!(live.get("").starts_with("HTTP/1.1 200 "));
+    let mut page = live.page();
+    let first = page.frame().2;
+    while page.frame().2 <= first {}
+    // The slow one is answered when it has said all.
+    slow.write_all(format!("{}\r\n\r\n", live.host()).as_bytes()).unwrap();
+    let mut answer = String::new();
+    slow.read_to_string(&mut answer).unwrap();
+    assert!(answer.starts_with("HTTP/1.1 200 "), "{answer}");
+    drop((silent, deaf));
+}

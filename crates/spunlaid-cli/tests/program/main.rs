@@ -12,6 +12,7 @@ mod commands;
 mod compare;
 mod continued;
 mod keys;
+mod lost;
 mod refusals;
 mod results;
 mod scan;

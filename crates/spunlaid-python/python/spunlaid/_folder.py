@@ -31,7 +31,7 @@ class Folder:
         self.notes: list[str] = self._read["notes"]
         # Results of an earlier version have no such list: a lost fibre ended the run.
         lost = self._read.get("lost_fibres", [])
-        self.lost: list[tuple[int, float, str]] = [(of["replicate"], of["time_s"], of["reason"]) for of in lost]
+        self.lost: list[tuple[int, float, str]] = [(fibre["replicate"], fibre["time_s"], fibre["reason"]) for fibre in lost]
         self.curves: list[dict[str, Any]] = []
 
     @property

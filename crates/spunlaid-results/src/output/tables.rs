@@ -53,8 +53,10 @@ pub fn tables(fed: bool) -> Vec<(&'static str, Vec<Column>)> {
 
 /// `laid.parquet`: what fed fibres have laid, in the order of feed.
 pub use spunlaid::layers::LAID;
+/// A column of it.
+type PointColumn = (&'static str, fn(&LaidPoint) -> f64);
 /// Its columns.
-const POINT: [(&str, fn(&LaidPoint) -> f64); 4] =
+const POINT: [PointColumn; 4] =
     [("s_m", |p| p.fed), ("time_s", |p| p.time), ("md_m", |p| p.md), ("cd_m", |p| p.cd)];
 
 /// Number of rows in a row group, which is held in memory.

@@ -4,11 +4,14 @@
 //! Flow (uniform, profile, field) → mean velocity, rms, length scale and cut-off at each place
 //! SpectrumShape, or a Measured record → signals of the turbulence, one to an eddy and direction
 //! EddyModel → how the signals are related along the fibre
+//! Atmosphere → the velocity at each element at a time, from all of these
 //! ```
 
+mod atmosphere;
 mod dry_air;
 mod eddies;
 mod eddy_turbulence;
+mod eddy_wind;
 mod flow;
 mod from_file;
 mod measured;
@@ -19,9 +22,13 @@ mod stations;
 mod surroundings;
 mod wind;
 
+pub use atmosphere::Atmosphere;
+pub(crate) use atmosphere::{Instant, Velocities, misfit};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
 pub use eddies::{Eddies, EddyModel};
 pub use eddy_turbulence::EddyTurbulence;
+pub use eddy_wind::EddyWind;
+pub(crate) use eddy_wind::LastEddy;
 pub use flow::{Flow, FromFlow, LocalAir};
 pub use from_file::FromFile;
 pub use measured::{APART, Measured, RecordLayout, Said};
@@ -31,8 +38,7 @@ pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
 pub use stations::{StationGrid, Stations};
 pub(crate) use stations::{Way, time_between_looks};
 pub use surroundings::Surroundings;
-pub(crate) use surroundings::{AirAtElements, InEddies};
-pub(crate) use wind::{EddyVelocities, Sampling};
+pub(crate) use wind::Sampling;
 pub use wind::{Stream, StreamKey, Wind};
 
 use std::path::{Path, PathBuf};

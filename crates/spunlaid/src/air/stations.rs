@@ -7,8 +7,7 @@
 //! A fed element does not stay with an eddy: it feels the air of the place where it is. Between two stations the signal
 //! is interpolated with weights that keep its variance.                                           theory.md (64)
 
-use super::surroundings::{AirAtElements, Surroundings};
-use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Wind};
+use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Wind};
 use crate::company::{PerLane, shared};
 use crate::field::Hint;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, indices};
@@ -212,45 +211,51 @@ impl Stations {
         }
     }
 
-    /// The air at the elements before a step at the time `t` [s].
+    /// Looks at the air at the elements before a step at the time `t` [s].
     #[inline(always)]
-    pub(crate) fn around<S: Register>(
+    pub(super) fn look<S: Register>(
         &mut self,
         step: u64,
         t: f64,
         wind: &mut Wind,
         position: &[Vec3<Lanes>],
-    ) -> AlongTheWay<'_, S> {
+    ) -> OnTheWay<'_, S> {
         let since = step % self.way.every;
         if since == 0 {
             S::ISA.run(Look { stations: self, t, wind, position });
         }
-        AlongTheWay { elements: &self.elements, steps: Wide::splat(since as f64) }
+        OnTheWay { elements: &self.elements, steps: Wide::splat(since as f64) }
     }
 
-    /// Keeps the velocity at each station.
+    /// Keeps the velocity at a station, which has this signal.
     #[inline(always)]
-    fn hear<S: Register>(&mut self, signal: impl Fn(u32) -> Vec3<Wide<S>>) {
-        for (k, (now, [mean, factor])) in (0..).zip(self.now.iter_mut().zip(&self.still)) {
-            let Vec3 { x, y, z } = (signal(k) * Wide::load(factor)).store();
-            for (lane, now) in now.iter_mut().enumerate() {
-                *now = [x.0[lane], y.0[lane], z.0[lane], mean.0[lane]];
-            }
+    fn hear<S: Register>(&mut self, station: usize, signal: Vec3<Wide<S>>) {
+        let [mean, factor] = &self.still[station];
+        let Vec3 { x, y, z } = (signal * Wide::load(factor)).store();
+        for (lane, now) in self.now[station].iter_mut().enumerate() {
+            *now = [x.0[lane], y.0[lane], z.0[lane], mean.0[lane]];
         }
     }
 
     /// Looks up the air at the elements at the time `t` [s].
     #[inline(always)]
-    fn look<S: Register>(&mut self, t: f64, wind: &mut Wind, position: &[Vec3<Lanes>]) {
+    fn look_up<S: Register>(&mut self, t: f64, wind: &mut Wind, position: &[Vec3<Lanes>]) {
+        // No closures here, because the compiler does not always inline them.
         match wind.among_samples::<S>(t) {
-            Some(signal) => self.hear(|k| signal.velocity(k)),
+            Some(signal) => {
+                for k in 0..self.way.stations {
+                    self.hear(k, signal.velocity(k as u32));
+                }
+            }
             None => {
                 let signal = wind.blow::<S>(t);
-                self.hear(|k| signal.velocity(k));
+                for k in 0..self.way.stations {
+                    self.hear(k, signal.velocity(k as u32));
+                }
             }
         }
         if let Some(field) = &mut self.field {
-            field.look::<S>(position);
+            field.look_up::<S>(position);
         }
         let (half, one) = (Wide::<S>::splat(0.5), Wide::splat(1.0));
         // The first look has none before it to extrapolate from.
@@ -293,7 +298,7 @@ impl Stations {
     }
 }
 
-/// [`Stations::look`].
+/// [`Stations::look_up`].
 struct Look<'a> {
     stations: &'a mut Stations,
     t: f64,
@@ -306,7 +311,23 @@ impl Task for Look<'_> {
 
     #[inline(always)]
     fn call<S: Register>(self) {
-        self.stations.look::<S>(self.t, self.wind, self.position);
+        self.stations.look_up::<S>(self.t, self.wind, self.position);
+    }
+}
+
+/// The air at the elements of fed fibres at one instant.
+pub(crate) struct OnTheWay<'a, S: Register> {
+    elements: &'a [Here],
+    /// Steps since the last look.
+    steps: Wide<S>,
+}
+
+impl<S: Register> OnTheWay<'_, S> {
+    /// Velocity of the air at element `j` [m/s].
+    #[inline(always)]
+    pub(super) fn at(&self, j: usize) -> Vec3<Wide<S>> {
+        let Here { value, rise } = &self.elements[j];
+        Vec3::load(rise).mul_add(self.steps, Vec3::load(value))
     }
 }
 
@@ -315,31 +336,11 @@ pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
     air.length_scale / air.velocity.abs().max(feed_speed) / LOOKS
 }
 
-/// The air at the elements of fed fibres.
-#[derive(Clone, Copy)]
-pub(crate) struct AlongTheWay<'a, S: Register> {
-    elements: &'a [Here],
-    /// Steps since the last look.
-    steps: Wide<S>,
-}
-
-impl<S: Register> AirAtElements<S> for AlongTheWay<'_, S> {
-    type Shared = ();
-
-    #[inline(always)]
-    fn enter(&self, _: usize) {}
-
-    #[inline(always)]
-    fn at(&self, j: usize, (): &mut ()) -> Vec3<Wide<S>> {
-        let Here { value, rise } = &self.elements[j];
-        Vec3::load(rise).mul_add(self.steps, Vec3::load(value))
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{AirAtElements, PerLane, StationGrid, Stations, Way};
+    use super::{PerLane, StationGrid, Stations, Way};
     use crate::air::{Air, EddyModel, Stream, StreamKey, Wind};
+    use crate::air::{Atmosphere, Instant, LastEddy};
     use crate::lanes::{Isa, Lanes, Plain, WIDTH};
     use crate::vec3::Vec3;
 
@@ -354,8 +355,7 @@ mod tests {
     /// Fluctuations that elements along the way feel, in eight lanes.
     struct Felt {
         grid: StationGrid,
-        wind: Wind,
-        stations: Stations,
+        air: Atmosphere,
         position: Vec<Vec3<Lanes>>,
         looks: u64,
     }
@@ -378,16 +378,18 @@ mod tests {
                 .collect();
             let lanes = PerLane::new(vec![(air.clone(), grid)]).unwrap();
             let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, position.len() - 1);
-            Self { grid, wind, stations, position, looks: 0 }
+            Self { grid, air: Atmosphere::Way(wind, stations), position, looks: 0 }
         }
 
         /// At each element at a time: a number for each lane and component.
         fn at(&mut self, t: f64) -> Vec<Vec<f64>> {
             self.looks += 1;
-            let air = self.stations.around::<Plain>(self.looks, t, &mut self.wind, &self.position);
+            let now = Instant { step: self.looks, time: t };
+            let velocities = self.air.look::<Plain>(now, &self.position);
+            let mut last = LastEddy::none();
             (0..self.position.len() - 1)
                 .map(|j| {
-                    let felt = air.at(j, &mut ()).store();
+                    let felt = velocities.at(j, &mut last).store();
                     (0..WIDTH).flat_map(|i| [felt.x.0[i] - SPEED, felt.y.0[i], felt.z.0[i]]).collect()
                 })
                 .collect()

@@ -1,51 +1,12 @@
 //! The air around eight fibres in a flow that is not uniform.
 
-use super::{Air, EddyVelocities};
+use super::Air;
 use crate::company::PerLane;
 use crate::error::Error;
 use crate::field::{Around, Hint};
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
-
-/// The air velocity at one instant, element by element.
-pub(crate) trait AirAtElements<S: Register>: Copy {
-    /// What neighbouring elements share.
-    type Shared;
-
-    /// What element `j` shares with those after it.
-    fn enter(&self, j: usize) -> Self::Shared;
-
-    /// Velocity of the air at element `j` [m/s]. The elements come in order after the one that was entered.
-    fn at(&self, j: usize, shared: &mut Self::Shared) -> Vec3<Wide<S>>;
-}
-
-/// The wind of eddies, each of which several elements share.
-#[derive(Clone, Copy)]
-pub(crate) struct InEddies<'a, S: Register> {
-    pub(crate) now: EddyVelocities<'a, S>,
-    /// The eddy of each element.
-    pub(crate) of_element: &'a [u32],
-}
-
-impl<S: Register> AirAtElements<S> for InEddies<'_, S> {
-    type Shared = (u32, Vec3<Wide<S>>);
-
-    #[inline(always)]
-    fn enter(&self, j: usize) -> Self::Shared {
-        let eddy = self.of_element[j];
-        (eddy, self.now.velocity(eddy))
-    }
-
-    #[inline(always)]
-    fn at(&self, j: usize, shared: &mut Self::Shared) -> Vec3<Wide<S>> {
-        let eddy = self.of_element[j];
-        if eddy != shared.0 {
-            *shared = (eddy, self.now.velocity(eddy));
-        }
-        shared.1
-    }
-}
 
 /// Mean velocity and rms where an element is, of eight fibres.
 ///
@@ -138,21 +99,6 @@ impl Surroundings {
         *self = Self::around_elements(self.airs.clone(), self.places.len(), self.every);
     }
 
-    /// The wind before a step: `now` with the mean flow and the rms at the elements.
-    #[inline(always)]
-    pub(crate) fn around<'s, S: Register>(
-        &'s mut self,
-        step: u64,
-        position: &[Vec3<Lanes>],
-        wind: InEddies<'s, S>,
-    ) -> LocalVelocities<'s, S> {
-        let since = step % self.every;
-        if since == 0 {
-            self.look::<S>(position);
-        }
-        LocalVelocities { wind, places: &self.places, steps: Wide::splat(since as f64) }
-    }
-
     /// Mean velocity x, y, z and rms at an element at the last look [m/s].
     #[inline(always)]
     pub(super) fn value(&self, element: usize) -> &[Lanes; 4] {
@@ -171,14 +117,19 @@ impl Surroundings {
         self.hints.truncate(elements);
     }
 
-    /// Looks up the flow at the elements.
+    /// Looks at the flow at the elements before a step.
     #[inline(always)]
-    pub(super) fn look<S: Register>(&mut self, position: &[Vec3<Lanes>]) {
-        S::ISA.run(Look { surroundings: self, position });
+    pub(super) fn look<S: Register>(&mut self, step: u64, position: &[Vec3<Lanes>]) -> InFlow<'_, S> {
+        let since = step % self.every;
+        if since == 0 {
+            S::ISA.run(Look { surroundings: self, position });
+        }
+        InFlow { places: &self.places, steps: Wide::splat(since as f64) }
     }
 
+    /// Looks up the flow at the elements.
     #[inline(always)]
-    fn look_here<S: Register>(&mut self, position: &[Vec3<Lanes>]) {
+    pub(super) fn look_up<S: Register>(&mut self, position: &[Vec3<Lanes>]) {
         let half = Wide::<S>::splat(0.5);
         // The first look has none before it to extrapolate from.
         let per_step = Wide::splat(if self.looked { 1.0 / self.every as f64 } else { 0.0 });
@@ -227,7 +178,7 @@ impl Surroundings {
     }
 }
 
-/// [`Surroundings::look`].
+/// [`Surroundings::look_up`].
 struct Look<'a> {
     surroundings: &'a mut Surroundings,
     position: &'a [Vec3<Lanes>],
@@ -238,36 +189,27 @@ impl Task for Look<'_> {
 
     #[inline(always)]
     fn call<S: Register>(self) {
-        self.surroundings.look_here::<S>(self.position);
+        self.surroundings.look_up::<S>(self.position);
     }
 }
 
-/// Eddies of rms one and mean zero in the flow around the elements.
-#[derive(Clone, Copy)]
-pub(crate) struct LocalVelocities<'a, S: Register> {
-    wind: InEddies<'a, S>,
+/// The flow at the elements at one instant.
+pub(crate) struct InFlow<'a, S: Register> {
     places: &'a [Place],
     /// Steps since the last look.
     steps: Wide<S>,
 }
 
-impl<S: Register> AirAtElements<S> for LocalVelocities<'_, S> {
-    type Shared = (u32, Vec3<Wide<S>>);
-
+impl<S: Register> InFlow<'_, S> {
+    /// Velocity of the air at element `j` [m/s], where the flow carries an eddy with this signal of mean zero and rms one.
     #[inline(always)]
-    fn enter(&self, j: usize) -> Self::Shared {
-        self.wind.enter(j)
-    }
-
-    #[inline(always)]
-    fn at(&self, j: usize, shared: &mut Self::Shared) -> Vec3<Wide<S>> {
-        let signal = self.wind.at(j, shared);
+    pub(super) fn carried(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
         let Place { value, rise } = &self.places[j];
         // No closures here, because the compiler does not inline them.
         let rms = Wide::load(&rise[3]).mul_add(self.steps, Wide::load(&value[3]));
         let x = Wide::load(&rise[0]).mul_add(self.steps, Wide::load(&value[0]));
         let y = Wide::load(&rise[1]).mul_add(self.steps, Wide::load(&value[1]));
         let z = Wide::load(&rise[2]).mul_add(self.steps, Wide::load(&value[2]));
-        Vec3::new(signal.x.mul_add(rms, x), signal.y.mul_add(rms, y), signal.z.mul_add(rms, z))
+        signal.mul_add(rms, Vec3::new(x, y, z))
     }
 }

@@ -1,27 +1,32 @@
 //! The explicit time-integration schemes: semi-implicit Euler and leapfrog.
+//!
+//! ```text
+//! forces   along the chain, from the air and from the elements
+//! kick     v ← v + h F/m                                  as soon as the force on a node is complete, it goes through
+//! hold     the inlet drives the root; what lands is held  the rest of the step, with its numbers still in registers
+//! enter    the work of the forces, into the ledgers
+//! drift    r ← r + h v
+//! ```
 
+use super::constants::{Constants, ElementConstants};
 use super::force_pass::{ElementBlock, Integrator, force_pass};
 use super::forces::Element;
 use super::laying::Laying;
-use super::work::{Supports, WorkDone, WorkRegisters};
-use super::{Chain, Constants, Node};
-use crate::air::AirAtElements;
+use super::work::{Kick, Supports, WorkDone, WorkRegisters};
+use super::{Chain, Stride};
+use crate::air::Velocities;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
-/// Advances eight chains by one step. The velocities change by `kick` [s] times the acceleration, then the
-/// positions change by `drift` [s] times the velocity.
+/// Advances eight chains by one step.
 ///
-/// * `wind` – the air at the time of the positions
+/// * `air` – the velocities at the time of the positions
 /// * `work` – sums of the work to which the step adds
-/// * `damped` – whether there is any damping
-/// * `split` – whether to store separately the work that belongs to the velocities before the kick
 #[inline(always)]
 pub(crate) fn step<S: Register, const LEAPFROG: bool, const FED: bool>(
     chain: &mut Chain,
-    wind: impl AirAtElements<S>,
-    (kick, drift): (f64, f64),
-    (damped, split): (bool, bool),
+    air: &Velocities<'_, S>,
+    Stride { kick, drift, damped, split }: Stride,
     work: &mut WorkDone,
     block: &mut ElementBlock<S>,
 ) {
@@ -41,14 +46,14 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool, const FED: bool>(
         work: WorkRegisters::of(work, split),
         dissipation: Wide::zero(),
     };
-    force_pass(&mut integrator, c, wind, elements, block);
+    force_pass(&mut integrator, c, air, elements, block);
     let (supports, dissipation) = (integrator.supports, integrator.dissipation);
     integrator.work.put(work);
     supports.put(work);
     work.dissipate(dissipation, c, drift);
 }
 
-/// Moves each node as soon as its force is complete, and adds up the work.
+/// The nodes on their way through the step.
 struct ExplicitIntegrator<'a, S: Register, const LEAPFROG: bool, const FED: bool> {
     damped: bool,
     laying: Option<&'a mut Laying>,
@@ -86,8 +91,8 @@ impl<S: Register, const LEAPFROG: bool, const FED: bool> Integrator<S>
     }
 
     #[inline(always)]
-    fn tension(&mut self, _: usize, element: &Element<S>) -> Wide<S> {
-        element.tension(Wide::load(&self.c.axial_stiffness), Wide::load(&self.c.rest_length))
+    fn tension(&mut self, _: usize, c: &ElementConstants, element: &Element<S>) -> Wide<S> {
+        element.tension(Wide::load(&c.axial_stiffness), Wide::load(&c.rest_length))
     }
 
     #[inline(always)]
@@ -97,60 +102,72 @@ impl<S: Register, const LEAPFROG: bool, const FED: bool> Integrator<S>
 
     #[inline(always)]
     fn node(&mut self, i: usize, force: Vec3<Wide<S>>, drag: Vec3<Wide<S>>) {
+        let mut kick = self.kick(i, force, drag);
+        if FED {
+            self.hold(i, &mut kick);
+        }
+        self.enter(&kick);
+        self.drift(i, &kick);
+    }
+}
+
+impl<S: Register, const LEAPFROG: bool, const FED: bool> ExplicitIntegrator<'_, S, LEAPFROG, FED> {
+    /// The kick of a node by the forces of the chain and the air, its weight and the damping.
+    #[inline(always)]
+    fn kick(&self, i: usize, force: Vec3<Wide<S>>, drag: Vec3<Wide<S>>) -> Kick<S> {
         let node = self.c.node(i, self.position.len());
         let before = Vec3::load(&self.velocity[i]);
         let mut force = force;
         force.x += Wide::load(&node.weight);
         let mut damping = None;
         if self.damped {
-            let slowed = self.drag_velocity(i) * -(Wide::load(&node.mass) * Wide::load(&self.c.damping));
-            force += slowed;
-            damping = Some(slowed);
+            let slowing = self.drag_velocity(i) * -(Wide::load(&node.mass) * Wide::load(&self.c.damping));
+            force += slowing;
+            damping = Some(slowing);
         }
-        let mut after = force.mul_add(self.kick * Wide::load(&node.inverse_mass), before);
-        if FED {
-            after = self.supported(i, node, &mut force, before, after);
-            let frame = Wide::load(&self.c.frame);
-            self.work.add([force, drag], damping, before.less_y(frame), after.less_y(frame));
-        } else {
-            self.work.add([force, drag], damping, before, after);
-        }
-        if LEAPFROG {
-            self.earlier[i] = before.store();
-        }
-        self.velocity[i] = after.store();
-        let position = Vec3::load(&self.position[i]);
-        self.position[i] = after.mul_add(self.drift, position).store();
+        let after = force.mul_add(self.kick * Wide::load(&node.inverse_mass), before);
+        Kick { force, drag, damping, before, after }
     }
-}
 
-impl<S: Register, const LEAPFROG: bool, const FED: bool> ExplicitIntegrator<'_, S, LEAPFROG, FED> {
-    /// Lets a node land if it reaches the belt, and adds what holds it to the force on it. Returns its velocity.
+    /// Lets a node land if it reaches the belt, and adds what holds it to the forces on it.
     #[inline(always)]
-    fn supported(
-        &mut self,
-        i: usize,
-        node: &Node,
-        force: &mut Vec3<Wide<S>>,
-        before: Vec3<Wide<S>>,
-        mut after: Vec3<Wide<S>>,
-    ) -> Vec3<Wide<S>> {
+    fn hold(&mut self, i: usize, kick: &mut Kick<S>) {
+        let node = self.c.node(i, self.position.len());
         let mut free = Wide::load(&node.inverse_mass);
         let mut held = self.c.may_be_held(i, self.position.len());
         if let Some(laying) = &mut self.laying
-            && laying.reached(Wide::load(&self.position[i].x), after.x, self.drift)
+            && laying.reached(Wide::load(&self.position[i].x), kick.after.x, self.drift)
         {
-            let mut landing = after.store();
+            let mut landing = kick.after.store();
             let others = laying.land(i, &self.position[i], &mut landing, self.step);
-            (after, free) = (Vec3::load(&landing), free * Wide::load(&others));
+            (kick.after, free) = (Vec3::load(&landing), free * Wide::load(&others));
             held = true;
         }
         if held {
             let rate = Wide::load(&node.mass).over(self.kick);
-            let support =
-                self.supports.add(i, free, (after - before) * rate - *force, [before, after], self.c);
-            *force += support;
+            let missing = (kick.after - kick.before) * rate - kick.force;
+            kick.force += self.supports.add(i, free, missing, kick.velocities(), self.c);
         }
-        after
+    }
+
+    /// Enters the work of the forces.
+    #[inline(always)]
+    fn enter(&mut self, kick: &Kick<S>) {
+        if FED {
+            self.work.enter(&kick.seen_from(&self.c.frame));
+        } else {
+            self.work.enter(kick);
+        }
+    }
+
+    /// Moves the node on.
+    #[inline(always)]
+    fn drift(&mut self, i: usize, kick: &Kick<S>) {
+        if LEAPFROG {
+            self.earlier[i] = kick.before.store();
+        }
+        self.velocity[i] = kick.after.store();
+        let position = Vec3::load(&self.position[i]);
+        self.position[i] = kick.after.mul_add(self.drift, position).store();
     }
 }

@@ -1,8 +1,8 @@
 //! One pass along eight chains that computes all forces on every node.
 
-use super::Constants;
+use super::constants::{Constants, ElementConstants};
 use super::forces::{Element, couple, internal};
-use crate::air::AirAtElements;
+use crate::air::{LastEddy, Velocities};
 use crate::drag::{DragLanes, Split};
 use crate::lanes::{Register, Wide};
 use crate::vec3::Vec3;
@@ -16,7 +16,7 @@ pub(crate) trait Integrator<S: Register> {
     fn drag_velocity(&self, i: usize) -> Vec3<Wide<S>>;
 
     /// Tension of element `j` [N], negative in compression.
-    fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S>;
+    fn tension(&mut self, j: usize, c: &ElementConstants, element: &Element<S>) -> Wide<S>;
 
     /// Takes the power that the bending viscosity dissipates [W].
     fn dissipated(&mut self, power: Wide<S>);
@@ -26,7 +26,7 @@ pub(crate) trait Integrator<S: Register> {
     fn node(&mut self, i: usize, force: Vec3<Wide<S>>, drag: Vec3<Wide<S>>);
 }
 
-/// Computes the forces on eight chains in a wind.
+/// Computes the forces on eight chains.
 ///
 /// * `count` – number `N` of elements
 ///
@@ -36,10 +36,10 @@ pub(crate) trait Integrator<S: Register> {
 /// elements at once instead of waiting for one result after the other. A block fits in the first-level
 /// cache. The force on a node is complete when the element below it is done.
 #[inline(always)]
-pub(crate) fn force_pass<S: Register, M: Integrator<S>, B: AirAtElements<S>>(
-    integrator: &mut M,
+pub(crate) fn force_pass<S: Register>(
+    integrator: &mut impl Integrator<S>,
     c: &Constants,
-    wind: B,
+    air: &Velocities<'_, S>,
     count: usize,
     block: &mut ElementBlock<S>,
 ) {
@@ -49,6 +49,9 @@ pub(crate) fn force_pass<S: Register, M: Integrator<S>, B: AirAtElements<S>>(
         length: Wide::zero(),
     };
     let viscosity = c.viscosity.as_ref();
+    // The fibres of a flight have the kinds of the laws in common.
+    let constants = c.elements.view();
+    let powers = constants.at(0).half_drag.is_powers();
     let mut spin_above = Vec3::zero();
     let mut dissipated = Wide::zero();
     // Sums so far on nodes j−1 and j: of all forces, and of the drag alone.
@@ -56,24 +59,20 @@ pub(crate) fn force_pass<S: Register, M: Integrator<S>, B: AirAtElements<S>>(
     let (mut drag, mut drag_above) = (Vec3::zero(), Vec3::zero());
     for start in (0..count).step_by(BLOCK) {
         let elements = &mut block.0[..BLOCK.min(count - start)];
-        kinematics(integrator, start, elements, wind, viscosity.is_some());
-        if c.half_drag.is_powers() {
-            for item in &mut *elements {
-                c.half_drag.raise(&mut item.split);
+        kinematics(integrator, start, elements, air, viscosity.is_some());
+        if powers {
+            for (j, item) in (start..).zip(&mut *elements) {
+                constants.at(j).half_drag.raise(&mut item.split);
             }
         } else {
             for (j, item) in (start..).zip(&mut *elements) {
-                c.half_drag.look_up(j, &mut item.split);
+                constants.at(j).half_drag.look_up(j, &mut item.split);
             }
         }
         for (j, item) in (start..).zip(&*elements) {
-            let stiffness = match j {
-                0 => &c.root_stiffness,
-                1 => &c.second_stiffness,
-                _ => &c.bending_stiffness,
-            };
-            let stiffness = Wide::load(stiffness);
-            let tension = integrator.tension(j, &item.element);
+            let stiffness = Wide::load(c.bending_stiffness(j));
+            let own = constants.at(j);
+            let tension = integrator.tension(j, own, &item.element);
             let (mut a, mut pull) = internal(&above, &item.element, stiffness, tension);
             if let Some(time) = viscosity {
                 let turning = item.spin - spin_above;
@@ -86,9 +85,9 @@ pub(crate) fn force_pass<S: Register, M: Integrator<S>, B: AirAtElements<S>>(
             if j > 0 {
                 integrator.node(j - 1, force_above - a, drag_above);
             }
-            let air = c.half_drag.force(&item.split, item.element.tangent);
-            (force_above, force) = (force + (a + pull + air), air - pull);
-            (drag_above, drag) = (drag + air, air);
+            let blow = own.half_drag.force(&item.split, item.element.tangent);
+            (force_above, force) = (force + (a + pull + blow), blow - pull);
+            (drag_above, drag) = (drag + blow, blow);
             above = item.element;
         }
     }
@@ -120,7 +119,8 @@ impl<S: Register> ElementBlock<S> {
     pub(crate) fn new() -> Self {
         let (vector, number) = (Vec3::zero(), Wide::zero());
         let element = Element { tangent: vector, inverse_length: number, length: number };
-        Self([BlockElement { element, spin: vector, split: Split::none() }; BLOCK])
+        let none = BlockElement { element, spin: vector, split: Split::none() };
+        Self([none; BLOCK])
     }
 }
 
@@ -130,11 +130,11 @@ fn kinematics<S: Register>(
     integrator: &impl Integrator<S>,
     start: usize,
     block: &mut [BlockElement<S>],
-    wind: impl AirAtElements<S>,
+    air: &Velocities<'_, S>,
     viscous: bool,
 ) {
     let mut upper = (integrator.position(start), integrator.drag_velocity(start));
-    let mut signal = wind.enter(start);
+    let mut last = LastEddy::none();
     for (j, item) in (start + 1..).zip(block.iter_mut()) {
         let lower = (integrator.position(j), integrator.drag_velocity(j));
         item.element = Element::between(upper.0, lower.0);
@@ -142,7 +142,7 @@ fn kinematics<S: Register>(
             item.spin = item.element.tangent.cross_wide((lower.1 - upper.1) * item.element.inverse_length);
         }
         // Element `j−1` is above node `j`.
-        let air = wind.at(j - 1, &mut signal);
+        let air = air.at(j - 1, &mut last);
         let relative = (upper.1 + lower.1).neg_mul_add(Wide::splat(0.5), air);
         item.split = DragLanes::split(relative, item.element.tangent);
         upper = lower;

@@ -1,5 +1,6 @@
 //! The fibre as a chain of beads: state, forces, time integration.
 
+pub(crate) mod constants;
 pub(crate) mod explicit;
 pub(crate) mod force_pass;
 pub(crate) mod forces;
@@ -8,11 +9,12 @@ pub(crate) mod laying;
 pub mod schemes;
 pub mod work;
 
-use self::laying::{Friction, Laying};
+use self::constants::{Constants, ElementProperties};
+use self::laying::Laying;
 use self::schemes::Scheme;
 use crate::company::{PerLane, shared};
-use crate::drag::{Curve, DragLanes, ElementDrag};
-use crate::fibre::{Fibre, Root};
+use crate::drag::{Curve, ElementDrag};
+use crate::fibre::Fibre;
 use crate::lanes::{Lanes, WIDTH};
 use crate::line::Line;
 use crate::nodes::Nodes;
@@ -29,6 +31,32 @@ pub struct Strand {
     pub gravity: f64,
     /// Mass-proportional damping [1/s].
     pub damping: f64,
+}
+
+impl Strand {
+    /// Properties of element `j`. A property that varies along the fibre varies here.
+    pub(crate) fn element(&self, _j: usize) -> ElementProperties {
+        ElementProperties {
+            rest_length: self.fibre.rest_length(),
+            mass: self.fibre.element_mass(),
+            axial_stiffness: self.fibre.axial_stiffness(),
+            rotational_stiffness: self.fibre.rotational_stiffness(),
+            drag: self.drag,
+        }
+    }
+}
+
+/// How a step is made.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stride {
+    /// The velocities change by this time times the acceleration [s].
+    pub(crate) kick: f64,
+    /// The positions change by this time times the velocity [s].
+    pub(crate) drift: f64,
+    /// Whether there is any damping.
+    pub(crate) damped: bool,
+    /// Whether to store separately the work that belongs to the velocities before the kick.
+    pub(crate) split: bool,
 }
 
 shared! {
@@ -73,109 +101,16 @@ pub struct Chain {
     pub(crate) laying: Option<Laying>,
 }
 
-/// The constants of eight fibres that a step needs.
-#[derive(Clone, Debug)]
-pub(crate) struct Constants {
-    /// The root. It does not move if it is held.
-    pub(crate) root: Node,
-    /// A node between two elements.
-    pub(crate) node: Node,
-    /// The nodes that differ from the others, from the end upwards: the free end, and those on the belt.
-    pub(crate) tail: Vec<Node>,
-    pub(crate) rest_length: Lanes,
-    pub(crate) axial_stiffness: Lanes,
-    pub(crate) bending_stiffness: Lanes,
-    /// Of the root, and of the node below it.
-    pub(crate) root_stiffness: Lanes,
-    pub(crate) second_stiffness: Lanes,
-    pub(crate) root_direction: Vec3<Lanes>,
-    /// Time constant of the bending viscosity [s]; none if it is zero in all lanes.
-    pub(crate) viscosity: Option<Lanes>,
-    pub(crate) damping: Lanes,
-    /// Friction on the belt; none if the fibres stick to it.
-    pub(crate) friction: Option<Friction>,
-    /// Speed of the belt along y, from which energies are seen [m/s]; zero without a belt.
-    pub(crate) frame: Lanes,
-    /// Half an element's drag, which is the share of each of its two nodes.
-    pub(crate) half_drag: DragLanes,
-}
-
-/// The constants of a node that a step needs.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Node {
-    pub(crate) mass: Lanes,
-    /// 0 if the node is held.
-    pub(crate) inverse_mass: Lanes,
-    /// Likewise along x; 0 also if the node slides on the belt.
-    pub(crate) inverse_mass_x: Lanes,
-    pub(crate) weight: Lanes,
-}
-
-impl Constants {
-    /// The constants of up to eight fibres.
-    fn of(common: &Common, strands: &PerLane<Strand>) -> Self {
-        let lanes = |value: &dyn Fn(&Strand) -> f64| strands.lanes(value);
-        let direction = Vec3::new(
-            lanes(&|s| s.fibre.direction.x),
-            lanes(&|s| s.fibre.direction.y),
-            lanes(&|s| s.fibre.direction.z),
-        );
-        let node = |i: usize, held: &dyn Fn(&Strand) -> bool| {
-            let inverse_mass = lanes(&|s| if held(s) { 0.0 } else { 1.0 / s.fibre.node_mass(i) });
-            Node {
-                mass: lanes(&|s| s.fibre.node_mass(i)),
-                inverse_mass,
-                inverse_mass_x: inverse_mass,
-                weight: lanes(&|s| s.fibre.node_mass(i) * s.gravity),
-            }
-        };
-        Self {
-            root: node(0, &|s| s.fibre.root != Root::Free),
-            // A chain of one element has no such node and does not use this.
-            node: node(1, &|_| false),
-            tail: vec![node(common.elements, &|_| false)],
-            rest_length: lanes(&|s| s.fibre.rest_length()),
-            axial_stiffness: lanes(&|s| s.fibre.axial_stiffness()),
-            bending_stiffness: lanes(&|s| s.fibre.rotational_stiffness()),
-            root_stiffness: lanes(&|s| s.fibre.root_stiffness()),
-            second_stiffness: lanes(&|s| s.fibre.rotational_stiffness()),
-            root_direction: direction,
-            viscosity: strands
-                .any(|s| s.fibre.bending_viscosity_time != 0.0)
-                .then(|| lanes(&|s| s.fibre.bending_viscosity_time)),
-            damping: lanes(&|s| s.damping),
-            friction: None,
-            frame: Lanes::ZERO,
-            half_drag: DragLanes::pack(common.drag_curves, &strands.each(|s| s.drag.half())),
-        }
-    }
-
-    /// Node `i` of `nodes`.
-    #[inline(always)]
-    pub(crate) fn node(&self, i: usize, nodes: usize) -> &Node {
-        if i == 0 {
-            &self.root
-        } else if i + self.tail.len() < nodes {
-            &self.node
-        } else {
-            &self.tail[nodes - 1 - i]
-        }
-    }
-
-    /// Whether node `i` of `nodes` is one that the feed or the belt may hold.
-    #[inline(always)]
-    pub(crate) fn may_be_held(&self, i: usize, nodes: usize) -> bool {
-        i == 0 || i + self.tail.len() >= nodes
-    }
-}
-
 impl Chain {
     /// Packs up to eight fibres, straight and at rest, with their roots at the origin.
     pub(crate) fn straight(common: &Common, strands: &PerLane<Strand>, scheme: Scheme) -> Self {
         let elements = common.elements;
-        let constants = Constants::of(common, strands);
-        let (direction, rest_length) = (constants.root_direction, constants.rest_length);
-        let position = (0..=elements).map(|i| direction * (rest_length * Lanes::splat(i as f64))).collect();
+        Self::with_constants(Constants::new(common, strands, elements), elements, scheme)
+    }
+
+    /// Fibres with these constants, straight and at rest, with their roots at the origin.
+    pub(crate) fn with_constants(constants: Constants, elements: usize, scheme: Scheme) -> Self {
+        let position = (0..=elements).map(|i| constants.root_direction * constants.distance(i)).collect();
         Self {
             position,
             velocity: vec![Vec3::ZERO; elements + 1].into(),
@@ -189,10 +124,11 @@ impl Chain {
     /// Replaces the fibres by others with the same number of elements. Positions and velocities stay; tensions
     /// change in proportion to the axial stiffness.
     pub(crate) fn become_of(&mut self, common: &Common, strands: &PerLane<Strand>) {
-        let former = std::mem::replace(&mut self.constants, Constants::of(common, strands));
+        let constants = Constants::new(common, strands, self.elements());
+        let former = std::mem::replace(&mut self.constants, constants);
         self.keep_held(&former);
-        let (before, after) = (former.axial_stiffness, self.constants.axial_stiffness);
-        for tension in self.tensions.tension.iter_mut() {
+        for (j, tension) in self.tensions.tension.iter_mut().enumerate() {
+            let [before, after] = [&former, &self.constants].map(|c| c.elements.at(j).axial_stiffness);
             *tension = Lanes::from_fn(|i| tension.0[i] * (after.0[i] / before.0[i]));
         }
     }
@@ -213,11 +149,11 @@ impl Chain {
     }
 
     fn tension_of_stretch(&self) -> impl Iterator<Item = Lanes> {
-        let c = &self.constants;
-        self.position.windows(2).map(|pair| {
+        self.position.windows(2).enumerate().map(|(j, pair)| {
+            let element = self.constants.elements.at(j);
             Lanes::from_fn(|i| {
                 let length = (pair[1].lane(i) - pair[0].lane(i)).norm();
-                c.axial_stiffness.0[i] * (length - c.rest_length.0[i])
+                element.axial_stiffness.0[i] * (length - element.rest_length.0[i])
             })
         })
     }

@@ -1,6 +1,6 @@
-//! WorkRegisters of the work done on the nodes.
+//! The ledgers of the work done on the nodes.
 
-use super::Constants;
+use super::constants::Constants;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
@@ -128,6 +128,34 @@ impl WorkDone {
     }
 }
 
+/// A kick of a node: the forces on it [N], and its velocities before and after [m/s].
+#[derive(Clone, Copy)]
+pub(crate) struct Kick<S: Register> {
+    /// All forces.
+    pub(crate) force: Vec3<Wide<S>>,
+    /// The drag among them.
+    pub(crate) drag: Vec3<Wide<S>>,
+    /// The damping among them, if there is any.
+    pub(crate) damping: Option<Vec3<Wide<S>>>,
+    pub(crate) before: Vec3<Wide<S>>,
+    pub(crate) after: Vec3<Wide<S>>,
+}
+
+impl<S: Register> Kick<S> {
+    /// The velocities before and after the kick.
+    #[inline(always)]
+    pub(crate) fn velocities(&self) -> [Vec3<Wide<S>>; 2] {
+        [self.before, self.after]
+    }
+
+    /// The same kick with the velocities relative to a belt that moves along y [m/s].
+    #[inline(always)]
+    pub(crate) fn seen_from(self, belt: &Lanes) -> Self {
+        let belt = Wide::load(belt);
+        Self { before: self.before.less_y(belt), after: self.after.less_y(belt), ..self }
+    }
+}
+
 /// [`WorkDone`] in registers: by all forces, drag, damping and implicit tension.
 pub(crate) struct WorkRegisters<S: Register> {
     /// Whether `before` is stored.
@@ -151,27 +179,21 @@ impl<S: Register> WorkRegisters<S> {
         }
     }
 
-    /// Adds `F·(v_before + v_after)` of the total force, of the drag, and of the damping if there is any.
+    /// Adds `F·(v_before + v_after)` of all forces, of the drag, and of the damping if there is any.
     #[inline(always)]
-    pub(crate) fn add(
-        &mut self,
-        [total, drag]: [Vec3<Wide<S>>; 2],
-        damping: Option<Vec3<Wide<S>>>,
-        before: Vec3<Wide<S>>,
-        after: Vec3<Wide<S>>,
-    ) {
-        let velocities = before + after;
-        self.add_to(0, total, before, velocities);
-        self.add_to(1, drag, before, velocities);
-        if let Some(damping) = damping {
-            self.add_to(2, damping, before, velocities);
+    pub(crate) fn enter(&mut self, kick: &Kick<S>) {
+        let velocities = kick.before + kick.after;
+        self.add_to(0, kick.force, kick.before, velocities);
+        self.add_to(1, kick.drag, kick.before, velocities);
+        if let Some(damping) = kick.damping {
+            self.add_to(2, damping, kick.before, velocities);
         }
     }
 
     /// Adds `F·(v_before + v_after)` of the implicit tension.
     #[inline(always)]
-    pub(crate) fn add_tension(&mut self, force: Vec3<Wide<S>>, before: Vec3<Wide<S>>, after: Vec3<Wide<S>>) {
-        self.add_to(3, force, before, before + after);
+    pub(crate) fn enter_tension(&mut self, tension: Vec3<Wide<S>>, kick: &Kick<S>) {
+        self.add_to(3, tension, kick.before, kick.before + kick.after);
     }
 
     #[inline(always)]

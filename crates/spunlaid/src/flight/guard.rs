@@ -61,8 +61,8 @@ impl Flight {
                 ),
             ));
         }
-        let rest_length = chain.constants.rest_length.0[lane];
-        let strain = |j: usize| (at(j + 1) - at(j)).norm() / rest_length - 1.0;
+        let rest_length = |j: usize| chain.constants.elements.at(j).rest_length.0[lane];
+        let strain = |j: usize| (at(j + 1) - at(j)).norm() / rest_length(j) - 1.0;
         if let Some(node) = (0..nodes.saturating_sub(1)).find(|&j| strain(j) > MOST_STRAIN) {
             let (below, strain) = (node + 1, percent(strain(node)));
             return Some((
@@ -91,7 +91,7 @@ impl Flight {
     fn adrift(&self) -> Option<(usize, Error)> {
         let in_air = self.chain.in_air();
         let length = |lane: usize, line: &Line| {
-            in_air[lane] as f64 * self.chain.constants.rest_length.0[lane] / line.distance
+            in_air[lane] as f64 * self.chain.constants.elements.at(0).rest_length.0[lane] / line.distance
         };
         self.cases.iter().enumerate().find_map(|(lane, (case, replicate))| {
             let line = case.line.as_ref()?;

@@ -30,11 +30,13 @@ mod guard;
 mod set;
 mod start;
 mod steps;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use common::{Clock, Common};
 pub use end_node::{EndNodeMotion, EndNodeStatistics};
 
-use crate::air::{Eddies, Stations, Stream, StreamKey, Surroundings, Wind};
+use crate::air::{Atmosphere, Eddies, Stream, StreamKey};
 use crate::case::Case;
 use crate::chain::Chain;
 use crate::chain::laying::Fed;
@@ -105,12 +107,7 @@ pub struct Flight {
     h: f64,
     chain: Chain,
     start: Start,
-    eddies: Eddies,
-    wind: Wind,
-    /// The flow around the fibres, if it is not uniform.
-    surroundings: Option<Surroundings>,
-    /// The air along the way of fed fibres.
-    stations: Option<Stations>,
+    air: Atmosphere,
     work: WorkDone,
     steps_done: u64,
     clock: Clock,
@@ -147,25 +144,6 @@ pub struct Snapshot {
     pub root_strain_integral: Lanes,
     /// Energies and work done.
     pub energy: Energy,
-}
-
-/// The air of a flight that is assembled from parts, see [`Flight::assembled`].
-#[derive(Clone, Debug)]
-pub struct Surrounded {
-    /// Which element lies in which eddy.
-    pub eddies: Eddies,
-    /// The wind in each eddy; with surroundings, its mean is zero and its rms is one.
-    pub wind: Wind,
-    /// The flow around the fibres, if it is not uniform.
-    pub surroundings: Option<Surroundings>,
-    /// The air along the way of fed fibres, instead of eddies and surroundings.
-    pub stations: Option<Stations>,
-}
-
-impl From<(&Eddies, &Wind)> for Surrounded {
-    fn from((eddies, wind): (&Eddies, &Wind)) -> Self {
-        Self { eddies: eddies.clone(), wind: wind.clone(), surroundings: None, stations: None }
-    }
 }
 
 impl Flight {
@@ -241,9 +219,6 @@ impl Flight {
     /// Share of the time that the elements of the fibre in a lane have spent outside the given flow. `None` in
     /// uniform air.
     pub fn outside(&self, lane: usize) -> Option<f64> {
-        match &self.stations {
-            Some(stations) => stations.outside(lane),
-            None => self.surroundings.as_ref().map(|surroundings| surroundings.outside(lane)),
-        }
+        self.air.outside(lane)
     }
 }

@@ -47,8 +47,8 @@ impl Flight {
         let common = Common::of_all(&jobs)?;
         let air = surrounded(&common, &jobs, self.isa, AirOf::run(&cases[0].0))?;
         let strands = jobs.map(|job| job.case.strand());
-        let meshed_anew = self.stations.is_none() && common.chain.elements != self.chain.elements();
-        if air.eddies != self.eddies || meshed_anew {
+        let meshed_anew = self.chain.laying.is_none() && common.chain.elements != self.chain.elements();
+        if !self.air.has_eddies_of(&air) || meshed_anew {
             let reason = "it would change which element lies in which eddy";
             return Err(fixed(key, reason));
         }
@@ -63,13 +63,7 @@ impl Flight {
         start.kinetic = start.kinetic + (after.kinetic - before.kinetic) - (falling - fallen);
 
         self.damped = common.chain.damped;
-        self.wind = air.wind;
-        if let (Some(stations), Some(new)) = (&mut self.stations, air.stations) {
-            stations.change(new);
-        }
-        if let (Some(around), Some(new)) = (&mut self.surroundings, air.surroundings) {
-            around.change(new);
-        }
+        self.air.change(air);
         self.cases = cases;
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
-use super::{AirOf, Clock, Common, EndNodeStatistics, Flight, Job, Start, Surrounded};
-use crate::air::{Stations, Surroundings, Wind};
+use super::{AirOf, Clock, Common, EndNodeStatistics, Flight, Job, Start};
+use crate::air::{Atmosphere, EddyWind, Stations, Surroundings, Wind, misfit};
 use crate::case::Case;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
@@ -51,7 +51,7 @@ impl Flight {
     pub fn assembled(
         isa: Isa,
         strands: &[Strand],
-        air: impl Into<Surrounded>,
+        air: impl Into<Atmosphere>,
         scheme: Scheme,
         h: f64,
     ) -> Result<Self, Error> {
@@ -62,15 +62,7 @@ impl Flight {
         if elements == 0 {
             return Err(Error::Flight(Fault::plain("a fibre needs at least one element")));
         }
-        let around = air.surroundings.as_ref().map_or(elements, Surroundings::elements);
-        for (what, of, found, wanted) in [
-            ("air", "elements", air.eddies.of_element().len(), elements),
-            ("surrounding flow", "elements", around, elements),
-        ] {
-            if found != wanted {
-                return Err(misfit(what, of, found, wanted));
-            }
-        }
+        air.check(elements)?;
         Self::with_chain(
             isa,
             Chain::straight(&common, &strands, scheme),
@@ -85,7 +77,7 @@ impl Flight {
         isa: Isa,
         chain: Chain,
         damped: bool,
-        Surrounded { eddies, wind, surroundings, stations }: Surrounded,
+        air: Atmosphere,
         scheme: Scheme,
         clock: Clock,
     ) -> Result<Self, Error> {
@@ -96,10 +88,6 @@ impl Flight {
                 "it must be positive and finite",
             ));
         }
-        if wind.eddies() != eddies.count() {
-            let (what, of, found, wanted) = ("wind", "eddies", wind.eddies(), eddies.count());
-            return Err(misfit(what, of, found, wanted));
-        }
         let mut flight = Self {
             isa,
             cases: Vec::new(),
@@ -108,10 +96,7 @@ impl Flight {
             h,
             start: Start::default(),
             chain,
-            eddies,
-            wind,
-            surroundings,
-            stations,
+            air,
             work: WorkDone::default(),
             steps_done: 0,
             clock,
@@ -119,7 +104,7 @@ impl Flight {
             root_strain: Lanes::ZERO,
         };
         // Clones made later share the first samples.
-        flight.wind.prepare();
+        flight.air.prepare();
         flight.begin();
         Ok(flight)
     }
@@ -135,7 +120,7 @@ impl Flight {
         position: Vec<Vec3<Lanes>>,
         velocity: Vec<Vec3<Lanes>>,
     ) -> Result<(), Error> {
-        if self.stations.is_some() {
+        if self.chain.laying.is_some() {
             return Err(Error::flight("a fed fibre starts at its inlet", "start a new flight of it"));
         }
         let wanted = self.chain.position.len();
@@ -154,17 +139,12 @@ impl Flight {
     }
 
     /// Stores the start, and takes the first half kick of the staggered schemes.
-    fn begin(&mut self) {
+    pub(super) fn begin(&mut self) {
         let (position, velocity) = (self.chain.position.to_vec(), self.chain.velocity.to_vec());
         let energy = Energy::held(self.isa, &self.chain.constants, &position, &velocity, &position);
         self.start = Start { position, velocity, energy };
         self.start_staggered();
-        if let Some(surroundings) = &mut self.surroundings {
-            surroundings.forget();
-        }
-        if let Some(stations) = &mut self.stations {
-            stations.forget();
-        }
+        self.air.forget();
     }
 
     /// Moves the velocities from time 0 to half a step before it, and chooses the earlier velocities so that the
@@ -210,7 +190,7 @@ pub(super) fn surrounded(
     jobs: &PerLane<Job<'_>>,
     isa: Isa,
     air: AirOf<'_>,
-) -> Result<Surrounded, Error> {
+) -> Result<Atmosphere, Error> {
     let Common { way, every, chain, .. } = common;
     // Eddies of finer elements, if the air is that of finer elements.
     let eddies = if way.is_some() { common.eddies.clone() } else { air.case.eddies() };
@@ -223,19 +203,16 @@ pub(super) fn surrounded(
     if let Some(way) = way {
         let of = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
         let lanes = PerLane::new(jobs.iter().filter_map(of).collect())?;
-        let stations = Some(Stations::new(way.clone(), &lanes, chain.elements));
-        return Ok(Surrounded { eddies, wind, surroundings: None, stations });
+        let stations = Stations::new(way.clone(), &lanes, chain.elements);
+        return Ok(Atmosphere::Way(wind, stations));
     }
     let wind = wind.for_steps_of(common.clock.time_step());
-    let airs = || jobs.map(|job| job.case.air.clone());
-    let surroundings = every.map(|every| Surroundings::around_elements(airs(), chain.elements, every));
-    let eddies = eddies.of_coarser(chain.elements);
-    Ok(Surrounded { eddies, wind, surroundings, stations: None })
-}
-
-/// The error of air, wind or a start that is made for another fibre.
-///
-/// * `what`, `parts` – what does not fit, and what it is counted in
-fn misfit(what: &str, parts: &str, found: usize, wanted: usize) -> Error {
-    Error::Flight(Fault::plain(format!("the {what} is for {found} {parts}, the fibres have {wanted}")))
+    let air = EddyWind { eddies: eddies.of_coarser(chain.elements), wind };
+    Ok(match every {
+        None => Atmosphere::Uniform(air),
+        Some(every) => {
+            let airs = jobs.map(|job| job.case.air.clone());
+            Atmosphere::Flow(air, Surroundings::around_elements(airs, chain.elements, *every))
+        }
+    })
 }

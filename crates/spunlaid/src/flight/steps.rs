@@ -1,11 +1,10 @@
 //! Steps of a flight, and what is seen of it between them.
 
 use super::{Flight, Snapshot};
-use crate::air::{AirAtElements, InEddies};
-use crate::chain::Chain;
+use crate::air::Instant;
+use crate::chain::Stride;
 use crate::chain::force_pass::ElementBlock;
 use crate::chain::schemes::Scheme;
-use crate::chain::work::WorkDone;
 use crate::chain::{explicit, implicit};
 use crate::energy::Energy;
 use crate::error::Error;
@@ -95,34 +94,36 @@ impl Flight {
         // The very first step always stores the work separately, because the sums begin with it.
         let first = steps.min(u64::from(self.steps_done == 0));
         for (steps, split) in [(first, true), (steps - first, split)] {
-            let how = How { steps, kick_and_drift, split };
+            let (kick, drift) = kick_and_drift;
+            let stride = Stride { kick, drift, damped: self.damped, split };
             match self.scheme {
                 _ if steps == 0 => {}
-                Scheme::SemiImplicitEuler => self.run_in_air::<{ Scheme::SemiImplicitEuler as u8 }>(how),
-                Scheme::Leapfrog => self.run_in_air::<{ Scheme::Leapfrog as u8 }>(how),
-                Scheme::ImplicitTension => self.run_in_air::<{ Scheme::ImplicitTension as u8 }>(how),
+                Scheme::SemiImplicitEuler => {
+                    self.run_scheme::<{ Scheme::SemiImplicitEuler as u8 }>(steps, stride)
+                }
+                Scheme::Leapfrog => self.run_scheme::<{ Scheme::Leapfrog as u8 }>(steps, stride),
+                Scheme::ImplicitTension => {
+                    self.run_scheme::<{ Scheme::ImplicitTension as u8 }>(steps, stride)
+                }
             }
         }
     }
 
-    fn run_in_air<const SCHEME: u8>(&mut self, how: How) {
+    fn run_scheme<const SCHEME: u8>(&mut self, steps: u64, stride: Stride) {
         let isa = self.isa;
-        match (&self.stations, &self.surroundings) {
-            (Some(_), _) => isa.run(Advance::<SCHEME, ALONG_THE_WAY> { flight: self, how }),
-            (None, Some(_)) => isa.run(Advance::<SCHEME, IN_FLOW> { flight: self, how }),
-            (None, None) => isa.run(Advance::<SCHEME, UNIFORM> { flight: self, how }),
+        match self.chain.laying {
+            Some(_) => isa.run(Advance::<SCHEME, true> { flight: self, steps, stride }),
+            None => isa.run(Advance::<SCHEME, false> { flight: self, steps, stride }),
         }
     }
 
     /// What a step changes besides the motion: fibre is fed and laid down.
     #[inline(never)]
     fn feed_and_lay(&mut self) {
-        if let Some(stations) = &mut self.stations {
-            let fed = self.chain.fed();
-            self.chain.slide(self.h);
-            self.chain.feed_and_lay(self.steps_done, self.h);
-            stations.follow(self.chain.elements(), self.chain.fed() > fed);
-        }
+        let fed = self.chain.fed();
+        self.chain.slide(self.h);
+        self.chain.feed_and_lay(self.steps_done, self.h);
+        self.air.follow(self.chain.elements(), self.chain.fed() > fed);
     }
 
     #[inline(always)]
@@ -131,93 +132,50 @@ impl Flight {
             self.work.begin();
         }
         self.steps_done += 1;
-        if self.steps_done > self.clock.spin_up_steps && self.stations.is_none() {
+        if self.steps_done > self.clock.spin_up_steps && self.chain.laying.is_none() {
             self.end_node.see::<S>(&self.chain.position[self.chain.elements()]);
         }
         let element = Vec3::load(&self.chain.position[1]) - Vec3::load(&self.chain.position[0]);
-        let strain = element.dot(element).sqrt().over(Wide::<S>::load(&self.chain.constants.rest_length))
+        let strain = element
+            .dot(element)
+            .sqrt()
+            .over(Wide::<S>::load(&self.chain.constants.elements.at(0).rest_length))
             - Wide::splat(1.0);
         self.root_strain = (Wide::load(&self.root_strain) + strain).store();
     }
 }
 
-/// The kinds of air: that of fed fibres, a flow that differs from place to place, and the same everywhere but for eddies.
-const ALONG_THE_WAY: u8 = 0;
-const IN_FLOW: u8 = 1;
-const UNIFORM: u8 = 2;
-
-/// How a flight is advanced.
-#[derive(Clone, Copy)]
-struct How {
-    steps: u64,
-    kick_and_drift: (f64, f64),
-    /// Whether the work of the velocities before each kick is stored separately.
-    split: bool,
-}
-
-/// Steps of a flight with one scheme in one kind of air. Each is compiled by itself: compilers take far longer for one
-/// large function than for many small ones.
-struct Advance<'a, const SCHEME: u8, const AIR: u8> {
+/// Steps of a flight with one scheme, of fibres that are fed or not. Each is compiled by itself: compilers take far longer
+/// for one large function than for many small ones.
+struct Advance<'a, const SCHEME: u8, const FED: bool> {
     flight: &'a mut Flight,
-    how: How,
+    steps: u64,
+    stride: Stride,
 }
 
-impl<const SCHEME: u8, const AIR: u8> Task for Advance<'_, SCHEME, AIR> {
+impl<const SCHEME: u8, const FED: bool> Task for Advance<'_, SCHEME, FED> {
     type Output = ();
 
     #[inline(always)]
     fn call<S: Register>(self) {
-        let Self { flight, how } = self;
+        let Self { flight, steps, stride } = self;
         let mut block = ElementBlock::<S>::new();
-        for _ in 0..how.steps {
-            let (step, time) = (flight.steps_done, flight.steps_done as f64 * flight.h);
-            let Flight { stations, surroundings, wind, eddies, chain, work, h, damped, .. } = flight;
-            let moved = Moved { chain, work, block: &mut block, h: *h, damped: *damped, how };
-            match (stations, surroundings) {
-                (Some(stations), _) if AIR == ALONG_THE_WAY => {
-                    let air = stations.around::<S>(step, time, wind, &moved.chain.position);
-                    moved.step::<SCHEME, true>(air);
-                }
-                (_, Some(flow)) if AIR == IN_FLOW => {
-                    let eddies = InEddies { now: wind.blow::<S>(time), of_element: eddies.of_element() };
-                    let air = flow.around::<S>(step, &moved.chain.position, eddies);
-                    moved.step::<SCHEME, false>(air);
-                }
-                _ => {
-                    let eddies = InEddies { now: wind.blow::<S>(time), of_element: eddies.of_element() };
-                    moved.step::<SCHEME, false>(eddies);
-                }
+        for _ in 0..steps {
+            let now = Instant { step: flight.steps_done, time: flight.time() };
+            let Flight { chain, air, work, .. } = flight;
+            let air = air.look::<S>(now, &chain.position);
+            if SCHEME == Scheme::ImplicitTension as u8 {
+                implicit::step::<S, FED>(chain, &air, stride, work, &mut block);
+            } else if SCHEME == Scheme::Leapfrog as u8 {
+                explicit::step::<S, true, FED>(chain, &air, stride, work, &mut block);
+            } else {
+                explicit::step::<S, false, FED>(chain, &air, stride, work, &mut block);
             }
             flight.count_step::<S>();
-            let moves = SCHEME == Scheme::ImplicitTension as u8 || how.kick_and_drift.1 != 0.0;
-            if AIR == ALONG_THE_WAY && moves {
+            // The half kick of a start moves nothing.
+            if FED && stride.drift != 0.0 {
                 flight.feed_and_lay();
             }
-        }
-    }
-}
-
-/// What a step changes.
-struct Moved<'a, S: Register> {
-    chain: &'a mut Chain,
-    work: &'a mut WorkDone,
-    block: &'a mut ElementBlock<S>,
-    h: f64,
-    damped: bool,
-    how: How,
-}
-
-impl<S: Register> Moved<'_, S> {
-    #[inline(always)]
-    fn step<const SCHEME: u8, const FED: bool>(self, air: impl AirAtElements<S>) {
-        let Self { chain, work, block, h, damped, how: How { kick_and_drift, split, .. } } = self;
-        let how = (damped, split);
-        if SCHEME == Scheme::ImplicitTension as u8 {
-            implicit::step::<S, FED>(chain, air, h, how, work, block);
-        } else if SCHEME == Scheme::Leapfrog as u8 {
-            explicit::step::<S, true, FED>(chain, air, kick_and_drift, how, work, block);
-        } else {
-            explicit::step::<S, false, FED>(chain, air, kick_and_drift, how, work, block);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Run-time choice of the instruction set.
 
 use super::Register;
-use super::simd::Baseline;
+use super::simd::Plain;
 
 /// An instruction set for which the kernel is compiled. All give the same bits; they differ in speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,8 +10,8 @@ pub enum Isa {
     Avx512,
     /// x86-64 with AVX2 and FMA: eight lanes in two registers.
     Avx2,
-    /// The instructions that every machine of the target has. On x86-64 these do not include fused multiply-add, which
-    /// is then computed in software, exactly but slowly.
+    /// The instructions that every machine of the target has, in one plain kernel. On x86-64 it is compiled for size, and
+    /// fused multiply-add is computed in software, exactly but slowly.
     Baseline,
 }
 
@@ -69,7 +69,7 @@ impl Isa {
                 };
             }
         }
-        task.call::<Baseline>()
+        task.call::<Plain>()
     }
 }
 

@@ -70,37 +70,8 @@ impl Picture {
     /// A part of the picture.
     pub(super) fn part(&self, of: Rectangle) -> Self {
         let [columns, rows] = of.sides;
-        Self { values: cut(&self.values, self.columns, of), columns, rows, ..self.empty() }
-    }
-
-    /// The picture without its values.
-    fn empty(&self) -> Self {
-        let Self {
-            format,
-            columns,
-            rows,
-            pixel,
-            pixel_of_file,
-            full_scale,
-            weight_of_black,
-            colour,
-            more,
-            ..
-        } = *self;
-        let (file, values) = (self.file.clone(), Vec::new());
-        Self {
-            file,
-            format,
-            values,
-            columns,
-            rows,
-            pixel,
-            pixel_of_file,
-            full_scale,
-            weight_of_black,
-            colour,
-            more,
-        }
+        let (file, values) = (self.file.clone(), cut(&self.values, self.columns, of));
+        Self { file, values, columns, rows, ..*self }
     }
 
     /// Shorter side [m].

@@ -37,7 +37,7 @@ const CASES: [(&str, Set<'static>); 8] = [
     ("fed", &[]),
     ("spunbond", &[("belt.contact", "friction")]),
     ("profile", &[]),
-    ("openfoam_diffuser", &[]),
+    ("point_table", &[]),
     ("record", &[("air.record_rate", "2 kHz")]),
 ];
 

@@ -3,13 +3,13 @@
 use crate::cases;
 use crate::meshes;
 use spunlaid::air::{Air, Axis, Eddies, Flow, FromFile, FromFlow, PlacedField, Profile, StreamKey};
-use spunlaid::air::{Surroundings, Wind};
+use spunlaid::air::{Atmosphere, Surroundings, Wind};
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{Computing, Keep, KeepShapes, Trajectory, fly};
 use spunlaid::error::Error;
 use spunlaid::field::{Field, Hint, Values};
-use spunlaid::flight::{Flight, Surrounded};
+use spunlaid::flight::Flight;
 use spunlaid::input::parse_case;
 use spunlaid::lanes::Isa;
 use spunlaid::vec3::Vec3;
@@ -122,7 +122,7 @@ fn analytic_elements_feel_the_velocity_at_their_centres() {
     .expect("fibres that agree");
     let surroundings = Surroundings::new(vec![calm], n, 5).expect("one air");
     let strand = case.strand();
-    let air = Surrounded { surroundings: Some(surroundings), ..Surrounded::from((&eddies, &turbulence)) };
+    let air = Atmosphere::from((&eddies, &turbulence, surroundings));
     let mut flight = Flight::assembled(Isa::detect(), &[strand], air, Scheme::SemiImplicitEuler, h)
         .expect("fibres that agree");
     flight.advance(1);
@@ -160,7 +160,7 @@ fn order_the_air_between_looks_is_of_second_order() {
     let path = |every: u64| {
         let surroundings =
             Surroundings::new(vec![calm.clone()], case.fibre.elements, every).expect("one air");
-        let air = Surrounded { surroundings: Some(surroundings), ..Surrounded::from((&eddies, &turbulence)) };
+        let air = Atmosphere::from((&eddies, &turbulence, surroundings));
         let mut flight = Flight::assembled(Isa::detect(), &[case.strand()], air, Scheme::Leapfrog, 1e-5)
             .expect("fibres that agree");
         let mut path = Vec::new();
@@ -208,7 +208,7 @@ fn the_interval_between_looks_follows_the_gradients() {
     let wind = Wind::uniform(Isa::detect(), &[(still, key)], eddies.count(), 0.11).unwrap();
     let path = |every: u64| -> Vec<Vec3<f64>> {
         let surroundings = Surroundings::new(vec![calm.clone()], case.fibre.elements, every).unwrap();
-        let air = Surrounded { surroundings: Some(surroundings), ..Surrounded::from((&eddies, &wind)) };
+        let air = Atmosphere::from((&eddies, &wind, surroundings));
         let strands = [case.strand()];
         let mut flight = Flight::assembled(Isa::detect(), &strands, air, Scheme::Leapfrog, 1e-5).unwrap();
         let place = |_| {

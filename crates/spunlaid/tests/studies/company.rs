@@ -183,8 +183,8 @@ output_interval = '0.2 ms'
 time_step = '20 µs'
 ";
 
-const SLIDING: &str = "version = 1
-[fibre]
+/// A fibre that is fed and falls on a belt, `DROP` in a case.
+const DROP: &str = "[fibre]
 diameter = '18 µm'
 density = '910 kg/m³'
 youngs_modulus = '2 GPa'
@@ -193,7 +193,10 @@ element_length = '4 mm'
 speed = '20 m/s'
 [belt]
 distance = '40 mm'
-speed = '2 m/s'
+speed = '2 m/s'";
+
+const SLIDING: &str = "version = 1
+DROP
 contact = 'friction'
 friction = 0.2
 suction = '100 Pa'
@@ -210,16 +213,7 @@ time_step = '20 µs'
 ";
 
 const FED_IN_FIELD: &str = "version = 1
-[fibre]
-diameter = '18 µm'
-density = '910 kg/m³'
-youngs_modulus = '2 GPa'
-element_length = '4 mm'
-[feed]
-speed = '20 m/s'
-[belt]
-distance = '40 mm'
-speed = '2 m/s'
+DROP
 [air]
 field = 'FIELD'
 [run]
@@ -254,7 +248,7 @@ fn files() -> &'static Path {
 /// The text of a case with its files.
 fn with_files(text: &str) -> String {
     let path = |name: &str| files().join(name).display().to_string();
-    text.replace("FIELD", &path("field.csv")).replace("RECORD", &path("record.csv"))
+    text.replace("DROP", DROP).replace("FIELD", &path("field.csv")).replace("RECORD", &path("record.csv"))
 }
 
 fn read(text: &str) -> Case {

@@ -6,16 +6,18 @@ use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::NormalLaw;
 use spunlaid::ensemble::{
-    Computing, FinerCheck, FinerPlans, Keep, Number, Refined, Results, Trajectory, fly, fly_and_check,
-    fly_together,
+    Computing, FinerCheck, FinerPlans, Keep, Number, Recorder, Refined, Results, Sample, Trajectory, fly,
+    fly_and_check, fly_together,
 };
 use spunlaid::error::Error;
-use spunlaid::flight::Job;
-use spunlaid::input::read_case;
+use spunlaid::flight::{Job, LaidPoint};
+use spunlaid::input::{parse_case, read_case};
 use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
+use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// By the paper's scheme.
 fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
@@ -187,6 +189,104 @@ fn rejects_a_flight_that_diverges() {
         message.contains("which no fibre can have") && message.contains("lower run.time_step"),
         "{message}"
     );
+}
+
+/// What a recorder is told: how often each replicate began to fly, and its instants since it began last.
+#[derive(Debug, Default)]
+struct Told(Mutex<BTreeMap<u64, (u32, Vec<Sample>)>>);
+
+impl Recorder for Told {
+    fn begin(&self, replicate: u64) {
+        let mut told = self.0.lock().unwrap();
+        let begun = told.get(&replicate).map_or(0, |(begun, _)| *begun);
+        told.insert(replicate, (begun + 1, Vec::new()));
+    }
+
+    fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error> {
+        self.0.lock().unwrap().get_mut(&replicate).unwrap().1.push(*sample);
+        Ok(())
+    }
+
+    fn lay(&self, _: u64, _: &[LaidPoint]) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// Fibres in a record with a gust of 90 km/s are lost where the gust is in their stretch of it. The others fly again
+/// without them, to the bits that they have alone, and the recorder forgets what it was told before.
+#[test]
+fn fibres_that_are_lost_stop_no_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let velocity = |i: u32| if (400..420).contains(&i) { 1e5 } else { 10.0 + f64::from(i * i % 101) * 0.01 };
+    let rows = (0..2000).map(|i| format!("{},{}\n", f64::from(i) * 1e-3, velocity(i)));
+    let record = folder.path().join("gust.csv");
+    std::fs::write(&record, format!("time_s,u_m_s\n{}", rows.collect::<String>())).unwrap();
+    let text = format!(
+        "version = 1
+[fibre]
+length = '0.2 m'
+diameter = '50 µm'
+density = '950 kg/m³'
+youngs_modulus = '2 GPa'
+element_length = '50 mm'
+[air]
+record = '{}'
+velocity = '10 m/s'
+turbulence_intensity = 900
+length_scale = '0.2 m'
+[run]
+duration = '50 ms'
+time_step = '20 µs'
+replicates = 12
+",
+        record.display()
+    );
+    let (case, _) = parse_case(&text, "case.toml", &[]).unwrap();
+    for threads in [1, 2] {
+        let (stop, fibre_steps, told) = (AtomicBool::new(false), AtomicU64::new(0), Told::default());
+        let computing = Computing {
+            threads,
+            isa: Isa::detect(),
+            stop: &stop,
+            fibre_steps: &fibre_steps,
+            recorder: Some(&told),
+        };
+        let (mut flown, mut lost, mut order) = (Vec::new(), Vec::new(), Vec::new());
+        fly_and_check(&case, &FinerPlans::none("it was not asked for"), Keep::SAMPLES, computing, |landed| {
+            match landed {
+                Ok(trajectory) => {
+                    order.push(trajectory.replicate);
+                    flown.push(trajectory);
+                }
+                Err(fibre) => {
+                    order.push(fibre.replicate);
+                    lost.push(fibre);
+                }
+            }
+            Ok::<(), Error>(())
+        })
+        .unwrap();
+        assert_eq!(order, (0..12).collect::<Vec<_>>(), "each in its turn");
+        assert!(!lost.is_empty() && flown.len() > 2, "{lost:?}");
+        // What the flights that were given up have done is not counted.
+        assert_eq!(fibre_steps.load(Ordering::Relaxed), case.run.steps * flown.len() as u64);
+        for fibre in lost {
+            assert!(fibre.reason.starts_with(&format!("replicate {}: ", fibre.replicate + 1)), "{fibre:?}");
+            assert!(fibre.time >= 0.0 && fibre.time <= case.run.duration());
+        }
+        let told = told.0.lock().unwrap();
+        assert!(told.values().any(|(begun, _)| *begun > 1));
+        for flight in flown {
+            let jobs = [Job { case: &case, replicate: flight.replicate }];
+            let alone = fly_together(
+                &jobs,
+                Keep::SAMPLES,
+                Computing { recorder: None, fibre_steps: &AtomicU64::new(0), ..computing },
+            );
+            assert_same(&alone.unwrap()[0], &flight);
+            assert!(told[&flight.replicate].1 == flight.samples);
+        }
+    }
 }
 
 /// The trajectories of a case, and one of its checks.

@@ -159,7 +159,7 @@ fn write(
 fn lost(study: &Study, journal: &mut Journal, flown: u64) -> Result<(), Failure> {
     let (mut lost, mut first) = (0, String::new());
     for (index, point) in study.points.iter().enumerate() {
-        for record in journal.records(index, u64::MAX).map_err(Error::from)? {
+        for record in journal.records(index, u64::MAX)? {
             if let Landing::Lost { node, time } = record.landing {
                 lost += 1;
                 if lost <= LOST_LISTED {

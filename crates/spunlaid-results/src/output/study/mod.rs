@@ -37,7 +37,7 @@ pub fn write(
         let row = point_row(study, index, &point);
         csv.add(&row)?;
         add(&mut results, &row)?;
-        for record in journal.records(index, u64::MAX).map_err(spunlaid::error::Error::from)? {
+        for record in journal.records(index, u64::MAX)? {
             add(&mut replicates, &replicate_row(study, index, &record))?;
         }
         all.push(point);

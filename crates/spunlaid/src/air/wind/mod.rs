@@ -182,7 +182,7 @@ impl Wind {
 
     /// [`Wind::at`] for the kernel, to be asked eddy by eddy.
     #[inline(always)]
-    pub(crate) fn blow<S: Register>(&mut self, t: f64) -> EddyVelocities<'_, S> {
+    pub(super) fn blow<S: Register>(&mut self, t: f64) -> EddyVelocities<'_, S> {
         let cells = t / self.spacing * self.cells_per_sample as f64;
         let cell = cells as u64;
         if self.cell != Some(cell) {
@@ -199,11 +199,13 @@ impl Wind {
         let cells = t / self.spacing * self.cells_per_sample as f64;
         let cell = cells as u64;
         let (s, start) = (Wide::splat(cells - cell as f64), (cell % self.cells_per_sample) as usize);
-        let weights = std::array::from_fn(|tap| {
-            let ends = [&self.weights[start], &self.weights[start + 1]];
-            let [a, b] = ends.map(|of| (Wide::splat(of[tap].0), Wide::splat(of[tap].1)));
-            along(cubic(a, b), s)
-        });
+        let mut weights = [Wide::zero(); SPREAD];
+        for (weight, (a, b)) in
+            weights.iter_mut().zip(self.weights[start].iter().zip(&self.weights[start + 1]))
+        {
+            let start = (Wide::splat(a.0), Wide::splat(a.1));
+            *weight = along(cubic(start, (Wide::splat(b.0), Wide::splat(b.1))), s);
+        }
         Some(AmongSamples {
             samples: windows.samples(cell / self.cells_per_sample),
             mean: &self.mean,
@@ -222,10 +224,11 @@ impl Wind {
         for (column, (into, (a, b))) in
             self.cubic.as_flattened_mut().iter_mut().zip(self.start.iter().zip(&self.end)).enumerate()
         {
-            let [a, b] = [a, b].map(|(value, slope)| (Wide::<S>::load(value), Wide::load(slope)));
-            let [c0, c1, c2, c3] = cubic(a, b);
+            // No closures here, because the compiler does not always inline them.
+            let start = (Wide::<S>::load(&a.0), Wide::load(&a.1));
+            let [c0, c1, c2, c3] = cubic(start, (Wide::load(&b.0), Wide::load(&b.1)));
             let mean = if column % 3 == 0 { Wide::load(&self.mean[column / 3]) } else { Wide::zero() };
-            *into = [c0 + mean, c1, c2, c3].map(Wide::store);
+            *into = [(c0 + mean).store(), c1.store(), c2.store(), c3.store()];
         }
         self.cell = Some(cell);
     }
@@ -299,6 +302,12 @@ fn cubic<S: Register>(start: (Wide<S>, Wide<S>), end: (Wide<S>, Wide<S>)) -> [Wi
     [start.0, start.1, bend, two.neg_mul_add(rise, start.1 + end.1)]
 }
 
+/// The coefficients of a cubic.
+#[inline(always)]
+fn loaded<S: Register>([c0, c1, c2, c3]: &[Lanes; 4]) -> [Wide<S>; 4] {
+    [Wide::load(c0), Wide::load(c1), Wide::load(c2), Wide::load(c3)]
+}
+
 /// The cubic with these coefficients.
 #[inline(always)]
 fn along<S: Register>([c0, c1, c2, c3]: [Wide<S>; 4], s: Wide<S>) -> Wide<S> {
@@ -360,9 +369,9 @@ impl<S: Register> EddyVelocities<'_, S> {
     /// Velocity of the air in an eddy [m/s].
     #[inline(always)]
     pub(crate) fn velocity(&self, eddy: u32) -> Vec3<Wide<S>> {
+        // No closures here, because the compiler does not inline them.
         let [x, y, z] = &self.cubic[eddy as usize];
-        let at = |cubic: &[Lanes; 4]| along(cubic.each_ref().map(Wide::load), self.s);
-        Vec3::new(at(x), at(y), at(z))
+        Vec3::new(along(loaded(x), self.s), along(loaded(y), self.s), along(loaded(z), self.s))
     }
 }
 

@@ -1,9 +1,9 @@
 //! The forces with the tensions of the last step, and the system of the accelerations.
 
 use super::Tensions;
+use crate::chain::constants::{Constants, ElementConstants, Node};
 use crate::chain::force_pass::Integrator;
 use crate::chain::forces::Element;
-use crate::chain::{Constants, Node};
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
@@ -14,11 +14,11 @@ use crate::vec3::Vec3;
 const MOST_KEPT: f64 = 2.25;
 const MOST_KEPT_FED: f64 = 0.5;
 
-/// The largest tension that the predictor takes from the last step [N].
+/// The largest tension that the predictor takes from the last step, for a mass and a length of one [N].
 #[inline(always)]
-pub(super) fn most_kept<S: Register, const FED: bool>(c: &Constants, h: f64) -> Wide<S> {
+pub(super) fn most_kept<S: Register, const FED: bool>(h: f64) -> Wide<S> {
     let most = if FED { MOST_KEPT_FED } else { MOST_KEPT };
-    Wide::load(&c.rest_length) * Wide::load(&c.node.mass) * Wide::splat(most / (h * h))
+    Wide::splat(most / (h * h))
 }
 
 /// Stores the forces with the tensions of the last step, and eliminates `(M + K') a = F` from the root to the
@@ -31,9 +31,9 @@ pub(super) struct Predictor<'a, S: Register> {
     pub(super) c: &'a Constants,
     /// The time step [s].
     pub(super) h: f64,
-    /// `h²/m` of a node between elements.
-    pub(super) rate: Wide<S>,
-    /// Largest tension that is taken from the last step [N].
+    /// `h²` [s²].
+    pub(super) h_squared: Wide<S>,
+    /// Largest tension that is taken from the last step, for a mass and a length of one [N].
     pub(super) most_kept: Wide<S>,
     pub(super) t: &'a mut Tensions,
     /// `½ m s²/(1+s)` of the elements above and below the next node; zero in compression.
@@ -57,15 +57,17 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
     }
 
     #[inline(always)]
-    fn tension(&mut self, j: usize, element: &Element<S>) -> Wide<S> {
+    fn tension(&mut self, j: usize, c: &ElementConstants, element: &Element<S>) -> Wide<S> {
+        let mass = Wide::load(&c.mass);
         // Without the compression, the prediction does not fold elements that the correction has to unfold.
         let tension = Wide::load(&self.t.tension[j]).max(Wide::zero());
-        let tension = Wide::select_less(self.most_kept, tension, self.most_kept, tension);
+        let most_kept = Wide::load(&c.rest_length) * mass * self.most_kept;
+        let tension = Wide::select_less(most_kept, tension, most_kept, tension);
         self.t.tension[j] = tension.store();
         self.t.links[j].tangent = element.tangent.store();
-        let s = self.rate * tension * element.inverse_length;
+        let s = self.h_squared * Wide::load(&c.inverse_mass) * tension * element.inverse_length;
         let share = (s * s).over(s + Wide::splat(1.0)) * Wide::splat(0.5);
-        self.string.1 = share * Wide::load(&self.c.node.mass);
+        self.string.1 = share * mass;
         tension
     }
 

@@ -95,8 +95,9 @@ impl Chain {
     pub(crate) fn furthest_off(&self, lane: usize) -> (f64, usize) {
         let c = &self.constants;
         let nodes = self.nodes()[lane];
-        let (stiffness, rest_length) = (c.axial_stiffness.0[lane], c.rest_length.0[lane]);
         let off = |j: usize, tension: &Lanes| {
+            let c = c.elements.at(j);
+            let (stiffness, rest_length) = (c.axial_stiffness.0[lane], c.rest_length.0[lane]);
             let length = (self.position[j + 1].lane(lane) - self.position[j].lane(lane)).norm();
             let held = self.is_held(j, lane) && self.is_held(j + 1, lane);
             if held {
@@ -115,8 +116,7 @@ impl Chain {
     fn corrections(&self, lane: usize, h: f64) -> Option<(Vec<Vec3<f64>>, Vec<f64>)> {
         let c = &self.constants;
         let nodes = self.position.len();
-        let (stiffness, rest_length) = (c.axial_stiffness.0[lane], c.rest_length.0[lane]);
-        let weight = |i: usize| {
+        let weight = |i: usize, stiffness: f64| {
             let node = c.node(i, nodes);
             [node.inverse_mass_x.0[lane], node.inverse_mass.0[lane]]
                 .map(|inverse| h * h * stiffness * inverse)
@@ -126,11 +126,13 @@ impl Chain {
         };
         let mut directions: Vec<Vec3<f64>> = Vec::with_capacity(nodes);
         let mut rows: Vec<(f64, f64)> = Vec::with_capacity(nodes);
-        let (mut upper, mut needed) = (weight(0), false);
+        let mut needed = false;
         // From the root on, each row is eliminated with the one above.
         let mut last = (0.0, 0.0);
         for j in 0..nodes - 1 {
-            let lower = weight(j + 1);
+            let element = c.elements.at(j);
+            let (stiffness, rest_length) = (element.axial_stiffness.0[lane], element.rest_length.0[lane]);
+            let [upper, lower] = [j, j + 1].map(|i| weight(i, stiffness));
             let edge = self.position[j + 1].lane(lane) - self.position[j].lane(lane);
             let length = edge.norm();
             let direction = edge * (1.0 / length);
@@ -149,7 +151,6 @@ impl Chain {
             last = ((wanted - above * last.0) * pivot, below * pivot);
             rows.push(last);
             directions.push(direction);
-            upper = lower;
         }
         if !needed {
             return None;

@@ -17,26 +17,27 @@
 mod accelerations;
 mod corrections;
 mod iterations;
+mod motion;
 mod tensions;
 
 pub(crate) use tensions::Tensions;
 
-use super::Chain;
 use super::force_pass::{ElementBlock, force_pass};
 use super::work::{Supports, WorkDone, WorkRegisters};
-use crate::air::AirAtElements;
+use super::{Chain, Stride};
+use crate::air::Velocities;
 use crate::lanes::{Register, Wide};
 use crate::vec3::Vec3;
 use accelerations::{Predictor, most_kept};
-use corrections::{correct_and_move, predict_and_eliminate};
+use corrections::predict_and_eliminate;
+use motion::correct_and_move;
 
-/// Advances eight chains by one step of `h` [s]. The arguments are those of the explicit step.
+/// Advances eight chains by one step. The arguments are those of the explicit step, with equal times of kick and drift.
 #[inline(always)]
 pub(crate) fn step<S: Register, const FED: bool>(
     chain: &mut Chain,
-    wind: impl AirAtElements<S>,
-    h: f64,
-    (damped, split): (bool, bool),
+    air: &Velocities<'_, S>,
+    Stride { drift: h, damped, split, .. }: Stride,
     work: &mut WorkDone,
     block: &mut ElementBlock<S>,
 ) {
@@ -48,14 +49,14 @@ pub(crate) fn step<S: Register, const FED: bool>(
         earlier: &chain.earlier,
         c,
         h,
-        rate: Wide::splat(h * h) * Wide::load(&c.node.inverse_mass),
-        most_kept: most_kept::<S, FED>(c, h),
+        h_squared: Wide::splat(h * h),
+        most_kept: most_kept::<S, FED>(h),
         t: &mut chain.tensions,
         string: (Wide::zero(), Wide::zero()),
         above: (Vec3::zero(), Wide::zero()),
         dissipation: Wide::zero(),
     };
-    force_pass(&mut predictor, c, wind, chain.position.len() - 1, block);
+    force_pass(&mut predictor, c, air, chain.position.len() - 1, block);
     work.dissipate(predictor.dissipation, c, h);
     predict_and_eliminate::<S, FED>(chain, h);
     if FED {

@@ -1,7 +1,8 @@
 //! The feed: the start of a fed fibre, the births of its nodes, and its stiffness at the inlet.
 
 use super::{Fed, Friction, Laying};
-use crate::chain::{Chain, Node};
+use crate::chain::Chain;
+use crate::chain::constants::Node;
 use crate::lanes::{Lanes, WIDTH};
 use crate::vec3::Vec3;
 
@@ -20,14 +21,15 @@ impl Chain {
     pub(crate) fn feed(&mut self, lanes: &[Fed], steps_per_element: u64) {
         let c = &mut self.constants;
         let elements = self.position.len() - 1;
-        let mut laying = Laying::new(lanes, steps_per_element, &c.rest_length, elements);
-        let above = c.root_direction * (c.rest_length * Lanes::splat(BORN - 0.5));
+        let rest_length = c.elements.at(0).rest_length;
+        let mut laying = Laying::new(lanes, steps_per_element, rest_length, elements);
+        let above = c.root_direction * (rest_length * Lanes::splat(BORN - 0.5));
         self.position.iter_mut().for_each(|position| *position += above);
         let pick =
             |lane: usize| lanes[if lane < lanes.len() { lane } else { 0 }].turn * std::f64::consts::TAU;
         let end = &mut self.position[elements];
         for lane in 0..WIDTH {
-            let off = 1e-3 * c.rest_length.0[lane];
+            let off = 1e-3 * rest_length.0[lane];
             end.y.0[lane] += off * libm::cos(pick(lane));
             end.z.0[lane] += off * libm::sin(pick(lane));
         }
@@ -35,12 +37,12 @@ impl Chain {
         self.velocity.iter_mut().chain(self.earlier.iter_mut()).for_each(|v| *v = velocity);
         laying.origin = self.position.clone();
         c.frame = laying.belt_speed;
-        c.friction = Friction::of(lanes, &c.rest_length);
+        c.friction = Friction::of(lanes, &rest_length);
         if c.friction.is_some() {
             self.tensions.rub();
         }
         // It becomes a node between two elements.
-        let Node { mass, weight, .. } = c.node;
+        let Node { mass, weight, .. } = *c.nodes.at(0);
         (c.root.mass, c.root.weight) = (mass, weight);
         self.laying = Some(laying);
         self.clamp(0);
@@ -51,28 +53,32 @@ impl Chain {
     /// * `lifetime` – until the next birth [s]
     pub(super) fn give_birth(&mut self, lifetime: f64) {
         let c = &self.constants;
+        let element = c.elements.at(0);
         let length = |lane: usize| (self.position[1].lane(lane) - self.position[0].lane(lane)).norm();
         let stretch = match self.tensions.tension.first() {
-            Some(tension) => Lanes::from_fn(|i| tension.0[i] / c.axial_stiffness.0[i]),
-            None => Lanes::from_fn(length) - c.rest_length,
+            Some(tension) => Lanes::from_fn(|i| tension.0[i] / element.axial_stiffness.0[i]),
+            None => Lanes::from_fn(length) - element.rest_length,
         };
-        let born = c.rest_length + stretch;
+        let born = element.rest_length + stretch;
         let position = self.position[0] - c.root_direction * born;
         let velocity = c.root_direction * (born * Lanes::splat(1.0 / lifetime));
-        let tension = c.axial_stiffness * stretch;
+        let tension = element.axial_stiffness * stretch;
         self.position.push_root(position);
         self.velocity.push_root(velocity);
         self.earlier.push_root(velocity);
         self.tensions.push_root(tension);
+        self.constants.push_root();
 
         // The former root now bends like every other node.
+        let c = &self.constants;
         let seen = Vec3::new(velocity.x, velocity.y - c.frame, velocity.z);
         let kinetic = (seen.x * seen.x + seen.y * seen.y + seen.z * seen.z) * c.root.mass;
         let axial = tension * stretch;
-        let (k, root) = (self.constants.bending_stiffness, self.constants.root_stiffness);
-        let bending = self.bent(1, k - root) + self.bent(2, k - self.constants.second_stiffness);
+        let [first, second, third] = [0, 1, 2].map(|i| *self.constants.bending_stiffness.at(i));
+        let bending = self.bent(1, second - self.constants.root_stiffness)
+            + self.bent(2, third - self.constants.second_stiffness);
         let half = Lanes::splat(0.5);
-        (self.constants.root_stiffness, self.constants.second_stiffness) = (k, k);
+        (self.constants.root_stiffness, self.constants.second_stiffness) = (first, second);
         let Some(laying) = &mut self.laying else { return };
         laying.root_number += 1;
         laying.origin.push_root(position);
@@ -84,12 +90,13 @@ impl Chain {
 
     /// Stiffness of the root and of the node below it, after so many steps since the birth.   theory.md (60)
     pub(crate) fn clamp(&mut self, since_birth: u64) {
-        let k = self.constants.bending_stiffness;
+        let [k, k_second] = [0, 1].map(|i| *self.constants.bending_stiffness.at(i));
         let Some(laying) = &self.laying else { return };
         let inside = BORN + since_birth as f64 / laying.steps_per_element as f64;
         let before = (self.constants.root_stiffness, self.constants.second_stiffness);
         let root = Lanes::from_fn(|i| if laying.clamped[i] { k.0[i] / inside } else { 0.0 });
-        let second = Lanes::from_fn(|i| k.0[i] * if laying.clamped[i] { 1.0 } else { inside.min(1.0) });
+        let second =
+            Lanes::from_fn(|i| k_second.0[i] * if laying.clamped[i] { 1.0 } else { inside.min(1.0) });
         (self.constants.root_stiffness, self.constants.second_stiffness) = (root, second);
         // What the change adds or takes is the feed's.
         let half = Lanes::splat(0.5);

@@ -1,7 +1,8 @@
 //! Friction on the belt: when a node slides and when it sticks.
 
 use super::Fed;
-use crate::chain::{Chain, Node};
+use crate::chain::Chain;
+use crate::chain::constants::Node;
 use crate::lanes::{Lanes, WIDTH};
 use crate::line::Contact;
 use crate::vec3::Vec3;

@@ -72,7 +72,7 @@ impl Chain {
                 if let Some(force) = tensions.belt_force.get_mut(nodes - 1 - c.tail.len()) {
                     *force = Vec3::ZERO;
                 }
-                c.tail.push(c.node);
+                c.tail.push(*c.nodes.at(nodes - 1 - c.tail.len()));
                 laying.landed_at.push(Lanes::splat(f64::NAN));
             }
             for lane in (0..WIDTH).filter(|&lane| !shares.0[lane].is_nan()) {
@@ -140,7 +140,7 @@ impl Chain {
                 laying.landed_at[from_end].0[lane] = time;
             }
             let at = position[node].lane(lane);
-            let fed = number as f64 * c.rest_length.0[lane];
+            let fed = number as f64 * laying.element_length.0[lane];
             let touch_down = laying.landed_at[from_end].0[lane];
             let md = at.y - laying.belt_speed.0[lane] * time;
             laying.laid[lane].push(LaidPoint { fed, time: touch_down, md, cd: at.z });
@@ -169,7 +169,7 @@ impl Chain {
         }
         laying.origin.truncate(needed);
         laying.landed_at.drain(..nodes - needed);
-        self.constants.tail.drain(..nodes - needed);
+        self.constants.truncate(needed, nodes);
         self.position.truncate(needed);
         self.velocity.truncate(needed);
         self.earlier.truncate(needed);

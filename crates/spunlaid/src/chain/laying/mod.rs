@@ -19,7 +19,8 @@ mod landing;
 pub(crate) use carried::Carried;
 pub(crate) use friction::Friction;
 
-use super::{Chain, Constants, Node};
+use super::Chain;
+use super::constants::{Constants, Node};
 use crate::fibre::{Fibre, Root};
 use crate::lanes::{Lanes, WIDTH};
 use crate::line::Line;
@@ -58,6 +59,8 @@ pub(crate) struct Laying {
     height: Lanes,
     belt_speed: Lanes,
     steps_per_element: u64,
+    /// Rest length of an element [m].
+    element_length: Lanes,
     /// Nodes behind the newest touch-down that stay in the chain.
     kept: [u64; WIDTH],
     /// Number of the root in the order of feed. The first end of the fibre has the number 0.
@@ -82,7 +85,7 @@ impl Laying {
     /// * `lanes` – of up to eight fibres
     /// * `steps_per_element` – of all of them
     /// * `rest_length` – of an element [m]
-    fn new(lanes: &[Fed], steps_per_element: u64, rest_length: &Lanes, elements: usize) -> Self {
+    fn new(lanes: &[Fed], steps_per_element: u64, rest_length: Lanes, elements: usize) -> Self {
         let pick = |i: usize| &lanes[if i < lanes.len() { i } else { 0 }];
         let kept = |i: usize| (pick(i).line.kept_length / rest_length.0[i]).ceil().clamp(1.0, 1e9) as u64;
         Self {
@@ -91,6 +94,7 @@ impl Laying {
             height: Lanes::from_fn(|i| pick(i).line.distance),
             belt_speed: Lanes::from_fn(|i| pick(i).line.belt_speed),
             steps_per_element,
+            element_length: rest_length,
             kept: std::array::from_fn(kept),
             root_number: elements as u64,
             touched: [0; WIDTH],
@@ -150,25 +154,25 @@ impl Chain {
         if self.laying.is_none() {
             return;
         }
-        let c = &mut self.constants;
+        let (nodes, c) = (self.position.len(), &mut self.constants);
         (c.frame, c.friction) = (former.frame, former.friction);
-        (c.root.mass, c.root.weight) = (c.node.mass, c.node.weight);
-        let (root, second) = (former.root_stiffness, former.second_stiffness);
-        let scale = |of: Lanes| {
-            Lanes::from_fn(|i| of.0[i] / former.bending_stiffness.0[i] * c.bending_stiffness.0[i])
+        (c.root.mass, c.root.weight) = (c.nodes.at(0).mass, c.nodes.at(0).weight);
+        let scale = |stiffness: Lanes, i: usize| {
+            let [before, after] = [former, &*c].map(|c| c.bending_stiffness.at(i));
+            Lanes::from_fn(|lane| stiffness.0[lane] / before.0[lane] * after.0[lane])
         };
-        (c.root_stiffness, c.second_stiffness) = (scale(root), scale(second));
-        let node = c.node;
+        let (root, second) = (scale(former.root_stiffness, 0), scale(former.second_stiffness, 1));
         let kept = |new: Lanes, old: Lanes| Lanes::from_fn(|i| if old.0[i] == 0.0 { 0.0 } else { new.0[i] });
-        c.tail = former
-            .tail
-            .iter()
-            .map(|old| Node {
+        let tail = former.tail.iter().enumerate().map(|(from_end, old)| {
+            let node = c.nodes.at(nodes - 1 - from_end);
+            Node {
                 mass: kept(node.mass, old.mass),
                 inverse_mass: kept(node.inverse_mass, old.inverse_mass),
                 inverse_mass_x: kept(node.inverse_mass_x, old.inverse_mass_x),
                 weight: kept(node.weight, old.weight),
-            })
-            .collect();
+            }
+        });
+        let tail = tail.collect();
+        (c.root_stiffness, c.second_stiffness, c.tail) = (root, second, tail);
     }
 }

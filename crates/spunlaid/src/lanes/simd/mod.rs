@@ -4,7 +4,6 @@
 //!
 //! ```text
 //! plain    plain Rust, for any machine
-//! sse2     what every x86-64 machine has
 //! avx2     AVX2 and FMA
 //! avx512   AVX-512 F, DQ and VL
 //! ```
@@ -14,20 +13,12 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod plain;
-#[cfg(target_arch = "x86_64")]
-mod sse2;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::Avx512;
 pub(crate) use plain::Plain;
-
-/// The instructions that every machine of the target has.
-#[cfg(not(target_arch = "x86_64"))]
-pub(crate) type Baseline = Plain;
-#[cfg(target_arch = "x86_64")]
-pub(crate) use sse2::Sse2 as Baseline;
 
 use super::{Isa, Lanes, WIDTH};
 

@@ -1,4 +1,7 @@
 //! Plain Rust, for any machine.
+//!
+//! On x86-64 few machines need it, those without AVX2, so its operations are calls there: inlined, they would be a third of the
+//! library's compile time and half of the kernel's code. Elsewhere it is the only one and is inlined.
 
 use super::{Register, Simd};
 use crate::lanes::{Isa, Lanes, WIDTH};
@@ -9,19 +12,27 @@ use crate::lanes::{Isa, Lanes, WIDTH};
 pub(crate) struct Plain([f64; WIDTH]);
 
 impl Plain {
-    #[inline(always)]
-    fn each(self, of: impl Fn(f64) -> f64) -> Self {
-        Self(self.0.map(of))
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
+    fn each(self, operation: impl Fn(f64) -> f64) -> Self {
+        Self(self.0.map(operation))
+    }
+
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
+    fn pairs(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
+        Self(std::array::from_fn(|i| operation(self.0[i], other.0[i])))
+    }
+
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
+    fn triples(self, b: Self, c: Self, operation: impl Fn(f64, f64, f64) -> f64) -> Self {
+        Self(std::array::from_fn(|i| operation(self.0[i], b.0[i], c.0[i])))
     }
 
     #[inline(always)]
-    fn pairs(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
-        Self(std::array::from_fn(|i| of(self.0[i], other.0[i])))
-    }
-
-    #[inline(always)]
-    fn bits(self, of: impl Fn(u64) -> u64) -> Self {
-        self.each(|x| f64::from_bits(of(x.to_bits())))
+    fn bits(self, operation: impl Fn(u64) -> u64) -> Self {
+        self.each(|x| f64::from_bits(operation(x.to_bits())))
     }
 }
 
@@ -61,11 +72,11 @@ impl Simd for Plain {
     }
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i].mul_add(factor.0[i], addend.0[i])))
+        self.triples(factor, addend, f64::mul_add)
     }
     #[inline(always)]
     fn neg_mul_add(self, factor: Self, addend: Self) -> Self {
-        self.each(|x| -x).mul_add(factor, addend)
+        self.triples(factor, addend, |a, b, c| (-a).mul_add(b, c))
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -79,11 +90,13 @@ impl Simd for Plain {
     fn max(self, other: Self) -> Self {
         self.pairs(other, |a, b| if a > b { a } else { b })
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
         Self(std::array::from_fn(|i| if a.0[i] < b.0[i] { yes.0[i] } else { no.0[i] }))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn any_above(self, other: Self) -> bool {
         (0..WIDTH).any(|i| self.0[i] > other.0[i])
     }

@@ -1,0 +1,172 @@
+//! The kinds of air in which fibres fly, and the velocity that each gives at their elements.
+//!
+//! ```text
+//! look   once a step: the time and the places of the nodes → Velocities
+//! at     element by element: its velocity → forces
+//! ```
+//!
+//! The kernel asks for velocities and knows no kind of air. A kind is a variant of both types here, and what it looks at is its
+//! own: it may belong to one flight, or be a handle to what many flights read. Velocities that are all written into a buffer
+//! beforehand cost up to a seventh of a step: the signals of many eddies do not fit into the first-level cache.
+use super::eddy_wind::{InEddies, LastEddy};
+use super::stations::OnTheWay;
+use super::surroundings::InFlow;
+use super::{Eddies, EddyWind, Stations, Surroundings, Wind};
+use crate::error::{Error, Fault};
+use crate::lanes::{Lanes, Register, Wide};
+use crate::vec3::Vec3;
+
+/// The air in which up to eight fibres fly.
+// A flight has one, so its size does not matter.
+#[allow(clippy::large_enum_variant)]
+#[derive(Clone, Debug)]
+pub enum Atmosphere {
+    /// Eddies in a flow that is the same everywhere.
+    Uniform(EddyWind),
+    /// Eddies in a flow that differs from place to place. Their wind has the mean zero and the rms one.
+    Flow(EddyWind, Surroundings),
+    /// The air along the way of fed fibres, with a signal for each station.
+    Way(Wind, Stations),
+}
+
+/// The velocities of the air at the elements at one instant.
+pub(crate) enum Velocities<'a, S: Register> {
+    Uniform(InEddies<'a, S>),
+    Flow(InEddies<'a, S>, InFlow<'a, S>),
+    Way(OnTheWay<'a, S>),
+}
+
+impl<S: Register> Velocities<'_, S> {
+    /// Velocity of the air at element `j` [m/s].
+    ///
+    /// * `last` – the eddy of the element before, and its velocity
+    #[inline(always)]
+    pub(crate) fn at(&self, j: usize, last: &mut LastEddy<S>) -> Vec3<Wide<S>> {
+        match self {
+            Self::Uniform(eddies) => eddies.at(j, last),
+            Self::Flow(eddies, flow) => flow.carried(j, eddies.at(j, last)),
+            Self::Way(elements) => elements.at(j),
+        }
+    }
+}
+
+/// An instant of a flight.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Instant {
+    /// Number of steps done.
+    pub(crate) step: u64,
+    /// Time since the start [s].
+    pub(crate) time: f64,
+}
+
+impl From<(&Eddies, &Wind)> for Atmosphere {
+    fn from((eddies, wind): (&Eddies, &Wind)) -> Self {
+        Self::Uniform(EddyWind { eddies: eddies.clone(), wind: wind.clone() })
+    }
+}
+
+impl From<(&Eddies, &Wind, Surroundings)> for Atmosphere {
+    fn from((eddies, wind, flow): (&Eddies, &Wind, Surroundings)) -> Self {
+        Self::Flow(EddyWind { eddies: eddies.clone(), wind: wind.clone() }, flow)
+    }
+}
+
+impl Atmosphere {
+    /// Looks at the air at an instant.
+    ///
+    /// * `position` – of the `N+1` nodes [m]
+    #[inline(always)]
+    pub(crate) fn look<S: Register>(&mut self, now: Instant, position: &[Vec3<Lanes>]) -> Velocities<'_, S> {
+        let Instant { step, time } = now;
+        match self {
+            Self::Uniform(air) => Velocities::Uniform(air.look(time)),
+            Self::Flow(air, flow) => Velocities::Flow(air.look(time), flow.look(step, position)),
+            Self::Way(wind, stations) => Velocities::Way(stations.look(step, time, wind, position)),
+        }
+    }
+
+    /// Whether it fits fibres of so many elements.
+    ///
+    /// # Errors
+    /// A part of it is made for another number of elements or of eddies.
+    pub(crate) fn check(&self, elements: usize) -> Result<(), Error> {
+        let fits = |what, parts, found, wanted| match found == wanted {
+            true => Ok(()),
+            false => Err(misfit(what, parts, found, wanted)),
+        };
+        if let Self::Uniform(air) | Self::Flow(air, _) = self {
+            fits("air", "elements", air.eddies.of_element().len(), elements)?;
+            fits("wind", "eddies", air.wind.eddies(), air.eddies.count())?;
+        }
+        if let Self::Flow(_, flow) = self {
+            fits("surrounding flow", "elements", flow.elements(), elements)?;
+        }
+        Ok(())
+    }
+
+    /// Makes the samples around time 0, which clones made later share.
+    pub(crate) fn prepare(&mut self) {
+        match self {
+            Self::Uniform(EddyWind { wind, .. })
+            | Self::Flow(EddyWind { wind, .. }, _)
+            | Self::Way(wind, _) => wind.prepare(),
+        }
+    }
+
+    /// Forgets how the air was so far, before fibres start anew.
+    pub(crate) fn forget(&mut self) {
+        match self {
+            Self::Uniform(_) => {}
+            Self::Flow(_, flow) => flow.forget(),
+            Self::Way(_, stations) => stations.forget(),
+        }
+    }
+
+    /// Follows fibres that have grown at their roots and become shorter at their ends to so many elements.
+    pub(crate) fn follow(&mut self, elements: usize, born: bool) {
+        if let Self::Way(_, stations) = self {
+            stations.follow(elements, born);
+        }
+    }
+
+    /// Whether each element lies in the same eddy of another air of this kind.
+    pub(crate) fn has_eddies_of(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Uniform(one), Self::Uniform(other)) => one.eddies == other.eddies,
+            (Self::Flow(one, _), Self::Flow(other, _)) => one.eddies == other.eddies,
+            (Self::Way(one, _), Self::Way(other, _)) => one.eddies() == other.eddies(),
+            _ => false,
+        }
+    }
+
+    /// Replaces the air by another one of the same kind and eddies.
+    pub(crate) fn change(&mut self, by: Self) {
+        match (self, by) {
+            (Self::Flow(air, flow), Self::Flow(new_air, new_flow)) => {
+                *air = new_air;
+                flow.change(new_flow);
+            }
+            (Self::Way(wind, stations), Self::Way(new_wind, new_stations)) => {
+                *wind = new_wind;
+                stations.change(new_stations);
+            }
+            (air, by) => *air = by,
+        }
+    }
+
+    /// Share of the time that the elements of the fibre in a lane have spent outside the given flow. `None` in uniform air.
+    pub(crate) fn outside(&self, lane: usize) -> Option<f64> {
+        match self {
+            Self::Uniform(_) => None,
+            Self::Flow(_, flow) => Some(flow.outside(lane)),
+            Self::Way(_, stations) => stations.outside(lane),
+        }
+    }
+}
+
+/// The error of air, wind or a start that is made for another fibre.
+///
+/// * `what`, `parts` – what does not fit, and what it is counted in
+pub(crate) fn misfit(what: &str, parts: &str, found: usize, wanted: usize) -> Error {
+    Error::Flight(Fault::plain(format!("the {what} is for {found} {parts}, the fibres have {wanted}")))
+}
