@@ -273,7 +273,7 @@ fn rejects_what_says_nothing() {
     let noise = autoregression(1, 10.0, 100.0);
     assert_eq!(
         refused(vec![3.0; 1000], &plain),
-        "made: column u: is constant, 3 m/s in every sample; there is no turbulence in it. Is the probe connected?"
+        "made: column u: is constant, 3 m/s in every sample, so there is no turbulence in it; is the probe connected?"
     );
     assert!(refused(vec![3.0], &plain).starts_with("made: has 1 samples; at least 64 are needed"));
     assert!(refused(vec![1e200; 100], &plain).contains("as large as 1e200 m/s"));

@@ -166,7 +166,7 @@ fn rejects_pictures_of_no_web_and_settings_that_do_not_fit() {
         (refused(&scan, |of| of.noise = Some(80.0)), "than the given noise of the camera, 80, alone would"),
         (
             refused(&scan, |of| of.patches = vec![2e-3, 0.5]),
-            "has no patches of 500 mm: they can have sides from a pixel, 1 mm, to the shorter side of the picture, 24 mm",
+            "has no patches of 500 mm; they can have sides from a pixel, 1 mm, to the shorter side of the picture, 24 mm",
         ),
         (refused(&scan, |of| of.patches = vec![0.2e-3]), "has no patches of 200 µm"),
         (refused(&scan, |of| of.patches = vec![f64::NAN]), "has no patches of NaN m"),
