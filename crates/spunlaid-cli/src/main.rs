@@ -10,6 +10,8 @@ mod say;
 use args::{Arguments, Command};
 use clap::Parser;
 use failure::Failure;
+use spunlaid::error::{Error, Fault};
+use std::path::Path;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -35,7 +37,7 @@ fn main() -> ExitCode {
         Command::New(new) => commands::new(&new),
         Command::Completions(completions) => commands::completions(&completions),
     });
-    let done = done.and_then(|()| say::lost().map_or(Ok(()), |why| Err(Failure::Unheard { why })));
+    let done = done.and_then(|()| say::lost().map_or(Ok(()), |why| Err(unheard(why))));
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
@@ -43,4 +45,10 @@ fn main() -> ExitCode {
             ExitCode::from(failure.exit_code())
         }
     }
+}
+
+/// Standard output cannot be written.
+fn unheard(why: &std::io::Error) -> Failure {
+    let fault = Fault::new(format!("cannot be written: {why}"), "everything else is done");
+    Error::system(Path::new("standard output"), fault).into()
 }

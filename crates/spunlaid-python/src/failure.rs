@@ -3,24 +3,20 @@
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::error::{Error, Place, Problem};
-use spunlaid_results::Failure;
 use std::any::Any;
 
 /// An error as the exception that a Python user gets.
-pub(crate) fn raised(py: Python<'_>, failure: impl Into<Failure>) -> PyErr {
-    let failure = failure.into();
-    let text = failure.to_string();
-    let made = match &failure {
-        Failure::Simulation(Error::Rejected(problems)) => {
+pub(crate) fn raised(py: Python<'_>, error: impl Into<Error>) -> PyErr {
+    let error = error.into();
+    let text = error.to_string();
+    let made = match &error {
+        Error::Rejected(problems) => {
             listed(py, problems).and_then(|problems| instance(py, "CaseError", (text, problems)))
         }
-        Failure::Simulation(Error::File(_)) => instance(py, "FileError", (text,)),
-        Failure::Simulation(Error::Diverged { .. } | Error::NotLanding { .. }) => {
-            instance(py, "FibreLost", (text,))
-        }
-        Failure::Simulation(Error::Flight(_)) => instance(py, "FlightError", (text,)),
-        Failure::Simulation(Error::Interrupted) => instance(py, "Interrupted", (text,)),
-        Failure::Simulation(_) => instance(py, "FolderError", (text,)),
+        Error::File(_) => instance(py, "FileError", (text,)),
+        Error::Diverged { .. } | Error::NotLanding { .. } => instance(py, "FibreLost", (text,)),
+        Error::Flight(_) => instance(py, "FlightError", (text,)),
+        Error::Interrupted => instance(py, "Interrupted", (text,)),
         _ => instance(py, "FolderError", (text,)),
     };
     made.unwrap_or_else(|error| error)
@@ -52,10 +48,9 @@ fn listed<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Bound<'py, PyL
     let list = PyList::empty(py);
     for problem in problems {
         let remedy = Some(&problem.what.remedy).filter(|remedy| !remedy.is_empty());
-        let (file, line, column) = match &problem.place {
-            Place::File { file, line, column } => (Some(file), *line, *column),
-            Place::Point { study, .. } => (Some(study), None, None),
-            _ => (None, None, None),
+        let file = match &problem.place {
+            Place::File { file, .. } | Place::Point { study: file, .. } => Some(file),
+            Place::Code | Place::Override(_) => None,
         };
         let of = PyDict::new(py);
         of.set_item("key", Some(&problem.key).filter(|key| !key.is_empty()))?;
@@ -63,8 +58,8 @@ fn listed<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Bound<'py, PyL
         of.set_item("message", &problem.what.message)?;
         of.set_item("remedy", remedy)?;
         of.set_item("file", file)?;
-        of.set_item("line", line)?;
-        of.set_item("column", column)?;
+        of.set_item("line", problem.place.line())?;
+        of.set_item("column", problem.place.column())?;
         of.set_item("text", problem.to_string())?;
         list.append(of)?;
     }

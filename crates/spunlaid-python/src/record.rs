@@ -5,7 +5,7 @@ use numpy::{PyArray1, PyReadonlyArrayDyn};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::error::{Error, FileError};
+use spunlaid::error::Error;
 use spunlaid::record::{
     Analysis, IntegralRule, Layout, Reading, Record, Samples, Settings, analyse as analysed, read_record,
 };
@@ -57,17 +57,13 @@ pub(crate) fn analyse<'py>(
     let source = source(record, rate, columns)?;
     let (record, of) = watched(py, &Watch::default(), None, || {
         let record = match source {
-            Source::File(path, layout) => read_record(&path, &layout).map_err(failed)?,
+            Source::File(path, layout) => read_record(&path, &layout).map_err(Error::File)?,
             Source::Array(record) => record,
         };
-        let of = analysed(&record, &settings).map_err(failed)?;
+        let of = analysed(&record, &settings).map_err(Error::File)?;
         Ok((record, of))
     })?;
     told(py, &record, &of)
-}
-
-fn failed(error: FileError) -> Error {
-    error.into()
 }
 
 fn source(record: &Bound<'_, PyAny>, rate: Option<f64>, columns: Vec<String>) -> PyResult<Source> {

@@ -1,23 +1,17 @@
 //! Errors. A problem names the place, the key, the value, what is wrong, and what to do about it.
 
 mod fault;
-mod field;
 mod file;
 mod problem;
-mod profile;
-mod record;
-mod scan;
 mod words;
 
 pub use fault::Fault;
-pub use field::FieldFault;
-pub use file::{FileError, FileFault, FileKind, FilePlace};
-pub use problem::{Finding, Place, Problem};
-pub use profile::ProfileFault;
-pub use record::RecordFault;
-pub use scan::ScanFault;
-pub(crate) use words::{listed, memory, one_of};
+pub use file::FileKind;
+pub use problem::{FileError, Finding, Place, Position, Problem};
+pub(crate) use words::{excerpt, listed, memory, one_of, shortest};
 
+use std::borrow::Cow;
+use std::io;
 use std::path::Path;
 
 /// What can go wrong: what a program must tell apart.
@@ -28,14 +22,14 @@ pub enum Error {
     #[error("{}", one_per_line(.0))]
     Rejected(Vec<Problem>),
     /// A file that cannot be used.
-    #[error(transparent)]
-    File(#[from] Box<FileError>),
+    #[error("{0}")]
+    File(FileError),
     /// Fibres cannot fly side by side, or a flight cannot do what is asked of it.
     #[error("{0}")]
     Flight(Fault),
-    /// A folder of results, or a file in it, is in use or holds something else.
-    #[error("{0}")]
-    Folder(Box<Problem>),
+    /// A folder of results, or a file in it, is in use or holds something else. The reason, and details of it.
+    #[error("{}", one_per_line(.0))]
+    Folder(Vec<Problem>),
     /// The operating system does not let a file be read or written.
     #[error("{0}")]
     System(Box<Problem>),
@@ -71,8 +65,8 @@ pub enum Error {
 impl Error {
     /// What is wrong with a flight, and what to do about it.
     pub(crate) fn flight(
-        message: impl Into<std::borrow::Cow<'static, str>>,
-        remedy: impl Into<std::borrow::Cow<'static, str>>,
+        message: impl Into<Cow<'static, str>>,
+        remedy: impl Into<Cow<'static, str>>,
     ) -> Self {
         Self::Flight(Fault::new(message, remedy))
     }
@@ -84,7 +78,13 @@ impl Error {
 
     /// A folder of results, or a file in it, that is in use or holds something else.
     pub fn folder(path: &Path, fault: Fault) -> Self {
-        Self::Folder(Box::new(Problem::with_path(path, fault)))
+        Self::Folder(vec![Problem::with_path(path, fault)])
+    }
+
+    /// A folder that does not hold the results of a run.
+    pub fn not_a_run(folder: &Path, reason: &str) -> Self {
+        let message = format!("does not hold the results of a run: {reason}");
+        Self::folder(folder, Fault::new(message, "name folders that `spunlaid run` has written"))
     }
 
     /// A file that the operating system does not let be read or written.
@@ -92,19 +92,39 @@ impl Error {
         Self::System(Box::new(Problem::with_path(path, fault)))
     }
 
+    /// A file or folder of results that the operating system does not let us write.
+    pub fn unwritable(path: &Path) -> impl Fn(io::Error) -> Self + '_ {
+        |source| {
+            let remedy = match source.kind() {
+                io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+                    "free some space, or name another folder"
+                }
+                _ => "name another folder",
+            };
+            let fault = Fault::new(format!("cannot be written: {source}"), remedy);
+            Self::system(path, fault.option("--out"))
+        }
+    }
+
     /// The problems that it consists of.
     pub fn problems(&self) -> &[Problem] {
         match self {
-            Self::Rejected(problems) => problems,
-            Self::Folder(problem) | Self::System(problem) => std::slice::from_ref(problem),
+            Self::Rejected(problems) | Self::Folder(problems) => problems,
+            Self::File(problem) | Self::System(problem) => std::slice::from_ref(problem),
             _ => &[],
         }
     }
 
-    /// What a user of the program types for the remedy of the first problem that has an option. Empty if none has.
-    pub fn option(&self) -> &str {
-        let mut options = self.problems().iter().map(|problem| &*problem.what.option);
-        options.find(|option| !option.is_empty()).unwrap_or_default()
+    /// The message for a user of the program `spunlaid`: each problem is followed by what they type for its remedy.
+    pub fn with_options(&self) -> String {
+        let shown = |problem: &Problem| match &*problem.what.option {
+            "" => problem.to_string(),
+            option => format!("{problem} ({option})"),
+        };
+        match self.problems() {
+            [] => self.to_string(),
+            problems => lines(problems, shown),
+        }
     }
 
     /// Node, counted from 1 at the root, and time [s] at which a fibre was lost; `None` for other errors. Such a replicate is
@@ -123,12 +143,6 @@ impl Error {
             Self::Diverged { .. } | Self::Interrupted | Self::System(_) => 2,
             _ => 1,
         }
-    }
-}
-
-impl From<FileError> for Error {
-    fn from(error: FileError) -> Self {
-        Self::File(Box::new(error))
     }
 }
 
@@ -154,7 +168,11 @@ impl From<Vec<Problem>> for Error {
 const MOST_TOLD: usize = 20;
 
 fn one_per_line(problems: &[Problem]) -> String {
-    let mut lines: Vec<String> = problems.iter().take(MOST_TOLD).map(ToString::to_string).collect();
+    lines(problems, ToString::to_string)
+}
+
+fn lines(problems: &[Problem], shown: impl Fn(&Problem) -> String) -> String {
+    let mut lines: Vec<String> = problems.iter().take(MOST_TOLD).map(shown).collect();
     if problems.len() > MOST_TOLD {
         lines.push(format!("and {} more like these", problems.len() - MOST_TOLD));
     }

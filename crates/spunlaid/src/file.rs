@@ -1,6 +1,6 @@
 //! Reads a file into memory and says why it cannot be read.
 
-use crate::error::{FileError, FileFault, FileKind};
+use crate::error::{Fault, FileError, FileKind};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
@@ -13,7 +13,7 @@ pub(crate) fn open(path: &Path, kind: FileKind) -> Result<File, FileError> {
     let failed = |source| unreadable(&source, path, kind);
     let file = File::open(path).map_err(failed)?;
     if file.metadata().map_err(failed)?.is_dir() {
-        return Err(FileError::from(FileFault::IsFolder(kind)).path(path));
+        return Err(FileError::from(kind.is_folder()).path(path));
     }
     Ok(file)
 }
@@ -33,7 +33,7 @@ pub(crate) fn read(path: &Path, kind: FileKind, most: u64) -> Result<Vec<u8>, Fi
         file.take(most.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
     }
     if stated.max(bytes.len() as u64) > most {
-        return Err(FileError::from(FileFault::TooLarge { kind, most }).path(path));
+        return Err(FileError::from(kind.too_large(most)).path(path));
     }
     Ok(bytes)
 }
@@ -41,9 +41,9 @@ pub(crate) fn read(path: &Path, kind: FileKind, most: u64) -> Result<Vec<u8>, Fi
 /// The reason why the system cannot read a file.
 pub(crate) fn unreadable(source: &io::Error, path: &Path, kind: FileKind) -> FileError {
     let fault = match source.kind() {
-        ErrorKind::NotFound => FileFault::NotThere(kind),
-        ErrorKind::IsADirectory => FileFault::IsFolder(kind),
-        _ => FileFault::Unreadable { message: source.to_string() },
+        ErrorKind::NotFound => kind.not_there(),
+        ErrorKind::IsADirectory => kind.is_folder(),
+        _ => Fault::unreadable(source),
     };
     FileError::from(fault).path(path)
 }

@@ -5,6 +5,7 @@ use super::stem;
 use crate::args::{Analyse, Direction};
 use crate::failure::Failure;
 use crate::say;
+use spunlaid::error::{Fault, FileError, Problem};
 use spunlaid::record::{Analysis, LONGEST_GAP, Layout, Record, Settings, SpectrumSettings, read_record};
 use spunlaid_results::figures::record_figures;
 use spunlaid_results::output::analysis::{
@@ -17,7 +18,16 @@ use spunlaid_results::report::{AnalysisReport, analysis_html};
 pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
     let is_scan = analyse.scan.pixel.is_some() || is_picture(&analyse.record);
     if let Some(option) = if is_scan { of_records(analyse) } else { of_scans(analyse) } {
-        return Err(Failure::NotForThis { path: analyse.record.clone(), option, is_scan });
+        let fault = if is_scan {
+            let message =
+                format!("is read as a scan or a map of a web, and {option} is for velocity records only");
+            Fault::new(message, "leave it out")
+        } else {
+            let message =
+                format!("is read as a velocity record, and {option} is for scans and maps of a web only");
+            Fault::new(message, "if it is one, give the side of a pixel, as in --pixel \"0.1 mm\"")
+        };
+        return Err(FileError::from(Problem::with_path(&analyse.record, fault)).into());
     }
     if is_scan { scan(analyse) } else { record(analyse) }
 }

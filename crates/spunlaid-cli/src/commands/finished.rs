@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::say;
 use serde_json::Value as Json;
 use spunlaid::case::{Case, Note, Remark, keys};
-use spunlaid::error::{Error, Finding, Place};
+use spunlaid::error::{Error, Fault, Finding, Place};
 use spunlaid::input::read_case;
 use spunlaid::units::Dimension;
 use std::fs;
@@ -23,7 +23,7 @@ pub(super) fn summary(folder: &Path) -> Result<Json, Failure> {
     let summary = any_summary(folder)?;
     if summary.get("end_node").or_else(|| summary.get("laydown")).is_none() {
         let reason = format!("{SUMMARY} is not that of a run");
-        return Err(Failure::NotARun { folder: folder.to_owned(), reason });
+        return Err(Error::not_a_run(folder, &reason).into());
     }
     Ok(summary)
 }
@@ -33,19 +33,19 @@ pub(super) fn summary(folder: &Path) -> Result<Json, Failure> {
 /// # Errors
 /// If the folder has none.
 pub(super) fn any_summary(folder: &Path) -> Result<Json, Failure> {
-    let not_a_run = |reason: String| Failure::NotARun { folder: folder.to_owned(), reason };
+    let not_a_run = |reason: String| Error::not_a_run(folder, &reason);
     if folder.is_file() {
-        return Err(not_a_run("it is a file".to_owned()));
+        return Err(not_a_run("it is a file".to_owned()).into());
     }
     if !folder.is_dir() {
-        return Err(not_a_run("there is no such folder".to_owned()));
+        return Err(not_a_run("there is no such folder".to_owned()).into());
     }
     if folder.join("results.csv").exists() || folder.join("analysis.json").exists() {
-        return Err(not_a_run("it holds a study or an analysis".to_owned()));
+        return Err(not_a_run("it holds a study or an analysis".to_owned()).into());
     }
     let path = folder.join(SUMMARY);
     let text = fs::read_to_string(&path).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
-    serde_json::from_str(&text).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))
+    Ok(serde_json::from_str(&text).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?)
 }
 
 /// The case of a finished run with a longer duration, and the notes about it, which have been told.
@@ -61,13 +61,16 @@ pub(super) fn continued(run: &Run, until: f64) -> Result<(Case, Vec<String>), Fa
     let folder = &run.source.case;
     let flown_by = summary(folder)?;
     let (mut case, mut notes) = read_case(&folder.join("case.toml"), &[])?;
-    let refused = |reason: String| Failure::NotContinued { folder: folder.clone(), reason };
+    let refused = |reason: String, remedy: &'static str| {
+        let fault = Fault::new(format!("cannot be continued: {reason}"), remedy);
+        Err(Error::folder(folder, fault).into())
+    };
     if !case.air.records.is_empty() {
-        return Err(refused(
-            "its air follows a record, and which stretches of it are flown through depends on the duration; run its \
-             case.toml with --set run.duration=… and name another folder with --out"
+        return refused(
+            "its air follows a record, and which stretches of it are flown through depends on the duration"
                 .to_owned(),
-        ));
+            "run its case.toml with --set run.duration=… and name another folder with --out",
+        );
     }
     let (before, asked) = (case.run.duration(), Dimension::Time.pretty(until));
     let at_option = |problem| Finding { place: Place::Override(UNTIL.to_owned()), ..problem };
@@ -77,9 +80,8 @@ pub(super) fn continued(run: &Run, until: f64) -> Result<(Case, Vec<String>), Fa
     }
     if case.run.duration() <= before {
         let flown = Dimension::Time.pretty(before);
-        return Err(refused(format!(
-            "it lasts for {flown} already, and {UNTIL} says {asked}; write a longer time"
-        )));
+        let reason = format!("it lasts for {flown} already, and {UNTIL} says {asked}");
+        return refused(reason, "write a longer time");
     }
     case.check().map_err(rejected)?;
     let (time, folder) = (case.run.duration(), folder.display());

@@ -4,6 +4,7 @@ use crate::args::Keys;
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::keys::{self, Key, Kind, LeftOut, TABLES};
+use spunlaid::error::Fault;
 use spunlaid::layers::{WEB_KEYS, WEB_TABLES};
 use spunlaid::units::{Dimension, Wanted};
 use std::fmt::Write;
@@ -49,8 +50,13 @@ pub(crate) fn keys(asked: &Keys) -> Result<(), Failure> {
     let found: Vec<Shown> = all.into_iter().filter(|key| has(key.name) || has(key.meaning)).collect();
     if found.is_empty() {
         let nearest = if asked.web { Vec::new() } else { keys::like(&word) };
-        let nearest = nearest.iter().take(MOST_NEAREST).map(|key| key.name).collect();
-        return Err(Failure::NoSuchKey { pattern, nearest });
+        let nearest: Vec<&str> = nearest.iter().take(MOST_NEAREST).map(|key| key.name).collect();
+        let message = format!("no key has \"{}\" in its name or meaning", pattern.escape_debug());
+        let remedy = match &nearest[..] {
+            [] => "`spunlaid keys` lists them all".to_owned(),
+            keys => format!("did you mean {}?", keys.join(" or ")),
+        };
+        return Err(Fault::new(message, remedy).into());
     }
     if asked.markdown {
         let (head, tables): (_, &[&str]) = if asked.web { (WEB_HEAD, &WEB_TABLES) } else { (HEAD, &TABLES) };

@@ -1,7 +1,7 @@
 //! `spunlaid live`: fibres that fly on a page while their case is changed.
 
 use crate::args::Live;
-use crate::failure::Failure;
+use crate::failure::{Failure, not_served};
 use crate::live::{Start, live as fly};
 use crate::say;
 use spunlaid::input::{read_case, starter_case};
@@ -12,7 +12,7 @@ pub(crate) fn live(live: &Live) -> Result<(), Failure> {
         Some(path) => {
             // Its mistakes are told as by all commands.
             read_case(path, &[])?;
-            std::fs::read_to_string(path).map_err(|source| Failure::NotServed { source })?
+            std::fs::read_to_string(path).map_err(|source| not_served(&source))?
         }
         None => starter_case().to_owned(),
     };

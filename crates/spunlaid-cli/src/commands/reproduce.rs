@@ -12,6 +12,7 @@ use spunlaid::ensemble::{
     Computing, Keep, KeepShapes, Number, Place, Results, SpectrumPoint, fly, turbulence_spectrum,
     velocity_record,
 };
+use spunlaid::error::Fault;
 use spunlaid::input::write_case;
 use spunlaid::lanes::Isa;
 use spunlaid::paper::{
@@ -107,7 +108,8 @@ fn chosen(asked: &[String]) -> Result<Vec<&'static str>, Failure> {
         let part = |figure: &str| figure.trim_end_matches(char::is_alphabetic) == plain;
         let found: Vec<_> = FIGURES.into_iter().filter(|&figure| figure == plain || part(figure)).collect();
         if found.is_empty() {
-            return Err(Failure::NoSuchFigure { name: name.clone(), known: FIGURES.join(", ") });
+            let message = format!("--figures {name}: there is no such result figure");
+            return Err(Fault::new(message, format!("write some of {}", FIGURES.join(", "))).into());
         }
         wanted.extend(found);
     }

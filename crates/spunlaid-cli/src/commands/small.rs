@@ -4,6 +4,7 @@ use crate::args::{Arguments, Completions, New};
 use crate::failure::Failure;
 use crate::say;
 use clap::CommandFactory;
+use spunlaid::error::{Error, Fault};
 use spunlaid::input::{starter_case, starter_case_of_fed};
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
@@ -22,8 +23,14 @@ pub(crate) fn new(new: &New) -> Result<(), Failure> {
             say::line(&format!("wrote {}; change it, then: spunlaid run {}", path.display(), path.display()));
             Ok(())
         }
-        Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Failure::Exists { path: path.clone() }),
-        Err(source) => Err(Failure::NotWritten { path: path.clone(), source }),
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+            let fault = Fault::new("exists already and is not overwritten", "name another file");
+            Err(Error::folder(path, fault).into())
+        }
+        Err(source) => {
+            let fault = Fault::new(format!("cannot be written: {source}"), "name another file");
+            Err(Error::system(path, fault).into())
+        }
     }
 }
 

@@ -222,10 +222,7 @@ pub(super) fn complaints(error: &Error) -> Vec<Complaint> {
         return complaint(error.to_string());
     };
     let of = |problem: &spunlaid::error::Problem| {
-        let line = match &problem.place {
-            Place::File { line, .. } => *line,
-            _ => None,
-        };
+        let line = problem.place.line().and_then(|line| usize::try_from(line).ok());
         let mut problem = problem.clone();
         problem.place = Place::Code;
         Complaint { line, text: problem.to_string() }

@@ -1,6 +1,6 @@
 //! Who may talk to the server: programs of this machine that know the token.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, not_served};
 use std::fmt::Write;
 use std::io;
 
@@ -40,8 +40,7 @@ impl Guard {
     /// The operating system gives no random numbers.
     pub(super) fn new(port: u16) -> Result<Self, Failure> {
         let mut random = [0; 16];
-        getrandom::fill(&mut random)
-            .map_err(|error| Failure::NotServed { source: io::Error::other(error) })?;
+        getrandom::fill(&mut random).map_err(|error| not_served(&io::Error::other(error)))?;
         let token = random.iter().fold(String::new(), |mut text, byte| {
             // Writing to a text cannot fail.
             let _ = write!(text, "{byte:02x}");

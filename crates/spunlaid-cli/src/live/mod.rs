@@ -34,7 +34,7 @@ mod server;
 mod session;
 mod settings;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, not_served};
 use document::Document;
 use guard::Guard;
 use message::Complaint;
@@ -42,9 +42,10 @@ use server::Server;
 use session::Session;
 use spunlaid::case::keys;
 use spunlaid::chain::schemes::Scheme;
+use spunlaid::error::{Error, Fault, Problem};
 use spunlaid::units::Dimension;
 use std::net::{Ipv4Addr, TcpListener};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 use std::thread;
 
@@ -72,10 +73,12 @@ pub(crate) struct Start {
 /// The case cannot be flown, or the server cannot start.
 pub(crate) fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), Failure> {
     let name = start.file.as_ref().map_or_else(|| "the case".to_owned(), |file| file.display().to_string());
-    let rejected =
-        |complaints: Vec<Complaint>| Failure::NotFlown { name: name.clone(), why: in_words(&complaints) };
+    let rejected = |complaints: Vec<Complaint>| {
+        let problem = |why: String| Problem::with_path(Path::new(&name), Fault::plain(why));
+        Error::Rejected(in_words(&complaints).into_iter().map(problem).collect())
+    };
     let (document, remark) = at_real_time(Document::new(start.text, start.file)).map_err(rejected)?;
-    let not_served = |source| Failure::NotServed { source };
+    let not_served = |source: std::io::Error| not_served(&source);
     let folder = std::env::current_dir().map_err(not_served)?;
     let session = Session::new(document, remark.clone(), folder).map_err(rejected)?;
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, start.port)).map_err(not_served)?;

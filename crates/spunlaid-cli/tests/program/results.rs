@@ -102,13 +102,14 @@ fn the_summary_has_the_fields_that_are_promised() {
     let desk = Desk::new();
     success(&mut desk.spunlaid("run brief.toml --out r"));
     let summary = desk.summary("r");
-    let top = "schema_version spunlaid_version case elements steps replicates end_node energy fibre step_check mesh_check performance notes";
+    let top = "schema_version spunlaid_version case elements steps replicates lost lost_fibres end_node energy fibre step_check mesh_check performance notes";
     assert_eq!(keys(&summary), sorted(top));
     assert_eq!(summary["schema_version"], 3);
     assert_eq!(summary["spunlaid_version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(summary["elements"], 4);
     assert_eq!(summary["steps"], 500);
     assert_eq!(summary["replicates"], 3);
+    assert_eq!((&summary["lost"], &summary["lost_fibres"]), (&json!(0), &json!([])));
     let end = &summary["end_node"];
     let motion = "amplitude_y_m amplitude_z_m frequency_y_hz frequency_z_hz mean_x_m";
     let reach = "deflection_99_m largest_deflection_m residence_radius_m";

@@ -1,6 +1,7 @@
 //! The results folder of a study: checks its content, and writes the files.
 
 use crate::Failure;
+use crate::failure::{holds_results, not_a_folder, other_study, other_version};
 use crate::figures::study_figures;
 use crate::output::beside::{self, CASE_FILES};
 use crate::output::folder::Staging;
@@ -8,6 +9,7 @@ use crate::output::leftovers;
 use crate::output::{self};
 use crate::report::{StudyReport, study_html};
 use spunlaid::case::MOST_REPLICATES;
+use spunlaid::error::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
 use spunlaid::study::{Found, Header, Journal, PointResults, rankings};
 use std::fs;
@@ -66,7 +68,7 @@ impl<'a> StudyFolder<'a> {
         stop: &'a AtomicBool,
     ) -> Result<(Self, Journal, State), Failure> {
         if path.exists() && !path.is_dir() {
-            return Err(Failure::NotAFolder { path: path.to_owned() });
+            return Err(not_a_folder(path));
         }
         let at = path.join(JOURNAL);
         if !force && !at.exists() {
@@ -89,7 +91,7 @@ impl<'a> StudyFolder<'a> {
                 State::New
             }
             Some(found) if found.version != wanted.version => {
-                return Err(Failure::OtherVersion { folder: folder.path, version: found.version });
+                return Err(other_version(path, &found.version));
             }
             Some(found) if found != wanted => return Err(folder.other(file)),
             Some(_) => {
@@ -97,7 +99,12 @@ impl<'a> StudyFolder<'a> {
                 let found = journal.go_on(points, MOST_REPLICATES, file.study.quantities.len())?;
                 let (held, asked) = (journal.most_held(), file.study.replicates.at_most);
                 if held > asked {
-                    return Err(Failure::FewerReplicates { folder: folder.path, held, asked });
+                    let fault = Fault::new(
+                        format!("holds {held} replicates of a point, more than the {asked} of this study"),
+                        format!("ask for {held} or more, name another folder, or start again"),
+                    );
+                    let options = format!("--replicates {held}, --out, --force");
+                    return Err(Failure::folder(path, fault.option(options)));
                 }
                 // These files follow from the study, so they are restored if someone has removed them. They are
                 // renewed for more replicates.
@@ -177,7 +184,7 @@ impl<'a> StudyFolder<'a> {
             let was = fs::read_to_string(self.path.join(name)).unwrap_or_default();
             all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
         }
-        Failure::OtherStudy { folder: self.path, differences: all }
+        other_study(&self.path, all)
     }
 }
 
@@ -197,7 +204,7 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
 /// left no more than the files that describe it.
 fn holds_nothing_else(path: &Path) -> Result<(), Failure> {
     match OF_OTHERS.iter().chain(MADE).find(|name| path.join(name).exists()) {
-        Some(found) => Err(Failure::HoldsResults { folder: path.to_owned(), found: (*found).to_owned() }),
+        Some(found) => Err(holds_results(path, found)),
         None => Ok(()),
     }
 }

@@ -3,6 +3,7 @@
 use super::beside::CASE_FILES;
 use super::leftovers::{self, Claim};
 use crate::Failure;
+use crate::failure::{holds_results, not_a_folder};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -61,10 +62,10 @@ impl<'a> Staging<'a> {
     ) -> Result<Self, Failure> {
         let exists = folder.symlink_metadata().is_ok();
         if exists && !folder.is_dir() {
-            return Err(Failure::NotAFolder { path: folder.to_owned() });
+            return Err(not_a_folder(folder));
         }
         refuse_results(folder, entries, replace)?;
-        let unwritable = |source| Failure::Unwritable { path: folder.to_owned(), source };
+        let unwritable = Failure::unwritable(folder);
         let above = match folder.parent() {
             Some(above) if above.as_os_str().is_empty() => Path::new("."),
             Some(above) => above,
@@ -81,10 +82,10 @@ impl<'a> Staging<'a> {
         let staging = fs::create_dir_all(home)
             .and_then(|()| leftovers::hidden_folder(home))
             .inspect_err(|_| remove_empty(&made))
-            .map_err(unwritable)?;
+            .map_err(&unwritable)?;
         let claim = Claim::on(&staging);
         let staging = Self { folder: folder.to_owned(), staging, entries, replace, claim, made, stop };
-        fs::create_dir(staging.staging.join(NEW)).map_err(unwritable)?;
+        fs::create_dir(staging.staging.join(NEW)).map_err(&unwritable)?;
         Ok(staging)
     }
 
@@ -105,7 +106,7 @@ impl<'a> Staging<'a> {
         now.parent()
             .map_or(Ok(()), fs::create_dir_all)
             .and_then(|()| fs::write(&now, content))
-            .map_err(|source| Failure::Unwritable { path: later, source })
+            .map_err(Failure::unwritable(&later))
     }
 
     /// Moves the results to their folder. If there was no folder, this is one renaming; otherwise the entries are
@@ -150,7 +151,7 @@ impl<'a> Staging<'a> {
 
     fn go_on(&self) -> Result<(), Failure> {
         if self.stop.load(Ordering::Relaxed) {
-            return Err(spunlaid::error::Error::Interrupted.into());
+            return Err(Failure::Interrupted);
         }
         Ok(())
     }
@@ -169,9 +170,7 @@ impl Drop for Staging<'_> {
 fn refuse_results(folder: &Path, entries: &[&str], replace: bool) -> Result<(), Failure> {
     let holds = |entry: &&&str| folder.join(entry).symlink_metadata().is_ok();
     match entries.iter().find(holds) {
-        Some(found) if !replace => {
-            Err(Failure::HoldsResults { folder: folder.to_owned(), found: (*found).to_owned() })
-        }
+        Some(found) if !replace => Err(holds_results(folder, found)),
         _ => Ok(()),
     }
 }

@@ -1,6 +1,6 @@
 //! Writes Parquet tables in groups of rows.
 
-use crate::Failure;
+use crate::{Failure, failure};
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as PhysicalType};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
@@ -87,7 +87,7 @@ impl Parquet {
                     .build();
                 SerializedFileWriter::new(BufWriter::new(file), Arc::new(schema), Arc::new(properties))
             })
-            .map_err(|error| Failure::table(&path, error))?;
+            .map_err(|error| failure::table(&path, error))?;
         let empty = |column: &Column| match column.holds {
             Holds::Whole => Gathered::Whole(Vec::new()),
             Holds::Text => Gathered::Text(Vec::new()),
@@ -138,7 +138,7 @@ impl Parquet {
     pub(super) fn finish(mut self) -> Result<File, Failure> {
         self.flush()?;
         let Self { path, writer, .. } = self;
-        let file = writer.into_inner().map_err(|error| Failure::table(&path, error))?;
+        let file = writer.into_inner().map_err(|error| failure::table(&path, error))?;
         file.into_inner().map_err(|error| Failure::unwritable(&path)(error.into_error()))
     }
 
@@ -146,7 +146,7 @@ impl Parquet {
         if self.rows == 0 {
             return Ok(());
         }
-        self.write_group().map_err(|error| Failure::table(&self.path, error))?;
+        self.write_group().map_err(|error| failure::table(&self.path, error))?;
         for gathered in &mut self.columns {
             match gathered {
                 Gathered::Whole(values) => values.clear(),

@@ -1,6 +1,7 @@
 //! Writes figures as SVG, CSV and PNG files. The PNG files are drawn on all threads.
 
 use crate::Failure;
+use crate::failure::undrawable;
 use spunlaid_charts::{Figure, png};
 use std::borrow::Borrow;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -28,7 +29,7 @@ fn pictures<F: Borrow<Figure> + Sync>(figures: &[F]) -> Vec<Result<Vec<u8>, Fail
             let Some(figure) = figures.get(i).map(F::borrow) else {
                 return drawn;
             };
-            let failed = |reason: String| Failure::Figure { name: figure.name.clone(), reason };
+            let failed = |reason: String| undrawable(&figure.name, &reason);
             drawn.push((i, png(&figure.svg).map_err(|reason| failed(reason.to_string()))));
         }
     };

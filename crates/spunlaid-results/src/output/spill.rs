@@ -109,7 +109,7 @@ impl Spill {
     /// The failure of a file, if there was one.
     pub(super) fn failure(&self) -> Option<Failure> {
         let source = self.waiting().failed.take()?;
-        Some(Failure::Unwritable { path: self.table.clone(), source })
+        Some(Failure::unwritable(&self.table)(source))
     }
 
     fn file(&self, replicate: u64) -> PathBuf {

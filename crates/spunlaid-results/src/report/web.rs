@@ -3,6 +3,7 @@
 use super::rendered;
 use super::words::{count, time};
 use crate::Failure;
+use crate::failure::undrawable;
 use crate::numbers::{THIN, number, plus_minus, significant};
 use crate::output::web::{Layer, Performance, light_table};
 use askama::Template;
@@ -174,7 +175,7 @@ pub(super) fn cost(of: Performance) -> String {
 
 /// What the script of the light table gets, and the side of a pixel of its picture [m].
 pub(super) fn light_table_data(map: &Map, window: Option<Fibres>) -> Result<(String, f64), Failure> {
-    let failed = |reason| Failure::Figure { name: "web".to_owned(), reason };
+    let failed = |reason: String| undrawable("web", &reason);
     let (picture, each) = light_table(map, PICTURE).map_err(failed)?;
     let pixel = each as f64 * map.cell;
     let data = Data {

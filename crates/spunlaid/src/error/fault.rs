@@ -1,8 +1,7 @@
 //! What is wrong with a value or a file, and what to do about it.
 
-use super::FileError;
-use super::words::{all_of, did_you_mean, one_of};
-use crate::units::{ExpressionFault, QuantityFault, shortest};
+use super::Problem;
+use super::words::{all_of, did_you_mean, one_of, shortest};
 use std::borrow::Cow;
 use std::fmt;
 
@@ -132,26 +131,11 @@ impl Fault {
     }
 }
 
-impl From<QuantityFault> for Fault {
-    fn from(fault: QuantityFault) -> Self {
-        split(&fault.to_string())
+/// The fault of a key that names a file which cannot be used.
+impl From<Box<Problem>> for Fault {
+    fn from(problem: Box<Problem>) -> Self {
+        // Options of the program are for a file that is named on the command line.
+        let Problem { place, what: Self { message, remedy, .. }, .. } = *problem;
+        Self::new(format!("cannot be used: {place}{message}"), remedy)
     }
-}
-
-impl From<ExpressionFault> for Fault {
-    fn from(fault: ExpressionFault) -> Self {
-        split(&fault.to_string())
-    }
-}
-
-impl From<FileError> for Fault {
-    fn from(error: FileError) -> Self {
-        let Self { message, remedy, .. } = split(&error.to_string());
-        Self::new(format!("cannot be used: {message}"), remedy)
-    }
-}
-
-fn split(text: &str) -> Fault {
-    let (message, remedy) = text.split_once("; ").unwrap_or((text, ""));
-    Fault::new(message.to_owned(), remedy.to_owned())
 }

@@ -1,4 +1,6 @@
-//! Lists and numbers in the words of messages.
+//! Lists, numbers and foreign text in the words of messages.
+
+use std::fmt;
 
 pub(super) fn did_you_mean(nearest: &Option<String>, otherwise: impl Fn() -> String) -> String {
     nearest.as_ref().map_or_else(otherwise, |nearest| format!("did you mean {nearest}?"))
@@ -45,4 +47,33 @@ pub(crate) fn memory(bytes: f64) -> String {
     } else {
         format!("{number:.1e} {unit}")
     }
+}
+
+/// Foreign text for a message: on one line, and shortened to `longest` characters.
+pub(crate) fn excerpt(text: &str, longest: usize) -> String {
+    let mut excerpt = String::new();
+    for c in text.trim().chars().take(longest) {
+        if c.is_control() { excerpt.extend(c.escape_debug()) } else { excerpt.push(c) }
+    }
+    if text.trim().chars().count() > longest {
+        excerpt.push('…');
+    }
+    excerpt
+}
+
+/// A formatter that escapes control characters as `\u{1b}`, so that no message can act on the terminal.
+pub(crate) struct Printable<'a, 'f>(pub(crate) &'a mut fmt::Formatter<'f>);
+
+impl fmt::Write for Printable<'_, '_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        text.chars().try_for_each(|c| {
+            if c.is_control() { write!(self.0, "{}", c.escape_debug()) } else { self.0.write_char(c) }
+        })
+    }
+}
+
+/// The shortest text that reads back to the same bits, with an exponent if that is shorter.
+pub(crate) fn shortest(value: f64) -> String {
+    let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
+    if scientific.len() < plain.len() { scientific } else { plain }
 }

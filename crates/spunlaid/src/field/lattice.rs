@@ -1,8 +1,9 @@
 //! Values on a lattice, linear in each coordinate between the points.
 
+use super::fault;
 use super::node::Node;
 use super::values::{Quantities, in_range};
-use crate::error::{FieldFault, FileError, FileFault};
+use crate::error::{Fault, FileError};
 
 /// Coordinates that differ by less than this share of the extent count as equal.
 const ROUNDING: f64 = 1e-9;
@@ -27,14 +28,14 @@ impl Lattice {
     pub(super) fn new(axes: [Vec<f64>; 3], values: Vec<Quantities>) -> Result<Self, FileError> {
         for (axis, name) in axes.iter().zip(["x", "y", "z"]) {
             if let Some(value) = axis.iter().find(|x| !in_range(**x)) {
-                let fault = FieldFault::OutOfRange { value: *value, most: super::values::LARGEST };
+                let fault = fault::out_of_range(*value);
                 return Err(FileError::from(fault).array(name));
             }
             if axis.is_empty() {
-                return Err(FileError::from(FieldFault::Empty).array(name));
+                return Err(FileError::from(fault::empty()).array(name));
             }
             if let Some(pair) = axis.windows(2).find(|pair| pair[0] >= pair[1]) {
-                let fault = FileFault::NotIncreasing { before: pair[0], after: pair[1] };
+                let fault = Fault::not_increasing(pair[0], pair[1]);
                 return Err(FileError::from(fault).array(name));
             }
         }

@@ -43,6 +43,7 @@
 //! ```
 
 mod bricks;
+mod fault;
 mod lattice;
 mod mesh;
 mod node;

@@ -1,9 +1,10 @@
 //! Points with the values of the air there.
 
+use super::fault;
 use super::mean;
-use super::values::{LARGEST, Quantities, Values, in_range};
+use super::values::{Quantities, Values, in_range};
 use super::warning::FieldWarning;
-use crate::error::{FieldFault, FileError, FilePlace};
+use crate::error::{FileError, Position};
 use crate::vec3::Vec3;
 use std::cmp::Ordering;
 
@@ -24,8 +25,8 @@ pub(super) fn nodes(points: &[Vec3<f64>], values: Vec<Quantities>) -> Result<Vec
         // Adding zero turns −0 into 0, so that both count as one place.
         let at = [point.x + 0.0, point.y + 0.0, point.z + 0.0];
         if let Some(value) = at.into_iter().find(|x| !in_range(*x)) {
-            let point = FilePlace::Point(nodes.len() as u64 + 1);
-            return Err(FileError::from(FieldFault::OutOfRange { value, most: LARGEST }).at(point));
+            let point = Position::Point(nodes.len() as u64 + 1);
+            return Err(FileError::from(fault::out_of_range(value)).at(point));
         }
         nodes.push(Node { at, values });
     }

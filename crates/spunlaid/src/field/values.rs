@@ -1,6 +1,7 @@
 //! Values at points: as given by the caller, and as stored.
 
-use crate::error::{FieldFault, FileError, FilePlace};
+use super::fault;
+use crate::error::{Fault, FileError, Position};
 use crate::vec3::Vec3;
 
 /// Largest coordinate [m] and largest value [SI] that are accepted. Larger ones make volumes and squares overflow.
@@ -45,7 +46,7 @@ impl Values {
         ];
         for (array, found, optional) in lengths {
             if found != points && !(optional && found == 0) {
-                let fault = FieldFault::Count { found, wanted: points, of: "values" };
+                let fault = fault::count(found, points, "values");
                 return Err(FileError::from(fault).array(array));
             }
         }
@@ -54,7 +55,13 @@ impl Values {
             let decay =
                 self.k.iter().zip(&self.epsilon).filter(|(k, _)| **k > 0.0).map(|(_, epsilon)| *epsilon);
             if decay.clone().next().is_some() && decay.clone().all(|epsilon| epsilon == 0.0) {
-                let fault = FieldFault::NoDissipation { points: decay.count() };
+                let fault = Fault::new(
+                    format!(
+                        "is zero at all of the {} points where k is not, so that the eddies would be infinitely long",
+                        decay.count()
+                    ),
+                    "write the ε or ω of the solution, or leave out k, and give turbulence_intensity, length_scale and cutoff_frequency in the case",
+                );
                 return Err(FileError::from(fault).array("epsilon"));
             }
         }
@@ -63,8 +70,7 @@ impl Values {
             let [k, epsilon] = if turbulent { [self.k[i], self.epsilon[i]] } else { [0.0; 2] };
             let values = [velocity.x, velocity.y, velocity.z, k, epsilon];
             if let Some(value) = values.into_iter().find(|value| !in_range(*value)) {
-                return Err(FileError::from(FieldFault::OutOfRange { value, most: LARGEST })
-                    .at(FilePlace::Point(i as u64 + 1)));
+                return Err(FileError::from(fault::out_of_range(value)).at(Position::Point(i as u64 + 1)));
             }
             quantities.push(values);
         }

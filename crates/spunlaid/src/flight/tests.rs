@@ -8,11 +8,13 @@ use crate::chain::{self, Chain, Strand};
 use crate::company::PerLane;
 use crate::drag::{ElementDrag, Growth, Share};
 use crate::fibre::{Fibre, Root};
-use crate::lanes::{Isa, Lanes};
+use crate::lanes::Isa;
 use crate::vec3::Vec3;
 
 const ELEMENTS: usize = 12;
 const H: f64 = 2e-6;
+/// Instants at which energies are looked at.
+const INSTANTS: usize = 40;
 
 /// A fibre in calm air or a steady wind along x; `drag` is the force across an element at 1 m/s [N].
 fn strand(direction: Vec3<f64>, root: Root, gravity: f64, drag: f64) -> Strand {
@@ -127,7 +129,8 @@ fn analytic_drag_of_each_element() {
     }
 }
 
-/// The forces are minus the gradient of the energies: without air, their sum stays to second order in the step.
+/// The forces are minus the gradient of the energies: without air, the sum of the energies is off to second order in the step.
+/// With the properties of another element in one of the two it would be off by a part of itself.
 #[test]
 fn order_the_energy_of_a_varied_fibre_in_vacuum() {
     let imbalance = |scheme: Scheme, h: f64| {
@@ -140,14 +143,18 @@ fn order_the_energy_of_a_varied_fibre_in_vacuum() {
         };
         let position: Vec<_> = (0..=ELEMENTS).map(bent).collect();
         flight.restart_from(position, vec![Vec3::ZERO; ELEMENTS + 1]).unwrap();
-        flight.advance((4e-3 / h).round() as u64);
-        let energy = flight.observe().energy;
-        let parts = [energy.kinetic, energy.axial, energy.bending].map(|part: Lanes| part.0[1]);
-        (energy.imbalance().0[1].abs(), parts.iter().sum::<f64>())
+        let mut squares = 0.0;
+        for _ in 0..INSTANTS {
+            flight.advance((1e-4 / h).round() as u64);
+            let energy = flight.snapshot().energy;
+            squares += (energy.imbalance().0[1] / energy.initial.0[1]).powi(2);
+        }
+        (squares / INSTANTS as f64).sqrt()
     };
     for scheme in [Scheme::Leapfrog, Scheme::ImplicitTension] {
-        let ((coarse, held), (fine, _)) = (imbalance(scheme, 1e-6), imbalance(scheme, 0.5e-6));
-        assert!(coarse < 1e-3 * held, "{scheme:?}: {coarse:e} of {held:e}");
+        let (coarse, fine) = (imbalance(scheme, 1e-6), imbalance(scheme, 0.5e-6));
+        assert!(coarse < 1e-2, "{scheme:?}: {coarse:e}");
+        // Waves that begin with a jump have phases of their own, so the ratio is not quite four.
         assert!(coarse > 2.5 * fine, "{scheme:?}: {coarse:e} {fine:e}");
     }
 }

@@ -81,7 +81,7 @@ pub fn read_case<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result
 /// # Errors
 /// If the file cannot be read, or is no UTF-8 text.
 pub fn read_text(path: &Path, kind: FileKind) -> Result<String, Error> {
-    Ok(file::read(path, kind)?)
+    file::read(path, kind)
 }
 
 /// Reads and checks the text of a case file. Messages call the file `name`.

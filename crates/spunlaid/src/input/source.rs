@@ -1,6 +1,6 @@
 //! The text of a TOML file, with line and column of each position.
 
-use crate::error::{Fault, Finding, Place, Problem};
+use crate::error::{Fault, Finding, Place, Position, Problem};
 use crate::units::excerpt;
 use std::ops::Range;
 
@@ -20,12 +20,12 @@ impl<'a> Source<'a> {
 
     /// The whole file as a place, for values that it does not contain.
     pub(super) fn whole(&self) -> Place {
-        Place::File { file: self.name.clone(), line: None, column: None }
+        Place::in_file(&self.name, Position::Whole)
     }
 
     /// The line that contains a byte.
     pub(super) fn place(&self, byte: usize) -> Place {
-        Place::File { file: self.name.clone(), line: Some(self.position(byte).0), column: None }
+        Place::in_file(&self.name, Position::Line(self.position(byte).0))
     }
 
     /// The text of a value, as it is.
@@ -41,7 +41,7 @@ impl<'a> Source<'a> {
     /// The problem that the parser found.
     pub(super) fn syntax(&self, fault: &toml::de::Error) -> Problem {
         let (line, column) = self.position(fault.span().map_or(0, |span| span.start));
-        let place = Place::File { file: self.name.clone(), line: Some(line), column: Some(column) };
+        let place = Place::in_file(&self.name, Position::Character { line, column });
         let message = fault.message().replace('\n', "; ");
         let what = match fault.span().and_then(|span| self.text.get(span)) {
             Some(key) if message == "duplicate key" => Fault::duplicate(&fit(key)),
@@ -51,11 +51,11 @@ impl<'a> Source<'a> {
     }
 
     /// Line and column of a byte, both counted from 1; the column counts characters.
-    fn position(&self, byte: usize) -> (usize, usize) {
+    fn position(&self, byte: usize) -> (u64, u64) {
         let line = self.lines.partition_point(|start| *start <= byte);
         let start = line.checked_sub(1).and_then(|i| self.lines.get(i)).copied().unwrap_or(0);
         let before = self.text.get(start..byte).unwrap_or_default();
-        (line, before.chars().count() + 1)
+        (line as u64, before.chars().count() as u64 + 1)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::entry::kind;
 use crate::case::keys::{FileKind, Kind, Value};
 use crate::error::Fault;
-use crate::units::{Dimension, QuantityFault, Wanted};
+use crate::units::{Dimension, Wanted};
 use crate::vec3::Vec3;
 use std::path::PathBuf;
 use toml::de::{DeInteger, DeValue};
@@ -56,18 +56,14 @@ pub(super) fn integer(number: &DeInteger<'_>) -> Option<u64> {
 /// A number in SI units.
 pub(super) fn number(dimension: Dimension, value: &DeValue<'_>) -> Result<f64, Fault> {
     let text = match value {
-        DeValue::String(text) => return Ok(dimension.parse(text)?),
+        DeValue::String(text) => return dimension.parse(text),
         DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
         DeValue::Float(number) => number.as_str(),
         other => {
             return Err(Fault::wrong_type(kind(other), Wanted(dimension)));
         }
     };
-    if dimension == Dimension::Ratio {
-        Ok(dimension.parse(text)?)
-    } else {
-        Err(QuantityFault::NoUnit { wanted: Wanted(dimension) }.into())
-    }
+    if dimension == Dimension::Ratio { dimension.parse(text) } else { Err(dimension.no_unit()) }
 }
 
 fn vector(value: &DeValue<'_>) -> Result<Vec3<f64>, Fault> {

@@ -1,6 +1,6 @@
 //! Reads back what the fibres of a finished run have laid.
 
-use crate::error::{Error, Fault};
+use crate::error::Error;
 use crate::flight::LaidPoint;
 use parquet::column::reader::ColumnReader;
 use parquet::errors::{ParquetError, Result as Decoded};
@@ -19,10 +19,7 @@ const COLUMNS: [&str; 5] = ["replicate", "s_m", "time_s", "md_m", "cd_m"];
 /// # Errors
 /// If the folder has no table of laid points, or one that cannot be read.
 pub fn read(folder: &Path) -> Result<Vec<Vec<LaidPoint>>, Error> {
-    let not_a_run = |reason: String| {
-        let message = format!("does not hold the results of a run: {LAID}: {reason}");
-        Error::folder(folder, Fault::new(message, "name folders that `spunlaid run` has written"))
-    };
+    let not_a_run = |reason: String| Error::not_a_run(folder, &format!("{LAID}: {reason}"));
     let file = File::open(folder.join(LAID)).map_err(|error| not_a_run(error.to_string()))?;
     let curves = decode(file).map_err(|error| not_a_run(error.to_string()))?;
     Ok(curves.into_values().collect())

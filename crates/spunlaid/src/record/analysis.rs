@@ -5,8 +5,9 @@ use super::flat::FlatPart;
 use super::interval::{Interval, error};
 use super::jackknife::{Blocks, Estimates};
 use super::{Autocorrelation, IntegralRule, Moments, Record, Samples, Trend, Warning};
-use crate::error::{FileError, RecordFault};
+use crate::error::{Fault, FileError};
 use crate::statistics::{Spectrum, Welch, Window};
+use crate::units::{Dimension, shortest};
 use std::ops::Range;
 
 /// Least number of samples.
@@ -116,6 +117,11 @@ impl Component {
 }
 
 impl Analysis {
+    /// Whether the mean velocity differs from zero by more than its error.
+    pub(crate) fn has_mean(&self) -> bool {
+        !self.mean_velocity.holds(0.0)
+    }
+
     /// Duration for which the 95 % interval of a result would be ± `share` of its value [s].
     pub fn duration_for(&self, result: &Interval, share: f64) -> f64 {
         self.duration * (result.relative() / share) * (result.relative() / share)
@@ -127,6 +133,24 @@ impl Analysis {
 /// # Errors
 /// When the record has too few samples, no fluctuation or no mean flow, or is too short for the settings.
 pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, FileError> {
+    let analysis = analyse_fluctuation(record, settings)?;
+    if analysis.has_mean() {
+        return Ok(analysis);
+    }
+    let Interval { value, low, high } = analysis.mean_velocity;
+    let fault = Fault::new(
+        format!(
+            "the mean velocity is zero within its error ({} ± {} m/s)",
+            shortest(value),
+            shortest(0.5 * (high - low))
+        ),
+        "if the mean has been subtracted, give the mean velocity",
+    );
+    Err(refuse(record, None, fault.option("--mean-velocity")))
+}
+
+/// [`analyse`] for a record that may lack a mean velocity. What depends on it has no meaning then.
+pub(crate) fn analyse_fluctuation(record: &Record, settings: &Settings) -> Result<Analysis, FileError> {
     let (samples, interval) = (record.samples(), record.interval);
     check(record, settings)?;
     let lengths: Vec<usize> =
@@ -162,10 +186,6 @@ pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, FileErr
         .collect();
     let together = together(&estimates, settings.mean_velocity);
     let mean_velocity = settings.mean_velocity.map_or(components[0].mean, Interval::exactly);
-    if mean_velocity.holds(0.0) {
-        let error = 0.5 * (mean_velocity.high - mean_velocity.low);
-        return Err(refuse(record, None, RecordFault::NoMean { mean: mean_velocity.value, error }));
-    }
     let along = &components[0];
     let (integral_time, cutoff_frequency) = (along.integral_time, along.flat.cutoff);
     let mut analysis = Analysis {
@@ -186,7 +206,7 @@ pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, FileErr
     Ok(analysis)
 }
 
-fn refuse(record: &Record, column: Option<&str>, fault: RecordFault) -> FileError {
+fn refuse(record: &Record, column: Option<&str>, fault: Fault) -> FileError {
     let error = FileError::from(fault).file(&record.file);
     match column {
         Some(column) => error.column(column),
@@ -197,32 +217,60 @@ fn refuse(record: &Record, column: Option<&str>, fault: RecordFault) -> FileErro
 fn check(record: &Record, settings: &Settings) -> Result<(), FileError> {
     let samples = record.samples();
     if samples < LEAST_SAMPLES {
-        return Err(refuse(
-            record,
-            None,
-            RecordFault::TooFewSamples { found: samples, least: LEAST_SAMPLES },
-        ));
+        return Err(refuse(record, None, too_few_samples(samples, LEAST_SAMPLES)));
     }
     if !(record.interval > 0.0 && record.interval.is_finite()) {
-        return Err(refuse(record, None, RecordFault::Rate { rate: 1.0 / record.interval }));
+        return Err(refuse(record, None, rate_fault(1.0 / record.interval)));
     }
     for Samples { name, values } in &record.components {
         if values.len() != samples {
-            let fault = RecordFault::TooFewSamples { found: values.len(), least: samples };
+            let fault = too_few_samples(values.len(), samples);
             return Err(refuse(record, Some(name), fault));
         }
         if let Some(value) = values.iter().copied().find(|x| x.is_nan() || x.abs() > LARGEST) {
-            return Err(refuse(record, Some(name), RecordFault::TooLarge { value }));
+            return Err(refuse(
+                record,
+                Some(name),
+                Fault::new(
+                    format!(
+                        "holds numbers as large as {} m/s, which cannot be computed with",
+                        shortest(value)
+                    ),
+                    "is the unit right?",
+                ),
+            ));
         }
         let Moments { mean, rms, .. } = Moments::of(values);
         if rms <= 1e-12 * mean.abs() || rms < 1.0 / LARGEST {
-            return Err(refuse(record, Some(name), RecordFault::Constant { value: mean }));
+            return Err(refuse(
+                record,
+                Some(name),
+                Fault::new(
+                    format!(
+                        "is constant, {} m/s in every sample, so there is no turbulence in it",
+                        shortest(mean)
+                    ),
+                    "is the probe connected?",
+                ),
+            ));
         }
     }
     if let IntegralRule::Fixed(asked) = settings.integral {
         let most = longest_lag(samples) as f64 * record.interval;
         if !(asked > 0.0 && asked <= most - 2.0 * record.interval) {
-            return Err(refuse(record, None, RecordFault::IntegralTooLong { asked, most }));
+            return Err(refuse(
+                record,
+                None,
+                Fault::new(
+                    format!(
+                        "an integral over {} reaches beyond a quarter of the record, {}",
+                        Dimension::Time.pretty(asked),
+                        Dimension::Time.pretty(most)
+                    ),
+                    "give a shorter time",
+                )
+                .option("--integral"),
+            ));
         }
     }
     Ok(())
@@ -261,7 +309,15 @@ fn segment(record: &Record, integral_time: f64, settings: &Settings) -> Result<u
     if let Some(asked) = settings.spectrum.segment {
         if !asked.is_power_of_two() || !(8..=most).contains(&asked) {
             let advice = asked.clamp(8, most).next_power_of_two().min(most);
-            return Err(refuse(record, None, RecordFault::Segment { asked, most, advice }));
+            return Err(refuse(
+                record,
+                None,
+                Fault::new(
+                    format!("a segment of {asked} samples is not possible"),
+                    format!("write a power of two from 8 to {most}, like {advice}"),
+                )
+                .option("--segment"),
+            ));
         }
         return Ok(asked);
     }
@@ -337,4 +393,17 @@ fn together(estimates: &[Estimates], mean_velocity: Option<f64>) -> (Interval, I
     let blocks = estimates[0].left_out.len();
     let (intensities, lengths): (Vec<f64>, Vec<f64>) = (0..blocks).map(|b| of(&|e| e.left_out[b])).unzip();
     (Interval::jackknife(whole.0, &intensities, true), Interval::jackknife(whole.1, &lengths, true))
+}
+
+/// The fault of a record that has too few samples.
+pub(super) fn too_few_samples(found: usize, least: usize) -> Fault {
+    Fault::new(
+        format!("has {found} samples"),
+        format!("at least {least} are needed for statistics of turbulence"),
+    )
+}
+
+/// The fault of a sampling rate [Hz] that is not above zero.
+pub(super) fn rate_fault(rate: f64) -> Fault {
+    Fault::new(format!("a sampling rate of {} Hz is not possible", shortest(rate)), "give a rate above zero")
 }

@@ -1,7 +1,7 @@
 //! Finds the column of time, the columns of velocity and their units.
 
 use super::Layout;
-use crate::error::{FileError, RecordFault};
+use crate::error::{Fault, FileError, listed};
 use crate::table::{Head, scale};
 use crate::units::{Dimension, excerpt};
 
@@ -40,7 +40,7 @@ pub(super) struct Roles {
 /// * `named` – whether the file names its columns
 pub(super) fn roles(heads: &[Head], named: bool, layout: &Layout) -> Result<Roles, FileError> {
     if let Some(rate) = layout.rate.filter(|rate| !(rate.is_finite() && *rate > 0.0)) {
-        return Err(RecordFault::Rate { rate }.into());
+        return Err(super::analysis::rate_fault(rate).into());
     }
     let time = find_time(heads, named, layout)?;
     let mut chosen = if layout.columns.is_empty() {
@@ -50,15 +50,26 @@ pub(super) fn roles(heads: &[Head], named: bool, layout: &Layout) -> Result<Role
         asked.collect::<Result<Vec<_>, _>>()?
     };
     if chosen.is_empty() {
-        return Err(RecordFault::NoVelocity { found: shown(heads) }.into());
+        return Err(Fault::new(
+            format!("none of the columns is a velocity ({})", listed(&shown(heads))),
+            "name them like u_m_s, or say which columns are velocities, and in which unit",
+        )
+        .option("--columns, --velocity-unit")
+        .into());
     }
     if chosen.len() > COMPONENTS {
         let found = shown(chosen.iter().map(|&i| &heads[i]));
-        return Err(RecordFault::TooManyComponents { found }.into());
+        return Err(Fault::new(
+            format!("has {} velocity columns, {}", found.len(), listed(&found)),
+            "say which of them to take, one to three",
+        )
+        .option("--columns")
+        .into());
     }
     for (n, &i) in chosen.iter().enumerate() {
         if chosen[..n].contains(&i) || time == Some(i) {
-            return Err(FileError::from(RecordFault::ColumnTwice).column(&heads[i].text));
+            return Err(FileError::from(Fault::new("is asked for twice", "name each column once"))
+                .column(&heads[i].text));
         }
     }
     if layout.columns.is_empty() {
@@ -97,7 +108,12 @@ fn find_time(heads: &[Head], named: bool, layout: &Layout) -> Result<Option<usiz
         found => found,
     };
     if found.is_none() && layout.rate.is_none() {
-        return Err(RecordFault::NoTime { found: shown(heads) }.into());
+        return Err(Fault::new(
+            format!("has no column of time (it has {})", listed(&shown(heads))),
+            "name it like time_s, or give the sampling rate",
+        )
+        .option("--rate")
+        .into());
     }
     Ok(found)
 }
@@ -117,7 +133,13 @@ fn find(heads: &[Head], asked: &str) -> Result<usize, FileError> {
     by(&|head| head.text == asked)
         .or_else(|| by(&|head| head.name.eq_ignore_ascii_case(asked)))
         .or_else(|| asked.parse().ok().and_then(|n: usize| n.checked_sub(1)).filter(|i| *i < heads.len()))
-        .ok_or_else(|| RecordFault::NoSuchColumn { asked: excerpt(asked, 40), found: shown(heads) }.into())
+        .ok_or_else(|| {
+            Fault::new(
+                format!("has no column {}", excerpt(asked, 40)),
+                format!("there are {}", listed(&shown(heads))),
+            )
+            .into()
+        })
 }
 
 /// The factor from the unit of a column to SI, by its header or as asked.
@@ -128,7 +150,14 @@ fn factor(head: &Head, dimension: Dimension, asked: Option<&str>) -> Result<f64,
     match &head.unit {
         Some(written) if head.factor(dimension, example)? != wanted => {
             let (written, asked) = (excerpt(written, 20), excerpt(asked, 20));
-            Err(FileError::from(RecordFault::MixedUnits { written, asked }).column(&head.text))
+            Err(FileError::from(
+                Fault::new(
+                    format!("has the unit {written} in its header, but {asked} was given"),
+                    "give no unit, or correct the header",
+                )
+                .option("--time-unit, --velocity-unit"),
+            )
+            .column(&head.text))
         }
         _ => Ok(wanted),
     }

@@ -1,8 +1,9 @@
 //! Computes the autocorrelation of the fluctuation and its integral.
 
+use crate::error::Fault;
 use crate::fft::{Complex, InverseTransform};
 use crate::lanes::{Lanes, WIDTH};
-use crate::units::{Dimension, QuantityFault};
+use crate::units::Dimension;
 use std::ops::Range;
 
 /// Rule for the largest lag of the integral of the autocorrelation.
@@ -19,7 +20,7 @@ pub enum IntegralRule {
 
 impl IntegralRule {
     /// Reads `first-zero`, `e-fold` or `fixed=50 ms`; `None` for any other text.
-    pub fn parse(text: &str) -> Option<Result<Self, QuantityFault>> {
+    pub fn parse(text: &str) -> Option<Result<Self, Fault>> {
         match text.split_once('=') {
             None if text == "first-zero" => Some(Ok(Self::FirstZero)),
             None if text == "e-fold" => Some(Ok(Self::EFold)),

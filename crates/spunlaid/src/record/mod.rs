@@ -48,6 +48,7 @@ mod rows;
 mod text;
 mod warning;
 
+pub(crate) use analysis::analyse_fluctuation;
 pub use analysis::{Analysis, Component, Settings, SpectrumSettings, analyse};
 pub use correlation::{Autocorrelation, IntegralRule};
 pub use flat::FlatPart;

@@ -3,7 +3,7 @@
 use super::columns::{Column, roles};
 use super::rows::Rows;
 use super::{Layout, MOST_NUMBERS, Record};
-use crate::error::{FileError, FileFault, FilePlace, RecordFault};
+use crate::error::{Fault, FileError, Position};
 use crate::table::Head;
 use crate::units::excerpt;
 use bytes::Bytes;
@@ -35,9 +35,7 @@ pub(super) fn parse(bytes: Bytes, name: &str, layout: &Layout) -> Result<Record,
 }
 
 fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
-    let undecodable = |error: ParquetError| {
-        FileError::from(RecordFault::Parquet { message: excerpt(&error.to_string(), 200) })
-    };
+    let undecodable = |error: ParquetError| FileError::from(unreadable(&excerpt(&error.to_string(), 200)));
     let metadata = ParquetMetaDataReader::new().parse_and_finish(&source).map_err(undecodable)?;
     let schema = metadata.file_metadata().schema_descr();
     let heads: Vec<Head> = schema.columns().iter().map(|column| Head::new(&column.path().string())).collect();
@@ -50,20 +48,27 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
     for group in 0..metadata.num_row_groups() {
         let mut columns = Vec::new();
         for column in &used {
-            let values = Values::open(&source, &metadata, group, column.index)
-                .map_err(undecodable)
-                .and_then(|values| values.map_err(|found| RecordFault::ColumnType { found }.into()));
+            let values = Values::open(&source, &metadata, group, column.index).map_err(undecodable).and_then(
+                |values| {
+                    values.map_err(|found| {
+                        Fault::new(
+                            format!("holds {found}"),
+                            "a plain column of doubles, floats or integers is needed",
+                        )
+                        .into()
+                    })
+                },
+            );
             columns.push(values.map_err(|error| error.column(&column.header))?);
         }
         loop {
-            let place = FilePlace::Row(row + 1);
+            let place = Position::Row(row + 1);
             for (values, column) in columns.iter_mut().zip(&used) {
                 values.next(ROWS).map_err(|error| undecodable(error).at(place).column(&column.header))?;
             }
             let count = columns.first().map_or(0, |values| values.numbers.len());
             if let Some(short) = columns.iter().position(|values| values.numbers.len() != count) {
-                let message = "its columns differ in length".to_owned();
-                let error = FileError::from(RecordFault::Parquet { message }).at(place);
+                let error = FileError::from(unreadable("its columns differ in length")).at(place);
                 return Err(error.column(&used[short].header));
             }
             if count == 0 {
@@ -71,10 +76,10 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
             }
             for i in 0..count {
                 row += 1;
-                let place = FilePlace::Row(row);
+                let place = Position::Row(row);
                 let number = |column: usize| columns[column].numbers[i];
                 if let Some(infinite) = (0..used.len()).find(|&column| number(column).is_infinite()) {
-                    let fault = FileFault::NotFinite { text: number(infinite).to_string() };
+                    let fault = Fault::infinite(&number(infinite).to_string());
                     return Err(FileError::from(fault).at(place).column(&used[infinite].header));
                 }
                 let time =
@@ -88,7 +93,7 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
         }
     }
     if row == 0 {
-        return Err(FileFault::NoRows.into());
+        return Err(Fault::no_rows().into());
     }
     rows.finish()
 }
@@ -281,6 +286,14 @@ fn page_sizes(head: &[u8]) -> Option<(u64, u64)> {
     };
     let (_kind, uncompressed, compressed) = (field()?, field()?, field()?);
     Some((uncompressed, compressed))
+}
+
+/// The fault of a file that cannot be decoded.
+fn unreadable(message: &str) -> Fault {
+    Fault::new(
+        format!("is not a readable Parquet file: {message}"),
+        "write it with Snappy compression or without compression",
+    )
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use super::columns::Roles;
 use super::{Layout, MOST_NUMBERS, Reading, Record, Samples};
-use crate::error::{FileError, FileFault, FilePlace, RecordFault};
+use crate::error::{Fault, FileError, Position, memory};
+use crate::units::{Dimension, shortest};
 
 /// Largest deviation of a time step from the usual one, as a share of it.
 const JITTER: f64 = 0.01;
@@ -59,14 +60,21 @@ impl Rows {
     /// * `values` – in the units of the file; NaN if one is missing
     pub(super) fn push(
         &mut self,
-        place: FilePlace,
+        place: Position,
         time: (f64, f64),
         values: &[f64],
     ) -> Result<(), FileError> {
         let lost = self.watch(place, time)?;
         let length = self.values.first().map_or(0, Vec::len) + lost + 1;
         if length.saturating_mul(self.values.len()) > MOST_NUMBERS {
-            let fault = RecordFault::TooManySamples { most: MOST_NUMBERS };
+            let fault = Fault::new(
+                format!(
+                    "holds more than {} numbers, which would take more than {} of memory",
+                    MOST_NUMBERS,
+                    memory(MOST_NUMBERS as f64 * 8.0)
+                ),
+                "cut it into pieces",
+            );
             return Err(FileError::from(fault).at(place));
         }
         for component in 0..self.values.len() {
@@ -80,14 +88,14 @@ impl Rows {
         Ok(())
     }
 
-    fn put(&mut self, place: FilePlace, component: usize, value: f64) -> Result<(), FileError> {
+    fn put(&mut self, place: Position, component: usize, value: f64) -> Result<(), FileError> {
         let (missing, begun) = self.missing[component];
         if value.is_nan() {
             self.missing[component].0 = missing + 1;
         } else {
             if begun && missing > self.longest_gap {
                 let header = &self.roles.components[component].header;
-                let fault = RecordFault::GapTooLong { missing: missing as f64, most: self.longest_gap };
+                let fault = gap_too_long(missing as f64, self.longest_gap);
                 return Err(FileError::from(fault).at(place).column(header));
             }
             self.missing[component] = (0, true);
@@ -97,10 +105,10 @@ impl Rows {
     }
 
     /// Checks the time of a row; returns how many rows are missing before it.
-    fn watch(&mut self, place: FilePlace, (time, unit): (f64, f64)) -> Result<usize, FileError> {
+    fn watch(&mut self, place: Position, (time, unit): (f64, f64)) -> Result<usize, FileError> {
         let Clock::Watched { known, rounding } = self.clock else { return Ok(0) };
         let Some(column) = &self.roles.time else { return Ok(0) };
-        let blame = |fault: RecordFault| Err(FileError::from(fault).at(place).column(&column.header));
+        let blame = |fault: Fault| Err(FileError::from(fault).at(place).column(&column.header));
         if time.is_nan() {
             return Ok(0);
         }
@@ -113,7 +121,7 @@ impl Rows {
         };
         let step = time - last;
         if !step.is_finite() || step <= 0.0 {
-            return blame(RecordFault::TimeNotIncreasing { before: last, after: time });
+            return blame(Fault::new(format!("time goes from {} s to {} s", shortest(last), shortest(time)), "rows must be in order of time. If the times are only written with too few digits, give the sampling rate").option("--rate"));
         }
         let mut lost = 0;
         let rows = (row - last_row) as f64;
@@ -128,10 +136,10 @@ impl Rows {
                 let skips =
                     whole > rows && (step - whole * usual).abs() <= bound + JITTER * (whole - rows) * usual;
                 if !skips {
-                    return blame(RecordFault::Uneven { step, usual });
+                    return blame(Fault::new(format!("the time step changes from {} to {}", Dimension::Time.pretty(usual), Dimension::Time.pretty(step)), "samples must be evenly spaced to within 1 %. Resample the record, or give the sampling rate if you know that the clock was even").option("--rate"));
                 }
                 if whole - rows > self.longest_gap as f64 {
-                    let fault = RecordFault::GapTooLong { missing: whole - rows, most: self.longest_gap };
+                    let fault = gap_too_long(whole - rows, self.longest_gap);
                     return blame(fault);
                 }
                 lost = (whole - rows) as usize;
@@ -148,14 +156,14 @@ impl Rows {
         let first = (0..rows).find(whole).unwrap_or(rows);
         let end = (first..rows).rev().find(whole).map_or(first, |last| last + 1);
         if first == end {
-            return Err(FileFault::NoRows.into());
+            return Err(Fault::no_rows().into());
         }
         let interval = match self.clock {
             Clock::Even(interval) => interval,
             Clock::Watched { known: Some((a, b)), .. } if b.1 > a.1 => (b.0 - a.0) / (b.1 - a.1) as f64,
             Clock::Watched { .. } => {
                 let least = super::analysis::LEAST_SAMPLES;
-                return Err(RecordFault::TooFewSamples { found: end - first, least }.into());
+                return Err(super::analysis::too_few_samples(end - first, least).into());
             }
         };
         self.reading.cut_off = rows - (end - first);
@@ -191,4 +199,14 @@ fn fill(values: &mut [f64]) -> usize {
         last = i;
     }
     filled
+}
+
+/// The fault of too many samples that are missing in a row.
+fn gap_too_long(missing: f64, most: usize) -> Fault {
+    let missing = shortest(missing);
+    Fault::new(
+        format!("{missing} samples in a row are missing up to here, more than the {most} that are filled in"),
+        "cut the record here, or fill in the missing samples",
+    )
+    .option("or allow longer gaps with --max-gap")
 }

@@ -6,8 +6,9 @@ use super::optics::{blurred, noise_at_most};
 use super::picture::Picture;
 use super::spots::{Spots, region};
 use super::weigh::{Correction, Light, Pixels, Weighed, above_zero, beside, weigh};
-use crate::error::{FileError, ScanFault};
+use crate::error::{Fault, FileError};
 use crate::statistics::median;
+use crate::units::{Dimension, shortest};
 use crate::web::uniformity::Unevenness;
 use crate::web::{Clouds, Map, autocorrelation};
 use std::fmt;
@@ -189,7 +190,7 @@ pub fn analyse(picture: &Picture, settings: &Settings) -> Result<Findings, FileE
     found(picture, settings).map_err(|fault| FileError::from(fault).file(&picture.file))
 }
 
-fn found(picture: &Picture, settings: &Settings) -> Result<Findings, ScanFault> {
+fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     above_zero("a noise", settings.noise)?;
     let correction = Correction { lamp: settings.lamp.as_ref(), keep_shading: settings.keep_shading };
     let is_cleaned = matches!(settings.light, Light::Transmitted { .. }) && !settings.keep_spots;
@@ -218,8 +219,17 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, ScanFault> 
         let noise = noise / side as f64;
         let found = if given.is_some() { plain.without(noise) } else { Some(plain) };
         let patch = side as f64 * map.cell;
-        let found =
-            found.ok_or(ScanFault::NoiseTooLarge { patch, noise: settings.noise.unwrap_or(f64::NAN) })?;
+        let found = found.ok_or(
+            Fault::new(
+                format!(
+                    "varies by less over patches of {} than the given noise of the camera, {}, alone would",
+                    Dimension::Length.pretty(patch),
+                    shortest(settings.noise.unwrap_or(f64::NAN))
+                ),
+                "give the noise of a single pixel, from two pictures of the same place",
+            )
+            .option("--noise"),
+        )?;
         let few = FEWEST * side > map.columns.min(map.rows);
         let (cv, [low, high]) = (found.cv(), found.interval());
         let doubt = guess
@@ -254,13 +264,21 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, ScanFault> 
 }
 
 /// Sides of the patches [pixels], each once, the smallest first.
-fn sides(picture: &Picture, patches: &[f64]) -> Result<Vec<usize>, ScanFault> {
+fn sides(picture: &Picture, patches: &[f64]) -> Result<Vec<usize>, Fault> {
     let (pixel, shorter) = (picture.pixel, picture.columns.min(picture.rows));
     let side = |patch: f64| (patch / pixel).round();
     let mut sides = Vec::new();
     for patch in patches {
         if !(1.0..=shorter as f64).contains(&side(*patch)) {
-            return Err(ScanFault::Patch { patch: *patch, pixel, side: picture.shorter() });
+            return Err(Fault::new(
+                format!("has no patches of {}", Dimension::Length.pretty(*patch)),
+                format!(
+                    "they can have sides from a pixel, {}, to the shorter side of the picture, {}",
+                    Dimension::Length.pretty(pixel),
+                    Dimension::Length.pretty(picture.shorter())
+                ),
+            )
+            .option("--patches"));
         }
         sides.push(side(*patch) as usize);
     }

@@ -1,7 +1,7 @@
 //! What of a picture is no web: the bare lamp beside it, dust and blots.
 
 use super::picture::Picture;
-use crate::error::ScanFault;
+use crate::error::Fault;
 use crate::statistics::quantile;
 
 /// A rectangle of pixels: the first column and row, columns and rows.
@@ -67,7 +67,7 @@ struct Level {
 ///
 /// # Errors
 /// If too much of the picture is dark, or no large part of it is web alone.
-pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Result<Spots, ScanFault> {
+pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Result<Spots, Fault> {
     let rows = density.len() / columns;
     let (mut dark, mut bare) = (vec![false; density.len()], vec![false; density.len()]);
     let mut level = Level { values: density.to_vec(), columns, block: 1 };
@@ -105,7 +105,7 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
     let there = bare.iter().filter(|is| !**is).count();
     if (web.sides[0] * web.sides[1]) as f64 <= KEPT * there as f64 {
         let share = 1.0 - there as f64 / density.len() as f64;
-        return Err(ScanFault::Bare { share });
+        return Err(Fault::new(format!("shows the bare lamp on {:.0} % of its area, and no large rectangle without it can be cut out", 100.0 * share), "turn the scan straight, and cut the picture so that it holds web only").option("--keep-spots"));
     }
     if !found {
         bare = Vec::new();
@@ -115,7 +115,7 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
     widen(&mut dark, web.sides[0], wide);
     let masked = dark.iter().filter(|is| **is).count();
     if masked as f64 > MOST * dark.len() as f64 {
-        return Err(ScanFault::Dark { share: masked as f64 / dark.len() as f64 });
+        return Err(Fault::new(format!("has spots that are far darker than the rest of the web on {:.1} % of its area, more than dust and blots may cover", 100.0 * (masked as f64 / dark.len() as f64)), "clean the glass, cut the picture so that it holds web only, or keep the spots if they are web").option("--keep-spots"));
     }
     if masked == 0 {
         dark = Vec::new();

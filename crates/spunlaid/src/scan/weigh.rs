@@ -4,7 +4,8 @@ use super::findings::Doubt;
 use super::picture::Picture;
 use super::shading::Shading;
 use super::spots::{Spots, spots};
-use crate::error::ScanFault;
+use crate::error::Fault;
+use crate::units::shortest;
 use crate::web::Map;
 
 /// What the values of a picture mean.
@@ -81,11 +82,7 @@ pub(super) struct Correction<'a> {
 const ROUNDS: usize = 4;
 
 /// What of a picture in transmitted light is no web.
-pub(super) fn beside(
-    picture: &Picture,
-    light: Light,
-    correction: Correction<'_>,
-) -> Result<Spots, ScanFault> {
+pub(super) fn beside(picture: &Picture, light: Light, correction: Correction<'_>) -> Result<Spots, Fault> {
     let logs = logs(picture, correction.lamp)?;
     let (lamp, given) = match light {
         _ if correction.lamp.is_some() => (0.0, true),
@@ -134,7 +131,7 @@ pub(super) fn weigh(
     light: Light,
     correction: Correction<'_>,
     masked: &[bool],
-) -> Result<Weighed, ScanFault> {
+) -> Result<Weighed, Fault> {
     let (Light::Transmitted { mean, .. } | Light::Weight { mean }) = light;
     above_zero("a mean basis weight [kg/m²]", mean)?;
     match light {
@@ -144,21 +141,31 @@ pub(super) fn weigh(
 }
 
 /// Refuses a setting that is not above zero.
-pub(super) fn above_zero(name: &'static str, value: Option<f64>) -> Result<(), ScanFault> {
+pub(super) fn above_zero(name: &'static str, value: Option<f64>) -> Result<(), Fault> {
     match value {
-        Some(value) if !(value.is_finite() && value > 0.0) => Err(ScanFault::Setting { name, value }),
+        Some(value) if !(value.is_finite() && value > 0.0) => Err(Fault::new(
+            format!("cannot be read with {name} = {}", shortest(value)),
+            "give a number above zero",
+        )),
         _ => Ok(()),
     }
 }
 
 /// The logarithm of the light that comes through, over that of the lamp if there is a picture of it; NaN where there is none.
-fn logs(picture: &Picture, lamp: Option<&Picture>) -> Result<Vec<f64>, ScanFault> {
+fn logs(picture: &Picture, lamp: Option<&Picture>) -> Result<Vec<f64>, Fault> {
     let log = |level: &f64| if level.is_finite() && *level > 0.0 { libm::log(*level) } else { f64::NAN };
     let mut logs: Vec<f64> = picture.values.iter().map(log).collect();
     if let Some(lamp) = lamp {
         let [found, wanted] = [lamp, picture].map(|of| [of.columns, of.rows]);
         if found != wanted {
-            return Err(ScanFault::OtherLamp { found, wanted });
+            return Err(Fault::new(
+                format!(
+                    "has {} × {} pixels, and the picture of the lamp without web {} × {}",
+                    wanted[0], wanted[1], found[0], found[1]
+                ),
+                "take both with the same camera from the same place",
+            )
+            .option("--lamp"));
         }
         logs.iter_mut().zip(&lamp.values).for_each(|(light, lamp)| *light -= log(lamp));
     }
@@ -171,7 +178,7 @@ fn transmitted(
     white: Option<f64>,
     Correction { lamp, keep_shading }: Correction<'_>,
     masked: &[bool],
-) -> Result<Weighed, ScanFault> {
+) -> Result<Weighed, Fault> {
     above_zero("a level of the lamp", white)?;
     let levels = || picture.values.iter().copied().filter(|level| level.is_finite());
     let white = white.or(picture.full_scale).unwrap_or_else(|| levels().fold(0.0, f64::max));
@@ -185,7 +192,7 @@ fn transmitted(
     let density = libm::log(white) - mean_log;
     // What is left of rounding is no web.
     if density.is_nan() || density <= 1e-9 {
-        return Err(ScanFault::NotDarker { level: libm::exp(mean_log), white });
+        return Err(Fault::new(format!("is no darker than the lamp without web: its mean grey level is {}, and that of the lamp {}", shortest(libm::exp(mean_log)), shortest(white)), "give the level of the lamp without web at the same exposure, or say that the values are basis weights").option("--white, --lamp, --light weight"));
     }
     let web = || picture.values.iter().zip(&logs).filter(|(_, log)| !log.is_nan()).map(|(level, _)| level);
     let inverse = web().map(|level| level.powi(-2)).sum::<f64>();
@@ -211,14 +218,14 @@ fn transmitted(
     })
 }
 
-fn weights(picture: &Picture, mean: Option<f64>) -> Result<Weighed, ScanFault> {
+fn weights(picture: &Picture, mean: Option<f64>) -> Result<Weighed, Fault> {
     let usable = |weight: f64| if weight.is_finite() && weight >= 0.0 { weight } else { f64::NAN };
     let mut weights: Vec<f64> = picture.weights().map(usable).collect();
     let advice = "cut out a part of the map where the gauge has seen the web";
     let filled = unusable(&weights, "negative or without a value", advice)?;
     let found = mean_of(&weights);
     if !found.is_finite() || found <= 0.0 {
-        return Err(ScanFault::NoWeight { mean: found });
+        return Err(no_weight(found));
     }
     weights.iter_mut().for_each(|weight| *weight /= found);
     let (map, _) = map(picture, weights, mean.unwrap_or(found))?;
@@ -234,14 +241,17 @@ fn weights(picture: &Picture, mean: Option<f64>) -> Result<Weighed, ScanFault> {
 }
 
 /// How many values are missing, if they are few enough to be filled in.
-fn unusable(values: &[f64], what: &'static str, advice: &'static str) -> Result<usize, ScanFault> {
+fn unusable(values: &[f64], what: &'static str, advice: &'static str) -> Result<usize, Fault> {
     let unusable = values.iter().filter(|value| value.is_nan()).count();
     if unusable > values.len() / FILLED {
-        return Err(ScanFault::Unusable { unusable, pixels: values.len(), what, advice });
+        return Err(Fault::new(
+            format!("has {unusable} pixels of {} that are {what}", values.len()),
+            format!("at most one in a hundred can be filled from its neighbours; {advice}"),
+        ));
     }
     let first = values.iter().copied().find(|value| !value.is_nan());
     if values.iter().all(|value| value.is_nan() || Some(*value) == first) {
-        return Err(ScanFault::Flat);
+        return Err(Fault::new("has the same value everywhere", "is it the right file?"));
     }
     Ok(unusable)
 }
@@ -253,7 +263,7 @@ fn mean_of(values: &[f64]) -> f64 {
 }
 
 /// The map of relative weights, and how many were below zero.
-fn map(picture: &Picture, mut weights: Vec<f64>, mean: f64) -> Result<(Map, usize), ScanFault> {
+fn map(picture: &Picture, mut weights: Vec<f64>, mean: f64) -> Result<(Map, usize), Fault> {
     weights.chunks_exact_mut(picture.columns).for_each(fill);
     let lighter = weights.iter().filter(|weight| **weight < 0.0).count();
     // A cast takes what is below zero as zero.
@@ -267,7 +277,7 @@ fn map(picture: &Picture, mut weights: Vec<f64>, mean: f64) -> Result<(Map, usiz
         cells,
     };
     if map.total() == 0 {
-        return Err(ScanFault::NoWeight { mean: 0.0 });
+        return Err(no_weight(0.0));
     }
     map.quantum = mean / map.basis_weight();
     Ok((map, lighter))
@@ -296,6 +306,15 @@ fn fill(row: &mut [f64]) {
         }
         at = end;
     }
+}
+
+/// The fault of basis weights that are not above zero.
+fn no_weight(mean: f64) -> Fault {
+    let mean = shortest(mean);
+    Fault::new(
+        format!("has a mean basis weight of {mean}, which must be above zero"),
+        "is it a map of basis weight?",
+    )
 }
 
 #[cfg(test)]

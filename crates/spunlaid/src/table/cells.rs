@@ -1,7 +1,8 @@
 //! Splits a line into cells and reads the number in a cell.
 
-use crate::error::FileFault;
+use crate::error::Fault;
 use crate::units::excerpt;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// What separates the cells of a line.
@@ -84,10 +85,10 @@ pub(super) enum Looks {
 
 impl Looks {
     pub(super) fn of(cell: &str, parting: Parting) -> Self {
-        match number(cell, parting, &mut None) {
-            Ok(number) if number.is_nan() => Self::Missing,
-            Ok(_) | Err(FileFault::NotFinite { .. }) => Self::Number,
-            Err(_) => Self::Text,
+        match parsed(cell, parting) {
+            None => Self::Text,
+            Some(number) if number.is_nan() => Self::Missing,
+            Some(_) => Self::Number,
         }
     }
 }
@@ -99,30 +100,51 @@ pub(super) fn is_comment(text: &str) -> bool {
 /// The number in a cell; NaN if it is missing.
 ///
 /// * `decimals` – decimal sign of the cells read so far
-pub(super) fn number(cell: &str, parting: Parting, decimals: &mut Option<u8>) -> Result<f64, FileFault> {
-    let sign = cell.bytes().find(|byte| matches!(byte, b'.' | b','));
-    let Some(sign) = sign.filter(|_| parting != Parting::Sign(b',')) else {
-        return with_point(cell, cell);
+pub(super) fn number(cell: &str, parting: Parting, decimals: &mut Option<u8>) -> Result<f64, Fault> {
+    let text = excerpt(cell, 40);
+    let Some(number) = parsed(cell, parting) else {
+        return Err(Fault::new(
+            format!("\"{text}\" is not a number"),
+            "write one, or leave the cell empty where a value is missing",
+        ));
     };
-    let number =
-        if sign == b',' { with_point(&cell.replacen(',', ".", 1), cell) } else { with_point(cell, cell) };
-    if number.as_ref().is_ok_and(|number| !number.is_nan()) && *decimals.get_or_insert(sign) != sign {
-        return Err(FileFault::MixedDecimals { text: excerpt(cell, 40) });
+    if number.is_infinite() {
+        return Err(Fault::infinite(&text));
     }
-    number
+    if let Some(sign) = decimal_sign(cell, parting)
+        && !number.is_nan()
+        && *decimals.get_or_insert(sign) != sign
+    {
+        return Err(Fault::new(
+            format!("\"{text}\" has another decimal sign than the rows above"),
+            "write all numbers with a point, or all with a comma",
+        ));
+    }
+    Ok(number)
 }
 
-fn with_point(cell: &str, written: &str) -> Result<f64, FileFault> {
+fn decimal_sign(cell: &str, parting: Parting) -> Option<u8> {
+    let sign = cell.bytes().find(|byte| matches!(byte, b'.' | b','));
+    sign.filter(|_| parting != Parting::Sign(b','))
+}
+
+/// The number in a cell: NaN if it is missing, infinite if it is too large, none if there is something else.
+fn parsed(cell: &str, parting: Parting) -> Option<f64> {
     #[rustfmt::skip]
     const MISSING: [&str; 13] = [
         "", "-", "--", "na", "n/a", "#n/a", "null", "none", "nan", "-nan", "-nan(ind)", "1.#qnan", "-1.#ind",
     ];
-    match cell.parse::<f64>() {
-        Ok(number) if number.is_infinite() => Err(FileFault::NotFinite { text: excerpt(written, 40) }),
-        Ok(number) => Ok(number),
-        Err(_) if cell.len() <= 10 && MISSING.contains(&cell.to_ascii_lowercase().as_str()) => Ok(f64::NAN),
-        Err(_) => Err(FileFault::not_a_number(written)),
-    }
+    let with_point = match decimal_sign(cell, parting) {
+        Some(b',') => Cow::Owned(cell.replacen(',', ".", 1)),
+        _ => Cow::Borrowed(cell),
+    };
+    let is_missing = || with_point.len() <= 10 && MISSING.contains(&with_point.to_ascii_lowercase().as_str());
+    with_point.parse().ok().or_else(|| is_missing().then_some(f64::NAN))
+}
+
+/// Whether a cell holds a finite number, or says that it is missing.
+pub(super) fn is_number(cell: &str, parting: Parting) -> bool {
+    parsed(cell, parting).is_some_and(|number| !number.is_infinite())
 }
 
 /// The unit of the last digit of a number as it is written.

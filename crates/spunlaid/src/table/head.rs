@@ -1,7 +1,7 @@
 //! The name and the unit in the header of a column.
 
-use crate::error::{FileError, FileFault};
-use crate::units::{Dimension, excerpt};
+use crate::error::{Fault, FileError};
+use crate::units::{Dimension, Wanted, excerpt};
 
 /// The header of a column, split into name and unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,10 +66,17 @@ impl Head {
     /// When the header has no unit, or a unit of another dimension.
     pub fn factor(&self, dimension: Dimension, example: &'static str) -> Result<f64, FileError> {
         let fault = match &self.unit {
-            None => FileFault::NoUnit { dimension, example },
+            None => Fault::new(
+                format!("contains {} and has no unit", dimension.name()),
+                format!("write the unit in its name, like {example}"),
+            )
+            .option("or --time-unit, --velocity-unit"),
             Some(unit) => match scale(unit, dimension) {
                 Some(factor) => return Ok(factor),
-                None => FileFault::WrongUnit { unit: excerpt(unit, 20), wanted: dimension },
+                None => Fault::new(
+                    format!("has the unit \"{}\"", excerpt(unit, 20)),
+                    format!("{} is needed", Wanted(dimension)),
+                ),
             },
         };
         Err(FileError::from(fault).column(&self.text))

@@ -39,7 +39,7 @@ mod start;
 
 pub use head::{Head, scale};
 
-use crate::error::{FileError, FileFault, FileKind, FilePlace};
+use crate::error::{Fault, FileError, FileKind, Position};
 use cells::{Parting, number};
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Read};
@@ -84,7 +84,7 @@ impl<R: Read> Table<R> {
             }
             ahead.push_back(line);
         }
-        let start = start::find(ahead.make_contiguous()).ok_or(FileFault::NoRows)?;
+        let start = start::find(ahead.make_contiguous()).ok_or_else(Fault::no_rows)?;
         let header = ahead.get(start.header).map_or(0, |line| line.number);
         ahead.drain(..start.row);
         if let Some(first) = ahead.front_mut() {
@@ -117,8 +117,8 @@ impl<R: Read> Table<R> {
     }
 
     /// The line of the names.
-    pub(crate) const fn header(&self) -> FilePlace {
-        FilePlace::Line(self.header)
+    pub(crate) const fn header(&self) -> Position {
+        Position::Line(self.header)
     }
 
     /// Reads the next row; `false` at the end.
@@ -145,7 +145,15 @@ impl<R: Read> Table<R> {
         if self.cells.get(wanted..).is_some_and(|rest| rest.iter().all(Range::is_empty)) {
             Ok(true)
         } else {
-            Err(FileError::from(FileFault::Cells { found, wanted }).at(self.place()))
+            Err({
+                let remedy = if found < wanted {
+                    "is the file cut off here?"
+                } else {
+                    "are both decimals and cells separated by commas?"
+                };
+                let fault = Fault::new(format!("this row has {found} cells and needs {wanted}"), remedy);
+                FileError::from(fault).at(self.place())
+            })
         }
     }
 
@@ -155,8 +163,8 @@ impl<R: Read> Table<R> {
     }
 
     /// The place of the row, for messages.
-    pub(crate) const fn place(&self) -> FilePlace {
-        FilePlace::Line(self.row.number)
+    pub(crate) const fn place(&self) -> Position {
+        Position::Line(self.row.number)
     }
 
     /// Empty lines between this row and the one before.
@@ -180,13 +188,18 @@ impl<R: Read> Table<R> {
         number.map_err(|fault| self.blame(column, fault))
     }
 
+    /// Whether a column of the row holds a finite number, with whatever decimal sign, or says that it is missing.
+    pub(crate) fn is_number(&self, column: usize) -> bool {
+        cells::is_number(self.text(column), self.parting)
+    }
+
     /// The unit of the last digit of the number in a column as it is written: 1e-3 for `0,125`, 1e-5 for `1.25e-3`.
     pub fn last_place(&self, column: usize) -> f64 {
         cells::last_place(self.text(column))
     }
 
     /// An error at a column of this row.
-    pub(crate) fn blame(&self, column: usize, fault: impl Into<FileFault>) -> FileError {
+    pub(crate) fn blame(&self, column: usize, fault: impl Into<Fault>) -> FileError {
         let name = self.heads.get(column).map_or("", |head| &head.text);
         FileError::from(fault.into()).at(self.place()).column(name)
     }
@@ -218,21 +231,33 @@ impl<R: Read> Lines<R> {
         loop {
             self.number += 1;
             let number = self.number;
-            let refused = |fault: FileFault| FileError::from(fault).at(FilePlace::Line(number));
+            let refused = |fault: Fault| FileError::from(fault).at(Position::Line(number));
             self.buffer.clear();
             let most = LONGEST_LINE as u64 + 1;
             let read = self.source.by_ref().take(most).read_until(b'\n', &mut self.buffer);
-            let read = read.map_err(|e| refused(FileFault::Unreadable { message: e.to_string() }))?;
+            let read = read.map_err(|e| refused(Fault::unreadable(&e)))?;
             if read == 0 {
                 return Ok(false);
             }
             // UTF-16 begins with one of two marks, and text never holds a zero byte.
             let marked = self.buffer.starts_with(&[0xff, 0xfe]) || self.buffer.starts_with(&[0xfe, 0xff]);
             if (number == 1 && marked) || self.buffer.contains(&0) {
-                return Err(refused(FileFault::NotText(self.kind)));
+                return Err(refused(self.kind.not_text()));
             }
             if read > LONGEST_LINE {
-                return Err(refused(FileFault::LineTooLong { most: LONGEST_LINE }));
+                let fault = match self.kind {
+                    FileKind::Scan => Fault::new(
+                        format!("this row is longer than {LONGEST_LINE} bytes, the limit for a table"),
+                        "save so wide a map as NumPy array (.npy)",
+                    ),
+                    _ => Fault::new(
+                        format!(
+                            "this line is longer than {LONGEST_LINE} bytes, the limit for a row of a table"
+                        ),
+                        "end each row with a line break",
+                    ),
+                };
+                return Err(refused(fault));
             }
             if number <= self.skip {
                 continue;

@@ -99,6 +99,6 @@ fn faults_name_line_and_column() {
 
 #[test]
 fn messages_show_control_characters() {
-    let error = FileError::from(FileFault::NoRows).file("t\u{8}les/\u{1b}[2J.csv").column("u\u{7}");
+    let error = FileError::from(Fault::no_rows()).file("t\u{8}les/\u{1b}[2J.csv").column("u\u{7}");
     assert!(error.to_string().chars().all(|c| !c.is_control()), "{error}");
 }

@@ -6,6 +6,7 @@
 //! ```
 
 use super::{ALL, Dimension, excerpt};
+use crate::error::Fault;
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -92,55 +93,6 @@ impl fmt::Display for Powers {
     }
 }
 
-/// What is wrong with a formula. The message continues after `key = "text" `.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ExpressionFault {
-    /// The formula cannot be read.
-    #[error("cannot be read at \"{at}\"; {wanted} is expected there")]
-    Syntax {
-        /// The text from there on, or `the end`.
-        at: String,
-        /// What is expected.
-        wanted: &'static str,
-    },
-    /// The formula is too long or nested too deeply.
-    #[error("is too long or has too many nested parentheses; write it shorter")]
-    TooLong,
-    /// A name that is not a key with a number.
-    #[error("uses {name}, which is not a key with a number; {advice}")]
-    UnknownName {
-        /// The name.
-        name: String,
-        /// How to correct it.
-        advice: String,
-    },
-    /// Quantities of different dimensions are added.
-    #[error("adds {left} and {right}; only quantities of the same unit can be added or subtracted")]
-    Unlike {
-        /// Unit on the left.
-        left: Powers,
-        /// Unit on the right.
-        right: Powers,
-    },
-    /// An exponent has a unit.
-    #[error("has an exponent in {found}; an exponent must be a plain number")]
-    Exponent {
-        /// Its unit.
-        found: Powers,
-    },
-    /// The result has another dimension.
-    #[error("gives a value in {found}, but {name} in {wanted} is needed; check the formula")]
-    WrongDimension {
-        /// Its unit.
-        found: Powers,
-        /// What is needed, with an article.
-        name: &'static str,
-        /// The unit needed.
-        wanted: Powers,
-    },
-}
-
 /// A parsed formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
@@ -161,10 +113,10 @@ impl Expression {
     ///
     /// # Errors
     /// If the text is not a formula.
-    pub fn parse(text: &str) -> Result<Self, ExpressionFault> {
+    pub fn parse(text: &str) -> Result<Self, Fault> {
         let text = text.trim();
         if text.len() > LONGEST {
-            return Err(ExpressionFault::TooLong);
+            return Err(too_long());
         }
         let mut reader = Reader { rest: text, depth: 0 };
         let root = reader.sum()?;
@@ -192,10 +144,7 @@ impl Expression {
     ///
     /// # Errors
     /// If units do not fit or a name is unknown.
-    pub fn value(
-        &self,
-        of: &dyn Fn(&str) -> Option<(f64, Powers)>,
-    ) -> Result<(f64, Powers), ExpressionFault> {
+    pub fn value(&self, of: &dyn Fn(&str) -> Option<(f64, Powers)>) -> Result<(f64, Powers), Fault> {
         self.root.value(of)
     }
 }
@@ -213,12 +162,11 @@ impl Node {
         }
     }
 
-    fn value(&self, of: &dyn Fn(&str) -> Option<(f64, Powers)>) -> Result<(f64, Powers), ExpressionFault> {
+    fn value(&self, of: &dyn Fn(&str) -> Option<(f64, Powers)>) -> Result<(f64, Powers), Fault> {
         Ok(match self {
             Self::Quantity(value, powers) => (*value, *powers),
-            Self::Name(name) => of(name).ok_or_else(|| ExpressionFault::UnknownName {
-                name: name.clone(),
-                advice: "write the full name of one, like air.velocity".to_owned(),
+            Self::Name(name) => of(name).ok_or_else(|| {
+                unknown_name(name, "write the full name of one, like air.velocity".to_owned())
             })?,
             Self::Negative(inner) => {
                 let (value, powers) = inner.value(of)?;
@@ -230,10 +178,18 @@ impl Node {
                     '*' => (a * b, left.plus(right, 1.0)),
                     '/' => (a / b, left.plus(right, -1.0)),
                     '^' if !right.agree(Powers::default()) => {
-                        return Err(ExpressionFault::Exponent { found: right });
+                        return Err(Fault::new(
+                            format!("has an exponent in {right}"),
+                            "an exponent must be a plain number",
+                        ));
                     }
                     '^' => (libm::pow(a, b), left.times(b)),
-                    _ if !left.agree(right) => return Err(ExpressionFault::Unlike { left, right }),
+                    _ if !left.agree(right) => {
+                        return Err(Fault::new(
+                            format!("adds {left} and {right}"),
+                            "only quantities of the same unit can be added or subtracted",
+                        ));
+                    }
                     '-' => (a - b, left),
                     _ => (a + b, left),
                 }
@@ -248,9 +204,9 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn fault(&self, wanted: &'static str) -> ExpressionFault {
+    fn fault(&self, wanted: &'static str) -> Fault {
         let at = if self.rest.is_empty() { "the end".to_owned() } else { excerpt(self.rest, 20) };
-        ExpressionFault::Syntax { at, wanted }
+        Fault::new(format!("cannot be read at \"{at}\""), format!("{wanted} is expected there"))
     }
 
     fn skip(&mut self, bytes: usize) {
@@ -273,12 +229,12 @@ impl<'a> Reader<'a> {
         Some(plain)
     }
 
-    fn deeper(&mut self) -> Result<(), ExpressionFault> {
+    fn deeper(&mut self) -> Result<(), Fault> {
         self.depth += 1;
-        if self.depth > DEEPEST { Err(ExpressionFault::TooLong) } else { Ok(()) }
+        if self.depth > DEEPEST { Err(too_long()) } else { Ok(()) }
     }
 
-    fn sum(&mut self) -> Result<Node, ExpressionFault> {
+    fn sum(&mut self) -> Result<Node, Fault> {
         let mut left = self.product()?;
         while let Some(sign) = self.take(&['+', '-']) {
             left = Node::Binary(sign, Box::new(left), Box::new(self.product()?));
@@ -286,7 +242,7 @@ impl<'a> Reader<'a> {
         Ok(left)
     }
 
-    fn product(&mut self) -> Result<Node, ExpressionFault> {
+    fn product(&mut self) -> Result<Node, Fault> {
         let mut left = self.power()?;
         while let Some(sign) = self.take(&['*', '/']) {
             left = Node::Binary(sign, Box::new(left), Box::new(self.power()?));
@@ -294,7 +250,7 @@ impl<'a> Reader<'a> {
         Ok(left)
     }
 
-    fn power(&mut self) -> Result<Node, ExpressionFault> {
+    fn power(&mut self) -> Result<Node, Fault> {
         if self.take(&['-']).is_some() {
             self.deeper()?;
             let inner = self.power()?;
@@ -305,7 +261,7 @@ impl<'a> Reader<'a> {
         self.raised(base)
     }
 
-    fn raised(&mut self, base: Node) -> Result<Node, ExpressionFault> {
+    fn raised(&mut self, base: Node) -> Result<Node, Fault> {
         if self.take(&['^']).is_none() {
             return Ok(base);
         }
@@ -315,7 +271,7 @@ impl<'a> Reader<'a> {
         Ok(Node::Binary('^', Box::new(base), Box::new(exponent)))
     }
 
-    fn factor(&mut self) -> Result<Node, ExpressionFault> {
+    fn factor(&mut self) -> Result<Node, Fault> {
         const WANTED: &str = "a number, a key or a parenthesis";
         if self.take(&['(']).is_some() {
             self.deeper()?;
@@ -389,11 +345,20 @@ fn exact(number: &str, symbol: &str) -> Option<Node> {
     })
 }
 
+fn too_long() -> Fault {
+    Fault::new("is too long or has too many nested parentheses", "write it shorter")
+}
+
+/// The fault of a name that is not a key with a number.
+pub(crate) fn unknown_name(name: &str, remedy: String) -> Fault {
+    Fault::new(format!("uses {name}, which is not a key with a number"), remedy)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn value(text: &str) -> Result<(f64, Powers), ExpressionFault> {
+    fn value(text: &str) -> Result<(f64, Powers), Fault> {
         let of = |name: &str| match name {
             "air.velocity" => Some((10.0, Powers::of(Dimension::Velocity))),
             "air.length_scale" => Some((0.05, Powers::of(Dimension::Length))),
@@ -456,8 +421,8 @@ mod tests {
         ] {
             assert_eq!(value(text).unwrap_err().to_string(), said, "{text}");
         }
-        assert_eq!(value(&"(".repeat(2000)), Err(ExpressionFault::TooLong));
-        assert_eq!(value(&"(".repeat(500)), Err(ExpressionFault::TooLong));
-        assert_eq!(value(&"-".repeat(500)), Err(ExpressionFault::TooLong));
+        assert_eq!(value(&"(".repeat(2000)), Err(too_long()));
+        assert_eq!(value(&"(".repeat(500)), Err(too_long()));
+        assert_eq!(value(&"-".repeat(500)), Err(too_long()));
     }
 }

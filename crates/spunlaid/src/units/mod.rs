@@ -3,8 +3,12 @@
 mod expression;
 mod table;
 
-pub use expression::{Expression, ExpressionFault, Powers};
+pub(crate) use crate::error::{excerpt, shortest};
+pub(crate) use expression::unknown_name;
+pub use expression::{Expression, Powers};
 
+use crate::error::Fault;
+use std::borrow::Cow;
 use std::fmt;
 use table::Scale::{Above, Over, Ten, Times};
 
@@ -58,64 +62,6 @@ const ALL: [Dimension; 14] = [
     Dimension::Noise,
     Dimension::Ratio,
 ];
-
-/// What is wrong with the text of a quantity. The message continues after `key = "text" `.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum QuantityFault {
-    /// The text does not start with a number.
-    #[error("does not start with a number; write {wanted}")]
-    NoNumber {
-        /// What to write.
-        wanted: Wanted,
-    },
-    /// `nan` or `inf`.
-    #[error("is not a finite number; write {wanted}")]
-    NotFinite {
-        /// What to write.
-        wanted: Wanted,
-    },
-    /// The number is too large for a floating-point number.
-    #[error("is too large; write {wanted}")]
-    TooLarge {
-        /// What to write.
-        wanted: Wanted,
-    },
-    /// The number has a comma: `1,5 m`.
-    #[error("has a comma; write the number with a decimal point and no separators, like \"{mended}\"")]
-    Comma {
-        /// The text with a decimal point.
-        mended: String,
-    },
-    /// The number has an underscore: `1_000 m`.
-    #[error("has an underscore; write the number without separators, like \"{mended}\"")]
-    Underscore {
-        /// The text without underscores.
-        mended: String,
-    },
-    /// The unit is missing.
-    #[error("has no unit; write {wanted}")]
-    NoUnit {
-        /// What to write.
-        wanted: Wanted,
-    },
-    /// The unit belongs to another dimension.
-    #[error("is {found}; write {wanted}")]
-    WrongDimension {
-        /// The dimension of the unit, `a length`.
-        found: &'static str,
-        /// What to write.
-        wanted: Wanted,
-    },
-    /// The unit is unknown.
-    #[error("has the unknown unit \"{unit}\"; write {wanted}")]
-    UnknownUnit {
-        /// As written.
-        unit: String,
-        /// What to write.
-        wanted: Wanted,
-    },
-}
 
 /// Shows what to write for a dimension: `a length with its unit: m, cm, mm, µm or nm`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,6 +120,11 @@ impl Dimension {
         }
     }
 
+    /// The fault of a number without a unit.
+    pub(crate) fn no_unit(self) -> Fault {
+        Fault::new("has no unit", format!("write {}", Wanted(self)))
+    }
+
     /// Reads a quantity such as `50 µm` into SI units.
     ///
     /// If the unit is a power of ten of the SI unit, only the decimal exponent of the text changes before it is
@@ -181,36 +132,40 @@ impl Dimension {
     ///
     /// # Errors
     /// If the text is not a finite number followed by a unit of this dimension.
-    pub fn parse(self, text: &str) -> Result<f64, QuantityFault> {
-        let wanted = Wanted(self);
+    pub fn parse(self, text: &str) -> Result<f64, Fault> {
+        let wrong = |message: Cow<'static, str>| Fault::new(message, format!("write {}", Wanted(self)));
         let text = text.trim();
         let (number, rest) = split_number(text);
         if number.is_empty() {
             let word = text.trim_start_matches(['+', '-']).to_ascii_lowercase();
             return Err(if word.starts_with("nan") || word.starts_with("inf") {
-                QuantityFault::NotFinite { wanted }
+                wrong("is not a finite number".into())
             } else {
-                QuantityFault::NoNumber { wanted }
+                wrong("does not start with a number".into())
             });
         }
         let digit_follows = rest.chars().nth(1).is_some_and(|c| c.is_ascii_digit());
         if digit_follows && rest.starts_with(',') {
-            return Err(QuantityFault::Comma {
-                mended: excerpt(&text.replacen(',', ".", 1).replace(',', ""), 40),
-            });
+            let mended = excerpt(&text.replacen(',', ".", 1).replace(',', ""), 40);
+            return Err(Fault::new(
+                "has a comma",
+                format!("write the number with a decimal point and no separators, like \"{mended}\""),
+            ));
         }
         if digit_follows && rest.starts_with('_') {
-            return Err(QuantityFault::Underscore { mended: excerpt(&text.replace('_', ""), 40) });
+            let mended = excerpt(&text.replace('_', ""), 40);
+            let remedy = format!("write the number without separators, like \"{mended}\"");
+            return Err(Fault::new("has an underscore", remedy));
         }
         let written = rest.trim();
         let plain = plain_spelling(written);
         let Some(unit) = self.units().iter().find(|unit| unit.plain == plain) else {
             return Err(if written.is_empty() {
-                QuantityFault::NoUnit { wanted }
+                self.no_unit()
             } else if let Some(other) = ALL.iter().find(|d| d.units().iter().any(|u| u.plain == plain)) {
-                QuantityFault::WrongDimension { found: other.name(), wanted }
+                wrong(format!("is {}", other.name()).into())
             } else {
-                QuantityFault::UnknownUnit { unit: excerpt(written, 20), wanted }
+                wrong(format!("has the unknown unit \"{}\"", excerpt(written, 20)).into())
             });
         };
         let value = match unit.scale {
@@ -221,8 +176,8 @@ impl Dimension {
         };
         match value {
             Some(value) if value.is_finite() => Ok(value),
-            Some(_) => Err(QuantityFault::TooLarge { wanted }),
-            None => Err(QuantityFault::NoNumber { wanted }),
+            Some(_) => Err(wrong("is too large".into())),
+            None => Err(wrong("does not start with a number".into())),
         }
     }
 
@@ -283,37 +238,8 @@ impl Dimension {
     }
 }
 
-/// Foreign text for a message: on one line, and shortened to `longest` characters.
-pub(crate) fn excerpt(text: &str, longest: usize) -> String {
-    let mut excerpt = String::new();
-    for c in text.trim().chars().take(longest) {
-        if c.is_control() { excerpt.extend(c.escape_debug()) } else { excerpt.push(c) }
-    }
-    if text.trim().chars().count() > longest {
-        excerpt.push('…');
-    }
-    excerpt
-}
-
-/// A formatter that escapes control characters as `\u{1b}`, so that no message can act on the terminal.
-pub(crate) struct Printable<'a, 'f>(pub(crate) &'a mut fmt::Formatter<'f>);
-
-impl fmt::Write for Printable<'_, '_> {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        text.chars().try_for_each(|c| {
-            if c.is_control() { write!(self.0, "{}", c.escape_debug()) } else { self.0.write_char(c) }
-        })
-    }
-}
-
 fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
-}
-
-/// The shortest text that reads back to the same bits, with an exponent if that is shorter.
-pub(crate) fn shortest(value: f64) -> String {
-    let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
-    if scientific.len() < plain.len() { scientific } else { plain }
 }
 
 /// Splits a decimal number off the front of a text. The number is empty if there is none.

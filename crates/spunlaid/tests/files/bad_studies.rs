@@ -2,7 +2,7 @@
 //! `bad_studies/NAME.txt`. With `BLESS=1` in the environment the test writes the messages, to be reviewed.
 
 use crate::messages;
-use spunlaid::error::{Error, FileFault, FileKind};
+use spunlaid::error::Error;
 use spunlaid::input::read_study;
 use std::fs;
 use std::path::Path;
@@ -15,11 +15,11 @@ fn rejects_every_bad_study_with_its_message() {
 #[test]
 fn rejects_unreadable_files() {
     let refusal = |path: &str| match read_study(Path::new(path), None) {
-        Err(Error::File(error)) => error.fault,
+        Err(Error::File(problem)) => problem.what.to_string(),
         other => panic!("{other:?}"),
     };
-    assert_eq!(refusal("no/such/study.toml"), FileFault::NotThere(FileKind::Study));
-    assert_eq!(refusal("tests"), FileFault::IsFolder(FileKind::Study));
+    assert_eq!(refusal("no/such/study.toml"), "there is no such file; name a study file");
+    assert_eq!(refusal("tests"), "is a folder; name the study file in it");
 }
 
 #[test]

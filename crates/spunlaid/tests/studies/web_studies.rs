@@ -113,7 +113,7 @@ fn rejects_what_cannot_vary() {
         (vary("'line.belt_speed' = [4]"), "line.belt_speed"),
         (
             format!("case = 'c.toml'\n{}", vary("")),
-            "stands beside web; a study varies a case or a web, keep one",
+            "stands beside web; a study varies a case or a web, so keep one of them",
         ),
         ("web = 3\ndesign = 'grid'\n".to_owned(), "the path of the file of a web, in quotes"),
         (
@@ -126,7 +126,7 @@ fn rejects_what_cannot_vary() {
         ),
         (
             vary("'line.belt_speed' = ['4 m/s']\n[link]\n'line.feed_speed' = 'web.width'"),
-            "a formula must give a velocity",
+            "gives a value in m, but a velocity in m s^-1 is needed",
         ),
         (format!("replicates = 0\n{}", vary("'line.belt_speed' = ['4 m/s']")), "replicates = 0"),
         (vary(""), "names no key to vary"),

@@ -8,6 +8,7 @@ use crate::args::Compare;
 use crate::failure::Failure;
 use crate::say;
 use read::Run;
+use spunlaid::error::Fault;
 use spunlaid::observe::MEASURES;
 use spunlaid::statistics::{Difference, Estimate};
 use spunlaid_charts::Figure;
@@ -38,7 +39,11 @@ const OF_TURBULENCE: [&str; 10] = [
 
 pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
     if compare.runs.len() > MOST_COMPARED {
-        return Err(Failure::TooManyRuns { runs: compare.runs.len(), most: MOST_COMPARED });
+        let message = format!(
+            "{} runs are named, and at most {MOST_COMPARED} are compared at a time",
+            compare.runs.len()
+        );
+        return Err(Fault::new(message, "name fewer").into());
     }
     let names = names(&compare.runs);
     let folder = compare.out.clone().unwrap_or_else(|| PathBuf::from("results").join(joined(&names)));

@@ -3,6 +3,7 @@
 use super::super::finished::any_summary;
 use crate::failure::Failure;
 use serde_json::Value as Json;
+use spunlaid::error::{Error, Fault};
 use spunlaid::statistics::{Difference, Estimate, NORMAL_95};
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::{Unevenness, overlaid_webs};
@@ -57,9 +58,9 @@ pub(super) fn read(folders: &[PathBuf], names: &[String]) -> Result<Option<Vec<W
             Some(web) => webs.push(web),
             None if webs.is_empty() => return Ok(None),
             None => {
-                let reason =
-                    format!("it holds no web, and {} does; compare webs with webs", folders[0].display());
-                return Err(Failure::NotCompared { folder: folder.clone(), reason });
+                let message =
+                    format!("cannot be compared: it holds no web, and {} does", folders[0].display());
+                return Err(Error::folder(folder, Fault::new(message, "compare webs with webs")).into());
             }
         }
     }
@@ -122,13 +123,14 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
             let sides: Vec<String> = web.patches.iter().map(|of| significant(of.side * 1e3, 3)).collect();
             format!("{} mm", sides.join(", "))
         };
-        let reason = format!(
-            "it has no patches of the same size as {}: {} there, {} here; name the same with web.patches or --patches",
+        let message = format!(
+            "cannot be compared: it has no patches of the same size as {}: {} there, {} here",
             first.name,
             sides(first),
             sides(other)
         );
-        return Err(Failure::NotCompared { folder: other.folder.clone(), reason });
+        let fault = Fault::new(message, "name the same with web.patches or --patches");
+        return Err(Error::folder(&other.folder, fault).into());
     }
     let of_flown = |of: &Patch| of_patch(of, &other.flown, ["CV of the flown curves", "_flown"]);
     measures.extend(first.flown.iter().filter_map(of_flown));

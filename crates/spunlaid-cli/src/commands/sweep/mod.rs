@@ -9,7 +9,7 @@ use crate::args::Sweep;
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::ensemble::Computing;
-use spunlaid::error::Error;
+use spunlaid::error::{Error, Fault};
 use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, write_experiment};
 use spunlaid::lanes::Isa;
 use spunlaid::study::{Journal, Landing, Progress, Study, run};
@@ -42,7 +42,7 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     let written =
         flown.map_err(Failure::from).and_then(|()| write(sweep, &file, &folder, &mut journal, before));
     written.map_err(|failure| match failure {
-        Failure::Library(Error::Interrupted) => {
+        Failure::Error(Error::Interrupted) => {
             let what = if file.study.noun() == "web" { "webs" } else { "fibres" };
             Failure::Paused { done, of: file.study.most_fibres(), what }
         }
@@ -53,7 +53,7 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
 fn print_point(study: &Study, number: u64) -> Result<(), Failure> {
     let points = study.points.len() as u64;
     let point = number.checked_sub(1).and_then(|index| study.points.get(usize::try_from(index).ok()?));
-    let point = point.ok_or(Failure::NoSuchPoint { point: number, points })?;
+    let point = point.ok_or_else(|| no_such_point(number, points))?;
     say::line(&format!("# point {number} of {points}"));
     say::text(&write_experiment(&point.experiment));
     Ok(())
@@ -136,7 +136,7 @@ fn write(
     let flown: u64 = results.iter().map(|point| point.n + point.lost).sum();
     if sweep.json {
         let path = folder.path().join("results.json");
-        say::text(&fs::read_to_string(&path).map_err(Failure::unwritable(&path))?);
+        say::text(&fs::read_to_string(&path).map_err(Error::unwritable(&path))?);
     } else if !sweep.quiet {
         say::text(&table::results(study, &results));
         if let Some(refusal) = &refusal {
@@ -179,4 +179,9 @@ fn lost(study: &Study, journal: &mut Journal, flown: u64) -> Result<(), Failure>
     }
     let lost = format!("{}; all others are in the results{first}", lost_of(lost, flown));
     Err(Failure::FibresLost { lost })
+}
+
+/// The study has fewer points.
+fn no_such_point(number: u64, points: u64) -> Fault {
+    Fault::plain(format!("--print-point {number}: the study has {points} points, counted from 1"))
 }

@@ -2,6 +2,7 @@
 
 use super::MOST_CELLS;
 use crate::Failure;
+use crate::failure::undrawable;
 use crate::output::folder::Staging;
 use crate::output::parquet::{Column, Holds, Parquet};
 use spunlaid::scan::{CELL, WEIGHT_OF_BLACK};
@@ -17,10 +18,7 @@ pub(super) fn write(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
     if map.cells.len() > MOST_CELLS {
         return Ok(());
     }
-    staging.write(
-        "map.png",
-        picture(map).map_err(|reason| Failure::Figure { name: "map".to_owned(), reason })?,
-    )?;
+    staging.write("map.png", picture(map).map_err(|reason| undrawable("map", &reason))?)?;
     table(staging, map)
 }
 

@@ -1,6 +1,6 @@
 //! The cells of a mesh and their faces.
 
-use crate::error::{FieldFault, FileError, FilePlace};
+use crate::error::{Fault, FileError, Position};
 
 /// The shape of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,8 +124,12 @@ impl Cells {
     pub fn push(&mut self, shape: Shape, points: &[u32]) -> Result<(), FileError> {
         if points.len() != shape.corners() || shape == Shape::Polyhedron {
             let (name, found, wanted) = (shape.name(), points.len(), shape.corners());
-            let place = FilePlace::Cell(self.len() as u64 + 1);
-            return Err(FileError::from(FieldFault::CellPoints { name, found, wanted }).at(place));
+            let place = Position::Cell(self.len() as u64 + 1);
+            return Err(FileError::from(Fault::new(
+                format!("{name} has {found} points and needs {wanted}"),
+                "is the file complete?",
+            ))
+            .at(place));
         }
         self.list.push(self.next(shape));
         self.points.extend_from_slice(points);

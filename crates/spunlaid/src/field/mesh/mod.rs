@@ -4,11 +4,12 @@ pub(super) mod cells;
 mod cut;
 mod faces;
 
+use super::fault;
 use super::node::{self, Node, bounding_box, merge};
 use super::tree::Tree;
 use super::values::Quantities;
 use super::{FieldWarning, Hint, mean, vector};
-use crate::error::{FieldFault, FileError, FilePlace};
+use crate::error::{FileError, Position};
 use crate::vec3::Vec3;
 use cells::Cells;
 use cut::Cut;
@@ -56,8 +57,8 @@ impl Mesh {
         values: Vec<Quantities>,
     ) -> Result<(Self, Vec<FieldWarning>), FileError> {
         if let Some((cell, point)) = cells.beyond(points.len()) {
-            let fault = FieldFault::NoPoint { point: point.into(), points: points.len() };
-            return Err(FileError::from(fault).at(FilePlace::Cell(cell as u64 + 1)));
+            let fault = fault::no_point(point.into(), points.len());
+            return Err(FileError::from(fault).at(Position::Cell(cell as u64 + 1)));
         }
         let mut nodes = node::nodes(points, values)?;
         let mut warnings = Vec::new();
@@ -69,7 +70,7 @@ impl Mesh {
         for cell in 0..cells.len() {
             cut.add(cells, cell, &place_of, &mut nodes);
             if cut.tetrahedra.len().max(nodes.len()) > MOST_TETRAHEDRA {
-                let fault = FieldFault::TooMany { most: MOST_TETRAHEDRA as u64, of: "tetrahedra" };
+                let fault = fault::too_many(MOST_TETRAHEDRA as u64, "tetrahedra");
                 return Err(fault.into());
             }
         }
@@ -80,7 +81,7 @@ impl Mesh {
             warnings.push(FieldWarning::Folded { cells: cut.folded });
         }
         if cut.tetrahedra.is_empty() {
-            return Err(FieldFault::NoVolume { flat: 0 }.into());
+            return Err(fault::no_volume(0).into());
         }
         Ok((Self::of_tetrahedra(nodes, cut, points.len()), warnings))
     }

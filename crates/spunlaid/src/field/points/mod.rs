@@ -11,7 +11,7 @@ use super::mean;
 use super::node::{Node, bounding_box};
 use super::tree::Tree;
 use super::values::Quantities;
-use crate::error::{FieldFault, FileError};
+use crate::error::{Fault, FileError};
 use fit::Fit;
 
 /// Number of points in the mean. The distance of the next one is where the weights become zero.
@@ -42,7 +42,11 @@ impl Points {
     /// * `nodes` – no two of them at the same place
     pub(super) fn new(nodes: Vec<Node>) -> Result<Self, FileError> {
         if nodes.len() <= NEAREST {
-            return Err(FieldFault::TooFewPoints { found: nodes.len(), least: NEAREST + 1 }.into());
+            return Err(Fault::new(
+                format!("has {} points", nodes.len()),
+                format!("at least {} are needed for interpolation", NEAREST + 1),
+            )
+            .into());
         }
         let bounds = bounding_box(nodes.iter().map(|node| node.at));
         let plane = [0, 1, 2].map(|axis| bounds.0[axis] == bounds.1[axis]);

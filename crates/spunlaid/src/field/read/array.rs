@@ -1,8 +1,8 @@
 //! Arrays of numbers in a file, decoded when they are needed.
 
 use super::encoding::{self, Budget, Packing};
-use crate::error::{FieldFault, FileError, FileFault, FilePlace};
-use crate::units::excerpt;
+use crate::error::{Fault, FileError, Position};
+use crate::field::fault;
 use std::str::FromStr;
 
 /// A type of number.
@@ -89,7 +89,7 @@ pub(super) struct Array<'a> {
     pub(super) components: usize,
     pub(super) source: Source<'a>,
     /// Place in the file.
-    pub(super) place: FilePlace,
+    pub(super) place: Position,
 }
 
 /// The type that numbers are converted to: `f64`, or `i64` for whole numbers.
@@ -149,21 +149,19 @@ impl Array<'_> {
         if numbers.len() == wanted {
             return Ok(numbers);
         }
-        Err(self.fault(FieldFault::Count { found: numbers.len(), wanted, of: "numbers" }))
+        Err(self.fault(fault::count(numbers.len(), wanted, "numbers")))
     }
 
     /// An error with the array's name and place.
-    pub(super) fn fault(&self, fault: impl Into<FileFault>) -> FileError {
-        FileError::from(fault.into()).array(&self.name).at(self.place)
+    pub(super) fn fault(&self, fault: Fault) -> FileError {
+        FileError::from(fault).array(&self.name).at(self.place)
     }
 
-    fn converted<T: Read>(&self, bytes: &[u8], big_endian: bool) -> Result<Vec<T>, FileFault> {
+    fn converted<T: Read>(&self, bytes: &[u8], big_endian: bool) -> Result<Vec<T>, Fault> {
         let size = self.number.size();
         let over = bytes.len() % size;
         if over != 0 {
-            return Err(
-                FieldFault::Count { found: over, wanted: size, of: "bytes of its last number" }.into()
-            );
+            return Err(fault::count(over, size, "bytes of its last number"));
         }
         let number = |written: &[u8]| {
             let mut bits = [0; 8];
@@ -187,14 +185,11 @@ impl Array<'_> {
 }
 
 /// The numbers in a text.
-fn words<T: FromStr>(text: &[u8]) -> Result<Vec<T>, FileFault> {
+fn words<T: FromStr>(text: &[u8]) -> Result<Vec<T>, Fault> {
     let words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
     let parsed = words.map(|word| {
         let number = str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-        number.ok_or_else(|| {
-            let found = excerpt(&String::from_utf8_lossy(word), 40);
-            FieldFault::Syntax { found, wanted: "a number" }.into()
-        })
+        number.ok_or_else(|| fault::syntax(&String::from_utf8_lossy(word), "a number"))
     });
     parsed.collect()
 }

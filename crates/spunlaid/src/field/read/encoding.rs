@@ -1,6 +1,7 @@
 //! Decodes the blocks of bytes in VTK's XML files. They have a header and may be compressed and in base 64.
 
-use crate::error::{FieldFault, FileFault};
+use crate::error::Fault;
+use crate::field::fault;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
@@ -41,19 +42,19 @@ impl Budget {
     }
 
     /// Counts numbers that are decoded, and refuses those beyond the limit.
-    pub(super) fn spend(&mut self, numbers: usize) -> Result<(), FileFault> {
+    pub(super) fn spend(&mut self, numbers: usize) -> Result<(), Fault> {
         let left = self.0.checked_sub((numbers as u64).saturating_mul(8));
-        self.0 = left.ok_or(FieldFault::TooLarge { most: MOST })?;
+        self.0 = left.ok_or_else(|| fault::too_large(MOST))?;
         Ok(())
     }
 
     /// Whether so many bytes may be decoded: they and the numbers they become are in memory together.
     ///
     /// * `size` – of a number as written [bytes]
-    fn allow(&self, bytes: usize, size: usize) -> Result<(), FileFault> {
+    fn allow(&self, bytes: usize, size: usize) -> Result<(), Fault> {
         let numbers = (bytes / size.max(1)).saturating_mul(8);
         let together = bytes.saturating_add(numbers) as u64;
-        if together > self.0 { Err(FieldFault::TooLarge { most: MOST }.into()) } else { Ok(()) }
+        if together > self.0 { Err(fault::too_large(MOST)) } else { Ok(()) }
     }
 }
 
@@ -66,14 +67,14 @@ pub(super) fn unpack<'a>(
     big_endian: bool,
     size: usize,
     budget: &Budget,
-) -> Result<Cow<'a, [u8]>, FileFault> {
+) -> Result<Cow<'a, [u8]>, Fault> {
     let packed = if packing.base64 { Cow::Owned(of_base64(packed)?) } else { Cow::Borrowed(packed) };
     let mut header = Header { bytes: &packed, at: 0, wide: packing.wide_header, big_endian };
     if packing.compressor == Compressor::None {
         let length = header.number("the number of bytes")?;
         let (start, end) = (header.at, header.at.saturating_add(length));
         if end > packed.len() {
-            return Err(FileFault::CutOff { wanted: "the rest of the numbers" });
+            return Err(Fault::cut_off("the rest of the numbers"));
         }
         return Ok(match packed {
             Cow::Borrowed(bytes) => Cow::Borrowed(&bytes[start..end]),
@@ -88,7 +89,7 @@ pub(super) fn unpack<'a>(
     let [size, last] = [header.number("the size of blocks")?, header.number("the size of the last block")?];
     let width = if packing.wide_header { 8 } else { 4 };
     if blocks > (packed.len() - header.at) / width {
-        return Err(FileFault::CutOff { wanted: "the sizes of the blocks" });
+        return Err(Fault::cut_off("the sizes of the blocks"));
     }
     let mut rest = &packed[header.at + blocks * width..];
     let whole = (blocks - 1).saturating_mul(size).saturating_add(if last > 0 { last } else { size });
@@ -100,7 +101,7 @@ pub(super) fn unpack<'a>(
     for block in 0..blocks {
         let length = header.number("the size of a block")?;
         let Some((compressed, after)) = rest.split_at_checked(length) else {
-            return Err(FileFault::CutOff { wanted: "the rest of a compressed block" });
+            return Err(Fault::cut_off("the rest of a compressed block"));
         };
         rest = after;
         let wanted = if block + 1 == blocks && last > 0 { last } else { size };
@@ -115,7 +116,7 @@ fn expand(
     wanted: usize,
     compressor: Compressor,
     bytes: &mut Vec<u8>,
-) -> Result<(), FileFault> {
+) -> Result<(), Fault> {
     let before = bytes.len();
     let expanded = match compressor {
         Compressor::None | Compressor::Zlib => {
@@ -130,12 +131,11 @@ fn expand(
                 .map_err(|error| error.to_string())
         }
     };
-    let found = expanded.map_err(|message| FieldFault::Encoding { message })?;
+    let found = expanded.map_err(|message| fault::encoding(&message))?;
     if found == wanted {
         return Ok(());
     }
-    Err(FieldFault::Encoding { message: format!("a block holds {found} bytes where {wanted} are announced") }
-        .into())
+    Err(fault::encoding(&format!("a block holds {found} bytes where {wanted} are announced")))
 }
 
 /// Reads the numbers of a header one after the other.
@@ -147,9 +147,9 @@ struct Header<'a> {
 }
 
 impl Header<'_> {
-    fn number(&mut self, wanted: &'static str) -> Result<usize, FileFault> {
+    fn number(&mut self, wanted: &'static str) -> Result<usize, Fault> {
         let size = if self.wide { 8 } else { 4 };
-        let written = self.bytes.get(self.at..self.at + size).ok_or(FileFault::CutOff { wanted })?;
+        let written = self.bytes.get(self.at..self.at + size).ok_or_else(|| Fault::cut_off(wanted))?;
         self.at += size;
         let number = written.iter().enumerate().fold(0, |sum, (i, byte)| {
             let place = if self.big_endian { size - 1 - i } else { i };
@@ -160,7 +160,7 @@ impl Header<'_> {
 }
 
 /// Decodes base 64. A header may be encoded separately; it then ends with padding.
-fn of_base64(text: &[u8]) -> Result<Vec<u8>, FileFault> {
+fn of_base64(text: &[u8]) -> Result<Vec<u8>, Fault> {
     let config = GeneralPurposeConfig::new()
         .with_decode_padding_mode(DecodePaddingMode::Indifferent)
         .with_decode_allow_trailing_bits(true);
@@ -173,7 +173,7 @@ fn of_base64(text: &[u8]) -> Result<Vec<u8>, FileFault> {
     let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 3);
     for part in text.split(|byte| *byte == b'=').filter(|part| !part.is_empty()) {
         let decoded = engine.decode_vec(part, &mut bytes);
-        decoded.map_err(|error| FieldFault::Encoding { message: error.to_string() })?;
+        decoded.map_err(|error| fault::encoding(&error.to_string()))?;
     }
     Ok(bytes)
 }

@@ -1,7 +1,8 @@
 //! The points of a piece of a file, and the cells that they form.
 
 use super::unstructured::{Listed, Solid};
-use crate::error::{FieldFault, FileError};
+use crate::error::FileError;
+use crate::field::fault;
 use crate::vec3::Vec3;
 
 /// How the points of a piece are arranged.
@@ -115,7 +116,7 @@ pub(super) fn combinations([x, y, z]: &[Vec<f64>; 3]) -> impl Iterator<Item = Ve
 pub(super) fn counted(size: [usize; 3]) -> Result<usize, FileError> {
     let product = size.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
     let product = product.filter(|product| u32::try_from(*product).is_ok());
-    product.ok_or_else(|| FieldFault::TooMany { most: u32::MAX.into(), of: "points" }.into())
+    product.ok_or_else(|| fault::too_many(u32::MAX.into(), "points").into())
 }
 
 /// Turns rows of three numbers into vectors.

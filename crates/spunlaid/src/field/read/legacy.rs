@@ -3,12 +3,11 @@
 use super::array::{Array, Number, Source};
 use super::encoding::Budget;
 use super::grid::{Grid, counted, vectors};
-use super::line;
 use super::piece::{Assembly, Piece};
 use super::unstructured::{Listed, Polyhedra};
-use crate::error::{FieldFault, FileError, FileFault, FilePlace};
+use crate::error::{Fault, FileError, Position};
+use crate::field::fault;
 use crate::field::{Field, FieldWarning};
-use crate::units::excerpt;
 use crate::vec3::Vec3;
 
 /// How such files begin.
@@ -22,7 +21,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError
     let added = piece.and_then(|piece| assembly.add(piece));
     added.and_then(|()| assembly.finish()).map_err(|error| match scanner.binary {
         true => error,
-        false => FileError { place: line(bytes, error.place), ..error },
+        false => error.in_text(bytes),
     })
 }
 
@@ -89,7 +88,7 @@ impl<'a> Scanner<'a> {
                 _ => break,
             }
         }
-        let size = size.ok_or(FileFault::CutOff { wanted: "DIMENSIONS" })?;
+        let size = size.ok_or_else(|| Fault::cut_off("DIMENSIONS"))?;
         Ok(Grid::Image { origin, spacing, first: [0.0; 3], size })
     }
 
@@ -138,7 +137,7 @@ impl<'a> Scanner<'a> {
             let mut rest = entries.as_slice();
             while let Some((&length, after)) = rest.split_first() {
                 let own = usize::try_from(length).ok().and_then(|length| after.split_at_checked(length));
-                let (own, after) = own.ok_or_else(|| array.fault(FileFault::CutOff { wanted: "a cell" }))?;
+                let (own, after) = own.ok_or_else(|| array.fault(Fault::cut_off("a cell")))?;
                 listed.connectivity.extend_from_slice(own);
                 listed.ends.push(listed.connectivity.len() as i64);
                 rest = after;
@@ -261,7 +260,7 @@ impl<'a> Scanner<'a> {
     ) -> Result<Array<'a>, FileError> {
         let place = self.place();
         let numbers = components.saturating_mul(count);
-        let missing = || FileError::from(FileFault::CutOff { wanted: "more numbers" }).array(&name).at(place);
+        let missing = || FileError::from(Fault::cut_off("more numbers")).array(&name).at(place);
         let source = if self.binary {
             self.rest_of_line();
             let rest = &self.bytes[self.at..];
@@ -335,7 +334,7 @@ impl<'a> Scanner<'a> {
     }
 
     fn word(&mut self) -> Result<&'a str, FileError> {
-        let word = self.peek().ok_or(FileFault::CutOff { wanted: "a word" })?;
+        let word = self.peek().ok_or_else(|| Fault::cut_off("a word"))?;
         self.at += word.len();
         Ok(word)
     }
@@ -349,11 +348,11 @@ impl<'a> Scanner<'a> {
     }
 
     /// The current byte.
-    fn place(&self) -> FilePlace {
-        FilePlace::Byte(self.at as u64 + 1)
+    fn place(&self) -> Position {
+        Position::Byte(self.at as u64 + 1)
     }
 }
 
 fn wrong(found: &str, wanted: &'static str) -> FileError {
-    FieldFault::Syntax { found: excerpt(found, 40), wanted }.into()
+    fault::syntax(found, wanted).into()
 }

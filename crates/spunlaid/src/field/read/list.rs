@@ -4,9 +4,10 @@
 //! in memory at a time.
 
 use super::piece::Assembly;
-use super::{ReadField, line, xml};
-use crate::error::{FieldFault, FileError, FileFault, FileKind, FilePlace};
+use super::{ReadField, xml};
+use crate::error::{Fault, FileError, FileKind, Position};
 use crate::field::FieldWarning;
+use crate::field::fault;
 use crate::file;
 use crate::units::excerpt;
 use roxmltree::Node;
@@ -59,7 +60,7 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<ReadField, FileError> {
     reading.list(path, Path::new(""), bytes, None)?;
     let Reading { mut assembly, checksum, mut parts, surfaces, .. } = reading;
     if parts.is_empty() {
-        return Err(FileError::from(FieldFault::NoParts { surfaces }).path(path));
+        return Err(FileError::from(no_parts(surfaces)).path(path));
     }
     if surfaces > 0 {
         assembly.warn(FieldWarning::Surfaces { parts: surfaces });
@@ -97,15 +98,15 @@ impl Reading<'_> {
     ) -> Result<(), FileError> {
         self.checksum.update(bytes);
         self.within.push(same_place(path));
-        let placed = |error: FileError| FileError { place: line(bytes, error.place), ..error }.path(path);
+        let placed = |error: FileError| error.in_text(bytes).path(path);
         let text = str::from_utf8(bytes).map_err(|error| {
-            let fault = FieldFault::Xml { message: "it is not UTF-8 text".to_owned() };
-            placed(FileError::from(fault).at(FilePlace::Byte(error.valid_up_to() as u64 + 1)))
+            let fault = fault::not_xml("it is not UTF-8 text");
+            placed(FileError::from(fault).at(Position::Byte(error.valid_up_to() as u64 + 1)))
         })?;
         let document = xml::tree(text).map_err(placed)?;
         let list = of(document.root_element().attribute("type").unwrap_or_default());
         let Some(List { element, attribute, announced: own }) = list else {
-            return Err(placed(FileFault::CutOff { wanted: "the list of parts" }.into()));
+            return Err(placed(Fault::cut_off("the list of parts").into()));
         };
         for node in document.descendants().filter(|node| node.has_tag_name(element)) {
             // An empty block has no file.
@@ -125,10 +126,10 @@ impl Reading<'_> {
             if self.parts.contains(&relative) {
                 return Err(refused(TWICE));
             }
-            let bytes = file::read(&path, FileKind::Field, u64::MAX).map_err(|error| match error.fault {
-                FileFault::NotThere(_) => refused(MISSING),
-                _ => error,
-            })?;
+            if !path.exists() {
+                return Err(refused(MISSING));
+            }
+            let bytes = file::read(&path, FileKind::Field, u64::MAX)?;
             self.parts.push(relative.clone());
             let announced = own.or(announced);
             if is_list(&bytes) {
@@ -137,8 +138,8 @@ impl Reading<'_> {
             } else {
                 self.checksum.update(&bytes);
                 if xml::kind(&bytes).is_none() {
-                    let (found, advice) = ("not a VTK file".to_owned(), "write this part as one");
-                    return Err(FileError::from(FieldFault::Format { found, advice }).path(&path));
+                    let fault = Fault::format("not a VTK file", "write this part as one");
+                    return Err(FileError::from(fault).path(&path));
                 }
                 xml::read_part(&bytes, announced, &mut self.assembly).map_err(|error| error.path(&path))?;
             }
@@ -153,9 +154,18 @@ const OUTSIDE: &str = "which is outside of the list’s own folder; put it into 
 const ITSELF: &str = "which is this list itself or a list that names it; name files with grids";
 const TWICE: &str = "twice; name it once";
 
+/// The fault of a list that names no part with a volume.
+fn no_parts(surfaces: u64) -> Fault {
+    let only = if surfaces == 0 { String::new() } else { format!(", only {surfaces} with surfaces (.vtp)") };
+    Fault::new(
+        format!("is a list that names no file with a volume{only}"),
+        "name the file that holds the interior of the flow",
+    )
+}
+
 fn part(node: Node<'_, '_>, named: &str, why: &'static str) -> FileError {
-    let fault = FieldFault::Part { part: excerpt(named, 200), why };
-    FileError::from(fault).at(FilePlace::Byte(node.range().start as u64 + 1))
+    let fault = Fault::plain(format!("names the part \"{}\", {why}", excerpt(named, 200)));
+    FileError::from(fault).at(Position::Byte(node.range().start as u64 + 1))
 }
 
 /// Whether a list may name surfaces, as those of OpenFOAM do, which have the boundaries too.

@@ -16,7 +16,7 @@ mod unstructured;
 mod xml;
 
 use super::{Field, FieldWarning};
-use crate::error::{FieldFault, FileError, FileKind, FilePlace};
+use crate::error::{Fault, FileError, FileKind};
 use crate::file;
 use std::path::{Path, PathBuf};
 
@@ -66,24 +66,11 @@ impl Field {
         } else if start.starts_with(legacy::START) {
             legacy::read(start)
         } else if start.trim_ascii_start().starts_with(b"FoamFile") || start.starts_with(b"/*----") {
-            let found = "a file of OpenFOAM’s own".to_owned();
-            Err(FieldFault::Format {
-                found,
-                advice: "convert the case with foamToVTK and name its internal.vtu",
-            }
-            .into())
+            let found = "a file of OpenFOAM’s own";
+            Err(Fault::format(found, "convert the case with foamToVTK and name its internal.vtu").into())
         } else {
             tecplot::as_table(start).and_then(|table| table::read(&table))
         };
         read.map_err(|error| error.file(name))
     }
-}
-
-/// Converts a byte of a text file into its line.
-fn line(text: &[u8], place: FilePlace) -> FilePlace {
-    let FilePlace::Byte(byte) = place else {
-        return place;
-    };
-    let before = text.iter().take(byte.saturating_sub(1) as usize);
-    FilePlace::Line(before.filter(|byte| **byte == b'\n').count() as u64 + 1)
 }

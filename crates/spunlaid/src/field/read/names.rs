@@ -1,6 +1,7 @@
 //! The names and units that CFD programs use.
 
-use crate::error::{FieldFault, FileError};
+use crate::error::FileError;
+use crate::field::fault;
 use crate::units::excerpt;
 
 /// Names of the velocity vector, the preferred ones first. The mean comes before the velocity that a transient
@@ -75,9 +76,7 @@ impl Measure {
     /// The value of a unit in SI units.
     pub(super) fn factor(self, unit: &str) -> Result<f64, FileError> {
         let known = self.units().iter().find(|(spelt, _)| *spelt == unit.replace('μ', "µ"));
-        known
-            .map(|(_, factor)| *factor)
-            .ok_or_else(|| FieldFault::WrongUnit { unit: excerpt(unit, 20), wanted: self.wanted() }.into())
+        known.map(|(_, factor)| *factor).ok_or_else(|| fault::wrong_unit(unit, self.wanted()).into())
     }
 
     const fn wanted(self) -> &'static str {
@@ -130,7 +129,7 @@ impl Name {
         if Self::new(bracket).plain.split('_').collect::<String>() != unit {
             return None;
         }
-        let fault = FieldFault::WrongUnit { unit: excerpt(bracket, 20), wanted: measure.wanted() };
+        let fault = fault::wrong_unit(bracket, measure.wanted());
         Some(Err(FileError::from(fault).array(&self.written)))
     }
 }
@@ -236,8 +235,8 @@ pub(super) fn used(names: &[Name]) -> Result<Vec<usize>, FileError> {
     let velocity = match velocity(names, &ones)? {
         Some(Velocity::Components(columns)) => columns,
         _ => {
-            let found = names.iter().map(|name| excerpt(&name.written, 40)).collect();
-            return Err(FieldFault::NoVelocity { found }.into());
+            let found: Vec<String> = names.iter().map(|name| excerpt(&name.written, 40)).collect();
+            return Err(fault::no_velocity(&found).into());
         }
     };
     let mut used: Vec<Found> = coordinates(names)?.into_iter().chain(velocity).flatten().collect();

@@ -4,7 +4,8 @@ use super::array::Array;
 use super::encoding::Budget;
 use super::grid::{Grid, combinations, vectors};
 use super::names::{self, Measure, Name, Velocity};
-use crate::error::{FieldFault, FileError};
+use crate::error::{Fault, FileError};
+use crate::field::fault;
 use crate::field::values::C_MU;
 use crate::field::{Cells, Field, FieldWarning, Shape, Values};
 use crate::vec3::Vec3;
@@ -73,7 +74,13 @@ impl Assembly {
                 && *least < -ROUNDING * greatest.max(0.0)
             {
                 let (points, share) = (*points, -100.0 * ROUNDING);
-                let fault = FieldFault::BelowZero { points, least: *least, greatest: *greatest, share };
+                let fault = Fault::new(
+                    format!(
+                        "is below zero at {points} points, down to {} with a largest value of {}, and it cannot be negative. Only values down to {share} % of the largest are taken for rounding and set to zero",
+                        *least, *greatest
+                    ),
+                    "check that the array is what its name says",
+                );
                 return Err(FileError::from(fault).array(name));
             }
         }
@@ -81,7 +88,11 @@ impl Assembly {
             values.iter().any(|values| !values.velocity.is_empty() && values.has_turbulence() == wanted)
         };
         if of_turbulence(true) && of_turbulence(false) {
-            return Err(FieldFault::TurbulenceInParts.into());
+            return Err(Fault::new(
+                "has k and ε (or ω) in some of its parts only",
+                "write them in all parts, or in none",
+            )
+            .into());
         }
         let (mut field, warnings) = joined(grids, values, warnings)?;
         field.lacks = lacks;
@@ -153,7 +164,7 @@ fn joined(
         all.append(values);
     }
     if cells.is_empty() {
-        return Err(if points.is_empty() { FieldFault::Empty } else { FieldFault::NoVolume { flat } }.into());
+        return Err(if points.is_empty() { fault::empty() } else { fault::no_volume(flat) }.into());
     }
     if flat > 0 {
         warnings.push(FieldWarning::NotSolid { cells: flat });
@@ -256,10 +267,8 @@ impl Reader<'_, '_> {
             }
         }
         let arrays = self.piece.point_data.iter().chain(&self.piece.cell_data);
-        Err(FieldFault::NoVelocity {
-            found: arrays.map(|array| crate::units::excerpt(&array.name, 40)).collect(),
-        }
-        .into())
+        let found: Vec<String> = arrays.map(|array| crate::units::excerpt(&array.name, 40)).collect();
+        Err(fault::no_velocity(&found).into())
     }
 
     /// A quantity of one component. Negative values become zero, with a warning; [`Assembly::finish`] refuses those that are

@@ -4,7 +4,7 @@ use super::array::{Array, Number, Source};
 use super::grid::Grid;
 use super::names::{self, Found, Measure, Name};
 use super::piece::{Assembly, Piece, lacks};
-use crate::error::{FieldFault, FileError, FileFault, FileKind, FilePlace};
+use crate::error::{Fault, FileError, FileKind, Position, listed};
 use crate::field::{Field, FieldWarning};
 use crate::table::Table;
 use crate::units::excerpt;
@@ -17,7 +17,7 @@ const EXAMPLE: &str = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s";
 pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
     let mut table = Table::open(bytes, FileKind::Field, 0)?;
     if !table.named() {
-        return Err(FileFault::NoHeader { example: EXAMPLE }.into());
+        return Err(Fault::no_header(EXAMPLE).into());
     }
     let names: Vec<Name> = table.heads().iter().map(|head| Name::new(&head.text)).collect();
     let coordinates = coordinates(&names)?;
@@ -53,8 +53,12 @@ fn coordinates(names: &[Name]) -> Result<[Option<Found>; 3], FileError> {
     match missing {
         None => Ok(columns),
         Some((axis, _)) => {
-            let found = names.iter().map(|name| excerpt(&name.written, 40)).collect();
-            Err(FieldFault::NoCoordinate { axis, found }.into())
+            let found: Vec<String> = names.iter().map(|name| excerpt(&name.written, 40)).collect();
+            Err(Fault::new(
+                format!("none of the columns is a coordinate along {axis} ({})", listed(&found)),
+                format!("name it like {axis}_m"),
+            )
+            .into())
         }
     }
 }
@@ -68,7 +72,7 @@ fn length_unit(bytes: &[u8]) -> Result<f64, FileError> {
         if let Some((key, unit)) = text.trim_start_matches(['%', ' ']).split_once(':')
             && key.trim().eq_ignore_ascii_case("length unit")
         {
-            return Measure::Length.factor(unit.trim()).map_err(|error| error.at(FilePlace::Line(number)));
+            return Measure::Length.factor(unit.trim()).map_err(|error| error.at(Position::Line(number)));
         }
     }
     Ok(1.0)
@@ -94,7 +98,7 @@ fn piece<'a>(
         number: Number::F64,
         components: 1,
         source: Source::Numbers(numbers),
-        place: FilePlace::Whole,
+        place: Position::Whole,
     });
     Piece { grid: Grid::Scattered(points), point_data: arrays.collect(), cell_data: Vec::new() }
 }

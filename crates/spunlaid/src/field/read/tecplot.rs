@@ -7,7 +7,8 @@
 //! 0.0 0.0 0.0 10.0 0.0 0.0
 //! ```
 
-use crate::error::{FieldFault, FileError, FileFault, FilePlace};
+use crate::error::{Fault, FileError, Position};
+use crate::field::fault;
 use std::borrow::Cow;
 
 /// A zone: the points that follow a line `ZONE`.
@@ -51,21 +52,21 @@ impl Zone {
             None => "a Tecplot file that does not say whether its values are in points or in blocks",
         };
         let advice = "write it with one row for each point, and DATAPACKING=POINT in the line ZONE";
-        Err(self.blame(FieldFault::Format { found: found.to_owned(), advice }))
+        Err(self.blame(Fault::format(found, advice)))
     }
 
     /// Checks the number of points, after the last row.
     fn close(&self) -> Result<(), FileError> {
         match self.points() {
             Some(wanted) if wanted != self.rows => {
-                Err(self.blame(FieldFault::Count { found: self.rows, wanted, of: "rows of points" }))
+                Err(self.blame(fault::count(self.rows, wanted, "rows of points")))
             }
             _ => Ok(()),
         }
     }
 
-    fn blame(&self, fault: FieldFault) -> FileError {
-        FileError::from(FileFault::from(fault)).at(FilePlace::Line(self.line))
+    fn blame(&self, fault: Fault) -> FileError {
+        FileError::from(fault).at(Position::Line(self.line))
     }
 }
 
@@ -81,8 +82,8 @@ pub(super) fn as_table(bytes: &[u8]) -> Result<Cow<'_, [u8]>, FileError> {
     for (line, number) in lines(bytes).zip(1..) {
         if is_row(line) {
             let Some(zone) = &mut zone else {
-                let fault = FieldFault::Syntax { found: "a number".to_owned(), wanted: "the line ZONE" };
-                return Err(FileError::from(fault).at(FilePlace::Line(number)));
+                let fault = fault::syntax("a number", "the line ZONE");
+                return Err(FileError::from(fault).at(Position::Line(number)));
             };
             if zone.rows == 0 {
                 zone.check()?;

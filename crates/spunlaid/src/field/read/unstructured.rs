@@ -1,6 +1,7 @@
 //! The cells of an unstructured grid, from VTK’s lists to [`Cells`].
 
-use crate::error::{FieldFault, FileError, FileFault, FilePlace};
+use crate::error::{Fault, FileError, Position};
+use crate::field::fault;
 use crate::field::{Cells, Shape};
 
 /// The lists.
@@ -74,14 +75,13 @@ impl Listed {
     /// * `points` – number of points
     pub(super) fn solid(&self, points: usize) -> Result<Solid, FileError> {
         if self.ends.len() != self.types.len() {
-            let fault =
-                FieldFault::Count { found: self.ends.len(), wanted: self.types.len(), of: "ends of cells" };
+            let fault = fault::count(self.ends.len(), self.types.len(), "ends of cells");
             return Err(fault.into());
         }
         let mut solid = Solid::default();
         for place in 0..self.types.len() {
             let added = self.add(place, points, &mut solid);
-            added.map_err(|error| error.at(FilePlace::Cell(place as u64 + 1)))?;
+            added.map_err(|error| error.at(Position::Cell(place as u64 + 1)))?;
         }
         Ok(solid)
     }
@@ -91,7 +91,12 @@ impl Listed {
         let own = part(&self.connectivity, &self.ends, place)?;
         let corners =
             |of: &[i64]| of.iter().map(|point| checked(*point, points)).collect::<Result<Vec<u32>, _>>();
-        match kind(number).ok_or(FieldFault::CellType { kind: number })? {
+        match kind(number).ok_or_else(|| {
+            Fault::new(
+                format!("is of VTK type {number}, which is not supported"),
+                "write tetrahedra, voxels, hexahedra, wedges, pyramids or polyhedra",
+            )
+        })? {
             Kind::Flat => {
                 solid.flat += 1;
                 return Ok(());
@@ -124,7 +129,7 @@ impl Listed {
     /// The faces of a polyhedron.
     ///
     /// * `own` – its entries in the connectivity
-    fn faces<'a>(&'a self, place: usize, own: &'a [i64]) -> Result<Vec<&'a [i64]>, FileFault> {
+    fn faces<'a>(&'a self, place: usize, own: &'a [i64]) -> Result<Vec<&'a [i64]>, Fault> {
         match &self.polyhedra {
             Polyhedra::Inline => stream(own),
             Polyhedra::Stream { faces, ends } => {
@@ -143,14 +148,14 @@ impl Listed {
 }
 
 /// Reads the faces from a list: the number of faces, then for each face the number of its points and the points.
-fn stream(entries: &[i64]) -> Result<Vec<&[i64]>, FileFault> {
-    const WANTED: FileFault = FileFault::CutOff { wanted: "the faces of a polyhedron" };
-    let (count, mut rest) = entries.split_first().ok_or(WANTED)?;
+fn stream(entries: &[i64]) -> Result<Vec<&[i64]>, Fault> {
+    let cut_off = || Fault::cut_off("the faces of a polyhedron");
+    let (count, mut rest) = entries.split_first().ok_or_else(cut_off)?;
     let mut faces = Vec::new();
     for _ in 0..*count {
-        let (length, after) = rest.split_first().ok_or(WANTED)?;
-        let length = usize::try_from(*length).map_err(|_| WANTED)?;
-        let (face, after) = after.split_at_checked(length).ok_or(WANTED)?;
+        let (length, after) = rest.split_first().ok_or_else(cut_off)?;
+        let length = usize::try_from(*length).map_err(|_| cut_off())?;
+        let (face, after) = after.split_at_checked(length).ok_or_else(cut_off)?;
         faces.push(face);
         rest = after;
     }
@@ -158,27 +163,24 @@ fn stream(entries: &[i64]) -> Result<Vec<&[i64]>, FileFault> {
 }
 
 /// The part of a list at `place`, given the ends of all parts.
-fn part<'a>(list: &'a [i64], ends: &[i64], place: usize) -> Result<&'a [i64], FileFault> {
-    let end = ends.get(place).copied().ok_or(FileFault::CutOff { wanted: "where each cell or face ends" })?;
+fn part<'a>(list: &'a [i64], ends: &[i64], place: usize) -> Result<&'a [i64], Fault> {
+    let end = ends.get(place).copied().ok_or_else(|| Fault::cut_off("where each cell or face ends"))?;
     let start = if place == 0 { 0 } else { ends[place - 1] };
     between(list, start, end)
 }
 
-fn between(list: &[i64], start: i64, end: i64) -> Result<&[i64], FileFault> {
+fn between(list: &[i64], start: i64, end: i64) -> Result<&[i64], Fault> {
     let range = usize::try_from(start).ok().zip(usize::try_from(end).ok());
     match range.and_then(|(start, end)| list.get(start..end)) {
         Some(part) => Ok(part),
-        None if end < start => Err(FileFault::NotIncreasing { before: start as f64, after: end as f64 }),
-        None => Err(FieldFault::Count {
-            found: list.len(),
-            wanted: usize::try_from(end).unwrap_or(usize::MAX),
-            of: "entries in its list",
+        None if end < start => Err(Fault::not_increasing(start as f64, end as f64)),
+        None => {
+            Err(fault::count(list.len(), usize::try_from(end).unwrap_or(usize::MAX), "entries in its list"))
         }
-        .into()),
     }
 }
 
-fn checked(point: i64, points: usize) -> Result<u32, FileFault> {
+fn checked(point: i64, points: usize) -> Result<u32, Fault> {
     let known = u32::try_from(point).ok().filter(|number| (*number as usize) < points);
-    known.ok_or_else(|| FieldFault::NoPoint { point, points }.into())
+    known.ok_or_else(|| fault::no_point(point, points))
 }

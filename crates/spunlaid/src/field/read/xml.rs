@@ -5,10 +5,11 @@
 use super::array::{Array, Number, Source};
 use super::encoding::{Budget, Compressor, Packing};
 use super::grid::{Grid, counted, vectors};
+use super::list;
 use super::piece::{Assembly, Piece};
 use super::unstructured::{Listed, Polyhedra};
-use super::{line, list};
-use crate::error::{FieldFault, FileError, FileFault, FilePlace};
+use crate::error::{Fault, FileError, Position};
+use crate::field::fault;
 use crate::field::{Field, FieldWarning};
 use crate::units::excerpt;
 use roxmltree::{Document, Node};
@@ -21,9 +22,7 @@ const GRIDS: [&str; 4] = ["ImageData", "RectilinearGrid", "StructuredGrid", "Uns
 pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
     let mut assembly = Assembly::new();
     let added = add(bytes, None, &mut assembly);
-    added
-        .and_then(|()| assembly.finish())
-        .map_err(|error| FileError { place: line(bytes, error.place), ..error })
+    added.and_then(|()| assembly.finish()).map_err(|error| error.in_text(bytes))
 }
 
 /// Adds the pieces of a file that is a part of a field.
@@ -35,7 +34,7 @@ pub(super) fn read_part(
     assembly: &mut Assembly,
 ) -> Result<(), FileError> {
     let added = add(bytes, announced, assembly);
-    added.map_err(|error| FileError { place: line(bytes, error.place), ..error })
+    added.map_err(|error| error.in_text(bytes))
 }
 
 /// The attribute `type` of a file, read without the rest of it.
@@ -54,8 +53,8 @@ pub(super) fn kind(bytes: &[u8]) -> Option<String> {
 /// The text of a file as a tree of XML.
 pub(super) fn tree(text: &str) -> Result<Document<'_>, FileError> {
     Document::parse(text).map_err(|error| {
-        let fault = FieldFault::Xml { message: excerpt(&error.to_string(), 100) };
-        FileError::from(fault).at(FilePlace::Line(error.pos().row.into()))
+        let fault = fault::not_xml(&excerpt(&error.to_string(), 100));
+        FileError::from(fault).at(Position::Line(error.pos().row.into()))
     })
 }
 
@@ -65,7 +64,7 @@ fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly) -> Result
     let root = document.root_element();
     if root.tag_name().name() != "VTKFile" {
         let found = format!("an XML file of {}", excerpt(root.tag_name().name(), 40));
-        return Err(FieldFault::Format { found, advice: "write the field as a VTK file" }.into());
+        return Err(Fault::format(found, "write the field as a VTK file").into());
     }
     let kind = root.attribute("type").unwrap_or_default();
     if !GRIDS.contains(&kind) {
@@ -74,16 +73,14 @@ fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly) -> Result
             None => "write an unstructured grid (.vtu), or name the file that holds one",
             Some(_) => "it lists other files, so name it by its path",
         };
-        return Err(FieldFault::Format { found, advice }.into());
+        return Err(Fault::format(found, advice).into());
     }
     if announced.is_some_and(|announced| announced != kind) {
         let found = format!("a VTK file of {kind}");
-        return Err(
-            FieldFault::Format { found, advice: "its list names parts of another kind of grid" }.into()
-        );
+        return Err(Fault::format(found, "its list names parts of another kind of grid").into());
     }
     let Some(grid) = root.children().find(|node| node.has_tag_name(kind)) else {
-        return Err(FileFault::CutOff { wanted: "the grid" }.into());
+        return Err(Fault::cut_off("the grid").into());
     };
     let file = File { format: Format::of(root)?, appended, offsets: offsets(grid) };
     for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {
@@ -105,15 +102,15 @@ fn parted(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<Appended<'_>>), FileErro
     const TAG: &[u8] = b"<AppendedData";
     let tag = bytes.windows(TAG.len()).position(|window| window == TAG);
     let text = str::from_utf8(&bytes[..tag.unwrap_or(bytes.len())]).map_err(|error| {
-        let fault = FieldFault::Xml { message: "it is not UTF-8 text".to_owned() };
-        FileError::from(fault).at(FilePlace::Byte(error.valid_up_to() as u64 + 1))
+        let fault = fault::not_xml("it is not UTF-8 text");
+        FileError::from(fault).at(Position::Byte(error.valid_up_to() as u64 + 1))
     })?;
     let Some(tag) = tag else {
         return Ok((Cow::Borrowed(text), None));
     };
     let mut after = bytes[tag..].splitn(2, |byte| *byte == b'_');
     let (attributes, Some(bytes)) = (after.next().unwrap_or_default(), after.next()) else {
-        return Err(FileFault::CutOff { wanted: "the appended data" }.into());
+        return Err(Fault::cut_off("the appended data").into());
     };
     let base64 = attributes.windows(6).any(|window| window == b"base64");
     Ok((Cow::Owned(format!("{text}</VTKFile>")), Some(Appended { bytes, base64 })))
@@ -134,11 +131,9 @@ impl Format {
             Some("vtkZLibDataCompressor") => Compressor::Zlib,
             Some("vtkLZ4DataCompressor") => Compressor::Lz4,
             Some(other) => {
-                let fault = FieldFault::Unsupported {
-                    found: format!("the compressor {}", excerpt(other, 40)),
-                    advice: "zlib, LZ4 or none",
-                };
-                return Err(fault.into());
+                let other = excerpt(other, 40);
+                let message = format!("is written with the compressor {other}, which is not supported");
+                return Err(Fault::new(message, "write it with zlib, LZ4 or none").into());
             }
         };
         Ok(Self {
@@ -163,8 +158,8 @@ struct File<'a> {
     offsets: Vec<usize>,
 }
 
-fn place(node: Node<'_, '_>) -> FilePlace {
-    FilePlace::Byte(node.range().start as u64 + 1)
+fn place(node: Node<'_, '_>) -> Position {
+    Position::Byte(node.range().start as u64 + 1)
 }
 
 impl<'a> File<'a> {
@@ -184,7 +179,7 @@ impl<'a> File<'a> {
                 let mut axes = self.arrays(piece, "Coordinates")?.into_iter();
                 let mut axis = |i: usize| match axes.next() {
                     Some(axis) => axis.of(size[i], budget),
-                    None => Err(FileFault::CutOff { wanted: "the coordinates" }.into()),
+                    None => Err(Fault::cut_off("the coordinates").into()),
                 };
                 Grid::Lattice([axis(0)?, axis(1)?, axis(2)?])
             }
@@ -207,8 +202,8 @@ impl<'a> File<'a> {
         let spacing = numbers(grid, "Spacing")?.unwrap_or([1.0; 3]);
         let upright = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         if numbers(grid, "Direction")?.is_some_and(|direction: [f64; 9]| direction != upright) {
-            let found = "an image whose axes are turned".to_owned();
-            return Err(FieldFault::Format { found, advice: "resample it along x, y and z" }.into());
+            let found = "an image whose axes are turned";
+            return Err(Fault::format(found, "resample it along x, y and z").into());
         }
         Ok(Grid::Image { origin, spacing, first, size })
     }
@@ -220,13 +215,9 @@ impl<'a> File<'a> {
         budget: &mut Budget,
     ) -> Result<Vec<crate::vec3::Vec3<f64>>, FileError> {
         let arrays = self.arrays(piece, "Points")?;
-        let array = arrays.first().ok_or(FileFault::CutOff { wanted: "the points" })?;
+        let array = arrays.first().ok_or_else(|| Fault::cut_off("the points"))?;
         if array.components != 3 {
-            return Err(array.fault(FieldFault::Count {
-                found: array.components,
-                wanted: 3,
-                of: "components",
-            }));
+            return Err(array.fault(fault::count(array.components, 3, "components")));
         }
         Ok(vectors(&array.of(count, budget)?))
     }
@@ -234,7 +225,7 @@ impl<'a> File<'a> {
     fn listed(&self, piece: Node<'a, '_>, count: usize, budget: &mut Budget) -> Result<Listed, FileError> {
         let arrays = self.arrays(piece, "Cells")?;
         let find = |name: &str| arrays.iter().find(|array| array.name == name);
-        let need = |name: &'static str| find(name).ok_or(FileFault::CutOff { wanted: name });
+        let need = |name: &'static str| find(name).ok_or_else(|| Fault::cut_off(name));
         let types = need("types")?.of(count, budget)?;
         let ends = need("offsets")?.of(count, budget)?;
         let connectivity = need("connectivity")?.all(budget)?;
@@ -264,7 +255,7 @@ impl<'a> File<'a> {
         let name = node.attribute("Name").unwrap_or_default().to_owned();
         let written = node.attribute("type").unwrap_or_default();
         let Some(number_type) = Number::of_xml(written) else {
-            let fault = FieldFault::Syntax { found: excerpt(written, 40), wanted: "a type of number" };
+            let fault = fault::syntax(written, "a type of number");
             return Err(FileError::from(fault).array(&name));
         };
         let components = match node.attribute("NumberOfComponents") {
@@ -276,15 +267,13 @@ impl<'a> File<'a> {
         let source = match node.attribute("format") {
             Some("appended") => {
                 let Some(appended) = self.appended else {
-                    return Err(
-                        FileError::from(FileFault::CutOff { wanted: "the appended data" }).array(&name)
-                    );
+                    return Err(FileError::from(Fault::cut_off("the appended data")).array(&name));
                 };
                 let start = number(node, "offset")?;
                 let next = self.offsets.partition_point(|offset| *offset <= start);
                 let end = self.offsets.get(next).copied().unwrap_or(usize::MAX).min(appended.bytes.len());
                 let Some(bytes) = appended.bytes.get(start..end) else {
-                    return Err(FileError::from(FileFault::CutOff { wanted: "an array" }).array(&name));
+                    return Err(FileError::from(Fault::cut_off("an array")).array(&name));
                 };
                 let packing = Packing { base64: appended.base64, compressor, wide_header };
                 // After the last array in base 64 the XML text goes on.
@@ -304,13 +293,12 @@ impl<'a> File<'a> {
 /// The first index along each axis and the number of points.
 fn extent(node: Node<'_, '_>) -> Result<([f64; 3], [usize; 3]), FileError> {
     let name = if node.has_tag_name("Piece") { "Extent" } else { "WholeExtent" };
-    let ends: [f64; 6] = numbers(node, name)?.ok_or(FileFault::CutOff { wanted: name })?;
+    let ends: [f64; 6] = numbers(node, name)?.ok_or_else(|| Fault::cut_off(name))?;
     let size = [0, 1, 2].map(|i| ends[2 * i + 1] - ends[2 * i] + 1.0);
     match size.into_iter().find(|size| !(*size >= 1.0 && *size <= 1e15)) {
         None => Ok(([ends[0], ends[2], ends[4]], size.map(|size| size as usize))),
         Some(size) => {
-            let fault =
-                FieldFault::Syntax { found: format!("{size}"), wanted: "a number of points of one or more" };
+            let fault = fault::syntax(&format!("{size}"), "a number of points of one or more");
             Err(FileError::from(fault).array(name))
         }
     }
@@ -323,7 +311,7 @@ fn numbers<const N: usize>(node: Node<'_, '_>, name: &'static str) -> Result<Opt
     };
     let numbers: Option<Vec<f64>> =
         text.split_ascii_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
-    let fault = || FieldFault::Syntax { found: excerpt(text, 40), wanted: "numbers separated by blanks" };
+    let fault = || fault::syntax(text, "numbers separated by blanks");
     let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
     numbers.map(Some).ok_or_else(|| FileError::from(fault()).array(name))
 }
@@ -331,6 +319,6 @@ fn numbers<const N: usize>(node: Node<'_, '_>, name: &'static str) -> Result<Opt
 /// A whole number.
 fn number(node: Node<'_, '_>, name: &'static str) -> Result<usize, FileError> {
     let text = node.attribute(name).unwrap_or_default();
-    let fault = || FieldFault::Syntax { found: excerpt(text, 40), wanted: "a whole number" };
+    let fault = || fault::syntax(text, "a whole number");
     text.trim().parse().map_err(|_| FileError::from(fault()).array(name))
 }

@@ -3,10 +3,10 @@
 mod profile;
 
 use crate::air::{FromFile, Measured, Profile, RecordLayout, Said, SpectrumTable};
-use crate::error::{FileError, FileFault, FileKind, RecordFault};
+use crate::error::{FileError, FileKind};
 use crate::field::{Field, FieldWarning, ReadField};
 use crate::file;
-use crate::record::{Interval, Layout, Record, Settings, analyse, read_record};
+use crate::record::{Interval, Layout, Record, Settings, analyse_fluctuation, read_record};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -77,13 +77,8 @@ impl DataFiles {
 
 /// The fluctuation of a record, and the numbers of the air that it gives.
 fn measured(record: Record) -> Result<Measured, FileError> {
-    let (analysis, with_mean) = match analyse(&record, &Settings::default()) {
-        Err(FileError { fault: FileFault::Record(RecordFault::NoMean { .. }), .. }) => {
-            // What does not depend on the mean velocity is the same for any value of it.
-            (analyse(&record, &Settings { mean_velocity: Some(1.0), ..Settings::default() })?, false)
-        }
-        analysed => (analysed?, true),
-    };
+    let analysis = analyse_fluctuation(&record, &Settings::default())?;
+    let with_mean = analysis.has_mean();
     let said = |interval: &Interval| with_mean.then_some(interval.value);
     let says = Said {
         velocity: said(&analysis.mean_velocity),
@@ -111,7 +106,7 @@ fn once<T>(
         return known.clone();
     }
     // The error may be about a file that this one names.
-    let content = read().map_err(|error| if error.file.is_empty() { error.path(path) } else { error });
+    let content = read().map_err(|error| error.path(path));
     shelf.borrow_mut().insert(key, content.clone());
     content
 }

@@ -1,9 +1,9 @@
 //! Reads profiles of the air and spectra: small tables with units in their headers.
 
 use crate::air::{Profile, SpectrumTable};
-use crate::error::{FileError, FileFault, FileKind, ProfileFault};
+use crate::error::{Fault, FileError, FileKind, listed};
 use crate::table::{Head, Table};
-use crate::units::{Dimension, excerpt};
+use crate::units::{Dimension, excerpt, shortest};
 
 /// Fewest rows of a table.
 const LEAST_ROWS: usize = 2;
@@ -99,7 +99,7 @@ pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
     ];
     let [frequency, energy] = read(text, &wanted, "frequency_hz,energy")?;
     if energy.iter().all(|e| *e == 0.0) {
-        return Err(ProfileFault::NoEnergy.into());
+        return Err(Fault::new("is zero at every frequency", "at least one value must be positive").into());
     }
     Ok(SpectrumTable { frequency, energy })
 }
@@ -112,7 +112,7 @@ fn read<const N: usize>(
 ) -> Result<[Vec<f64>; N], FileError> {
     let mut table = Table::open(text, FileKind::Table, 0)?;
     if !table.named() {
-        return Err(FileFault::NoHeader { example }.into());
+        return Err(Fault::no_header(example).into());
     }
     let mut columns = [None; N];
     for (column, wanted) in columns.iter_mut().zip(wanted) {
@@ -124,30 +124,41 @@ fn read<const N: usize>(
             let Some((index, factor)) = *column else { continue };
             let value = match table.number(index) {
                 Ok(number) => number * factor,
-                Err(FileError {
-                    fault: FileFault::NotANumber { .. } | FileFault::NotFinite { .. }, ..
-                }) => f64::NAN,
+                Err(_) if !table.is_number(index) => f64::NAN,
                 Err(error) => return Err(error),
             };
             if !value.is_finite() {
                 let text = excerpt(table.text(index), 40);
-                return Err(table.blame(index, ProfileFault::NotANumber { text }));
+                return Err(table.blame(
+                    index,
+                    Fault::new(
+                        format!("\"{text}\" is not a finite number"),
+                        "every cell of the table needs one",
+                    ),
+                ));
             }
             let zero = wanted.sign == Sign::NotNegative;
             if wanted.sign != Sign::Any && (value < 0.0 || value == 0.0 && !zero) {
-                return Err(table.blame(index, ProfileFault::Sign { value, zero }));
+                let sign = if value < 0.0 { "negative" } else { "zero" };
+                let needed = if zero { "zero or more is needed" } else { "more than zero is needed" };
+                let fault = Fault::new(format!("{} is {sign}", shortest(value)), needed);
+                return Err(table.blame(index, fault));
             }
             if i == 0
                 && let Some(before) = values[0].last().copied().filter(|before| *before >= value)
             {
-                return Err(table.blame(index, FileFault::NotIncreasing { before, after: value }));
+                return Err(table.blame(index, Fault::not_increasing(before, value)));
             }
             values[i].push(value);
         }
     }
     let found = values[0].len();
     if found < LEAST_ROWS {
-        return Err(ProfileFault::TooFewRows { found, least: LEAST_ROWS }.into());
+        return Err(Fault::new(
+            format!("has {found} {} of numbers", if found == 1 { "row" } else { "rows" }),
+            format!("at least {LEAST_ROWS} are needed for interpolation"),
+        )
+        .into());
     }
     Ok(values)
 }
@@ -161,14 +172,22 @@ fn find(heads: &[Head], wanted: &Wanted) -> Result<Option<(usize, f64)>, FileErr
     let (index, unit) = match matching[..] {
         [] if wanted.required => {
             let (wanted, example) = (wanted.what, wanted.example);
-            let found = (0..heads.len()).map(text).collect();
-            return Err(ProfileFault::NoColumn { wanted, example, found }.into());
+            let found: Vec<String> = (0..heads.len()).map(text).collect();
+            return Err(Fault::new(
+                format!("has no column {wanted} (it has {})", listed(&found)),
+                format!("name one like {example}"),
+            )
+            .into());
         }
         [] => return Ok(None),
         [one] => one,
         [(first, _), (second, _), ..] => {
             let (first, second) = (text(first), text(second));
-            return Err(ProfileFault::Twice { what: wanted.what, first, second }.into());
+            return Err(Fault::new(
+                format!("the columns \"{first}\" and \"{second}\" both are columns {}", wanted.what),
+                "keep one",
+            )
+            .into());
         }
     };
     // The unit of an energy does not matter.

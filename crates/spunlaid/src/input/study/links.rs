@@ -5,7 +5,7 @@ use super::reader::{Reader, not_written};
 use super::{Base, Varied};
 use crate::error::{Fault, Finding};
 use crate::study::{Factor, Link};
-use crate::units::{Expression, ExpressionFault, Powers};
+use crate::units::{Expression, Powers, unknown_name};
 use std::collections::BTreeMap;
 use toml::de::DeValue;
 
@@ -84,7 +84,7 @@ pub(super) fn read(base: &dyn Base, key: Varied, text: &str) -> Result<Link, Fau
     let expression = Expression::parse(named.map_or(text, |(.., formula)| formula))?;
     for name in expression.names() {
         if let Err(advice) = base.numeric(name) {
-            return Err(ExpressionFault::UnknownName { name: name.to_owned(), advice }.into());
+            return Err(unknown_name(name, advice));
         }
     }
     // Units do not depend on values, so any value serves for this check.
@@ -93,7 +93,8 @@ pub(super) fn read(base: &dyn Base, key: Varied, text: &str) -> Result<Link, Fau
     let wanted = Powers::of(key.dimension());
     if !found.agree(wanted) {
         let name = key.dimension().name();
-        return Err(ExpressionFault::WrongDimension { found, name, wanted }.into());
+        let message = format!("gives a value in {found}, but {name} in {wanted} is needed");
+        return Err(Fault::new(message, "check the formula"));
     }
     Ok(Link { key: key.name, dimension: key.dimension(), expression })
 }

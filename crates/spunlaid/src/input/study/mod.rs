@@ -18,7 +18,7 @@ pub use points::StudyNote;
 use super::{Overrides, file};
 use crate::case::keys::{Key, Kind, Value};
 use crate::case::{Note, Remark};
-use crate::error::{Error, FileKind, Finding, Place};
+use crate::error::{Error, FileKind, Finding, Place, Position};
 use crate::study::{Experiment, Factor, Levels, Quantity, Replicates, Study};
 use crate::units::Dimension;
 use plan::Plan;
@@ -147,7 +147,7 @@ pub fn parse_changed_study(
     let (resolved, mut notes) = resolver.points()?;
     let Replicates { at_least, until, .. } = &plan.replicates;
     if !until.is_empty() && *at_least < FEWEST_REPLICATES {
-        let place = Place::File { file: name.to_owned(), line: None, column: None };
+        let place = Place::in_file(name, Position::Whole);
         let (key, value) = ("replicates.at_least".to_owned(), Some(at_least.to_string()));
         let note = Finding { place, key, value, what: Remark::FewReplicates };
         notes.push(StudyNote { note, points: resolved.len() as u64, all: true });

@@ -109,7 +109,7 @@ impl Reading<'_> {
         let (case, notes) = match read {
             Ok(read) => read,
             Err(Error::File(error)) => {
-                self.written.reject(key, (*error).into());
+                self.written.reject(key, error.into());
                 return Ok(None);
             }
             Err(Error::Rejected(problems)) => {

@@ -8,8 +8,9 @@ mod tiff;
 pub use self::png::{CELL, WEIGHT_OF_BLACK};
 
 use super::picture::{Format, Picture};
-use crate::error::{FileError, FileFault, FileKind, ScanFault};
+use crate::error::{Fault, FileError, FileKind};
 use crate::file;
+use crate::units::Dimension;
 use std::path::Path;
 
 /// Most pixels of a picture.
@@ -63,7 +64,11 @@ pub fn parse(bytes: &[u8], name: &str, pixel: impl Into<Option<f64>>) -> Result<
 
 fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileError> {
     if let Some(pixel) = pixel.filter(|pixel| !is_length(*pixel)) {
-        return Err(ScanFault::Pixel { pixel }.into());
+        return Err(Fault::new(
+            format!("cannot have pixels of {}", Dimension::Length.pretty(pixel)),
+            "give the side of a pixel, a length above zero",
+        )
+        .into());
     }
     let format = format(bytes)?;
     let raw = match format {
@@ -74,17 +79,38 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
     };
     let Raw { values, columns, rows, full_scale, weight_of_black, colour, more, .. } = raw;
     if columns.min(rows) < LEAST_SIDE {
-        return Err(ScanFault::TooFewPixels { columns, rows, least: LEAST_SIDE }.into());
+        return Err(Fault::new(
+            format!("has {columns} × {rows} pixels"),
+            format!("at least {} are needed either way, so scan a larger piece of the web", LEAST_SIDE),
+        )
+        .into());
     }
     let file = name.to_owned();
     let told = raw.pixel.filter(|sides| sides.iter().copied().all(is_length));
     let square = |[width, height]: [f64; 2]| (width / height - 1.0).abs() < SQUARE;
     let pixel_of_file = told.filter(|sides| square(*sides)).map(|[width, _]| width);
-    let pixel = match (pixel.or(pixel_of_file), told) {
-        (Some(pixel), _) => pixel,
-        (None, Some([width, height])) => return Err(ScanFault::Oblong { width, height }.into()),
-        (None, None) => return Err(ScanFault::NoPixel.into()),
-    };
+    let pixel =
+        match (pixel.or(pixel_of_file), told) {
+            (Some(pixel), _) => pixel,
+            (None, Some([width, height])) => return Err(Fault::new(
+                format!(
+                    "says that its pixels are {} wide and {} high",
+                    Dimension::Length.pretty_to(width, 4),
+                    Dimension::Length.pretty_to(height, 4)
+                ),
+                "scan with the same resolution both ways, or give the side of a pixel if the file is wrong",
+            )
+            .option("--pixel")
+            .into()),
+            (None, None) => {
+                return Err(Fault::new(
+                    "does not say how large its pixels are",
+                    "give the side of a pixel, as \"0.1 mm\"",
+                )
+                .option("--pixel")
+                .into());
+            }
+        };
     Ok(Picture {
         file,
         format,
@@ -105,7 +131,7 @@ fn is_length(of: f64) -> bool {
 }
 
 /// The format, by how a file begins.
-fn format(bytes: &[u8]) -> Result<Format, FileFault> {
+fn format(bytes: &[u8]) -> Result<Format, Fault> {
     const OTHERS: [(&[u8], &str); 7] = [
         (b"\xff\xd8\xff", "a JPEG picture, which loses the fine structure"),
         (b"GIF8", "a GIF picture"),
@@ -122,15 +148,24 @@ fn format(bytes: &[u8]) -> Result<Format, FileFault> {
     } else if bytes.starts_with(b"\x93NUMPY") {
         Ok(Format::Npy)
     } else if let Some((_, found)) = OTHERS.iter().find(|(start, _)| bytes.starts_with(start)) {
-        Err(ScanFault::Format { found }.into())
+        Err(Fault::new(
+            format!("is {found}"),
+            "save the scan as PNG or TIFF in shades of grey, or the map as NumPy array (.npy) or CSV",
+        ))
     } else {
         Ok(Format::Table)
     }
 }
 
 /// Refuses a picture that is too large, before memory is taken for it.
-fn within_limits(columns: u64, rows: u64) -> Result<[usize; 2], ScanFault> {
-    let too_many = ScanFault::TooManyPixels { columns, rows, most: MOST_PIXELS };
+fn within_limits(columns: u64, rows: u64) -> Result<[usize; 2], Fault> {
+    let too_many = Fault::new(
+        format!("has {columns} × {rows} pixels"),
+        format!(
+            "at most {} are read, so cut out a part of the picture, or make its pixels larger",
+            MOST_PIXELS
+        ),
+    );
     let sides = [columns, rows].map(|side| usize::try_from(side).ok());
     match sides {
         [Some(columns), Some(rows)] if columns.checked_mul(rows).is_some_and(|of| of <= MOST_PIXELS) => {
@@ -161,6 +196,14 @@ fn luminance(values: impl Iterator<Item = f64>, channels: usize) -> Vec<f64> {
     pixels
 }
 
-fn broken(message: &impl ToString) -> ScanFault {
-    ScanFault::Broken { message: crate::units::excerpt(&message.to_string(), 120) }
+fn broken(message: &impl ToString) -> Fault {
+    Fault::new(
+        format!("cannot be decoded: {}", crate::units::excerpt(&message.to_string(), 120)),
+        "is the file complete?",
+    )
+}
+
+/// The fault of a file that is written in a way that is not read.
+fn unsupported(found: &str, remedy: &'static str) -> Fault {
+    Fault::new(format!("has {found}, which is not read"), remedy)
 }

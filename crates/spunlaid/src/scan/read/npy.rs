@@ -2,15 +2,15 @@
 //!
 //! Source: NumPy enhancement proposal 1, "A simple file format for NumPy arrays".
 
-use super::{Raw, broken, within_limits};
-use crate::error::{FileError, FileFault, ScanFault};
+use super::{Raw, broken, unsupported, within_limits};
+use crate::error::{Fault, FileError};
 use crate::units::excerpt;
 
 /// Bytes before the length of the header: `\x93NUMPY` and the version.
 const MAGIC: usize = 8;
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Raw, FileError> {
-    let cut_off = || FileFault::CutOff { wanted: "the header of the array" };
+    let cut_off = || Fault::cut_off("the header of the array");
     let count = if bytes.get(6) == Some(&1) { 2 } else { 4 };
     let length = bytes.get(MAGIC..MAGIC + count).ok_or_else(cut_off)?;
     let length = length.iter().rev().fold(0usize, |sum, byte| sum << 8 | usize::from(*byte));
@@ -20,16 +20,16 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, FileError> {
     let head = String::from_utf8_lossy(head);
     let kind = value(&head, "'descr':")?.trim_matches(['\'', '"']).to_owned();
     if value(&head, "'fortran_order':")? != "False" {
-        let found = "its columns stored one after the other (Fortran order)".to_owned();
+        let found = "its columns stored one after the other (Fortran order)";
         let advice = "save numpy.ascontiguousarray(map)";
-        return Err(ScanFault::Unsupported { found, advice }.into());
+        return Err(unsupported(found, advice).into());
     }
     let [rows, columns] = shape(&head)?;
     let [columns, rows] = within_limits(columns, rows)?;
     let (read, size, full_scale) = number(&kind)?;
     let wanted = columns * rows * size;
     if data.len() < wanted {
-        return Err(FileFault::CutOff { wanted: "the numbers of the array" }.into());
+        return Err(Fault::cut_off("the numbers of the array").into());
     }
     let values =
         data[..wanted].chunks_exact(size).map(read).map(|x| if x.is_finite() { x } else { f64::NAN });
@@ -37,7 +37,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, FileError> {
 }
 
 /// What stands after a key of the header, up to the next comma outside of brackets.
-fn value<'a>(head: &'a str, key: &str) -> Result<&'a str, ScanFault> {
+fn value<'a>(head: &'a str, key: &str) -> Result<&'a str, Fault> {
     let rest = head.split_once(key).ok_or_else(|| broken(&format!("its header has no {key}")))?.1;
     let mut depth = 0;
     let end = rest.find(|c: char| {
@@ -47,32 +47,29 @@ fn value<'a>(head: &'a str, key: &str) -> Result<&'a str, ScanFault> {
     Ok(rest[..end.unwrap_or(rest.len())].trim())
 }
 
-fn shape(head: &str) -> Result<[u64; 2], ScanFault> {
+fn shape(head: &str) -> Result<[u64; 2], Fault> {
     let text = value(head, "'shape':")?;
     let sides = text.trim_matches(['(', ')']).split(',').map(str::trim).filter(|side| !side.is_empty());
     match sides.map(str::parse).collect::<Result<Vec<u64>, _>>().as_deref() {
         Ok([rows, columns]) => Ok([*rows, *columns]),
-        _ => Err(ScanFault::Unsupported {
-            found: format!("the shape {}", excerpt(text, 40)),
-            advice: "save a map of two dimensions, rows and columns",
-        }),
+        _ => Err(unsupported(
+            &format!("the shape {}", excerpt(text, 40)),
+            "save a map of two dimensions, rows and columns",
+        )),
     }
 }
 
 type Read = fn(&[u8]) -> f64;
 
 /// How a number is read, its bytes, and the largest one if it is a small one without sign.
-fn number(kind: &str) -> Result<(Read, usize, Option<f64>), ScanFault> {
+fn number(kind: &str) -> Result<(Read, usize, Option<f64>), Fault> {
     macro_rules! numbers {
         ($($little:literal $big:literal $type:ty),+) => {
             match kind {
                 $($little => (|bytes| <$type>::from_le_bytes(of(bytes)) as f64, size_of::<$type>()),
                 $big => (|bytes| <$type>::from_be_bytes(of(bytes)) as f64, size_of::<$type>()),)+
                 _ => {
-                    return Err(ScanFault::Unsupported {
-                        found: format!("numbers of the kind {}", excerpt(kind, 40)),
-                        advice: "save map.astype(\"float32\")",
-                    });
+                    return Err(unsupported(&format!("numbers of the kind {}", excerpt(kind, 40)), "save map.astype(\"float32\")"));
                 }
             }
         };

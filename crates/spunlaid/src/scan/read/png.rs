@@ -1,7 +1,7 @@
 //! Portable network graphics.
 
 use super::{MOST_PIXELS, Raw, broken, luminance, within_limits};
-use crate::error::ScanFault;
+use crate::error::Fault;
 use png::{BitDepth, Decoder, Limits, Transformations, Unit};
 use std::io::Cursor;
 
@@ -10,7 +10,7 @@ pub const WEIGHT_OF_BLACK: &str = "basis_weight_of_black_kg_m2";
 /// Keyword of the text that tells the side of a cell of a map [m].
 pub const CELL: &str = "cell_m";
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Raw, ScanFault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<Raw, Fault> {
     let failed = |error: png::DecodingError| broken(&error);
     // Four channels of two bytes, and as much for decoding.
     let limits = Limits { bytes: 16 * MOST_PIXELS };

@@ -1,19 +1,10 @@
 //! Text tables: a line for each row of the map.
 
 use super::{Raw, within_limits};
-use crate::error::{FileError, FileFault, FileKind, ScanFault};
+use crate::error::{FileError, FileKind};
 use crate::table::Table;
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Raw, FileError> {
-    parsed(bytes).map_err(|mut error| {
-        if let FileFault::LineTooLong { most } = error.fault {
-            error.fault = ScanFault::RowTooLong { most }.into();
-        }
-        error
-    })
-}
-
-fn parsed(bytes: &[u8]) -> Result<Raw, FileError> {
     let mut table = Table::open(bytes, FileKind::Scan, 0)?;
     let columns = table.heads().len();
     let (mut values, mut rows) = (Vec::new(), 0);

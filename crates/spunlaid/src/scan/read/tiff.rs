@@ -1,14 +1,14 @@
 //! Tagged image file format.
 
-use super::{MOST_PIXELS, Raw, broken, luminance, within_limits};
-use crate::error::ScanFault;
+use super::{MOST_PIXELS, Raw, broken, luminance, unsupported, within_limits};
+use crate::error::Fault;
 use std::io::Cursor;
 use tiff::ColorType;
 use tiff::decoder::ifd::Value;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Raw, ScanFault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<Raw, Fault> {
     let failed = |error: tiff::TiffError| broken(&error);
     let mut limits = Limits::default();
     limits.decoding_buffer_size = 8 * MOST_PIXELS;
@@ -23,9 +23,9 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, ScanFault> {
         ColorType::RGB(8 | 16 | 32 | 64) => 3,
         ColorType::RGBA(8 | 16 | 32 | 64) => 4,
         other => {
-            let found = format!("pixels of the kind {other:?}");
+            let found = &format!("pixels of the kind {other:?}");
             let advice = "save the scan in shades of grey, with 8 or 16 bits each";
-            return Err(ScanFault::Unsupported { found, advice });
+            return Err(unsupported(found, advice));
         }
     };
     let more = decoder.more_images();
@@ -41,14 +41,14 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, ScanFault> {
         DecodingResult::F32(of) => (luminance(of.into_iter().map(f64::from), channels), None),
         DecodingResult::F64(of) => (luminance(of.into_iter(), channels), None),
         _ => {
-            let found = "signed numbers, half floats or numbers of 8 bytes".to_owned();
+            let found = "signed numbers, half floats or numbers of 8 bytes";
             let advice = "save it with 8, 16 or 32 bits without sign, or as floating point of 32 bits";
-            return Err(ScanFault::Unsupported { found, advice });
+            return Err(unsupported(found, advice));
         }
     };
     if values.len() != columns * rows {
-        let found = "each colour in a plane of its own".to_owned();
-        return Err(ScanFault::Unsupported { found, advice: "save the scan in shades of grey" });
+        let found = "each colour in a plane of its own";
+        return Err(unsupported(found, "save the scan in shades of grey"));
     }
     let weight_of_black = None;
     Ok(Raw { values, columns, rows, full_scale, weight_of_black, pixel, colour: channels > 2, more })
