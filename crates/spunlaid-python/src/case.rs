@@ -40,7 +40,7 @@ impl Case {
         changes: Vec<(String, String)>,
     ) -> PyResult<Self> {
         let (case, notes) =
-            guarded(py, || Ok(parse_case(&text, &file, Overrides { values: &changes, word: WORD })?))?;
+            guarded(py, || parse_case(&text, &file, Overrides { values: &changes, word: WORD }))?;
         Ok(Self { case: Arc::new(case), notes, text, file, changes })
     }
 
@@ -65,7 +65,7 @@ impl Case {
     /// Raises FileError if the file cannot be read, and CaseError with every problem if the case cannot be run.
     #[classmethod]
     fn read(_class: &Bound<'_, PyType>, py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let text = guarded(py, || Ok(read_text(&path, FileKind::Case)?))?;
+        let text = guarded(py, || read_text(&path, FileKind::Case))?;
         Self::parsed(py, text.into(), path.display().to_string(), Vec::new())
     }
 

@@ -53,7 +53,7 @@ impl Flight {
             let pack = |first: u64| {
                 let last = fibres.min(first + WIDTH as u64);
                 let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case: of, replicate }).collect();
-                Ok(flight::Flight::new(&jobs, Isa::detect())?)
+                flight::Flight::new(&jobs, Isa::detect())
             };
             starts.map(pack).collect::<Result<Vec<_>, Failure>>()
         })?;
@@ -94,7 +94,7 @@ impl Flight {
         guarded(py, || {
             let mut packs = self.lock();
             // All packs have the same case, so all take the change or the first refuses it.
-            Ok(packs.iter_mut().try_for_each(|pack| pack.set(key, value.clone()))?)
+            packs.iter_mut().try_for_each(|pack| pack.set(key, value.clone()))
         })
     }
 

@@ -232,7 +232,7 @@ impl Flown {
                 let recorded = samples.iter().try_for_each(|sample| recorder.sample(replicate, sample));
                 recorded
                     .and_then(|()| recorder.lay(replicate, laid))
-                    .map_err(|ended| recorder.failure(ended.into()))?;
+                    .map_err(|ended| recorder.failure(ended))?;
                 tables.add(replicate)?;
             }
             tables.finish()?;

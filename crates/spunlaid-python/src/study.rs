@@ -66,7 +66,7 @@ impl Study {
                 let changes = StudyChanges { points, replicates, set };
                 let file = guarded(py, || {
                     let base = |_: &str, _| Ok((read_text(&web, FileKind::Web)?, web.display().to_string()));
-                    Ok(parse_changed_study(&text, "study", &changes, base)?)
+                    parse_changed_study(&text, "study", &changes, base)
                 })?;
                 ("study".to_owned(), file)
             }
@@ -77,7 +77,7 @@ impl Study {
                 let changes = StudyChanges { points, replicates, set };
                 let file = guarded(py, || {
                     let named = (case_text, case_name.to_owned());
-                    Ok(parse_changed_study(&text, "study", &changes, |_, _| Ok(named))?)
+                    parse_changed_study(&text, "study", &changes, |_, _| Ok(named))
                 })?;
                 ("study".to_owned(), file)
             }
@@ -85,7 +85,7 @@ impl Study {
                 let path: PathBuf = study.extract()?;
                 let set = Overrides { values: &changed, word: "sweep:" };
                 let changes = StudyChanges { points, replicates, set };
-                let file = guarded(py, || Ok(read_changed_study(&path, &changes)?))?;
+                let file = guarded(py, || read_changed_study(&path, &changes))?;
                 (path.file_stem().unwrap_or_default().to_string_lossy().into_owned(), file)
             }
         };
@@ -128,7 +128,7 @@ impl Study {
                     let lent = Mutex::new(std::mem::replace(journal, Journal::in_memory(0)));
                     let flown = run(&self.file.study, &lent, computing, &of);
                     *journal = lent.into_inner().unwrap_or_else(PoisonError::into_inner);
-                    Ok(flown?)
+                    flown
                 });
                 finished.store(true, Ordering::Release);
                 told.done.store(of.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
@@ -173,7 +173,7 @@ impl Study {
             let file = self.with_journal(|journal| {
                 new.retain(|record| !journal.holds(record.point as usize, record.replicate));
                 journal.add(&new)?;
-                Ok(journal.handle()?)
+                journal.handle()
             })?;
             if let Some(file) = file {
                 file.sync_data().map_err(|error| unsynced(&error))?;
@@ -186,7 +186,7 @@ impl Study {
     fn next_round(&self, py: Python<'_>) -> PyResult<bool> {
         guarded(py, || {
             let mut round = self.round();
-            self.with_journal(|journal| Ok(round.0.next(&self.file.study, journal)?))
+            self.with_journal(|journal| round.0.next(&self.file.study, journal))
         })
     }
 
@@ -245,7 +245,7 @@ impl Study {
         let points = &self.file.study.points;
         let results = guarded(py, || {
             self.with_journal(|journal| {
-                let of = |point: usize| Ok(results_of_point(&self.file.study, journal, point)?);
+                let of = |point: usize| results_of_point(&self.file.study, journal, point);
                 (0..points.len()).map(of).collect::<Result<Vec<_>, Failure>>()
             })
         })?;
@@ -298,7 +298,7 @@ impl Study {
     /// interval; and why there is no ranking, if so.
     fn effects<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyList>, Option<String>)> {
         let study = &self.file.study;
-        let found = guarded(py, || self.with_journal(|journal| Ok(rankings(study, journal)?)))?;
+        let found = guarded(py, || self.with_journal(|journal| rankings(study, journal)))?;
         let all = PyList::empty(py);
         for ranking in &found.of_measures {
             for effect in &ranking.effects {

@@ -45,9 +45,9 @@ pub(crate) fn lay_web(
     let (name, file) = match path {
         Some(path) => {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            (name, guarded(py, || Ok(read_web(&path, of)?))?)
+            (name, guarded(py, || read_web(&path, of))?)
         }
-        None => ("web".to_owned(), guarded(py, || Ok(parse_web("", "web", of)?))?),
+        None => ("web".to_owned(), guarded(py, || parse_web("", "web", of))?),
     };
     let threads = self::threads(threads);
     let watch = Watch::default();
