@@ -24,7 +24,7 @@
 //! let computing = Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &progress, recorder: None };
 //! let mut results = Results::collector(0);
 //! fly::<Error>(&case, Keep::NUMBERS, computing, |flight| {
-//!     results.take(&flight);
+//!     results.take(flight);
 //!     Ok(())
 //! })?;
 //!

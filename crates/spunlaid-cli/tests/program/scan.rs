@@ -216,7 +216,7 @@ fn rejects_scans_with_the_option_that_helps() {
         ("analyse scan.png --pixel 1mm --white x", "write a number above zero, like 240"),
         (
             "analyse scan.png --pixel 1mm --patches 2mm,50mm",
-            "has no patches of 50 mm: they can have sides from a pixel, 1 mm, to the shorter side of the picture, 40 mm (--patches)\n",
+            "has no patches of 50 mm; they can have sides from a pixel, 1 mm, to the shorter side of the picture, 40 mm (--patches)\n",
         ),
         (
             "analyse scan.png --pixel 1mm --noise 60000",
