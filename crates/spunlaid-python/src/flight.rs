@@ -36,7 +36,7 @@ pub(crate) struct Flight {
 }
 
 /// A number of a vector, and a vector of eight lanes.
-type Of = fn(&Snapshot) -> &[Vec3<spunlaid::lanes::Lanes>];
+type VectorField = fn(&Snapshot) -> &[Vec3<spunlaid::lanes::Lanes>];
 
 #[pymethods]
 impl Flight {
@@ -209,7 +209,7 @@ impl Flight {
         snapshot.nodes.into_iter().enumerate()
     }
 
-    fn vectors<'py>(&self, py: Python<'py>, of: Of) -> PyResult<Bound<'py, PyAny>> {
+    fn vectors<'py>(&self, py: Python<'py>, of: VectorField) -> PyResult<Bound<'py, PyAny>> {
         let snapshots = self.snapshots(py)?;
         let width = snapshots.iter().flat_map(Self::lanes).map(|(_, nodes)| nodes).max().unwrap_or(0);
         let mut flat = Vec::new();

@@ -20,7 +20,7 @@ mod merged;
 mod record;
 
 mod flight;
-mod flown;
+mod results;
 mod run;
 mod samples;
 mod state;
@@ -42,11 +42,11 @@ mod _spunlaid {
     #[pymodule_export]
     use super::flight::Flight;
     #[pymodule_export]
-    use super::flown::Flown;
-    #[pymodule_export]
     use super::keys::keys;
     #[pymodule_export]
     use super::record::analyse;
+    #[pymodule_export]
+    use super::results::RunResults;
     #[pymodule_export]
     use super::run::{fly, measures};
     #[pymodule_export]

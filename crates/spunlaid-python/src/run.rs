@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::flight::laid_columns;
-use crate::flown::Flown;
+use crate::results::RunResults;
 use crate::samples::{Collected, locked};
 use crate::watched::{Watch, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
@@ -38,7 +38,7 @@ pub(crate) fn fly(
     check_step: bool,
     samples: bool,
     shapes: bool,
-) -> PyResult<Flown> {
+) -> PyResult<RunResults> {
     let (of, run) = (Arc::clone(&case.case), case.case.run);
     let plans = if check_step { FinerPlans::of(&of) } else { FinerPlans::none("it was not asked for") };
     let watch = Watch::of(run.steps.saturating_mul(run.replicates).saturating_add(plans.fibre_steps()));
@@ -85,10 +85,10 @@ pub(crate) fn fly(
         .map(|replicate| if is_lost(replicate) { Vec::new() } else { belt.take(replicate) })
         .collect();
     let samples = if samples { Some(collected.into_numpy(py)?) } else { None };
-    Ok(Flown { name: case.stem(), case: of, results, checks, notes, performance, samples, laid })
+    Ok(RunResults { name: case.stem(), case: of, results, checks, notes, performance, samples, laid })
 }
 
-impl Flown {
+impl RunResults {
     fn folder(&self) -> folder::Run<'_> {
         folder::Run {
             name: &self.name,
@@ -112,7 +112,7 @@ impl Flown {
 }
 
 #[pymethods]
-impl Flown {
+impl RunResults {
     /// Text of summary.json.
     #[getter]
     fn summary(&self) -> String {
@@ -258,7 +258,7 @@ impl Flown {
     }
 }
 
-impl Flown {
+impl RunResults {
     fn computing<'a>(&self, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Computing<'a> {
         Computing { threads: threads(None), isa: Isa::detect(), stop, fibre_steps, recorder: None }
     }

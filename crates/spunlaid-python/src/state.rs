@@ -1,6 +1,6 @@
 //! Results of a run as plain values of Python, for pickling, and back.
 
-use crate::flown::Flown;
+use crate::results::RunResults;
 use crate::samples::Samples;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -21,7 +21,7 @@ use spunlaid_results::output::summary::Performance;
 use std::sync::Arc;
 
 /// The function that makes the results again, and its argument.
-pub(crate) fn reduced<'py>(py: Python<'py>, of: &Flown) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn reduced<'py>(py: Python<'py>, of: &RunResults) -> PyResult<Bound<'py, PyAny>> {
     let state = PyDict::new(py);
     state.set_item("name", &of.name)?;
     state.set_item("case", write_case(&absolute(&of.case)))?;
@@ -70,7 +70,7 @@ pub(crate) fn reduced<'py>(py: Python<'py>, of: &Flown) -> PyResult<Bound<'py, P
 
 /// The results that [`reduced`] wrote.
 #[pyfunction]
-pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<Flown> {
+pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<RunResults> {
     let need = |key: &str| {
         state
             .get_item(key)?
@@ -97,7 +97,7 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
         lost.into_iter().map(|(number, time, reason)| LostFibre { replicate: number - 1, time, reason });
     let mut results =
         Results { numbers: Vec::new(), curves: Vec::new(), trajectories: Vec::new(), lost: lost.collect() };
-    let numbers: Vec<(String, Told)> = need("numbers")?.extract()?;
+    let numbers: Vec<(String, EstimateState)> = need("numbers")?.extract()?;
     for (name, estimate) in numbers {
         results.numbers.push(Number { measure: measure(&name)?, estimate: told(estimate)? });
     }
@@ -111,8 +111,8 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
         });
         results.curves.push(Curve { measure: measure(&name)?, places: places.collect() });
     }
-    type Kept<'py> = (u64, Vec<(f64, PyReadonlyArray1<'py, f64>)>, PyReadonlyArray2<'py, f64>);
-    let trajectories: Vec<Kept<'_>> = need("trajectories")?.extract()?;
+    type TrajectoryState<'py> = (u64, Vec<(f64, PyReadonlyArray1<'py, f64>)>, PyReadonlyArray2<'py, f64>);
+    let trajectories: Vec<TrajectoryState<'_>> = need("trajectories")?.extract()?;
     let samples = match state.get_item("samples")? {
         Some(samples) => {
             let (times, columns): (Bound<'_, PyArray1<f64>>, Vec<Bound<'_, PyArray2<f64>>>) =
@@ -138,7 +138,7 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
         });
     }
     let laid: Vec<PyReadonlyArray2<'_, f64>> = need("laid")?.extract()?;
-    Ok(Flown {
+    Ok(RunResults {
         name: need("name")?.extract()?,
         case: Arc::new(case),
         results,
@@ -173,8 +173,8 @@ fn check_of(state: &Bound<'_, PyAny>, refined: Refined) -> PyResult<FinerCheck> 
     let (time_step, element_length, duration, replicates, share_of_run) =
         state.get_item("numbers")?.extract()?;
     let (is_fed, is_resolved) = state.get_item("kind")?.extract()?;
-    let path: Option<Told<'_>> = state.get_item("path")?.extract()?;
-    let changes: Vec<(String, Told<'_>)> = state.get_item("changes")?.extract()?;
+    let path: Option<EstimateState<'_>> = state.get_item("path")?.extract()?;
+    let changes: Vec<(String, EstimateState<'_>)> = state.get_item("changes")?.extract()?;
     let changes = changes.into_iter().map(|(name, estimate)| {
         let statistic = Statistic::all().find(|statistic| statistic.name == name);
         let statistic = statistic.ok_or_else(|| unknown("statistic", &name))?;
@@ -196,13 +196,13 @@ fn check_of(state: &Bound<'_, PyAny>, refined: Refined) -> PyResult<FinerCheck> 
 }
 
 /// Mean, standard error and values.
-type Told<'py> = (f64, Option<f64>, PyReadonlyArray1<'py, f64>);
+type EstimateState<'py> = (f64, Option<f64>, PyReadonlyArray1<'py, f64>);
 
 fn estimate<'py>(py: Python<'py>, of: &Estimate) -> (f64, Option<f64>, Bound<'py, PyArray1<f64>>) {
     (of.mean, of.standard_error, PyArray1::from_slice(py, &of.values))
 }
 
-fn told((mean, standard_error, values): Told<'_>) -> PyResult<Estimate> {
+fn told((mean, standard_error, values): EstimateState<'_>) -> PyResult<Estimate> {
     Ok(Estimate { mean, standard_error, values: values.as_slice()?.to_vec() })
 }
 

@@ -84,12 +84,19 @@ def test_identical_webs_on_a_cluster(cluster: Any, tmp_path: Path) -> None:
         "set": {"web.width": "0.2 m", "web.length": "0.2 m"},
         "vary": {"line.belt_speed": [3.0, 4.0]},
     }
-    short = {"run.duration": "0.15 s", "run.replicates": 3, "belt.distance": "0.1 m", "fibre.element_length": "4 mm"}
-    flown = {
-        "web": cases / "web.toml",
-        "set": {"web.width": "0.4 m", "web.length": "0.4 m", **short},
-        "vary": {"belt.speed": [3.0, 4.0]},
-    }
+    short = {"run.duration": "0.3 s", "run.replicates": 3, "belt.distance": "0.1 m", "fibre.element_length": "4 mm"}
+    (tmp_path / "short.toml").write_text(Case.read(cases / "spunbond.toml").with_(short).to_toml())
+    web = tmp_path / "web.toml"
+    web.write_text(
+        """
+        version = 1
+        laydown.case = "short.toml"
+        line.rows = [{ offset = "0 mm", pitch = "0.2 mm", filaments = 1000 }]
+        web.width = "0.2 m"
+        web.length = "0.2 m"
+        """
+    )
+    flown = {"web": web, "vary": {"belt.speed": [3.0, 4.0]}}
     for number, study in enumerate((known, flown)):
         here, there = (tmp_path / f"{where}{number}" for where in ("here", "there"))
         spunlaid.sweep(study, out=here)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import subprocess
 import sys
 import time
@@ -47,30 +46,45 @@ def test_import_loads_nothing_heavy() -> None:
     assert loaded == []
 
 
+A_THOUSAND_RUNS = """
+import gc, sys
+import psutil, spunlaid
+
+case = spunlaid.Case.starter().with_(
+    {"run.duration": 0.004, "run.time_step": "20 us", "run.replicates": 2, "run.output_interval": "0.1 ms", "run.spin_up": 0}
+)
+
+def several(times):
+    for number in range(times):
+        # The checks take most of the time.
+        run = spunlaid.run(case, threads=2, check_step=number % 10 == 0)
+        # All that is made of it is let go of, too.
+        assert run.end_node and run.energy and run.measures and run.shapes and run.curves
+        try:
+            case.with_({"air.velocity": "x"})
+        except spunlaid.CaseError:
+            pass
+
+def state():
+    gc.collect()
+    return psutil.Process().memory_info().rss, sys.getallocatedblocks(), sys.getrefcount(case)
+
+several(100)
+before = state()
+several(1000)
+print(*(after - first for after, first in zip(state(), before)))
+"""
+
+
 def test_memory_and_references_stay_flat_over_a_thousand_runs() -> None:
-    psutil = pytest.importorskip("psutil")
-    case = Case.starter().with_(
-        {"run.duration": 0.004, "run.time_step": "20 us", "run.replicates": 2, "run.output_interval": "0.1 ms", "run.spin_up": 0}
-    )
-
-    def several(times: int) -> None:
-        for _ in range(times):
-            run = spunlaid.run(case, threads=2)
-            # All that is made of it is let go of, too.
-            assert run.end_node and run.energy and run.measures and run.shapes and run.curves
-            with pytest.raises(spunlaid.CaseError):
-                case.with_({"air.velocity": "x"})
-
-    several(100)
-    gc.collect()
-    process = psutil.Process()
-    before, blocks, references = process.memory_info().rss, sys.getallocatedblocks(), sys.getrefcount(case)
-    several(1000)
-    gc.collect()
-    assert sys.getrefcount(case) == references
-    assert abs(sys.getallocatedblocks() - blocks) < 1000, "less than a block for each run"
+    """In a process of its own: what other tests have left to the allocator moves by more than is asked here."""
+    pytest.importorskip("psutil")
+    told = subprocess.run([sys.executable, "-c", A_THOUSAND_RUNS], capture_output=True, text=True, check=True).stdout
+    memory, blocks, references = map(int, told.split())
+    assert references == 0
+    assert abs(blocks) < 1000, "less than a block for each run"
     # A run of this case holds 100 kB; a thousand kept ones would be 100 MB.
-    assert process.memory_info().rss - before < 10e6
+    assert memory < 10e6
 
 
 def test_a_run_from_python_costs_little_more(program: Path) -> None:

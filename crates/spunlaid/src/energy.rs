@@ -51,7 +51,7 @@ impl Energy {
         velocity: &[Vec3<Lanes>],
         start: &[Vec3<Lanes>],
     ) -> Self {
-        isa.run(Held { constants, position, velocity, start })
+        isa.run(HeldEnergy { constants, position, velocity, start })
     }
 
     /// Adds the work done since the start, at which the chain had the energy `initial`.
@@ -90,14 +90,14 @@ impl Energy {
 }
 
 /// Computes the energies that depend on positions and velocities.
-struct Held<'a> {
+struct HeldEnergy<'a> {
     constants: &'a Constants,
     position: &'a [Vec3<Lanes>],
     velocity: &'a [Vec3<Lanes>],
     start: &'a [Vec3<Lanes>],
 }
 
-impl Task for Held<'_> {
+impl Task for HeldEnergy<'_> {
     type Output = Energy;
 
     #[inline(always)]

@@ -6,7 +6,7 @@ use crate::say;
 use spunlaid::case::keys::{self, Key, Kind, LeftOut, TABLES};
 use spunlaid::error::Fault;
 use spunlaid::layers::{WEB_KEYS, WEB_TABLES};
-use spunlaid::units::{Dimension, Wanted};
+use spunlaid::units::{Dimension, UnitAdvice};
 use std::fmt::Write;
 
 /// Largest number of suggestions if no key is found.
@@ -15,7 +15,7 @@ const MOST_NEAREST: usize = 3;
 const WIDTH: usize = 100;
 
 /// What is shown of a key, of a case or of a web.
-struct Shown {
+struct KeyEntry {
     name: &'static str,
     kind: Kind,
     left_out: LeftOut,
@@ -26,7 +26,7 @@ struct Shown {
     may_change: [bool; 2],
 }
 
-impl Shown {
+impl KeyEntry {
     fn new<T>(key: &Key<T>, usual: Option<(f64, f64)>) -> Self {
         let Key { name, kind, left_out, meaning, varies, in_flight, .. } = *key;
         Self { name, kind, left_out, meaning, usual, may_change: [varies, in_flight] }
@@ -41,13 +41,13 @@ impl Shown {
 pub(crate) fn keys(asked: &Keys) -> Result<(), Failure> {
     let pattern = asked.pattern.clone().unwrap_or_default();
     let word = pattern.trim().to_lowercase();
-    let all: Vec<Shown> = if asked.web {
-        WEB_KEYS.iter().map(|key| Shown::new(key, key.usual_range())).collect()
+    let all: Vec<KeyEntry> = if asked.web {
+        WEB_KEYS.iter().map(|key| KeyEntry::new(key, key.usual_range())).collect()
     } else {
-        keys::all().iter().map(|key| Shown::new(key, key.usual)).collect()
+        keys::all().iter().map(|key| KeyEntry::new(key, key.usual)).collect()
     };
     let has = |text: &str| text.to_lowercase().contains(&word);
-    let found: Vec<Shown> = all.into_iter().filter(|key| has(key.name) || has(key.meaning)).collect();
+    let found: Vec<KeyEntry> = all.into_iter().filter(|key| has(key.name) || has(key.meaning)).collect();
     if found.is_empty() {
         let nearest = if asked.web { Vec::new() } else { keys::like(&word) };
         let nearest: Vec<&str> = nearest.iter().take(MOST_NEAREST).map(|key| key.name).collect();
@@ -69,7 +69,7 @@ pub(crate) fn keys(asked: &Keys) -> Result<(), Failure> {
 }
 
 /// The description of a key for the terminal.
-fn reference(key: &Shown) -> String {
+fn reference(key: &KeyEntry) -> String {
     let mut text = format!("{}\n", key.name);
     let default = match key.left_out {
         LeftOut::Required(example) => format!("none; the key is required, like {example}"),
@@ -99,7 +99,7 @@ fn reference(key: &Shown) -> String {
 }
 
 /// The allowed values, with the units of a quantity and its usual range.
-fn takes(key: &Shown) -> String {
+fn takes(key: &KeyEntry) -> String {
     let usual = match (key.kind.dimension(), key.usual) {
         (Some(dimension), Some((least, greatest))) => {
             format!("; usually {} to {}", dimension.pretty(least), dimension.pretty(greatest))
@@ -108,7 +108,7 @@ fn takes(key: &Shown) -> String {
     };
     let allowed = match key.kind.dimension() {
         Some(dimension) if dimension != Dimension::Ratio => {
-            let wanted = Wanted(dimension).to_string();
+            let wanted = UnitAdvice(dimension).to_string();
             let units = wanted.split_once(": ").map_or("", |(_, units)| units);
             format!("{}; in {units}", key.kind.allowed())
         }
@@ -118,7 +118,7 @@ fn takes(key: &Shown) -> String {
 }
 
 /// Where its value may change.
-fn may_change(key: &Shown) -> String {
+fn may_change(key: &KeyEntry) -> String {
     match (key.may_change[0], key.may_change[1]) {
         (true, true) => "in a study, and during a flight",
         (true, false) => "in a study",
@@ -149,7 +149,7 @@ layer's name in place of its number. `spunlaid sweep` can vary keys marked *stud
 ";
 
 /// The keys as a Markdown document with one table for each table of the file.
-fn markdown(found: &[Shown], head: &str, tables: &[&str]) -> String {
+fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
     let mut text = head.to_owned();
     for table in tables {
         let mut rows = found.iter().filter_map(|key| Some((key, key.within(table)?))).peekable();

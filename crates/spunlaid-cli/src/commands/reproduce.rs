@@ -185,7 +185,7 @@ impl Flying {
         points.chain(steps).sum()
     }
 
-    fn fly(self, computing: Computing<'_>) -> Result<Flown, Failure> {
+    fn fly(self, computing: Computing<'_>) -> Result<PaperResults, Failure> {
         let journal = Mutex::new(Journal::in_memory(self.study.points.len()));
         run(&self.study, &journal, computing, &Progress::default())?;
         let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -206,12 +206,12 @@ impl Flying {
         let wants = |figure| self.wanted.contains(&figure);
         let record = if wants("2") { velocity_record(&self.base, computing.isa, 0.5)? } else { Vec::new() };
         let spectrum = if wants("3") { turbulence_spectrum(&self.base, computing)? } else { Vec::new() };
-        Ok(Flown { flying: self, points, steps, record, spectrum })
+        Ok(PaperResults { flying: self, points, steps, record, spectrum })
     }
 }
 
 /// The results of all flights.
-struct Flown {
+struct PaperResults {
     flying: Flying,
     points: Vec<PointResults>,
     /// Time steps and their results.
@@ -220,7 +220,7 @@ struct Flown {
     spectrum: Vec<SpectrumPoint>,
 }
 
-impl Flown {
+impl PaperResults {
     fn trend(&self, trend: &Trend) -> Vec<TrendPoint> {
         trend.points.iter().map(|&(value, point)| TrendPoint::of(value, &self.points[point])).collect()
     }

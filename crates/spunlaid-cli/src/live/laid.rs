@@ -15,7 +15,7 @@ const FIT_AGAIN: f64 = 0.25;
 
 /// The laid curves of eight fibres.
 #[derive(Debug)]
-pub(super) struct Laid {
+pub(super) struct LaidStatistics {
     traces: [Trace; WIDTH],
     /// Points of the first fibre at the last fit of the surrogate, and the noises found.
     fitted: (u64, Vec<f64>),
@@ -34,7 +34,7 @@ pub(super) struct Map {
     counts: Vec<u64>,
 }
 
-impl Laid {
+impl LaidStatistics {
     /// No points yet; `None` for fibres of fixed length.
     pub(super) fn of(case: &Case) -> Option<Self> {
         let line = case.line?;
@@ -63,7 +63,7 @@ impl Laid {
             });
             self.fitted = (points, noises.collect());
         }
-        let over = |of: fn(&laydown::Laid) -> f64| laid.iter().map(of).collect::<Vec<f64>>();
+        let over = |of: fn(&laydown::LaidCurve) -> f64| laid.iter().map(of).collect::<Vec<f64>>();
         let all = [
             ("sigma_md", over(|of| of.sigma_md)),
             ("sigma_cd", over(|of| of.sigma_cd)),
@@ -123,7 +123,7 @@ fn cells(of: &Footprint, mean: [f64; 2]) -> impl Iterator<Item = ([f64; 2], u64)
 #[cfg(test)]
 mod tests {
     use super::super::fibres::Fibres;
-    use super::super::measured::Measured;
+    use super::super::measured::Statistics;
     use super::*;
     use spunlaid::input::{parse_case, starter_case, starter_case_of_fed};
 
@@ -132,7 +132,7 @@ mod tests {
         let (case, _) =
             parse_case(starter_case_of_fed(), "fed.toml", &[("fibre.element_length".into(), "4 mm".into())])
                 .unwrap();
-        let mut laid = Laid::of(&case).unwrap();
+        let mut laid = LaidStatistics::of(&case).unwrap();
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let mut points: Vec<f64> = Vec::new();
         let mut all = 0;
@@ -159,7 +159,7 @@ mod tests {
             parse_case(starter_case_of_fed(), "fed.toml", &[("fibre.element_length".into(), "4 mm".into())])
                 .unwrap();
         let mut fibres = Fibres::new(case.clone()).unwrap();
-        let mut measured = Measured::new(&case, fibres.flight());
+        let mut measured = Statistics::new(&case, fibres.flight());
         fibres.fly((0.5 / case.run.time_step) as u64, |instant| measured.see(instant)).unwrap();
         let told = serde_json::to_value(measured.told(3, fibres.flight())).unwrap();
         assert_eq!(told["numbers"][0]["name"], "sigma_md");
@@ -171,6 +171,6 @@ mod tests {
     #[test]
     fn fibres_of_fixed_length_lay_nothing() {
         let (case, _) = parse_case(starter_case(), "a.toml", &[]).unwrap();
-        assert!(Laid::of(&case).is_none());
+        assert!(LaidStatistics::of(&case).is_none());
     }
 }

@@ -2,13 +2,13 @@
 
 use super::batches::{Batches, Settling};
 use super::fibres::Instant;
-use super::laid::Laid;
+use super::laid::LaidStatistics;
 use super::number::Number;
 use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::flight::{EndNodeMotion, Flight};
 use spunlaid::lanes::WIDTH;
-use spunlaid::observe::{DECLARED, Observer, Sample, Seen, Value};
+use spunlaid::observe::{DECLARED, Observation, Observer, Sample, Value};
 use spunlaid::statistics::{Welch, Window};
 use std::array::from_fn;
 
@@ -21,20 +21,20 @@ const SEGMENT: usize = 512;
 
 /// Statistics since the last change.
 #[derive(Debug)]
-pub(super) struct Measured {
+pub(super) struct Statistics {
     /// From this time of the flight on [s].
     from: f64,
     /// Time over which they are taken so far [s].
     duration: f64,
     /// Start of the present batch [s].
     batch: Option<f64>,
-    of: Of,
+    of: Motion,
 }
 
 #[derive(Debug)]
-enum Of {
+enum Motion {
     Fixed(Box<Swinging>),
-    Fed(Box<Laid>),
+    Fed(Box<LaidStatistics>),
 }
 
 /// Of fibres of fixed length.
@@ -51,7 +51,7 @@ struct Swinging {
 /// The statistics as they are told to a page.
 #[derive(Debug, Serialize)]
 #[serde(tag = "is", rename = "measured")]
-pub(super) struct Told {
+pub(super) struct StatisticsMessage {
     pub(super) generation: u32,
     /// Time over which they were taken [s].
     duration: f64,
@@ -71,7 +71,7 @@ struct Curves {
     spectrum: [Vec<f64>; 3],
 }
 
-impl Measured {
+impl Statistics {
     /// Statistics of a case from now on, as soon as what was before is forgotten.
     ///
     /// * `flight` – of that case
@@ -81,9 +81,9 @@ impl Measured {
             Some(line) => spin_up.max(4.0 * line.distance / line.feed_speed),
             None => spin_up.max(SETTLING),
         };
-        let of = match Laid::of(case) {
-            Some(laid) => Of::Fed(Box::new(laid)),
-            None => Of::Fixed(Box::new(Swinging::of(case, flight))),
+        let of = match LaidStatistics::of(case) {
+            Some(laid) => Motion::Fed(Box::new(laid)),
+            None => Motion::Fixed(Box::new(Swinging::of(case, flight))),
         };
         Self { from: flight.time() + settling, duration: 0.0, batch: None, of }
     }
@@ -102,8 +102,8 @@ impl Measured {
         };
         self.duration = now - self.from;
         match &mut self.of {
-            Of::Fed(laid) => laid.see(&instant),
-            Of::Fixed(swinging) => {
+            Motion::Fed(laid) => laid.see(&instant),
+            Motion::Fixed(swinging) => {
                 swinging.see(&instant);
                 let duration = now - start;
                 if duration >= BATCH * (1.0 - 1e-9) {
@@ -117,9 +117,9 @@ impl Measured {
     }
 
     /// What has been found so far.
-    pub(super) fn told(&mut self, generation: u32, flight: &Flight) -> Told {
+    pub(super) fn told(&mut self, generation: u32, flight: &Flight) -> StatisticsMessage {
         let settling = (self.from - flight.time()).max(0.0);
-        let mut told = Told {
+        let mut told = StatisticsMessage {
             generation,
             duration: self.duration,
             settling,
@@ -128,11 +128,11 @@ impl Measured {
             footprint: None,
         };
         match &mut self.of {
-            Of::Fed(laid) => {
+            Motion::Fed(laid) => {
                 told.numbers = laid.numbers();
                 told.footprint = laid.map();
             }
-            Of::Fixed(swinging) => {
+            Motion::Fixed(swinging) => {
                 told.numbers = swinging.numbers();
                 told.curves = (self.duration > 0.0).then(|| swinging.curves(flight));
             }
@@ -158,7 +158,8 @@ impl Swinging {
 
     fn see(&mut self, instant: &Instant<'_>) {
         let samples = [Sample::default(); WIDTH];
-        let seen = Seen { snapshot: instant.snapshot, samples: &samples, settled: true, laid: instant.laid };
+        let seen =
+            Observation { snapshot: instant.snapshot, samples: &samples, settled: true, laid: instant.laid };
         self.along.see(&seen);
         let Some(end) = instant.snapshot.position.last() else {
             return;
@@ -219,7 +220,7 @@ impl Swinging {
 struct Blind;
 
 impl Observer for Blind {
-    fn see(&mut self, _: &Seen<'_>) {}
+    fn see(&mut self, _: &Observation<'_>) {}
 
     fn finish(&self, _: usize, _: &Flight) -> Vec<Value> {
         Vec::new()
@@ -261,7 +262,7 @@ mod tests {
         let results = results.finish();
 
         let mut fibres = Fibres::new(case.clone()).unwrap();
-        let mut measured = Measured::new(&case, fibres.flight());
+        let mut measured = Statistics::new(&case, fibres.flight());
         fibres.fly(case.run.steps + 1, |instant| measured.see(instant)).unwrap();
         let told = measured.told(1, fibres.flight());
         assert!((told.duration - 2.0).abs() < 1e-9 && told.settling == 0.0);
@@ -286,7 +287,7 @@ mod tests {
     fn nothing_is_told_before_the_fibres_have_settled() {
         let (case, _) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
         let fibres = Fibres::new(case.clone()).unwrap();
-        let told = Measured::new(&case, fibres.flight()).told(1, fibres.flight());
+        let told = Statistics::new(&case, fibres.flight()).told(1, fibres.flight());
         assert!(told.settling > 0.4 && told.curves.is_none() && told.numbers[0].value.is_none());
     }
 }

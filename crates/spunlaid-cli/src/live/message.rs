@@ -8,9 +8,9 @@ pub(super) const LARGEST: usize = 1 << 18;
 /// Something that a page asks for.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(tag = "do", rename_all = "snake_case", deny_unknown_fields)]
-pub(super) enum Asked {
+pub(super) enum Command {
     /// Change a key. The answer repeats the stamp.
-    Set { key: String, value: Given, stamp: u64 },
+    Set { key: String, value: KeyValue, stamp: u64 },
     /// Fly this case.
     Case { text: String },
     /// Fly at another pace.
@@ -34,7 +34,7 @@ pub(super) enum Asked {
 /// The value of a key: a number in SI units, or a text as in a case file.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
-pub(super) enum Given {
+pub(super) enum KeyValue {
     Number(f64),
     Text(String),
 }
@@ -100,7 +100,7 @@ impl Answer {
 ///
 /// # Errors
 /// The answer to a message that is none.
-pub(super) fn read(text: &str) -> Result<Asked, Answer> {
+pub(super) fn read(text: &str) -> Result<Command, Answer> {
     serde_json::from_str(text)
         .map_err(|error| Answer::refused(format!("this message is not understood: {error}")))
 }
@@ -111,24 +111,24 @@ mod tests {
 
     #[test]
     fn every_message_of_the_page_is_understood() {
-        let set = |value| Asked::Set { key: "air.velocity".to_owned(), value, stamp: 7 };
+        let set = |value| Command::Set { key: "air.velocity".to_owned(), value, stamp: 7 };
         for (text, wanted) in [
-            (r#"{"do":"set","key":"air.velocity","value":20,"stamp":7}"#, set(Given::Number(20.0))),
+            (r#"{"do":"set","key":"air.velocity","value":20,"stamp":7}"#, set(KeyValue::Number(20.0))),
             (
                 r#"{"do":"set","key":"air.velocity","value":"20 m/s","stamp":7}"#,
-                set(Given::Text("20 m/s".to_owned())),
+                set(KeyValue::Text("20 m/s".to_owned())),
             ),
-            (r#"{"do":"case","text":"[fibre]"}"#, Asked::Case { text: "[fibre]".to_owned() }),
-            (r#"{"do":"pace","pace":"hundredth"}"#, Asked::Pace { pace: Pace::Hundredth }),
-            (r#"{"do":"pause"}"#, Asked::Pause {}),
-            (r#"{"do":"go"}"#, Asked::Go {}),
-            (r#"{"do":"step"}"#, Asked::Step {}),
-            (r#"{"do":"reset"}"#, Asked::Reset {}),
-            (r#"{"do":"forget"}"#, Asked::Forget {}),
-            (r#"{"do":"look","visible":false}"#, Asked::Look { visible: false }),
+            (r#"{"do":"case","text":"[fibre]"}"#, Command::Case { text: "[fibre]".to_owned() }),
+            (r#"{"do":"pace","pace":"hundredth"}"#, Command::Pace { pace: Pace::Hundredth }),
+            (r#"{"do":"pause"}"#, Command::Pause {}),
+            (r#"{"do":"go"}"#, Command::Go {}),
+            (r#"{"do":"step"}"#, Command::Step {}),
+            (r#"{"do":"reset"}"#, Command::Reset {}),
+            (r#"{"do":"forget"}"#, Command::Forget {}),
+            (r#"{"do":"look","visible":false}"#, Command::Look { visible: false }),
             (
                 r#"{"do":"save","name":"a","replace":true}"#,
-                Asked::Save { name: "a".to_owned(), replace: true },
+                Command::Save { name: "a".to_owned(), replace: true },
             ),
         ] {
             assert_eq!(read(text), Ok(wanted), "{text}");

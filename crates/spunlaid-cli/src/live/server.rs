@@ -4,9 +4,9 @@
 use super::board::{Board, Bookmark, News, Page};
 use super::guard::Guard;
 use super::http::{self, Request, Response};
-use super::message::{self, Answer, Asked, LARGEST};
+use super::message::{self, Answer, Command, LARGEST};
 use super::page;
-use super::session::Ask;
+use super::session::PageRequest;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{Shutdown, TcpListener, TcpStream};
 use std::sync::Arc;
@@ -29,7 +29,7 @@ const PAUSE: Duration = Duration::from_millis(50);
 /// What all connections share.
 pub(super) struct Server {
     pub(super) guard: Guard,
-    pub(super) asks: SyncSender<Ask>,
+    pub(super) asks: SyncSender<PageRequest>,
     pub(super) board: Arc<Board>,
 }
 
@@ -125,7 +125,7 @@ impl Server {
         http::send(stream, format!("{head}{headers}\r\n").as_bytes())?;
         stream.set_read_timeout(None)?;
         let mut outward = stream.try_clone()?;
-        self.ask(page, Asked::Look { visible: true })?;
+        self.ask(page, Command::Look { visible: true })?;
         let talked = thread::scope(|scope| {
             let writer = thread::Builder::new().name("page".to_owned()).spawn_scoped(scope, || {
                 // A page that does not take its messages is given up; the reader hears of it.
@@ -137,13 +137,13 @@ impl Server {
             self.board.post(page, News::End);
             writer.join().map_err(|_| io::Error::from(ErrorKind::Other))
         });
-        self.ask(page, Asked::Look { visible: false })?;
+        self.ask(page, Command::Look { visible: false })?;
         talked
     }
 
     /// Hands on what a page asks. If many pages ask much, they wait.
-    fn ask(&self, from: Page, asked: Asked) -> io::Result<()> {
-        self.asks.send(Ask { from, asked }).map_err(|_| ErrorKind::BrokenPipe.into())
+    fn ask(&self, from: Page, asked: Command) -> io::Result<()> {
+        self.asks.send(PageRequest { from, asked }).map_err(|_| ErrorKind::BrokenPipe.into())
     }
 
     /// Reads the messages of a page, until it leaves.

@@ -55,12 +55,12 @@ class Folder:
 
     @property
     def step_check(self) -> dict[str, float | None] | None:
-        """As `Flown.step_check`."""
+        """As `RunResults.step_check`."""
         return self._differences("step_check")
 
     @property
     def mesh_check(self) -> dict[str, float | None] | None:
-        """As `Flown.mesh_check`."""
+        """As `RunResults.mesh_check`."""
         return self._differences("mesh_check")
 
     def _differences(self, name: str) -> dict[str, float | None] | None:

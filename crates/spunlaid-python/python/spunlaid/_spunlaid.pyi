@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "Case",
     "Flight",
-    "Flown",
+    "RunResults",
     "LaidWeb",
     "Study",
     "__version__",
@@ -124,7 +124,7 @@ class Flight:
         """Energies and works now [J], a number for each fibre."""
 
 @final
-class Flown:
+class RunResults:
     """Results of a run."""
 
     @property
@@ -225,8 +225,8 @@ def fly(
     check_step: bool = True,
     samples: bool = True,
     shapes: bool = True,
-) -> Flown: ...
-def flown_from(state: dict[str, Any]) -> Flown: ...
+) -> RunResults: ...
+def flown_from(state: dict[str, Any]) -> RunResults: ...
 def fly_bundle(parts: list[_Part], sides: list[float], threads: int = 1) -> _Floats: ...
 def analyse(
     record: ArrayLike | str,

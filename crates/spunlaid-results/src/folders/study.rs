@@ -11,7 +11,7 @@ use crate::report::{StudyReport, study_html};
 use spunlaid::case::MOST_REPLICATES;
 use spunlaid::error::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
-use spunlaid::study::{Found, Header, Journal, PointResults, rankings};
+use spunlaid::study::{Header, Journal, JournalState, PointResults, rankings};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -37,7 +37,7 @@ pub struct StudyFolder<'a> {
 
 /// What was made from the journal.
 #[derive(Debug)]
-pub struct Written {
+pub struct StudyResults {
     /// The results of each point.
     pub results: Vec<PointResults>,
     /// Why the keys are not ranked, if there are several.
@@ -50,7 +50,7 @@ pub enum State {
     /// Nothing of this study.
     New,
     /// Its journal.
-    Begun(Found),
+    Begun(JournalState),
 }
 
 impl<'a> StudyFolder<'a> {
@@ -134,7 +134,12 @@ impl<'a> StudyFolder<'a> {
     ///
     /// # Errors
     /// If a file cannot be written, or the journal cannot be read.
-    pub fn write(&self, name: &str, file: &StudyFile, journal: &mut Journal) -> Result<Written, Failure> {
+    pub fn write(
+        &self,
+        name: &str,
+        file: &StudyFile,
+        journal: &mut Journal,
+    ) -> Result<StudyResults, Failure> {
         let study = &file.study;
         let staging = self.staging()?;
         let results = output::study::write(&staging, study, journal)?;
@@ -159,7 +164,7 @@ impl<'a> StudyFolder<'a> {
         });
         staging.write("report.html", report)?;
         staging.publish()?;
-        Ok(Written { results, refusal })
+        Ok(StudyResults { results, refusal })
     }
 
     /// Removes the files of an earlier study, and describes this one.

@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Content, Key, Value};
 use spunlaid::ensemble::{FinerCheck, FinerChecks, LostFibre, Number, Results};
-use spunlaid::observe::Over;
+use spunlaid::observe::Aggregate;
 use spunlaid::statistics::Estimate;
 use spunlaid::units::Dimension;
 use std::collections::BTreeMap;
@@ -178,7 +178,11 @@ fn insert<'a>(into: &mut GroupSummary<'a>, group: &'static str, number: &'a Numb
 
 fn summary_of(number: &Number) -> NumberSummary<'_> {
     let over = |over| (number.measure.over_replicates == over).then(|| number.value());
-    NumberSummary { median: over(Over::Median), largest: over(Over::Largest), ..of_mean(&number.estimate) }
+    NumberSummary {
+        median: over(Aggregate::Median),
+        largest: over(Aggregate::Largest),
+        ..of_mean(&number.estimate)
+    }
 }
 
 fn lost_summary(fibre: &LostFibre) -> LostSummary<'_> {

@@ -2,7 +2,7 @@
 
 use crate::numbers::{number, rounded};
 use spunlaid::ensemble::{Number, Results};
-use spunlaid::observe::{Group, Over};
+use spunlaid::observe::{Aggregate, Group};
 use std::fmt::Write;
 
 /// The results of a run, with a heading for each group of measures and a row for each result.
@@ -26,7 +26,7 @@ pub fn results(results: &Results) -> String {
 /// The mean and its error, aligned at the sign ±. A median or a largest value has no error.
 fn value(of: &Number) -> String {
     let factor = of.measure.unit.per_si;
-    if of.measure.over_replicates != Over::Mean {
+    if of.measure.over_replicates != Aggregate::Mean {
         return format!("{:>10}", number(of.value() * factor));
     }
     let (mean, error) =
@@ -34,10 +34,10 @@ fn value(of: &Number) -> String {
     error.map_or_else(|| format!("{mean:>10}"), |error| format!("{mean:>10} ± {error}"))
 }
 
-fn remark(over: Over, replicates: u64) -> &'static str {
+fn remark(over: Aggregate, replicates: u64) -> &'static str {
     match over {
-        Over::Median if replicates > 1 => "  (median)",
-        Over::Largest if replicates > 1 => "  (largest)",
-        Over::Mean | Over::Median | Over::Largest => "",
+        Aggregate::Median if replicates > 1 => "  (median)",
+        Aggregate::Largest if replicates > 1 => "  (largest)",
+        Aggregate::Mean | Aggregate::Median | Aggregate::Largest => "",
     }
 }

@@ -18,34 +18,34 @@ const END_NODE: &[Column] =
 
 /// Fibres that have a column.
 #[derive(Clone, Copy, PartialEq)]
-enum Of {
+enum Fibres {
     All,
     Fixed,
     Fed,
 }
 
 /// `energy.parquet`: both ledgers over time; of a fed fibre the full balance.
-const ENERGY: &[(Of, Column)] = &[
-    (Of::All, ("time_s", |s| s.time)),
-    (Of::All, ("kinetic_j", |s| s.kinetic)),
-    (Of::All, ("axial_j", |s| s.axial)),
-    (Of::All, ("bending_j", |s| s.bending)),
-    (Of::Fixed, ("work_j", |s| s.work)),
-    (Of::All, ("gravity_work_j", |s| s.gravity_work)),
-    (Of::All, ("air_work_j", |s| s.air_work)),
-    (Of::All, ("damping_work_j", |s| s.damping_work)),
-    (Of::Fed, ("feed_work_j", |s| s.feed_work)),
-    (Of::Fed, ("belt_work_j", |s| s.belt_work)),
-    (Of::Fed, ("carried_j", |s| s.carried)),
-    (Of::All, ("tension_dissipation_j", |s| s.tension_dissipation)),
-    (Of::All, ("imbalance_j", |s| s.imbalance)),
-    (Of::Fixed, ("work_error_percent", Sample::work_error_percent)),
-    (Of::All, ("balance_error_percent", Sample::balance_error_percent)),
+const ENERGY: &[(Fibres, Column)] = &[
+    (Fibres::All, ("time_s", |s| s.time)),
+    (Fibres::All, ("kinetic_j", |s| s.kinetic)),
+    (Fibres::All, ("axial_j", |s| s.axial)),
+    (Fibres::All, ("bending_j", |s| s.bending)),
+    (Fibres::Fixed, ("work_j", |s| s.work)),
+    (Fibres::All, ("gravity_work_j", |s| s.gravity_work)),
+    (Fibres::All, ("air_work_j", |s| s.air_work)),
+    (Fibres::All, ("damping_work_j", |s| s.damping_work)),
+    (Fibres::Fed, ("feed_work_j", |s| s.feed_work)),
+    (Fibres::Fed, ("belt_work_j", |s| s.belt_work)),
+    (Fibres::Fed, ("carried_j", |s| s.carried)),
+    (Fibres::All, ("tension_dissipation_j", |s| s.tension_dissipation)),
+    (Fibres::All, ("imbalance_j", |s| s.imbalance)),
+    (Fibres::Fixed, ("work_error_percent", Sample::work_error_percent)),
+    (Fibres::All, ("balance_error_percent", Sample::balance_error_percent)),
 ];
 
 /// The tables of fed fibres, or of fibres of fixed length: their files and columns.
 pub fn tables(fed: bool) -> Vec<(&'static str, Vec<Column>)> {
-    let other = if fed { Of::Fixed } else { Of::Fed };
+    let other = if fed { Fibres::Fixed } else { Fibres::Fed };
     let energy = ENERGY.iter().filter(|(of, _)| *of != other).map(|(_, column)| *column).collect();
     let end = (!fed).then(|| ("end_node.parquet", END_NODE.to_vec()));
     end.into_iter().chain([("energy.parquet", energy)]).collect()

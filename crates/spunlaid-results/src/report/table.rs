@@ -3,7 +3,7 @@
 use super::words::{estimate_text, unbroken};
 use crate::numbers::{number, signed};
 use spunlaid::ensemble::{Number, Results};
-use spunlaid::observe::Over;
+use spunlaid::observe::Aggregate;
 
 /// Results under a heading.
 pub(super) struct Group {
@@ -40,9 +40,9 @@ pub(super) fn groups(results: &Results) -> Vec<Group> {
 fn row(one: &Number) -> Row {
     let (measure, factor) = (one.measure, one.measure.unit.per_si);
     let (value, over) = match measure.over_replicates {
-        Over::Mean => (estimate_text(&one.estimate, factor), ""),
-        Over::Median => (number(one.value() * factor), "; median over the replicates"),
-        Over::Largest => (number(one.value() * factor), "; the largest of all replicates"),
+        Aggregate::Mean => (estimate_text(&one.estimate, factor), ""),
+        Aggregate::Median => (number(one.value() * factor), "; median over the replicates"),
+        Aggregate::Largest => (number(one.value() * factor), "; the largest of all replicates"),
     };
     let n = one.estimate.values.iter().filter(|value| value.is_finite()).count();
     let over = if n > 1 { over } else { "" };

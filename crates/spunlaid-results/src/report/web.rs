@@ -376,7 +376,7 @@ fn levers(of: &Sensitivity) -> (String, Vec<String>) {
         None => "not known".to_owned(),
     };
     let source = match of.source {
-        Source::Flown => ", from the flown curves",
+        Source::FlownFibres => ", from the flown curves",
         Source::Surrogate => ", from the surrogate",
         Source::Law => "",
     };

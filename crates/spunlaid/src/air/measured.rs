@@ -15,7 +15,7 @@ pub struct Measured {
     /// What the case says of the file because the record does not.
     pub layout: RecordLayout,
     /// What the record says about the air.
-    pub says: Said,
+    pub says: RecordNumbers,
 }
 
 /// What a case says of the file of a record because the file itself does not.
@@ -33,7 +33,7 @@ pub struct RecordLayout {
 
 /// What a record says about the air. A record without its mean gives only the numbers that do not need it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Said {
+pub struct RecordNumbers {
     /// Mean velocity [m/s].
     pub velocity: Option<f64>,
     /// Turbulence intensity [-].
@@ -50,7 +50,7 @@ pub const APART: f64 = 5.0;
 
 impl Measured {
     /// Makes a fluctuation of the components [m/s] by subtracting their means.
-    pub fn new(interval: f64, components: &[&[f64]], integral_time: f64, says: Said) -> Self {
+    pub fn new(interval: f64, components: &[&[f64]], integral_time: f64, says: RecordNumbers) -> Self {
         let fluctuations: Vec<Vec<f64>> = components.iter().map(|values| without_mean(values)).collect();
         let variance = |values: &Vec<f64>| values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64;
         let rms = (fluctuations.iter().map(variance).sum::<f64>() / components.len() as f64).sqrt();

@@ -23,7 +23,7 @@ mod surroundings;
 mod wind;
 
 pub use atmosphere::Atmosphere;
-pub(crate) use atmosphere::{Instant, Velocities, misfit};
+pub(crate) use atmosphere::{Instant, Velocities, VelocityAt, VelocityTask, misfit};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
 pub use eddies::{Eddies, EddyModel};
 pub use eddy_turbulence::EddyTurbulence;
@@ -31,7 +31,7 @@ pub use eddy_wind::EddyWind;
 pub(crate) use eddy_wind::LastEddy;
 pub use flow::{Flow, FromFlow, LocalAir};
 pub use from_file::FromFile;
-pub use measured::{APART, Measured, RecordLayout, Said};
+pub use measured::{APART, Measured, RecordLayout, RecordNumbers};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};

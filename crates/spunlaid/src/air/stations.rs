@@ -110,7 +110,7 @@ impl Way {
 
 /// The air at an element of eight fibres.
 #[derive(Clone, Copy, Debug)]
-struct Here {
+struct ElementAir {
     /// Velocity at the last look [m/s].
     value: Vec3<Lanes>,
     /// Its rise in a step [m/s].
@@ -130,7 +130,7 @@ pub struct Stations {
     looked: bool,
     /// Of each station, at the last look, in each lane: fluctuation, and mean velocity along x [m/s].
     now: Vec<[[f64; 4]; WIDTH]>,
-    elements: Nodes<Here>,
+    elements: Nodes<ElementAir>,
     /// The mean flow and the rms in a field.
     field: Option<Surroundings>,
 }
@@ -165,7 +165,7 @@ impl Stations {
         let field = way
             .in_field
             .then(|| Surroundings::around_elements(lanes.map(|(air, _)| air.clone()), elements, way.every));
-        let nothing = Here { value: Vec3::ZERO, rise: Vec3::ZERO };
+        let nothing = ElementAir { value: Vec3::ZERO, rise: Vec3::ZERO };
         Self {
             per_length: lanes.lanes(|(_, grid)| 1.0 / grid.spacing),
             still: (0..way.stations).map(still).collect(),
@@ -317,7 +317,7 @@ impl Task for Look<'_> {
 
 /// The air at the elements of fed fibres at one instant.
 pub(crate) struct OnTheWay<'a, S: Register> {
-    elements: &'a [Here],
+    elements: &'a [ElementAir],
     /// Steps since the last look.
     steps: Wide<S>,
 }
@@ -326,7 +326,7 @@ impl<S: Register> OnTheWay<'_, S> {
     /// Velocity of the air at element `j` [m/s].
     #[inline(always)]
     pub(super) fn at(&self, j: usize) -> Vec3<Wide<S>> {
-        let Here { value, rise } = &self.elements[j];
+        let ElementAir { value, rise } = &self.elements[j];
         Vec3::load(rise).mul_add(self.steps, Vec3::load(value))
     }
 }
@@ -340,7 +340,7 @@ pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
 mod tests {
     use super::{PerLane, StationGrid, Stations, Way};
     use crate::air::{Air, EddyModel, Stream, StreamKey, Wind};
-    use crate::air::{Atmosphere, Instant, LastEddy};
+    use crate::air::{Atmosphere, Instant, Velocities};
     use crate::lanes::{Isa, Lanes, Plain, WIDTH};
     use crate::vec3::Vec3;
 
@@ -385,11 +385,12 @@ mod tests {
         fn at(&mut self, t: f64) -> Vec<Vec<f64>> {
             self.looks += 1;
             let now = Instant { step: self.looks, time: t };
-            let velocities = self.air.look::<Plain>(now, &self.position);
-            let mut last = LastEddy::none();
+            let Velocities::Way(velocities) = self.air.look::<Plain>(now, &self.position) else {
+                panic!("another kind of air")
+            };
             (0..self.position.len() - 1)
                 .map(|j| {
-                    let felt = velocities.at(j, &mut last).store();
+                    let felt = velocities.at(j).store();
                     (0..WIDTH).flat_map(|i| [felt.x.0[i] - SPEED, felt.y.0[i], felt.z.0[i]]).collect()
                 })
                 .collect()

@@ -2,7 +2,7 @@
 
 use super::constants::{Constants, ElementConstants};
 use super::forces::{Element, couple, internal};
-use crate::air::{LastEddy, Velocities};
+use crate::air::{LastEddy, Velocities, VelocityAt, VelocityTask};
 use crate::drag::{DragLanes, Split};
 use crate::lanes::{Register, Wide};
 use crate::vec3::Vec3;
@@ -59,7 +59,12 @@ pub(crate) fn force_pass<S: Register>(
     let (mut drag, mut drag_above) = (Vec3::zero(), Vec3::zero());
     for start in (0..count).step_by(BLOCK) {
         let elements = &mut block.0[..BLOCK.min(count - start)];
-        kinematics(integrator, start, elements, air, viscosity.is_some());
+        air.run(Kinematics {
+            integrator: &*integrator,
+            start,
+            block: elements,
+            viscous: viscosity.is_some(),
+        });
         if powers {
             for (j, item) in (start..).zip(&mut *elements) {
                 constants.at(j).half_drag.raise(&mut item.split);
@@ -124,27 +129,33 @@ impl<S: Register> ElementBlock<S> {
     }
 }
 
-/// Geometry of the elements of a block that begins at element `start`, and their relative velocities.
-#[inline(always)]
-fn kinematics<S: Register>(
-    integrator: &impl Integrator<S>,
+/// Computes the geometry of the elements of a block, and their relative velocities.
+struct Kinematics<'a, S: Register, I> {
+    integrator: &'a I,
+    /// Number of the first element.
     start: usize,
-    block: &mut [BlockElement<S>],
-    air: &Velocities<'_, S>,
+    block: &'a mut [BlockElement<S>],
     viscous: bool,
-) {
-    let mut upper = (integrator.position(start), integrator.drag_velocity(start));
-    let mut last = LastEddy::none();
-    for (j, item) in (start + 1..).zip(block.iter_mut()) {
-        let lower = (integrator.position(j), integrator.drag_velocity(j));
-        item.element = Element::between(upper.0, lower.0);
-        if viscous {
-            item.spin = item.element.tangent.cross_wide((lower.1 - upper.1) * item.element.inverse_length);
+}
+
+impl<S: Register, I: Integrator<S>> VelocityTask<S> for Kinematics<'_, S, I> {
+    #[inline(always)]
+    fn call(self, air: &impl VelocityAt<S>) {
+        let Self { integrator, start, block, viscous } = self;
+        let mut upper = (integrator.position(start), integrator.drag_velocity(start));
+        let mut last = LastEddy::none();
+        for (j, item) in (start + 1..).zip(block.iter_mut()) {
+            let lower = (integrator.position(j), integrator.drag_velocity(j));
+            item.element = Element::between(upper.0, lower.0);
+            if viscous {
+                item.spin =
+                    item.element.tangent.cross_wide((lower.1 - upper.1) * item.element.inverse_length);
+            }
+            // Element `j−1` is above node `j`.
+            let air = air.at(j - 1, &mut last);
+            let relative = (upper.1 + lower.1).neg_mul_add(Wide::splat(0.5), air);
+            item.split = DragLanes::split(relative, item.element.tangent);
+            upper = lower;
         }
-        // Element `j−1` is above node `j`.
-        let air = air.at(j - 1, &mut last);
-        let relative = (upper.1 + lower.1).neg_mul_add(Wide::splat(0.5), air);
-        item.split = DragLanes::split(relative, item.element.tangent);
-        upper = lower;
     }
 }

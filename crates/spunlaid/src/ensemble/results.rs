@@ -2,7 +2,7 @@
 
 use super::Trajectory;
 use crate::error::Error;
-use crate::observe::{Measure, Over, Value};
+use crate::observe::{Aggregate, Measure, Value};
 use crate::statistics::{Estimate, median};
 
 /// Results of an ensemble. They are collected trajectory by trajectory, so that memory does not grow with the replicates.
@@ -52,9 +52,9 @@ impl Number {
     pub fn value(&self) -> f64 {
         let values = &self.estimate.values;
         match self.measure.over_replicates {
-            Over::Mean => self.estimate.mean,
-            Over::Median => median(values),
-            Over::Largest => values.iter().copied().fold(f64::NAN, f64::max),
+            Aggregate::Mean => self.estimate.mean,
+            Aggregate::Median => median(values),
+            Aggregate::Largest => values.iter().copied().fold(f64::NAN, f64::max),
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::error::{Error, Fault};
 use crate::flight::{AirOf, Flight, Job, LaidPoint};
 use crate::lanes::{Isa, WIDTH};
-use crate::observe::{Measure, Observers, Sample, Seen, Value};
+use crate::observe::{Measure, Observation, Observers, Sample, Value};
 use crate::vec3::Vec3;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -152,8 +152,8 @@ pub fn fly_each(
                 return Ok(all.into_iter().map(|(_, flown)| flown).collect());
             }
             // The others fly again without it, with the same bits.
-            Err(Ended::Lost { lane, error }) => lost.push((flying[lane], error)),
-            Err(Ended::Otherwise(error)) => return Err(error),
+            Err(FlightEnd::Lost { lane, error }) => lost.push((flying[lane], error)),
+            Err(FlightEnd::Otherwise(error)) => return Err(error),
         }
     }
 }
@@ -166,12 +166,12 @@ pub(super) fn fly_in_air(
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
     fly_until_lost(jobs, keep, air, computing).map_err(|ended| match ended {
-        Ended::Lost { error, .. } | Ended::Otherwise(error) => error,
+        FlightEnd::Lost { error, .. } | FlightEnd::Otherwise(error) => error,
     })
 }
 
 /// Why a flight has ended before its time.
-enum Ended {
+enum FlightEnd {
     /// The fibre in a lane is lost.
     Lost {
         lane: usize,
@@ -180,7 +180,7 @@ enum Ended {
     Otherwise(Error),
 }
 
-impl From<Error> for Ended {
+impl From<Error> for FlightEnd {
     fn from(error: Error) -> Self {
         Self::Otherwise(error)
     }
@@ -191,7 +191,7 @@ fn fly_until_lost(
     keep: Keep,
     air: AirOf<'_>,
     computing: Computing<'_>,
-) -> Result<Vec<Trajectory>, Ended> {
+) -> Result<Vec<Trajectory>, FlightEnd> {
     let mut flight = Flight::in_air(jobs, computing.isa, air)?;
     if let Some(recorder) = computing.recorder {
         jobs.iter().for_each(|job| recorder.begin(job.replicate));
@@ -210,13 +210,13 @@ fn fly_until_lost(
             let good_steps = step - clock.output_steps.min(step);
             return Err(match error {
                 Error::Diverged { .. } => divergence(jobs, computing.isa, air, good_steps)?,
-                adrift => Ended::Lost { lane, error: adrift },
+                adrift => FlightEnd::Lost { lane, error: adrift },
             });
         }
         let samples: [Sample; WIDTH] = std::array::from_fn(|lane| Sample::of(&snapshot, lane));
         let laid: [Vec<LaidPoint>; WIDTH] = std::array::from_fn(|lane| flight.take_laid(lane));
         let settled = step >= clock.spin_up_steps;
-        observers.see(&Seen { snapshot: &snapshot, samples: &samples, settled, laid: &laid });
+        observers.see(&Observation { snapshot: &snapshot, samples: &samples, settled, laid: &laid });
         for (lane, trajectory) in trajectories.iter_mut().enumerate() {
             if keep.samples {
                 trajectory.samples.push(samples[lane]);
@@ -281,12 +281,12 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
 }
 
 /// Finds where a fibre is first seen to be lost: repeats the flight, step by step after the last good instant.
-fn divergence(jobs: &[Job<'_>], isa: Isa, air: AirOf<'_>, good_steps: u64) -> Result<Ended, Error> {
+fn divergence(jobs: &[Job<'_>], isa: Isa, air: AirOf<'_>, good_steps: u64) -> Result<FlightEnd, Error> {
     let mut flight = Flight::in_air(jobs, isa, air)?;
     flight.advance(good_steps);
     loop {
         if let Some((lane, error)) = flight.lost() {
-            return Ok(Ended::Lost { lane, error });
+            return Ok(FlightEnd::Lost { lane, error });
         }
         flight.advance(1);
     }

@@ -2,7 +2,7 @@
 //! checked then.
 
 use super::open::Open;
-use super::written::{Written, sorted};
+use super::written::{WrittenValues, sorted};
 use crate::air::EddyModel;
 use crate::case::keys::{self, Value};
 use crate::case::{Case, MOST_STEPS, Note, Remark, too_many_steps, unusual, whole_parts};
@@ -181,7 +181,7 @@ fn divide(fibre: &mut Fibre, written_length: Option<f64>, length_scale: f64) -> 
 
 /// Sets what follows from the distance to the belt: the elements, the length that still moves on the belt, and the decay
 /// time of the eddies.
-fn feed(case: &mut Case, written: &Written, written_length: Option<f64>) {
+fn feed(case: &mut Case, written: &WrittenValues, written_length: Option<f64>) {
     let Some(line) = &mut case.line else { return };
     case.fibre.span(line.distance, written_length.unwrap_or(line.distance / 125.0));
     if written.get("belt.kept_length").is_none() {

@@ -2,7 +2,7 @@
 
 use super::entry::{Entry, VERSION, check_version, kind, root};
 use super::source::{Source, fit};
-use super::written::{Said, Written};
+use super::written::{WrittenValue, WrittenValues};
 use super::{Overrides, values};
 use crate::case::keys::{self, Key, TAYLOR};
 use crate::error::{Error, Fault, Finding, Place};
@@ -19,7 +19,7 @@ pub(super) struct Document<'a> {
     source: Source<'a>,
     version: Option<Entry<'a>>,
     entries: BTreeMap<&'static str, Entry<'a>>,
-    written: Written,
+    written: WrittenValues,
 }
 
 impl<'a> Document<'a> {
@@ -27,9 +27,13 @@ impl<'a> Document<'a> {
     ///
     /// # Errors
     /// If the text is not TOML, or if its format is newer than this library.
-    pub(super) fn read(text: &'a str, name: &str, overrides: &[Overrides<'a>]) -> Result<Written, Error> {
+    pub(super) fn read(
+        text: &'a str,
+        name: &str,
+        overrides: &[Overrides<'a>],
+    ) -> Result<WrittenValues, Error> {
         let source = Source::new(text, name);
-        let written = Written::new(source.whole());
+        let written = WrittenValues::new(source.whole());
         let mut document =
             Self { name: name.to_owned(), source, version: None, entries: BTreeMap::new(), written };
         let root = root(&document.source, text)?;
@@ -70,7 +74,7 @@ impl<'a> Document<'a> {
             Ok(value) => (Some(value), None),
             Err(fault) => (None, Some(fault)),
         };
-        self.written.set(key.name, Said { place, shown, value });
+        self.written.set(key.name, WrittenValue { place, shown, value });
         if let Some(fault) = fault {
             self.written.reject(key.name, fault);
         }

@@ -1,7 +1,7 @@
 //! Makes a case from the written values, the files that they name and the defaults of the other keys.
 
 use super::data::DataFiles;
-use super::written::{Said, Written, sorted};
+use super::written::{WrittenValue, WrittenValues, sorted};
 use crate::air::{Air, EddyModel, Flow, PlacedField, RecordLayout, SpectrumShape};
 use crate::case::keys::{self, Content, FileKind, Key, Kind, LeftOut, Value};
 use crate::case::{Case, Note, Remark, Run};
@@ -18,7 +18,7 @@ use std::path::PathBuf;
 /// still open.
 pub(super) struct Open {
     /// The values that the case was made from.
-    pub(super) written: Written,
+    pub(super) written: WrittenValues,
     /// The case. Numbers that the flow gives are NaN.
     pub(super) case: Case,
     pub(super) notes: Vec<Note>,
@@ -28,7 +28,7 @@ pub(super) struct Open {
 ///
 /// # Errors
 /// Every problem with any key.
-pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Error> {
+pub(super) fn open(mut written: WrittenValues, files: &DataFiles) -> Result<Open, Error> {
     let (mut case, mut notes) = (blank(), Vec::new());
     let fed = written.has_table("feed") || written.has_table("belt");
     if fed {
@@ -47,7 +47,7 @@ pub(super) fn open(mut written: Written, files: &DataFiles) -> Result<Open, Erro
     let mut in_order: Vec<&Key> = keys::all().iter().collect();
     in_order.sort_by_key(rank);
     for key in in_order {
-        let Some(Said { place, shown, value }) = written.get(key.name).cloned() else {
+        let Some(WrittenValue { place, shown, value }) = written.get(key.name).cloned() else {
             match key.left_out {
                 // A key without a meaning for this case refuses its default, which is then not needed.
                 LeftOut::Value(text) if !key.counted => {
@@ -162,7 +162,7 @@ fn default_if_fed(key: &str, text: &'static str) -> &'static str {
 }
 
 /// A written key that says the same as this one in other words, and the way out.
-fn rival(key: &str, written: &Written) -> Option<(&'static str, &'static str)> {
+fn rival(key: &str, written: &WrittenValues) -> Option<(&'static str, &'static str)> {
     let (others, remedy): (&[&'static str], _) = match key {
         "fibre.linear_density" => (&["fibre.diameter"], "either gives the other; write one of the two"),
         "air.temperature" => (
@@ -226,7 +226,7 @@ const fn missed_with(kind: FileKind) -> &'static str {
 }
 
 /// What the case says of the files of its records.
-fn layout(written: &Written) -> RecordLayout {
+fn layout(written: &WrittenValues) -> RecordLayout {
     RecordLayout {
         rate: written.number("air.record_rate"),
         skip: match written.get("air.record_skip").and_then(|said| said.value.as_ref()) {

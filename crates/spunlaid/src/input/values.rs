@@ -3,7 +3,7 @@
 use super::entry::kind;
 use crate::case::keys::{FileKind, Kind, Value};
 use crate::error::Fault;
-use crate::units::{Dimension, Wanted};
+use crate::units::{Dimension, UnitAdvice};
 use crate::vec3::Vec3;
 use std::path::PathBuf;
 use toml::de::{DeInteger, DeValue};
@@ -60,7 +60,7 @@ pub(super) fn number(dimension: Dimension, value: &DeValue<'_>) -> Result<f64, F
         DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
         DeValue::Float(number) => number.as_str(),
         other => {
-            return Err(Fault::wrong_type(kind(other), Wanted(dimension)));
+            return Err(Fault::wrong_type(kind(other), UnitAdvice(dimension)));
         }
     };
     if dimension == Dimension::Ratio { dimension.parse(text) } else { Err(dimension.no_unit()) }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 /// A value as it was written.
 #[derive(Clone, Debug)]
-pub(super) struct Said {
+pub(super) struct WrittenValue {
     pub(super) place: Place,
     /// The text in the file.
     pub(super) shown: Option<String>,
@@ -17,16 +17,16 @@ pub(super) struct Said {
 
 /// The values of a file, and the problems found so far.
 #[derive(Clone, Debug)]
-pub(super) struct Written {
+pub(super) struct WrittenValues {
     /// The whole file as a place, for values that it does not contain.
     file: Place,
-    values: BTreeMap<Cow<'static, str>, Said>,
+    values: BTreeMap<Cow<'static, str>, WrittenValue>,
     pub(super) problems: Vec<Problem>,
     /// Keys that are missing only because of another problem. Names of tables end in a dot.
     excused: Vec<String>,
 }
 
-impl Written {
+impl WrittenValues {
     pub(super) const fn new(file: Place) -> Self {
         Self { file, values: BTreeMap::new(), problems: Vec::new(), excused: Vec::new() }
     }
@@ -36,12 +36,12 @@ impl Written {
         self.file.clone()
     }
 
-    pub(super) fn get(&self, key: &str) -> Option<&Said> {
+    pub(super) fn get(&self, key: &str) -> Option<&WrittenValue> {
         self.values.get(key)
     }
 
     /// Every value with its key.
-    pub(super) fn all(&self) -> impl Iterator<Item = (&str, &Said)> {
+    pub(super) fn all(&self) -> impl Iterator<Item = (&str, &WrittenValue)> {
         self.values.iter().map(|(key, said)| (key.as_ref(), said))
     }
 
@@ -50,12 +50,12 @@ impl Written {
         self.values.keys().any(|key| key.split_once('.').is_some_and(|(of, _)| of == table))
     }
 
-    pub(super) fn set(&mut self, key: impl Into<Cow<'static, str>>, said: Said) {
+    pub(super) fn set(&mut self, key: impl Into<Cow<'static, str>>, said: WrittenValue) {
         self.values.insert(key.into(), said);
     }
 
     /// Takes a value out, as if it had not been written.
-    pub(super) fn remove(&mut self, key: &str) -> Option<Said> {
+    pub(super) fn remove(&mut self, key: &str) -> Option<WrittenValue> {
         self.values.remove(key)
     }
 

@@ -57,12 +57,12 @@ struct Chords {
     directed: u64,
     length: f64,
     cos_squared: f64,
-    directions: [u64; Laid::DIRECTIONS],
+    directions: [u64; LaidCurve::DIRECTIONS],
 }
 
 /// What a laid curve was found to be. NaN stands for what cannot be said from the points there are.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Laid {
+pub struct LaidCurve {
     /// Fed length of the counted points, from the first to the last [m].
     pub length: f64,
     /// Mean of `−d md/ds`. A fibre that stays in place above the belt has the belt's speed over the feed's.
@@ -97,7 +97,7 @@ pub struct Laid {
     pub footprint: Footprint,
 }
 
-impl Laid {
+impl LaidCurve {
     /// Number of classes of direction.
     pub const DIRECTIONS: usize = 36;
 }
@@ -168,7 +168,7 @@ impl Trace {
     }
 
     /// The statistics of the points so far.
-    pub fn finish(&self) -> Laid {
+    pub fn finish(&self) -> LaidCurve {
         let spacing = self.tracing.spacing;
         let length = spacing * self.points().saturating_sub(1) as f64;
         let covariances = self.positions.each_ref().map(LaggedProducts::covariances);
@@ -190,7 +190,7 @@ impl Trace {
         let chord = spacing * ((self.chord - 1) as f64 + self.last_part);
         let resolved = spacing <= CHORD * (1.0 + ROUNDING);
         let Chords { count, directed, length: chords, cos_squared, directions } = self.chords;
-        Laid {
+        LaidCurve {
             length,
             slope: self.md.map_or(f64::NAN, |(first, last)| (first - last) / length),
             mean: self.positions.each_ref().map(LaggedProducts::mean),
@@ -217,7 +217,7 @@ fn ceil_but_rounding(x: f64) -> f64 {
 
 impl Chords {
     const NONE: Self =
-        Self { count: 0, directed: 0, length: 0.0, cos_squared: 0.0, directions: [0; Laid::DIRECTIONS] };
+        Self { count: 0, directed: 0, length: 0.0, cos_squared: 0.0, directions: [0; LaidCurve::DIRECTIONS] };
 
     fn add(&mut self, md: f64, cd: f64) {
         let squared = md * md + cd * cd;
@@ -229,9 +229,9 @@ impl Chords {
         self.directed += 1;
         self.cos_squared += md * md / squared;
         let turns = libm::atan2(cd, md) / (2.0 * PI);
-        let class = (turns - turns.floor()) * Laid::DIRECTIONS as f64;
+        let class = (turns - turns.floor()) * LaidCurve::DIRECTIONS as f64;
         if class.is_finite() {
-            self.directions[(class as usize).min(Laid::DIRECTIONS - 1)] += 1;
+            self.directions[(class as usize).min(LaidCurve::DIRECTIONS - 1)] += 1;
         }
     }
 }
@@ -253,7 +253,7 @@ mod tests {
         (0..points).map(at).collect()
     }
 
-    fn traced(points: &[[f64; 2]], tracing: Tracing) -> Laid {
+    fn traced(points: &[[f64; 2]], tracing: Tracing) -> LaidCurve {
         let mut trace = Trace::new(tracing);
         points.iter().for_each(|[md, cd]| trace.add(*md, *cd));
         trace.finish()

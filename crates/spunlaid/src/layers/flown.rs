@@ -26,12 +26,12 @@ pub struct OfLayer {
     /// What is laid.
     pub fibres: Fibres,
     /// What the flown fibres have laid, unless the numbers of the surrogate were known.
-    pub flown: Option<Arc<Flown>>,
+    pub flown: Option<Arc<FlownFibres>>,
 }
 
 /// What flown fibres have laid, and the surrogate of it.
 #[derive(Clone, Debug)]
-pub struct Flown {
+pub struct FlownFibres {
     /// The curves on the belt, without the spin-up.
     pub curves: Arc<Curves>,
     /// σ₁ and σ₂ [m] and A [m^-½] over the replicates for which they are known.
@@ -55,7 +55,7 @@ pub struct Flyer<'a> {
     stop: &'a AtomicBool,
     follow: Follow<'a>,
     /// What the last cases and folders laid, by their paths.
-    flown: Vec<(PathBuf, Arc<Case>, Arc<Flown>)>,
+    flown: Vec<(PathBuf, Arc<Case>, Arc<FlownFibres>)>,
 }
 
 impl std::fmt::Debug for Flyer<'_> {
@@ -96,7 +96,7 @@ impl<'a> Flyer<'a> {
                     LaydownSource::Results { folder, .. } => laid::read(folder)?,
                     _ => self.fly(path, case)?,
                 };
-                let flown = Arc::new(Flown::of(path, case, curves)?);
+                let flown = Arc::new(FlownFibres::of(path, case, curves)?);
                 if self.flown.len() == KEPT {
                     self.flown.remove(0);
                 }
@@ -134,7 +134,7 @@ impl<'a> Flyer<'a> {
     }
 }
 
-impl Flown {
+impl FlownFibres {
     /// * `path` – of the case or of the results, for messages
     /// * `laid` – all points of each replicate
     fn of(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Error> {

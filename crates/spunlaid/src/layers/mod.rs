@@ -8,7 +8,7 @@ mod flown;
 pub(crate) mod keys;
 mod laid;
 
-pub use flown::{Flown, Flyer, Follow, OfLayer, to_lay};
+pub use flown::{FlownFibres, Flyer, Follow, OfLayer, to_lay};
 pub use keys::{WEB_KEYS, WEB_TABLES, WebKey};
 pub use laid::{LAID, read as read_laid};
 

@@ -1,6 +1,8 @@
 //! Amplitude of each node of the fibre.
 
-use super::{Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observer, Seen, Value, fixed, of_each};
+use super::{
+    Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observation, Observer, Value, fixed, of_each,
+};
 use crate::flight::Flight;
 use crate::lanes::{Lanes, WIDTH};
 use crate::vec3::Vec3;
@@ -59,7 +61,7 @@ impl Spread {
 }
 
 impl Observer for Spread {
-    fn see(&mut self, seen: &Seen<'_>) {
+    fn see(&mut self, seen: &Observation<'_>) {
         if !seen.settled {
             return;
         }

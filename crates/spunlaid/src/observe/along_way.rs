@@ -1,7 +1,7 @@
 //! Speed and tension of a fed fibre on its way from the inlet to the belt.
 
 use super::{
-    Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observer, Seen, Unit, Value, fed, of_each,
+    Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observation, Observer, Unit, Value, fed, of_each,
 };
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
@@ -70,7 +70,7 @@ impl Way {
 }
 
 impl Observer for Way {
-    fn see(&mut self, seen: &Seen<'_>) {
+    fn see(&mut self, seen: &Observation<'_>) {
         if !seen.settled {
             return;
         }

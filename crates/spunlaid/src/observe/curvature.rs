@@ -1,7 +1,8 @@
 //! Curvature along the fibre.
 
 use super::{
-    Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PER_METRE, Seen, Value, fixed, of_each,
+    Aggregate, Declaration, FIBRE, Figure, Kind, Measure, Observation, Observer, PER_METRE, Value, fixed,
+    of_each,
 };
 use crate::chain::forces::Element;
 use crate::flight::Flight;
@@ -18,7 +19,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         unit: PER_METRE,
         kind: Kind::Profile,
         group: FIBRE,
-        over_replicates: Over::Mean,
+        over_replicates: Aggregate::Mean,
         figure: &Figure {
             name: "curvature_along_fibre",
             title: "Curvature along the fibre",
@@ -53,7 +54,7 @@ impl Curvature {
 }
 
 impl Observer for Curvature {
-    fn see(&mut self, seen: &Seen<'_>) {
+    fn see(&mut self, seen: &Observation<'_>) {
         if seen.settled {
             self.count += 1.0;
             self.isa.run(Turns { position: &seen.snapshot.position, squares: &mut self.squares });

@@ -1,6 +1,6 @@
 //! Distance of the free end from the axis of the flow.
 
-use super::{Declaration, Figure, MILLIMETRES, Measure, Observer, Seen, Value, fixed};
+use super::{Declaration, Figure, MILLIMETRES, Measure, Observation, Observer, Value, fixed};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
 use crate::statistics::{Thinned, quantile};
@@ -68,7 +68,7 @@ impl Deflection {
 }
 
 impl Observer for Deflection {
-    fn see(&mut self, seen: &Seen<'_>) {
+    fn see(&mut self, seen: &Observation<'_>) {
         if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
             for lane in 0..WIDTH {
                 let (y, z) = (end.y.0[lane], end.z.0[lane]);

@@ -1,6 +1,6 @@
 //! Amplitude, frequency and mean position of the free end, from every step after the spin-up.
 
-use super::{Declaration, Figure, HERTZ, MILLIMETRES, Measure, Observer, Seen, Value, fixed};
+use super::{Declaration, Figure, HERTZ, MILLIMETRES, Measure, Observation, Observer, Value, fixed};
 use crate::flight::Flight;
 
 pub(super) const DECLARATION: Declaration = Declaration {
@@ -73,7 +73,7 @@ const fn figure(name: &'static str, title: &'static str, words: &'static str, fr
 struct EndNode;
 
 impl Observer for EndNode {
-    fn see(&mut self, _: &Seen<'_>) {}
+    fn see(&mut self, _: &Observation<'_>) {}
 
     fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
         // Time over which the statistics are taken [s].

@@ -1,7 +1,8 @@
 //! The errors of the two energy checks.
 
 use super::{
-    Declaration, ENERGY, Figure, Kind, Measure, OF_PERCENT, Observer, Over, Sample, Seen, Value, always,
+    Aggregate, Declaration, ENERGY, Figure, Kind, Measure, OF_PERCENT, Observation, Observer, Sample, Value,
+    always,
 };
 use crate::chain::schemes::Scheme;
 use crate::flight::Flight;
@@ -83,7 +84,7 @@ pub(super) const DISSIPATION: Declaration = Declaration {
             label: "Axial waves damped by the scheme",
             meaning: "energy that the scheme has taken out of the motion by damping axial waves, as a share of the energy \
                       that flowed; median over time, the spin-up included. It is no error: the full balance counts it",
-            over_replicates: Over::Median,
+            over_replicates: Aggregate::Median,
             series: "typical",
             ..TAKEN_OUT
         },
@@ -100,7 +101,7 @@ pub(super) const DISSIPATION: Declaration = Declaration {
     observer: |_| Errors::observer(Sample::tension_dissipation_percent, false),
 };
 
-const TYPICAL: Measure = Measure { over_replicates: Over::Median, figure: &FIGURE, ..ERROR };
+const TYPICAL: Measure = Measure { over_replicates: Aggregate::Median, figure: &FIGURE, ..ERROR };
 
 const AT_END: Measure = Measure {
     figure: &Figure {
@@ -173,7 +174,7 @@ impl Errors {
 }
 
 impl Observer for Errors {
-    fn see(&mut self, seen: &Seen<'_>) {
+    fn see(&mut self, seen: &Observation<'_>) {
         self.times.push(seen.snapshot.time);
         for ((percent, newest), sample) in self.percent.iter_mut().zip(&mut self.newest).zip(seen.samples) {
             *newest = (self.of)(sample);

@@ -1,6 +1,6 @@
 //! Share of the time that the fibres spend outside the given flow.
 
-use super::{Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PERCENT, Seen, Value};
+use super::{Aggregate, Declaration, FIBRE, Figure, Kind, Measure, Observation, Observer, PERCENT, Value};
 use crate::air::Flow;
 use crate::flight::Flight;
 
@@ -14,7 +14,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         unit: PERCENT,
         kind: Kind::Number,
         group: FIBRE,
-        over_replicates: Over::Mean,
+        over_replicates: Aggregate::Mean,
         figure: &Figure {
             name: "share_outside_flow",
             title: "Time outside the flow",
@@ -39,7 +39,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
 struct Outside;
 
 impl Observer for Outside {
-    fn see(&mut self, _: &Seen<'_>) {}
+    fn see(&mut self, _: &Observation<'_>) {}
 
     fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
         vec![Value::Number(flight.outside(lane).unwrap_or(f64::NAN))]

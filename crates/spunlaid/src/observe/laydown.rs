@@ -1,12 +1,12 @@
 //! The laid fibre: how wide it lies, in which directions, and the surrogate that describes it.
 
 use super::{
-    Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observer, Seen, Unit, Value, fed, of_each,
+    Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observation, Observer, Unit, Value, fed, of_each,
 };
 use crate::case::Case;
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
-use crate::laydown::{Laid, Trace, Tracing};
+use crate::laydown::{LaidCurve, Trace, Tracing};
 use crate::surrogate::identify;
 
 /// The laid fibre.
@@ -249,7 +249,7 @@ fn trace(case: &Case) -> Trace {
 }
 
 impl Observer for LaidFibres {
-    fn see(&mut self, seen: &Seen<'_>) {
+    fn see(&mut self, seen: &Observation<'_>) {
         for (trace, laid) in self.traces.iter_mut().zip(seen.laid) {
             laid.iter().for_each(|point| trace.add(point.md, point.cd));
         }
@@ -296,10 +296,10 @@ impl Observer for LaidFibres {
 }
 
 /// Share of the chords in each class of direction, times the number of classes, over the angle [degrees].
-fn directions(laid: &Laid) -> Value {
+fn directions(laid: &LaidCurve) -> Value {
     let all: u64 = laid.directions.iter().sum();
-    let classes = Laid::DIRECTIONS as f64;
-    let angles = (0..Laid::DIRECTIONS).map(|i| (i as f64 + 0.5) * 360.0 / classes).collect();
+    let classes = LaidCurve::DIRECTIONS as f64;
+    let angles = (0..LaidCurve::DIRECTIONS).map(|i| (i as f64 + 0.5) * 360.0 / classes).collect();
     let share = |&count: &u64| count as f64 / all as f64 * classes;
     Value::Curve(angles, laid.directions.iter().map(share).collect())
 }

@@ -79,7 +79,7 @@ pub struct Measure {
     /// Its group.
     pub group: Group,
     /// The statistic over the replicates that is shown.
-    pub over_replicates: Over,
+    pub over_replicates: Aggregate,
     /// The figure that shows it.
     pub figure: &'static Figure,
     /// Its label in that figure: `*y*`.
@@ -96,7 +96,7 @@ impl Measure {
         unit: Unit { shown: "", per_si: 1.0 },
         kind: Kind::Number,
         group: END_NODE,
-        over_replicates: Over::Mean,
+        over_replicates: Aggregate::Mean,
         figure: &Figure { name: "", title: "", words: "", logarithmic: false, from_zero: true, caption: "" },
         series: "",
     };
@@ -180,7 +180,7 @@ impl Kind {
 
 /// The statistic over the replicates that stands for all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Over {
+pub enum Aggregate {
     /// Their mean, which has a standard error.
     Mean,
     /// Their median.
@@ -208,7 +208,7 @@ pub struct Figure {
 
 /// The state of the fibres at a recorded instant.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen<'a> {
+pub struct Observation<'a> {
     /// The fibres.
     pub snapshot: &'a Snapshot,
     /// The sample of each of the eight fibres.
@@ -231,7 +231,7 @@ pub enum Value {
 /// Looks at up to eight fibres while they fly.
 pub trait Observer: std::fmt::Debug + Send {
     /// Receives a recorded instant. The instants come in order and begin with the start.
-    fn see(&mut self, seen: &Seen<'_>);
+    fn see(&mut self, seen: &Observation<'_>);
 
     /// The values of one fibre at the end of the flight, one for each declared measure.
     fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value>;
@@ -254,7 +254,7 @@ impl Observers {
     }
 
     /// Passes a recorded instant to all observers.
-    pub fn see(&mut self, seen: &Seen<'_>) {
+    pub fn see(&mut self, seen: &Observation<'_>) {
         self.0.iter_mut().for_each(|(_, observer)| observer.see(seen));
     }
 

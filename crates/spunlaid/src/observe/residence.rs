@@ -1,6 +1,8 @@
 //! The circle in which the free end stays.
 
-use super::{Declaration, END_NODE, Figure, Kind, MILLIMETRES, Measure, Observer, Over, Seen, Value, fixed};
+use super::{
+    Aggregate, Declaration, END_NODE, Figure, Kind, MILLIMETRES, Measure, Observation, Observer, Value, fixed,
+};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
 use crate::statistics::{Thinned, quantile};
@@ -15,7 +17,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         unit: MILLIMETRES,
         kind: Kind::Number,
         group: END_NODE,
-        over_replicates: Over::Mean,
+        over_replicates: Aggregate::Mean,
         figure: &Figure {
             name: "residence",
             title: "Circle of 90 % of the time",
@@ -38,7 +40,7 @@ const SHARE: f64 = 0.9;
 struct Residence([Thinned<(f64, f64)>; WIDTH]);
 
 impl Observer for Residence {
-    fn see(&mut self, seen: &Seen<'_>) {
+    fn see(&mut self, seen: &Observation<'_>) {
         if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
             for (lane, places) in self.0.iter_mut().enumerate() {
                 places.push((end.y.0[lane], end.z.0[lane]));

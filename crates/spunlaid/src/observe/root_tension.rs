@@ -1,6 +1,6 @@
 //! Tension at the root.
 
-use super::{Declaration, FIBRE, Figure, MILLINEWTONS, Measure, Observer, Over, Seen, Value};
+use super::{Aggregate, Declaration, FIBRE, Figure, MILLINEWTONS, Measure, Observation, Observer, Value};
 use crate::fibre::Root;
 use crate::flight::Flight;
 use crate::lanes::Lanes;
@@ -21,7 +21,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             label: "Tension at the root, peak",
             meaning: "largest tension of the element at the root at the recorded instants. As with the largest strain, \
                       implicit tension makes it lower",
-            over_replicates: Over::Largest,
+            over_replicates: Aggregate::Largest,
             series: "peak",
             ..TENSION
         },
@@ -55,7 +55,7 @@ struct RootTension {
 }
 
 impl Observer for RootTension {
-    fn see(&mut self, seen: &Seen<'_>) {
+    fn see(&mut self, seen: &Observation<'_>) {
         if let (true, Some(&tension)) = (seen.settled, seen.snapshot.tension.first()) {
             self.count += 1.0;
             self.sum = self.sum + tension;

@@ -1,6 +1,8 @@
 //! Power spectrum of the free end's motion.
 
-use super::{Declaration, Figure, Kind, Measure, Observer, SQUARE_MILLIMETRES_PER_HERTZ, Seen, Value, fixed};
+use super::{
+    Declaration, Figure, Kind, Measure, Observation, Observer, SQUARE_MILLIMETRES_PER_HERTZ, Value, fixed,
+};
 use crate::case::Run;
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
@@ -65,7 +67,7 @@ fn welch(run: &Run) -> Welch {
 }
 
 impl Observer for EndPositions {
-    fn see(&mut self, seen: &Seen<'_>) {
+    fn see(&mut self, seen: &Observation<'_>) {
         if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
             for (lane, [y, z]) in self.0.iter_mut().enumerate() {
                 y.push(end.y.0[lane], None);

@@ -1,7 +1,8 @@
 //! Strain of the elements.
 
 use super::{
-    Declaration, FIBRE, Figure, Kind, Measure, Observer, Over, PERCENT, Seen, Value, fixed, of_each,
+    Aggregate, Declaration, FIBRE, Figure, Kind, Measure, Observation, Observer, PERCENT, Value, fixed,
+    of_each,
 };
 use crate::fibre::Root;
 use crate::flight::Flight;
@@ -17,7 +18,7 @@ pub(super) const USUAL: Declaration = Declaration {
         "strain of the element at the root that is not exceeded for 99 % of the time after the spin-up. It is averaged \
          over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over the output interval if \
          that is longer. It hardly depends on the time step; compare it with the strain that the polymer can take",
-        Over::Mean,
+        Aggregate::Mean,
         "99 % of the time",
     )],
     applies: |case| case.fibre.root != Root::Free,
@@ -32,7 +33,7 @@ pub(super) const LARGEST: Declaration = Declaration {
         "largest absolute strain of any element at all recorded instants, the start included. The fibre starts without \
          tension, so axial waves run along it at first. Implicit tension damps those that are fast compared with the \
          time step, and the value then decreases with the step; it also depends on duration and output interval",
-        Over::Largest,
+        Aggregate::Largest,
         "largest",
     )],
     applies: fixed,
@@ -43,7 +44,7 @@ const fn measure(
     name: &'static str,
     label: &'static str,
     meaning: &'static str,
-    over_replicates: Over,
+    over_replicates: Aggregate,
     series: &'static str,
 ) -> Measure {
     let figure = &Figure {
@@ -112,7 +113,7 @@ fn mean((from, before): &(f64, Lanes), (to, after): &(f64, Lanes), lane: usize) 
 }
 
 impl Observer for Averaged {
-    fn see(&mut self, seen: &Seen<'_>) {
+    fn see(&mut self, seen: &Observation<'_>) {
         if seen.settled {
             self.add(seen.snapshot.time, seen.snapshot.root_strain_integral);
         }
@@ -128,7 +129,7 @@ impl Observer for Averaged {
 struct Largest(Lanes);
 
 impl Observer for Largest {
-    fn see(&mut self, seen: &Seen<'_>) {
+    fn see(&mut self, seen: &Observation<'_>) {
         let now = seen.snapshot.energy.strain;
         self.0 = Lanes::from_fn(|lane| self.0.0[lane].max(now.0[lane]));
     }

@@ -38,7 +38,7 @@ pub struct Header {
 
 /// The content of an opened journal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Found {
+pub struct JournalState {
     /// Replicates.
     pub fibres: u64,
     /// Records with a wrong checksum.
@@ -148,18 +148,23 @@ impl Journal {
     ///
     /// # Errors
     /// When the file cannot be read or shortened.
-    pub fn go_on(&mut self, points: usize, most_replicates: u64, numbers: usize) -> Result<Found, Error> {
+    pub fn go_on(
+        &mut self,
+        points: usize,
+        most_replicates: u64,
+        numbers: usize,
+    ) -> Result<JournalState, Error> {
         self.numbers = numbers.max(FEWEST);
         let length_of_record = self.record();
         let Backing::File { file, path, start } = &mut self.backing else {
-            return Ok(Found::default());
+            return Ok(JournalState::default());
         };
         let start = *start;
         let failed = |source| unusable(path, &source);
         file.seek(SeekFrom::Start(start)).map_err(failed)?;
         self.slots = vec![Vec::new(); points];
         self.records = 0;
-        let mut found = Found::default();
+        let mut found = JournalState::default();
         // Number of records up to the last valid one.
         let mut sound = 0;
         let mut reader = BufReader::with_capacity(1 << 16, file);

@@ -94,10 +94,10 @@ pub fn identify(sigmas: [f64; 2], step: f64, correlations: [&[f64]; 2]) -> Resul
         return Err(Unidentified::Ratio { ratio });
     }
     let wanted = [
-        Wanted::of(sigmas[0], sigmas[1], step, correlations[0])?,
-        Wanted::of(sigmas[1], sigmas[0], step, correlations[1])?,
+        FitTarget::of(sigmas[0], sigmas[1], step, correlations[0])?,
+        FitTarget::of(sigmas[1], sigmas[0], step, correlations[1])?,
     ];
-    if wanted.iter().any(Wanted::goes_on) {
+    if wanted.iter().any(FitTarget::goes_on) {
         return Err(Unidentified::NotDecaying);
     }
     let middle = (sigmas[0] * sigmas[1]).sqrt();
@@ -165,7 +165,7 @@ impl Surrogate {
 }
 
 /// The measured autocorrelation of one coordinate within the range of the fit.
-struct Wanted {
+struct FitTarget {
     /// σ of the coordinate [m].
     own: f64,
     /// σ of the other one over its own.
@@ -174,7 +174,7 @@ struct Wanted {
     coefficients: Vec<(f64, f64)>,
 }
 
-impl Wanted {
+impl FitTarget {
     fn of(own: f64, other: f64, step: f64, correlation: &[f64]) -> Result<Self, Unidentified> {
         let lags = correlation.iter().enumerate().map(|(lag, c)| (lag as f64 * step / own, *c));
         let coefficients: Vec<(f64, f64)> =
@@ -202,7 +202,7 @@ impl Wanted {
 ///
 /// * `logarithms` – of the relative noises
 fn products(
-    wanted: &[Wanted; 2],
+    wanted: &[FitTarget; 2],
     middle: f64,
     logarithms: &[f64; WIDTH],
     size: Size,
@@ -232,7 +232,7 @@ struct Fit {
 }
 
 impl Fit {
-    fn between(low: f64, high: f64, wanted: &[Wanted; 2], middle: f64) -> Self {
+    fn between(low: f64, high: f64, wanted: &[FitTarget; 2], middle: f64) -> Self {
         let angle = |i: usize| std::f64::consts::PI * (i as f64 + 0.5) / WIDTH as f64;
         let points = from_fn(|i| 0.5 * (low + high) - 0.5 * (high - low) * libm::cos(angle(i)));
         let products = products(wanted, middle, &points, Size::for_noise(libm::exp(low)));

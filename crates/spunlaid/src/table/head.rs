@@ -1,7 +1,7 @@
 //! The name and the unit in the header of a column.
 
 use crate::error::{Fault, FileError};
-use crate::units::{Dimension, Wanted, excerpt};
+use crate::units::{Dimension, UnitAdvice, excerpt};
 
 /// The header of a column, split into name and unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,7 +75,7 @@ impl Head {
                 Some(factor) => return Ok(factor),
                 None => Fault::new(
                     format!("has the unit \"{}\"", excerpt(unit, 20)),
-                    format!("{} is needed", Wanted(dimension)),
+                    format!("{} is needed", UnitAdvice(dimension)),
                 ),
             },
         };

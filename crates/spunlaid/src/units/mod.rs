@@ -65,9 +65,9 @@ const ALL: [Dimension; 14] = [
 
 /// Shows what to write for a dimension: `a length with its unit: m, cm, mm, µm or nm`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Wanted(pub Dimension);
+pub struct UnitAdvice(pub Dimension);
 
-impl fmt::Display for Wanted {
+impl fmt::Display for UnitAdvice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.0 == Dimension::Ratio {
             return f.write_str("a plain number like 0.1, or a percentage like \"10 %\"");
@@ -122,7 +122,7 @@ impl Dimension {
 
     /// The fault of a number without a unit.
     pub(crate) fn no_unit(self) -> Fault {
-        Fault::new("has no unit", format!("write {}", Wanted(self)))
+        Fault::new("has no unit", format!("write {}", UnitAdvice(self)))
     }
 
     /// Reads a quantity such as `50 µm` into SI units.
@@ -133,7 +133,7 @@ impl Dimension {
     /// # Errors
     /// If the text is not a finite number followed by a unit of this dimension.
     pub fn parse(self, text: &str) -> Result<f64, Fault> {
-        let wrong = |message: Cow<'static, str>| Fault::new(message, format!("write {}", Wanted(self)));
+        let wrong = |message: Cow<'static, str>| Fault::new(message, format!("write {}", UnitAdvice(self)));
         let text = text.trim();
         let (number, rest) = split_number(text);
         if number.is_empty() {

@@ -1,7 +1,7 @@
 //! Everything that is found out about a web.
 
 use super::clouds::{Clouds, autocorrelation};
-use super::lay::{Laid, Laying, lay, places};
+use super::lay::{LaidWeb, Laying, lay, places};
 use super::map::Map;
 use super::one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
@@ -19,7 +19,7 @@ use std::sync::atomic::AtomicU64;
 #[derive(Clone, Debug)]
 pub struct Findings {
     /// The map of the basis weight, and what was cut off at the edges.
-    pub laid: Laid,
+    pub laid: LaidWeb,
     /// Widths of the strips at the edges in cross direction, the first columns and the last ones, where the web is thinner and of which nothing below tells [m].
     /// They reach 3 σ_CD inwards of the outermost place of a filament; a web with periodic edges has none.
     pub margins: [f64; 2],

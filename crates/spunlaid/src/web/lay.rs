@@ -30,7 +30,7 @@ pub struct Laying<'a> {
 
 /// What has been laid.
 #[derive(Clone, Debug)]
-pub struct Laid {
+pub struct LaidWeb {
     /// The basis weight.
     pub map: Map,
     /// Mass beyond edges that cut it off [kg].
@@ -339,7 +339,7 @@ pub fn pieces(web: &Web) -> Result<u64, Error> {
 ///
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.
-pub fn lay(web: &Web, by: Laying<'_>) -> Result<Laid, Error> {
+pub fn lay(web: &Web, by: Laying<'_>) -> Result<LaidWeb, Error> {
     let sheet = &web.sheet;
     let [columns, rows] = sheet.cells();
     let mut plans = plans(web)?;
@@ -383,7 +383,7 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<Laid, Error> {
         );
         return Err(Fault::new(message, "choose smaller cells (web.cell)").into());
     }
-    Ok(Laid { map, cut: cut as f64 * quantum })
+    Ok(LaidWeb { map, cut: cut as f64 * quantum })
 }
 
 /// The fault of a layer without filaments or without fibre.

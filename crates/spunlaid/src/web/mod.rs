@@ -25,7 +25,7 @@ mod whole_error;
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
 pub use findings::{Findings, PatchFindings, find, measure};
-pub use lay::{Laid, Laying, lay, pieces};
+pub use lay::{LaidWeb, Laying, lay, pieces};
 pub use map::Map;
 pub use one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};

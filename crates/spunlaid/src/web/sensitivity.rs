@@ -73,7 +73,7 @@ impl Lever {
             .clone()
             .find(|fibres| matches!(fibres, Fibres::Curves(curves) if long_enough(curves)))
             .and_then(both)
-            .map(|both| (Source::Flown, both));
+            .map(|both| (Source::FlownFibres, both));
         let surrogate = || {
             let of = fibres.clone().find(|fibres| matches!(fibres, Fibres::Surrogate(_)))?;
             Some((Source::Surrogate, both(of)?))
@@ -89,7 +89,7 @@ impl Lever {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// The curves that were flown, each with the number before and after. For the speed of the belt see [`Curves::on_belt`].
-    Flown,
+    FlownFibres,
     /// Paths of the surrogate.
     Surrogate,
     /// A law that holds for all curves.
@@ -100,7 +100,7 @@ impl Source {
     /// Name in results: `flown`.
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Flown => "flown",
+            Self::FlownFibres => "flown",
             Self::Surrogate => "surrogate",
             Self::Law => "law",
         }

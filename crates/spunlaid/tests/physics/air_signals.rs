@@ -1,7 +1,9 @@
 //! Turbulence beyond the paper's: spectra by name and from tables, convected eddies, and fluctuations from a record.
 
 use crate::common::*;
-use spunlaid::air::{APART, Air, Eddies, EddyModel, FromFile, Measured, Said, SpectrumShape, SpectrumTable};
+use spunlaid::air::{
+    APART, Air, Eddies, EddyModel, FromFile, Measured, RecordNumbers, SpectrumShape, SpectrumTable,
+};
 use spunlaid::air::{Stream, StreamKey, Wind};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::statistics::{Welch, Window};
@@ -197,7 +199,7 @@ fn record(components: usize, samples: usize) -> FromFile<Measured> {
     let values: Vec<Vec<f64>> =
         (0..components).map(|c| (0..samples).map(|i| value(c, i)).collect()).collect();
     let views: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-    let measured = Measured::new(1e-3, &views, 2e-3, Said::default());
+    let measured = Measured::new(1e-3, &views, 2e-3, RecordNumbers::default());
     FromFile::new(PathBuf::from("probe.csv"), 7, Arc::new(measured))
 }
 
@@ -245,7 +247,7 @@ fn identical_samples_of_the_record_in_stretches_far_apart() {
 #[test]
 fn analytic_between_samples_parabolas_are_exact() {
     let values: Vec<f64> = (0..4000).map(|i| (f64::from(i) - 1700.0).powi(2)).collect();
-    let measured = Measured::new(1e-3, &[&values], 1e-3, Said::default());
+    let measured = Measured::new(1e-3, &[&values], 1e-3, RecordNumbers::default());
     let (mean, rms) = {
         let mean = values.iter().sum::<f64>() / 4000.0;
         (mean, (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / 4000.0).sqrt())

@@ -193,9 +193,9 @@ fn rejects_a_flight_that_diverges() {
 
 /// What a recorder is told: how often each replicate began to fly, and its instants since it began last.
 #[derive(Debug, Default)]
-struct Told(Mutex<BTreeMap<u64, (u32, Vec<Sample>)>>);
+struct RecordedSamples(Mutex<BTreeMap<u64, (u32, Vec<Sample>)>>);
 
-impl Recorder for Told {
+impl Recorder for RecordedSamples {
     fn begin(&self, replicate: u64) {
         let mut told = self.0.lock().unwrap();
         let begun = told.get(&replicate).map_or(0, |(begun, _)| *begun);
@@ -243,7 +243,8 @@ replicates = 12
     );
     let (case, _) = parse_case(&text, "case.toml", &[]).unwrap();
     for threads in [1, 2] {
-        let (stop, fibre_steps, told) = (AtomicBool::new(false), AtomicU64::new(0), Told::default());
+        let (stop, fibre_steps, told) =
+            (AtomicBool::new(false), AtomicU64::new(0), RecordedSamples::default());
         let computing = Computing {
             threads,
             isa: Isa::detect(),

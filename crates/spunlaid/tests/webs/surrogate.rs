@@ -1,7 +1,7 @@
 //! The surrogate: its autocorrelation against series and simulation, its paths, and the way back from a laid curve to it.
 
 use spunlaid::lanes::{Isa, Lanes};
-use spunlaid::laydown::{Laid, Trace, Tracing};
+use spunlaid::laydown::{LaidCurve, Trace, Tracing};
 use spunlaid::surrogate::{PathKey, Paths, Surrogate, Unidentified, identify};
 
 const SIGMA: f64 = 0.018;
@@ -16,7 +16,7 @@ fn keys(seed: u64) -> Vec<PathKey> {
 }
 
 /// Eight paths of `points` points, 1 mm apart, laid on a belt of ratio 0.06.
-fn laid(of: Surrogate, seed: u64, points: usize) -> Vec<Laid> {
+fn laid(of: Surrogate, seed: u64, points: usize) -> Vec<LaidCurve> {
     const STEP: f64 = 1e-3;
     const RATIO: f64 = 0.06;
     let mut paths = Paths::new(Isa::detect(), of, STEP, &keys(seed)).unwrap();
@@ -92,11 +92,12 @@ fn published_integral_length_with_little_noise() {
 fn stat_autocorrelation_of_paths_is_that_of_the_generator() {
     for (ratio, noise) in [(1.0, 5.0), (1.0, 12.4), (2.5, 8.0), (0.25, 9.0)] {
         let of = surrogate(ratio, noise);
-        let laid: Vec<Laid> = (0..3).flat_map(|seed| laid(of, seed, 100_000)).collect();
+        let laid: Vec<LaidCurve> = (0..3).flat_map(|seed| laid(of, seed, 100_000)).collect();
         let lags = laid[0].correlation_md.len();
         let [md, cd] = of.autocorrelation(laid[0].lag_step, lags).unwrap();
         for lag in [lags / 24, lags / 12, lags / 6, lags / 3, lags / 2] {
-            let values = |of: fn(&Laid) -> &Vec<f64>| laid.iter().map(|l| of(l)[lag]).collect::<Vec<_>>();
+            let values =
+                |of: fn(&LaidCurve) -> &Vec<f64>| laid.iter().map(|l| of(l)[lag]).collect::<Vec<_>>();
             for (values, wanted) in
                 [(values(|l| &l.correlation_md), md[lag]), (values(|l| &l.correlation_cd), cd[lag])]
             {
@@ -117,8 +118,8 @@ fn stat_autocorrelation_of_paths_is_that_of_the_generator() {
 fn stat_paths_are_stationary() {
     for ratio in [1.0, 2.0] {
         let of = surrogate(ratio, 10.0);
-        let laid: Vec<Laid> = (0..8).flat_map(|seed| laid(of, seed, 200_000)).collect();
-        let near = |value: fn(&Laid) -> f64, wanted: f64, bias: f64| {
+        let laid: Vec<LaidCurve> = (0..8).flat_map(|seed| laid(of, seed, 200_000)).collect();
+        let near = |value: fn(&LaidCurve) -> f64, wanted: f64, bias: f64| {
             let (mean, error) = estimate(&laid.iter().map(value).collect::<Vec<_>>());
             assert!((mean - wanted).abs() < 4.0 * error + bias, "{ratio}: {mean} ± {error}, {wanted}");
         };

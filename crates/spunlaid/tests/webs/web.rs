@@ -5,8 +5,8 @@ use spunlaid::lanes::Isa;
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::uniformity::unevenness;
 use spunlaid::web::{
-    Curves, Edges, Fibres, Filaments, Laid, Layer, Laying, Lever, Map, OneFibre, Row, Sheet, Source, Strand,
-    Web, Window, find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
+    Curves, Edges, Fibres, Filaments, LaidWeb, Layer, Laying, Lever, Map, OneFibre, Row, Sheet, Source,
+    Strand, Web, Window, find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -32,12 +32,12 @@ fn layer(fibres: Fibres, per_metre: f64) -> Layer {
     }
 }
 
-fn laid_by(web: &Web, isa: Isa, threads: usize) -> Laid {
+fn laid_by(web: &Web, isa: Isa, threads: usize) -> LaidWeb {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
     lay(web, Laying { threads, isa, stop: &stop, laid: &laid }).expect("a web that can be laid")
 }
 
-fn laid(web: &Web) -> Laid {
+fn laid(web: &Web) -> LaidWeb {
     laid_by(web, Isa::detect(), 2)
 }
 
@@ -313,7 +313,7 @@ fn the_error_of_a_surrogates_map_reaches_to_the_flown_curves() {
             for of in &found.sensitivities {
                 let told = of.elasticity[i].is_some();
                 let source = match of.lever {
-                    Lever::BeltSpeed => Source::Flown,
+                    Lever::BeltSpeed => Source::FlownFibres,
                     Lever::Filaments => Source::Law,
                     _ => Source::Surrogate,
                 };
@@ -336,5 +336,7 @@ fn the_whole_error_of_a_surrogate_alone_is_not_known() {
     let error = patch.whole_error();
     assert!(error.chance.is_some() && error.model.is_none() && error.whole().is_none(), "{error:?}");
     assert!(patch.flown.is_none() && patch.surrogate.is_some() && !patch.surrogate_is_far());
-    assert!(found.sensitivities.iter().all(|of| of.source != Source::Flown && of.elasticity[0].is_some()));
+    assert!(
+        found.sensitivities.iter().all(|of| of.source != Source::FlownFibres && of.elasticity[0].is_some())
+    );
 }

@@ -13,7 +13,7 @@ use spunlaid::error::{Error, Fault};
 use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, write_experiment};
 use spunlaid::lanes::Isa;
 use spunlaid::study::{Journal, Landing, Progress, Study, run};
-use spunlaid_results::folders::study::{State, StudyFolder, Written};
+use spunlaid_results::folders::study::{State, StudyFolder, StudyResults};
 use spunlaid_results::numbers::lost_of;
 use std::fs;
 use std::sync::atomic::AtomicU64;
@@ -132,7 +132,7 @@ fn write(
 ) -> Result<(), Failure> {
     let study = &file.study;
     let name = stem(&sweep.study, "study").to_string_lossy();
-    let Written { results, refusal } = folder.write(&name, file, journal)?;
+    let StudyResults { results, refusal } = folder.write(&name, file, journal)?;
     let flown: u64 = results.iter().map(|point| point.n + point.lost).sum();
     if sweep.json {
         let path = folder.path().join("results.json");

@@ -8,8 +8,8 @@ use super::clock::Clock;
 use super::document::{Document, complaints};
 use super::fibres::Fibres;
 use super::frame::{Frame, Lately};
-use super::measured::Measured;
-use super::message::{Answer, Asked, Complaint, Pace};
+use super::measured::Statistics;
+use super::message::{Answer, Command, Complaint, Pace};
 use spunlaid::error::Error;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -29,9 +29,9 @@ const MOST_HEARD: usize = 256;
 
 /// A message of a page.
 #[derive(Debug)]
-pub(super) struct Ask {
+pub(super) struct PageRequest {
     pub(super) from: Page,
-    pub(super) asked: Asked,
+    pub(super) asked: Command,
 }
 
 /// A flight that pages look at.
@@ -42,7 +42,7 @@ pub(super) struct Session {
     /// What is to be said of the scheme, as long as it is not the one of the file.
     remark: Option<String>,
     fibres: Fibres,
-    measured: Measured,
+    measured: Statistics,
     lately: Lately,
     clock: Clock,
     stands: bool,
@@ -79,7 +79,7 @@ impl Session {
             clock.pace = Pace::Tenth;
         }
         let mut session = Self {
-            measured: Measured::new(fibres.case(), fibres.flight()),
+            measured: Statistics::new(fibres.case(), fibres.flight()),
             document,
             notes: read.warnings,
             remark,
@@ -105,7 +105,7 @@ impl Session {
     }
 
     /// Flies until there is nobody any more who could ask.
-    pub(super) fn fly(mut self, asks: &mpsc::Receiver<Ask>) {
+    pub(super) fn fly(mut self, asks: &mpsc::Receiver<PageRequest>) {
         loop {
             if self.is_idle() {
                 let Ok(ask) = asks.recv() else { return };
@@ -132,7 +132,7 @@ impl Session {
     }
 
     /// Hears a message, and all that have come after it.
-    fn hear(&mut self, first: Ask, asks: &mpsc::Receiver<Ask>) {
+    fn hear(&mut self, first: PageRequest, asks: &mpsc::Receiver<PageRequest>) {
         let mut heard = vec![first];
         while heard.len() < MOST_HEARD
             && let Ok(ask) = asks.try_recv()
@@ -141,15 +141,15 @@ impl Session {
         }
         let mut changed = false;
         for i in 0..heard.len() {
-            let Ask { from, asked } = &heard[i];
+            let PageRequest { from, asked } = &heard[i];
             // Of several values of one key that came at once, only the last counts; each gets its answer.
-            let replaced = matches!(asked, Asked::Set { key, .. }
-                if heard[i + 1..].iter().any(|later| matches!(&later.asked, Asked::Set { key: other, .. } if other == key)));
+            let replaced = matches!(asked, Command::Set { key, .. }
+                if heard[i + 1..].iter().any(|later| matches!(&later.asked, Command::Set { key: other, .. } if other == key)));
             let answer = match asked {
-                Asked::Set { stamp, .. } if replaced => {
+                Command::Set { stamp, .. } if replaced => {
                     Some(Answer::Applied { stamp: *stamp, generation: self.generation + 1 })
                 }
-                Asked::Look { visible } => {
+                Command::Look { visible } => {
                     if *visible {
                         self.pages.insert(*from)
                     } else {
@@ -223,7 +223,7 @@ fn seen(
     steps: u64,
     since: f64,
     lately: &mut Lately,
-    measured: &mut Measured,
+    measured: &mut Statistics,
 ) -> Result<(), Error> {
     fibres.fly(steps, |instant| {
         lately.add(since + instant.snapshot.time, instant.snapshot, &instant.laid[0]);

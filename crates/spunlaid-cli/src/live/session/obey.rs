@@ -2,8 +2,8 @@
 
 use super::Session;
 use crate::live::document::{Document, complaints};
-use crate::live::measured::Measured;
-use crate::live::message::{Answer, Asked, Given};
+use crate::live::measured::Statistics;
+use crate::live::message::{Answer, Command, KeyValue};
 use crate::live::save;
 use spunlaid::case::keys::{self, Key, Kind};
 use spunlaid::units::Dimension;
@@ -14,35 +14,35 @@ impl Session {
     ///
     /// # Errors
     /// The answer that refuses it.
-    pub(super) fn obey(&mut self, asked: &Asked) -> Result<Option<Answer>, Answer> {
+    pub(super) fn obey(&mut self, asked: &Command) -> Result<Option<Answer>, Answer> {
         match asked {
-            Asked::Set { key, value, stamp } => {
+            Command::Set { key, value, stamp } => {
                 let document = self.with(key, value)?;
                 self.become_of(document)?;
                 return Ok(Some(Answer::Applied { stamp: *stamp, generation: self.generation }));
             }
-            Asked::Case { text } => self.become_of(self.document.with_text(text.clone()))?,
-            Asked::Pace { pace } => {
+            Command::Case { text } => self.become_of(self.document.with_text(text.clone()))?,
+            Command::Pace { pace } => {
                 self.clock.pace = *pace;
                 self.clock.begin(Instant::now());
             }
-            Asked::Pause {} => self.stands = true,
-            Asked::Go {} => {
+            Command::Pause {} => self.stands = true,
+            Command::Go {} => {
                 self.stands = false;
                 self.clock.begin(Instant::now());
             }
-            Asked::Step {} => {
+            Command::Step {} => {
                 self.stands = true;
                 self.step();
             }
-            Asked::Reset {} => {
+            Command::Reset {} => {
                 self.fibres.reset().map_err(|error| Answer::Refused { problems: complaints(&error) })?;
                 self.since = 0.0;
                 self.began_anew();
             }
-            Asked::Forget {} => self.changed(),
-            Asked::Look { .. } => {}
-            Asked::Save { name, replace } => {
+            Command::Forget {} => self.changed(),
+            Command::Look { .. } => {}
+            Command::Save { name, replace } => {
                 let name = save::plain_name(name).map_err(Answer::refused)?;
                 let text = self.document.to_save();
                 save::save(&self.folder, &name, &text, *replace)?;
@@ -54,7 +54,7 @@ impl Session {
     }
 
     /// The document with another value of a key.
-    fn with(&self, name: &str, value: &Given) -> Result<Document, Answer> {
+    fn with(&self, name: &str, value: &KeyValue) -> Result<Document, Answer> {
         let key = keys::named(name).map_err(|problem| Answer::refused(problem.to_string()))?;
         let refused = |problems| Answer::Refused { problems };
         let written = toml_of(key, value).map_err(Answer::refused)?;
@@ -90,27 +90,31 @@ impl Session {
     /// Begins the statistics of the next generation.
     pub(super) fn changed(&mut self) {
         self.generation = self.generation.wrapping_add(1);
-        self.measured = Measured::new(self.fibres.case(), self.fibres.flight());
+        self.measured = Statistics::new(self.fibres.case(), self.fibres.flight());
         self.clock.begin(Instant::now());
     }
 }
 
 /// A value as a case file has it: a number gets the unit of its key.
-fn toml_of(key: &Key, value: &Given) -> Result<toml_edit::Value, String> {
+fn toml_of(key: &Key, value: &KeyValue) -> Result<toml_edit::Value, String> {
     match (value, &key.kind) {
-        (Given::Number(number), _) if !number.is_finite() => Err("the number is not finite".to_owned()),
-        (Given::Number(number), Kind::Quantity(Dimension::Ratio, _)) => Ok((*number).into()),
-        (Given::Number(number), Kind::Quantity(dimension, _)) => Ok(dimension.pretty_to(*number, 6).into()),
-        (Given::Number(number), Kind::Whole(..)) if number.fract() == 0.0 && (0.0..9e15).contains(number) => {
+        (KeyValue::Number(number), _) if !number.is_finite() => Err("the number is not finite".to_owned()),
+        (KeyValue::Number(number), Kind::Quantity(Dimension::Ratio, _)) => Ok((*number).into()),
+        (KeyValue::Number(number), Kind::Quantity(dimension, _)) => {
+            Ok(dimension.pretty_to(*number, 6).into())
+        }
+        (KeyValue::Number(number), Kind::Whole(..))
+            if number.fract() == 0.0 && (0.0..9e15).contains(number) =>
+        {
             Ok((*number as i64).into())
         }
-        (Given::Text(text), Kind::Quantity(Dimension::Ratio, _)) => {
+        (KeyValue::Text(text), Kind::Quantity(Dimension::Ratio, _)) => {
             Ok(text.trim().parse::<f64>().map_or_else(|_| text.trim().into(), Into::into))
         }
-        (Given::Text(text), Kind::Whole(..)) => {
+        (KeyValue::Text(text), Kind::Whole(..)) => {
             Ok(text.trim().parse::<i64>().map_or_else(|_| text.trim().into(), Into::into))
         }
-        (Given::Text(text), _) => Ok(text.trim().into()),
+        (KeyValue::Text(text), _) => Ok(text.trim().into()),
         _ => Err(format!("{} takes {}", key.name, key.allowed())),
     }
 }

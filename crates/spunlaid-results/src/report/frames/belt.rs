@@ -1,7 +1,7 @@
 //! A fed fibre above its moving belt as data of the page. Every node keeps its number in the order of feed, so that the
 //! page can follow it from one instant to the next, although the number of nodes changes.
 
-use super::data::{Belt, Data, Frames, Laid, POSITIONS, encode};
+use super::data::{Belt, Data, Frames, LaidPoints, POSITIONS, encode};
 use crate::report::words::{count, time};
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Results, Trajectory};
@@ -22,7 +22,7 @@ const SHOWN: (f64, f64) = (0.6, 3.0);
 const WIDTHS: f64 = 4.0;
 
 /// The nodes of a run that are shown: each `stride`-th in the order of feed.
-struct Chosen<'a> {
+struct NodeChoice<'a> {
     case: &'a Case,
     line: Line,
     stride: u64,
@@ -32,7 +32,7 @@ struct Chosen<'a> {
     shown: f64,
 }
 
-impl Chosen<'_> {
+impl NodeChoice<'_> {
     /// Number of the root at a time.
     fn root(&self, time: f64) -> u64 {
         let step = (time / self.case.run.time_step).round() as u64;
@@ -68,7 +68,7 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames>
     let nodes = shapes.iter().flat_map(|shape| &shape.position).map(|p| p.z.abs());
     let aside = nodes.filter(|z| z.is_finite()).fold(0.0, f64::max);
     let shown = (WIDTHS * aside).clamp(SHOWN.0 * line.distance, SHOWN.1 * line.distance);
-    let chosen = Chosen { case, line, stride: longest.div_ceil(NODES) as u64, first_root, shown };
+    let chosen = NodeChoice { case, line, stride: longest.div_ceil(NODES) as u64, first_root, shown };
     let nodes = longest / chosen.stride as usize + 1;
     let replicates = (POSITIONS / (nodes * INSTANTS)).clamp(1, REPLICATES);
     let trajectories: Vec<&Trajectory> =
@@ -106,7 +106,7 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames>
 }
 
 /// The last instants at which the laid points that are kept go on where the fibre in the air ends, in all replicates.
-fn instants(chosen: &Chosen<'_>, trajectories: &[&Trajectory], most: usize) -> std::ops::Range<usize> {
+fn instants(chosen: &NodeChoice<'_>, trajectories: &[&Trajectory], most: usize) -> std::ops::Range<usize> {
     let goes_on = |instant: usize| {
         trajectories.iter().all(|t| {
             let number = |point: Option<&spunlaid::flight::LaidPoint>| point.map(|p| chosen.number(p.fed));
@@ -130,7 +130,7 @@ fn instants(chosen: &Chosen<'_>, trajectories: &[&Trajectory], most: usize) -> s
 }
 
 /// The laid points that can be seen between the first and the last of the times.
-fn laid(chosen: &Chosen<'_>, of: &Trajectory, times: &[f64]) -> Laid {
+fn laid(chosen: &NodeChoice<'_>, of: &Trajectory, times: &[f64]) -> LaidPoints {
     let seen = chosen.shown / chosen.line.belt_speed;
     let from = times.first().map_or(0.0, |time| time - 1.5 * seen);
     let points =
@@ -138,5 +138,5 @@ fn laid(chosen: &Chosen<'_>, of: &Trajectory, times: &[f64]) -> Laid {
     let points: Vec<_> = points.take(LAID).collect();
     let first = points.first().map_or(0, |p| chosen.number(p.fed) / chosen.stride);
     let numbers = points.iter().flat_map(|p| [p.md, p.cd]).map(|v| (v * 1e3) as f32);
-    Laid { first, points: encode(&numbers.flat_map(f32::to_le_bytes).collect::<Vec<u8>>()) }
+    LaidPoints { first, points: encode(&numbers.flat_map(f32::to_le_bytes).collect::<Vec<u8>>()) }
 }

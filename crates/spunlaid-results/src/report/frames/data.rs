@@ -94,12 +94,12 @@ pub(super) struct Belt {
     pub(super) newest: Vec<u64>,
     /// Number of nodes of each replicate at each instant.
     pub(super) counts: Vec<Vec<usize>>,
-    pub(super) laid: Vec<Laid>,
+    pub(super) laid: Vec<LaidPoints>,
 }
 
 /// What a replicate has laid.
 #[derive(Serialize)]
-pub(super) struct Laid {
+pub(super) struct LaidPoints {
     /// Number of its first point.
     pub(super) first: u64,
     /// Base64 of pairs of 32-bit numbers, low byte first: place on the belt in machine and cross direction [mm].

@@ -3,7 +3,7 @@
 use crate::air::{FromFile, Measured, Profile, SpectrumTable};
 use crate::error::{Fault, one_of};
 use crate::field::Field;
-use crate::units::{Dimension, Wanted, shortest};
+use crate::units::{Dimension, UnitAdvice, shortest};
 use crate::vec3::Vec3;
 use std::path::{Path, PathBuf};
 
@@ -272,7 +272,7 @@ impl Kind {
     /// In words, what to write.
     pub(crate) fn wanted(&self) -> String {
         match self {
-            Self::Quantity(dimension, _) => Wanted(*dimension).to_string(),
+            Self::Quantity(dimension, _) => UnitAdvice(*dimension).to_string(),
             Self::Whole(..) => "a whole number without quotes, like 10".to_owned(),
             Self::Choice(_) => one_of(&self.names()),
             Self::Text(example) => format!("a text like \"{example}\""),

@@ -42,13 +42,13 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
         let below = motion.correct(i);
         let pull = Pull { change: below.change - above.change, last: below.last - above.last };
         let (kick, mut tension) = motion.kick(i, &pull);
-        if FED {
+        if FED && motion.c.may_be_held(i, nodes) {
             tension -= motion.hold(i, &pull, &kick);
         }
         motion.enter(&kick, tension);
-        motion.drift(i, &kick);
+        let here = motion.drift(i, &kick);
         if FED {
-            motion.measure(i, natural_above);
+            motion.measure(i, here, natural_above);
         }
         above = below;
     }
@@ -129,13 +129,10 @@ impl<S: Register, const FED: bool> Motion<'_, S, FED> {
         (Kick { force, drag: Vec3::load(&link.drag), damping, before, after }, tension)
     }
 
-    /// What holds a node at the inlet or on the belt [N].
+    /// What holds a node that the inlet or the belt may hold [N].
     #[inline(always)]
     fn hold(&mut self, i: usize, pull: &Pull<S>, kick: &Kick<S>) -> Vec3<Wide<S>> {
         let nodes = self.position.len();
-        if !self.c.may_be_held(i, nodes) {
-            return Vec3::zero();
-        }
         let unexplained = kick.force - Vec3::load(&self.t.links[i].force) - pull.change;
         let mut free = Wide::load(&self.c.node(i, nodes).inverse_mass);
         if let Some(laying) = self.laying {
@@ -158,20 +155,21 @@ impl<S: Register, const FED: bool> Motion<'_, S, FED> {
         self.work.enter_tension(tension, kick);
     }
 
-    /// Moves the node on.
+    /// Moves the node on; returns its position.
     #[inline(always)]
-    fn drift(&mut self, i: usize, kick: &Kick<S>) {
+    fn drift(&mut self, i: usize, kick: &Kick<S>) -> Vec3<Wide<S>> {
         self.earlier[i] = kick.before.store();
         self.velocity[i] = kick.after.store();
-        self.position[i] = kick.after.mul_add(self.h, Vec3::load(&self.position[i])).store();
+        let here = kick.after.mul_add(self.h, Vec3::load(&self.position[i]));
+        self.position[i] = here.store();
+        here
     }
 
     /// Compares the element above a node with the length that belongs to its tension, unless it lies on the belt, where nothing
     /// can correct it.
     #[inline(always)]
-    fn measure(&mut self, i: usize, natural: Wide<S>) {
-        let here = Vec3::load(&self.position[i]);
-        let moves = self.h * Wide::load(&self.c.node(i, self.position.len()).inverse_mass);
+    fn measure(&mut self, i: usize, here: Vec3<Wide<S>>, natural: Wide<S>) {
+        let moves = Wide::load(&self.c.node(i, self.position.len()).inverse_mass);
         let edge = here - self.above.0;
         let off = edge.dot(edge) - natural * natural;
         let off = off.abs().max(self.furthest);

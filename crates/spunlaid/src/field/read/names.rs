@@ -135,15 +135,15 @@ impl Name {
 }
 
 /// Where a quantity is: its index in the list of arrays, and the value of its unit in SI units.
-pub(super) type Found = (usize, f64);
+pub(super) type ScaledColumn = (usize, f64);
 
 /// Where the velocity is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Velocity {
     /// An array of three components.
-    Vector(Found),
+    Vector(ScaledColumn),
     /// Three arrays, or two in a plane flow.
-    Components([Option<Found>; 3]),
+    Components([Option<ScaledColumn>; 3]),
 }
 
 /// The first of some names that exists.
@@ -152,7 +152,7 @@ fn first(
     wanted: &[&str],
     measure: Measure,
     fits: impl Fn(usize) -> bool,
-) -> Result<Option<Found>, FileError> {
+) -> Result<Option<ScaledColumn>, FileError> {
     for name in wanted {
         for (i, there) in names.iter().enumerate() {
             if fits(i)
@@ -199,14 +199,14 @@ pub(super) fn velocity(names: &[Name], components: &[usize]) -> Result<Option<Ve
 }
 
 /// Finds the coordinates. A plane flow may lack the third.
-pub(super) fn coordinates(names: &[Name]) -> Result<[Option<Found>; 3], FileError> {
+pub(super) fn coordinates(names: &[Name]) -> Result<[Option<ScaledColumn>; 3], FileError> {
     let mut best = [None; 3];
     for spelt in COORDINATES {
         let mut parts = [None; 3];
         for (part, name) in parts.iter_mut().zip(spelt) {
             *part = first(names, &[name], Measure::Length, |_| true)?;
         }
-        let count = |parts: &[Option<Found>; 3]| parts.iter().flatten().count();
+        let count = |parts: &[Option<ScaledColumn>; 3]| parts.iter().flatten().count();
         if count(&parts) > count(&best) {
             best = parts;
         }
@@ -219,7 +219,7 @@ pub(super) fn scalar(
     names: &[Name],
     components: &[usize],
     measure: Measure,
-) -> Result<Option<Found>, FileError> {
+) -> Result<Option<ScaledColumn>, FileError> {
     let wanted: &[&str] = match measure {
         Measure::K => &K,
         Measure::Epsilon => &EPSILON,
@@ -239,7 +239,7 @@ pub(super) fn used(names: &[Name]) -> Result<Vec<usize>, FileError> {
             return Err(fault::no_velocity(&found).into());
         }
     };
-    let mut used: Vec<Found> = coordinates(names)?.into_iter().chain(velocity).flatten().collect();
+    let mut used: Vec<ScaledColumn> = coordinates(names)?.into_iter().chain(velocity).flatten().collect();
     for measure in [Measure::K, Measure::Epsilon, Measure::Omega] {
         used.extend(scalar(names, &ones, measure)?);
     }

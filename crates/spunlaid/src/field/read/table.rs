@@ -2,7 +2,7 @@
 
 use super::array::{Array, Number, Source};
 use super::grid::Grid;
-use super::names::{self, Found, Measure, Name};
+use super::names::{self, Measure, Name, ScaledColumn};
 use super::piece::{Assembly, Piece, lacks};
 use crate::error::{Fault, FileError, FileKind, Position, listed};
 use crate::field::{Field, FieldWarning};
@@ -34,7 +34,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError
         columns.iter_mut().zip(numbers).for_each(|(column, number)| column.push(number));
     }
     let unit = length_unit(bytes)?;
-    let in_metres = |found: Option<Found>| found.map(|(column, factor)| (column, factor * unit));
+    let in_metres = |found: Option<ScaledColumn>| found.map(|(column, factor)| (column, factor * unit));
     let mut assembly = Assembly::new();
     assembly.add(piece(&names, &used, &columns, coordinates.map(in_metres)))?;
     let (mut field, mut warnings) = assembly.finish()?;
@@ -47,7 +47,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError
 }
 
 /// The columns of the coordinates. A plane flow may lack the third.
-fn coordinates(names: &[Name]) -> Result<[Option<Found>; 3], FileError> {
+fn coordinates(names: &[Name]) -> Result<[Option<ScaledColumn>; 3], FileError> {
     let columns = names::coordinates(names)?;
     let missing = ['x', 'y'].into_iter().zip(columns).find(|(_, column)| column.is_none());
     match missing {
@@ -82,11 +82,11 @@ fn piece<'a>(
     names: &[Name],
     used: &[usize],
     columns: &'a [Vec<f64>],
-    coordinates: [Option<Found>; 3],
+    coordinates: [Option<ScaledColumn>; 3],
 ) -> Piece<'a> {
     let rows = columns.first().map_or(0, Vec::len);
     let numbers = |column: usize| used.iter().position(|used| *used == column).map(|i| &columns[i]);
-    let along = |axis: Option<Found>, row: usize| {
+    let along = |axis: Option<ScaledColumn>, row: usize| {
         axis.and_then(|(column, factor)| Some(numbers(column)?[row] * factor)).unwrap_or(0.0)
     };
     let [x, y, z] = coordinates;

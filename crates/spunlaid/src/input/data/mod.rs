@@ -2,7 +2,7 @@
 
 mod profile;
 
-use crate::air::{FromFile, Measured, Profile, RecordLayout, Said, SpectrumTable};
+use crate::air::{FromFile, Measured, Profile, RecordLayout, RecordNumbers, SpectrumTable};
 use crate::error::{FileError, FileKind};
 use crate::field::{Field, FieldWarning, ReadField};
 use crate::file;
@@ -80,7 +80,7 @@ fn measured(record: Record) -> Result<Measured, FileError> {
     let analysis = analyse_fluctuation(&record, &Settings::default())?;
     let with_mean = analysis.has_mean();
     let said = |interval: &Interval| with_mean.then_some(interval.value);
-    let says = Said {
+    let says = RecordNumbers {
         velocity: said(&analysis.mean_velocity),
         turbulence_intensity: said(&analysis.turbulence_intensity),
         length_scale: said(&analysis.length_scale),

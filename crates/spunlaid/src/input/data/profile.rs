@@ -9,7 +9,7 @@ use crate::units::{Dimension, excerpt, shortest};
 const LEAST_ROWS: usize = 2;
 
 /// A column that a table may or must have.
-struct Wanted {
+struct ColumnRule {
     what: &'static str,
     names: &'static [&'static str],
     dimension: Dimension,
@@ -28,7 +28,7 @@ enum Sign {
 /// Reads a profile of the air: `x_m, velocity_m_s, turbulence_intensity, length_scale_m, cutoff_frequency_hz`; the
 /// last three are optional.
 pub(super) fn profile(text: &[u8]) -> Result<Profile, FileError> {
-    let column = |what, names, dimension, example, required, sign| Wanted {
+    let column = |what, names, dimension, example, required, sign| ColumnRule {
         what,
         names,
         dimension,
@@ -79,7 +79,7 @@ pub(super) fn profile(text: &[u8]) -> Result<Profile, FileError> {
 /// Reads a spectrum: `frequency_hz, energy`.
 pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
     let wanted = [
-        Wanted {
+        ColumnRule {
             what: "of frequencies",
             names: &["frequency", "f"],
             dimension: Dimension::Frequency,
@@ -87,7 +87,7 @@ pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
             required: true,
             sign: Sign::NotNegative,
         },
-        Wanted {
+        ColumnRule {
             what: "of energies",
             names: &["energy", "density", "psd", "e", "s"],
             // Only the shape counts, so that any unit will do.
@@ -107,7 +107,7 @@ pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
 /// The wanted columns in SI units; an optional column that is not there is empty. The first column must rise.
 fn read<const N: usize>(
     text: &[u8],
-    wanted: &[Wanted; N],
+    wanted: &[ColumnRule; N],
     example: &'static str,
 ) -> Result<[Vec<f64>; N], FileError> {
     let mut table = Table::open(text, FileKind::Table, 0)?;
@@ -164,7 +164,7 @@ fn read<const N: usize>(
 }
 
 /// Index of the column and the factor from its unit to SI.
-fn find(heads: &[Head], wanted: &Wanted) -> Result<Option<(usize, f64)>, FileError> {
+fn find(heads: &[Head], wanted: &ColumnRule) -> Result<Option<(usize, f64)>, FileError> {
     let named = heads.iter().enumerate();
     let matching: Vec<(usize, Option<&str>)> =
         named.filter_map(|(i, head)| Some((i, head.named(wanted.names)?))).collect();

@@ -4,9 +4,9 @@ use super::super::Overrides;
 use super::super::data::DataFiles;
 use super::super::document::Document;
 use super::super::open::{self, Open};
-use super::super::written::{Said, Written};
+use super::super::written::{WrittenValue, WrittenValues};
 use super::plan::Plan;
-use super::{Base, Made, Varied, level};
+use super::{Base, MadeExperiment, VariedKey, level};
 use crate::case::keys::{self, Value};
 use crate::case::{Note, Remark};
 use crate::error::{Error, Fault, Place, Problem};
@@ -30,11 +30,11 @@ impl CaseBase {
 }
 
 impl Base for CaseBase {
-    fn varied(&self, name: &str) -> Result<Varied, String> {
-        keys::find(name).filter(|key| key.varies).map(Varied::from).ok_or_else(|| advice(name))
+    fn varied(&self, name: &str) -> Result<VariedKey, String> {
+        keys::find(name).filter(|key| key.varies).map(VariedKey::from).ok_or_else(|| advice(name))
     }
 
-    fn value(&self, key: Varied) -> f64 {
+    fn value(&self, key: VariedKey) -> f64 {
         let value = keys::find(key.name).and_then(|found| {
             if key.words().is_empty() {
                 self.open.number(found)
@@ -53,13 +53,19 @@ impl Base for CaseBase {
         Study::quantities_of(&[])
     }
 
-    fn point(&self, values: &[(Varied, f64)], at: &Place, plan: &Plan, seed: Option<u64>) -> Made {
+    fn point(
+        &self,
+        values: &[(VariedKey, f64)],
+        at: &Place,
+        plan: &Plan,
+        seed: Option<u64>,
+    ) -> MadeExperiment {
         let (mut written, mut faults) = (self.open.written.clone(), Vec::new());
         for &(key, value) in values {
             let shown = Some(key.pretty(value));
             match value_of(key, value) {
                 Ok(value) => {
-                    written.set(key.name, Said { place: at.clone(), shown, value: Some(value) });
+                    written.set(key.name, WrittenValue { place: at.clone(), shown, value: Some(value) });
                 }
                 Err(what) => {
                     faults.push(Problem { place: at.clone(), key: key.name.to_owned(), value: shown, what });
@@ -73,7 +79,7 @@ impl Base for CaseBase {
         for (name, value) in [("run.seed", seed), ("run.replicates", plan.replicates.at_most)] {
             if let Some(key) = keys::find(name) {
                 let (shown, value) = (Some(value.to_string()), Some(Value::Whole(value)));
-                written.set(key.name, Said { place: at.clone(), shown, value });
+                written.set(key.name, WrittenValue { place: at.clone(), shown, value });
             }
         }
         let (opened, unneeded) = self.open(written, values);
@@ -94,7 +100,7 @@ impl Base for CaseBase {
 impl CaseBase {
     /// Sets the written values. A word that varies may leave keys of the base case without a meaning, as
     /// another drag law does with the coefficient of the first; these are left out, each with a remark.
-    fn open(&self, written: Written, set: &[(Varied, f64)]) -> (Result<Open, Error>, Vec<Note>) {
+    fn open(&self, written: WrittenValues, set: &[(VariedKey, f64)]) -> (Result<Open, Error>, Vec<Note>) {
         let opened = open::open(written.clone(), &self.files);
         let is_unneeded = |problem: &&Problem| {
             problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
@@ -120,7 +126,7 @@ impl CaseBase {
 }
 
 /// A number as the value of a key: a quantity, a whole number, or the place of a word among the words of the key.
-fn value_of(key: Varied, value: f64) -> Result<Value, Fault> {
+fn value_of(key: VariedKey, value: f64) -> Result<Value, Fault> {
     if let Some(word) = key.kind.words().get(value as usize) {
         return Ok((*word).into());
     }

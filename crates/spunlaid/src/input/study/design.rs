@@ -2,7 +2,7 @@
 
 use super::super::entry::Entry;
 use super::reader::{Reader, not_varied, not_written, unknown_key};
-use super::{Base, MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, Varied};
+use super::{Base, MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, VariedKey};
 use crate::case::keys::nearest_word;
 use crate::error::Fault;
 use crate::study::{Design, Factor};
@@ -55,7 +55,7 @@ impl Reader<'_> {
     }
 
     /// The key with this name; `None` if a study cannot vary it, after noting the problem.
-    pub(super) fn varied(&mut self, base: &dyn Base, entry: &Entry<'_>, name: &str) -> Option<Varied> {
+    pub(super) fn varied(&mut self, base: &dyn Base, entry: &Entry<'_>, name: &str) -> Option<VariedKey> {
         let key = base.varied(name);
         key.map_err(|advice| self.reject(entry, name, not_varied(advice))).ok()
     }

@@ -2,7 +2,7 @@
 
 use super::super::entry::{Entry, in_order, kind};
 use super::super::values::{integer, number};
-use super::Varied;
+use super::VariedKey;
 use super::reader::{Reader, missing, unknown_key};
 use crate::case::keys::{Value, nearest_word};
 use crate::error::Fault;
@@ -14,7 +14,7 @@ const MOST_VALUES: u64 = 10_000_000;
 
 impl<'a> Reader<'a> {
     /// The values of a factor; `None` if they cannot be read, after noting the problems.
-    pub(super) fn levels(&mut self, varied: Varied, entry: Entry<'a>, design: Design) -> Option<Levels> {
+    pub(super) fn levels(&mut self, varied: VariedKey, entry: Entry<'a>, design: Design) -> Option<Levels> {
         match entry.value {
             DeValue::Array(list) => {
                 let mut values = Vec::with_capacity(list.len());
@@ -55,7 +55,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn value(&mut self, varied: Varied, key: &str, entry: &Entry<'_>) -> Option<f64> {
+    fn value(&mut self, varied: VariedKey, key: &str, entry: &Entry<'_>) -> Option<f64> {
         let words = varied.words();
         let read = match &entry.value {
             DeValue::String(word) if !words.is_empty() => words
@@ -81,7 +81,7 @@ impl<'a> Reader<'a> {
         read.map_err(|fault| self.reject(entry, key, fault)).ok()
     }
 
-    fn range(&mut self, varied: Varied, entry: Entry<'a>, design: Design) -> Option<Levels> {
+    fn range(&mut self, varied: VariedKey, entry: Entry<'a>, design: Design) -> Option<Levels> {
         const KEYS: [&str; 4] = ["from", "to", "steps", "spacing"];
         let mut whole = entry;
         let DeValue::Table(table) = std::mem::replace(&mut whole.value, DeValue::Boolean(true)) else {

@@ -2,7 +2,7 @@
 
 use super::super::entry::Entry;
 use super::reader::{Reader, not_written};
-use super::{Base, Varied};
+use super::{Base, VariedKey};
 use crate::error::{Fault, Finding};
 use crate::study::{Factor, Link};
 use crate::units::{Expression, Powers, unknown_name};
@@ -77,7 +77,7 @@ impl Reader<'_> {
 }
 
 /// Reads the formula of a key.
-pub(super) fn read(base: &dyn Base, key: Varied, text: &str) -> Result<Link, Fault> {
+pub(super) fn read(base: &dyn Base, key: VariedKey, text: &str) -> Result<Link, Fault> {
     let text = text.trim();
     let text = text.strip_prefix('=').unwrap_or(text).trim();
     let named = READY_MADE.iter().find(|(name, of, _)| *name == text && *of == key.name);
@@ -163,7 +163,7 @@ pub(super) fn values(
             Some((value, Powers::of(base.numeric(name).ok()?.dimension())))
         };
         let value = links[i].expression.value(&of).map_or(f64::NAN, |(value, _)| value);
-        let whole = base.numeric(links[i].key).is_ok_and(Varied::is_whole);
+        let whole = base.numeric(links[i].key).is_ok_and(VariedKey::is_whole);
         values[i] = Some(if whole { value.round() } else { value });
     }
     values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()

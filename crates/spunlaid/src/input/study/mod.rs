@@ -160,17 +160,17 @@ pub fn parse_changed_study(
 /// What a study varies: a case, or a web.
 trait Base {
     /// The key with this name, or why a study cannot vary it.
-    fn varied(&self, name: &str) -> Result<Varied, String>;
+    fn varied(&self, name: &str) -> Result<VariedKey, String>;
 
     /// The key with this name, if its values are numbers, as formulas need; or why it cannot be used.
-    fn numeric(&self, name: &str) -> Result<Varied, String> {
-        let is_number = |key: &Varied| key.words().is_empty();
+    fn numeric(&self, name: &str) -> Result<VariedKey, String> {
+        let is_number = |key: &VariedKey| key.words().is_empty();
         let key = self.varied(name)?;
         if is_number(&key) { Ok(key) } else { Err("a formula needs keys whose value is a number".to_owned()) }
     }
 
     /// The value of a key before anything varies: a number, or the place of a word. NaN if it has none.
-    fn value(&self, key: Varied) -> f64;
+    fn value(&self, key: VariedKey) -> f64;
 
     /// The master seed, and the number of replicates, if the study does not say them.
     fn seed_and_replicates(&self) -> (u64, u64);
@@ -186,7 +186,13 @@ trait Base {
     ///
     /// # Errors
     /// Every problem with it.
-    fn point(&self, values: &[(Varied, f64)], at: &Place, plan: &Plan, seed: Option<u64>) -> Made;
+    fn point(
+        &self,
+        values: &[(VariedKey, f64)],
+        at: &Place,
+        plan: &Plan,
+        seed: Option<u64>,
+    ) -> MadeExperiment;
 
     /// What of the keys that are the same at all points has to stand in the study, because [`Base::text`] does not have it.
     fn set_beside(&self, set: Vec<(String, String)>) -> Vec<(String, String)>;
@@ -196,16 +202,16 @@ trait Base {
 }
 
 /// An experiment, and the remarks on it.
-type Made = Result<(Experiment, Vec<Note>), Error>;
+type MadeExperiment = Result<(Experiment, Vec<Note>), Error>;
 
 /// What a study needs to know of a key that it varies, of a case or of a web.
 #[derive(Clone, Copy)]
-struct Varied {
+struct VariedKey {
     name: &'static str,
     kind: &'static Kind,
 }
 
-impl Varied {
+impl VariedKey {
     fn is_whole(self) -> bool {
         matches!(self.kind, Kind::Whole(..))
     }
@@ -248,7 +254,7 @@ impl Varied {
     }
 }
 
-impl<T> From<&'static Key<T>> for Varied {
+impl<T> From<&'static Key<T>> for VariedKey {
     fn from(key: &'static Key<T>) -> Self {
         Self { name: key.name, kind: &key.kind }
     }

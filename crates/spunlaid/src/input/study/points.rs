@@ -1,7 +1,7 @@
 //! Makes a checked experiment of every point of a study.
 
 use super::plan::{Plan, of_base};
-use super::{Base, Varied, links};
+use super::{Base, VariedKey, links};
 use crate::case::{Note, Remark};
 use crate::error::{Error, Place};
 use crate::study::{Point, seed_of_point};
@@ -77,8 +77,8 @@ impl Resolver<'_> {
         values.extend(linked);
         let names = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
         let keys = names.filter_map(|name| self.base.varied(name).ok());
-        let set: Vec<(Varied, f64)> = keys.zip(values.iter().copied()).collect();
-        let shown = |(key, value): &(Varied, f64)| format!("{} = {}", key.name, key.pretty(*value));
+        let set: Vec<(VariedKey, f64)> = keys.zip(values.iter().copied()).collect();
+        let shown = |(key, value): &(VariedKey, f64)| format!("{} = {}", key.name, key.pretty(*value));
         let (study, number) = (self.study.to_owned(), index + 1);
         let at = Place::Point { study, number, values: set.iter().map(shown).collect::<Vec<_>>().join(", ") };
         let seed = (!*common_phases).then(|| seed_of_point(*seed, index));

@@ -3,7 +3,7 @@
 use super::super::Overrides;
 use super::super::web::{WebFile, parse_web_of_case, write_web};
 use super::plan::Plan;
-use super::{Base, Made, Varied, level};
+use super::{Base, MadeExperiment, VariedKey, level};
 use crate::case::keys::{self, nearest_word};
 use crate::error::{Error, Place};
 use crate::layers::{LaydownSource, WEB_KEYS, WebSpec, keys as web_keys};
@@ -37,8 +37,8 @@ impl Sides {
 }
 
 /// The key of a web with this name, if its values can vary.
-fn of_web(name: &str) -> Option<Varied> {
-    web_keys::find(name).filter(|key| key.varies).map(Varied::from)
+fn of_web(name: &str) -> Option<VariedKey> {
+    web_keys::find(name).filter(|key| key.varies).map(VariedKey::from)
 }
 
 impl WebBase {
@@ -70,7 +70,7 @@ fn parse(text: &str, path: &str, set: &[(Sides, String); 2], point: &Sides) -> R
 }
 
 impl Base for WebBase {
-    fn varied(&self, name: &str) -> Result<Varied, String> {
+    fn varied(&self, name: &str) -> Result<VariedKey, String> {
         let advice = match (of_web(name), keys::find(name).filter(|key| key.varies)) {
             (Some(key), _) if self.spec().layers.len() == 1 || key.name.starts_with("web.") => {
                 return Ok(key);
@@ -88,7 +88,7 @@ impl Base for WebBase {
         Err(advice.to_owned())
     }
 
-    fn value(&self, key: Varied) -> f64 {
+    fn value(&self, key: VariedKey) -> f64 {
         let of_case = || {
             let case = self.spec().layers.iter().find_map(|layer| match &layer.source {
                 LaydownSource::Case { case, .. } => Some(&**case),
@@ -110,8 +110,8 @@ impl Base for WebBase {
         Study::quantities_of(&[Point { values: Vec::new(), experiment }])
     }
 
-    fn point(&self, values: &[(Varied, f64)], _: &Place, _: &Plan, seed: Option<u64>) -> Made {
-        let value = |(key, value): &(Varied, f64)| (key.name.to_owned(), key.exact(*value));
+    fn point(&self, values: &[(VariedKey, f64)], _: &Place, _: &Plan, seed: Option<u64>) -> MadeExperiment {
+        let value = |(key, value): &(VariedKey, f64)| (key.name.to_owned(), key.exact(*value));
         let seed = seed.map(|seed| ("web.seed".to_owned(), seed.to_string()));
         let point = Sides::new(values.iter().map(value).chain(seed));
         let WebFile { spec, notes, .. } = parse(&self.text, &self.path, &self.set, &point)?;

@@ -2,7 +2,7 @@
 
 use super::super::entry::{Entry, VERSION, check_version, in_order, kind, root};
 use super::super::source::{Source, fit};
-use super::super::written::{Said, Written};
+use super::super::written::{WrittenValue, WrittenValues};
 use super::super::{Overrides, values};
 use crate::case::keys::{Value, nearest_word};
 use crate::error::{Error, Fault, Finding, Place};
@@ -22,7 +22,7 @@ const OF_A_CASE: [&str; 5] = ["feed", "belt", "air", "drag", "run"];
 pub(in crate::input) struct WebDocument {
     /// The values by full name: `line.belt_speed`; `layer.2.line.belt_speed` in a file with `[[layer]]`. The rows of nozzles
     /// are `line.rows.1.pitch` and so on, and `line.rows` is their number.
-    pub(in crate::input) written: Written,
+    pub(in crate::input) written: WrittenValues,
     /// What comes before the names of a layer's keys: `layer.2.`, or nothing in a file without `[[layer]]`.
     pub(super) layers: Vec<String>,
 }
@@ -30,7 +30,7 @@ pub(in crate::input) struct WebDocument {
 /// The entries of the file and of the overrides.
 pub(super) struct Entries<'a> {
     source: Source<'a>,
-    pub(super) written: Written,
+    pub(super) written: WrittenValues,
     pub(super) version: Option<Entry<'a>>,
     /// The entries of keys by full name.
     entries: BTreeMap<String, (&'static WebKey, Entry<'a>)>,
@@ -46,7 +46,7 @@ pub(super) struct Entries<'a> {
 /// If the text is not TOML, is no web, or has a newer format.
 pub(in crate::input) fn read(text: &str, name: &str, overrides: Overrides<'_>) -> Result<WebDocument, Error> {
     let source = Source::new(text, name);
-    let written = Written::new(source.whole());
+    let written = WrittenValues::new(source.whole());
     let root = root(&source, text)?;
     if let Some((key, what)) = root.keys().find_map(|key| Some((key, other_file(key.get_ref())?))) {
         let (place, key) = (source.place(key.span().start), format!("[{}]", key.get_ref()));
@@ -97,13 +97,13 @@ impl<'a> Entries<'a> {
                 Ok(value) => (Some(value), None),
                 Err(fault) => (None, Some(fault)),
             };
-            written.set(full.clone(), Said { place: entry.place, shown: entry.shown, value });
+            written.set(full.clone(), WrittenValue { place: entry.place, shown: entry.shown, value });
             if let Some(fault) = fault {
                 written.reject(&full, fault);
             }
         }
         for (full, (place, shown, count)) in rows {
-            written.set(full, Said { place, shown, value: Some(Value::Whole(count)) });
+            written.set(full, WrittenValue { place, shown, value: Some(Value::Whole(count)) });
         }
         let layers = match names {
             None => vec![String::new()],

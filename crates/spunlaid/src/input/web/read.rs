@@ -1,7 +1,7 @@
 //! Makes the web from the written values, with the defaults.
 
 use super::super::Overrides;
-use super::super::written::{Said, Written, sorted};
+use super::super::written::{WrittenValue, WrittenValues, sorted};
 use super::document::WebDocument;
 use crate::case::keys::{LeftOut, Value};
 use crate::case::{Note, unusual};
@@ -17,7 +17,7 @@ pub(super) const SAME: f64 = 1e-9;
 
 /// A file while it is read.
 pub(super) struct Reading<'a> {
-    pub(super) written: Written,
+    pub(super) written: WrittenValues,
     /// The folder of the file.
     pub(super) folder: PathBuf,
     /// Changes to the cases that are flown.
@@ -76,7 +76,7 @@ pub(super) fn spec(
 impl Reading<'_> {
     /// Warnings about written values that are most likely slips.
     fn unusual(&self) -> Vec<Note> {
-        let of = |(full, said): (&str, &Said)| {
+        let of = |(full, said): (&str, &WrittenValue)| {
             let key = keys::of_full(full)?;
             let (dimension, usual) = (key.kind.dimension()?, key.usual_range()?);
             let values = match said.value.as_ref()? {
@@ -155,7 +155,7 @@ impl Reading<'_> {
                 self.written.excuse(format!("{prefix}{name}"));
             }
         }
-        let flown = source.as_ref().and_then(Flown::of);
+        let flown = source.as_ref().and_then(FlownSource::of);
         let density = self.as_flown(prefix, "fibre.density", flown.as_ref());
         let diameter = self.diameter(prefix, density, flown.as_ref());
         let feed_speed = self.as_flown(prefix, "line.feed_speed", flown.as_ref());
@@ -189,7 +189,7 @@ impl Reading<'_> {
     }
 
     /// A number that the case of the flown fibres gives if there is one, and that must not be another then.
-    fn as_flown(&mut self, prefix: &str, name: &'static str, flown: Option<&Flown>) -> Option<f64> {
+    fn as_flown(&mut self, prefix: &str, name: &'static str, flown: Option<&FlownSource>) -> Option<f64> {
         let there = flown.and_then(|flown| flown.value(name));
         let (full, line) = (format!("{prefix}{name}"), example(name));
         let otherwise = there.map(|(_, value)| value).ok_or(&*line);
@@ -203,7 +203,7 @@ impl Reading<'_> {
         key: &str,
         number: f64,
         there: Option<(&'static str, f64)>,
-        flown: Option<&Flown>,
+        flown: Option<&FlownSource>,
     ) -> Option<f64> {
         let (Some((of_case, value)), Some(flown)) = (there, flown) else { return Some(number) };
         if (number / value - 1.0).abs() > SAME {
@@ -222,7 +222,7 @@ impl Reading<'_> {
     }
 
     /// The diameter, as it is written or from the linear density.
-    fn diameter(&mut self, prefix: &str, density: Option<f64>, flown: Option<&Flown>) -> Option<f64> {
+    fn diameter(&mut self, prefix: &str, density: Option<f64>, flown: Option<&FlownSource>) -> Option<f64> {
         const NAME: &str = "fibre.diameter";
         let linear = format!("{prefix}fibre.linear_density");
         if self.written.get(&linear).is_none() {
@@ -321,14 +321,14 @@ pub(super) fn table_of(prefix: &str, name: &str) -> &'static str {
 }
 
 /// What is known of flown fibres.
-struct Flown {
+struct FlownSource {
     /// Path of their case, for messages.
     path: String,
     /// Keys of the web and of the case, and the value there.
     values: [(&'static str, &'static str, f64); 4],
 }
 
-impl Flown {
+impl FlownSource {
     fn of(source: &LaydownSource) -> Option<Self> {
         let path = match source {
             LaydownSource::Case { path, .. } => path.display(),

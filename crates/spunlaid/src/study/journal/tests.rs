@@ -26,7 +26,7 @@ fn written() -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-fn reopened(path: &Path) -> (Journal, Found) {
+fn reopened(path: &Path) -> (Journal, JournalState) {
     let (mut journal, found) = Journal::open(path, false).unwrap();
     assert_eq!(found, Some(header()));
     let found = journal.go_on(3, 2, NUMBERS).unwrap();
@@ -37,7 +37,7 @@ fn reopened(path: &Path) -> (Journal, Found) {
 fn records_come_back_in_order_of_replicates() {
     let (_folder, path) = written();
     let (mut journal, found) = reopened(&path);
-    assert_eq!(found, Found { fibres: 6, damaged: 0, torn: false });
+    assert_eq!(found, JournalState { fibres: 6, damaged: 0, torn: false });
     for point in 0..3 {
         assert_eq!(journal.records(point, 9).unwrap(), [record(point as u64, 0), record(point as u64, 1)]);
         assert_eq!(journal.records(point, 1).unwrap(), [record(point as u64, 0)]);
@@ -88,7 +88,7 @@ fn a_flipped_bit_anywhere_costs_one_record() {
         damaged[byte] ^= 1 << (byte % 8);
         std::fs::write(&path, &damaged).unwrap();
         let (mut journal, found) = reopened(&path);
-        assert_eq!(found, Found { fibres: 5, damaged: 1, torn: false }, "byte {byte}");
+        assert_eq!(found, JournalState { fibres: 5, damaged: 1, torn: false }, "byte {byte}");
         // The lost record can be added again.
         let lost = [record(0, 0), record(2, 1), record(1, 0), record(0, 1), record(2, 0), record(1, 1)]
             [(byte - start) / RECORD]
@@ -110,7 +110,7 @@ fn zeros_at_the_end_are_no_records() {
     longer.resize(whole.len() + 3 * RECORD, 0);
     std::fs::write(&path, longer).unwrap();
     let (_journal, found) = reopened(&path);
-    assert_eq!(found, Found { fibres: 6, damaged: 3, torn: false });
+    assert_eq!(found, JournalState { fibres: 6, damaged: 3, torn: false });
     assert!(std::fs::read(&path).unwrap() == whole);
 }
 
@@ -118,7 +118,7 @@ fn zeros_at_the_end_are_no_records() {
 fn records_of_points_that_are_not_there_do_not_count() {
     let (_folder, path) = written();
     let (mut journal, _) = Journal::open(&path, false).unwrap();
-    assert_eq!(journal.go_on(2, 2, NUMBERS).unwrap(), Found { fibres: 4, damaged: 2, torn: false });
+    assert_eq!(journal.go_on(2, 2, NUMBERS).unwrap(), JournalState { fibres: 4, damaged: 2, torn: false });
 }
 
 #[test]

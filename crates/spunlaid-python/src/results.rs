@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// Results of a run. `spunlaid.Run` shows them.
 #[pyclass(frozen, module = "spunlaid._spunlaid")]
 #[derive(Debug)]
-pub(crate) struct Flown {
+pub(crate) struct RunResults {
     pub(crate) name: String,
     pub(crate) case: Arc<spunlaid::case::Case>,
     pub(crate) results: Results,
