@@ -4,27 +4,25 @@ use crate::common;
 use crate::common::*;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::drag::NormalLaw;
 use spunlaid::ensemble::{
-    Computing, FinerCheck, FinerPlans, Keep, Number, Recorder, Refined, Results, Sample, Trajectory, fly,
-    fly_and_check, fly_together,
+    Computing, FinerPlans, Keep, Number, Recorder, Results, Sample, Trajectory, fly, fly_and_check,
+    fly_together,
 };
 use spunlaid::error::Error;
 use spunlaid::flight::{Job, LaidPoint};
-use spunlaid::input::{parse_case, read_case};
+use spunlaid::input::parse_case;
 use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// By the paper's scheme.
-fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
+pub fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
     common::table1(Scheme::SemiImplicitEuler, time_step, duration, replicates)
 }
 
-fn flights(case: &Case, threads: usize) -> Vec<Trajectory> {
+pub fn flights(case: &Case, threads: usize) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
         Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
@@ -152,7 +150,7 @@ fn identical_for_any_number_of_threads_and_any_packing() {
     }
 }
 
-fn assert_same(a: &Trajectory, b: &Trajectory) {
+pub fn assert_same(a: &Trajectory, b: &Trajectory) {
     assert_eq!(a.replicate, b.replicate);
     // As text, which holds every bit and where NaN is like NaN.
     assert_eq!(format!("{:?}", a.values), format!("{:?}", b.values), "replicate {}", a.replicate);
@@ -288,283 +286,4 @@ replicates = 12
             assert!(told[&flight.replicate].1 == flight.samples);
         }
     }
-}
-
-/// The trajectories of a case, and one of its checks.
-fn checked_by(
-    refined: Refined,
-    case: &Case,
-    threads: usize,
-    isa: Isa,
-    stop: bool,
-) -> Result<(Vec<Trajectory>, Result<FinerCheck, String>), Error> {
-    let (stop, fibre_steps) = (AtomicBool::new(stop), AtomicU64::new(0));
-    let computing = Computing { threads, isa, stop: &stop, fibre_steps: &fibre_steps, recorder: None };
-    let none = || Err("it was not asked for".to_owned());
-    let plans = match (refined, FinerPlans::of(case)) {
-        (Refined::TimeStep, FinerPlans { step, .. }) => FinerPlans { step, mesh: none() },
-        (Refined::Elements, FinerPlans { mesh, .. }) => FinerPlans { step: none(), mesh },
-    };
-    let mut flown = Vec::new();
-    let checks = fly_and_check(case, &plans, Keep::SAMPLES, computing, |trajectory| {
-        flown.push(trajectory.expect("no fibre is lost"));
-        Ok::<(), Error>(())
-    })?;
-    assert_eq!(fibre_steps.into_inner(), case.run.steps * case.run.replicates + plans.fibre_steps());
-    Ok((flown, if refined == Refined::TimeStep { checks.step } else { checks.mesh }))
-}
-
-/// The trajectories of a case, and what a finer step changes.
-fn checked(
-    case: &Case,
-    threads: usize,
-    isa: Isa,
-    stop: bool,
-) -> Result<(Vec<Trajectory>, Option<FinerCheck>), Error> {
-    checked_by(Refined::TimeStep, case, threads, isa, stop).map(|(flown, check)| (flown, check.ok()))
-}
-
-/// What elements of half the length change.
-fn mesh_checked(case: &Case) -> FinerCheck {
-    let (_, check) = checked_by(Refined::Elements, case, 2, Isa::detect(), false).expect("the case flies");
-    check.expect("long enough")
-}
-
-/// The relative change of a statistic that a check found.
-fn change<'a>(check: &'a FinerCheck, name: &str) -> &'a Estimate {
-    let found = check.changes.iter().find(|change| change.statistic.name == name);
-    &found.expect("the statistic is compared").estimate
-}
-
-/// Ratio of the means of a mean of measures, minus one.
-fn off(own: &[Trajectory], fine: &[Trajectory], measures: [&str; 2]) -> f64 {
-    let sum = |all: &[Trajectory]| {
-        all.iter().flat_map(|one| measures.map(|measure| one.number(measure))).sum::<f64>()
-    };
-    sum(own) / sum(fine) - 1.0
-}
-
-/// Rms distance of two fibres' ends across the flow, as a share of the amplitude of the second; the mean over the fibres.
-fn apart(fibres: &[Trajectory], exact: &[Trajectory], instants: std::ops::RangeInclusive<usize>) -> f64 {
-    let path = |fibre: &Trajectory| -> Vec<V> {
-        fibre.samples[instants.clone()].iter().map(|sample| V { x: 0.0, ..sample.end }).collect()
-    };
-    let squares = |of: Vec<V>| of.iter().map(|p| p.dot(*p)).sum::<f64>();
-    let off = |(fibre, exact): (&Trajectory, &Trajectory)| {
-        let (fibre, exact) = (path(fibre), path(exact));
-        let mean = exact.iter().fold(V::default(), |sum, &p| sum + p) * (1.0 / exact.len() as f64);
-        let error = squares(fibre.iter().zip(&exact).map(|(&a, &b)| a - b).collect());
-        (error / squares(exact.iter().map(|&p| p - mean).collect())).sqrt()
-    };
-    fibres.iter().zip(exact).map(off).sum::<f64>() / fibres.len() as f64
-}
-
-fn checked_at(scheme: Scheme, step: f64, damping: f64) -> (Vec<Trajectory>, FinerCheck) {
-    let mut case = table1(step, 0.5, 8);
-    (case.run.scheme, case.run.damping) = (scheme, damping);
-    let (flown, check) = checked(&case, 1, Isa::detect(), false).expect("the case flies");
-    (flown, check.expect("500 instants"))
-}
-
-/// The fibre starts without tension, and the axial waves of the start run on for long. Implicit tension damps them at a rate
-/// that hardly depends on the step, so that half the step shows little of what they do to the path: 3 parts in 10 000
-/// of the amplitude were found.
-const START: f64 = 4e-4;
-
-/// Half of a long step of implicit tension says nothing about its limit: axial waves are damped at both. The check flies
-/// leapfrog, with steps that resolve these waves, and tells the whole difference.
-#[test]
-fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves() {
-    // As long as the check, so that its flights are those below: a way of 10 ms takes twice that to come down.
-    let mut case = common::laying::spunbond(&[("run.duration", "40 ms"), ("run.spin_up", "20 ms")]);
-    case.run.replicates = 8;
-    let (flown, check) = checked(&case, 2, Isa::detect(), false).unwrap();
-    let check = check.expect("long enough");
-    assert_eq!(check.scheme, Scheme::Leapfrog);
-    assert_eq!((check.replicates, check.error_over_change()), (8, Some(1.0)));
-    assert!(check.time_step <= 0.5 * case.fibre.axial_step_limit(), "{}", check.time_step);
-
-    let mut fine = case.clone();
-    fine.run.scheme = Scheme::Leapfrog;
-    fine.set_time_step(check.time_step);
-    let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job { case: &fine, replicate }).collect();
-    let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
-    let resolved = fly_together(&jobs, Keep::SAMPLES, computing).unwrap();
-    let spread = off(&flown, &resolved, ["sigma_md", "sigma_cd"]);
-    let found = change(&check, "spread");
-    // A touch-down more or less at the ends of the compared time, of 250 elements.
-    assert!((found.mean - spread).abs() < 0.1 * spread.abs() + 1e-4, "{spread}, {found:?}");
-    let chord = off(&flown, &resolved, ["chord_over_arc"; 2]);
-    assert!((change(&check, "chord_over_arc").mean - chord).abs() < 0.1 * chord.abs() + 1e-4, "{chord}");
-    // Eight fibres of one metre are enough, because a pair stays together.
-    assert!(found.standard_error.unwrap() < 0.01, "{found:?}");
-}
-
-/// Elements of 12.5 mm, a quarter of an eddy. The check sees elements of half their length only, and tells the error to
-/// elements of a quarter of it, which is nearly all of it.
-#[test]
-fn order_of_the_error_of_the_mesh_is_what_half_the_elements_show() {
-    let mut case = common::table1(Scheme::ImplicitTension, 1e-4, 0.8, 8);
-    case.drag.across = NormalLaw::MarheinekeWegener;
-    let meshed = |elements| {
-        let mut case = case.clone();
-        case.fibre.elements = elements;
-        case
-    };
-    let coarse = meshed(80);
-    let check = mesh_checked(&coarse);
-    assert_eq!((check.element_length, check.duration), (6.25e-3, 0.8));
-    let (coarse, fine) = (flights(&coarse, 2), flights(&meshed(320), 2));
-    let factor = check.error_over_change().expect("a fibre of fixed length");
-    for (name, measures, least) in [
-        ("frequency", ["frequency_y", "frequency_z"], 0.1),
-        ("amplitude", ["amplitude_y", "amplitude_z"], -1.0),
-    ] {
-        let (found, error) = (change(&check, name), off(&coarse, &fine, measures));
-        let told = factor * found.mean;
-        // Standard errors of both, and the sixteenth of the error that is left at a quarter of the length.
-        let allowed = 2.0 * 2.0 * factor * found.standard_error.unwrap() + error.abs() / 16.0;
-        assert!((told - error).abs() < allowed, "{name}: {told} for {error}");
-        assert!(error > least, "{name}: {error}");
-    }
-}
-
-/// In turbulence of its own for each mesh, eight fibres would differ by 6 % in a quarter of a second. Carried eddies are
-/// tied to elements; the two meshes feel the same.
-#[test]
-fn identical_air_on_both_meshes_of_a_check() {
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
-    for name in ["convected", "measured_spectrum", "profile"] {
-        let changes = [("run.duration", "0.25 s"), ("run.time_step", "50 us"), ("run.replicates", "1")];
-        let changes = changes.map(|(key, value)| (key.to_owned(), value.to_owned()));
-        let (case, _) = read_case(&cases.join(format!("{name}.toml")), &changes).expect("the case is there");
-        let check = mesh_checked(&case);
-        // One fibre of the run, and eight of the check, which cost no more.
-        let found = change(&check, "amplitude");
-        assert_eq!(found.values.len(), 8);
-        assert!(found.values.iter().all(|value| value.abs() < 0.06), "{name}: {found:?}");
-    }
-}
-
-#[test]
-fn invariant_the_step_check_tells_the_error_of_the_step() {
-    let (converged, _) = checked_at(Scheme::Leapfrog, 2e-6, 0.0);
-    for (scheme, h, start) in [
-        (Scheme::SemiImplicitEuler, 2e-5, 0.0),
-        (Scheme::Leapfrog, 2e-5, 0.0),
-        (Scheme::ImplicitTension, 5e-4, 0.0),
-        (Scheme::ImplicitTension, 1e-4, START),
-        (Scheme::ImplicitTension, 5e-5, START),
-        (Scheme::ImplicitTension, 2e-5, START),
-    ] {
-        let (flown, check) = checked_at(scheme, h, 0.0);
-        let instants = 1..=(check.duration / 1e-3).round() as usize;
-        let (error, change) = (apart(&flown, &converged, instants), check.path.as_ref().expect("paths").mean);
-        // The program takes the error to be at most 2.5 times the change.
-        assert!(error < 2.5 * change + start, "{} at {h} s: {change:e} of {error:e}", scheme.name());
-        assert!(change < 0.85 * error, "{} at {h} s: {change:e} of {error:e}", scheme.name());
-        assert!(check.changes[0].estimate.mean.abs() < change, "{} at {h} s", scheme.name());
-    }
-}
-
-/// The error of a scheme of order `p` is `C hᵖ`, so half the step changes the path by `1 − 2⁻ᵖ` of it: by a half or three
-/// quarters. Damped, and seen after 0.4 s, the fibres have forgotten the waves of the start.
-#[test]
-fn order_of_the_error_is_what_half_the_step_shows() {
-    let flown = |scheme, step| checked_at(scheme, step, 20.0).0;
-    let converged = flown(Scheme::Leapfrog, 2e-6);
-    // Found: 0.501, 0.758, and 0.719 and 0.690, where a little of the waves is left and steps are long.
-    for (scheme, step, order, allowed) in [
-        (Scheme::SemiImplicitEuler, 2e-5, 1, 0.02),
-        (Scheme::Leapfrog, 2e-5, 2, 0.02),
-        (Scheme::ImplicitTension, 5e-4, 2, 0.08),
-        (Scheme::ImplicitTension, 2.5e-4, 2, 0.08),
-    ] {
-        let [own, half] = [step, step / 2.0].map(|step| flown(scheme, step));
-        let share = apart(&own, &half, 400..=500) / apart(&own, &converged, 400..=500);
-        let expected = 1.0 - 0.5f64.powi(order);
-        assert!((share - expected).abs() < allowed, "{} at {step} s: {share}, not {expected}", scheme.name());
-    }
-}
-
-#[test]
-fn identical_air_at_half_the_step_from_every_source() {
-    // In other turbulence the paths would differ by 1.4 amplitudes; stretches of a record and looks at a field
-    // depend on the run's times. A tenth of the step that the program would choose leaves next to nothing.
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
-    for (name, step) in [
-        ("record", "20 us"),
-        ("convected", "20 us"),
-        ("openfoam_diffuser", "10 us"),
-        ("measured_spectrum", "20 us"),
-    ] {
-        let changes = [("run.time_step", step), ("run.duration", "0.25 s"), ("run.replicates", "3")];
-        // Shorter elements have axial waves at the start that no such step damps; they are not what is tested here.
-        let coarse = match name {
-            "record" => Some(("fibre.element_length", "25 mm")),
-            "measured_spectrum" => Some(("fibre.element_length", "50 mm")),
-            _ => None,
-        };
-        let changes =
-            changes.into_iter().chain(coarse).map(|(key, value)| (key.to_owned(), value.to_owned()));
-        let changes: Vec<_> = changes.collect();
-        let (case, _) = read_case(&cases.join(format!("{name}.toml")), &changes).expect("the case is there");
-        let (_, check) = checked(&case, 2, Isa::detect(), false).expect("the case flies");
-        let path = check.expect("25 instants and more").path.expect("paths");
-        assert_eq!(path.values.len(), 3);
-        assert!(path.values.iter().all(|&path| path < 2e-3), "{name}: {:?}", path.values);
-    }
-}
-
-#[test]
-fn identical_step_checks_for_any_number_of_threads_and_any_instruction_set() {
-    let case = table1(2e-5, 0.1, 11);
-    let (expected, check) = checked(&case, 1, Isa::Baseline, false).expect("the case flies");
-    let check = format!("{:?}", check.expect("100 instants"));
-    for (a, b) in expected.iter().zip(&flights(&case, 1)) {
-        assert_same(a, b);
-    }
-    for isa in Isa::available() {
-        for threads in [1, 2, 5] {
-            let (found, again) = checked(&case, threads, isa, false).expect("the case flies");
-            assert_eq!(format!("{:?}", again.expect("as before")), check, "{} {threads}", isa.name());
-            expected.iter().zip(&found).for_each(|(a, b)| assert_same(a, b));
-        }
-    }
-    assert!(matches!(checked(&case, 2, Isa::detect(), true), Err(Error::Interrupted)));
-}
-
-#[test]
-fn step_checks_take_a_tenth_of_long_runs_and_leave_out_what_is_too_short_or_still() {
-    // One flight of 20 million steps times elements, and ten such flights.
-    let plan = |case: &Case| FinerPlans::of(case).step;
-    for (replicates, seconds) in [(1, 0.05), (8, 0.05), (73, 0.5), (800, 1.0)] {
-        let plan = plan(&table1(1e-6, 1.0, replicates)).expect("long enough");
-        assert_eq!(plan.replicates, replicates.min(8));
-        // Eight fibres at most, two steps for one.
-        assert_eq!(plan.fibre_steps(), (2e6 * seconds) as u64 * plan.replicates);
-        assert!(plan.share_of_run <= 0.1 && (replicates == 800 || plan.share_of_run > 0.099));
-    }
-    // All of a run that takes no time anyway.
-    let half = plan(&table1(1e-4, 0.5, 8)).expect("500 instants");
-    assert_eq!((half.fibre_steps(), half.share_of_run), (2 * 5000 * 8, 2.0));
-    assert!(plan(&table1(1e-4, 0.019, 8)).is_err());
-    let mut still = table1(1e-4, 0.1, 2);
-    (still.run.scheme, still.air.turbulence_intensity) = (Scheme::ImplicitTension, 0.0);
-    assert!(plan(&still).is_ok());
-    assert!(checked(&still, 1, Isa::detect(), false).expect("the case flies").1.is_none());
-    let (_, mesh) = checked_by(Refined::Elements, &still, 1, Isa::detect(), false).expect("the case flies");
-    assert!(mesh.is_err_and(|why| why.contains("does not move")));
-    // The mesh of the paper's case takes implicit tension and no more than a hundredth of the run.
-    let mesh = FinerPlans::of(&table1(1e-6, 1.0, 10)).mesh.expect("long enough");
-    assert!(mesh.replicates == 8 && mesh.share_of_run < 0.01, "{}", mesh.share_of_run);
-    // A second of fed fibre would take many times the run.
-    let slow = common::laying::spunbond(&[
-        ("feed.speed", "0.5 m/s"),
-        ("belt.speed", "0.03 m/s"),
-        ("run.duration", "20 s"),
-    ]);
-    assert!(FinerPlans::of(&slow).step.is_err_and(|why| why.contains("times the run's computing time")));
 }

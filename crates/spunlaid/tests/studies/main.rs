@@ -7,8 +7,10 @@ mod common;
 mod short;
 
 mod company;
+mod company_cases;
 mod effects;
 mod ensembles;
+mod finer_checks;
 mod paper;
 mod studies;
 mod web_studies;
