@@ -210,6 +210,6 @@ def _main(asked: argparse.Namespace) -> int:
     print(f"{int(study.n.sum())} {study.noun}s at {len(study)} points\nopen {Path(out) / 'report.html'}")
     lost = int(study.lost.sum())
     if lost:
-        print(f"error: {lost} fibres were lost, because their positions became infinite", file=sys.stderr)
+        print(f"error: {lost} fibres were lost: the computation diverged, or the fibre did not reach the belt", file=sys.stderr)
         return 2
     return 0

@@ -85,7 +85,7 @@ class FlightError(Error):
 
 
 class FibreLost(Error):
-    """A fibre whose positions became infinite or NaN, or that does not reach the belt."""
+    """A fibre whose computation diverges, or that does not reach the belt."""
 
 
 class ClusterError(Error):

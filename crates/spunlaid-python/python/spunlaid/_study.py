@@ -53,7 +53,7 @@ class Study:
 
     @property
     def lost(self) -> NDArray[np.int64]:
-        """Number of fibres lost at each point, because their positions became infinite."""
+        """Number of fibres lost at each point: the computation diverged, or the fibre did not reach the belt."""
         return self._results["lost"]  # type: ignore[no-any-return]
 
     @property

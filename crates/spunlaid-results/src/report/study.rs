@@ -153,7 +153,7 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
     let lost: u64 = results.iter().map(|point| point.lost).sum();
     if lost > 0 {
         text += &format!(
-            " {} lost, because the positions became infinite; all means leave them out.",
+            " {} lost: the computation diverged, or the fibre did not reach the belt. All means leave them out.",
             if lost == 1 { "1 fibre was".to_owned() } else { format!("{lost} fibres were") }
         );
     }

@@ -133,7 +133,7 @@ pub struct Record {
 pub enum Landing {
     /// It was completed and measured.
     Measured(Measured),
-    /// The positions of the fibre became infinite or NaN.
+    /// The computation of the fibre diverged, or it did not reach the belt.
     Lost {
         /// Node, counted from 1 at the root.
         node: u64,

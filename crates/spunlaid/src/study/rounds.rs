@@ -13,7 +13,7 @@ use crate::statistics::Estimate;
 pub struct PointResults {
     /// Replicates measured.
     pub n: u64,
-    /// Fibres lost because their positions became infinite or NaN.
+    /// Fibres lost: their computation diverged, or they did not reach the belt.
     pub lost: u64,
     /// Mean of each of the study's quantities; NaN without any replicate.
     pub mean: Box<[f64]>,
