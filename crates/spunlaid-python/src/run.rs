@@ -41,7 +41,7 @@ pub(crate) fn fly(
 ) -> PyResult<RunResults> {
     let (of, run) = (Arc::clone(&case.case), case.case.run);
     let plans = if check_step { FinerPlans::of(&of) } else { FinerPlans::none("it was not asked for") };
-    let watch = Watch::of(run.steps.saturating_mul(run.replicates).saturating_add(plans.fibre_steps()));
+    let watch = Watch::of(run.steps.saturating_mul(of.fibres()).saturating_add(plans.fibre_steps()));
     let belt = LaidCurves::default();
     let computing = Computing {
         threads: self::threads(threads),

@@ -3,6 +3,7 @@
 mod check;
 pub mod keys;
 mod memory;
+mod neighbours;
 mod note;
 mod remarks;
 mod step;
@@ -11,6 +12,7 @@ mod usual;
 pub(crate) use check::too_many_steps;
 pub use check::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
+pub use neighbours::Neighbours;
 pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
 pub(crate) use usual::unusual;
@@ -36,6 +38,8 @@ pub struct Case {
     /// Feed and belt of a fed fibre; `None` for a fibre of fixed length. The length of a fed fibre stands for the
     /// distance to the belt.
     pub line: Option<Line>,
+    /// Fibres that fly beside each replicate in the same air.
+    pub neighbours: Neighbours,
     /// Time, integration and ensemble.
     pub run: Run,
 }

@@ -2,8 +2,8 @@
 
 use super::super::{Overrides, parse_case, read_case};
 use super::read::{Reading, table_of};
-use crate::case::{Case, Note};
 use crate::case::keys::Value;
+use crate::case::{Case, Note};
 use crate::error::{Error, Fault, Place};
 use crate::layers::LaydownSource;
 use crate::surrogate::Surrogate;
