@@ -10,6 +10,7 @@
 mod atmosphere;
 mod dry_air;
 mod eddies;
+mod eddy_field;
 mod eddy_turbulence;
 mod eddy_wind;
 mod flow;
@@ -26,6 +27,7 @@ pub use atmosphere::Atmosphere;
 pub(crate) use atmosphere::{Instant, Velocities, VelocityAt, VelocityTask, misfit};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
 pub use eddies::{Eddies, EddyModel};
+pub use eddy_field::{EddyField, Extent};
 pub use eddy_turbulence::EddyTurbulence;
 pub use eddy_wind::EddyWind;
 pub(crate) use eddy_wind::LastEddy;

@@ -4,7 +4,7 @@ use super::curves::Stretches;
 use super::map::Map;
 use super::raster::{Draw, Pens};
 use super::strip::Strip;
-use super::threads::each;
+use crate::threads::try_each;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::{Error, Fault};
 use crate::lanes::{Isa, Lanes, WIDTH};
@@ -364,7 +364,7 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<LaidWeb, Error> {
     // Strips are large; a thread uses one again.
     let strips = Mutex::new(Vec::new());
     let held = |of: &Mutex<Vec<Strip>>| of.lock().unwrap_or_else(PoisonError::into_inner).pop();
-    each(by.threads, units.len(), |unit| {
+    try_each(by.threads, units.len(), |unit| {
         let (plan, which) = &units[unit];
         let mut strip = held(&strips).unwrap_or_else(|| Strip::new(rows));
         plan.draw(web, which.clone(), &mut strip, by)?;
