@@ -9,6 +9,7 @@
 
 use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Wind};
 use crate::company::{PerLane, shared};
+use crate::fibre::Place;
 use crate::field::Hint;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, indices};
 use crate::nodes::Nodes;
@@ -137,8 +138,14 @@ pub struct Stations {
 
 impl Stations {
     /// * `lanes` – air and stations of each fibre
+    /// * `places` – of the fibres' roots
     /// * `elements` – number of elements at the start
-    pub(crate) fn new(way: Way, lanes: &PerLane<(Air, StationGrid)>, elements: usize) -> Self {
+    pub(crate) fn new(
+        way: Way,
+        lanes: &PerLane<(Air, StationGrid)>,
+        places: &PerLane<Place>,
+        elements: usize,
+    ) -> Self {
         let mut hint = Hint::default();
         let here = lanes.map(|(air, grid)| {
             let still = (0..way.stations).map(|k| {
@@ -162,9 +169,10 @@ impl Stations {
             true => here.lanes(|(_, correlations)| 2.0 * (1.0 - correlations[k])),
             false => Lanes::ZERO,
         };
-        let field = way
-            .in_field
-            .then(|| Surroundings::around_elements(lanes.map(|(air, _)| air.clone()), elements, way.every));
+        let field = way.in_field.then(|| {
+            let airs = lanes.zip(places, |(air, _), place| (air.clone(), *place));
+            Surroundings::around_elements(airs, elements, way.every)
+        });
         let nothing = ElementAir { value: Vec3::ZERO, rise: Vec3::ZERO };
         Self {
             per_length: lanes.lanes(|(_, grid)| 1.0 / grid.spacing),
@@ -338,7 +346,7 @@ pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{PerLane, StationGrid, Stations, Way};
+    use super::{PerLane, Place, StationGrid, Stations, Way};
     use crate::air::{Air, EddyModel, Stream, StreamKey, Wind};
     use crate::air::{Atmosphere, Instant, Velocities};
     use crate::lanes::{Isa, Lanes, Plain, WIDTH};
@@ -377,7 +385,8 @@ mod tests {
                 .map(|j| Vec3::splat(Vec3::new(place(j), 0.0, 0.0)))
                 .collect();
             let lanes = PerLane::new(vec![(air.clone(), grid)]).unwrap();
-            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, position.len() - 1);
+            let middle = PerLane::new(vec![Place::default()]).unwrap();
+            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, &middle, position.len() - 1);
             Self { grid, air: Atmosphere::Way(wind, stations), position, looks: 0 }
         }
 

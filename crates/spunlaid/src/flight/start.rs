@@ -1,6 +1,6 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
-use super::{AirOf, Clock, Common, EndNodeStatistics, Flight, Job, Start};
+use super::{AirOf, Clock, Common, EndNodeStatistics, Entry, Flight, Job, Start};
 use crate::air::{Atmosphere, EddyWind, Stations, Surroundings, Wind, misfit};
 use crate::case::Case;
 use crate::chain::schemes::Scheme;
@@ -38,7 +38,7 @@ impl Flight {
         }
         let damped = common.chain.damped;
         let mut flight = Self::with_chain(isa, chain, damped, air, common.scheme, common.clock)?;
-        flight.cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect();
+        flight.entries = jobs.iter().map(Entry::from).collect();
         Ok(flight)
     }
 
@@ -90,7 +90,7 @@ impl Flight {
         }
         let mut flight = Self {
             isa,
-            cases: Vec::new(),
+            entries: Vec::new(),
             scheme,
             damped,
             h,
@@ -197,13 +197,14 @@ pub(super) fn surrounded(
     let elements = air.case.fibre.elements;
     let streams = jobs.map(|job| {
         let case = Case { fibre: Fibre { elements, ..job.case.fibre }, ..job.case.clone() };
-        Job { case: &case, replicate: job.replicate }.stream(&eddies)
+        Job { case: &case, ..*job }.stream(&eddies)
     });
     let wind = Wind::sampled(isa, common.wind.clone().of_eddies(eddies.count()), streams, air.horizon);
     if let Some(way) = way {
         let of = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
         let lanes = PerLane::new(jobs.iter().filter_map(of).collect())?;
-        let stations = Stations::new(way.clone(), &lanes, chain.elements);
+        let places = jobs.map(|job| job.place);
+        let stations = Stations::new(way.clone(), &lanes, &places, chain.elements);
         return Ok(Atmosphere::Way(wind, stations));
     }
     let wind = wind.for_steps_of(common.clock.time_step());
@@ -211,7 +212,7 @@ pub(super) fn surrounded(
     Ok(match every {
         None => Atmosphere::Uniform(air),
         Some(every) => {
-            let airs = jobs.map(|job| job.case.air.clone());
+            let airs = jobs.map(|job| (job.case.air.clone(), job.place));
             Atmosphere::Flow(air, Surroundings::around_elements(airs, chain.elements, *every))
         }
     })
