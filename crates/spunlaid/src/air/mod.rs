@@ -15,6 +15,7 @@ mod eddy_turbulence;
 mod eddy_wind;
 mod flow;
 mod from_file;
+mod lateral;
 mod measured;
 mod placed_field;
 mod profile;
@@ -33,6 +34,7 @@ pub use eddy_wind::EddyWind;
 pub(crate) use eddy_wind::LastEddy;
 pub use flow::{Flow, FromFlow, LocalAir};
 pub use from_file::FromFile;
+pub use lateral::{Lateral, Widening};
 pub use measured::{APART, Measured, RecordLayout, RecordNumbers};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
@@ -73,6 +75,10 @@ pub struct Air {
     pub spectrum: SpectrumShape,
     /// How the turbulence is related along the fibre.
     pub eddies: EddyModel,
+    /// How the turbulence differs across the flow.
+    pub lateral: Lateral,
+    /// Where the mean flow of a profile widens as it slows.
+    pub widening: Widening,
     /// Records of the fluctuation, one for all eddies or one for each; empty if the fluctuation is synthesised.
     pub records: Vec<FromFile<Measured>>,
 }
@@ -106,6 +112,8 @@ impl Air {
             speed_factor: 1.0,
             spectrum: SpectrumShape::Flat,
             eddies: EddyModel::Independent,
+            lateral: Lateral::Uniform,
+            widening: Widening::None,
             records: Vec::new(),
         };
         air.harmonics = air.default_harmonics(1.0);

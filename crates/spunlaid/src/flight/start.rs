@@ -192,6 +192,10 @@ pub(super) fn surrounded(
     air: AirOf<'_>,
 ) -> Result<Atmosphere, Error> {
     let Common { way, every, chain, .. } = common;
+    if common.lateral_cutoff.is_some() {
+        let what = "air.lateral = \"von-karman\" is read and checked, but this version cannot fly in it";
+        return Err(Error::flight(what.to_owned(), "write air.lateral = \"uniform\""));
+    }
     // Eddies of finer elements, if the air is that of finer elements.
     let eddies = if way.is_some() { common.eddies.clone() } else { air.case.eddies() };
     let elements = air.case.fibre.elements;
