@@ -7,6 +7,7 @@
 //! Atmosphere → the velocity at each element at a time, from all of these
 //! ```
 
+mod at_elements;
 mod atmosphere;
 mod dry_air;
 mod eddies;
@@ -15,6 +16,7 @@ mod eddy_turbulence;
 mod eddy_wind;
 mod flow;
 mod from_file;
+mod in_space;
 mod lateral;
 mod measured;
 mod placed_field;
@@ -34,6 +36,7 @@ pub use eddy_wind::EddyWind;
 pub(crate) use eddy_wind::LastEddy;
 pub use flow::{Flow, FromFlow, LocalAir};
 pub use from_file::FromFile;
+pub use in_space::AirInSpace;
 pub use lateral::{Lateral, Widening};
 pub use measured::{APART, Measured, RecordLayout, RecordNumbers};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};

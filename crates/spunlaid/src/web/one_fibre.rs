@@ -1,11 +1,11 @@
 //! What one fibre alone says about the unevenness of a web of many.
 
 use super::lay::{Laying, lay};
-use crate::threads::try_each;
 use super::uniformity::boxes;
 use super::{Edges, Fibres, Filaments, Layer, Row, Sheet, Web};
 use crate::error::Error;
 use crate::statistics::Estimate;
+use crate::threads::try_each;
 use std::sync::Arc;
 
 /// How the unevenness is found from single fibres.

@@ -2,11 +2,11 @@
 
 use super::lay::Laying;
 use super::one_fibre::{OneFibre, one_fibre};
-use crate::threads::try_each;
 use super::{Curves, Fibres, Layer, Web};
 use crate::error::Error;
 use crate::statistics::Estimate;
 use crate::surrogate::Surrogate;
+use crate::threads::try_each;
 use std::sync::Arc;
 
 /// A number of a line that changes the unevenness of its web.

@@ -76,7 +76,10 @@ impl EddyField {
                 let line = &block.lines[y];
                 for (m, of_label) in of_label.into_iter().enumerate() {
                     let weight = of_y * of_label;
-                    let Some(points) = line[(sample + m) * row + 3 * across.z..].first_chunk::<NUMBERS>() else { break };
+                    let Some(points) = line[(sample + m) * row + 3 * across.z..].first_chunk::<NUMBERS>()
+                    else {
+                        break;
+                    };
                     for (sum, point) in sums.iter_mut().zip(points) {
                         *sum += weight * point;
                     }

@@ -52,7 +52,7 @@ impl Plan {
     /// * `cutoff` – largest wave number across, times the length scale [-]
     pub(super) fn new(air: &Air, distance: f64, extent: Extent, cutoff: f64) -> Self {
         let way = WayOfEddies::new(air, distance);
-        let (lattice, harmonics) = sizes(air, &way, extent, cutoff);
+        let (lattice, harmonics) = sizes(&way, extent, cutoff);
         let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
         let repeat_time = harmonics as f64 / highest;
         let shapes: Vec<Shape> =
@@ -60,7 +60,8 @@ impl Plan {
         // The interpolated pattern remembers longer than the walk by 1 + 0.34 Δ; longer steps make up for it.
         let ageing = way.ageing * (1.0 + way.ageing / 3.0 + 0.18 * way.ageing * way.ageing);
         let walk = if way.is_carried() { libm::exp(-ageing) } else { 0.0 };
-        let correlations = shapes.windows(2).map(|pair| pair[0].overlap(&pair[1]).map(|part| part * walk)).collect();
+        let correlations =
+            shapes.windows(2).map(|pair| pair[0].overlap(&pair[1]).map(|part| part * walk)).collect();
         let generations = shapes.into_iter().map(Shape::into_generation).collect();
         Self { way, lattice, repeat_time, generations, correlations, turn: libm::acos(walk) }
     }
@@ -79,19 +80,21 @@ impl Plan {
     /// The most memory that a field takes, with blocks of time of a quarter of the repeat time [bytes].
     pub(super) fn memory(air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
         let way = WayOfEddies::new(air, distance);
-        let (lattice, harmonics) = sizes(air, &way, extent, cutoff);
+        let (lattice, harmonics) = sizes(&way, extent, cutoff);
         let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
-        let samples: f64 = way.stages.iter().map(|s| 4.0 * harmonics as f64 * s.cutoff_frequency / highest).sum();
+        let samples: f64 =
+            way.stages.iter().map(|s| 4.0 * harmonics as f64 * s.cutoff_frequency / highest).sum();
         let [y, z] = lattice.points.map(|points| points as f64);
         12.0 * y * (z + 3.0) * samples * 1.6
     }
 }
 
 /// The lattice and the number of harmonics up to the highest cut-off frequency.
-fn sizes(air: &Air, way: &WayOfEddies, extent: Extent, cutoff: f64) -> (Lattice, usize) {
+fn sizes(way: &WayOfEddies, extent: Extent, cutoff: f64) -> (Lattice, usize) {
     let smallest = way.stages.iter().map(|stage| stage.length_scale).fold(f64::INFINITY, f64::min);
     let cutoffs = way.stages.iter().map(|stage| stage.cutoff_frequency);
-    let (lowest, highest) = cutoffs.fold((f64::INFINITY, 0.0_f64), |(low, high), f| (low.min(f), high.max(f)));
+    let (lowest, highest) =
+        cutoffs.fold((f64::INFINITY, 0.0_f64), |(low, high), f| (low.min(f), high.max(f)));
     let harmonics = FEWEST[0].max(FEWEST[1] * highest / lowest).ceil() as usize;
     (Lattice::new(extent, cutoff / smallest), harmonics)
 }

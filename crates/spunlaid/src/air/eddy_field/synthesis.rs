@@ -82,7 +82,11 @@ impl Synthesis {
         // `[component][waves along z][waves along y]`
         let mut modes = vec![Complex32::ZERO; 3 * size];
         self.fill(lattice, harmonic, random, &mut modes);
-        let mut scratch = vec![Complex32::ZERO; self.along_y.get_inplace_scratch_len().max(self.along_z.get_inplace_scratch_len())];
+        let mut scratch =
+            vec![
+                Complex32::ZERO;
+                self.along_y.get_inplace_scratch_len().max(self.along_z.get_inplace_scratch_len())
+            ];
         let most = lattice.most_waves()[1] as usize;
         let mut points = vec![Complex32::ZERO; 3 * size];
         for (modes, points) in modes.chunks_exact_mut(size).zip(points.chunks_exact_mut(size)) {

@@ -11,11 +11,17 @@ fn air(eddies: EddyModel, spectrum: SpectrumShape, cutoff_frequency: f64) -> Air
 
 #[test]
 fn trial() {
-    let flat = air(EddyModel::Convected { decay_time: 5e-3 }, SpectrumShape::Flat, SPEED / 4.0 / LENGTH_SCALE);
+    let flat =
+        air(EddyModel::Convected { decay_time: 5e-3 }, SpectrumShape::Flat, SPEED / 4.0 / LENGTH_SCALE);
     let extent = Extent { y: 0.16, z: 0.2 };
     let start = std::time::Instant::now();
     let mut field = EddyField::new(&flat, 0.5, extent, 15.0, KEY);
-    println!("plan {:?} {} generations, {:?} points", start.elapsed(), field.tapes.len(), field.plan.lattice.points);
+    println!(
+        "plan {:?} {} generations, {:?} points",
+        start.elapsed(),
+        field.tapes.len(),
+        field.plan.lattice.points
+    );
     let start = std::time::Instant::now();
     let until = 4.0 * field.plan.repeat_time;
     field.make(0.0..until, 1);
@@ -24,7 +30,8 @@ fn trial() {
     let mut number = 0.0;
     for i in 0..100_000 {
         let u = |a: f64| (i as f64 * a).fract();
-        let v = field.fluctuation(u(0.618034) * until, [0.5 * u(0.7548776), 0.16 * u(0.56984), 0.2 * u(0.4142)]);
+        let v =
+            field.fluctuation(u(0.618034) * until, [0.5 * u(0.7548776), 0.16 * u(0.56984), 0.2 * u(0.4142)]);
         (0..3).for_each(|k| squares[k] += v[k] * v[k]);
         number += 1.0;
     }

@@ -90,10 +90,9 @@ impl WayOfEddies {
         let whole = travels[PIECES];
         let steps = steps(&stages, &travels, whole / decay_time);
         let travel = if steps == 0 { 0.0 } else { whole / steps as f64 };
-        let passages = travels.iter().map(|&time| Passage {
-            generation: if steps == 0 { 0.0 } else { time / travel },
-            travel: time,
-        });
+        let passages = travels
+            .iter()
+            .map(|&time| Passage { generation: if steps == 0 { 0.0 } else { time / travel }, travel: time });
         Self {
             pieces_per_length,
             passages: passages.collect(),
@@ -157,11 +156,8 @@ fn at(stages: &[Stage], rising: &[f64], value: f64) -> Stage {
 fn steps(stages: &[Stage], travels: &[f64], age: f64) -> usize {
     let whole = travels[travels.len() - 1];
     let change = |a: &Stage, b: &Stage| {
-        let ratios = [
-            a.speed / b.speed,
-            a.length_scale / b.length_scale,
-            a.cutoff_frequency / b.cutoff_frequency,
-        ];
+        let ratios =
+            [a.speed / b.speed, a.length_scale / b.length_scale, a.cutoff_frequency / b.cutoff_frequency];
         ratios.into_iter().map(|ratio| libm::log(ratio).abs()).fold(0.0, f64::max)
     };
     let least = (age / LONGEST_AGE - 1e-9).ceil().clamp(0.0, MOST as f64) as usize;
