@@ -7,13 +7,16 @@
 //! Atmosphere → the velocity at each element at a time, from all of these
 //! ```
 
+mod at_elements;
 mod atmosphere;
 mod dry_air;
 mod eddies;
+mod eddy_field;
 mod eddy_turbulence;
 mod eddy_wind;
 mod flow;
 mod from_file;
+mod in_space;
 mod lateral;
 mod measured;
 mod placed_field;
@@ -27,11 +30,13 @@ pub use atmosphere::Atmosphere;
 pub(crate) use atmosphere::{Instant, Velocities, VelocityAt, VelocityTask, misfit};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
 pub use eddies::{Eddies, EddyModel};
+pub use eddy_field::{EddyField, Extent};
 pub use eddy_turbulence::EddyTurbulence;
 pub use eddy_wind::EddyWind;
 pub(crate) use eddy_wind::LastEddy;
 pub use flow::{Flow, FromFlow, LocalAir};
 pub use from_file::FromFile;
+pub use in_space::AirInSpace;
 pub use lateral::{Lateral, Widening};
 pub use measured::{APART, Measured, RecordLayout, RecordNumbers};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
