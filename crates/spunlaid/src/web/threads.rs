@@ -2,6 +2,16 @@
 
 use crate::error::Error;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+/// Time that a computation took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spent {
+    /// All of it.
+    pub whole: Duration,
+    /// The parts that are shared among threads.
+    pub in_parallel: Duration,
+}
 
 /// Does pieces of work on some threads; the results are in the order of the pieces.
 ///
@@ -9,7 +19,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 ///
 /// # Errors
 /// The error of a piece; the pieces after it may not be done.
-pub(super) fn each<T: Send>(
+pub(crate) fn each<T: Send>(
     threads: usize,
     pieces: usize,
     work: impl Fn(usize) -> Result<T, Error> + Sync,
