@@ -22,7 +22,7 @@ use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::line::Line;
-use crate::web::{Canvas, LaidWeb, Sheet, Spent, Strand, Window, each};
+use crate::web::{Canvas, LaidWeb, Sheet, Spent, Strand, Together, Window, each};
 use filament::{Extent, Stretch};
 use pack::Pack;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -105,8 +105,9 @@ impl Beam<'_> {
     pub fn lay(&self, sheet: &Sheet, window: Window, by: Flying<'_>) -> Result<(LaidWeb, Flown), Error> {
         let element = self.element_mass();
         let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
-        let flown = self.fly((sheet, window), (&canvas, canvas.quanta(element)), by)?;
-        Ok((canvas.finish()?, flown))
+        let mut flown = self.fly((sheet, window), (&canvas, canvas.quanta(element)), by)?;
+        let together = Some(flown.together());
+        Ok((LaidWeb { together, ..canvas.finish()? }, flown))
     }
 
     /// Mass of an element of a filament [kg].
@@ -203,6 +204,12 @@ impl Beam<'_> {
 }
 
 impl Flown {
+    /// What is to be known of the web; its single fibres are taken.
+    pub(crate) fn together(&mut self) -> Together {
+        let Self { strands, lost, time, spent, .. } = self;
+        Together { strands: std::mem::take(strands), lost: lost.len() as u64, time: *time, spent: *spent }
+    }
+
     /// Puts what packs have given into the order across the web.
     fn sort(&mut self) {
         self.kept.sort_by_key(|(filament, _)| *filament);

@@ -49,12 +49,8 @@ impl Flyer<'_> {
             (self.follow)(flights, &mut || {
                 flown = beam.fly((&spec.sheet, spec.window()), (&canvas, canvas.quanta(element)), by);
             });
-            let flown = flown?;
-            together.lost += flown.lost.len() as u64;
-            together.time = flown.time.max(together.time);
-            together.spent.whole += flown.spent.whole;
-            together.spent.in_parallel += flown.spent.in_parallel;
-            together.strands.extend(flown.strands.into_iter().map(|strand| strand.of_layer(number)));
+            let mut flown = flown?;
+            together.add(number, flown.together());
             let curves = flown.kept.into_iter().map(|(_, points)| points).collect();
             let flown = Arc::new(FlownFibres::of(layer.path, &layer.case, curves)?);
             // In machine direction the sheet is not closed.

@@ -54,6 +54,17 @@ pub struct Together {
     pub spent: Spent,
 }
 
+impl Together {
+    /// Adds what is known of another layer.
+    pub(crate) fn add(&mut self, layer: usize, other: Self) {
+        self.strands.extend(other.strands.into_iter().map(|strand| Strand { layer, ..strand }));
+        self.lost += other.lost;
+        self.time = self.time.max(other.time);
+        self.spent.whole += other.spent.whole;
+        self.spent.in_parallel += other.spent.in_parallel;
+    }
+}
+
 /// Filaments that a thread lays before it adds them to the map.
 const TOGETHER: usize = 8 * WIDTH;
 /// Longest piece of a path: of the smaller standard deviation, and of the length 1/A² in which the direction is forgotten.

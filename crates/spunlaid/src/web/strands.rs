@@ -26,13 +26,6 @@ pub struct Strand {
     pub points: Vec<[f64; 2]>,
 }
 
-impl Strand {
-    /// The same of another layer.
-    pub(crate) fn of_layer(self, layer: usize) -> Self {
-        Self { layer, ..self }
-    }
-}
-
 impl Window {
     pub(crate) fn holds(&self, point: [f64; 2]) -> bool {
         self.nears(point, 0.0)

@@ -1,22 +1,27 @@
 //! All filaments of a beam, flown together: limits that hold exactly, and nothing that depends on the threads.
 
-#[path = "../common/laying.rs"]
-mod laying;
-
-use laying::spunbond;
 use spunlaid::beam::{Airs, Beam, Flown, Flying};
 use spunlaid::case::Case;
 use spunlaid::fibre::Place;
+use spunlaid::flight::LaidPoint;
+use spunlaid::input::read_case;
 use spunlaid::lanes::Isa;
 use spunlaid::web::uniformity::unevenness;
-use spunlaid::web::{Edges, LaidWeb, Map, Sheet, Window};
+use spunlaid::web::{
+    Curves, Edges, Fibres, Filaments, Findings, LaidWeb, Layer, Laying, Map, Row, Sheet, Web, Window,
+    measure_laid,
+};
+use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const CELL: f64 = 1e-3;
 
 /// A short line, so that little has to be flown.
 fn case() -> Case {
-    spunbond(&[("belt.distance", "0.1 m"), ("run.duration", "0.1 s"), ("run.spin_up", "10 ms")])
+    let set = [("belt.distance", "0.1 m"), ("run.duration", "0.1 s"), ("run.spin_up", "10 ms")];
+    let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap().0
 }
 
 fn sheet(columns: usize, rows: usize) -> Sheet {
@@ -83,23 +88,58 @@ fn analytic_filaments_at_one_place_have_the_unevenness_of_one() {
     }
 }
 
-/// `CV² = [Σ var(m_k) + Σ cov(m_k, m_l)]/(Σ⟨m⟩)²` for any filaments, and without the covariances for filaments in airs of their own.
+/// `CV² = [Σ var(m_k) + Σ cov(m_k, m_l)]/(Σ⟨m⟩)²`: without covariances it is what the curves, each by itself, let expect.
 #[test]
 fn stat_filaments_in_airs_of_their_own_are_independent() {
-    let sheet = sheet(32, 2000);
-    let places = row(&sheet, 16);
-    let (together, flown) = lay(&sheet, &places, Airs::Own);
+    let mut sheet = sheet(32, 2000);
+    sheet.patches = vec![2e-3, 5e-3, 10e-3];
+    let (laid, flown) = lay(&sheet, &row(&sheet, 16), Airs::Own);
     assert_eq!((flown.kept.len(), flown.lost.len()), (16, 0));
-    // Each curve by itself, on the same cells.
-    let side = 8;
-    let mean = together.map.total() as f64 / together.map.cells.len() as f64 * (side * side) as f64;
-    let variance = (cv(&together.map, side) * mean).powi(2);
-    let mut own = 0.0;
-    for (number, points) in &flown.kept {
-        own += variance_alone(points, places[*number], &sheet, &together.map, side);
+    let pitch = sheet.width / 16.0;
+    let rows = Filaments::Rows(vec![Row::new(0.5 * pitch, pitch, 16)]);
+    for patch in found(&sheet, laid, &flown, rows).patches {
+        let (cv, (independent, error)) = (patch.map.cv, patch.independent.unwrap());
+        let chance = patch.map.standard_error.unwrap().hypot(error);
+        assert!(chance < 0.05 * cv, "{chance}");
+        assert!((cv - independent).abs() < 3.0 * chance, "{}: {cv} {independent} {chance}", patch.map.patch);
     }
-    // 2 m of belt are some two hundred correlation lengths, of filaments 16 of which overlap.
-    assert!((variance / own - 1.0).abs() < 0.1, "{variance} {own}");
+}
+
+/// Sixteen filaments in the same air, at the same place, are as uneven as one; independent ones have a sixteenth of its variance.
+#[test]
+fn analytic_the_variance_of_filaments_together_over_that_of_independent_ones() {
+    let mut sheet = sheet(32, 2000);
+    sheet.patches = vec![5e-3];
+    let (laid, flown) = lay(&sheet, &[Place { y: 0.0, z: 16e-3 }; 16], Airs::Shared);
+    let anywhere = Filaments::AtRandom { per_metre: 16.0 / sheet.width };
+    let patch = found(&sheet, laid, &flown, anywhere).patches[0];
+    // Of lengths m in patches, the map has ⟨m²⟩/⟨m⟩² − 1, and independent filaments anywhere have ⟨m²⟩/⟨m⟩² over their number.
+    let ratio = (patch.map.cv.powi(2) + 1.0) / patch.independent.unwrap().0.powi(2);
+    assert!((ratio / 16.0 - 1.0).abs() < 0.05, "{ratio}");
+}
+
+/// What is found of a laid sheet, beside what the kept curves let expect.
+fn found(sheet: &Sheet, laid: LaidWeb, flown: &Flown, filaments: Filaments) -> Findings {
+    let case = case();
+    let (line, spacing) = (case.line.unwrap(), case.fibre.rest_length());
+    let start = line.feed_speed * case.run.spin_up();
+    let curve = |(_, points): &(usize, Vec<LaidPoint>)| -> Vec<[f64; 2]> {
+        points.iter().filter(|point| point.fed >= start).map(|point| [point.md, point.cd]).collect()
+    };
+    let curves =
+        Curves::new(spacing, line.belt_speed / line.feed_speed, flown.kept.iter().map(curve).collect());
+    let layer = Layer {
+        linear_density: case.fibre.element_mass() / spacing,
+        feed_speed: line.feed_speed,
+        belt_speed: line.belt_speed,
+        filaments,
+        fibres: Fibres::Curves(Arc::new(curves.unwrap())),
+        compared: None,
+    };
+    let web = Web { sheet: sheet.clone(), layers: vec![layer], seed: 1 };
+    let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &done };
+    measure_laid(&web, Some(laid), by).unwrap()
 }
 
 #[test]
@@ -122,11 +162,12 @@ fn identical_on_any_threads_and_instruction_sets() {
     let sheet = sheet(24, 32);
     let places = row(&sheet, 12);
     let (one, flown) = lay_by(&sheet, &places, Airs::Own, Isa::detect(), 1);
-    assert!(!flown.strands.is_empty());
+    let strands = |laid: &LaidWeb| laid.together.clone().unwrap().strands;
+    assert!(!strands(&one).is_empty());
     for (isa, threads) in Isa::available().into_iter().zip([2, 3, 1].into_iter().cycle()) {
         let (other, again) = lay_by(&sheet, &places, Airs::Own, isa, threads);
         assert_eq!(other.map, one.map, "{} on {threads} threads", isa.name());
-        assert_eq!(again.strands, flown.strands, "{}", isa.name());
+        assert_eq!(strands(&other), strands(&one), "{}", isa.name());
         assert_eq!(again.kept, flown.kept, "{}", isa.name());
     }
 }
