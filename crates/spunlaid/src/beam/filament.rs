@@ -8,7 +8,7 @@ use crate::web::{Canvas, Edges, Sheet, Strand, Window};
 
 /// How far what has been laid reaches along the belt.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Extent {
+pub(super) struct Reach {
     /// Farthest that a point lies ahead of where the belt was when it was fed at its start [m].
     pub(super) ahead: f64,
     /// Farthest back that a point of the start lies on the belt [m].
@@ -19,13 +19,13 @@ pub(super) struct Extent {
     pub(super) lost: usize,
 }
 
-impl Default for Extent {
+impl Default for Reach {
     fn default() -> Self {
         Self { ahead: f64::NEG_INFINITY, start: f64::INFINITY, fed: 0.0, lost: 0 }
     }
 }
 
-impl Extent {
+impl Reach {
     pub(super) fn with(self, other: Self) -> Self {
         Self {
             ahead: self.ahead.max(other.ahead),
@@ -60,15 +60,15 @@ impl Stretch {
     }
 
     /// Finds the place of the sheet as soon as all filaments have laid the fibre of their start.
-    pub(super) fn settle(&mut self, extent: &Extent) {
-        if self.back.is_none() && extent.fed > self.start {
-            self.back = Some(extent.start - self.length);
+    pub(super) fn settle(&mut self, reach: &Reach) {
+        if self.back.is_none() && reach.fed > self.start {
+            self.back = Some(reach.start - self.length);
         }
     }
 
     /// Whether nothing will come down on the sheet any more. A filament is never reckoned farther ahead than any has been so far.
-    pub(super) fn is_laid(&self, extent: &Extent) -> bool {
-        self.back.is_some_and(|back| extent.ahead - self.belt_ratio * extent.fed < back)
+    pub(super) fn is_laid(&self, reach: &Reach) -> bool {
+        self.back.is_some_and(|back| reach.ahead - self.belt_ratio * reach.fed < back)
     }
 
     /// The place of a point on the sheet, in cross and in machine direction [m], if it is known where the sheet is.
@@ -117,13 +117,13 @@ impl Filament {
         points: Vec<LaidPoint>,
         stretch: &Stretch,
         (canvas, quanta): (&Canvas, u32),
-        extent: &mut Extent,
+        reach: &mut Reach,
     ) {
         for point in &points {
             let md = self.place.y + point.md;
-            extent.ahead = extent.ahead.max(md + stretch.belt_ratio * point.fed);
+            reach.ahead = reach.ahead.max(md + stretch.belt_ratio * point.fed);
             if point.fed < stretch.start {
-                extent.start = extent.start.min(md);
+                reach.start = reach.start.min(md);
             }
         }
         if let Some(kept) = &mut self.kept {
@@ -143,7 +143,7 @@ impl Filament {
             let first = self.waiting.iter().position(|point| point.fed >= stretch.start);
             self.waiting.drain(..first.unwrap_or(self.waiting.len()).saturating_sub(1));
         }
-        extent.fed = extent.fed.min(self.waiting.last().map_or(0.0, |point| point.fed));
+        reach.fed = reach.fed.min(self.waiting.last().map_or(0.0, |point| point.fed));
         if stretch.back.is_some() {
             self.waiting.drain(..self.waiting.len().saturating_sub(1));
         }

@@ -13,27 +13,31 @@
 //!                              └ no point of the start lies behind here
 //! ```
 
+mod air;
 mod filament;
 mod pack;
 
+use crate::air::EddyField;
 use crate::case::Case;
 use crate::error::{Error, Fault};
 use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::line::Line;
-use crate::web::{Canvas, LaidWeb, Sheet, Spent, Strand, Together, Window, each};
-use filament::{Extent, Stretch};
+use crate::threads::try_each;
+use crate::web::{Canvas, LaidWeb, Sheet, Spent, Strand, Together, Window};
+use air::SharedField;
+use filament::{Reach, Stretch};
 use pack::Pack;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 /// Filaments whose whole curves are kept, spread over the beam: some hundred kilobytes each.
 const KEPT: usize = 64;
 /// Most filaments that may be lost, of all.
 const MOST_LOST: f64 = 0.02;
-/// Time by which all flights advance before the next block [s].
+/// Time by which all flights advance before the next block, unless the air has one [s].
 const BLOCK: f64 = 4e-3;
 /// How far from its place a filament is reckoned to land before it is known, in ways from inlet to belt. Only the display of progress needs it.
 const SPREAD: f64 = 0.2;
@@ -138,42 +142,47 @@ impl Beam<'_> {
         let started = Instant::now();
         let line = self.case.line.filter(|line| line.belt_speed > 0.0);
         let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
-        let mut spent = Spent::default();
-        let mut in_parallel = |pieces: usize, work: &(dyn Fn(usize) -> Result<Extent, Error> + Sync)| {
+        let (mut spent, mut making) = (Spent::default(), Duration::ZERO);
+        let mut shared = SharedField::new(self, sheet, by.threads);
+        let block = shared.as_ref().map_or(BLOCK, SharedField::block);
+        let steps = (block / self.case.run.time_step).ceil().max(1.0) as u64;
+        let block = steps as f64 * self.case.run.time_step;
+        let mut in_parallel = |pieces: usize, work: &(dyn Fn(usize) -> Result<Reach, Error> + Sync)| {
             let begun = Instant::now();
-            let done = each(by.threads, pieces, work);
+            let done = try_each(by.threads, pieces, work);
             spent.in_parallel += begun.elapsed();
             done
         };
         let neighbours = pack::neighbours(self.places);
         let packs: Vec<Mutex<Option<Pack>>> = neighbours.iter().map(|_| Mutex::new(None)).collect();
         let locked = |i: usize| packs[i].lock().unwrap_or_else(PoisonError::into_inner);
+        let mut field = air_during(&mut shared, 0.0, block, &mut making);
         in_parallel(packs.len(), &|i| {
-            *locked(i) = Some(Pack::new(self, &neighbours[i], by.isa)?);
-            Ok(Extent::default())
+            *locked(i) = Some(Pack::new(self, &neighbours[i], by.isa, field.as_ref())?);
+            Ok(Reach::default())
         })?;
         let spun_up = line.feed_speed * self.case.run.spin_up();
-        let (mut stretch, mut extent) = (Stretch::before(&line, spun_up, window, sheet), Extent::default());
-        let steps = (BLOCK / self.case.run.time_step).ceil() as u64;
+        let (mut stretch, mut reach) = (Stretch::before(&line, spun_up, window, sheet), Reach::default());
         let mut time = 0.0;
-        while !stretch.is_laid(&extent) {
-            let (now, before) = (&stretch, extent);
-            let extents = in_parallel(packs.len(), &|i| {
+        while !stretch.is_laid(&reach) {
+            field = air_during(&mut shared, time, time + block, &mut making);
+            let (now, before) = (&stretch, reach);
+            let reaches = in_parallel(packs.len(), &|i| {
                 if by.stop.load(Ordering::Relaxed) {
                     return Err(Error::Interrupted);
                 }
                 let mut pack = locked(i);
                 let Some(pack) = pack.as_mut() else { return Ok(before) };
-                let extent = pack.advance(steps, now, (canvas, quanta));
+                let reach = pack.advance(steps, field.as_ref(), now, (canvas, quanta));
                 by.steps.fetch_add(steps * pack.filaments().len() as u64, Ordering::Relaxed);
-                Ok(extent)
+                Ok(reach)
             })?;
-            time += steps as f64 * self.case.run.time_step;
-            extent = extents.into_iter().fold(Extent { fed: f64::INFINITY, lost: 0, ..before }, Extent::with);
-            if extent.lost as f64 > MOST_LOST * self.places.len() as f64 {
+            time += block;
+            reach = reaches.into_iter().fold(Reach { fed: f64::INFINITY, lost: 0, ..before }, Reach::with);
+            if reach.lost as f64 > MOST_LOST * self.places.len() as f64 {
                 break;
             }
-            stretch.settle(&extent);
+            stretch.settle(&reach);
         }
         let mut flown = Flown { time, ..Flown::default() };
         for pack in packs {
@@ -181,9 +190,10 @@ impl Beam<'_> {
             pack.into_iter().for_each(|pack| pack.finish(&mut flown));
         }
         flown.sort();
-        if extent.lost as f64 > MOST_LOST * self.places.len() as f64 {
+        if reach.lost as f64 > MOST_LOST * self.places.len() as f64 {
             return Err(too_many_lost(flown, self.places.len()));
         }
+        spent.in_parallel += making;
         spent.whole = started.elapsed();
         Ok(Flown { spent, ..flown })
     }
@@ -217,6 +227,21 @@ impl Flown {
         // A filament comes through the window in the order of its strands.
         self.strands.sort_by_key(|strand| strand.filament);
     }
+}
+
+/// The air that all filaments share between two times [s], if they share one.
+///
+/// * `making` – becomes longer by the time that it takes to make it
+fn air_during(
+    shared: &mut Option<SharedField>,
+    start: f64,
+    end: f64,
+    making: &mut Duration,
+) -> Option<Arc<EddyField>> {
+    let begun = Instant::now();
+    let field = shared.as_mut().map(|shared| shared.during(start, end));
+    *making += begun.elapsed();
+    field
 }
 
 /// The error of filaments so many of which are lost that what is left is no web.

@@ -1,12 +1,14 @@
 //! Eight neighbours of a beam, in one flight.
 
-use super::filament::{Extent, Filament, Stretch};
+use super::filament::{Filament, Reach, Stretch};
 use super::{Beam, Flown};
+use crate::air::EddyField;
 use crate::error::Error;
 use crate::fibre::Place;
-use crate::flight::{Flight, Job};
+use crate::flight::{AirOf, Flight, Job};
 use crate::lanes::{Isa, WIDTH};
 use crate::web::Canvas;
+use std::sync::Arc;
 
 /// Neighbours across the web that are shared out to packs by their places in the slot.
 const AREA: usize = 8 * WIDTH;
@@ -30,7 +32,13 @@ pub(super) struct Pack {
 }
 
 impl Pack {
-    pub(super) fn new(beam: &Beam<'_>, numbers: &[usize], isa: Isa) -> Result<Self, Error> {
+    /// * `field` – the air of all filaments, if they share one
+    pub(super) fn new(
+        beam: &Beam<'_>,
+        numbers: &[usize],
+        isa: Isa,
+        field: Option<&Arc<EddyField>>,
+    ) -> Result<Self, Error> {
         let job = |number: &usize| Job {
             case: beam.case,
             replicate: beam.replicate(*number),
@@ -38,7 +46,8 @@ impl Pack {
         };
         let jobs: Vec<Job<'_>> = numbers.iter().map(job).collect();
         let filament = |number: &usize| Filament::new(*number, beam.places[*number], beam.keeps(*number));
-        Ok(Self { flight: Flight::new(&jobs, isa)?, filaments: numbers.iter().map(filament).collect() })
+        let flight = Flight::in_air(&jobs, isa, AirOf { field, ..AirOf::run(beam.case) })?;
+        Ok(Self { flight, filaments: numbers.iter().map(filament).collect() })
     }
 
     pub(super) fn filaments(&self) -> &[Filament] {
@@ -46,7 +55,16 @@ impl Pack {
     }
 
     /// Advances all filaments and lays what has come down.
-    pub(super) fn advance(&mut self, steps: u64, stretch: &Stretch, on: (&Canvas, u32)) -> Extent {
+    ///
+    /// * `field` – the air of all filaments during these steps, if they share one
+    pub(super) fn advance(
+        &mut self,
+        steps: u64,
+        field: Option<&Arc<EddyField>>,
+        stretch: &Stretch,
+        on: (&Canvas, u32),
+    ) -> Reach {
+        field.iter().for_each(|field| self.flight.give_field(field));
         let mut left = steps;
         while left > 0 && self.filaments.iter().any(|filament| filament.lost.is_none()) {
             let now = left.min(STEPS_UNSEEN);
@@ -56,17 +74,17 @@ impl Pack {
                 self.filaments[lane].lost.get_or_insert(reason);
             }
         }
-        let mut extent = Extent { fed: f64::INFINITY, ..Extent::default() };
+        let mut reach = Reach { fed: f64::INFINITY, ..Reach::default() };
         for (lane, filament) in self.filaments.iter_mut().enumerate() {
             let points = self.flight.take_laid(lane);
             // What it laid last may be wrong.
             if filament.lost.is_none() {
-                filament.lay(points, stretch, on, &mut extent);
+                filament.lay(points, stretch, on, &mut reach);
             } else {
-                extent.lost += 1;
+                reach.lost += 1;
             }
         }
-        extent
+        reach
     }
 
     /// Hands over what its filaments have done.

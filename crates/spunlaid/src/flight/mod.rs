@@ -36,7 +36,7 @@ mod tests;
 pub(crate) use common::{Clock, Common};
 pub use end_node::{EndNodeMotion, EndNodeStatistics};
 
-use crate::air::{Atmosphere, Eddies, Stream, StreamKey};
+use crate::air::{Atmosphere, Eddies, EddyField, Stream, StreamKey};
 use crate::case::Case;
 use crate::chain::Chain;
 use crate::chain::laying::Fed;
@@ -47,6 +47,7 @@ use crate::energy::Energy;
 use crate::fibre::Place;
 use crate::lanes::{Isa, Lanes, WIDTH};
 use crate::vec3::Vec3;
+use std::sync::Arc;
 
 /// One replicate of a case: the smallest piece of work.
 #[derive(Clone, Copy, Debug)]
@@ -92,12 +93,14 @@ pub(crate) struct AirOf<'a> {
     pub(crate) case: &'a Case,
     /// Time until which the air has to last [s]. Which stretches of a record a fibre gets depends on it.
     pub(crate) horizon: f64,
+    /// A field of eddies that all fibres share and that another owner makes.
+    pub(crate) field: Option<&'a Arc<EddyField>>,
 }
 
 impl<'a> AirOf<'a> {
     /// The air of a run of the case itself.
     pub(crate) fn run(case: &'a Case) -> Self {
-        Self { case, horizon: case.air_horizon() }
+        Self { case, horizon: case.air_horizon(), field: None }
     }
 }
 
@@ -190,6 +193,13 @@ impl Flight {
             *position = at;
             self.chain.velocity[node] = Vec3::ZERO;
             self.chain.earlier[node] = Vec3::ZERO;
+        }
+    }
+
+    /// Gives all fibres a field of eddies that has been made for the steps to come.
+    pub(crate) fn give_field(&mut self, field: &Arc<EddyField>) {
+        if let Atmosphere::Space(air) = &mut self.air {
+            air.give(field);
         }
     }
 

@@ -1,7 +1,9 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
 use super::{AirOf, Clock, Common, EndNodeStatistics, Entry, Flight, Job, Start};
-use crate::air::{Atmosphere, EddyWind, Stations, Surroundings, Wind, misfit};
+use crate::air::{
+    AirInSpace, Atmosphere, EddyField, EddyWind, Stations, StreamKey, Surroundings, Wind, misfit,
+};
 use crate::case::Case;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
@@ -12,6 +14,7 @@ use crate::error::{Error, Fault};
 use crate::fibre::Fibre;
 use crate::lanes::{Isa, Lanes};
 use crate::vec3::Vec3;
+use std::sync::Arc;
 
 impl Flight {
     /// Fibres at the start of their cases: straight and at rest, in moving air.
@@ -192,6 +195,35 @@ pub(super) fn surrounded(
     air: AirOf<'_>,
 ) -> Result<Atmosphere, Error> {
     let Common { way, every, chain, .. } = common;
+    if let Some(cutoff) = common.lateral_cutoff {
+        let every = every.unwrap_or_else(|| way.as_ref().map_or(1, |way| way.every));
+        let mut last: Option<(&Job<'_>, Arc<EddyField>)> = None;
+        let lanes = jobs.iter().map(|job| {
+            let key = StreamKey { seed: job.case.run.seed, replicate: job.replicate };
+            let distance = job.case.way_of_air();
+            let field = match (air.field, &last) {
+                (Some(field), _) => Arc::clone(field),
+                // Fibres of one replicate are neighbours, and replicates of one case have one plan.
+                (_, Some((other, field))) if std::ptr::eq(other.case, job.case) => {
+                    match other.replicate == job.replicate {
+                        true => Arc::clone(field),
+                        false => Arc::new(field.with_key(key)),
+                    }
+                }
+                _ => Arc::new(EddyField::new(
+                    &job.case.air,
+                    distance,
+                    job.case.extent_of_air(),
+                    cutoff.number(),
+                    key,
+                )),
+            };
+            last = Some((job, Arc::clone(&field)));
+            (job.case.air.clone(), job.place, field, distance)
+        });
+        let lanes = PerLane::new(lanes.collect())?;
+        return Ok(Atmosphere::Space(AirInSpace::new(&lanes, chain.elements, every)));
+    }
     // Eddies of finer elements, if the air is that of finer elements.
     let eddies = if way.is_some() { common.eddies.clone() } else { air.case.eddies() };
     let elements = air.case.fibre.elements;

@@ -1,12 +1,14 @@
 //! Webs whose filaments all fly in one air, and lay the sheet as they come down.
 
 use super::flown::Flights;
-use super::{FlownFibres, Flyer, LaydownSource, OfLayer, WebSpec};
+use super::{FlownFibres, Flyer, LaydownSource, Method, OfLayer, WebSpec};
+use crate::air::Lateral;
 use crate::beam::{Airs, Beam, Flying};
 use crate::case::Case;
-use crate::error::{Error, Fault};
+use crate::error::{Error, Fault, Finding, Place as ErrorPlace};
 use crate::fibre::Place;
 use crate::lanes::Isa;
+use crate::units::Dimension;
 use crate::web::{Canvas, Fibres, LaidWeb, Together, inlets};
 use std::path::Path;
 use std::sync::Arc;
@@ -29,6 +31,7 @@ impl Flyer<'_> {
     /// Flies all filaments of each layer in an air of its own, and lays them. A few curves of each layer are kept, which say what independent filaments
     /// would give.
     pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<OfLayer>, LaidWeb), Error> {
+        spec.check_air().map_err(|finding| Error::from(vec![finding]))?;
         let beams: Vec<LayerBeam<'_>> =
             (0..spec.layers.len()).map(|number| beam(spec, number)).collect::<Result<_, _>>()?;
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
@@ -61,7 +64,41 @@ impl Flyer<'_> {
     }
 }
 
-/// The filaments of a layer at their places. The seed of the web and the number of the layer are in the key of the air, so that layers and webs have
+impl WebSpec {
+    /// Says whether the field of eddies of a web in one air fits into the memory that it may take.
+    pub(crate) fn check_air(&self) -> Result<(), Finding> {
+        if self.method != Method::SharedAir {
+            return Ok(());
+        }
+        let beams = (0..self.layers.len()).filter_map(|number| beam(self, number).ok());
+        let largest = beams
+            .map(|layer| (layer.beam().memory_of_air(&self.sheet), layer.case.air.lateral))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((needed, Lateral::VonKarman { cutoff })) = largest else { return Ok(()) };
+        if needed <= self.memory_limit {
+            return Ok(());
+        }
+        let share = self.memory_limit / needed;
+        let memory = |size: f64| Dimension::Memory.pretty_to(size, 3);
+        let (width, cutoff) = (self.sheet.width * share, cutoff * share.sqrt());
+        let what = Fault::new(
+            format!(
+                "is less than the field of eddies takes, {}, which all filaments share across the whole web",
+                memory(needed)
+            ),
+            format!(
+                "write {} or more if the machine has it; a web.width of about {}, or air.lateral_cutoff = {} in the case, would fit",
+                memory(1.05 * needed),
+                Dimension::Length.pretty_to(width, 2),
+                Dimension::Ratio.pretty_to(cutoff, 2)
+            ),
+        );
+        let value = Some(memory(self.memory_limit));
+        Err(Finding { place: ErrorPlace::Code, key: "web.memory_limit".to_owned(), value, what })
+    }
+}
+
+/// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field in space. The seed of the web and the number of the layer are in the key of the air, so that layers and webs have
 /// airs of their own.
 fn beam(spec: &WebSpec, number: usize) -> Result<LayerBeam<'_>, Error> {
     let layer = &spec.layers[number];
@@ -70,6 +107,9 @@ fn beam(spec: &WebSpec, number: usize) -> Result<LayerBeam<'_>, Error> {
         return Err(fault.into());
     };
     let mut case = Case::clone(case);
+    if case.air.lateral == Lateral::Uniform {
+        case.air.lateral = Lateral::ALL[1];
+    }
     case.run.seed = key(case.run.seed, spec.seed, number as u64);
     let place = |[z, y]: [f64; 2]| Place { y, z };
     let places = inlets(&spec.sheet, spec.seed, number, &layer.filaments).into_iter().map(place).collect();

@@ -6,16 +6,17 @@ use super::map::Map;
 use super::raster::{Draw, Pens};
 use super::strands::Strand;
 use super::strip::Strip;
-use super::threads::{Spent, each};
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::{Error, Fault};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use crate::surrogate::{PATH_POINTS, PathKey, Paths, Surrogate};
+use crate::threads::try_each;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 /// What computes, and how it is watched and stopped.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +40,15 @@ pub struct LaidWeb {
     pub cut: f64,
     /// What is known of filaments that were flown together and laid as they came down; None of a web of independent filaments.
     pub together: Option<Together>,
+}
+
+/// Time that a computation took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spent {
+    /// All of it.
+    pub whole: Duration,
+    /// The parts that are shared among threads.
+    pub in_parallel: Duration,
 }
 
 /// What is known of filaments that were flown together, in one air.
@@ -409,7 +419,7 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<LaidWeb, Error> {
     // Strips are large; a thread uses one again.
     let strips = Mutex::new(Vec::new());
     let held = |of: &Mutex<Vec<Strip>>| of.lock().unwrap_or_else(PoisonError::into_inner).pop();
-    each(by.threads, units.len(), |unit| {
+    try_each(by.threads, units.len(), |unit| {
         let (plan, which) = &units[unit];
         let mut strip = held(&strips).unwrap_or_else(|| Strip::new(rows));
         plan.draw(web, which.clone(), &mut strip, by)?;

@@ -1,11 +1,15 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
 use super::read::{Reading, SAME};
-use crate::error::Fault;
+use crate::air::Lateral;
+use crate::case::Note;
+use crate::error::{Fault, Place};
+use crate::layers::keys::METHODS;
 use crate::layers::{LaydownSource, LayerSpec, too_small};
 use crate::units::Dimension;
 use crate::web::{Edges, Filaments, Row, Sheet};
 use std::collections::BTreeMap;
+use std::path::Path;
 
 impl Reading<'_> {
     /// Refuses two layers of one name.
@@ -50,7 +54,12 @@ impl Reading<'_> {
             let Some(layer) = layer else { continue };
             let laydown = format!("{prefix}laydown");
             let fault = match &layer.source {
-                LaydownSource::Case { case, .. } if case.air.records.is_empty() => continue,
+                LaydownSource::Case { case, path } if case.air.records.is_empty() => {
+                    if case.air.lateral == Lateral::Uniform {
+                        self.note(vec![uniform_air(path)]);
+                    }
+                    continue;
+                }
                 LaydownSource::Case { path, .. } => Fault::new(
                     format!(
                         "flies all filaments in one air, and that of {} follows a recorded wind (air.record), which says nothing of how \
@@ -140,4 +149,15 @@ impl Reading<'_> {
             self.refuse(&format!("{before}offset"), offset, fault);
         }
     }
+}
+
+/// The note about a case whose turbulence is the same across the flow.
+fn uniform_air(case: &Path) -> Note {
+    let what = Fault::plain(format!(
+        "flies the filaments of {} with air.lateral = \"von-karman\" and the usual air.lateral_cutoff; the case itself leaves the turbulence the \
+         same across the flow, so that all filaments would lie alike",
+        case.display()
+    ));
+    let value = Some(format!("\"{}\"", METHODS[2]));
+    Note { place: Place::Code, key: "web.method".to_owned(), value, what }
 }

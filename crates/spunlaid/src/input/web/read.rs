@@ -70,7 +70,9 @@ pub(super) fn spec(
     }
     match (sheet, layers.into_iter().collect::<Option<Vec<_>>>(), window, memory_limit) {
         (Some(sheet), Some(layers), Some(window), Some(memory_limit)) if written.problems.is_empty() => {
-            Ok((WebSpec { sheet, layers, seed, method, window, memory_limit }, sorted(notes)))
+            let spec = WebSpec { sheet, layers, seed, method, window, memory_limit };
+            spec.check_air().map_err(|finding| Error::from(vec![written.placed(finding)]))?;
+            Ok((spec, sorted(notes)))
         }
         _ => Err(sorted(written.problems).into()),
     }
