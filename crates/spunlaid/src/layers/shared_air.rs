@@ -5,7 +5,7 @@ use super::{FlownFibres, Flyer, LaydownSource, Method, OfLayer, WebSpec};
 use crate::air::Lateral;
 use crate::beam::{Airs, Beam, Flying};
 use crate::case::Case;
-use crate::error::{Error, Fault, Finding, Place as ErrorPlace};
+use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
 use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
@@ -31,7 +31,7 @@ impl Flyer<'_> {
     /// Flies all filaments of each layer in an air of its own, and lays them. A few curves of each layer are kept, which say what independent filaments
     /// would give.
     pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<OfLayer>, LaidWeb), Error> {
-        spec.check_air().map_err(|finding| Error::from(vec![finding]))?;
+        spec.check_air().map_err(|problem| Error::from(vec![problem]))?;
         let beams: Vec<LayerBeam<'_>> =
             (0..spec.layers.len()).map(|number| beam(spec, number)).collect::<Result<_, _>>()?;
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
@@ -66,7 +66,7 @@ impl Flyer<'_> {
 
 impl WebSpec {
     /// Says whether the field of eddies of a web in one air fits into the memory that it may take.
-    pub(crate) fn check_air(&self) -> Result<(), Finding> {
+    pub(crate) fn check_air(&self) -> Result<(), Problem> {
         if self.method != Method::SharedAir {
             return Ok(());
         }
@@ -94,7 +94,7 @@ impl WebSpec {
             ),
         );
         let value = Some(memory(self.memory_limit));
-        Err(Finding { place: ErrorPlace::Code, key: "web.memory_limit".to_owned(), value, what })
+        Err(Problem { place: ErrorPlace::Code, key: "web.memory_limit".to_owned(), value, what })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::read::{Reading, SAME};
 use crate::air::Lateral;
-use crate::case::Note;
+use crate::case::{Note, Remark};
 use crate::error::{Fault, Place};
 use crate::layers::keys::METHODS;
 use crate::layers::{LaydownSource, LayerSpec, too_small};
@@ -153,11 +153,7 @@ impl Reading<'_> {
 
 /// The note about a case whose turbulence is the same across the flow.
 fn uniform_air(case: &Path) -> Note {
-    let what = Fault::plain(format!(
-        "flies the filaments of {} with air.lateral = \"von-karman\" and the usual air.lateral_cutoff; the case itself leaves the turbulence the \
-         same across the flow, so that all filaments would lie alike",
-        case.display()
-    ));
+    let what = Remark::EddiesInSpace { case: case.display().to_string() };
     let value = Some(format!("\"{}\"", METHODS[2]));
     Note { place: Place::Code, key: "web.method".to_owned(), value, what }
 }

@@ -71,7 +71,7 @@ pub(super) fn spec(
     match (sheet, layers.into_iter().collect::<Option<Vec<_>>>(), window, memory_limit) {
         (Some(sheet), Some(layers), Some(window), Some(memory_limit)) if written.problems.is_empty() => {
             let spec = WebSpec { sheet, layers, seed, method, window, memory_limit };
-            spec.check_air().map_err(|finding| Error::from(vec![written.placed(finding)]))?;
+            spec.check_air().map_err(|problem| Error::from(vec![written.placed(problem)]))?;
             Ok((spec, sorted(notes)))
         }
         _ => Err(sorted(written.problems).into()),
