@@ -306,6 +306,15 @@ pub enum Remark {
         /// Length of the fibre [m].
         fibre: f64,
     },
+    /// A web in one air flies a case whose turbulence is the same across the flow.
+    #[error(
+        "flies the filaments of {case} with air.lateral = \"von-karman\" and the usual air.lateral_cutoff: with its own air.lateral = \"uniform\" \
+         all of them would lie alike"
+    )]
+    EddiesInSpace {
+        /// Path of the case.
+        case: String,
+    },
     /// Elements that are shorter than the diameter.
     #[error("is larger than the element length, {}; use longer elements", Dimension::Length.pretty(*element_length))]
     ElementsStubby {
