@@ -19,7 +19,7 @@
 //! **Output** is the air at any point, [`Local`]: velocity, `k`, `ε` and whether the point lies in the field. On a
 //! [lattice](Field::lattice) it is linear in each coordinate. In a [mesh](Field::mesh) it is linear in tetrahedra.
 //! Among [points](Field::points) it is a weighted mean of the nearest eight. A flow that is linear in space is
-//! reproduced exactly. Outside the field it is the air at the edge. A [`FieldWarning`] says what was left out or
+//! reproduced exactly. Outside the field it is the air at the edge. Warnings say what was left out or
 //! corrected.
 //!
 //! **Limits.** Coordinates and values lie within ±1e30. A file is held in memory while it is read. Further memory is
@@ -51,16 +51,14 @@ mod points;
 mod read;
 mod tree;
 mod values;
-mod warning;
 
 pub use bricks::Around;
 pub use mesh::cells::{Cells, Shape};
 pub use values::Values;
-pub use warning::FieldWarning;
 
 pub(crate) use read::ReadField;
 
-use crate::error::FileError;
+use crate::error::{Fault, FileError};
 use crate::vec3::Vec3;
 use bricks::Bricks;
 use lattice::Lattice;
@@ -173,7 +171,7 @@ impl Field {
         points: &[Vec3<f64>],
         cells: &Cells,
         values: &Values,
-    ) -> Result<(Self, Vec<FieldWarning>), FileError> {
+    ) -> Result<(Self, Vec<Fault>), FileError> {
         let quantities = values.check(points.len())?;
         let (mesh, warnings) = Mesh::new(points, cells, quantities)?;
         Ok((Self::of(Support::Mesh(mesh), values), warnings))
@@ -192,7 +190,7 @@ impl Field {
     ///
     /// # Errors
     /// When points are too few, or values are too few, too many or not finite.
-    pub fn points(points: &[Vec3<f64>], values: &Values) -> Result<(Self, Vec<FieldWarning>), FileError> {
+    pub fn points(points: &[Vec3<f64>], values: &Values) -> Result<(Self, Vec<Fault>), FileError> {
         let (nodes, warnings) = node::distinct(points, values)?;
         let support = match Lattice::of_points(&nodes) {
             Some(lattice) => Support::Lattice(lattice),
@@ -205,7 +203,7 @@ impl Field {
     fn lattice_of_points(
         points: &[Vec3<f64>],
         values: &Values,
-    ) -> Result<Option<(Self, Vec<FieldWarning>)>, FileError> {
+    ) -> Result<Option<(Self, Vec<Fault>)>, FileError> {
         let (nodes, warnings) = node::distinct(points, values)?;
         let lattice = Lattice::of_points(&nodes);
         Ok(lattice.map(|lattice| (Self::of(Support::Lattice(lattice), values), warnings)))

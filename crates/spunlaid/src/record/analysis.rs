@@ -4,7 +4,7 @@ use super::doubts::{BLOCK_TIMES, BLOCKS, warnings};
 use super::flat::FlatPart;
 use super::interval::{Interval, error};
 use super::jackknife::{Blocks, Estimates};
-use super::{Autocorrelation, IntegralRule, Moments, Record, Samples, Trend, Warning};
+use super::{Autocorrelation, IntegralRule, Moments, Record, Samples, Trend};
 use crate::error::{Fault, FileError};
 use crate::statistics::{Spectrum, Welch, Window};
 use crate::units::{Dimension, shortest};
@@ -77,7 +77,7 @@ pub struct Analysis {
     /// Number of blocks of the jackknife.
     pub blocks: usize,
     /// Warnings about the record and the results.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Fault>,
 }
 
 /// The results of one component.

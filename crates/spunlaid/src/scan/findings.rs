@@ -1,7 +1,7 @@
 //! Everything that is found out about a scanned web.
 
 use super::chance::scatter;
-use super::note::{self, Note};
+use super::note;
 use super::optics::{blurred, noise_at_most};
 use super::picture::Picture;
 use super::spots::{Spots, region};
@@ -63,8 +63,8 @@ pub struct Findings {
     pub clouds: Option<Clouds>,
     /// Autocorrelation coefficients of the basis weight in cross and in machine direction, pixel by pixel from lag zero.
     pub autocorrelation: [Vec<f64>; 2],
-    /// What a reader must know.
-    pub notes: Vec<Note>,
+    /// What was assumed, corrected or left out, and what to do about it.
+    pub notes: Vec<Fault>,
 }
 
 /// The unevenness over patches of one size.

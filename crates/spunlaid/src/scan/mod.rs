@@ -54,7 +54,6 @@ mod spots;
 mod weigh;
 
 pub use findings::{Aside, Doubt, Findings, PatchFindings, Settings, Spot, analyse};
-pub use note::Note;
 pub use picture::{Format, Picture};
 pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, parse, read};
 pub use weigh::{Light, Pixels};

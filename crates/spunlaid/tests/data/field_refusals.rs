@@ -82,7 +82,7 @@ fn rejects_meshes_with_place_and_way_out() {
         (
             "type=\"UnstructuredGrid\"",
             "type=\"PUnstructuredGrid\"",
-            "a.vtu: is a VTK file of PUnstructuredGrid; it lists other files, so name it by its path",
+            "a.vtu: is a VTK file that lists other files; name it by its path",
         ),
         (
             "header_type",

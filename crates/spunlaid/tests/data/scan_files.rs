@@ -6,7 +6,8 @@ use crate::scans::{
 use png::Unit;
 use proptest::prelude::*;
 use spunlaid::error::FileError;
-use spunlaid::scan::{Light, Note, Picture, Settings, analyse, parse, read};
+use spunlaid::scan::{Light, Picture, Settings, analyse, parse, read};
+use spunlaid::units::Dimension;
 use std::path::Path;
 use tiff::encoder::colortype::{Gray32, GrayI16, RGB8};
 use tiff::tags::ResolutionUnit;
@@ -197,13 +198,20 @@ fn what_was_assumed_is_told() {
     (levels[5], levels[77], levels[78]) = (0, 255, 255);
     let transmitted = |white| Settings::of(Light::Transmitted { mean: None, white });
     let notes = |settings: &Settings| analyse(&parsed(&png8(SIDE, &levels)), settings).unwrap().notes;
-    let told = notes(&transmitted(None));
-    assert_eq!(told[..2], [Note::White { white: 255.0, full_scale: true }, Note::Relative]);
-    assert!(told.contains(&Note::Filled { pixels: 1 }));
-    assert!(told.contains(&Note::Saturated { pixels: 2, share: 2.0 / 768.0 }));
-    assert!(notes(&transmitted(Some(230.0))).contains(&Note::Lighter { pixels: 2, share: 2.0 / 768.0 }));
-    let said: Vec<String> = told.iter().map(ToString::to_string).collect();
-    assert!(said.iter().all(|note| !note.contains("  ") && !note.ends_with('.')), "{said:#?}");
+    let texts = |settings: &Settings| notes(settings).iter().map(ToString::to_string).collect::<Vec<_>>();
+    let found = texts(&transmitted(None));
+    let lamp = "the lamp without web is assumed to have the grey level 255, the largest that the file can hold. ";
+    assert!(found[0].starts_with(lamp), "{}", found[0]);
+    assert!(found[1].starts_with("the mean basis weight is not known, "), "{}", found[1]);
+    for words in [
+        "pixels that are black or have no value: 1; ",
+        "pixels of the largest grey level: 2 (0.26 %); ",
+    ] {
+        assert!(found.iter().any(|note| note.starts_with(words)), "{words}: {found:#?}");
+    }
+    let lighter = "pixels lighter than the lamp without web: 2 (0.26 %); they count as empty; ";
+    assert!(texts(&transmitted(Some(230.0))).iter().any(|note| note.starts_with(lighter)));
+    assert!(found.iter().all(|note| !note.contains("  ") && !note.ends_with('.')), "{found:#?}");
     let heavy = analyse(
         &parsed(&npy_f64(SIDE, &[1.0, 2.0].repeat(300)[..576])),
         &Settings::of(Light::Weight { mean: None }),
@@ -226,18 +234,19 @@ fn a_pixel_is_as_large_as_the_file_says() {
         assert!((picture.pixel / wanted - 1.0).abs() < 1e-4, "{name}: {} {wanted}", picture.pixel);
         let notes = |pixel: Option<f64>| {
             let found = analyse(&parse(&file, "a", pixel).unwrap(), &Settings::of(light()));
-            found.unwrap().notes[0].clone()
+            found.unwrap().notes[0].to_string()
         };
-        assert_eq!(notes(None), Note::PixelOfFile { pixel: picture.pixel }, "{name}");
-        assert!(matches!(notes(Some(1.005 * wanted)), Note::White { .. }), "{name}");
-        let other = Note::OtherPixel { given: 0.1e-3, of_file: picture.pixel };
+        let side = Dimension::Length.pretty_to(picture.pixel, 4);
+        let own = notes(None);
+        assert!(own.starts_with(&format!("a pixel is {side} wide, as the file says (")), "{name}: {own}");
+        assert!(notes(Some(1.005 * wanted)).starts_with("the lamp without web is assumed"), "{name}");
+        let other = format!("a pixel is taken to be 0.1 mm wide, as you said, but the file says {side}");
         assert_eq!(notes(Some(0.1e-3)), other, "{name}");
     }
-    let said = Note::PixelOfFile { pixel: 25.4e-3 / 96.0 }.to_string();
-    assert!(
-        said.starts_with("a pixel is 264.6 µm wide, as the file says (96 dots per inch); many"),
-        "{said}"
-    );
+    let guess = analyse(&parse(&png([3780; 2], Unit::Meter), "a", None).unwrap(), &Settings::of(light()));
+    let note = guess.unwrap().notes[0].to_string();
+    let words = "a pixel is 264.6 µm wide, as the file says (96 dots per inch); many programs write this";
+    assert!(note.starts_with(words), "{note}");
 
     for (name, file, wanted) in [
         ("no resolution", png8(SIDE, &levels), "a: does not say how large its pixels are"),

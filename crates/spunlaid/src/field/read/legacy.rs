@@ -7,14 +7,14 @@ use super::piece::{Assembly, Piece};
 use super::unstructured::{Listed, Polyhedra};
 use crate::error::{Fault, FileError, Position};
 use crate::field::fault;
-use crate::field::{Field, FieldWarning};
+use crate::field::Field;
 use crate::vec3::Vec3;
 
 /// How such files begin.
 pub(super) const START: &[u8] = b"# vtk DataFile Version";
 
 /// Reads a file.
-pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
+pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<Fault>), FileError> {
     let mut scanner = Scanner { bytes, at: 0, binary: false };
     let mut assembly = Assembly::new();
     let piece = scanner.piece(&mut assembly.budget).map_err(|error| error.at(scanner.place()));

@@ -5,12 +5,11 @@
 use super::array::{Array, Number, Source};
 use super::encoding::{Budget, Compressor, Packing};
 use super::grid::{Grid, counted, vectors};
-use super::list;
 use super::piece::{Assembly, Piece};
 use super::unstructured::{Listed, Polyhedra};
 use crate::error::{Fault, FileError, Position};
 use crate::field::fault;
-use crate::field::{Field, FieldWarning};
+use crate::field::Field;
 use crate::units::excerpt;
 use roxmltree::{Document, Node};
 use std::borrow::Cow;
@@ -19,7 +18,7 @@ use std::borrow::Cow;
 const GRIDS: [&str; 4] = ["ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid"];
 
 /// Reads a file.
-pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
+pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<Fault>), FileError> {
     let mut assembly = Assembly::new();
     let added = add(bytes, None, &mut assembly);
     added.and_then(|()| assembly.finish()).map_err(|error| error.in_text(bytes))
@@ -69,10 +68,7 @@ fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly) -> Result
     let kind = root.attribute("type").unwrap_or_default();
     if !GRIDS.contains(&kind) {
         let found = format!("a VTK file of {}", excerpt(kind, 40));
-        let advice = match list::of(kind) {
-            None => "write an unstructured grid (.vtu), or name the file that holds one",
-            Some(_) => "it lists other files, so name it by its path",
-        };
+        let advice = "write an unstructured grid (.vtu), or name the file that holds one";
         return Err(Fault::format(found, advice).into());
     }
     if announced.is_some_and(|announced| announced != kind) {
