@@ -52,16 +52,16 @@ fn listed<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Bound<'py, PyL
             Place::File { file, .. } | Place::Point { study: file, .. } => Some(file),
             Place::Code | Place::Override(_) => None,
         };
-        let of = PyDict::new(py);
-        of.set_item("key", Some(&problem.key).filter(|key| !key.is_empty()))?;
-        of.set_item("value", &problem.value)?;
-        of.set_item("message", &problem.what.message)?;
-        of.set_item("remedy", remedy)?;
-        of.set_item("file", file)?;
-        of.set_item("line", problem.place.line())?;
-        of.set_item("column", problem.place.column())?;
-        of.set_item("text", problem.to_string())?;
-        list.append(of)?;
+        let dict = PyDict::new(py);
+        dict.set_item("key", Some(&problem.key).filter(|key| !key.is_empty()))?;
+        dict.set_item("value", &problem.value)?;
+        dict.set_item("message", &problem.what.message)?;
+        dict.set_item("remedy", remedy)?;
+        dict.set_item("file", file)?;
+        dict.set_item("line", problem.place.line())?;
+        dict.set_item("column", problem.place.column())?;
+        dict.set_item("text", problem.to_string())?;
+        list.append(dict)?;
     }
     Ok(list)
 }

@@ -28,7 +28,7 @@ pub(super) struct Statistics {
     duration: f64,
     /// Start of the present batch [s].
     batch: Option<f64>,
-    of: Motion,
+    motion: Motion,
 }
 
 #[derive(Debug)]
@@ -81,11 +81,11 @@ impl Statistics {
             Some(line) => spin_up.max(4.0 * line.distance / line.feed_speed),
             None => spin_up.max(SETTLING),
         };
-        let of = match LaidStatistics::of(case) {
+        let motion = match LaidStatistics::new(case) {
             Some(laid) => Motion::Fed(Box::new(laid)),
-            None => Motion::Fixed(Box::new(Swinging::of(case, flight))),
+            None => Motion::Fixed(Box::new(Swinging::new(case, flight))),
         };
-        Self { from: flight.time() + settling, duration: 0.0, batch: None, of }
+        Self { from: flight.time() + settling, duration: 0.0, batch: None, motion }
     }
 
     /// Sees a recorded instant.
@@ -101,7 +101,7 @@ impl Statistics {
             return;
         };
         self.duration = now - self.from;
-        match &mut self.of {
+        match &mut self.motion {
             Motion::Fed(laid) => laid.see(&instant),
             Motion::Fixed(swinging) => {
                 swinging.see(&instant);
@@ -127,7 +127,7 @@ impl Statistics {
             curves: None,
             footprint: None,
         };
-        match &mut self.of {
+        match &mut self.motion {
             Motion::Fed(laid) => {
                 told.numbers = laid.numbers();
                 told.footprint = laid.map();
@@ -142,7 +142,7 @@ impl Statistics {
 }
 
 impl Swinging {
-    fn of(case: &Case, flight: &Flight) -> Self {
+    fn new(case: &Case, flight: &Flight) -> Self {
         let observer =
             DECLARED.iter().find(|d| d.measures.iter().any(|m| m.name == "amplitude_y_along_fibre"));
         let welch = Welch::new(case.run.output_interval(), SEGMENT, Window::Hann, 0.5);
@@ -181,12 +181,12 @@ impl Swinging {
     }
 
     fn numbers(&self) -> Vec<Number> {
-        let of = |name, Settling { value, error }| Number::of(name, value, error);
+        let number = |name, Settling { value, error }| Number::new(name, value, error);
         [
-            of("amplitude_y", self.y.amplitude()),
-            of("amplitude_z", self.z.amplitude()),
-            of("frequency_y", self.y.frequency()),
-            of("frequency_z", self.z.frequency()),
+            number("amplitude_y", self.y.amplitude()),
+            number("amplitude_z", self.z.amplitude()),
+            number("frequency_y", self.y.frequency()),
+            number("frequency_z", self.z.frequency()),
         ]
         .into_iter()
         .flatten()
@@ -210,7 +210,8 @@ impl Swinging {
         }
         let [y, z] = self.spectrum.each_ref().map(|welch| welch.clone().finish());
         let frequency = y.points().map(|(frequency, _)| frequency).collect();
-        let density = |of: &spunlaid::statistics::Spectrum| of.density.iter().map(|p| p * 1e6).collect();
+        let density =
+            |spectrum: &spunlaid::statistics::Spectrum| spectrum.density.iter().map(|p| p * 1e6).collect();
         Curves { along, spectrum: [frequency, density(&y), density(&z)] }
     }
 }

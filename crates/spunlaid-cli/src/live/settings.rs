@@ -129,18 +129,26 @@ mod tests {
             all.iter().map(|s| s.key).collect::<Vec<_>>(),
             present(&case).iter().map(|p| p.key).collect::<Vec<_>>()
         );
-        let of = |name: &str| all.iter().find(|s| s.key == name).unwrap();
-        assert_eq!(of("air.velocity").takes, Takes::Quantity { low: 0.0, high: 60.0, logarithmic: false });
-        assert_eq!(of("fibre.diameter").takes, Takes::Quantity { low: 5e-6, high: 2e-4, logarithmic: false });
+        let setting = |name: &str| all.iter().find(|s| s.key == name).unwrap();
         assert_eq!(
-            of("fibre.youngs_modulus").takes,
+            setting("air.velocity").takes,
+            Takes::Quantity { low: 0.0, high: 60.0, logarithmic: false }
+        );
+        assert_eq!(
+            setting("fibre.diameter").takes,
+            Takes::Quantity { low: 5e-6, high: 2e-4, logarithmic: false }
+        );
+        assert_eq!(
+            setting("fibre.youngs_modulus").takes,
             Takes::Quantity { low: 1e7, high: 1e10, logarithmic: true }
         );
         assert!(
-            of("air.velocity").in_flight && of("air.velocity").first && !of("air.length_scale").in_flight
+            setting("air.velocity").in_flight
+                && setting("air.velocity").first
+                && !setting("air.length_scale").in_flight
         );
-        assert_eq!(of("fibre.root").takes, Takes::Word { words: vec!["pinned", "clamped", "free"] });
-        assert!(of("run.seed").about.contains("Default: 1."));
+        assert_eq!(setting("fibre.root").takes, Takes::Word { words: vec!["pinned", "clamped", "free"] });
+        assert!(setting("run.seed").about.contains("Default: 1."));
         let first: Vec<&str> = all.iter().filter(|s| s.first).map(|s| s.key).collect();
         assert_eq!(first.len(), 8, "{first:?}");
         assert_eq!(present(&case).iter().find(|p| p.key == "fibre.diameter").unwrap().text, "50 µm");

@@ -61,10 +61,13 @@ fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
     staging.publish().unwrap();
     let results = results.finish();
     let measured = ["sigma_1", "sigma_2", "noise"].map(|name| results.estimate(name));
-    assert_eq!([surrogate.sigma_md, surrogate.sigma_cd, surrogate.noise], measured.clone().map(|of| of.mean));
     assert_eq!(
-        of_case.flown.clone().unwrap().numbers.clone().map(|of| of.standard_error),
-        measured.map(|of| of.standard_error)
+        [surrogate.sigma_md, surrogate.sigma_cd, surrogate.noise],
+        measured.clone().map(|estimate| estimate.mean)
+    );
+    assert_eq!(
+        of_case.flown.clone().unwrap().numbers.clone().map(|estimate| estimate.standard_error),
+        measured.map(|estimate| estimate.standard_error)
     );
 
     spec.layers[0].source = LaydownSource::Results { folder, case: Arc::new(case) };

@@ -129,9 +129,9 @@ impl Spill {
 
 /// A number from its bytes.
 fn number(bytes: &[u8]) -> f64 {
-    let mut of = [0; BYTES];
-    of.copy_from_slice(bytes);
-    f64::from_le_bytes(of)
+    let mut number = [0; BYTES];
+    number.copy_from_slice(bytes);
+    f64::from_le_bytes(number)
 }
 
 #[cfg(test)]

@@ -75,7 +75,7 @@ impl<'a> FinerSummary<'a> {
             finer_time_step_s: check.time_step,
             finer_element_length_m: check.element_length,
             error_over_difference: check.error_over_change(),
-            differences: check.differences().map(|(name, of)| (name, of_mean(of))).collect(),
+            differences: check.differences().map(|(name, difference)| (name, of_mean(difference))).collect(),
         }
     }
 }

@@ -30,11 +30,11 @@ pub(super) struct ReplicateRow {
 /// A row for each number, under the headings of the measures.
 pub(super) fn groups(results: &Results) -> Vec<Group> {
     let same = |a: &Number, b: &Number| a.measure.group == b.measure.group;
-    let of = |numbers: &[Number]| Group {
+    let group = |numbers: &[Number]| Group {
         title: capitalised(numbers.first().map_or("", |one| one.measure.group.title)),
         rows: numbers.iter().map(row).collect(),
     };
-    results.numbers.chunk_by(same).map(of).collect()
+    results.numbers.chunk_by(same).map(group).collect()
 }
 
 fn row(one: &Number) -> Row {
@@ -71,11 +71,11 @@ pub(super) fn replicate_rows(results: &Results, most: usize) -> Vec<ReplicateRow
     let is_lost = |i: &usize| results.lost.iter().any(|fibre| fibre.replicate == *i as u64);
     let all = results.replicates() + results.lost.len();
     let listed: Vec<usize> = (0..all).filter(|i| !is_lost(i)).take(most).collect();
-    let of = |one: &Number| {
+    let cell = |one: &Number| {
         let values: Vec<f64> = listed.iter().filter_map(|i| one.estimate.values.get(*i).copied()).collect();
         column(&values, one.measure.unit.per_si)
     };
-    let columns: Vec<Vec<String>> = results.numbers.iter().map(of).collect();
+    let columns: Vec<Vec<String>> = results.numbers.iter().map(cell).collect();
     let values = |row: usize| columns.iter().filter_map(|c| c.get(row).cloned()).collect();
     listed.iter().enumerate().map(|(row, i)| ReplicateRow { number: i + 1, values: values(row) }).collect()
 }

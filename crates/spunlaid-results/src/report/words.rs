@@ -9,8 +9,8 @@ use spunlaid::fibre::Root;
 use spunlaid::statistics::Estimate;
 
 /// A result with its standard error, `factor` converts the unit.
-pub(super) fn estimate_text(of: &Estimate, factor: f64) -> String {
-    plus_minus(of.mean * factor, of.standard_error.map(|error| error * factor))
+pub(super) fn estimate_text(estimate: &Estimate, factor: f64) -> String {
+    plus_minus(estimate.mean * factor, estimate.standard_error.map(|error| error * factor))
 }
 
 /// A number with its unit.
@@ -61,11 +61,11 @@ pub(super) fn headline(case: &Case, results: &Results) -> String {
     if case.line.is_some() {
         return headline_of_laid(results);
     }
-    let of = |axis| {
-        let of = |measure: &str| results.estimate(&format!("{measure}_{axis}"));
-        (axis, of("amplitude"), of("frequency"))
+    let motion = |axis| {
+        let motion = |measure: &str| results.estimate(&format!("{measure}_{axis}"));
+        (axis, motion("amplitude"), motion("frequency"))
     };
-    let both = ["y", "z"].map(of);
+    let both = ["y", "z"].map(motion);
     if both.iter().any(|(_, amplitude, _)| !amplitude.mean.is_finite()) {
         return "The motion of the free end could not be measured.".to_owned();
     }

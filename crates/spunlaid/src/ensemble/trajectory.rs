@@ -197,7 +197,7 @@ fn fly_until_lost(
         jobs.iter().for_each(|job| recorder.begin(job.replicate));
     }
     let clock = flight.clock().clone();
-    let mut observers = Observers::of(&flight, keep.curves);
+    let mut observers = Observers::new(&flight, keep.curves);
     let mut trajectories: Vec<Trajectory> =
         jobs.iter().map(|job| Trajectory { replicate: job.replicate, ..Trajectory::default() }).collect();
     let mut step = 0;
@@ -213,7 +213,7 @@ fn fly_until_lost(
                 adrift => FlightEnd::Lost { lane, error: adrift },
             });
         }
-        let samples: [Sample; WIDTH] = std::array::from_fn(|lane| Sample::of(&snapshot, lane));
+        let samples: [Sample; WIDTH] = std::array::from_fn(|lane| Sample::new(&snapshot, lane));
         let laid: [Vec<LaidPoint>; WIDTH] = std::array::from_fn(|lane| flight.take_laid(lane));
         let settled = step >= clock.spin_up_steps;
         observers.see(&Observation { snapshot: &snapshot, samples: &samples, settled, laid: &laid });

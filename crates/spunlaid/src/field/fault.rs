@@ -25,7 +25,7 @@ pub(super) fn encoding(message: &str) -> Fault {
 /// The file needs more memory than is allowed [bytes].
 pub(super) fn too_large(most: u64) -> Fault {
     Fault::new(
-        format!("contains more than {}, the most that is read from a file", memory(most as f64)),
+        format!("contains more than {}, and no more is read from a file", memory(most as f64)),
         "cut out the part where the fibres fly",
     )
 }

@@ -151,7 +151,7 @@ impl Field {
         let count = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
         let quantities = values.check(count.unwrap_or(usize::MAX))?;
         let lattice = Lattice::new(axes, quantities)?;
-        Ok(Self::of(Support::Lattice(lattice), values))
+        Ok(Self::new(Support::Lattice(lattice), values))
     }
 
     /// A field on a mesh of cells, each cut into tetrahedra within which the values are linear.
@@ -174,7 +174,7 @@ impl Field {
     ) -> Result<(Self, Vec<Fault>), FileError> {
         let quantities = values.check(points.len())?;
         let (mesh, warnings) = Mesh::new(points, cells, quantities)?;
-        Ok((Self::of(Support::Mesh(mesh), values), warnings))
+        Ok((Self::new(Support::Mesh(mesh), values), warnings))
     }
 
     /// A field of points without cells, in any order.
@@ -196,7 +196,7 @@ impl Field {
             Some(lattice) => Support::Lattice(lattice),
             None => Support::Points(Points::new(nodes)?),
         };
-        Ok((Self::of(support, values), warnings))
+        Ok((Self::new(support, values), warnings))
     }
 
     /// A lattice, of points in any order, or none if the points form no lattice.
@@ -206,10 +206,10 @@ impl Field {
     ) -> Result<Option<(Self, Vec<Fault>)>, FileError> {
         let (nodes, warnings) = node::distinct(points, values)?;
         let lattice = Lattice::of_points(&nodes);
-        Ok(lattice.map(|lattice| (Self::of(Support::Lattice(lattice), values), warnings)))
+        Ok(lattice.map(|lattice| (Self::new(Support::Lattice(lattice), values), warnings)))
     }
 
-    fn of(support: Support, values: &Values) -> Self {
+    fn new(support: Support, values: &Values) -> Self {
         let bricks = Bricks::new(support.bounds());
         Self { support, turbulence: values.has_turbulence(), bricks, lacks: None }
     }

@@ -29,10 +29,7 @@ pub(super) fn nodes(points: &[Vec3<f64>], values: Vec<Quantities>) -> Result<Vec
 }
 
 /// The points at different places, each with the mean of the values there, and a warning where they differ.
-pub(super) fn distinct(
-    points: &[Vec3<f64>],
-    values: &Values,
-) -> Result<(Vec<Node>, Vec<Fault>), FileError> {
+pub(super) fn distinct(points: &[Vec3<f64>], values: &Values) -> Result<(Vec<Node>, Vec<Fault>), FileError> {
     let mut nodes = nodes(points, values.check(points.len())?)?;
     let (place_of, warning) = merge(&mut nodes);
     let mut number = 0..;

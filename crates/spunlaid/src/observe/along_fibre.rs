@@ -25,7 +25,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
     ],
     applies: fixed,
-    observer: |flight| Box::new(Spread::of(flight)),
+    observer: |flight| Box::new(Spread::new(flight)),
 };
 
 const AMPLITUDE: Measure = Measure {
@@ -54,7 +54,7 @@ struct Spread {
 }
 
 impl Spread {
-    fn of(flight: &Flight) -> Self {
+    fn new(flight: &Flight) -> Self {
         let nodes = vec![Default::default(); flight.chain().elements() + 1];
         Self { rest_length: of_each(flight, |case| case.fibre.rest_length()), count: 0.0, nodes }
     }
@@ -79,7 +79,8 @@ impl Observer for Spread {
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
         let distance: Vec<f64> = (0..self.nodes.len()).map(|i| i as f64 * self.rest_length[lane]).collect();
         let deviation = |squares: &Lanes| (squares.0[lane] / self.count).sqrt();
-        let of = |axis: usize| self.nodes.iter().map(|(_, squares)| deviation(&squares[axis])).collect();
-        vec![Value::Curve(distance.clone(), of(0)), Value::Curve(distance, of(1))]
+        let deviations =
+            |axis: usize| self.nodes.iter().map(|(_, squares)| deviation(&squares[axis])).collect();
+        vec![Value::Curve(distance.clone(), deviations(0)), Value::Curve(distance, deviations(1))]
     }
 }

@@ -51,7 +51,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
     ],
     applies: fed,
-    observer: |flight| Box::new(Way::of(flight)),
+    observer: |flight| Box::new(Way::new(flight)),
 };
 
 /// Sums over the elements in each class of distance.
@@ -63,7 +63,7 @@ struct Way {
 }
 
 impl Way {
-    fn of(flight: &Flight) -> Self {
+    fn new(flight: &Flight) -> Self {
         let distance = of_each(flight, |case| case.line.map_or(f64::NAN, |line| line.distance));
         Self { distance, classes: vec![[[0.0; 3]; CLASSES]; WIDTH] }
     }
@@ -94,10 +94,10 @@ impl Observer for Way {
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
         let classes = &self.classes[lane];
         let at = |i: usize| (i as f64 + 0.5) / CLASSES as f64 * self.distance[lane];
-        let of = |which: usize| {
+        let curve = |which: usize| {
             let places = (0..CLASSES).map(at).collect();
             Value::Curve(places, classes.iter().map(|sums| sums[which] / sums[0]).collect())
         };
-        vec![of(1), of(2)]
+        vec![curve(1), curve(2)]
     }
 }

@@ -32,7 +32,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         series: "rms",
     }],
     applies: fixed,
-    observer: |flight| Box::new(Curvature::of(flight)),
+    observer: |flight| Box::new(Curvature::new(flight)),
 };
 
 /// Sums of squares at the nodes between two elements.
@@ -46,7 +46,7 @@ struct Curvature {
 }
 
 impl Curvature {
-    fn of(flight: &Flight) -> Self {
+    fn new(flight: &Flight) -> Self {
         let squares = vec![Lanes::ZERO; flight.chain().elements().saturating_sub(1)];
         let rest_length = of_each(flight, |case| case.fibre.rest_length());
         Self { isa: flight.isa(), rest_length, count: 0.0, squares }

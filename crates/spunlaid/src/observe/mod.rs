@@ -246,7 +246,7 @@ impl Observers {
     ///
     /// * `curves` – whether to measure curves too. A study does without; observers of curves alone are then left
     ///   out.
-    pub fn of(flight: &Flight, curves: bool) -> Self {
+    pub fn new(flight: &Flight, curves: bool) -> Self {
         let wanted = |d: &&Declaration| curves || d.measures.iter().any(|m| m.kind == Kind::Number);
         let any = |d: &&Declaration| (0..WIDTH).any(|lane| applies(d, flight, lane));
         let declared = DECLARED.iter().copied().filter(wanted).filter(any);

@@ -15,14 +15,15 @@ pub(super) const USUAL: Declaration = Declaration {
     measures: &[measure(
         "strain_99",
         "Strain, 99 % of the time",
-        "strain of the element at the root that is not exceeded for 99 % of the time after the spin-up. It is averaged \
-         over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over the output interval if \
-         that is longer. It hardly depends on the time step; compare it with the strain that the polymer can take",
+        "strain that the element at the root does not exceed during 99 % of the time after the spin-up. It is \
+         averaged over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over the output \
+         interval if that is longer. It hardly depends on the time step; compare it with the strain that the \
+         polymer can take",
         Aggregate::Mean,
         "99 % of the time",
     )],
     applies: |case| case.fibre.root != Root::Free,
-    observer: |flight| Box::new(Averaged::of(flight)),
+    observer: |flight| Box::new(Averaged::new(flight)),
 };
 
 /// The extreme.
@@ -72,7 +73,7 @@ struct Averaged {
 }
 
 impl Averaged {
-    fn of(flight: &Flight) -> Self {
+    fn new(flight: &Flight) -> Self {
         let intervals =
             of_each(flight, |case| (case.fibre.axial_period() / case.run.output_interval()).round());
         // More intervals than the run has mean the whole run.

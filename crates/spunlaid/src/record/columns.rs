@@ -68,8 +68,9 @@ pub(super) fn roles(heads: &[Head], named: bool, layout: &Layout) -> Result<Role
     }
     for (n, &i) in chosen.iter().enumerate() {
         if chosen[..n].contains(&i) || time == Some(i) {
-            return Err(FileError::from(Fault::new("is asked for twice", "name each column once"))
-                .column(&heads[i].text));
+            return Err(
+                FileError::from(Fault::new("is named twice", "name each column once")).column(&heads[i].text)
+            );
         }
     }
     if layout.columns.is_empty() {

@@ -29,7 +29,9 @@ pub(super) fn warnings(record: &Record, analysis: &Analysis) -> Vec<Fault> {
     if analysis.duration < BLOCKS.0 as f64 * longest {
         let count = number(analysis.duration / analysis.integral_time.value);
         warnings.push(Fault::new(
-            format!("the record lasts only {count} integral times, so the confidence intervals are uncertain"),
+            format!(
+                "the record lasts only {count} integral times, so the confidence intervals are uncertain"
+            ),
             format!("measure for {} or longer", time(BLOCKS.0 as f64 * longest)),
         ));
     }
@@ -137,7 +139,8 @@ fn level(component: &Component) -> Vec<Fault> {
     }
     if drifts(&component.rms_trend) {
         let drift = change(component.rms_trend.change);
-        let message = format!("the rms drifts by {drift} (mean {} m/s): the flow was not steady", number(rms));
+        let message =
+            format!("the rms drifts by {drift} (mean {} m/s): the flow was not steady", number(rms));
         faults.push(Fault::plain(message));
     }
     faults

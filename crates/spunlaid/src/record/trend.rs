@@ -14,7 +14,7 @@ pub struct Trend {
 
 impl Trend {
     /// The trend of a quantity, given its value in each block.
-    pub(super) fn of(values: &[f64]) -> Self {
+    pub(super) fn new(values: &[f64]) -> Self {
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let place = |i: usize| (i as f64 + 0.5) / count - 0.5;
@@ -38,8 +38,8 @@ mod tests {
     #[test]
     fn analytic_trend_of_a_straight_line() {
         let values: Vec<f64> = (0..10).map(|i| 3.0 + 0.2 * f64::from(i)).collect();
-        let trend = Trend::of(&values);
+        let trend = Trend::new(&values);
         assert!((trend.change.value - 2.0).abs() < 1e-12 && trend.significant);
-        assert!(!Trend::of(&[1.0, 2.0, 1.0, 2.0, 1.0, 2.0, 1.0, 2.0]).significant);
+        assert!(!Trend::new(&[1.0, 2.0, 1.0, 2.0, 1.0, 2.0, 1.0, 2.0]).significant);
     }
 }

@@ -71,7 +71,8 @@ pub(super) fn notes(
     }
     if let Some(few) = patches.iter().find(|patch| patch.interval == Err(Doubt::Few)) {
         let side = Dimension::Length.pretty(few.unevenness.patch);
-        let message = format!("this sheet holds too few patches of {side} or more, so no interval is given there");
+        let message =
+            format!("this sheet holds too few patches of {side} or more, so no interval is given there");
         notes.push(Fault::new(message, "scan a larger piece of the web"));
     }
     notes

@@ -24,8 +24,8 @@ pub(super) struct Spots {
 
 impl Spots {
     /// All of a picture is web.
-    pub(super) const fn none(of: &Picture) -> Self {
-        let web = Rectangle { corner: [0, 0], sides: [of.columns, of.rows] };
+    pub(super) const fn none(picture: &Picture) -> Self {
+        let web = Rectangle { corner: [0, 0], sides: [picture.columns, picture.rows] };
         Self { web, bare: Vec::new(), dark: Vec::new() }
     }
 }
@@ -135,8 +135,8 @@ impl Level {
         for (row, values) in self.values.chunks_exact(self.columns).enumerate() {
             let first = (row / STEP).min(rows - 1) * columns;
             for (column, value) in values.iter().enumerate().filter(|(_, value)| !value.is_nan()) {
-                let of = &mut sums[first + (column / STEP).min(columns - 1)];
-                *of = (of.0 + value, of.1 + 1);
+                let sum = &mut sums[first + (column / STEP).min(columns - 1)];
+                *sum = (sum.0 + value, sum.1 + 1);
             }
         }
         let values = sums.iter().map(|(sum, count)| sum / f64::from(*count)).collect();
@@ -172,8 +172,8 @@ impl Level {
             let margin = if at_edge { self.block } else { 0 };
             for at in &region {
                 let [i, j] = [at % across, at / across];
-                let range = |at: usize, of: usize, size: usize| {
-                    let end = if at + 1 == of { size } else { (at + 1) * self.block };
+                let range = |at: usize, blocks: usize, size: usize| {
+                    let end = if at + 1 == blocks { size } else { (at + 1) * self.block };
                     (at * self.block).saturating_sub(margin)..(end + margin).min(size)
                 };
                 for row in range(j, along, rows) {
@@ -218,8 +218,8 @@ pub(super) fn region(
 }
 
 /// The values of a part of a lattice.
-pub(super) fn cut<T: Copy>(values: &[T], columns: usize, of: Rectangle) -> Vec<T> {
-    let ([left, top], [across, along]) = (of.corner, of.sides);
+pub(super) fn cut<T: Copy>(values: &[T], columns: usize, part: Rectangle) -> Vec<T> {
+    let ([left, top], [across, along]) = (part.corner, part.sides);
     values
         .chunks_exact(columns)
         .skip(top)
@@ -257,7 +257,7 @@ fn largest(marks: &[bool], columns: usize) -> Rectangle {
         let mut open: Vec<(usize, usize)> = Vec::new();
         for (column, height) in heights.iter().copied().chain([0]).enumerate() {
             let mut first = column;
-            while let Some((from, open_height)) = open.last().copied().filter(|of| of.1 >= height) {
+            while let Some((from, open_height)) = open.last().copied().filter(|bar| bar.1 >= height) {
                 open.pop();
                 if open_height * (column - from) > best.sides[0] * best.sides[1] {
                     best = Rectangle {
@@ -280,13 +280,13 @@ mod tests {
     #[test]
     fn the_largest_rectangle_is_found() {
         let picture = ["x....xx", "......x", ".....xx", "..x....", "xxxxxxx", "......."];
-        let marks: Vec<bool> = picture.iter().flat_map(|row| row.bytes().map(|of| of == b'x')).collect();
+        let marks: Vec<bool> = picture.iter().flat_map(|row| row.bytes().map(|byte| byte == b'x')).collect();
         // By trying all of them.
         let mut most = 0;
         for (top, left) in (0..6).flat_map(|top| (0..7).map(move |left| (top, left))) {
             for (along, across) in (1..=6 - top).flat_map(|a| (1..=7 - left).map(move |b| (a, b))) {
-                let of = Rectangle { corner: [left, top], sides: [across, along] };
-                if !cut(&marks, 7, of).contains(&true) {
+                let part = Rectangle { corner: [left, top], sides: [across, along] };
+                if !cut(&marks, 7, part).contains(&true) {
                     most = most.max(along * across);
                 }
             }

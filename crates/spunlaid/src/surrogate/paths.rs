@@ -206,7 +206,7 @@ impl<const SETS: usize> Task for Next<'_, SETS> {
                 paths.bits[pair] = paths.bits();
             }
         }
-        let corners: [Corner<S>; SETS] = from_fn(|k| Corner::of(sets[k].step, sets[k].pull));
+        let corners: [Corner<S>; SETS] = from_fn(|k| Corner::new(sets[k].step, sets[k].pull));
         let mut at: [[Wide<S>; 2]; SETS] = [[Wide::zero(); 2]; SETS];
         let mut along = at;
         for k in 0..SETS {
@@ -252,7 +252,7 @@ struct Corner<S: Register> {
 
 impl<S: Register> Corner<S> {
     #[inline(always)]
-    fn of(step: f64, pull: [f64; 2]) -> Self {
+    fn new(step: f64, pull: [f64; 2]) -> Self {
         Self { step: Wide::splat(step), pull: pull.map(Wide::splat) }
     }
 

@@ -78,8 +78,7 @@ fn identical_in_one_file_and_in_a_list_of_files() {
     for name in ["a.pvtu", "b.vtm", "nested.vtm", "walls.vtm"] {
         let (field, warnings) = Field::read(&folder.path().join(name)).unwrap();
         assert_eq!(samples(&field), samples(&whole), "{name}");
-        let surfaces =
-            if name == "walls.vtm" { vec![Fault::plain(SURFACES)] } else { Vec::new() };
+        let surfaces = if name == "walls.vtm" { vec![Fault::plain(SURFACES)] } else { Vec::new() };
         assert_eq!(warnings, surfaces, "{name}");
     }
 }
@@ -200,8 +199,5 @@ fn rejects_lists_with_the_part_that_is_to_blame() {
     // Bytes alone have no folder.
     let error =
         Field::parse(list(&["a.vtu"]).as_bytes(), "a.pvtu").expect_err("this is no field").to_string();
-    assert_eq!(
-        error,
-        "a.pvtu: is a VTK file that lists other files; name it by its path"
-    );
+    assert_eq!(error, "a.pvtu: is a VTK file that lists other files; name it by its path");
 }

@@ -167,7 +167,9 @@ fn stat_noise_without_memory_is_told() {
     // Trapezia of a correlation that is 1 at lag 0 and 0 beyond; the first zero may be the second lag.
     assert!((0.49e-3..0.52e-3).contains(&of.integral_time.value), "{:?}", of.integral_time);
     assert!(of.cutoff_frequency.holds(500.0), "{:?}", of.cutoff_frequency);
-    for words in ["samples are nearly uncorrelated; sample faster", "frequencies are aliased into it; sample faster"] {
+    for words in
+        ["samples are nearly uncorrelated; sample faster", "frequencies are aliased into it; sample faster"]
+    {
         assert!(of.warnings.iter().any(|warning| warning.to_string().contains(words)), "{:?}", of.warnings);
     }
 }
@@ -204,7 +206,10 @@ fn stat_components_make_one_turbulence() {
     // √((1 + ¼ + ¼)/3) of a tenth.
     assert!(of.turbulence_intensity.holds(0.1 * 0.5f64.sqrt()), "{:?}", of.turbulence_intensity);
     let warnings = &of.warnings;
-    assert!(warnings.iter().any(|warning| warning.message.contains("turbulence is isotropic")), "{warnings:?}");
+    assert!(
+        warnings.iter().any(|warning| warning.message.contains("turbulence is isotropic")),
+        "{warnings:?}"
+    );
     assert_eq!(of.components.len(), 3);
 }
 

@@ -71,7 +71,7 @@ impl Session {
         let read = document.read()?;
         let fibres = Fibres::new(read.case).map_err(|error| complaints(&error))?;
         let lately = Lately::new();
-        let board = Arc::new(Board::new(Frame::of(fibres.seen(), &lately)));
+        let board = Arc::new(Board::new(Frame::new(fibres.seen(), &lately)));
         let now = Instant::now();
         let mut clock = Clock::new(now);
         if fibres.case().line.is_some() {

@@ -23,12 +23,12 @@ pub(super) fn figures(results: &Results) -> Vec<Figure> {
             declared.push(curve.measure.figure);
         }
     }
-    let of = |figure: &'static observe::Figure| {
+    let drawn = |figure: &'static observe::Figure| {
         let curves: Vec<&Curve> =
             results.curves.iter().filter(|curve| curve.measure.figure.name == figure.name).collect();
         one(figure, &curves, results)
     };
-    declared.into_iter().map(of).collect()
+    declared.into_iter().map(drawn).collect()
 }
 
 /// A figure of the curves that are declared for it.
@@ -57,7 +57,7 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
             chart = with_crossings(chart, i, curve.measure.series, results);
         }
     }
-    Figure::of(&chart, caption(declared, first.kind, &scaled(curves[0], 1.0), results.replicates()))
+    Figure::new(&chart, caption(declared, first.kind, &scaled(curves[0], 1.0), results.replicates()))
 }
 
 /// The axes of a curve: along and up.
@@ -177,7 +177,7 @@ fn series(chart: Chart, i: usize, curve: &Curve, places: &[Place], replicates: u
     };
     let band: Vec<_> = places.chunks(each).map(together).collect();
     let mean: Vec<_> = band.iter().map(|&(time, mean, _)| (time, mean)).collect();
-    let all = |of: fn(&Place) -> f64| places.iter().map(|place| (place.at, of(place), None)).collect();
+    let all = |value: fn(&Place) -> f64| places.iter().map(|place| (place.at, value(place), None)).collect();
     let name = curve.measure.series;
     let several = replicates > 1 || each > 1;
     let label = if several { format!("{name}, mean") } else { name.to_owned() };

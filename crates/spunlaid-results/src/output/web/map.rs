@@ -117,8 +117,12 @@ fn png(
     encoder.set_color(png::ColorType::Grayscale);
     encoder.set_depth(depth);
     encoder.set_compression(png::Compression::Fast);
-    if let Some(of) = per_metre {
-        encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: of, yppu: of, unit: png::Unit::Meter }));
+    if let Some(density) = per_metre {
+        encoder.set_pixel_dims(Some(png::PixelDimensions {
+            xppu: density,
+            yppu: density,
+            unit: png::Unit::Meter,
+        }));
     }
     let told = |error: png::EncodingError| error.to_string();
     for (key, text) in words {

@@ -36,7 +36,7 @@ pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
         })
     };
     let times = choice.instants.iter().map(|&i| shapes[i].time).collect();
-    let mut data = Data::of(case, &trajectories, times, chosen);
+    let mut data = Data::new(case, &trajectories, times, chosen);
     (data.nodes, data.frequency) = (Some(choice.nodes.len()), frequency);
     data.frames(remarks)
 }

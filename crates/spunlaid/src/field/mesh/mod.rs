@@ -94,7 +94,8 @@ impl Mesh {
         let surface = surface(&cut.triangles, &nodes);
         let cells = boxes(&cut, &nodes);
         let tetrahedra = neighbours(&cut.tetrahedra, nodes.len());
-        let corners = tetrahedra.iter().flat_map(|of| of.nodes).map(|node| nodes[node as usize].at);
+        let corners =
+            tetrahedra.iter().flat_map(|tetrahedron| tetrahedron.nodes).map(|node| nodes[node as usize].at);
         let bounds = bounding_box(corners);
         Self { nodes, tetrahedra, cells, surface, points, bounds }
     }

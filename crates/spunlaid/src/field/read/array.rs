@@ -144,7 +144,7 @@ impl Array<'_> {
     }
 
     /// The numbers for `count` points or cells.
-    pub(super) fn of<T: Read>(&self, count: usize, budget: &mut Budget) -> Result<Vec<T>, FileError> {
+    pub(super) fn numbers<T: Read>(&self, count: usize, budget: &mut Budget) -> Result<Vec<T>, FileError> {
         let (numbers, wanted) = (self.all(budget)?, count.saturating_mul(self.components));
         if numbers.len() == wanted {
             return Ok(numbers);

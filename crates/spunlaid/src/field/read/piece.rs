@@ -328,7 +328,7 @@ impl Reader<'_, '_> {
     fn numbers(&mut self, of_cells: bool, array: usize, factor: f64) -> Result<Vec<f64>, FileError> {
         let (points, cells) = self.piece.grid.counts()?;
         let array = if of_cells { &self.piece.cell_data[array] } else { &self.piece.point_data[array] };
-        let mut numbers = array.of(if of_cells { cells } else { points }, self.budget)?;
+        let mut numbers = array.numbers(if of_cells { cells } else { points }, self.budget)?;
         if of_cells {
             numbers = self.piece.grid.to_points(&numbers, array.components, points);
             let name = crate::units::excerpt(&array.name, 40);

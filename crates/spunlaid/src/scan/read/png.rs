@@ -41,7 +41,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, Fault> {
         let text = &info.uncompressed_latin1_text.iter().find(|text| text.keyword == key)?.text;
         text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0)
     };
-    let per_metre = info.pixel_dims.filter(|of| of.unit == Unit::Meter).map(|of| [of.xppu, of.yppu]);
+    let per_metre =
+        info.pixel_dims.filter(|density| density.unit == Unit::Meter).map(|of| [of.xppu, of.yppu]);
     let pixel = told(CELL).map(|cell| [cell; 2]);
     Ok(Raw {
         values,
