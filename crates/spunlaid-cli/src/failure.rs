@@ -137,8 +137,8 @@ mod tests {
     fn each_problem_is_followed_by_its_option() {
         let problems = [("makes 300 points", "--points"), ("is unknown", "")];
         let problems = problems.map(|(text, option)| Fault::new(text, "mend it").option(option).into());
-        let told = Failure::from(Error::Rejected(problems.into())).to_string();
-        assert_eq!(told, "makes 300 points; mend it (--points)\nis unknown; mend it");
+        let message = Failure::from(Error::Rejected(problems.into())).to_string();
+        assert_eq!(message, "makes 300 points; mend it (--points)\nis unknown; mend it");
     }
 
     #[test]

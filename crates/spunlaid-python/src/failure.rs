@@ -24,9 +24,9 @@ pub(crate) fn raised(py: Python<'_>, error: impl Into<Error>) -> PyErr {
 
 /// A panic, which is a fault of the library: an exception too, so that no session is lost.
 pub(crate) fn raised_of_panic(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
-    let told = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    let told = told.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
-    let text = format!("a fault of spunlaid itself: {told}; please report it with the case");
+    let message = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let message = message.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
+    let text = format!("a fault of spunlaid itself: {message}; please report it with the case");
     instance(py, "InternalError", (text,)).unwrap_or_else(|error| error)
 }
 

@@ -63,7 +63,7 @@ pub(crate) fn analyse<'py>(
         let analysis = analysed(&record, &settings).map_err(Error::File)?;
         Ok((record, analysis))
     })?;
-    told(py, &record, &analysis)
+    results(py, &record, &analysis)
 }
 
 fn source(record: &Bound<'_, PyAny>, rate: Option<f64>, columns: Vec<String>) -> PyResult<Source> {
@@ -103,7 +103,7 @@ fn source(record: &Bound<'_, PyAny>, rate: Option<f64>, columns: Vec<String>) ->
 }
 
 /// The text of analysis.json and air.toml, and the curves.
-fn told<'py>(py: Python<'py>, record: &Record, analysis: &Analysis) -> PyResult<Bound<'py, PyDict>> {
+fn results<'py>(py: Python<'py>, record: &Record, analysis: &Analysis) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
     all.set_item("json", analysis_json(record, analysis))?;
     all.set_item("air_toml", air_block(&record.file, analysis))?;

@@ -191,19 +191,19 @@ impl RunResults {
     /// Times, and positions of all nodes: replicates x times x nodes x 3, NaN where a fibre has fewer nodes.
     #[getter]
     fn shapes<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let kept: Vec<&Trajectory> =
+        let trajectories: Vec<&Trajectory> =
             self.results.trajectories.iter().filter(|trajectory| !trajectory.shapes.is_empty()).collect();
-        let times: Vec<f64> = kept
+        let times: Vec<f64> = trajectories
             .first()
             .map_or_else(Vec::new, |trajectory| trajectory.shapes.iter().map(|shape| shape.time).collect());
-        let shapes = || kept.iter().flat_map(|trajectory| &trajectory.shapes);
+        let shapes = || trajectories.iter().flat_map(|trajectory| &trajectory.shapes);
         let nodes = shapes().map(|shape| shape.position.len()).max().unwrap_or(0);
-        let mut flat = Vec::with_capacity(kept.len() * times.len() * nodes * 3);
+        let mut flat = Vec::with_capacity(trajectories.len() * times.len() * nodes * 3);
         for shape in shapes() {
             flat.extend(shape.position.iter().flat_map(|p| [p.x, p.y, p.z]));
             flat.extend(std::iter::repeat_n(f64::NAN, 3 * (nodes - shape.position.len())));
         }
-        let shape = [kept.len(), times.len(), nodes, 3];
+        let shape = [trajectories.len(), times.len(), nodes, 3];
         let positions = PyArray1::from_vec(py, flat).reshape(shape)?;
         Ok((locked(PyArray1::from_vec(py, times).as_any())?, locked(positions.as_any())?))
     }

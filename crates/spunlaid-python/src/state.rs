@@ -99,7 +99,7 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
         Results { numbers: Vec::new(), curves: Vec::new(), trajectories: Vec::new(), lost: lost.collect() };
     let numbers: Vec<(String, EstimateState)> = need("numbers")?.extract()?;
     for (name, estimate) in numbers {
-        results.numbers.push(Number { measure: measure(&name)?, estimate: told(estimate)? });
+        results.numbers.push(Number { measure: measure(&name)?, estimate: restored_estimate(estimate)? });
     }
     let curves: Vec<(String, PyReadonlyArray1<'_, f64>)> = need("curves")?.extract()?;
     for (name, flat) in curves {
@@ -179,7 +179,7 @@ fn check_of(state: &Bound<'_, PyAny>, refined: Refined) -> PyResult<FinerCheck> 
     let changes = changes.into_iter().map(|(name, estimate)| {
         let statistic = Statistic::all().find(|statistic| statistic.name == name);
         let statistic = statistic.ok_or_else(|| unknown("statistic", &name))?;
-        Ok(Change { statistic, estimate: told(estimate)? })
+        Ok(Change { statistic, estimate: restored_estimate(estimate)? })
     });
     Ok(FinerCheck {
         refined,
@@ -203,7 +203,7 @@ fn estimate<'py>(py: Python<'py>, estimate: &Estimate) -> (f64, Option<f64>, Bou
     (estimate.mean, estimate.standard_error, PyArray1::from_slice(py, &estimate.values))
 }
 
-fn told((mean, standard_error, values): EstimateState<'_>) -> PyResult<Estimate> {
+fn restored_estimate((mean, standard_error, values): EstimateState<'_>) -> PyResult<Estimate> {
     Ok(Estimate { mean, standard_error, values: values.as_slice()?.to_vec() })
 }
 

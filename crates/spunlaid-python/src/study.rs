@@ -111,16 +111,16 @@ impl Study {
             recorder: None,
         };
         // Progress is told in fibres, as it is on a cluster.
-        let told = Watch::default();
+        let shown = Watch::default();
         let stopped = &watch.stop;
         let finished = AtomicBool::new(false);
-        watched(py, &told, progress.as_ref(), || {
+        watched(py, &shown, progress.as_ref(), || {
             std::thread::scope(|scope| {
                 scope.spawn(|| {
                     while !finished.load(Ordering::Acquire) {
-                        told.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
-                        told.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
-                        stopped.fetch_or(told.stop.load(Ordering::Relaxed), Ordering::Relaxed);
+                        shown.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
+                        shown.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
+                        stopped.fetch_or(shown.stop.load(Ordering::Relaxed), Ordering::Relaxed);
                         std::thread::park_timeout(std::time::Duration::from_millis(20));
                     }
                 });
@@ -131,8 +131,8 @@ impl Study {
                     flown
                 });
                 finished.store(true, Ordering::Release);
-                told.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
-                told.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
+                shown.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
+                shown.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
                 flown
             })
         })
@@ -195,8 +195,8 @@ impl Study {
     fn fibres(&self, py: Python<'_>) -> PyResult<(u64, u64)> {
         guarded(py, || {
             let points = 0..self.file.study.points.len();
-            let held = self.with_journal(|journal| Ok(points.map(|point| journal.held(point)).sum()))?;
-            Ok((held, self.round().0.wanted().iter().sum()))
+            let count = self.with_journal(|journal| Ok(points.map(|point| journal.held(point)).sum()))?;
+            Ok((count, self.round().0.wanted().iter().sum()))
         })
     }
 
@@ -398,8 +398,8 @@ impl Study {
 
     /// Does something with the journal. One that was let go of is opened for that only.
     fn with_journal<T>(&self, work: impl FnOnce(&mut Journal) -> Result<T, Failure>) -> Result<T, Failure> {
-        let mut held = self.journal();
-        match (held.as_mut(), &self.out) {
+        let mut kept_open = self.journal();
+        match (kept_open.as_mut(), &self.out) {
             (Some(journal), _) => work(journal),
             (None, Some(out)) => work(&mut StudyFolder::open(out, &self.file, false, &NEVER)?.1),
             (None, None) => work(&mut Journal::in_memory(self.file.study.points.len())),

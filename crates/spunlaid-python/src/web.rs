@@ -64,10 +64,10 @@ pub(crate) fn lay_web(
         let web = to_lay(&file.spec, &layers);
         watch.done.store(0, Ordering::Relaxed);
         watch.total.store(pieces(&web)?, Ordering::Relaxed);
-        let by = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
-        let findings = find(&web, by)?;
+        let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
+        let findings = find(&web, laying)?;
         let wall_s = started.elapsed().as_secs_f64();
-        Ok((web, layers, findings, Performance { wall_s, threads, instruction_set: by.isa.name() }))
+        Ok((web, layers, findings, Performance { wall_s, threads, instruction_set: laying.isa.name() }))
     })?;
     let notes = [Note::of_results(&file.notes), notes(&web, &findings, &layers)].concat();
     Ok(LaidWeb { name, file, web, layers, findings, notes, performance })
@@ -179,8 +179,8 @@ impl LaidWeb {
         watched(py, &watch, None, || {
             let staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
             let threads = threads(None);
-            let by = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
-            self.folder().write(&staging, by)?;
+            let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
+            self.folder().write(&staging, laying)?;
             staging.publish()
         })
     }

@@ -108,8 +108,8 @@ impl Share {
                 Growth::Power(p) => libm::pow(speed, 1.0 + p),
                 Growth::Curve(..) if speed == 0.0 => 0.0,
                 Growth::Curve(curve, shift) => {
-                    let by = if curve.fades() { place } else { 1.0 };
-                    speed * curve.exact(speed / by * libm::exp2(0.5 * shift))
+                    let fading = if curve.fades() { place } else { 1.0 };
+                    speed * curve.exact(speed / fading * libm::exp2(0.5 * shift))
                 }
             }
     }

@@ -230,8 +230,8 @@ fn memory(case: &Case, threads: u64) -> f64 {
     let flying = case.flight_memory().total() * threads as f64
         + ROW * rows.min(ROWS)
         + (ROW * rows).min(FIBRE * fibres);
-    let kept = air.field_memory() as f64 + POSITION * positions(case);
-    PROGRAM + reading.max(kept + flying.max(FIGURES))
+    let memory = air.field_memory() as f64 + POSITION * positions(case);
+    PROGRAM + reading.max(memory + flying.max(FIGURES))
 }
 
 /// Size of the largest of the files of the air [bytes]; they are read one after the other.
@@ -251,8 +251,8 @@ fn instants(case: &Case) -> f64 {
 
 /// Number of node positions that are kept for the report and ParaView.
 fn positions(case: &Case) -> f64 {
-    let kept = KeepShapes::within(case, POSITIONS);
-    instants(case) / kept.every as f64 * kept.replicates as f64 * (case.fibre.elements + 1) as f64
+    let shapes = KeepShapes::within(case, POSITIONS);
+    instants(case) / shapes.every as f64 * shapes.replicates as f64 * (case.fibre.elements + 1) as f64
 }
 
 /// Size of the results: tables, shapes as text, figures and report [bytes].

@@ -47,7 +47,7 @@ pub(super) fn scan(asked: &Analyse) -> Result<(), Failure> {
     if asked.json {
         say::text(&summary);
     } else if !asked.quiet {
-        say::text(&told(&findings));
+        say::text(&table(&findings));
         notes.iter().for_each(|note| say::remark(false, note));
         say::line(&format!("open {}", folder.join("report.html").display()));
     }
@@ -78,7 +78,7 @@ fn settings(asked: &Analyse, picture: &Picture) -> Result<Settings, Failure> {
 }
 
 /// The table for the terminal.
-fn told(findings: &Findings) -> String {
+fn table(findings: &Findings) -> String {
     let mut text = String::new();
     if findings.mean_known {
         text.push_str(&format!("basis weight {} g/m²\n", significant(findings.map.basis_weight() * 1e3, 4)));

@@ -150,9 +150,9 @@ impl Document {
             };
             if matches!(key.kind, Kind::File(_)) {
                 for_each_text(old, &mut |text| {
-                    let here = folder.join(text.value());
+                    let path = folder.join(text.value());
                     if !words.contains(&text.value().as_str()) {
-                        *text = toml_edit::Formatted::new(here.to_string_lossy().into_owned());
+                        *text = toml_edit::Formatted::new(path.to_string_lossy().into_owned());
                     }
                 });
             }

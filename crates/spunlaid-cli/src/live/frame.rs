@@ -210,7 +210,7 @@ mod tests {
             fibres.fly(steps, |i| lately.add(i.snapshot.time, i.snapshot, &i.laid[0])).unwrap();
         };
         see(&mut fibres, &mut lately, 4001);
-        let mut frame = Frame::new(fibres.seen(), &lately);
+        let mut frame = Frame::new(fibres.snapshot(), &lately);
         (frame.generation, frame.behind, frame.speed) = (7, true, 0.5);
         let (mut had, mut other) = (Had::default(), Had::default());
         let bytes = frame.bytes(&mut had);
@@ -218,19 +218,19 @@ mod tests {
         let (samples, nodes) = (u16_at(&bytes, 6), u16_at(&bytes, 22));
         assert_eq!((samples, nodes, number(&bytes, 16)), (5, 21, 0.5));
         assert_eq!(bytes.len(), 48 + 12 * 8 * nodes + 16 * samples);
-        assert_eq!(f64::from_le_bytes(bytes[8..16].try_into().unwrap()), fibres.seen().time);
+        assert_eq!(f64::from_le_bytes(bytes[8..16].try_into().unwrap()), fibres.snapshot().time);
         // The last node of the third fibre.
-        let third = fibres.seen().position[20].lane(2);
+        let third = fibres.snapshot().position[20].lane(2);
         let at = 48 + 12 * (3 * nodes - 1);
         for (i, x) in [third.x, third.y, third.z].into_iter().enumerate() {
             assert_eq!(number(&bytes, at + 4 * i), (1e3 * x) as f32);
         }
         // The fourth sample is of 3 ms.
         let at = 48 + 12 * 8 * nodes + 16 * 3;
-        assert!((number(&bytes, at) - (fibres.seen().time - 3e-3) as f32).abs() < 1e-7);
+        assert!((number(&bytes, at) - (fibres.snapshot().time - 3e-3) as f32).abs() < 1e-7);
 
         see(&mut fibres, &mut lately, 2000);
-        let frame = Frame::new(fibres.seen(), &lately);
+        let frame = Frame::new(fibres.snapshot(), &lately);
         assert_eq!(u16_at(&frame.bytes(&mut had), 6), 2);
         assert_eq!(u16_at(&frame.bytes(&mut had), 6), 0);
         assert_eq!(u16_at(&frame.bytes(&mut other), 6), 7);

@@ -63,14 +63,15 @@ impl LaidStatistics {
             });
             self.fitted = (points, noises.collect());
         }
-        let over = |quantity: fn(&laydown::LaidCurve) -> f64| laid.iter().map(quantity).collect::<Vec<f64>>();
+        let values_of =
+            |quantity: fn(&laydown::LaidCurve) -> f64| laid.iter().map(quantity).collect::<Vec<f64>>();
         let all = [
-            ("sigma_md", over(|curve| curve.sigma_md)),
-            ("sigma_cd", over(|curve| curve.sigma_cd)),
+            ("sigma_md", values_of(|curve| curve.sigma_md)),
+            ("sigma_cd", values_of(|curve| curve.sigma_cd)),
             ("noise", self.fitted.1.clone()),
-            ("half_correlation_length_md", over(|curve| curve.half_correlation_length_md)),
-            ("half_correlation_length_cd", over(|curve| curve.half_correlation_length_cd)),
-            ("orientation_md", over(|curve| curve.orientation_md)),
+            ("half_correlation_length_md", values_of(|curve| curve.half_correlation_length_md)),
+            ("half_correlation_length_cd", values_of(|curve| curve.half_correlation_length_cd)),
+            ("orientation_md", values_of(|curve| curve.orientation_md)),
         ];
         all.into_iter()
             .filter_map(|(name, values)| {
@@ -162,11 +163,11 @@ mod tests {
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let mut measured = Statistics::new(&case, fibres.flight());
         fibres.fly((0.5 / case.run.time_step) as u64, |instant| measured.see(instant)).unwrap();
-        let told = serde_json::to_value(measured.told(3, fibres.flight())).unwrap();
-        assert_eq!(told["numbers"][0]["name"], "sigma_md");
-        let sigma = told["numbers"][0]["value"].as_f64().unwrap();
-        let error = told["numbers"][0]["error"].as_f64().unwrap();
-        assert!(sigma > 1.0 && error > 0.0 && error < sigma, "{told}");
+        let statistics = serde_json::to_value(measured.message(3, fibres.flight())).unwrap();
+        assert_eq!(statistics["numbers"][0]["name"], "sigma_md");
+        let sigma = statistics["numbers"][0]["value"].as_f64().unwrap();
+        let error = statistics["numbers"][0]["error"].as_f64().unwrap();
+        assert!(sigma > 1.0 && error > 0.0 && error < sigma, "{statistics}");
     }
 
     #[test]

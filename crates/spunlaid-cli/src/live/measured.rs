@@ -117,9 +117,9 @@ impl Statistics {
     }
 
     /// What has been found so far.
-    pub(super) fn told(&mut self, generation: u32, flight: &Flight) -> StatisticsMessage {
+    pub(super) fn message(&mut self, generation: u32, flight: &Flight) -> StatisticsMessage {
         let settling = (self.from - flight.time()).max(0.0);
-        let mut told = StatisticsMessage {
+        let mut message = StatisticsMessage {
             generation,
             duration: self.duration,
             settling,
@@ -129,15 +129,15 @@ impl Statistics {
         };
         match &mut self.motion {
             Motion::Fed(laid) => {
-                told.numbers = laid.numbers();
-                told.footprint = laid.map();
+                message.numbers = laid.numbers();
+                message.footprint = laid.map();
             }
             Motion::Fixed(swinging) => {
-                told.numbers = swinging.numbers();
-                told.curves = (self.duration > 0.0).then(|| swinging.curves(flight));
+                message.numbers = swinging.numbers();
+                message.curves = (self.duration > 0.0).then(|| swinging.curves(flight));
             }
         }
-        told
+        message
     }
 }
 
@@ -158,9 +158,9 @@ impl Swinging {
 
     fn see(&mut self, instant: &Instant<'_>) {
         let samples = [Sample::default(); WIDTH];
-        let seen =
+        let observation =
             Observation { snapshot: instant.snapshot, samples: &samples, settled: true, laid: instant.laid };
-        self.along.see(&seen);
+        self.along.see(&observation);
         let Some(end) = instant.snapshot.position.last() else {
             return;
         };
@@ -265,9 +265,9 @@ mod tests {
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let mut measured = Statistics::new(&case, fibres.flight());
         fibres.fly(case.run.steps + 1, |instant| measured.see(instant)).unwrap();
-        let told = measured.told(1, fibres.flight());
-        assert!((told.duration - 2.0).abs() < 1e-9 && told.settling == 0.0);
-        for number in &told.numbers {
+        let message = measured.message(1, fibres.flight());
+        assert!((message.duration - 2.0).abs() < 1e-9 && message.settling == 0.0);
+        for number in &message.numbers {
             let run = results.estimate(number.name).mean * measure(number.name).unwrap().unit.per_si;
             // The batches begin and end within a step of the run's; a crossing at their seams may be missed, at most one of
             // 70 in each.
@@ -275,8 +275,8 @@ mod tests {
             assert!((number.value.unwrap() / run - 1.0).abs() < tolerance, "{number:?}: {run}");
             assert!(number.error.is_some_and(|e| e > 0.0 && e < 0.3 * run), "{number:?}");
         }
-        let curves = told.curves.unwrap();
-        let amplitude = told.numbers[0].value.unwrap();
+        let curves = message.curves.unwrap();
+        let amplitude = message.numbers[0].value.unwrap();
         // The end of the curve is taken at recorded instants, the amplitude at all steps.
         assert!((curves.along[1].last().unwrap() / amplitude - 1.0).abs() < 0.01);
         let variance: f64 = curves.spectrum[1].iter().sum::<f64>() * curves.spectrum[0][0];
@@ -288,7 +288,7 @@ mod tests {
     fn nothing_is_told_before_the_fibres_have_settled() {
         let (case, _) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
         let fibres = Fibres::new(case.clone()).unwrap();
-        let told = Statistics::new(&case, fibres.flight()).told(1, fibres.flight());
-        assert!(told.settling > 0.4 && told.curves.is_none() && told.numbers[0].value.is_none());
+        let message = Statistics::new(&case, fibres.flight()).message(1, fibres.flight());
+        assert!(message.settling > 0.4 && message.curves.is_none() && message.numbers[0].value.is_none());
     }
 }

@@ -36,13 +36,13 @@ pub(super) fn plain_name(given: &str) -> Result<String, String> {
 /// The answer that tells why not.
 pub(super) fn save(folder: &Path, name: &str, text: &str, replace: bool) -> Result<(), Answer> {
     let path = folder.join(name);
-    let there = fs::symlink_metadata(&path).ok();
-    if there.as_ref().is_some_and(|there| !there.is_file()) {
+    let metadata = fs::symlink_metadata(&path).ok();
+    if metadata.as_ref().is_some_and(|metadata| !metadata.is_file()) {
         return Err(Answer::refused(format!("{name} exists and is not a plain file; give another name")));
     }
     let mut options = OpenOptions::new();
     options.write(true);
-    if replace && there.is_some() {
+    if replace && metadata.is_some() {
         options.truncate(true);
     } else {
         options.create_new(true);

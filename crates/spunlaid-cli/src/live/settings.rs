@@ -158,8 +158,8 @@ mod tests {
     fn a_fed_fibre_has_feed_and_belt_and_no_length() {
         let (case, _) = parse_case(starter_case_of_fed(), "a.toml", &[]).unwrap();
         let all = settings(&case);
-        for (key, there) in [("feed.speed", true), ("belt.speed", true), ("fibre.length", false)] {
-            assert_eq!(all.iter().any(|s| s.key == key && s.first), there, "{key}");
+        for (key, is_setting) in [("feed.speed", true), ("belt.speed", true), ("fibre.length", false)] {
+            assert_eq!(all.iter().any(|s| s.key == key && s.first), is_setting, "{key}");
         }
     }
 }

@@ -42,9 +42,9 @@ impl WebFolder<'_> {
     ///
     /// # Errors
     /// If a file cannot be written, or the computation is interrupted.
-    pub fn write(&self, staging: &Staging<'_>, by: Laying<'_>) -> Result<(), Failure> {
+    pub fn write(&self, staging: &Staging<'_>, laying: Laying<'_>) -> Result<(), Failure> {
         let window = window(&self.file.spec);
-        let strands = strands(self.web, window, by)?;
+        let strands = strands(self.web, window, laying)?;
         let figures = web_figures(self.web, self.findings);
         // The map is packed while the figures are drawn.
         let (files, drawn) = std::thread::scope(|scope| {
@@ -160,13 +160,13 @@ fn about_the_model(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<St
     let mut notes = Vec::new();
     let by_surrogate = web.layers.iter().any(|layer| matches!(layer.fibres, Fibres::Surrogate(_)));
     let element = web.longest_element().unwrap_or(0.0);
-    let (seen, fine): (Vec<&PatchFindings>, Vec<_>) = findings
+    let (coarse, fine): (Vec<&PatchFindings>, Vec<_>) = findings
         .patches
         .iter()
         .filter(|patch| patch.surrogate_is_far())
         .partition(|patch| patch.map.patch >= element);
     let apart = |patch: &PatchFindings| patch.surrogate_over_flown().map_or(0.0, |difference| difference.0);
-    if let Some(most) = seen.iter().max_by(|a, b| apart(a).abs().total_cmp(&apart(b).abs())) {
+    if let Some(most) = coarse.iter().max_by(|a, b| apart(a).abs().total_cmp(&apart(b).abs())) {
         let cv = |estimate: Option<(f64, f64)>| {
             significant(100.0 * estimate.map_or(f64::NAN, |estimate| estimate.0), 3)
         };
@@ -179,7 +179,7 @@ fn about_the_model(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<St
             "the surrogate’s CV is more than 5 % from that of the flown curves over patches of {}: {} for {} %, {} \
              % {}, over patches of {}. Rely on the flown curves there: the flight has laid them, and the \
              surrogate has only their spread and their autocorrelation. {remedy}",
-            sides(&seen),
+            sides(&coarse),
             cv(most.surrogate),
             cv(most.flown),
             significant(100.0 * apart(most).abs(), 2),
@@ -241,7 +241,7 @@ fn about_the_model(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<St
                  that of the best one, and chance would explain {}",
                 grams(layer.basis_weight(&web.sheet)),
                 significant(fit.rms, 2),
-                fit.by_chance.map_or_else(|| "an unknown part".to_owned(), |by| significant(by, 2))
+                fit.by_chance.map_or_else(|| "an unknown part".to_owned(), |residual| significant(residual, 2))
             ));
         }
     }

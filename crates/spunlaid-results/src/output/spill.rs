@@ -206,8 +206,8 @@ mod tests {
         let spill = spill(&folder);
         let error = (0..IN_MEMORY).find_map(|i| spill.push(0, row(0, i)).err());
         assert!(matches!(error, Some(Error::Interrupted)), "{error:?}");
-        let told = spill.failure().unwrap().to_string();
-        assert!(told.starts_with("r/laid.parquet: cannot be written: "), "{told}");
+        let message = spill.failure().unwrap().to_string();
+        assert!(message.starts_with("r/laid.parquet: cannot be written: "), "{message}");
         // It is told once.
         assert!(spill.failure().is_none());
     }

@@ -177,7 +177,7 @@ fn insert<'a>(into: &mut GroupSummary<'a>, group: &'static str, number: &'a Numb
 }
 
 fn summary_of(number: &Number) -> NumberSummary<'_> {
-    let over = |over| (number.measure.over_replicates == over).then(|| number.value());
+    let over = |value_if| (number.measure.over_replicates == value_if).then(|| number.value());
     NumberSummary {
         median: over(Aggregate::Median),
         largest: over(Aggregate::Largest),

@@ -34,8 +34,8 @@ fn value(row: &Number) -> String {
     error.map_or_else(|| format!("{mean:>10}"), |error| format!("{mean:>10} ± {error}"))
 }
 
-fn remark(over: Aggregate, replicates: u64) -> &'static str {
-    match over {
+fn remark(aggregate: Aggregate, replicates: u64) -> &'static str {
+    match aggregate {
         Aggregate::Median if replicates > 1 => "  (median)",
         Aggregate::Largest if replicates > 1 => "  (largest)",
         Aggregate::Mean | Aggregate::Median | Aggregate::Largest => "",

@@ -35,12 +35,12 @@ pub struct ScanReport<'a> {
 pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
     let findings = input.findings;
     let (data, pixel) = light_table_data(&with_spots(findings), None)?;
-    let seen = nearest(findings.patches.iter().map(|patch| patch.unevenness.patch));
+    let nearest_patch = nearest(findings.patches.iter().map(|patch| patch.unevenness.patch));
     let weight = findings.mean_known.then(|| findings.map.basis_weight());
     let page = Page {
         command: "analyse",
         name: input.name,
-        headline: headline(weight, seen.map(|i| &findings.patches[i].unevenness)),
+        headline: headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness)),
         summary: format!(
             "A scan of {} across and {} along the web.",
             metres(findings.map.columns as f64 * findings.map.cell),
@@ -144,7 +144,7 @@ fn facts(input: &ScanReport<'_>) -> Vec<Vec<String>> {
         facts.push(("Cut off beside the web, with the bare lamp", area));
     }
     if let Some(largest) = findings.aside.spots.first() {
-        let told = format!(
+        let spots = format!(
             "{}, {}{THIN}mm² in all; the largest {}{THIN}mm², {} from the left and {} from the top of the picture",
             findings.aside.spots.len(),
             significant(findings.aside.masked * 1e6, 3),
@@ -152,7 +152,7 @@ fn facts(input: &ScanReport<'_>) -> Vec<Vec<String>> {
             millimetres(largest.place[0]),
             millimetres(largest.place[1])
         );
-        facts.push(("Dark spots that were left out", told));
+        facts.push(("Dark spots that were left out", spots));
     }
     facts.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect()
 }

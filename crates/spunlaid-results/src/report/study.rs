@@ -178,7 +178,7 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
     };
     let order = |a: &usize, b: &usize| results[*a].mean[quantity].total_cmp(&results[*b].mean[quantity]);
     let (best, worst) = ((0..results.len()).min_by(order)?, (0..results.len()).max_by(order)?);
-    let told = |point: usize| {
+    let words = |point: usize| {
         let values = study.inputs().zip(&study.points[point].values);
         let values =
             values.map(|(factor, value)| format!("{} {}", name_of_key(factor.key), factor.pretty(*value)));
@@ -189,8 +189,8 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
     (best != worst).then(|| {
         format!(
             " {how} patches of {side} the web is most even at {} and least even at {}.",
-            told(best),
-            told(worst)
+            words(best),
+            words(worst)
         )
     })
 }

@@ -39,19 +39,19 @@ pub(super) fn groups(results: &Results) -> Vec<Group> {
 
 fn row(one: &Number) -> Row {
     let (measure, factor) = (one.measure, one.measure.unit.per_si);
-    let (value, over) = match measure.over_replicates {
+    let (value, note) = match measure.over_replicates {
         Aggregate::Mean => (estimate_text(&one.estimate, factor), ""),
         Aggregate::Median => (number(one.value() * factor), "; median over the replicates"),
         Aggregate::Largest => (number(one.value() * factor), "; the largest of all replicates"),
     };
     let n = one.estimate.values.iter().filter(|value| value.is_finite()).count();
-    let over = if n > 1 { over } else { "" };
+    let note = if n > 1 { note } else { "" };
     Row {
         name: unbroken(measure.label),
         value,
         unit: measure.unit.shown,
         n,
-        meaning: unbroken(&format!("{}{over}", measure.meaning)),
+        meaning: unbroken(&format!("{}{note}", measure.meaning)),
     }
 }
 

@@ -127,7 +127,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         name: input.name,
         headline: headline(
             Some(findings.within().basis_weight()),
-            seen(findings).map(|i| whole(&findings.patches[i])).as_ref(),
+            headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
         ),
         summary: [summary(input.web), about_the_error(findings)].join(" "),
         notes: input.notes,
@@ -199,7 +199,7 @@ fn grams(weight: f64) -> String {
 }
 
 /// The patch nearest to what the eye judges first.
-fn seen(findings: &Findings) -> Option<usize> {
+fn headline_patch(findings: &Findings) -> Option<usize> {
     nearest(findings.patches.iter().map(|patch| patch.map.patch))
 }
 
@@ -210,9 +210,9 @@ pub(super) fn nearest(patches: impl Iterator<Item = f64>) -> Option<usize> {
 }
 
 /// * `weight` – mean basis weight, if it is known [kg/m²]
-pub(super) fn headline(weight: Option<f64>, seen: Option<&Unevenness>) -> String {
+pub(super) fn headline(weight: Option<f64>, patch: Option<&Unevenness>) -> String {
     let web = weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams(weight)));
-    match seen {
+    match patch {
         Some(unevenness) => format!(
             "{web} that varies by {} over patches of {}.",
             per_cent(unevenness.cv, unevenness.standard_error),
@@ -302,7 +302,7 @@ fn whole(patch: &PatchFindings) -> Unevenness {
 
 /// What the error in the headline is made of, and what the flown curves say, in sentences.
 fn about_the_error(findings: &Findings) -> String {
-    let Some(patch) = seen(findings).map(|i| &findings.patches[i]) else { return String::new() };
+    let Some(patch) = headline_patch(findings).map(|i| &findings.patches[i]) else { return String::new() };
     let error = patch.whole_error();
     let part = |part: Option<f64>| match part {
         Some(part) => format!("{}{THIN}%", significant(part * PER_CENT, 2)),
@@ -420,7 +420,7 @@ pub(super) fn largest_clouds(clouds: &Clouds) -> Option<String> {
 /// What makes the web uneven, and what would make it more even, in sentences.
 fn verdict(findings: &Findings) -> Vec<String> {
     let mut sentences: Vec<String> = findings.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
-    let Some(i) = seen(findings) else { return sentences };
+    let Some(i) = headline_patch(findings) else { return sentences };
     let patch = &findings.patches[i];
     // The flown curves are believed where there are some.
     let ratio = patch.flown.unwrap_or(patch.one_fibre).0 / patch.straight_fibres;

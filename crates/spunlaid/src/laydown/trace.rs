@@ -155,8 +155,7 @@ impl Trace {
             let before = self.recent.back().copied().unwrap_or(start);
             let part = self.last_part;
             // Without a part left over, the chord ends at the point itself.
-            let end =
-                |before: f64, here: f64| if part == 1.0 { here } else { before + part * (here - before) };
+            let end = |before: f64, now: f64| if part == 1.0 { now } else { before + part * (now - before) };
             self.chords.add(end(before[0], md) - start[0], end(before[1], cd) - start[1]);
         }
         self.recent.push_back([md, cd]);

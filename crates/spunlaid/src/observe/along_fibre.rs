@@ -61,13 +61,14 @@ impl Spread {
 }
 
 impl Observer for Spread {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if !seen.settled {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if !observation.settled {
             return;
         }
         self.count += 1.0;
         let share = Lanes::splat(1.0 / self.count);
-        for ((mean, squares), &Vec3 { y, z, .. }) in self.nodes.iter_mut().zip(&seen.snapshot.position) {
+        for ((mean, squares), &Vec3 { y, z, .. }) in self.nodes.iter_mut().zip(&observation.snapshot.position)
+        {
             for ((mean, squares), p) in mean.iter_mut().zip(squares).zip([y, z]) {
                 let off = p - *mean;
                 *mean = *mean + off * share;

@@ -70,11 +70,11 @@ impl Way {
 }
 
 impl Observer for Way {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if !seen.settled {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if !observation.settled {
             return;
         }
-        let snapshot = seen.snapshot;
+        let snapshot = observation.snapshot;
         for (lane, classes) in self.classes.iter_mut().enumerate() {
             let elements = snapshot.in_air[lane].min(snapshot.tension.len());
             for (j, tension) in snapshot.tension.iter().enumerate().take(elements) {

@@ -54,10 +54,10 @@ impl Curvature {
 }
 
 impl Observer for Curvature {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if seen.settled {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if observation.settled {
             self.count += 1.0;
-            self.isa.run(Turns { position: &seen.snapshot.position, squares: &mut self.squares });
+            self.isa.run(Turns { position: &observation.snapshot.position, squares: &mut self.squares });
         }
     }
 

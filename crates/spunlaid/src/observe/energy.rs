@@ -175,9 +175,11 @@ impl Errors {
 }
 
 impl Observer for Errors {
-    fn see(&mut self, seen: &Observation<'_>) {
-        self.times.push(seen.snapshot.time);
-        for ((percent, newest), sample) in self.percent.iter_mut().zip(&mut self.newest).zip(seen.samples) {
+    fn see(&mut self, observation: &Observation<'_>) {
+        self.times.push(observation.snapshot.time);
+        for ((percent, newest), sample) in
+            self.percent.iter_mut().zip(&mut self.newest).zip(observation.samples)
+        {
             *newest = (self.error)(sample);
             percent.push(*newest);
         }

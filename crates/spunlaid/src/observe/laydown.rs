@@ -249,13 +249,13 @@ fn trace(case: &Case) -> Trace {
 }
 
 impl Observer for LaidFibres {
-    fn see(&mut self, seen: &Observation<'_>) {
-        for (trace, laid) in self.traces.iter_mut().zip(seen.laid) {
+    fn see(&mut self, observation: &Observation<'_>) {
+        for (trace, laid) in self.traces.iter_mut().zip(observation.laid) {
             laid.iter().for_each(|point| trace.add(point.md, point.cd));
         }
-        if seen.settled {
+        if observation.settled {
             self.count += 1.0;
-            for (sum, nodes) in self.in_air.iter_mut().zip(seen.snapshot.in_air) {
+            for (sum, nodes) in self.in_air.iter_mut().zip(observation.snapshot.in_air) {
                 *sum += nodes as f64;
             }
         }

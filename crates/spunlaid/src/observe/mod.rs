@@ -163,7 +163,7 @@ pub enum Kind {
 
 impl Kind {
     /// The abscissa of the curve: its name with the SI unit in a table, its label on an axis, and its unit.
-    pub const fn over(self) -> Option<(&'static str, &'static str, Unit)> {
+    pub const fn abscissa(self) -> Option<(&'static str, &'static str, Unit)> {
         match self {
             Self::Number => None,
             Self::Profile => Some(("distance_m", "Distance from the root along the fibre", MILLIMETRES)),
@@ -231,7 +231,7 @@ pub enum Value {
 /// Looks at up to eight fibres while they fly.
 pub trait Observer: std::fmt::Debug + Send {
     /// Receives a recorded instant. The instants come in order and begin with the start.
-    fn see(&mut self, seen: &Observation<'_>);
+    fn see(&mut self, observation: &Observation<'_>);
 
     /// The values of one fibre at the end of the flight, one for each declared measure.
     fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value>;
@@ -254,8 +254,8 @@ impl Observers {
     }
 
     /// Passes a recorded instant to all observers.
-    pub fn see(&mut self, seen: &Observation<'_>) {
-        self.0.iter_mut().for_each(|(_, observer)| observer.see(seen));
+    pub fn see(&mut self, observation: &Observation<'_>) {
+        self.0.iter_mut().for_each(|(_, observer)| observer.see(observation));
     }
 
     /// The measures that apply to one fibre, in the order of their declarations.

@@ -67,8 +67,8 @@ fn welch(run: &Run) -> Welch {
 }
 
 impl Observer for EndPositions {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if let (true, Some(end)) = (observation.settled, observation.snapshot.position.last()) {
             for (lane, [y, z]) in self.0.iter_mut().enumerate() {
                 y.push(end.y.0[lane], None);
                 z.push(end.z.0[lane], None);

@@ -200,10 +200,10 @@ fn thicker(spots: &[Spot]) -> (String, Verdict) {
         "{:.2} ± {:.2} mm at 18 µm, {:.2} ± {:.2} mm at 200 µm",
         thin.y, thin.error, thick.y, thick.error
     );
-    let by = significance(thin, thick);
-    let verdict = if by > REAL {
+    let difference = significance(thin, thick);
+    let verdict = if difference > REAL {
         Verdict::Holds
-    } else if by < -REAL {
+    } else if difference < -REAL {
         Verdict::Fails
     } else {
         Verdict::Open
@@ -226,15 +226,15 @@ fn sigmoid(spots: &[Spot]) -> (String, Verdict) {
         middle(steepest),
         per(last)
     );
-    let over = |end: (f64, f64)| (most.0 - end.0) / most.1.hypot(end.1);
-    let verdict = if over(first) > 2.0 && over(last) > 2.0 {
+    let significance_over = |end: (f64, f64)| (most.0 - end.0) / most.1.hypot(end.1);
+    let verdict = if significance_over(first) > 2.0 && significance_over(last) > 2.0 {
         Verdict::Holds
     } else if steepest > 0 && steepest + 1 < slopes.len() {
         Verdict::Open
     } else {
         // A point of inflection between the last two points cannot be seen.
         let end = if steepest == 0 { last } else { first };
-        if over(end) > 2.0 { Verdict::Fails } else { Verdict::Open }
+        if significance_over(end) > 2.0 { Verdict::Fails } else { Verdict::Open }
     };
     (evidence, verdict)
 }

@@ -114,9 +114,9 @@ pub(super) fn lagged_products(
             std::array::from_fn(|lane| eight.get(lane).map_or(0..0, |(_, range)| range.clone()));
         let mut data: Vec<Complex> = (0..size)
             .map(|t| {
-                let there = |i: usize, most: usize| i < eight.len() && t < most;
+                let is_sample = |i: usize, most: usize| i < eight.len() && t < most;
                 let at = |i: usize, most: usize| {
-                    if there(i, most) { difference(piece[i].start + t) } else { 0.0 }
+                    if is_sample(i, most) { difference(piece[i].start + t) } else { 0.0 }
                 };
                 Complex { re: Lanes::from_fn(|i| at(i, piece[i].len())), im: Lanes::from_fn(|i| at(i, size)) }
             })

@@ -274,10 +274,10 @@ fn tone(density: &[f64]) -> Option<(usize, f64)> {
     let mean = |side: &[f64]| side.iter().sum::<f64>() / side.len() as f64;
     let level =
         [below, above].iter().filter(|side| !side.is_empty()).map(|side| mean(side)).fold(0.0, f64::max);
-    let seen = peak > 2;
+    let is_resolved = peak > 2;
     let line: f64 = near(peak.saturating_sub(2), peak + 3).sum();
     let share = line / density.iter().sum::<f64>();
-    (seen && density[peak] > 20.0 * level && share > 0.1).then_some((peak, share))
+    (is_resolved && density[peak] > 20.0 * level && share > 0.1).then_some((peak, share))
 }
 
 #[cfg(test)]

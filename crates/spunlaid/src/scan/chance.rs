@@ -56,18 +56,18 @@ pub(super) fn scatter(map: &Map, masked: &[bool], side: usize) -> Option<Scatter
     let mut bars: Vec<f64> = (1..along).map(|j| waves[j * across]).collect();
     // The infinitely long wave is missing: the mean of the piece is not that of the web. It is as strong as the next ones,
     // along that direction in which they are stronger, because streaks reach through the whole piece.
-    let beside =
+    let mean_beside =
         |wave: &dyn Fn(usize) -> usize| (1..=LONGEST).map(|k| waves[wave(k)]).sum::<f64>() / LONGEST as f64;
-    let beside_streaks: Vec<f64> = (1..across).map(|i| beside(&|k| k * across + i)).collect();
-    let beside_bars: Vec<f64> = (1..along).map(|j| beside(&|k| j * across + k)).collect();
+    let beside_streaks: Vec<f64> = (1..across).map(|i| mean_beside(&|k| k * across + i)).collect();
+    let beside_bars: Vec<f64> = (1..along).map(|j| mean_beside(&|k| j * across + k)).collect();
     let mean_of = |waves: &[f64]| waves[..LONGEST].iter().sum::<f64>() / LONGEST as f64;
     let stronger = if mean_of(&streaks) > mean_of(&bars) { &mut streaks } else { &mut bars };
     stronger[..LONGEST].iter_mut().for_each(|wave| *wave *= 1.0 + 1.0 / LONGEST as f64);
     let rest = || (across..across * along).filter(|at| at % across != 0).map(|at| waves[at]);
     let (apart, fourth) = rest().fold((0.0, 0.0), |(sum, squares), wave| (sum + wave, squares + wave * wave));
-    let within = (blocks.variance - waves[1..].iter().sum::<f64>()).max(0.0);
+    let fine = (blocks.variance - waves[1..].iter().sum::<f64>()).max(0.0);
     // The square of a normal number has the variance 2 and the mean square 3.
-    let rest = apart + within;
+    let rest = apart + fine;
     let parts = [
         (streaks.iter().sum(), degrees(&streaks, &beside_streaks)),
         (bars.iter().sum(), degrees(&bars, &beside_bars)),
@@ -169,17 +169,17 @@ impl Blocks {
         let mean_of = |block: &(u64, f64, f64)| {
             if block.0 == 0 { 0.0 } else { (block.1 / block.0 as f64 - of_all) * scale }
         };
-        let within = |block: &(u64, f64, f64)| {
+        let variance_within = |block: &(u64, f64, f64)| {
             (block.0 > 0).then(|| {
                 (block.2 / block.0 as f64 - (block.1 / block.0 as f64).powi(2)).max(0.0) * scale * scale
             })
         };
-        let within: Vec<Option<f64>> = sums.iter().map(within).collect();
+        let variance_within: Vec<Option<f64>> = sums.iter().map(variance_within).collect();
         Some(Self {
             sides,
             means: sums.iter().map(mean_of).collect(),
             variance: (squares / count as f64 - of_all * of_all).max(0.0) * scale * scale,
-            error_within: error_of_mean(&within, sides[0]),
+            error_within: error_of_mean(&variance_within, sides[0]),
         })
     }
 

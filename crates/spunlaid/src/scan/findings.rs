@@ -113,11 +113,11 @@ impl Aside {
         let masked = &found.dark;
         let level = |at: usize| picture.values[at] / lamp.map_or(1.0, |lamp| lamp.values[at]);
         let bare = (0..found.bare.len()).filter(|at| found.bare[*at]).map(level);
-        let mut seen = vec![false; masked.len()];
+        let mut visited = vec![false; masked.len()];
         let mut spots = Vec::new();
         for first in 0..masked.len() {
-            if masked[first] && !seen[first] {
-                let region = region(&mut seen, found.web.sides, first, |at| masked[at]);
+            if masked[first] && !visited[first] {
+                let region = region(&mut visited, found.web.sides, first, |at| masked[at]);
                 let count = region.len() as f64;
                 let mean = |place: &dyn Fn(usize) -> usize| {
                     (region.iter().map(|at| place(*at) as f64).sum::<f64>() / count + 0.5) * pixel

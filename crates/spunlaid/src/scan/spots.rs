@@ -102,9 +102,9 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
     let found = bare.iter().any(|is| *is);
     let web =
         if found { largest(&bare, columns) } else { Rectangle { corner: [0, 0], sides: [columns, rows] } };
-    let there = bare.iter().filter(|is| !**is).count();
-    if (web.sides[0] * web.sides[1]) as f64 <= KEPT * there as f64 {
-        let share = 1.0 - there as f64 / density.len() as f64;
+    let covered = bare.iter().filter(|is| !**is).count();
+    if (web.sides[0] * web.sides[1]) as f64 <= KEPT * covered as f64 {
+        let share = 1.0 - covered as f64 / density.len() as f64;
         return Err(Fault::new(format!("shows the bare lamp on {:.0} % of its area, and no large rectangle without it can be cut out", 100.0 * share), "turn the scan straight, and cut the picture so that it holds web only").option("--keep-spots"));
     }
     if !found {
@@ -154,13 +154,13 @@ impl Level {
         at_edge: bool,
     ) {
         let (across, along) = (self.columns, self.rows());
-        let mut seen = vec![false; self.values.len()];
+        let mut visited = vec![false; self.values.len()];
         let mut found = Vec::new();
         for first in 0..self.values.len() {
-            if seen[first] || !wanted(self.values[first]) {
+            if visited[first] || !wanted(self.values[first]) {
                 continue;
             }
-            let region = region(&mut seen, [across, along], first, |at| nearly(self.values[at]));
+            let region = region(&mut visited, [across, along], first, |at| nearly(self.values[at]));
             let is_edge = |at: &usize| {
                 let (i, j) = (at % across, at / across);
                 i == 0 || j == 0 || i + 1 == across || j + 1 == along
@@ -193,12 +193,12 @@ impl Level {
 
 /// The places that hang together with the first one, by their sides or corners.
 pub(super) fn region(
-    seen: &mut [bool],
+    visited: &mut [bool],
     [across, along]: [usize; 2],
     first: usize,
     belongs: impl Fn(usize) -> bool,
 ) -> Vec<usize> {
-    seen[first] = true;
+    visited[first] = true;
     let mut region = vec![first];
     let mut next = 0;
     while let Some(at) = region.get(next).copied() {
@@ -207,8 +207,8 @@ pub(super) fn region(
         for row in j.saturating_sub(1)..(j + 2).min(along) {
             for column in i.saturating_sub(1)..(i + 2).min(across) {
                 let other = row * across + column;
-                if !seen[other] && belongs(other) {
-                    seen[other] = true;
+                if !visited[other] && belongs(other) {
+                    visited[other] = true;
                     region.push(other);
                 }
             }
@@ -231,8 +231,8 @@ pub(super) fn cut<T: Copy>(values: &[T], columns: usize, part: Rectangle) -> Vec
 /// Widens what is marked, to both sides.
 fn widen(marks: &mut [bool], columns: usize, [across, along]: [usize; 2]) {
     let rows = marks.len() / columns;
-    let spread = |old: &[bool], at: usize, size: usize, by: usize| {
-        (at.saturating_sub(by)..(at + by + 1).min(size)).any(|at| old[at])
+    let spread = |old: &[bool], at: usize, size: usize, reach: usize| {
+        (at.saturating_sub(reach)..(at + reach + 1).min(size)).any(|at| old[at])
     };
     for row in marks.chunks_exact_mut(columns).filter(|row| row.iter().any(|is| *is)) {
         let old = row.to_vec();

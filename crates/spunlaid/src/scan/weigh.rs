@@ -258,8 +258,8 @@ fn unusable(values: &[f64], what: &'static str, advice: &'static str) -> Result<
 
 /// The mean of the values that are there.
 fn mean_of(values: &[f64]) -> f64 {
-    let there = || values.iter().filter(|value| !value.is_nan());
-    there().sum::<f64>() / there().count() as f64
+    let finite = || values.iter().filter(|value| !value.is_nan());
+    finite().sum::<f64>() / finite().count() as f64
 }
 
 /// The map of relative weights, and how many were below zero.

@@ -151,8 +151,8 @@ impl Welch {
         let samples = if segments == 0 { 0 } else { (segments - 1) * hop + segment };
         self.carried = (0..samples).fold(self.carried, |(sum, squares), t| {
             let first = (t + 1).saturating_sub(segment).div_ceil(hop);
-            let over = first..=(t / hop).min(segments - 1);
-            let weight = over.map(|i| self.weights[t - i * hop]).fold(0.0, |all, w| all + w * w);
+            let segments_here = first..=(t / hop).min(segments - 1);
+            let weight = segments_here.map(|i| self.weights[t - i * hop]).fold(0.0, |all, w| all + w * w);
             (sum + weight, squares + weight * weight)
         });
     }

@@ -111,7 +111,7 @@ struct Part {
 
 impl Generator {
     fn new(rate: f64, Size { degree, harmonic }: Size) -> Self {
-        let there = |m: usize, n: usize, k: usize| {
+        let is_used = |m: usize, n: usize, k: usize| {
             m + n <= degree && k <= harmonic && (m + n + k) % 2 == 1 && (k > 0 || n.is_multiple_of(2))
         };
         // Number of each function among those with k of the same parity; m = 1 alone, x₁, comes first.
@@ -121,7 +121,7 @@ impl Generator {
         let mut functions = [Vec::new(), Vec::new()];
         for k in 0..=harmonic {
             for n in 0..=degree {
-                for m in (0..=degree - n).filter(|m| there(*m, n, k)) {
+                for m in (0..=degree - n).filter(|m| is_used(*m, n, k)) {
                     let alike = &mut functions[k % 2];
                     numbers[place(m, n, k)] = alike.len() as u32;
                     alike.push((m, n, k));
@@ -132,7 +132,7 @@ impl Generator {
             let mut part = Part::default();
             for &(m, n, k) in functions {
                 let mut from = |m: usize, n: usize, k: usize, value: f64| {
-                    if there(m, n, k) && value != 0.0 {
+                    if is_used(m, n, k) && value != 0.0 {
                         part.entries.push((numbers[place(m, n, k)], value));
                     }
                 };

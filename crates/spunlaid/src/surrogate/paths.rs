@@ -171,8 +171,8 @@ impl Task for Start<'_> {
         }
         // The angle of two normal numbers is uniform.
         let [x, y] = normals::<S>(&paths.bits());
-        let over = Wide::splat(1.0).over(x.mul_add(x, y * y).sqrt());
-        paths.direction = [(x * over).store(), (y * over).store()];
+        let inverse = Wide::splat(1.0).over(x.mul_add(x, y * y).sqrt());
+        paths.direction = [(x * inverse).store(), (y * inverse).store()];
         for pair in 0..BLOCK / 2 {
             let bits = paths.bits();
             turns::<S>(paths.noise, &bits, &mut paths.turns[2 * pair..]);
@@ -287,8 +287,8 @@ impl<S: Register> Corner<S> {
         let (a, b) = (sin.neg_mul_add(b, cos * a), sin.mul_add(a, cos * b));
 
         let dot = p.mul_add(a, q * b);
-        let (factor, over) = (under + dot, one.over(more.mul_add(under, dot + dot)));
-        let (a, b) = (two_p.mul_add(factor, a * less) * over, two_q.mul_add(factor, b * less) * over);
+        let (factor, inverse) = (under + dot, one.over(more.mul_add(under, dot + dot)));
+        let (a, b) = (two_p.mul_add(factor, a * less) * inverse, two_q.mul_add(factor, b * less) * inverse);
         ([self.step.mul_add(a, x), self.step.mul_add(b, y)], [a, b])
     }
 }

@@ -407,7 +407,7 @@ mod tests {
 
     #[test]
     fn rejects_what_is_no_formula() {
-        for (text, said) in [
+        for (text, message) in [
             ("", "cannot be read at \"the end\"; a number, a key or a parenthesis is expected there"),
             ("1 +", "cannot be read at \"the end\"; a number, a key or a parenthesis is expected there"),
             ("(1", "cannot be read at \"the end\"; a closing parenthesis is expected there"),
@@ -422,7 +422,7 @@ mod tests {
                 "uses velocity, which is not a key with a number; write the full name of one, like air.velocity",
             ),
         ] {
-            assert_eq!(value(text).unwrap_err().to_string(), said, "{text}");
+            assert_eq!(value(text).unwrap_err().to_string(), message, "{text}");
         }
         assert_eq!(value(&"(".repeat(2000)), Err(too_long()));
         assert_eq!(value(&"(".repeat(500)), Err(too_long()));

@@ -136,9 +136,9 @@ const REACH: f64 = 3.3;
 /// Where the fibre comes down about its straight trace, of all replicates whose laid fibre is kept.
 fn footprint(case: &Case, results: &Results) -> Figure {
     let ratio = case.line.map_or(f64::NAN, |line| line.belt_speed / line.feed_speed);
-    let kept: Vec<Vec<(f64, f64)>> =
+    let laid: Vec<Vec<(f64, f64)>> =
         results.trajectories.iter().map(|trajectory| about_straight_trace(trajectory, ratio)).collect();
-    let points: Vec<(f64, f64)> = kept.iter().flatten().copied().collect();
+    let points: Vec<(f64, f64)> = laid.iter().flatten().copied().collect();
     let [md, cd] = ["sigma_md", "sigma_cd"].map(|name| results.estimate(name).mean * MM);
     let label = |direction| Axis::linear(&format!("{direction} direction (mm)"));
     let chart = Chart::new(
@@ -185,7 +185,7 @@ fn footprint(case: &Case, results: &Results) -> Figure {
          {} mm and {} mm in machine and cross direction for σ. Inside lie {} % and {} % of the fibre; of a normal \
          distribution it would be 39.3 % and 86.5 %.",
         format_args!("{} m", significant(points.len() as f64 * case.fibre.rest_length(), 3)),
-        one_of(kept.len(), "replicate"),
+        one_of(laid.len(), "replicate"),
         significant(md, 3),
         significant(cd, 3),
         within(1.0),

@@ -38,7 +38,7 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
         return rose(declared, curves[0], results.replicates());
     }
     let (along, value) = axes(first, curves.len() == 1);
-    let unit = first.kind.over().map_or(1.0, |(.., unit)| unit.per_si);
+    let unit = first.kind.abscissa().map_or(1.0, |(.., unit)| unit.per_si);
     let mut chart = Chart::new(declared.name, declared.title, along, value)
         .when_empty("no values: too few recorded instants, or nothing to compare with");
     for (i, curve) in curves.iter().enumerate() {
@@ -65,10 +65,10 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
 /// * `alone` – whether it is the only curve of its figure
 pub fn axes(first: &Measure, alone: bool) -> (Axis, Axis) {
     let declared = first.figure;
-    let Some((column, over, unit)) = first.kind.over() else {
+    let Some((column, abscissa, unit)) = first.kind.abscissa() else {
         return (Axis::linear(""), Axis::linear(""));
     };
-    let label = with_unit(over, unit.shown);
+    let label = with_unit(abscissa, unit.shown);
     let along = if first.kind == Kind::Spectrum { Axis::logarithmic(&label) } else { Axis::linear(&label) };
     let along = match first.kind {
         Kind::Profile | Kind::Way | Kind::Lag => along.including(0.0),
@@ -207,7 +207,7 @@ fn with_crossings(chart: Chart, i: usize, series: &str, results: &Results) -> Ch
 }
 
 fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates: usize) -> String {
-    let over = match (kind, replicates) {
+    let note = match (kind, replicates) {
         (Kind::Spectrum, _) => {
             " Dashed: the crossing frequency, half the number of sign changes per second.".to_owned()
         }
@@ -235,5 +235,5 @@ fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates:
             )
         }
     };
-    format!("{}{over}", declared.caption)
+    format!("{}{note}", declared.caption)
 }

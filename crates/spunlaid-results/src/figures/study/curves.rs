@@ -36,7 +36,7 @@ pub(super) fn one(study: &Study, results: &[PointResults], group: &Group) -> Fig
     let others: Vec<String> = study.factors.iter().skip(1).map(|factor| name_of_key(factor.key)).collect();
     let with =
         if others.is_empty() { String::new() } else { format!(", {} along with it", others.join(" and ")) };
-    over(study, results, group, 0, &all, &format!("over {}{with}", name_of_key(study.factors[0].key)))
+    over_factor(study, results, group, 0, &all, &format!("over {}{with}", name_of_key(study.factors[0].key)))
 }
 
 /// Results over a factor at the points where all others are as in the base case, which is the first point.
@@ -49,10 +49,10 @@ pub(super) fn alone(study: &Study, results: &[PointResults], group: &Group, fact
     let points: Vec<usize> = (0..results.len()).filter(is_alone).collect();
     let words =
         format!("over {} alone, everything else as in the base case", name_of_key(study.factors[factor].key));
-    over(study, results, group, factor, &points, &words)
+    over_factor(study, results, group, factor, &points, &words)
 }
 
-fn over(
+fn over_factor(
     study: &Study,
     results: &[PointResults],
     group: &Group,
@@ -116,9 +116,9 @@ pub(super) fn family(
         }
         _ => String::new(),
     };
-    let told = if place.is_joined() { "a colour and a dash" } else { "a colour" };
+    let distinction = if place.is_joined() { "a colour and a dash" } else { "a colour" };
     let caption = format!(
-        "{} over {}, {told} for each value of the {}, means over the replicates.{signs} {BARS}",
+        "{} over {}, {distinction} for each value of the {}, means over the replicates.{signs} {BARS}",
         group.title,
         name_of_key(key),
         name_of_key(parameter.key),

@@ -124,12 +124,12 @@ fn png(
             unit: png::Unit::Meter,
         }));
     }
-    let told = |error: png::EncodingError| error.to_string();
+    let message = |error: png::EncodingError| error.to_string();
     for (key, text) in words {
-        encoder.add_text_chunk((*key).to_owned(), text.clone()).map_err(told)?;
+        encoder.add_text_chunk((*key).to_owned(), text.clone()).map_err(message)?;
     }
-    let mut writer = encoder.write_header().map_err(told)?;
-    writer.write_image_data(levels).map_err(told)?;
-    writer.finish().map_err(told)?;
+    let mut writer = encoder.write_header().map_err(message)?;
+    writer.write_image_data(levels).map_err(message)?;
+    writer.finish().map_err(message)?;
     Ok(bytes)
 }

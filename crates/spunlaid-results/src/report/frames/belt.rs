@@ -131,8 +131,8 @@ fn instants(chosen: &NodeChoice<'_>, trajectories: &[&Trajectory], most: usize) 
 
 /// The laid points that can be seen between the first and the last of the times.
 fn laid(chosen: &NodeChoice<'_>, trajectory: &Trajectory, times: &[f64]) -> LaidPoints {
-    let seen = chosen.shown / chosen.line.belt_speed;
-    let from = times.first().map_or(0.0, |time| time - 1.5 * seen);
+    let duration = chosen.shown / chosen.line.belt_speed;
+    let from = times.first().map_or(0.0, |time| time - 1.5 * duration);
     let points = trajectory
         .laid
         .iter()

@@ -150,9 +150,9 @@ impl Mesh {
 
     /// Starts at the tetrahedron of the hint and moves on through the face that the point lies farthest outside of.
     fn walk(&self, at: [f64; 3], hint: Hint) -> Option<(u32, [f64; 4])> {
-        let mut here = hint.0.checked_sub(1)?;
+        let mut index = hint.0.checked_sub(1)?;
         for _ in 0..LONGEST_WALK {
-            let tetrahedron = self.tetrahedra.get(here as usize)?;
+            let tetrahedron = self.tetrahedra.get(index as usize)?;
             let weights = self.weights(tetrahedron, at);
             let (mut face, mut least) = (0, weights[0]);
             for (i, weight) in weights.into_iter().enumerate().skip(1) {
@@ -161,9 +161,9 @@ impl Mesh {
                 }
             }
             if least >= -EDGE {
-                return Some((here, weights));
+                return Some((index, weights));
             }
-            here = tetrahedron.beyond[face];
+            index = tetrahedron.beyond[face];
         }
         None
     }

@@ -89,11 +89,11 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
         .into());
     }
     let file = name.to_owned();
-    let told = raw.pixel.filter(|sides| sides.iter().copied().all(is_length));
+    let sides_of_file = raw.pixel.filter(|sides| sides.iter().copied().all(is_length));
     let square = |[width, height]: [f64; 2]| (width / height - 1.0).abs() < SQUARE;
-    let pixel_of_file = told.filter(|sides| square(*sides)).map(|[width, _]| width);
+    let pixel_of_file = sides_of_file.filter(|sides| square(*sides)).map(|[width, _]| width);
     let pixel =
-        match (pixel.or(pixel_of_file), told) {
+        match (pixel.or(pixel_of_file), sides_of_file) {
             (Some(pixel), _) => pixel,
             (None, Some([width, height])) => return Err(Fault::new(
                 format!(
