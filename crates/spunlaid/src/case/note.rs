@@ -2,7 +2,6 @@
 
 use super::StepChoice;
 use crate::error::{Fault, Finding, Problem};
-use crate::field::FieldWarning;
 use crate::units::Dimension;
 
 /// A note or a warning about a case that can be run.
@@ -151,7 +150,7 @@ pub enum Remark {
     },
     /// Something about a CFD field.
     #[error("{0}")]
-    Field(FieldWarning),
+    Field(Fault),
     /// A value that is most likely a slip.
     #[error("is outside the usual range, {least} to {greatest}; {}", slip(instead))]
     Unusual {
