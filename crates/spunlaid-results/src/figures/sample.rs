@@ -74,11 +74,11 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
     let samples: Vec<Sample> = times.iter().map(sample).collect();
     let frequency = if amplitude == 0.0 { 0.0 } else { 17.0 + 0.1 * replicate as f64 };
     let along = |share: f64| {
-        let of =
+        let amplitude_of_node =
             |node: usize| share * amplitude * node as f64 / nodes as f64 * (1.0 + 0.01 * replicate as f64);
         Value::Curve(
             (0..nodes).map(|node| node as f64 / (nodes - 1) as f64).collect(),
-            (0..nodes).map(of).collect(),
+            (0..nodes).map(amplitude_of_node).collect(),
         )
     };
     let spectrum = || {
@@ -86,7 +86,8 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
         let density = frequencies.iter().map(|f| amplitude * amplitude / (1.0 + f * f)).collect();
         Value::Curve(frequencies, density)
     };
-    let over_time = |of: fn(&Sample) -> f64| Value::Curve(times.clone(), samples.iter().map(of).collect());
+    let over_time =
+        |quantity: fn(&Sample) -> f64| Value::Curve(times.clone(), samples.iter().map(quantity).collect());
     let value = |measure: &Measure| match measure.name {
         "amplitude_y" => Value::Number(amplitude),
         "amplitude_z" => Value::Number(amplitude * (1.0 + 0.01 * replicate as f64)),

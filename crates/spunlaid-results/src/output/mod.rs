@@ -20,7 +20,7 @@ pub mod web;
 use serde::Serialize;
 
 /// The text of a JSON file.
-pub fn json_text(of: &impl Serialize) -> String {
+pub fn json_text(value: &impl Serialize) -> String {
     // Serialising plain numbers and strings into memory cannot fail.
-    serde_json::to_string_pretty(of).unwrap_or_default() + "\n"
+    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }

@@ -79,7 +79,7 @@ impl<'a> FinerSummary<'a> {
             finer_time_step_s: check.time_step,
             finer_element_length_m: check.element_length,
             error_over_difference: check.error_over_change(),
-            differences: check.differences().map(|(name, of)| (name, of_mean(of))).collect(),
+            differences: check.differences().map(|(name, difference)| (name, of_mean(difference))).collect(),
         }
     }
 }
@@ -182,7 +182,7 @@ fn insert<'a>(into: &mut GroupSummary<'a>, group: &'static str, number: &'a Numb
 }
 
 fn summary_of(number: &Number) -> NumberSummary<'_> {
-    let over = |over| (number.measure.over_replicates == over).then(|| number.value());
+    let over = |value_if| (number.measure.over_replicates == value_if).then(|| number.value());
     NumberSummary {
         median: over(Aggregate::Median),
         largest: over(Aggregate::Largest),

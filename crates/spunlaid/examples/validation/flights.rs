@@ -186,7 +186,7 @@ pub fn trends() {
             let r = results(&case);
             let e = |name: &str| r.estimate(name);
             let both = |a: &Estimate, b: &Estimate| {
-                Estimate::of(a.values.iter().zip(&b.values).map(|(a, b)| 0.5 * (a + b)).collect())
+                Estimate::new(a.values.iter().zip(&b.values).map(|(a, b)| 0.5 * (a + b)).collect())
             };
             println!(
                 "  {name} {value}: {} mm, {} Hz",

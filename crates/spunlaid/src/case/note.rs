@@ -2,7 +2,6 @@
 
 use super::StepChoice;
 use crate::error::{Fault, Finding, Problem};
-use crate::field::FieldWarning;
 use crate::units::Dimension;
 
 /// A note or a warning about a case that can be run.
@@ -151,7 +150,7 @@ pub enum Remark {
     },
     /// Something about a CFD field.
     #[error("{0}")]
-    Field(FieldWarning),
+    Field(Fault),
     /// A value that is most likely a slip.
     #[error("is outside the usual range, {least} to {greatest}; {}", slip(instead))]
     Unusual {
@@ -305,6 +304,15 @@ pub enum Remark {
         field: f64,
         /// Length of the fibre [m].
         fibre: f64,
+    },
+    /// A web in one air flies a case whose turbulence is the same across the flow.
+    #[error(
+        "flies the filaments of {case} with air.lateral = \"von-karman\" and the usual air.lateral_cutoff: with its own air.lateral = \"uniform\" \
+         all of them would lie alike"
+    )]
+    EddiesInSpace {
+        /// Path of the case.
+        case: String,
     },
     /// Elements that are shorter than the diameter.
     #[error("is larger than the element length, {}; use longer elements", Dimension::Length.pretty(*element_length))]

@@ -201,7 +201,7 @@ fn fly_until_lost(
         .map(|lane| jobs[..lane].iter().any(|before| before.replicate == jobs[lane].replicate))
         .collect();
     let clock = flight.clock().clone();
-    let mut observers = Observers::of(&flight, keep.curves);
+    let mut observers = Observers::new(&flight, keep.curves);
     let mut trajectories: Vec<Trajectory> =
         jobs.iter().map(|job| Trajectory { replicate: job.replicate, ..Trajectory::default() }).collect();
     let mut step = 0;
@@ -217,7 +217,7 @@ fn fly_until_lost(
                 adrift => FlightEnd::Lost { lane, error: adrift },
             });
         }
-        let samples: [Sample; WIDTH] = std::array::from_fn(|lane| Sample::of(&snapshot, lane));
+        let samples: [Sample; WIDTH] = std::array::from_fn(|lane| Sample::new(&snapshot, lane));
         let laid: [Vec<LaidPoint>; WIDTH] = std::array::from_fn(|lane| flight.take_laid(lane));
         let settled = step >= clock.spin_up_steps;
         observers.see(&Observation { snapshot: &snapshot, samples: &samples, settled, laid: &laid });

@@ -9,7 +9,6 @@ use crate::chain::schemes::Scheme;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::error::{Error, Fault, FileError};
 use crate::fibre::{Fibre, Root};
-use crate::field::FieldWarning;
 use crate::line::Line;
 use crate::vec3::Vec3;
 use std::path::PathBuf;
@@ -244,7 +243,7 @@ fn load(
     kind: FileKind,
     paths: &[PathBuf],
     layout: &RecordLayout,
-) -> Result<(Content, Vec<FieldWarning>), FileError> {
+) -> Result<(Content, Vec<Fault>), FileError> {
     let path = paths.first().cloned().unwrap_or_default();
     let content = match kind {
         FileKind::Profile => Content::Profile(files.profile(&path)?),

@@ -172,7 +172,7 @@ pub enum Kind {
 
 impl Kind {
     /// The abscissa of the curve: its name with the SI unit in a table, its label on an axis, and its unit.
-    pub const fn over(self) -> Option<(&'static str, &'static str, Unit)> {
+    pub const fn abscissa(self) -> Option<(&'static str, &'static str, Unit)> {
         match self {
             Self::Number => None,
             Self::Profile => Some(("distance_m", "Distance from the root along the fibre", MILLIMETRES)),
@@ -241,7 +241,7 @@ pub enum Value {
 /// Looks at up to eight fibres while they fly.
 pub trait Observer: std::fmt::Debug + Send {
     /// Receives a recorded instant. The instants come in order and begin with the start.
-    fn see(&mut self, seen: &Observation<'_>);
+    fn see(&mut self, observation: &Observation<'_>);
 
     /// The values of one fibre at the end of the flight, one for each declared measure.
     fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value>;
@@ -256,7 +256,7 @@ impl Observers {
     ///
     /// * `curves` – whether to measure curves too. A study does without; observers of curves alone are then left
     ///   out.
-    pub fn of(flight: &Flight, curves: bool) -> Self {
+    pub fn new(flight: &Flight, curves: bool) -> Self {
         let wanted = |d: &&Declaration| curves || d.measures.iter().any(|m| m.kind == Kind::Number);
         let any = |d: &&Declaration| (0..WIDTH).any(|lane| applies(d, flight, lane));
         let declared = DECLARED.iter().copied().filter(wanted).filter(any);
@@ -264,8 +264,8 @@ impl Observers {
     }
 
     /// Passes a recorded instant to all observers.
-    pub fn see(&mut self, seen: &Observation<'_>) {
-        self.0.iter_mut().for_each(|(_, observer)| observer.see(seen));
+    pub fn see(&mut self, observation: &Observation<'_>) {
+        self.0.iter_mut().for_each(|(_, observer)| observer.see(observation));
     }
 
     /// The measures that apply to one fibre, in the order of their declarations.

@@ -23,7 +23,7 @@ pub struct Estimate {
 
 impl Estimate {
     /// Mean and standard error `s/√n`, summed in the order given.             theory.md (39)
-    pub fn of(values: Vec<f64>) -> Self {
+    pub fn new(values: Vec<f64>) -> Self {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
         let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();

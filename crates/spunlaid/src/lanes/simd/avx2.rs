@@ -39,10 +39,10 @@ const PACKED: [[i32; 8]; 16] = {
 
 /// The numbers of a mask, moved to the start.
 #[inline(always)]
-unsafe fn packed(of: __m256d, mask: usize) -> __m256i {
+unsafe fn packed(numbers: __m256d, mask: usize) -> __m256i {
     unsafe {
         let order = _mm256_loadu_si256(PACKED[mask & 15].as_ptr().cast());
-        _mm256_permutevar8x32_epi32(_mm256_castpd_si256(of), order)
+        _mm256_permutevar8x32_epi32(_mm256_castpd_si256(numbers), order)
     }
 }
 
