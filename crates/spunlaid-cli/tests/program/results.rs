@@ -455,7 +455,8 @@ fn neighbours_are_in_the_summary_the_figures_and_the_report() {
     let desk = Desk::new();
     let set = "--set air.lateral=von-karman --set air.lateral_cutoff=6";
     let beside = "--set neighbours.cd=['5mm','1mm'] --set neighbours.md=['2mm']";
-    success(&mut desk.spunlaid(&format!("run brief.toml {set} {beside} --out r")));
+    let said = success(&mut desk.spunlaid(&format!("run brief.toml {set} {beside} --out r")));
+    assert!(said.contains("correlation with neighbours in cross direction\n  y at 1 mm  "), "{said}");
     let summary = desk.summary("r");
     assert_eq!(summary["case"]["neighbours"], json!({"cd_m": [0.001, 0.005], "md_m": [0.002]}));
     let neighbours = &summary["neighbours"];
