@@ -60,7 +60,7 @@ impl Case {
         } else {
             0.0
         };
-        let (turbulence, synthesis, field) = match air.lateral.cutoff() {
+        let (turbulence, synthesis, field) = match air.field_cutoff() {
             None => (turbulence, synthesis, 0.0),
             Some(cutoff) => {
                 let one = EddyField::memory(air, self.way_of_air(), self.extent_of_air(), cutoff);

@@ -3,7 +3,7 @@
 use crate::cases::{bits, read_again, remarks};
 use proptest::prelude::*;
 use spunlaid::air::{Air, EddyModel, Lateral};
-use spunlaid::case::{Case, Neighbours, Run};
+use spunlaid::case::{Case, FLIGHT_MEMORY_LIMIT, Neighbours, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::fibre::{Fibre, Root};
@@ -127,6 +127,10 @@ prop_compose! {
         run.spin_up_steps = (spin_up * run.steps as f64) as u64;
         run.output_steps = 1 + (output * (run.steps - 1) as f64) as u64;
         case.air.harmonics = cycles as usize + more_harmonics;
+        // A field of many generations takes more memory than is allowed.
+        if case.flight_memory().total() > FLIGHT_MEMORY_LIMIT {
+            (case.air.lateral, case.neighbours) = (Lateral::Uniform, Neighbours::default());
+        }
         case
     }
 }

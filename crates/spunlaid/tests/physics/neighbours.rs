@@ -214,3 +214,17 @@ fn identical_with_and_without_companions() {
         }
     }
 }
+
+/// Still air has no turbulence, so that fibres hang still whatever they would share.
+#[test]
+fn still_air_is_the_same_for_all() {
+    let still = [
+        ("air.velocity", "0 m/s"),
+        ("run.replicates", "1"),
+        ("run.duration", "50 ms"),
+        ("run.spin_up", "10 ms"),
+    ];
+    let (results, ..) = flown(&case(HANGING, &still), 1);
+    assert_eq!(results.estimate("amplitude_y").mean, 0.0);
+    assert!(results.curve("neighbours_cd_correlation_y").iter().all(|place| place.mean.is_nan()));
+}
