@@ -64,7 +64,10 @@ pub(crate) fn lay_web(
         let by = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
         let findings = flown.find(by)?;
         let wall_s = started.elapsed().as_secs_f64();
-        Ok((flown, findings, Performance { wall_s, threads, instruction_set: by.isa.name() }))
+        let performance =
+            Performance { wall_s, threads, instruction_set: by.isa.name(), ..Performance::default() };
+        let performance = performance.of_flights(&findings);
+        Ok((flown, findings, performance))
     })?;
     let notes = [Note::of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();
     Ok(LaidWeb { name, file, flown, findings, notes, performance })
@@ -147,7 +150,7 @@ impl LaidWeb {
         let of = &self.findings.patches;
         let all = PyDict::new(py);
         type Number = fn(&spunlaid::web::PatchFindings) -> f64;
-        let columns: [(&str, Number); 15] = [
+        let columns: [(&str, Number); 17] = [
             ("patch_m", |of| of.map.patch),
             ("cv", |of| of.map.cv),
             ("cv_standard_error", |of| of.map.standard_error.unwrap_or(f64::NAN)),
@@ -156,6 +159,8 @@ impl LaidWeb {
             ("cv_flight_error", |of| of.whole_error().flight.unwrap_or(f64::NAN)),
             ("cv_model_error", |of| of.whole_error().model.unwrap_or(f64::NAN)),
             ("cv_whole_error", |of| of.whole_error().whole().unwrap_or(f64::NAN)),
+            ("cv_independent", |of| of.independent.map_or(f64::NAN, |of| of.0)),
+            ("cv_independent_standard_error", |of| of.independent.map_or(f64::NAN, |of| of.1)),
             ("cv_flown", |of| of.flown.map_or(f64::NAN, |of| of.0)),
             ("cv_flown_standard_error", |of| of.flown.map_or(f64::NAN, |of| of.1)),
             ("cv_surrogate", |of| of.surrogate.map_or(f64::NAN, |of| of.0)),

@@ -46,7 +46,8 @@ class Web:
         `cv_standard_error` by chance, its `cv_flight_error` by the few fibres that were flown, its `cv_model_error` by the
         surrogate in place of the flown curves, and its `cv_whole_error` by all of them; `cv_single_fibres` that single fibres
         of the kind that was laid let expect; `cv_flown` that the flown curves let expect, and `cv_surrogate` that the surrogate
-        does, each with its standard error; and `cv_straight_fibres` of straight fibres in all directions of the same mass.
+        does, each with its standard error; `cv_independent` that the same filaments of a web in one air would give in airs of
+        their own; and `cv_straight_fibres` of straight fibres in all directions of the same mass.
         What is not known is NaN: without flown fibres, `cv_flown`, the model error and the whole error."""
         return self._laid.patches
 
