@@ -43,7 +43,7 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
         instruction_set: by.isa.name(),
         ..Performance::default()
     }
-    .of_flights(&findings);
+    .with_flights(&findings);
     let found = folders::web::notes(web, &findings, layers);
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
     let written =

@@ -213,7 +213,7 @@ impl FlownFibres {
         let delays = laid.iter().map(|points| points.iter().map(delay).collect());
         let curves = Curves::new(spacing, belt_ratio, places.collect())
             .and_then(|curves| curves.with_delays(delays.collect()))?;
-        let numbers = numbers.map(Estimate::of);
+        let numbers = numbers.map(Estimate::new);
         let correlations: Vec<[&[f64]; 2]> =
             traces.iter().map(|of| [&of.correlation_md[..], &of.correlation_cd[..]]).collect();
         let step = traces.first().map_or(f64::NAN, |of| of.lag_step);

@@ -210,8 +210,8 @@ impl Sums {
             (squares - rows * profile.iter().zip(own).map(other).sum::<f64>()) / area
         });
         Alone {
-            at_places: Estimate::of(at_places.collect()),
-            at_random: Estimate::of(self.squares.iter().map(|squares| squares / area).collect()),
+            at_places: Estimate::new(at_places.collect()),
+            at_random: Estimate::new(self.squares.iter().map(|squares| squares / area).collect()),
             profile,
             trace,
         }

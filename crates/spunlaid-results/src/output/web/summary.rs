@@ -95,8 +95,8 @@ pub struct Performance {
 impl Performance {
     /// With the times of flights in one air, if there were some.
     #[must_use]
-    pub fn of_flights(self, of: &Findings) -> Self {
-        let spent = of.laid.together.as_ref().map(|together| together.spent);
+    pub fn with_flights(self, findings: &Findings) -> Self {
+        let spent = findings.laid.together.as_ref().map(|together| together.spent);
         Self {
             flights_s: spent.map(|spent| spent.whole.as_secs_f64()),
             flights_in_parallel_s: spent.map(|spent| spent.in_parallel.as_secs_f64()),
@@ -164,12 +164,12 @@ struct Patch {
     cv_one_fibre: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_one_fibre_standard_error: Option<f64>,
-    /// That the flown curves let expect.
+    /// The one expected from the flown curves.
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_flown: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_flown_standard_error: Option<f64>,
-    /// That paths of the surrogate let expect.
+    /// The one expected from paths of the surrogate.
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_surrogate: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -242,11 +242,11 @@ impl WebSummary {
             let interval = standard_error.map(|error| interval_of_deviation(index, error));
             Cloudiness { from_m: SEEN[0], to_m: SEEN[1], index, standard_error, interval, no_interval: None }
         });
-        let octave = |([from_m, to_m], of): ([f64; 2], Estimate)| Octave {
+        let octave = |([from_m, to_m], estimate): ([f64; 2], Estimate)| Octave {
             from_m,
             to_m,
-            variance: of.mean,
-            standard_error: of.standard_error,
+            variance: estimate.mean,
+            standard_error: estimate.standard_error,
         };
         Self {
             basis_weight_kg_m2: Some(map.basis_weight()),
@@ -259,7 +259,7 @@ impl WebSummary {
             patches,
             orientation_md: None,
             md_cd_ratio: None,
-            texture_md: clouds.map(|clouds| Number::of(&clouds.texture_md())),
+            texture_md: clouds.map(|clouds| Number::new(&clouds.texture_md())),
             cloudiness,
             clouds: clouds.into_iter().flat_map(Clouds::octaves).map(octave).collect(),
             sensitivities: Vec::new(),
@@ -268,8 +268,8 @@ impl WebSummary {
 }
 
 impl Number {
-    fn of(of: &Estimate) -> Self {
-        Self { mean: of.mean, standard_error: of.standard_error }
+    fn new(estimate: &Estimate) -> Self {
+        Self { mean: estimate.mean, standard_error: estimate.standard_error }
     }
 }
 
@@ -277,12 +277,12 @@ impl<'a> Summary<'a> {
     /// Gathers everything.
     pub fn new(
         web: &Web,
-        of: &Findings,
+        findings: &Findings,
         layers: &'a [Layer],
         performance: Performance,
         notes: &'a [String],
     ) -> Self {
-        let patches = of.patches.iter().map(|patch| Patch {
+        let patches = findings.patches.iter().map(|patch| Patch {
             patch_m: patch.map.patch,
             cv: patch.map.cv,
             cv_standard_error: patch.map.standard_error,
@@ -295,21 +295,21 @@ impl<'a> Summary<'a> {
             cv_flight_error: patch.whole_error().flight,
             cv_model_error: patch.whole_error().model,
             cv_whole_error: patch.whole_error().whole(),
-            cv_flown: patch.flown.map(|of| of.0),
-            cv_flown_standard_error: patch.flown.map(|of| of.1),
-            cv_surrogate: patch.surrogate.map(|of| of.0),
-            cv_surrogate_standard_error: patch.surrogate.map(|of| of.1),
+            cv_flown: patch.flown.map(|cv| cv.0),
+            cv_flown_standard_error: patch.flown.map(|cv| cv.1),
+            cv_surrogate: patch.surrogate.map(|cv| cv.0),
+            cv_surrogate_standard_error: patch.surrogate.map(|cv| cv.1),
             cv_straight_fibres: Some(patch.straight_fibres),
             ..Patch::default()
         });
-        let levers = of.sensitivities.iter().flat_map(|sensitivity| {
-            let each = sensitivity.elasticity.iter().zip(&of.patches);
+        let levers = findings.sensitivities.iter().flat_map(|sensitivity| {
+            let each = sensitivity.elasticity.iter().zip(&findings.patches);
             each.map(|(elasticity, patch)| Levers {
                 number: sensitivity.lever.name(),
                 patch_m: patch.map.patch,
                 source: sensitivity.source.name(),
-                elasticity: elasticity.as_ref().map(|of| of.mean),
-                standard_error: elasticity.as_ref().and_then(|of| of.standard_error),
+                elasticity: elasticity.as_ref().map(|estimate| estimate.mean),
+                standard_error: elasticity.as_ref().and_then(|estimate| estimate.standard_error),
             })
         });
         Self {
@@ -318,17 +318,17 @@ impl<'a> Summary<'a> {
             layers,
             web: WebSummary {
                 fibre_length_m: Some(web.fibre_length()),
-                cut_off_kg: Some(of.laid.cut),
-                lost_filaments: of.laid.together.as_ref().map(|together| together.lost),
+                cut_off_kg: Some(findings.laid.cut),
+                lost_filaments: findings.laid.together.as_ref().map(|together| together.lost),
                 edges: (web.sheet.edges == Edges::Cut).then(|| Margins {
-                    margins_m: of.margins,
-                    basis_weight_between_kg_m2: of.within().basis_weight(),
-                    basis_weight_sheet_kg_m2: of.laid.map.basis_weight(),
+                    margins_m: findings.margins,
+                    basis_weight_between_kg_m2: findings.within().basis_weight(),
+                    basis_weight_sheet_kg_m2: findings.laid.map.basis_weight(),
                 }),
-                orientation_md: Some(Number::of(&of.orientation.cos_squared)),
-                md_cd_ratio: Some(of.orientation.md_cd_ratio()),
+                orientation_md: Some(Number::new(&findings.orientation.cos_squared)),
+                md_cd_ratio: Some(findings.orientation.md_cd_ratio()),
                 sensitivities: levers.collect(),
-                ..WebSummary::of_map(&of.laid.map, of.clouds.as_ref(), patches.collect())
+                ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
             scan: None,
             performance,
@@ -339,11 +339,11 @@ impl<'a> Summary<'a> {
     /// Of a scanned web, which was read from a file.
     pub fn of_scan(
         file: &'a str,
-        of: &scan::Findings,
+        findings: &scan::Findings,
         performance: Performance,
         notes: &'a [String],
     ) -> Self {
-        let patches = of.patches.iter().map(|patch| Patch {
+        let patches = findings.patches.iter().map(|patch| Patch {
             patch_m: patch.unevenness.patch,
             cv: patch.unevenness.cv,
             cv_standard_error: patch.unevenness.standard_error,
@@ -353,15 +353,15 @@ impl<'a> Summary<'a> {
             blur_of_a_pixel: Some(patch.blur),
             ..Patch::default()
         });
-        let mut web = WebSummary::of_map(&of.map, of.clouds.as_ref(), patches.collect());
-        if let Some(guess) = of.guess {
+        let mut web = WebSummary::of_map(&findings.map, findings.clouds.as_ref(), patches.collect());
+        if let Some(guess) = findings.guess {
             // Chance is not all that the error of a variance is made of.
             web.clouds.iter_mut().for_each(|octave| octave.standard_error = None);
             if let Some(cloudiness) = &mut web.cloudiness {
                 (cloudiness.standard_error, cloudiness.no_interval) = (None, Some(guess.to_string()));
             }
         }
-        let basis_weight_kg_m2 = web.basis_weight_kg_m2.filter(|_| of.mean_known);
+        let basis_weight_kg_m2 = web.basis_weight_kg_m2.filter(|_| findings.mean_known);
         Self {
             schema_version: SCHEMA_VERSION,
             spunlaid_version: env!("CARGO_PKG_VERSION"),
@@ -369,16 +369,16 @@ impl<'a> Summary<'a> {
             web: WebSummary { basis_weight_kg_m2, ..web },
             scan: Some(Scan {
                 file,
-                white: of.white,
-                mean_density: of.density,
-                shading: of.shading,
-                filled_pixels: of.pixels.filled,
-                saturated_pixels: of.pixels.saturated,
-                lighter_pixels: of.pixels.lighter,
-                cut_off_m2: of.aside.cut_off,
-                bare_lamp: of.aside.bare,
-                dark_spots: of.aside.spots.len(),
-                dark_spots_m2: of.aside.masked,
+                white: findings.white,
+                mean_density: findings.density,
+                shading: findings.shading,
+                filled_pixels: findings.pixels.filled,
+                saturated_pixels: findings.pixels.saturated,
+                lighter_pixels: findings.pixels.lighter,
+                cut_off_m2: findings.aside.cut_off,
+                bare_lamp: findings.aside.bare,
+                dark_spots: findings.aside.spots.len(),
+                dark_spots_m2: findings.aside.masked,
             }),
             performance,
             notes,
