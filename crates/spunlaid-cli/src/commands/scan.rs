@@ -33,6 +33,7 @@ pub(super) fn scan(asked: &Analyse) -> Result<(), Failure> {
         wall_s: started.elapsed().as_secs_f64(),
         threads: 1,
         instruction_set: Isa::detect().name(),
+        ..Performance::default()
     };
     let notes: Vec<String> = findings.notes.iter().map(ToString::to_string).collect();
     let summary = Summary::of_scan(&picture.file, &findings, performance, &notes).to_json();

@@ -189,3 +189,45 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
     assert_eq!(found["cv_5_mm_flown"]["run"]["mean"], d["web"]["patches"][0]["cv_flown"], "{found}");
     assert!(errors("old").get("cv_5_mm_flown").is_none());
 }
+
+#[test]
+fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
+    let desk = Desk::of(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\""));
+    let web = WEB.replace(
+        "filaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"",
+        "filaments_per_metre = 500\ndepth = \"10 mm\"\n[web]\nwidth = \"0.2 m\"\nlength = \"40 mm\"\npatches = [\"5 mm\", \"10 mm\"]",
+    );
+    fs::write(desk.path("web.toml"), format!("{web}method = \"shared-air\"\n")).unwrap();
+    let table = desk::success(&mut desk.spunlaid("web web.toml --out w"));
+    assert!(table.contains("airs of their own") && !table.contains("few fibres"), "{table}");
+    let summary = desk.summary("w");
+    assert_eq!(summary["layers"][0]["lateral_cutoff"], 15.0, "{summary}");
+    assert_eq!(summary["web"]["lost_filaments"], 0);
+    for patch in summary["web"]["patches"].as_array().unwrap() {
+        let number = |name: &str| patch[name].as_f64().unwrap();
+        assert!(number("cv") > number("cv_independent"), "{summary}");
+        assert_eq!(number("cv_independent"), number("cv_one_fibre"));
+    }
+    let [flights, parallel] =
+        ["flights_s", "flights_in_parallel_s"].map(|name| summary["performance"][name].as_f64().unwrap());
+    assert!(0.0 < parallel && parallel <= flights, "{flights} {parallel}");
+    let page = String::from_utf8(desk.read("w/report.html")).unwrap();
+    assert!(page.contains("In airs of their own the same filaments would give"), "no headline sentence");
+    assert!(page.contains("the same filaments in airs of their own"), "no curve of them");
+    let lines = String::from_utf8(desk.read("w/fibres.vtp")).unwrap_or_default();
+    assert!(lines.contains("NumberOfLines") && !lines.contains("NumberOfLines=\"0\""), "single fibres");
+
+    // The same file again, and the same web with independent filaments, whose report says what they leave out.
+    desk::success(&mut desk.spunlaid("web web.toml --out again --threads 1 --quiet"));
+    for file in ["map.npy", "fibres.vtp", "figures/web_cv.csv"] {
+        let [one, other] = ["w", "again"].map(|folder| desk.read(&format!("{folder}/{file}")));
+        assert!(one == other, "{file}");
+    }
+    desk::success(
+        &mut desk
+            .spunlaid("web web.toml --set web.method=dynamics --set web.length=\"0.2 m\" --out d --quiet"),
+    );
+    let page = String::from_utf8(desk.read("d/report.html")).unwrap();
+    assert!(page.contains("lower bound") && page.contains("shared-air"), "nothing of a lower bound");
+    assert!(desk.summary("d")["web"]["patches"][0].get("cv_independent").is_none());
+}

@@ -65,6 +65,12 @@ impl Flyer<'_> {
 }
 
 impl WebSpec {
+    /// Largest lateral wave number of the air that all filaments of a layer share, times its length scale; None of filaments in airs of their own.
+    pub fn lateral_cutoff(&self, layer: usize) -> Option<f64> {
+        let case = self.layers.get(layer)?.source.case().filter(|_| self.method == Method::SharedAir)?;
+        Some(case.air.lateral.cutoff().unwrap_or(Lateral::USUAL_CUTOFF))
+    }
+
     /// Says whether the field of eddies of a web in one air fits into the memory that it may take.
     pub(crate) fn check_air(&self) -> Result<(), Problem> {
         if self.method != Method::SharedAir {

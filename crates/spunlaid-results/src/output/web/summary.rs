@@ -70,10 +70,13 @@ pub struct Layer {
     pub fit_residual: Option<f64>,
     /// What chance alone would leave of it.
     pub fit_residual_by_chance: Option<f64>,
+    /// Largest lateral wave number of the air that all filaments share, times its length scale; none of filaments in airs of their own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lateral_cutoff: Option<f64>,
 }
 
 /// The speed of the work. This is the only part that differs when it is repeated.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Performance {
     /// Wall-clock time [s].
     pub wall_s: f64,
@@ -81,6 +84,25 @@ pub struct Performance {
     pub threads: usize,
     /// Name of the instruction set.
     pub instruction_set: &'static str,
+    /// Time that the flights of filaments in one air took [s].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flights_s: Option<f64>,
+    /// The part of it that is shared among the threads [s].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flights_in_parallel_s: Option<f64>,
+}
+
+impl Performance {
+    /// With the times of flights in one air, if there were some.
+    #[must_use]
+    pub fn with_flights(self, findings: &Findings) -> Self {
+        let spent = findings.laid.together.as_ref().map(|together| together.spent);
+        Self {
+            flights_s: spent.map(|spent| spent.whole.as_secs_f64()),
+            flights_in_parallel_s: spent.map(|spent| spent.in_parallel.as_secs_f64()),
+            ..self
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -94,6 +116,9 @@ struct WebSummary {
     fibre_length_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cut_off_kg: Option<f64>,
+    /// Filaments in one air that were lost in flight.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lost_filaments: Option<u64>,
     /// Where edges cut fibre off: the strips that all but the map leaves out.
     #[serde(skip_serializing_if = "Option::is_none")]
     edges: Option<Margins>,
@@ -115,6 +140,11 @@ struct Patch {
     cv: f64,
     /// By chance alone.
     cv_standard_error: Option<f64>,
+    /// Of the same filaments in airs of their own; none if they are independent as they are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_independent: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_independent_standard_error: Option<f64>,
     /// By the few fibres that were flown.
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_flight_error: Option<f64>,
@@ -224,6 +254,7 @@ impl WebSummary {
             cell_m: map.cell,
             fibre_length_m: None,
             cut_off_kg: None,
+            lost_filaments: None,
             edges: None,
             patches,
             orientation_md: None,
@@ -255,6 +286,8 @@ impl<'a> Summary<'a> {
             patch_m: patch.map.patch,
             cv: patch.map.cv,
             cv_standard_error: patch.map.standard_error,
+            cv_independent: patch.independent.map(|of| of.0),
+            cv_independent_standard_error: patch.independent.map(|of| of.1),
             cv_interval: patch.map.interval(),
             no_interval: patch.map.interval().is_none().then(|| "the map is too small".to_owned()),
             cv_one_fibre: Some(patch.one_fibre.0),
@@ -286,6 +319,7 @@ impl<'a> Summary<'a> {
             web: WebSummary {
                 fibre_length_m: Some(web.fibre_length()),
                 cut_off_kg: Some(findings.laid.cut),
+                lost_filaments: findings.laid.together.as_ref().map(|together| together.lost),
                 edges: (web.sheet.edges == Edges::Cut).then(|| Margins {
                     margins_m: findings.margins,
                     basis_weight_between_kg_m2: findings.within().basis_weight(),
