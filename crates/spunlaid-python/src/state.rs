@@ -191,7 +191,7 @@ fn check_of(state: &Bound<'_, PyAny>, refined: Refined) -> PyResult<FinerCheck> 
         duration,
         replicates,
         share_of_run,
-        path: path.map(told).transpose()?,
+        path: path.map(restored_estimate).transpose()?,
         changes: changes.collect::<PyResult<_>>()?,
     })
 }

@@ -75,7 +75,7 @@ impl Fibres {
         let mut other = Self::new(case)?;
         if let Some([position, velocity]) = carried_over(&self.case, &self.snapshot, &other.case) {
             other.flight.restart_from(position, velocity)?;
-            other.seen = other.flight.snapshot();
+            other.snapshot = other.flight.snapshot();
         }
         *self = other;
         Ok(true)
