@@ -1,6 +1,6 @@
 //! `Study`: a study file, its journal and its results.
 
-use crate::bundle::{Part, parts, records};
+use crate::bundle::{BundlePart, parts, records};
 use crate::case::Case;
 use crate::failure::raised_as;
 use crate::value::overrides;
@@ -151,7 +151,7 @@ impl Study {
     }
 
     /// What a machine needs to fly a bundle of this round: its points, and the sides of patches.
-    fn bundle(&self, py: Python<'_>, index: usize) -> PyResult<(Vec<Part>, Vec<f64>)> {
+    fn bundle(&self, py: Python<'_>, index: usize) -> PyResult<(Vec<BundlePart>, Vec<f64>)> {
         guarded(py, || {
             let round = self.round();
             let batches = round.1.as_ref().map_or_else(Vec::new, |bundles| bundles.batches(index));

@@ -1,7 +1,7 @@
 //! What fed fibres have laid on the belt since the last change.
 
 use super::fibres::Instant;
-use super::number::Number;
+use super::number::ShownNumber;
 use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::lanes::WIDTH;
@@ -51,7 +51,7 @@ impl LaidStatistics {
     }
 
     /// Spreads, correlation lengths and the surrogate. The errors are those over the eight fibres.
-    pub(super) fn numbers(&mut self) -> Vec<Number> {
+    pub(super) fn numbers(&mut self) -> Vec<ShownNumber> {
         let laid = self.traces.each_ref().map(Trace::finish);
         let points = self.traces[0].points();
         // A fit takes longer than all else.
@@ -77,7 +77,7 @@ impl LaidStatistics {
             .filter_map(|(name, values)| {
                 let finite: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
                 let estimate = Estimate::new(finite);
-                Number::new(name, estimate.mean, estimate.standard_error)
+                ShownNumber::new(name, estimate.mean, estimate.standard_error)
             })
             .collect()
     }

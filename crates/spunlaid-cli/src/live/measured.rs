@@ -3,7 +3,7 @@
 use super::batches::{Batches, Settling};
 use super::fibres::Instant;
 use super::laid::LaidStatistics;
-use super::number::Number;
+use super::number::ShownNumber;
 use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::flight::{EndNodeMotion, Flight};
@@ -57,7 +57,7 @@ pub(super) struct StatisticsMessage {
     duration: f64,
     /// Time that is still left out [s].
     settling: f64,
-    numbers: Vec<Number>,
+    numbers: Vec<ShownNumber>,
     curves: Option<Curves>,
     footprint: Option<super::laid::Map>,
 }
@@ -180,8 +180,8 @@ impl Swinging {
         self.z.add(motions, |m| [m.amplitude_z, m.frequency_z, m.mean.z]);
     }
 
-    fn numbers(&self) -> Vec<Number> {
-        let number = |name, Settling { value, error }| Number::new(name, value, error);
+    fn numbers(&self) -> Vec<ShownNumber> {
+        let number = |name, Settling { value, error }| ShownNumber::new(name, value, error);
         [
             number("amplitude_y", self.y.amplitude()),
             number("amplitude_z", self.z.amplitude()),

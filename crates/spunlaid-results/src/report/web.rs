@@ -54,7 +54,7 @@ pub struct WebReport<'a> {
 /// Content of `assets/web.html`, which escapes everything that is not marked safe.
 #[derive(Template)]
 #[template(path = "web.html")]
-pub(super) struct Page<'a> {
+pub(super) struct WebPage<'a> {
     /// The command that wrote it.
     pub(super) command: &'static str,
     pub(super) name: &'a str,
@@ -122,7 +122,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let sources = sources(findings);
     heads.extend(sources.iter().map(|(head, _)| *head));
     heads.push("Straight fibres");
-    let page = Page {
+    let page = WebPage {
         command: "web",
         name: input.name,
         headline: headline(

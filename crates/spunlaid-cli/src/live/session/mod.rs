@@ -3,7 +3,7 @@
 mod obey;
 mod show;
 
-use super::board::{Board, Page};
+use super::board::{Board, PageId};
 use super::clock::Clock;
 use super::document::{Document, complaints};
 use super::fibres::Fibres;
@@ -30,7 +30,7 @@ const MOST_HEARD: usize = 256;
 /// A message of a page.
 #[derive(Debug)]
 pub(super) struct PageRequest {
-    pub(super) from: Page,
+    pub(super) from: PageId,
     pub(super) asked: Command,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct Session {
     since: f64,
     trouble: Option<String>,
     /// The pages that can be seen.
-    pages: BTreeSet<Page>,
+    pages: BTreeSet<PageId>,
     folder: PathBuf,
     board: Arc<Board>,
     statistics_shown: Instant,

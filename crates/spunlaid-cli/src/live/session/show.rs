@@ -47,7 +47,7 @@ struct Belt {
 
 #[derive(Serialize)]
 #[serde(tag = "is", rename = "settings")]
-struct Offered {
+struct SettingsMessage {
     settings: Vec<Setting>,
 }
 
@@ -79,7 +79,7 @@ impl Session {
     /// Shows settings, state, statistics and a frame.
     pub(super) fn show_all(&mut self) {
         let case = self.fibres.case();
-        let offered = json(&Offered { settings: settings(case) });
+        let offered = json(&SettingsMessage { settings: settings(case) });
         if !self.board.shows(Topic::Settings, &offered) {
             self.board.show_text(Topic::Settings, offered);
         }
