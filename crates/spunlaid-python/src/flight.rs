@@ -53,7 +53,7 @@ impl Flight {
             let pack = |first: u64| {
                 let last = fibres.min(first + WIDTH as u64);
                 let jobs: Vec<Job<'_>> =
-                    (first..last).map(|replicate| Job { case: description, replicate }).collect();
+                    (first..last).map(|replicate| Job::new(description, replicate)).collect();
                 flight::Flight::new(&jobs, Isa::detect())
             };
             starts.map(pack).collect::<Result<Vec<_>, Failure>>()

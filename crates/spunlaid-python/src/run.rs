@@ -42,7 +42,8 @@ pub(crate) fn fly(
     let (description, run) = (Arc::clone(&case.case), case.case.run);
     let plans =
         if check_step { FinerPlans::of(&description) } else { FinerPlans::none("it was not asked for") };
-    let watch = Watch::new(run.steps.saturating_mul(run.replicates).saturating_add(plans.fibre_steps()));
+    let watch =
+        Watch::new(run.steps.saturating_mul(description.fibres()).saturating_add(plans.fibre_steps()));
     let belt = LaidCurves::default();
     let computing = Computing {
         threads: self::threads(threads),

@@ -8,12 +8,12 @@ use pyo3::types::PyDict;
 use spunlaid::case::Note;
 use spunlaid::input::{Overrides, WebFile, parse_web, read_web};
 use spunlaid::lanes::Isa;
-use spunlaid::layers::{Flyer, OfLayer, to_lay};
-use spunlaid::web::{Findings, Laying, Web, find, pieces};
+use spunlaid::layers::{Flights, FlownWeb, Flyer};
+use spunlaid::web::{Findings, Laying};
 use spunlaid_results::folders::web::{WebFolder, notes};
 use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::web::{ENTRIES, Performance};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
@@ -23,8 +23,7 @@ use std::time::Instant;
 pub(crate) struct LaidWeb {
     name: String,
     file: WebFile,
-    web: Web,
-    layers: Vec<OfLayer>,
+    flown: FlownWeb,
     findings: Findings,
     notes: Vec<String>,
     performance: Performance,
@@ -51,26 +50,24 @@ pub(crate) fn lay_web(
     };
     let threads = self::threads(threads);
     let watch = Watch::default();
-    let (web, layers, findings, performance) = watched(py, &watch, progress.as_ref(), || {
+    let (flown, findings, performance) = watched(py, &watch, progress.as_ref(), || {
         let started = Instant::now();
         // The flights have a counter of their own; it is looked at while they fly.
-        let follow = |_: &Path, _: u64, (done, total): (&AtomicU64, u64), work: &mut (dyn FnMut() + Send)| {
-            watch.total.store(total, Ordering::Relaxed);
+        let follow = |Flights { done, steps, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
+            watch.total.store(steps, Ordering::Relaxed);
             copied(done, &watch.done, work);
         };
         let mut flyer = Flyer::new(threads, &watch.stop, &follow);
-        let layers = file.spec.layers.iter().map(|layer| flyer.fibres(&file.spec, layer));
-        let layers: Vec<OfLayer> = layers.collect::<Result<_, _>>()?;
-        let web = to_lay(&file.spec, &layers);
+        let mut flown = flyer.web(&file.spec)?;
         watch.done.store(0, Ordering::Relaxed);
-        watch.total.store(pieces(&web)?, Ordering::Relaxed);
+        watch.total.store(flown.pieces()?, Ordering::Relaxed);
         let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
-        let findings = find(&web, laying)?;
+        let findings = flown.find(laying)?;
         let wall_s = started.elapsed().as_secs_f64();
-        Ok((web, layers, findings, Performance { wall_s, threads, instruction_set: laying.isa.name() }))
+        Ok((flown, findings, Performance { wall_s, threads, instruction_set: laying.isa.name() }))
     })?;
-    let notes = [Note::of_results(&file.notes), notes(&web, &findings, &layers)].concat();
-    Ok(LaidWeb { name, file, web, layers, findings, notes, performance })
+    let notes = [Note::of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();
+    Ok(LaidWeb { name, file, flown, findings, notes, performance })
 }
 
 /// Does `work` while another thread copies its counter.
@@ -94,8 +91,8 @@ impl LaidWeb {
         WebFolder {
             name: &self.name,
             file: &self.file,
-            web: &self.web,
-            layers: &self.layers,
+            web: &self.flown.web,
+            layers: &self.flown.layers,
             findings: &self.findings,
             notes: &self.notes,
             performance: self.performance,

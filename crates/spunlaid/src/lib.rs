@@ -61,6 +61,8 @@ pub mod units;
 
 pub mod error;
 
+mod threads;
+
 mod company;
 
 mod file;
@@ -93,6 +95,8 @@ pub mod flight;
 pub mod observe;
 
 pub mod ensemble;
+
+pub mod beam;
 
 pub mod layers;
 

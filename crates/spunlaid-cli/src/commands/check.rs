@@ -193,7 +193,7 @@ impl Expected {
         /// Time for figures and report [s], and for writing the position of a node.
         const FIGURES: f64 = 0.4;
         const WRITING: f64 = 0.7e-6;
-        let flights = case.run.replicates.div_ceil(WIDTH as u64);
+        let flights = case.flights();
         let busy = (threads(None) as u64).min(flights);
         // A flight takes as long whether its lanes are full or not. The checks are some more, of their own length.
         let again = FinerPlans::of(case).share_of_run() * flights as f64;

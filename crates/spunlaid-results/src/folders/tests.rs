@@ -37,7 +37,7 @@ fn web(element_length: &str, method: &str) -> (WebSpec, Case) {
 fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
     static STOP: AtomicBool = AtomicBool::new(false);
     let (mut spec, case) = web("4 mm", "surrogate");
-    let mut flyer = Flyer::new(2, &STOP, &|_, _, _, work| work());
+    let mut flyer = Flyer::new(2, &STOP, &|_, work| work());
     let of_case = flyer.fibres(&spec, &spec.layers[0]).unwrap();
     let Fibres::Surrogate(surrogate) = of_case.fibres else { panic!("{of_case:?}") };
 
@@ -84,7 +84,7 @@ fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
 #[test]
 fn rejects_fibres_that_make_no_web() {
     static STOP: AtomicBool = AtomicBool::new(false);
-    let mut flyer = Flyer::new(1, &STOP, &|_, _, _, work| work());
+    let mut flyer = Flyer::new(1, &STOP, &|_, work| work());
     // So long elements show too little of the autocorrelation to see a surrogate in it.
     let (spec, _) = web("25 mm", "surrogate");
     let message = flyer.fibres(&spec, &spec.layers[0]).unwrap_err();

@@ -10,7 +10,8 @@ use crate::report::{WebReport, web_html};
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::layers::OfLayer;
 use spunlaid::surrogate::Residual;
-use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, Web, Window, strands};
+use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, Web, strands};
+use std::borrow::Cow;
 
 /// Everything of a web that goes into the files.
 #[derive(Clone, Copy, Debug)]
@@ -43,8 +44,11 @@ impl WebFolder<'_> {
     /// # Errors
     /// If a file cannot be written, or the computation is interrupted.
     pub fn write(&self, staging: &Staging<'_>, laying: Laying<'_>) -> Result<(), Failure> {
-        let window = window(&self.file.spec);
-        let strands = strands(self.web, window, laying)?;
+        let window = self.file.spec.window();
+        let strands = match &self.findings.laid.together {
+            Some(together) => Cow::Borrowed(&together.strands[..]),
+            None => Cow::Owned(strands(self.web, window, laying)?),
+        };
         let figures = web_figures(self.web, self.findings);
         // The map is packed while the figures are drawn.
         let (files, drawn) = std::thread::scope(|scope| {
@@ -71,12 +75,6 @@ impl WebFolder<'_> {
         staging.write("report.html", report)?;
         staging.write("summary.json", self.summary())
     }
-}
-
-/// The square in the middle of the sheet whose single fibres are shown.
-fn window(spec: &WebSpec) -> Window {
-    let side = spec.window;
-    Window { corner: [spec.sheet.width, spec.sheet.length].map(|size| 0.5 * (size - side)), sides: [side; 2] }
 }
 
 /// What layers were laid from, for the files.

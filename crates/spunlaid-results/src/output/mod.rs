@@ -6,6 +6,7 @@ pub mod comparison;
 pub mod finer;
 pub mod folder;
 pub mod leftovers;
+mod neighbours;
 pub mod paraview;
 mod parquet;
 pub mod pictures;

@@ -7,11 +7,12 @@
 //! A fed element does not stay with an eddy: it feels the air of the place where it is. Between two stations the signal
 //! is interpolated with weights that keep its variance.                                           theory.md (64)
 
-use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Wind};
+use super::at_elements::{AirAtElements, OnTheWay};
+use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Widening, Wind};
 use crate::company::{PerLane, shared};
+use crate::fibre::Place;
 use crate::field::Hint;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, indices};
-use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
 /// Most stations along the way.
@@ -98,47 +99,51 @@ shared! {
         stations: usize = "the number of stations between inlet and belt (belt.distance, air.length_scale)",
         every: u64 = "how often the air on the way is looked up (air.length_scale, air.velocity, feed.speed)",
         in_field: bool = "whether the air is a field (air.field)",
+        widens: bool = "whether the mean flow widens (air.widening)",
     }
 }
 
 impl Way {
     /// * `every` – steps from one look to the next
     pub(crate) fn of(air: &Air, grid: &StationGrid, every: u64) -> Self {
-        Self { stations: grid.count, every: every.max(1), in_field: matches!(air.flow, Flow::Field(_)) }
+        Self {
+            stations: grid.count,
+            every: every.max(1),
+            in_field: matches!(air.flow, Flow::Field(_)),
+            widens: air.widening != Widening::None,
+        }
     }
-}
-
-/// The air at an element of eight fibres.
-#[derive(Clone, Copy, Debug)]
-struct ElementAir {
-    /// Velocity at the last look [m/s].
-    value: Vec3<Lanes>,
-    /// Its rise in a step [m/s].
-    rise: Vec3<Lanes>,
 }
 
 /// The air along the way of up to eight fed fibres, and at their elements.
 #[derive(Clone, Debug)]
 pub struct Stations {
     way: Way,
+    /// Distance of each root from the middle of the slot [m].
+    off_middle: Lanes,
     /// Stations to a length [1/m].
     per_length: Lanes,
     /// Mean velocity along x [m/s], and factor of the signal.
     still: Vec<[Lanes; 2]>,
     /// `2(1−ρ)` with the correlation `ρ` of a station's signal and the next one's.
     apart: Vec<Lanes>,
-    looked: bool,
     /// Of each station, at the last look, in each lane: fluctuation, and mean velocity along x [m/s].
     now: Vec<[[f64; 4]; WIDTH]>,
-    elements: Nodes<ElementAir>,
+    elements: AirAtElements,
     /// The mean flow and the rms in a field.
     field: Option<Surroundings>,
 }
 
 impl Stations {
     /// * `lanes` – air and stations of each fibre
+    /// * `places` – of the fibres' roots
     /// * `elements` – number of elements at the start
-    pub(crate) fn new(way: Way, lanes: &PerLane<(Air, StationGrid)>, elements: usize) -> Self {
+    pub(crate) fn new(
+        way: Way,
+        lanes: &PerLane<(Air, StationGrid)>,
+        places: &PerLane<Place>,
+        elements: usize,
+    ) -> Self {
         let mut hint = Hint::default();
         let here = lanes.map(|(air, grid)| {
             let still = (0..way.stations).map(|k| {
@@ -162,17 +167,17 @@ impl Stations {
             true => here.lanes(|(_, correlations)| 2.0 * (1.0 - correlations[k])),
             false => Lanes::ZERO,
         };
-        let field = way
-            .in_field
-            .then(|| Surroundings::around_elements(lanes.map(|(air, _)| air.clone()), elements, way.every));
-        let nothing = ElementAir { value: Vec3::ZERO, rise: Vec3::ZERO };
+        let field = way.in_field.then(|| {
+            let airs = lanes.zip(places, |(air, _), place| (air.clone(), *place));
+            Surroundings::around_elements(airs, elements, way.every)
+        });
         Self {
+            off_middle: places.lanes(|place| place.y),
             per_length: lanes.lanes(|(_, grid)| 1.0 / grid.spacing),
             still: (0..way.stations).map(still).collect(),
             apart: (0..way.stations).map(apart).collect(),
-            looked: false,
             now: vec![[[0.0; 4]; WIDTH]; way.stations],
-            elements: vec![nothing; elements].into(),
+            elements: AirAtElements::new(elements, way.every),
             field,
             way,
         }
@@ -185,7 +190,7 @@ impl Stations {
 
     /// Forgets the looks so far.
     pub(crate) fn forget(&mut self) {
-        self.looked = false;
+        self.elements.forget();
         if let Some(field) = &mut self.field {
             field.forget();
         }
@@ -195,6 +200,7 @@ impl Stations {
     pub(crate) fn change(&mut self, by: Self) {
         let Self { way, per_length, still, apart, field, .. } = by;
         (self.way, self.per_length, self.still, self.apart) = (way, per_length, still, apart);
+        self.elements.every = self.way.every;
         if let (Some(field), Some(new)) = (&mut self.field, field) {
             field.change(new);
         }
@@ -202,10 +208,7 @@ impl Stations {
 
     /// Follows a chain that has grown at its root and become shorter at its end to so many elements.
     pub(crate) fn follow(&mut self, elements: usize, born: bool) {
-        if born {
-            self.elements.push_root(self.elements[0]);
-        }
-        self.elements.truncate(elements);
+        self.elements.follow(elements, born);
         if let Some(field) = &mut self.field {
             field.follow(elements, born);
         }
@@ -220,11 +223,10 @@ impl Stations {
         wind: &mut Wind,
         position: &[Vec3<Lanes>],
     ) -> OnTheWay<'_, S> {
-        let since = step % self.way.every;
-        if since == 0 {
+        if self.elements.is_look_due(step) {
             S::ISA.run(Look { stations: self, t, wind, position });
         }
-        OnTheWay { elements: &self.elements, steps: Wide::splat(since as f64) }
+        self.elements.now(step)
     }
 
     /// Keeps the velocity at a station, which has this signal.
@@ -258,11 +260,10 @@ impl Stations {
             field.look_up::<S>(position);
         }
         let (half, one) = (Wide::<S>::splat(0.5), Wide::splat(1.0));
-        // The first look has none before it to extrapolate from.
-        let per_step = Wide::splat(if self.looked { 1.0 / self.way.every as f64 } else { 0.0 });
+        let per_step = self.elements.per_step();
         let (per_length, last) = (Wide::load(&self.per_length), (self.way.stations - 1) as f64);
         let (end, before_end) = (Wide::splat(last), Wide::splat(last - 1.0));
-        for (j, (ends, here)) in position.windows(2).zip(self.elements.iter_mut()).enumerate() {
+        for (j, (ends, here)) in position.windows(2).zip(self.elements.each()).enumerate() {
             let centre = (Wide::<S>::load(&ends[0].x) + Wide::load(&ends[1].x)) * half;
             let place = (centre * per_length - half).max(Wide::zero());
             let place = Wide::select_less(place, end, place, end);
@@ -285,16 +286,20 @@ impl Stations {
             let mut fluctuation = below.mul_add(share * scale, above * (rest * scale));
             let (upper, lower) = (Wide(upper), Wide(lower));
             let mut flow = Vec3::new((lower - upper).mul_add(share, upper), Wide::zero(), Wide::zero());
+            if self.way.widens {
+                // −y dU/dx, with the velocity between the stations as above.                        theory.md (49a)
+                let y = (Wide::load(&ends[0].y) + Wide::load(&ends[1].y))
+                    .mul_add(half, Wide::load(&self.off_middle));
+                flow.y = (upper - lower) * per_length * y;
+            }
             if let Some(field) = &self.field {
                 let [u, v, w, rms] = field.value(j);
                 flow = Vec3::new(Wide::load(u), Wide::load(v), Wide::load(w));
                 fluctuation = fluctuation * Wide::load(rms);
             }
-            let value = flow + fluctuation;
-            here.rise = ((value - Vec3::load(&here.value)) * per_step).store();
-            here.value = value.store();
+            here.keep(flow + fluctuation, per_step);
         }
-        self.looked = true;
+        self.elements.finish_look();
     }
 }
 
@@ -315,22 +320,6 @@ impl Task for Look<'_> {
     }
 }
 
-/// The air at the elements of fed fibres at one instant.
-pub(crate) struct OnTheWay<'a, S: Register> {
-    elements: &'a [ElementAir],
-    /// Steps since the last look.
-    steps: Wide<S>,
-}
-
-impl<S: Register> OnTheWay<'_, S> {
-    /// Velocity of the air at element `j` [m/s].
-    #[inline(always)]
-    pub(super) fn at(&self, j: usize) -> Vec3<Wide<S>> {
-        let ElementAir { value, rise } = &self.elements[j];
-        Vec3::load(rise).mul_add(self.steps, Vec3::load(value))
-    }
-}
-
 /// Longest time between two looks at the air [s]: fibre and air pass a quarter of a length scale.
 pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
     air.length_scale / air.velocity.abs().max(feed_speed) / LOOKS
@@ -338,11 +327,12 @@ pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{PerLane, StationGrid, Stations, Way};
-    use crate::air::{Air, EddyModel, Stream, StreamKey, Wind};
+    use super::{Hint, PerLane, Place, StationGrid, Stations, Way};
+    use crate::air::{Air, EddyModel, Flow, FromFile, Profile, Stream, StreamKey, Widening, Wind};
     use crate::air::{Atmosphere, Instant, Velocities};
     use crate::lanes::{Isa, Lanes, Plain, WIDTH};
     use crate::vec3::Vec3;
+    use std::sync::Arc;
 
     const SPEED: f64 = 35.0;
     const DECAY: f64 = 5e-3;
@@ -377,7 +367,8 @@ mod tests {
                 .map(|j| Vec3::splat(Vec3::new(place(j), 0.0, 0.0)))
                 .collect();
             let lanes = PerLane::new(vec![(air.clone(), grid)]).unwrap();
-            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, position.len() - 1);
+            let middle = PerLane::new(vec![Place::default()]).unwrap();
+            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, &middle, position.len() - 1);
             Self { grid, air: Atmosphere::Way(wind, stations), position, looks: 0 }
         }
 
@@ -451,6 +442,48 @@ mod tests {
             let expected = (-later / DECAY).exp();
             // As above, for the product of two signals.
             assert!((both / own - expected).abs() < 0.03, "{share}: {} for {expected}", both / own);
+        }
+    }
+
+    /// Without turbulence, elements at any distance from the middle feel the velocity of the profile and of its widening.
+    #[test]
+    fn analytic_fed_fibres_feel_the_widening_of_a_profile() {
+        let rows = Profile { x: vec![0.0, 0.5], velocity: vec![60.0, 10.0], ..Profile::default() };
+        let flow = Flow::Profile(FromFile::new("profile.csv".into(), 1, Arc::new(rows)));
+        for widening in Widening::ALL {
+            let eddies = EddyModel::Convected { decay_time: DECAY };
+            let air = Air { flow: flow.clone(), widening, eddies, ..Air::uniform(SPEED, 0.0, 16e-3, 940.0) };
+            let grid = air.stations(0.5);
+            let eddies = air.turbulence_at(&grid);
+            let stream = Stream { air: air.clone(), eddies, key: StreamKey { seed: 1, replicate: 0 } };
+            let wind = Wind::along(Isa::detect(), vec![stream], 1.0).unwrap();
+            let roots = [0.01, -0.004];
+            let lanes = PerLane::new(vec![(air.clone(), grid); 2]).unwrap();
+            let places = PerLane::new(roots.map(|y| Place { y, z: 0.0 }).to_vec()).unwrap();
+            // Elements of a fibre that leans, between the first and the last station.
+            let position: Vec<_> = (1..25)
+                .map(|j| Vec3::splat(Vec3::new(0.02 * f64::from(j), 1e-3 * f64::from(j), 2e-3)))
+                .collect();
+            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, &places, position.len() - 1);
+            let mut air_at_fibre = Atmosphere::Way(wind, stations);
+            let now = Instant { step: 0, time: 0.0 };
+            let Velocities::Way(velocities) = air_at_fibre.look::<Plain>(now, &position) else {
+                panic!("another kind of air")
+            };
+            for (lane, root) in roots.into_iter().enumerate() {
+                for (j, ends) in position.windows(2).enumerate() {
+                    let middle = (ends[0].lane(lane) + ends[1].lane(lane)) * 0.5;
+                    let at = Vec3::new(middle.x, middle.y + root, middle.z);
+                    let expected = air.local(at, &mut Hint::default()).velocity;
+                    let felt = velocities.at(j).store().lane(lane);
+                    assert!(
+                        (felt - expected).norm() < 1e-10,
+                        "{widening:?} {at:?}: {felt:?} for {expected:?}"
+                    );
+                    let rate = if widening == Widening::None { 0.0 } else { 100.0 };
+                    assert!((expected.y - rate * at.y).abs() < 1e-10, "{at:?}: {expected:?}");
+                }
+            }
         }
     }
 }

@@ -196,6 +196,10 @@ fn fly_until_lost(
     if let Some(recorder) = computing.recorder {
         jobs.iter().for_each(|job| recorder.begin(job.replicate));
     }
+    // The companions of a replicate fly after it and are not recorded.
+    let is_companion: Vec<bool> = (0..jobs.len())
+        .map(|lane| jobs[..lane].iter().any(|before| before.replicate == jobs[lane].replicate))
+        .collect();
     let clock = flight.clock().clone();
     let mut observers = Observers::new(&flight, keep.curves);
     let mut trajectories: Vec<Trajectory> =
@@ -235,7 +239,7 @@ fn fly_until_lost(
                 let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);
                 trajectory.laid.extend(counted.take(room));
             }
-            if let Some(recorder) = computing.recorder {
+            if let Some(recorder) = computing.recorder.filter(|_| !is_companion[lane]) {
                 recorder.sample(trajectory.replicate, &samples[lane])?;
                 if !laid[lane].is_empty() {
                     recorder.lay(trajectory.replicate, &laid[lane])?;
@@ -266,7 +270,7 @@ fn fly_until_lost(
 pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     const TRIAL: f64 = 0.05;
     let steps = ((2e5 / case.fibre.elements as f64).clamp(1.0, 1e4) as u64).min(case.run.steps).max(1);
-    let mut flight = Flight::new(&[Job { case, replicate: 0 }], isa)?;
+    let mut flight = Flight::new(&[Job::new(case, 0)], isa)?;
     if let Some(line) = case.line {
         // Until the fibre has come down.
         let down = 1.5 * line.distance / line.feed_speed / case.run.time_step;

@@ -1,7 +1,8 @@
 //! The laid fibre: how wide it lies, in which directions, and the surrogate that describes it.
 
 use super::{
-    Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observation, Observer, Unit, Value, fed, of_each,
+    Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observation, Observer, RATIO, Unit, Value, fed,
+    of_each,
 };
 use crate::case::Case;
 use crate::flight::Flight;
@@ -15,7 +16,6 @@ pub const LAYDOWN: Group = Group { name: "laydown", title: "laid fibre" };
 pub const SURROGATE: Group = Group { name: "laydown.surrogate", title: "surrogate of the laid fibre" };
 
 const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
-const RATIO: Unit = Unit { shown: "", per_si: 1.0 };
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[

@@ -15,6 +15,7 @@ mod end_node;
 mod energy;
 mod flow;
 mod laydown;
+mod neighbours;
 mod residence;
 mod root_tension;
 mod sample;
@@ -40,6 +41,10 @@ pub const DECLARED: &[&Declaration] = &[
     &spectrum::DECLARATION,
     &laydown::DECLARATION,
     &along_way::DECLARATION,
+    &neighbours::FED_CD,
+    &neighbours::FED_MD,
+    &neighbours::FIXED_CD,
+    &neighbours::FIXED_MD,
     &root_tension::DECLARATION,
     &strain::USUAL,
     &strain::LARGEST,
@@ -133,6 +138,8 @@ pub const MILLIMETRES: Unit = Unit { shown: "mm", per_si: 1e3 };
 pub const HERTZ: Unit = Unit { shown: "Hz", per_si: 1.0 };
 /// Millinewtons.
 pub const MILLINEWTONS: Unit = Unit { shown: "mN", per_si: 1e3 };
+/// A plain number.
+pub const RATIO: Unit = Unit { shown: "", per_si: 1.0 };
 /// Per metre.
 pub const PER_METRE: Unit = Unit { shown: "1/m", per_si: 1.0 };
 /// Square millimetres per hertz.
@@ -157,6 +164,8 @@ pub enum Kind {
     Way,
     /// A curve over the length of fibre between two points [m].
     Lag,
+    /// A curve over the distance between the roots of two fibres [m].
+    Neighbour,
     /// A curve over the direction on the belt [degrees], 0 in machine direction.
     Direction,
 }
@@ -171,6 +180,7 @@ impl Kind {
             Self::Spectrum => Some(("frequency_hz", "Frequency *f*", HERTZ)),
             Self::Way => Some(("distance_m", "Distance from the inlet", MILLIMETRES)),
             Self::Lag => Some(("lag_m", "Length of fibre between two points", MILLIMETRES)),
+            Self::Neighbour => Some(("distance_m", "Distance between the fibres", MILLIMETRES)),
             Self::Direction => {
                 Some(("direction_degrees", "Direction on the belt", Unit { shown: "°", per_si: 1.0 }))
             }

@@ -1,9 +1,11 @@
 //! Statistics over replicates and over time.
 
+mod covariance;
 mod difference;
 mod spectrum;
 mod thinned;
 
+pub use covariance::Covariance;
 pub use difference::{Difference, difference_of_deviations, student_t_95_at};
 pub use spectrum::{Spectrum, Welch, Window};
 pub use thinned::Thinned;

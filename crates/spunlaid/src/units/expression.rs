@@ -48,7 +48,7 @@ impl Powers {
             Dimension::Acceleration => Self::new(1.0, 0.0, -2.0),
             Dimension::Temperature => Self { kelvin: 1.0, ..Self::new(0.0, 0.0, 0.0) },
             Dimension::Noise => Self::new(-0.5, 0.0, 0.0),
-            Dimension::Ratio => Self::new(0.0, 0.0, 0.0),
+            Dimension::Memory | Dimension::Ratio => Self::new(0.0, 0.0, 0.0),
         }
     }
 

@@ -1,11 +1,11 @@
 //! What one fibre alone says about the unevenness of a web of many.
 
 use super::lay::{Laying, lay};
-use super::threads::each;
 use super::uniformity::boxes;
 use super::{Edges, Fibres, Filaments, Layer, Row, Sheet, Web};
 use crate::error::Error;
 use crate::statistics::Estimate;
+use crate::threads::try_each;
 use std::sync::Arc;
 
 /// How the unevenness is found from single fibres.
@@ -103,7 +103,7 @@ fn add(
     found: &mut [Sums],
 ) -> Result<(), Error> {
     let pitch = apart as f64 * of.cell;
-    let row = Row { offset: (trace as f64 + 0.5) * of.cell, pitch, filaments: of.fibres };
+    let row = Row::new((trace as f64 + 0.5) * of.cell, pitch, of.fibres);
     let web = Web {
         sheet: Sheet {
             width: pitch * of.fibres as f64,
@@ -119,7 +119,7 @@ fn add(
     let metres = map.quantum / layer.linear_density;
     let length = layer.fed_length(&web.sheet);
     let share = metres / (rows as f64);
-    let of_sides = each(by.threads, sides.len(), |i| {
+    let of_sides = try_each(by.threads, sides.len(), |i| {
         let mut squares = vec![0.0; of.fibres as usize];
         let mut profiles = vec![vec![0.0; apart]; of.fibres as usize];
         boxes(&map, sides[i], [map.columns, map.rows], |_, boxes| {
@@ -150,7 +150,7 @@ impl Alone {
     pub fn of(&self, filaments: &Filaments) -> &Estimate {
         match filaments {
             Filaments::AtRandom { .. } => &self.at_random,
-            Filaments::Rows(_) => &self.at_places,
+            Filaments::Slot { .. } | Filaments::Rows(_) => &self.at_places,
         }
     }
 

@@ -45,7 +45,7 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
         let places = scaled(curve, unit);
         chart = match first.kind {
             Kind::Profile => profile(chart, i, curve, &places, MARKED),
-            Kind::Way => profile(chart, i, curve, &places, places.len()),
+            Kind::Way | Kind::Neighbour => profile(chart, i, curve, &places, places.len()),
             Kind::Lag => correlation(chart, i, curve, &places),
             Kind::Series => series(chart, i, curve, &places, results.replicates()),
             Kind::Number | Kind::Spectrum | Kind::Direction => {
@@ -69,11 +69,15 @@ pub fn axes(first: &Measure, alone: bool) -> (Axis, Axis) {
         return (Axis::linear(""), Axis::linear(""));
     };
     let label = with_unit(abscissa, unit.shown);
-    let along = if first.kind == Kind::Spectrum { Axis::logarithmic(&label) } else { Axis::linear(&label) };
+    let along = match first.kind {
+        Kind::Spectrum | Kind::Neighbour => Axis::logarithmic(&label),
+        _ => Axis::linear(&label),
+    };
     let along = match first.kind {
         Kind::Profile | Kind::Way | Kind::Lag => along.including(0.0),
         Kind::Direction => along.tight(),
         Kind::Series => along.tight().including(0.0),
+        Kind::Neighbour => along,
         Kind::Number | Kind::Spectrum => along.tight(),
     };
     // The numbers beside a figure are in the units of its axes.
@@ -218,7 +222,7 @@ fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates:
             )
         }
         (Kind::Direction, n) => over_replicates(n),
-        (Kind::Profile | Kind::Way, n) => {
+        (Kind::Profile | Kind::Way | Kind::Neighbour, n) => {
             let marked = if kind == Kind::Profile && places.len() > MARKED {
                 format!(" {MARKED} of {} places carry a marker.", places.len())
             } else {

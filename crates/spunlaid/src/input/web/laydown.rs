@@ -2,8 +2,8 @@
 
 use super::super::{Overrides, parse_case, read_case};
 use super::read::{Reading, table_of};
-use crate::case::Case;
 use crate::case::keys::Value;
+use crate::case::{Case, Note};
 use crate::error::{Error, Fault, Place};
 use crate::layers::LaydownSource;
 use crate::surrogate::Surrogate;
@@ -129,6 +129,10 @@ impl Reading<'_> {
             ),
             Some(_) => {
                 self.note(notes);
+                if let Some(what) = case.slows_only() {
+                    let note = Note { place: self.written.whole(), key: key.to_owned(), value: None, what };
+                    self.note(vec![self.written.placed(note)]);
+                }
                 return Ok(Some(Arc::new(case)));
             }
         };

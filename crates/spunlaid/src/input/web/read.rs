@@ -6,12 +6,14 @@ use super::document::WebDocument;
 use crate::case::keys::{LeftOut, Value};
 use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding};
-use crate::layers::keys::{self, METHODS, diameter};
+use crate::layers::keys::{self, ALL_METHODS, METHODS, diameter, in_rows};
 use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
 use crate::units::Dimension;
 use crate::web::{Filaments, Row};
 use std::path::{Path, PathBuf};
 
+/// The limit of memory if the file gives none [B].
+const MEMORY_LIMIT: f64 = 4e9;
 /// Relative difference up to which two written numbers are the same.
 pub(super) const SAME: f64 = 1e-9;
 
@@ -48,6 +50,7 @@ pub(super) fn spec(
     let method = reading.method(&prefixes, &layers);
     let seed = reading.whole("web.seed").unwrap_or_default();
     let window = sheet.as_ref().and_then(|sheet| reading.window(sheet));
+    let memory_limit = reading.number_or("web.memory_limit", "web", Ok(MEMORY_LIMIT));
     reading.check_belts(&prefixes, &layers);
     if let Some(sheet) = &sheet {
         for (prefix, layer) in prefixes.iter().zip(&layers) {
@@ -65,9 +68,11 @@ pub(super) fn spec(
             }
         }
     }
-    match (sheet, layers.into_iter().collect::<Option<Vec<_>>>(), window) {
-        (Some(sheet), Some(layers), Some(window)) if written.problems.is_empty() => {
-            Ok((WebSpec { sheet, layers, seed, method, window }, sorted(notes)))
+    match (sheet, layers.into_iter().collect::<Option<Vec<_>>>(), window, memory_limit) {
+        (Some(sheet), Some(layers), Some(window), Some(memory_limit)) if written.problems.is_empty() => {
+            let spec = WebSpec { sheet, layers, seed, method, window, memory_limit };
+            spec.check_air().map_err(|problem| Error::from(vec![written.placed(problem)]))?;
+            Ok((spec, sorted(notes)))
         }
         _ => Err(sorted(written.problems).into()),
     }
@@ -238,14 +243,26 @@ impl Reading<'_> {
     }
 
     fn filaments(&mut self, prefix: &str) -> Option<Filaments> {
-        let [at_random, rows] = ["filaments_per_metre", "rows"].map(|name| format!("{prefix}line.{name}"));
+        let [at_random, rows, depth] =
+            ["filaments_per_metre", "rows", "depth"].map(|name| format!("{prefix}line.{name}"));
+        let in_slot = self.written.get(&depth).is_some();
+        if in_slot && self.written.get(&rows).is_some() {
+            self.written.reject(&depth, in_rows());
+            return None;
+        }
         match (self.written.get(&at_random).is_some(), self.whole(&rows)) {
             (true, Some(_)) => {
                 let remedy = "filaments come down at random places or in rows; keep one";
                 self.written.reject(&at_random, Fault::excludes("line.rows", remedy));
                 None
             }
-            (true, None) => Some(Filaments::AtRandom { per_metre: self.whole(&at_random)? as f64 }),
+            (true, None) => {
+                let per_metre = self.whole(&at_random)? as f64;
+                Some(match in_slot {
+                    true => Filaments::Slot { per_metre, depth: self.written.number(&depth)? },
+                    false => Filaments::AtRandom { per_metre },
+                })
+            }
             (false, Some(count)) => {
                 let rows: Vec<Option<Row>> =
                     (1..=count).map(|number| self.row(&format!("{rows}.{number}."))).collect();
@@ -273,20 +290,28 @@ impl Reading<'_> {
     /// * `before` – what comes before the names of its keys: `line.rows.1.`
     fn row(&mut self, before: &str) -> Option<Row> {
         const TABLE: &str = "line.rows";
-        let [offset, pitch, filaments] =
-            ["offset", "pitch", "filaments"].map(|name| format!("{before}{name}"));
-        let offset = self.number_or(&offset, TABLE, Ok(0.0));
+        let [offset, pitch, filaments, md] =
+            ["offset", "pitch", "filaments", "md"].map(|name| format!("{before}{name}"));
+        let [offset, md] = [offset, md].map(|name| self.number_or(&name, TABLE, Ok(0.0)));
         let pitch = self.number_or(&pitch, TABLE, Err(&example("line.rows.pitch")));
         let count = self.number_or(&filaments, TABLE, Err(&example("line.rows.filaments")));
-        let (offset, pitch, _) = (offset?, pitch?, count?);
-        Some(Row { offset, pitch, filaments: self.whole(&filaments)? })
+        let (offset, md, pitch, _) = (offset?, md?, pitch?, count?);
+        Some(Row { offset, pitch, filaments: self.whole(&filaments)?, md })
     }
 
     fn method(&mut self, prefixes: &[String], layers: &[Option<LayerSpec>]) -> Method {
-        let method = self.written.text("web.method");
-        if method.as_deref() != Some(METHODS[1]) {
-            return Method::Surrogate;
+        let written = self.written.text("web.method");
+        let method = ALL_METHODS.into_iter().find(|one| written.as_deref() == Some(METHODS[*one as usize]));
+        match method {
+            Some(Method::Dynamics) => self.check_flown(prefixes, layers),
+            Some(Method::SharedAir) => self.check_shared_air(prefixes, layers),
+            _ => {}
         }
+        method.unwrap_or(Method::Surrogate)
+    }
+
+    /// Refuses the curves of fibres that have not been flown.
+    fn check_flown(&mut self, prefixes: &[String], layers: &[Option<LayerSpec>]) {
         let numbers = |layer: &Option<LayerSpec>| {
             layer.as_ref().is_some_and(|layer| matches!(layer.source, LaydownSource::Surrogate(_)))
         };
@@ -298,7 +323,6 @@ impl Reading<'_> {
             );
             self.written.reject("web.method", fault);
         }
-        Method::Dynamics
     }
 }
 
