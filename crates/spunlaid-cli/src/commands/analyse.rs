@@ -153,7 +153,7 @@ fn write(
     let page = analysis_html(&AnalysisReport {
         name,
         record,
-        analysis: analysis,
+        analysis,
         figures: &figures,
         remarks,
         air: &air,
