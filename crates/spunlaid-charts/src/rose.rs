@@ -196,9 +196,10 @@ mod tests {
 
     #[test]
     fn rings_are_round_and_few() {
-        for (largest, wanted) in [(1.0, 0.2), (1.3, 0.5), (2.0, 0.5), (11.0, 2.5), (36.0, 10.0), (0.0, 1.0)] {
+        for (largest, expected) in [(1.0, 0.2), (1.3, 0.5), (2.0, 0.5), (11.0, 2.5), (36.0, 10.0), (0.0, 1.0)]
+        {
             let step = ring_step(largest);
-            assert!((step / wanted - 1.0).abs() < 1e-9, "{largest}: {step}");
+            assert!((step / expected - 1.0).abs() < 1e-9, "{largest}: {step}");
         }
     }
 

@@ -124,16 +124,16 @@ impl Study {
                         std::thread::park_timeout(std::time::Duration::from_millis(20));
                     }
                 });
-                let flown = self.with_journal(|journal| {
+                let outcome = self.with_journal(|journal| {
                     let lent = Mutex::new(std::mem::replace(journal, Journal::in_memory(0)));
-                    let flown = run(&self.file.study, &lent, computing, &counters);
+                    let outcome = run(&self.file.study, &lent, computing, &counters);
                     *journal = lent.into_inner().unwrap_or_else(PoisonError::into_inner);
-                    flown
+                    outcome
                 });
                 finished.store(true, Ordering::Release);
                 shown.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
                 shown.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
-                flown
+                outcome
             })
         })
     }

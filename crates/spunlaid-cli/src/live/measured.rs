@@ -82,7 +82,7 @@ impl Statistics {
             None => spin_up.max(SETTLING),
         };
         let motion = match LaidStatistics::new(case) {
-            Some(laid) => Motion::Fed(Box::new(laid)),
+            Some(statistics) => Motion::Fed(Box::new(statistics)),
             None => Motion::Fixed(Box::new(Swinging::new(case, flight))),
         };
         Self { from: flight.time() + settling, duration: 0.0, batch: None, motion }
@@ -102,7 +102,7 @@ impl Statistics {
         };
         self.duration = now - self.from;
         match &mut self.motion {
-            Motion::Fed(laid) => laid.see(&instant),
+            Motion::Fed(statistics) => statistics.see(&instant),
             Motion::Fixed(swinging) => {
                 swinging.see(&instant);
                 let duration = now - start;
@@ -128,9 +128,9 @@ impl Statistics {
             footprint: None,
         };
         match &mut self.motion {
-            Motion::Fed(laid) => {
-                message.numbers = laid.numbers();
-                message.footprint = laid.map();
+            Motion::Fed(statistics) => {
+                message.numbers = statistics.numbers();
+                message.footprint = statistics.map();
             }
             Motion::Fixed(swinging) => {
                 message.numbers = swinging.numbers();

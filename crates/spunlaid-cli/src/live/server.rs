@@ -29,7 +29,7 @@ const PAUSE: Duration = Duration::from_millis(50);
 /// What all connections share.
 pub(super) struct Server {
     pub(super) guard: Guard,
-    pub(super) asks: SyncSender<PageRequest>,
+    pub(super) requests: SyncSender<PageRequest>,
     pub(super) board: Arc<Board>,
 }
 
@@ -142,8 +142,8 @@ impl Server {
     }
 
     /// Hands on what a page asks. If many pages ask much, they wait.
-    fn ask(&self, from: PageId, asked: Command) -> io::Result<()> {
-        self.asks.send(PageRequest { from, asked }).map_err(|_| ErrorKind::BrokenPipe.into())
+    fn ask(&self, page: PageId, command: Command) -> io::Result<()> {
+        self.requests.send(PageRequest { page, command }).map_err(|_| ErrorKind::BrokenPipe.into())
     }
 
     /// Reads the messages of a page, until it leaves.
@@ -157,8 +157,8 @@ impl Server {
         loop {
             let answer = match socket.read()? {
                 Message::Text(text) => match message::read(&text) {
-                    Ok(asked) => {
-                        self.ask(page, asked)?;
+                    Ok(command) => {
+                        self.ask(page, command)?;
                         continue;
                     }
                     Err(answer) => answer,

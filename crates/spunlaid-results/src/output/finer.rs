@@ -235,8 +235,11 @@ mod tests {
         );
         assert!(advice(0.011, 0.002).contains("below 3 %"));
         assert!(advice(0.01, 0.02).contains("too short to show"));
-        let laid = |mean| of_the_mesh(&check(Refined::Elements, "spread", mean, 1e-3));
-        assert!(laid(0.05).contains("\"12.5 mm\"") && laid(3e-3).contains("not known from one halving"));
+        let advice_for_spread = |mean| of_the_mesh(&check(Refined::Elements, "spread", mean, 1e-3));
+        assert!(
+            advice_for_spread(0.05).contains("\"12.5 mm\"")
+                && advice_for_spread(3e-3).contains("not known from one halving")
+        );
         assert!(of_the_mesh(&check(Refined::Elements, "chord_over_arc", 0.3, 1e-3)).contains("not known"));
     }
 }

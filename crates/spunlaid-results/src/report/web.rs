@@ -114,9 +114,9 @@ pub(super) struct Fibres {
 pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let findings = input.findings;
     let (data, pixel) = light_table_data(&findings.laid.map, Some(fibres(input)))?;
-    let flown = findings.patches.iter().any(|patch| patch.flown.is_some());
+    let has_flown = findings.patches.iter().any(|patch| patch.flown.is_some());
     let mut heads = vec!["Patch", "CV of this map", "of its error: chance", "95 % interval by chance"];
-    if flown {
+    if has_flown {
         heads.extend(["few fibres flown", "model"]);
     }
     let sources = sources(findings);
@@ -136,8 +136,8 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         fibres: true,
         verdict: verdict(findings),
         heads,
-        patches: patches(findings, flown, &sources),
-        about_patches: if flown {
+        patches: patches(findings, has_flown, &sources),
+        about_patches: if has_flown {
             "The error of the map is that of all its causes together: chance (another piece of the same web), the \
              few fibres that were flown, and the model (the CV of the surrogate against that of the flown \
              curves). It does not include what the flight itself leaves out."
@@ -338,7 +338,7 @@ fn sources(findings: &Findings) -> Vec<Column> {
     known
 }
 
-fn patches(findings: &Findings, flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
+fn patches(findings: &Findings, has_flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
     let row = |patch: &PatchFindings| {
         let (map, error) = (whole(patch), patch.whole_error());
         let part = |part: Option<f64>| {
@@ -350,7 +350,7 @@ fn patches(findings: &Findings, flown: bool, sources: &[Column]) -> Vec<Vec<Stri
             part(error.chance),
             interval(patch.map.interval()),
         ];
-        if flown {
+        if has_flown {
             cells.extend([error.flight, error.model].map(part));
         }
         let expected = sources.iter().map(|(_, cv)| cv(patch));
