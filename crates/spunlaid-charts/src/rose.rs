@@ -77,7 +77,7 @@ impl Rose {
                 continue;
             }
             let mut corners = vec![CENTRE];
-            // Arcs of three degrees cannot be told from a circle.
+            // Arcs of three degrees cannot be distinguished from a circle.
             let parts = (width / (TAU / 120.0)).ceil().max(1.0) as usize;
             let angle = |k: usize| width * (i as f64 + k as f64 / parts as f64);
             corners.extend((0..=parts).map(|k| place(at(*value), angle(k))));

@@ -110,7 +110,7 @@ impl Study {
             fibre_steps: &watch.done,
             recorder: None,
         };
-        // Progress is told in fibres, as it is on a cluster.
+        // Progress is counted in fibres, as it is on a cluster.
         let shown = Watch::default();
         let stopped = &watch.stop;
         let finished = AtomicBool::new(false);

@@ -1,4 +1,4 @@
-//! What the fibres are found to do while they fly, since the last change.
+//! Statistics of the fibres while they fly, since the last change.
 
 use super::batches::{Batches, Settling};
 use super::fibres::Instant;
@@ -48,7 +48,7 @@ struct Swinging {
     spectrum: [Welch; 2],
 }
 
-/// The statistics as they are told to a page.
+/// The statistics as a page gets them.
 #[derive(Debug, Serialize)]
 #[serde(tag = "is", rename = "measured")]
 pub(super) struct StatisticsMessage {

@@ -1,4 +1,4 @@
-//! What a page asks, as JSON. What is told to the pages is written where it is known.
+//! The requests of a page, as JSON. The messages to the pages are written where their content is known.
 
 use serde::{Deserialize, Serialize};
 
@@ -62,7 +62,7 @@ impl Pace {
     }
 }
 
-/// Something that is told to the one page that asked.
+/// An answer to the one page that asked.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub(super) enum Answer {

@@ -67,7 +67,7 @@ pub(crate) struct Start {
 
 /// Flies a case for pages, until the program is ended.
 ///
-/// * `ready` – is told the address of the page, and what is to be said of the scheme
+/// * `ready` – gets the address of the page, and a remark on the scheme if there is one
 ///
 /// # Errors
 /// The case cannot be flown, or the server cannot start.

@@ -160,7 +160,7 @@ fn scatter(measures: &[&str], results: &Results) -> Option<f64> {
 fn of_the_mesh(check: &FinerCheck) -> String {
     let shares = |sure: f64| {
         let factor = check.error_over_change().unwrap_or(1.0);
-        // The texture of a laid fibre is that of its elements, and is told as such.
+        // The texture of a laid fibre is that of its elements, and is reported as such.
         let counted = check.changes.iter().filter(|change| change.statistic.name != "chord_over_arc");
         counted
             .map(|Change { estimate, .. }| {

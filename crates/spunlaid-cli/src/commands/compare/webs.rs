@@ -31,7 +31,7 @@ pub(super) struct Web {
 pub(super) struct WebNumber {
     value: f64,
     standard_error: Option<f64>,
-    /// Ends of its 95 % interval, if they are told.
+    /// Ends of its 95 % interval, if they are known.
     ends: Option<[f64; 2]>,
     /// Why it is not to be had.
     doubt: Option<String>,

@@ -58,7 +58,7 @@ pub(super) struct Session {
 }
 
 impl Session {
-    /// * `remark` – what is to be said of the scheme
+    /// * `remark` – what the user must know of the scheme
     /// * `folder` – where cases are saved
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! What pages ask is done, or refused with the reason.
+//! Does what pages ask, or refuses it and says why.
 
 use super::Session;
 use crate::live::document::{Document, complaints};

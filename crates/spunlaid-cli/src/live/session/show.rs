@@ -13,7 +13,7 @@ use spunlaid::lanes::WIDTH;
 use spunlaid::units::Dimension;
 use std::time::Instant;
 
-/// The state of the flight, as it is told to pages.
+/// The state of the flight, as pages get it.
 #[derive(Serialize)]
 #[serde(tag = "is", rename = "state")]
 struct State<'a> {

@@ -10,7 +10,7 @@ use spunlaid_charts::{
 
 const COLOURS: [&str; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 
-/// Dashes of the lines, so that curves can be told apart without their colours.
+/// Dashes of the lines, so that curves can be distinguished without their colours.
 const DASHES: [Option<&str>; FAMILY] =
     [None, Some("8 4"), Some("2 3"), Some("8 3 2 3"), Some("14 4"), Some("8 3 2 3 2 3")];
 

@@ -127,7 +127,7 @@ struct Patch {
     /// 95 % confidence interval of the CV of all such webs.
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_interval: Option<[f64; 2]>,
-    /// Why the true CV cannot be told.
+    /// Why the true CV cannot be known.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_interval: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -178,7 +178,7 @@ struct Cloudiness {
     standard_error: Option<f64>,
     /// 95 % confidence interval for all such webs; null if the map is too small to say.
     interval: Option<[f64; 2]>,
-    /// Why the true index cannot be told.
+    /// Why the true index cannot be known.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_interval: Option<String>,
 }
