@@ -1,4 +1,4 @@
-//! `lay_web`: lays a web of many filaments, and `LaidWeb`, what is found of it.
+//! `lay_web`: lays a web of many filaments, and `LaidWeb`, its results.
 
 use crate::value::web_overrides;
 use crate::watched::{Watch, guarded, threads, watched};

@@ -20,8 +20,8 @@ fn table(desk: &Desk, name: &str) -> (Vec<String>, Vec<Vec<f64>>) {
     (columns.iter().map(|column| column.name().to_owned()).collect(), rows.collect())
 }
 
-fn keys(of: &Value) -> Vec<&str> {
-    of.as_object().unwrap().keys().map(String::as_str).collect()
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
 #[test]
@@ -234,8 +234,8 @@ fn identical_from_the_resolved_case() {
         // What the case as written was remarked upon may be resolved by then.
         assert_eq!(desk.read(&format!("{name}/case.toml")), desk.read(&format!("{name}_again/case.toml")));
         for table in ["end_node.parquet", "energy.parquet"] {
-            let of = |folder: &str| desk.read(&format!("{folder}/{table}"));
-            assert!(of(name) == of(&format!("{name}_again")), "{name}: {table}");
+            let content = |folder: &str| desk.read(&format!("{folder}/{table}"));
+            assert!(content(name) == content(&format!("{name}_again")), "{name}: {table}");
         }
         if changes.is_empty() {
             assert_identical(&desk, name, &format!("{name}_again"));
@@ -343,7 +343,7 @@ fn as_many_shapes_are_kept_as_the_case_says() {
 
 #[test]
 fn a_fed_fibre_leaves_what_it_laid() {
-    let desk = Desk::of(FED);
+    let desk = Desk::with_case(FED);
     success(&mut desk.spunlaid("run brief.toml --out r"));
     assert_eq!(desk.entries("r"), entries_of_fed());
     let help = success(&mut desk.spunlaid("run --help"));
@@ -351,13 +351,13 @@ fn a_fed_fibre_leaves_what_it_laid() {
 
     let (columns, rows) = table(&desk, "r/laid.parquet");
     assert_eq!(columns, ["replicate", "s_m", "time_s", "md_m", "cd_m"]);
-    let of = |replicate: f64| rows.iter().filter(move |row| row[0] == replicate);
+    let rows_of = |replicate: f64| rows.iter().filter(move |row| row[0] == replicate);
     assert!(rows.is_sorted_by(|a, b| a[0] <= b[0]), "replicate after replicate");
     for replicate in [1.0, 2.0, 3.0] {
         // 2 m are fed, less what is in the air and what still moves on the belt.
-        let count = of(replicate).count();
+        let count = rows_of(replicate).count();
         assert!((250..500).contains(&count), "{count}");
-        for (i, row) in of(replicate).enumerate() {
+        for (i, row) in rows_of(replicate).enumerate() {
             let fed = i as f64 * 0.004;
             assert!((row[1] - fed).abs() < 1e-12, "{row:?}");
             // It cannot land before it could have come down in air of 45 m/s, nor long after it was fed.
@@ -400,7 +400,7 @@ fn a_fed_fibre_leaves_what_it_laid() {
 
 #[test]
 fn identical_laid_fibres_whatever_the_threads_and_from_the_resolved_case() {
-    let desk = Desk::of(FED);
+    let desk = Desk::with_case(FED);
     for threads in [1, 2] {
         success(
             &mut desk
@@ -414,7 +414,7 @@ fn identical_laid_fibres_whatever_the_threads_and_from_the_resolved_case() {
 
 #[test]
 fn lines_of_a_fed_fibre_have_as_many_points_as_it_has_nodes() {
-    let desk = Desk::of(FED);
+    let desk = Desk::with_case(FED);
     success(&mut desk.spunlaid("run brief.toml --out r"));
     let text = |name: &str| String::from_utf8(desk.read(name)).unwrap();
     let array = |text: &str, from: &str| -> Vec<f64> {

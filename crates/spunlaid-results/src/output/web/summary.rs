@@ -124,11 +124,11 @@ struct WebSummary {
     edges: Option<Margins>,
     patches: Vec<Patch>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    orientation_md: Option<Number>,
+    orientation_md: Option<NumberWithError>,
     #[serde(skip_serializing_if = "Option::is_none")]
     md_cd_ratio: Option<f64>,
     /// Share of the texture along the machine direction, ½ without orientation.
-    texture_md: Option<Number>,
+    texture_md: Option<NumberWithError>,
     cloudiness: Option<Cloudiness>,
     clouds: Vec<Octave>,
     sensitivities: Vec<Levers>,
@@ -157,7 +157,7 @@ struct Patch {
     /// 95 % confidence interval of the CV of all such webs.
     #[serde(skip_serializing_if = "Option::is_none")]
     cv_interval: Option<[f64; 2]>,
-    /// Why the true CV cannot be told.
+    /// Why the true CV cannot be known.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_interval: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -195,7 +195,7 @@ struct Margins {
 }
 
 #[derive(Debug, Serialize)]
-struct Number {
+struct NumberWithError {
     mean: f64,
     standard_error: Option<f64>,
 }
@@ -208,7 +208,7 @@ struct Cloudiness {
     standard_error: Option<f64>,
     /// 95 % confidence interval for all such webs; null if the map is too small to say.
     interval: Option<[f64; 2]>,
-    /// Why the true index cannot be told.
+    /// Why the true index cannot be known.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_interval: Option<String>,
 }
@@ -259,7 +259,7 @@ impl WebSummary {
             patches,
             orientation_md: None,
             md_cd_ratio: None,
-            texture_md: clouds.map(|clouds| Number::new(&clouds.texture_md())),
+            texture_md: clouds.map(|clouds| NumberWithError::new(&clouds.texture_md())),
             cloudiness,
             clouds: clouds.into_iter().flat_map(Clouds::octaves).map(octave).collect(),
             sensitivities: Vec::new(),
@@ -267,7 +267,7 @@ impl WebSummary {
     }
 }
 
-impl Number {
+impl NumberWithError {
     fn new(estimate: &Estimate) -> Self {
         Self { mean: estimate.mean, standard_error: estimate.standard_error }
     }
@@ -325,7 +325,7 @@ impl<'a> Summary<'a> {
                     basis_weight_between_kg_m2: findings.within().basis_weight(),
                     basis_weight_sheet_kg_m2: findings.laid.map.basis_weight(),
                 }),
-                orientation_md: Some(Number::new(&findings.orientation.cos_squared)),
+                orientation_md: Some(NumberWithError::new(&findings.orientation.cos_squared)),
                 md_cd_ratio: Some(findings.orientation.md_cd_ratio()),
                 sensitivities: levers.collect(),
                 ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
