@@ -305,7 +305,7 @@ impl Study {
                 let of = PyDict::new(py);
                 let factor = &study.factors[effect.factor];
                 of.set_item("measure", &study.quantities[ranking.measure].column)?;
-                of.set_item("factor", factor.key)?;
+                of.set_item("factor", &factor.key)?;
                 of.set_item("from", effect.from)?;
                 of.set_item("to", effect.to)?;
                 of.set_item("change", effect.change)?;

@@ -9,7 +9,7 @@ pub(crate) mod keys;
 mod laid;
 
 pub use flown::{FlownFibres, Flyer, Follow, OfLayer, to_lay};
-pub use keys::{WEB_KEYS, WEB_TABLES, WebKey};
+pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey, place_in_web, web_key};
 pub use laid::{LAID, read as read_laid};
 
 use crate::case::Case;
@@ -18,7 +18,7 @@ use crate::surrogate::Surrogate;
 use crate::units::Dimension;
 use crate::web::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use std::f64::consts::PI;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Fewest standard deviations of a filament's place that a closed side of the web is long.
@@ -94,6 +94,14 @@ impl LaydownSource {
         match self {
             Self::Case { case, .. } | Self::Results { case, .. } => Some(case),
             Self::Surrogate(_) => None,
+        }
+    }
+
+    /// The path of the case or of the results, for messages.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Case { path, .. } | Self::Results { folder: path, .. } => path,
+            Self::Surrogate(_) => Path::new(""),
         }
     }
 }

@@ -21,8 +21,8 @@ pub(super) fn of(
 ) -> Figure {
     let varied = &study.factors[factor];
     let along = Along::of(study, factor);
-    let title = format!("{} over {}", group.title, name_of_key(varied.key));
-    let mut chart = Chart::new(&file_name(group, varied.key), &title, along.axis.clone(), group.axis());
+    let title = format!("{} over {}", group.title, name_of_key(&varied.key));
+    let mut chart = Chart::new(&file_name(group, &varied.key), &title, along.axis.clone(), group.axis());
     let (mut is_adjusted, mut left_out) = (false, false);
     for (position, (measure, label)) in group.of.iter().enumerate() {
         let series = if position == 0 { Series::circles(label) } else { Series::triangles(label) };
@@ -56,7 +56,7 @@ pub(super) fn of(
     };
     let drawn =
         if left_out { format!(" {DRAWN} of {} points are drawn.", results.len()) } else { String::new() };
-    let caption = format!("{} over {}: {how} {BARS}{drawn}", group.title, name_of_key(varied.key));
+    let caption = format!("{} over {}: {how} {BARS}{drawn}", group.title, name_of_key(&varied.key));
     Figure::of(&chart, caption)
 }
 

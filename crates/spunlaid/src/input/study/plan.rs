@@ -1,7 +1,7 @@
 //! The plan of a study: its file, checked as far as it can be before its points are made.
 
-use super::super::document::AUTO;
 use super::super::entry::Entry;
+use super::super::overrides::AUTO;
 use super::super::values::integer;
 use super::super::write::quoted;
 use super::super::{FORMAT_VERSION, Overrides};
@@ -131,9 +131,11 @@ impl<'a> Reader<'a> {
     }
 
     /// Refuses keys that are both set and varied or linked.
-    fn check_once(&mut self, set: &[(String, String)], factors: &[Factor], links: &[Link]) {
-        let varied = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
-        for key in varied.filter(|key| set.iter().any(|(set, _)| set == key)) {
+    fn check_once(&mut self, base: &dyn Base, set: &[(String, String)], factors: &[Factor], links: &[Link]) {
+        let full = |name: &str| base.varied(name).map_or_else(|_| name.to_owned(), |key| key.name);
+        let set: Vec<String> = set.iter().map(|(name, _)| full(name)).collect();
+        let varied = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
+        for key in varied.filter(|key| set.contains(key)) {
             self.reject_whole(key, set_twice());
         }
     }
@@ -160,7 +162,7 @@ impl<'a> Reader<'a> {
         }
         let factors = self.factors(design, base);
         let links = self.links(&factors, base);
-        self.check_once(set, &factors, &links);
+        self.check_once(base, set, &factors, &links);
         if !self.problems.is_empty() {
             return None;
         }
@@ -188,5 +190,5 @@ impl<'a> Reader<'a> {
 
 /// The value of a factor before anything varies; NaN if it has none.
 pub(super) fn of_base(base: &dyn Base, factor: &Factor) -> f64 {
-    base.varied(factor.key).map_or(f64::NAN, |key| base.value(key))
+    base.varied(&factor.key).map_or(f64::NAN, |key| base.value(&key))
 }

@@ -1,8 +1,10 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
-use super::read::{Reading, SAME};
+use super::read::{BELT_SPEED, Reading, SAME, differs_from_case};
+use crate::case::keys;
 use crate::error::Fault;
-use crate::layers::{LaydownSource, LayerSpec, too_small};
+use crate::layers::keys::{WEB, without_numbers};
+use crate::layers::{LaydownSource, LayerSpec, WebKey, WebSpec, too_small};
 use crate::units::Dimension;
 use crate::web::{Edges, Filaments, Row, Sheet};
 use std::collections::BTreeMap;
@@ -27,25 +29,88 @@ impl Reading<'_> {
         }
     }
 
-    /// Refuses layers on belts of different speeds.
-    pub(super) fn check_belts(&mut self, prefixes: &[String], layers: &[Option<LayerSpec>]) {
-        let Some(first) = layers.first().and_then(|layer| Some(layer.as_ref()?.belt_speed)) else { return };
-        for (prefix, layer) in prefixes.iter().zip(layers).skip(1) {
-            let belt = layer.as_ref().map_or(first, |layer| layer.belt_speed);
-            if (belt / first - 1.0).abs() > SAME {
-                let key = format!("{prefix}line.belt_speed");
-                let [belt, first] = [belt, first].map(|speed| Dimension::Velocity.pretty(speed));
+    /// Gives every layer the speed of the belt, which is written in one layer or is that of a flown case.
+    pub(super) fn settle_belt(&mut self, prefixes: &[String], layers: &mut [LayerSpec]) {
+        let keys: Vec<String> = prefixes.iter().map(|prefix| format!("{prefix}{BELT_SPEED}")).collect();
+        // What a case says is kept, because its fibres are flown with it.
+        let is_known = |layer: &LayerSpec| !layer.belt_speed.is_nan();
+        let flown = layers.iter().position(|layer| is_known(layer) && layer.source.case().is_some());
+        let Some(first) = flown.or_else(|| layers.iter().position(is_known)) else {
+            let is_told = |key: &String| self.is_written(key) || self.written.is_excused(key);
+            if let Some(key) = keys.first().filter(|_| !keys.iter().any(is_told)) {
+                let (table, line) =
+                    key.rsplit_once('.').map_or(("", ""), |(table, _)| (table, "belt_speed = \"3 m/s\""));
+                self.written.reject(key, Fault::missing(&without_numbers(table), line));
+            }
+            return;
+        };
+        let (belt, source) = (layers[first].belt_speed, layers[first].source.clone());
+        for (number, layer) in layers.iter_mut().enumerate() {
+            let key = &keys[number];
+            if layer.belt_speed.is_nan() && !self.is_written(key) {
+                layer.belt_speed = belt;
+            } else if (layer.belt_speed / belt - 1.0).abs() > SAME {
+                self.refuse_belt(&prefixes[number], layer, (first + 1, belt, &source));
+            }
+            if layer.belt_speed > layer.feed_speed {
+                let [value, feed] =
+                    [layer.belt_speed, layer.feed_speed].map(|speed| Dimension::Velocity.pretty(speed));
                 let fault = Fault::new(
-                    format!("differs from the belt speed of layer 1, {first}"),
-                    "all layers lie on one belt",
+                    format!("is more than line.feed_speed = {feed}, which would tear the fibre"),
+                    "slow the belt, or feed faster",
                 );
-                self.refuse(&key, belt, fault);
+                self.refuse(key, value, fault);
             }
         }
     }
 
-    /// Checks a layer together with the sheet.
-    pub(super) fn check_layer(&mut self, prefix: &str, layer: &LayerSpec, sheet: &Sheet) {
+    /// Refuses a layer on another belt than that of the first layer that says its speed.
+    fn refuse_belt(
+        &mut self,
+        prefix: &str,
+        layer: &LayerSpec,
+        (first, belt, source): (usize, f64, &LaydownSource),
+    ) {
+        let key = format!("{prefix}{BELT_SPEED}");
+        let [own, other] = [layer.belt_speed, belt].map(|speed| Dimension::Velocity.pretty(speed));
+        match (&layer.source, source.case(), keys::find("belt.speed")) {
+            (LaydownSource::Surrogate(_), Some(_), Some(of_case)) => {
+                let fibres = format!("the fibres of layer {first}");
+                let fault = differs_from_case(of_case, &belt.into(), source.path(), &fibres);
+                self.written.reject(&key, fault);
+            }
+            (LaydownSource::Surrogate(_), ..) => {
+                let fault = Fault::new(
+                    format!(
+                        "differs from the belt speed of layer {first}, {other}, and all layers lie on one belt"
+                    ),
+                    "write it in one layer and leave it out of the others",
+                );
+                self.written.reject(&key, fault);
+            }
+            (LaydownSource::Case { .. } | LaydownSource::Results { .. }, ..) => {
+                let way = if matches!(layer.source, LaydownSource::Case { .. }) { "case" } else { "results" };
+                let fault = Fault::new(
+                    format!(
+                        "has belt.speed = {own}, but layer {first} is flown with {other}, and all layers lie on one belt"
+                    ),
+                    "give all cases the same belt.speed",
+                );
+                self.written.reject(&format!("{prefix}laydown.{way}"), fault);
+            }
+        }
+    }
+
+    /// Checks a layer together with the sheet, if both are known.
+    ///
+    /// * `web` – the web of this layer alone
+    pub(super) fn check_layer(&mut self, prefix: &str, web: &WebSpec) {
+        let (sheet, Some(layer)) = (&web.sheet, web.layers.first()) else { return };
+        let is_known =
+            |key: &WebKey| key.get(web).and_then(|value| value.number()).is_none_or(|value| !value.is_nan());
+        if !WEB.rows.iter().all(is_known) {
+            return;
+        }
         match &layer.filaments {
             Filaments::AtRandom { per_metre } if (per_metre * sheet.width).round() < 1.0 => {
                 let least = (0.5 / sheet.width).ceil() as u64;
@@ -58,7 +123,7 @@ impl Reading<'_> {
             }
             Filaments::AtRandom { .. } => {}
             Filaments::Rows(rows) => {
-                for (number, row) in (1..).zip(rows) {
+                for (number, row) in (1..).zip(rows).filter(|(_, row)| row.filaments > 0) {
                     self.check_row(&format!("{prefix}line.rows.{number}."), row, sheet);
                 }
             }
