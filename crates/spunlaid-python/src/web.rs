@@ -1,6 +1,6 @@
 //! `lay_web`: lays a web of many filaments, and `LaidWeb`, what is found of it.
 
-use crate::value::web_overrides;
+use crate::value::overrides;
 use crate::watched::{Watch, guarded, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -40,7 +40,7 @@ pub(crate) fn lay_web(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<LaidWeb> {
-    let changes = web_overrides(changes)?;
+    let changes = overrides(changes)?;
     let of = Overrides { values: &changes, word: "web:" };
     let (name, file) = match path {
         Some(path) => {

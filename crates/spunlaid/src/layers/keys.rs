@@ -203,7 +203,8 @@ pub const WEB_KEYS: &[WebKey] = &[
         .label("Feed speed"),
     positive("line.belt_speed", Dimension::Velocity, of_layer!(belt_speed))
         .required("3 m/s")
-        .meaning("Speed of the belt, the same for all layers. With `laydown.case` or `laydown.results` it is that of the case.")
+        .meaning("Speed of the belt. It is written once, in any of the layers, because all lie on one belt. With `laydown.case` or \
+             `laydown.results` it is that of the case.")
         .label("Belt speed"),
     key("line.filaments_per_metre", Kind::Whole(1, MOST_FILAMENTS), Access {
         get: |web| match layer(web)?.filaments {
@@ -336,7 +337,9 @@ pub(crate) fn diameter(linear_density: f64, density: f64) -> f64 {
 /// The key of a full name, `layer.2.line.rows.1.pitch`.
 pub fn web_key(full: &str) -> Option<&'static WebKey> {
     let name = without_numbers(full);
-    WEB.find(&name).or_else(|| WEB.find(name.strip_prefix("layer.")?))
+    let in_layer = || name.strip_prefix("layer.");
+    let in_named_layer = || in_layer()?.split_once('.').map(|(_, rest)| rest);
+    WEB.find(&name).or_else(|| WEB.find(in_layer()?)).or_else(|| WEB.find(in_named_layer()?))
 }
 
 /// The full name of a key that a user has named, with the number of its layer in place of the layer's name.

@@ -89,6 +89,10 @@ pub enum LaydownSource {
 }
 
 impl LaydownSource {
+    /// Numbers of a surrogate that are not known yet.
+    pub(crate) const UNKNOWN: Self =
+        Self::Surrogate(Surrogate { sigma_md: f64::NAN, sigma_cd: f64::NAN, noise: f64::NAN });
+
     /// The case of the flown fibres, if there is one.
     pub fn case(&self) -> Option<&Case> {
         match self {
@@ -107,6 +111,14 @@ impl LaydownSource {
 }
 
 impl LayerSpec {
+    /// A layer whose keys are set one after another.
+    pub(crate) fn unknown(source: LaydownSource) -> Self {
+        let nan = f64::NAN;
+        let (diameter, density, feed_speed, belt_speed) = (nan, nan, nan, nan);
+        let filaments = Filaments::Rows(Vec::new());
+        Self { name: None, diameter, density, source, feed_speed, belt_speed, filaments }
+    }
+
     /// Mass per length of a filament [kg/m].
     pub fn linear_density(&self) -> f64 {
         0.25 * PI * self.diameter * self.diameter * self.density
@@ -126,6 +138,13 @@ impl LayerSpec {
 }
 
 impl WebSpec {
+    /// A web without layers, whose keys are set one after another.
+    pub(crate) const fn unknown() -> Self {
+        let nan = f64::NAN;
+        let sheet = Sheet { width: nan, length: nan, cell: nan, patches: Vec::new(), edges: Edges::Periodic };
+        Self { sheet, layers: Vec::new(), seed: 0, method: Method::Surrogate, window: nan }
+    }
+
     /// The web of one of its layers alone.
     pub fn alone(&self, layer: usize) -> Self {
         Self { layers: self.layers.get(layer).cloned().into_iter().collect(), ..self.clone() }

@@ -27,7 +27,7 @@ noise = "15 m^-0.5"
 [line]
 feed_speed = "50 m/s"
 belt_speed = "5 m/s"
-rows = [{ offset = "10 mm", pitch = "5 mm", filaments = 20 }, { offset = "20 mm", pitch = "5 mm", filaments = 15 }]
+rows = [{ offset = "10 mm", pitch = "5 mm", filaments = 40 }, { offset = "20 mm", pitch = "5 mm", filaments = 50 }]
 [web]
 width = "300 mm"
 length = "300 mm"

@@ -50,7 +50,7 @@ pub fn web_beside_cases(web: &str, set: &[(String, String)]) -> Result<WebFile, 
     parse_web(web, BESIDE_CASES, set)
 }
 
-const BESIDE_CASES: &str = "tests/bad_webs/web.toml";
+const BESIDE_CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/bad_webs/web.toml");
 
 /// The only layer of a point's web.
 fn layer(point: &Point) -> &spunlaid::input::LayerSpec {

@@ -1,7 +1,6 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
-use super::read::{BELT_SPEED, Reading, SAME, differs_from_case};
-use crate::case::keys;
+use super::read::{BELT_SPEED, Reading, SAME};
 use crate::error::Fault;
 use crate::layers::keys::{WEB, without_numbers};
 use crate::layers::{LaydownSource, LayerSpec, WebKey, WebSpec, too_small};
@@ -32,71 +31,45 @@ impl Reading<'_> {
     /// Gives every layer the speed of the belt, which is written in one layer or is that of a flown case.
     pub(super) fn settle_belt(&mut self, prefixes: &[String], layers: &mut [LayerSpec]) {
         let keys: Vec<String> = prefixes.iter().map(|prefix| format!("{prefix}{BELT_SPEED}")).collect();
-        // What a case says is kept, because its fibres are flown with it.
-        let is_known = |layer: &LayerSpec| !layer.belt_speed.is_nan();
-        let flown = layers.iter().position(|layer| is_known(layer) && layer.source.case().is_some());
-        let Some(first) = flown.or_else(|| layers.iter().position(is_known)) else {
-            let is_told = |key: &String| self.is_written(key) || self.written.is_excused(key);
-            if let Some(key) = keys.first().filter(|_| !keys.iter().any(is_told)) {
-                let (table, line) =
-                    key.rsplit_once('.').map_or(("", ""), |(table, _)| (table, "belt_speed = \"3 m/s\""));
-                self.written.reject(key, Fault::missing(&without_numbers(table), line));
+        // Flown fibres come first, because they would lie otherwise on another belt.
+        let known = (0..layers.len()).filter(|&layer| !layers[layer].belt_speed.is_nan());
+        let Some(first) = known.min_by_key(|&layer| layers[layer].source.case().is_none()) else {
+            let is_there = |key: &String| self.is_written(key) || self.written.is_excused(key);
+            if let Some(key) = keys.first().filter(|_| !keys.iter().any(is_there)) {
+                let table = without_numbers(key.trim_end_matches(".belt_speed"));
+                self.written.reject(key, Fault::missing(&table, "belt_speed = \"3 m/s\""));
             }
             return;
         };
-        let (belt, source) = (layers[first].belt_speed, layers[first].source.clone());
-        for (number, layer) in layers.iter_mut().enumerate() {
-            let key = &keys[number];
-            if layer.belt_speed.is_nan() && !self.is_written(key) {
+        let LayerSpec { belt_speed: belt, source, .. } = layers[first].clone();
+        for ((layer, prefix), key) in layers.iter_mut().zip(prefixes).zip(&keys) {
+            let is_written = self.is_written(key);
+            if layer.belt_speed.is_nan() && !is_written {
                 layer.belt_speed = belt;
-            } else if (layer.belt_speed / belt - 1.0).abs() > SAME {
-                self.refuse_belt(&prefixes[number], layer, (first + 1, belt, &source));
+            }
+            let [own, feed, first_belt] =
+                [layer.belt_speed, layer.feed_speed, belt].map(|speed| Dimension::Velocity.pretty(speed));
+            if (layer.belt_speed / belt - 1.0).abs() > SAME {
+                let whose =
+                    if is_written { String::new() } else { format!("has belt.speed = {own}, which ") };
+                let message = format!(
+                    "{whose}differs from the belt speed of layer {}, {first_belt}, and all layers lie on one belt",
+                    first + 1
+                );
+                let remedy = match source.case() {
+                    _ if !is_written => "give all cases the same belt.speed".to_owned(),
+                    Some(_) => {
+                        format!("leave it out here, and set belt.speed in {}", source.path().display())
+                    }
+                    None => "write it in one layer and leave it out of the others".to_owned(),
+                };
+                let ways = ["case", "results"].map(|way| format!("{prefix}laydown.{way}"));
+                let way = ways.iter().find(|way| self.is_written(way)).filter(|_| !is_written);
+                self.written.reject(way.unwrap_or(key), Fault::new(message, remedy));
             }
             if layer.belt_speed > layer.feed_speed {
-                let [value, feed] =
-                    [layer.belt_speed, layer.feed_speed].map(|speed| Dimension::Velocity.pretty(speed));
-                let fault = Fault::new(
-                    format!("is more than line.feed_speed = {feed}, which would tear the fibre"),
-                    "slow the belt, or feed faster",
-                );
-                self.refuse(key, value, fault);
-            }
-        }
-    }
-
-    /// Refuses a layer on another belt than that of the first layer that says its speed.
-    fn refuse_belt(
-        &mut self,
-        prefix: &str,
-        layer: &LayerSpec,
-        (first, belt, source): (usize, f64, &LaydownSource),
-    ) {
-        let key = format!("{prefix}{BELT_SPEED}");
-        let [own, other] = [layer.belt_speed, belt].map(|speed| Dimension::Velocity.pretty(speed));
-        match (&layer.source, source.case(), keys::find("belt.speed")) {
-            (LaydownSource::Surrogate(_), Some(_), Some(of_case)) => {
-                let fibres = format!("the fibres of layer {first}");
-                let fault = differs_from_case(of_case, &belt.into(), source.path(), &fibres);
-                self.written.reject(&key, fault);
-            }
-            (LaydownSource::Surrogate(_), ..) => {
-                let fault = Fault::new(
-                    format!(
-                        "differs from the belt speed of layer {first}, {other}, and all layers lie on one belt"
-                    ),
-                    "write it in one layer and leave it out of the others",
-                );
-                self.written.reject(&key, fault);
-            }
-            (LaydownSource::Case { .. } | LaydownSource::Results { .. }, ..) => {
-                let way = if matches!(layer.source, LaydownSource::Case { .. }) { "case" } else { "results" };
-                let fault = Fault::new(
-                    format!(
-                        "has belt.speed = {own}, but layer {first} is flown with {other}, and all layers lie on one belt"
-                    ),
-                    "give all cases the same belt.speed",
-                );
-                self.written.reject(&format!("{prefix}laydown.{way}"), fault);
+                let message = format!("is more than line.feed_speed = {feed}, which would tear the fibre");
+                self.refuse(key, own, Fault::new(message, "slow the belt, or feed faster"));
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::super::data::DataFiles;
 use super::super::{Overrides, file, parse_with};
-use super::read::{Reading, UNKNOWN};
+use super::read::Reading;
 use crate::case::Case;
 use crate::case::keys::Value;
 use crate::error::{Error, Fault, FileKind, Place};
@@ -66,7 +66,7 @@ impl Reading<'_> {
                 self.written.reject(&full, Fault::missing(&table, line));
             }
         }
-        UNKNOWN
+        LaydownSource::UNKNOWN
     }
 
     fn case(&mut self, key: &str) -> Result<Option<LaydownSource>, Error> {

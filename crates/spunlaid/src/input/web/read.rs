@@ -9,8 +9,7 @@ use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding};
 use crate::layers::keys::{WEB, web_key, without_numbers};
 use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
-use crate::surrogate::Surrogate;
-use crate::web::{Edges, Filaments, Row, Sheet};
+use crate::web::{Filaments, Row};
 use std::path::{Path, PathBuf};
 
 /// The key of the only thing that all layers have in common.
@@ -41,7 +40,7 @@ pub(super) fn spec(
 ) -> Result<(WebSpec, Vec<Note>), Error> {
     let folder = Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
     let mut reading = Reading { written, folder, of_case, cases, notes: Vec::new() };
-    let (mut web, prefixes) = (blank(), reading.prefixes());
+    let (mut web, prefixes) = (WebSpec::unknown(), reading.prefixes());
     for prefix in &prefixes {
         let layer = reading.layer(prefix)?;
         web.layers.push(layer);
@@ -69,30 +68,12 @@ pub(super) fn spec(
     Err(sorted(written.problems).into())
 }
 
-/// A web without layers, whose keys are set one after another.
-const fn blank() -> WebSpec {
-    let nan = f64::NAN;
-    let sheet = Sheet { width: nan, length: nan, cell: nan, patches: Vec::new(), edges: Edges::Periodic };
-    WebSpec { sheet, layers: Vec::new(), seed: 0, method: Method::Surrogate, window: nan }
-}
-
-/// A layer whose keys are set one after another.
-fn blank_layer(source: LaydownSource) -> LayerSpec {
-    let (nan, filaments) = (f64::NAN, Filaments::Rows(Vec::new()));
-    let (diameter, density, feed_speed, belt_speed) = (nan, nan, nan, nan);
-    LayerSpec { name: None, diameter, density, source, feed_speed, belt_speed, filaments }
-}
-
 /// Changes a layer through the keys, which are those of a web.
 fn as_web(layer: &mut LayerSpec, change: impl FnOnce(&mut WebSpec)) {
-    let mut web = WebSpec { layers: vec![layer.clone()], ..blank() };
+    let mut web = WebSpec { layers: vec![layer.clone()], ..WebSpec::unknown() };
     change(&mut web);
     web.layers.into_iter().for_each(|changed| *layer = changed);
 }
-
-/// Numbers of a surrogate that are not known yet.
-pub(super) const UNKNOWN: LaydownSource =
-    LaydownSource::Surrogate(Surrogate { sigma_md: f64::NAN, sigma_cd: f64::NAN, noise: f64::NAN });
 
 impl Reading<'_> {
     /// What comes before the names of each layer's keys: `layer.2.`, or nothing in a file without `[[layer]]`.
@@ -189,7 +170,7 @@ impl Reading<'_> {
             }
         }
         let numbers = matches!(source, Some(LaydownSource::Surrogate(_)));
-        let mut layer = blank_layer(source.unwrap_or(UNKNOWN));
+        let mut layer = LayerSpec::unknown(source.unwrap_or(LaydownSource::UNKNOWN));
         as_web(&mut layer, |web| {
             self.fill(web, "layer", prefix);
             for table in ["fibre", "laydown", "line"].iter().filter(|table| **table != "laydown" || numbers) {
@@ -215,8 +196,14 @@ impl Reading<'_> {
                 let linear = format!("{prefix}fibre.linear_density");
                 let by_linear = key.name == "fibre.diameter" && self.is_written(&linear);
                 let full = if by_linear { linear } else { format!("{prefix}{}", key.name) };
-                let path = web.layers.first().map_or(Path::new(""), |layer| layer.source.path());
-                self.written.reject(&full, differs_from_case(of_case, &value, path, "the fibres"));
+                let path = web.layers.first().map_or(Path::new(""), |layer| layer.source.path()).display();
+                let message = format!(
+                    "differs from {} = {} of {path}, with which the fibres are flown, and they would lie otherwise",
+                    of_case.name,
+                    of_case.kind.pretty(&value)
+                );
+                let remedy = "leave it out here, and set it in the case";
+                self.written.reject(&full, Fault::new(message, remedy));
             }
             // The kinds of both keys are the same.
             drop(key.apply(web, &value));
@@ -243,7 +230,10 @@ impl Reading<'_> {
         let count = self.written.number(&rows).unwrap_or(0.0) as u64;
         let row = |number| {
             let row = Row { offset: f64::NAN, pitch: f64::NAN, filaments: 0 };
-            let mut layer = LayerSpec { filaments: Filaments::Rows(vec![row]), ..blank_layer(UNKNOWN) };
+            let mut layer = LayerSpec {
+                filaments: Filaments::Rows(vec![row]),
+                ..LayerSpec::unknown(LaydownSource::UNKNOWN)
+            };
             as_web(&mut layer, |web| self.fill(web, "line.rows", &format!("{rows}.{number}.")));
             match layer.filaments {
                 Filaments::Rows(rows) => rows.first().copied(),
@@ -273,15 +263,4 @@ impl Reading<'_> {
 fn flown(web: &WebSpec, key: &WebKey) -> Option<(&'static Key, Value)> {
     let of_case = key.of_case()?;
     Some((of_case, of_case.get(web.layers.first()?.source.case()?)?))
-}
-
-/// The fault of a value that is another than that of the case with which fibres are flown.
-pub(super) fn differs_from_case(of_case: &Key, value: &Value, case: &Path, fibres: &str) -> Fault {
-    let (key, value, case) = (of_case.name, of_case.kind.pretty(value), case.display());
-    Fault::new(
-        format!(
-            "differs from {key} = {value} of {case}, with which {fibres} are flown, and they would lie otherwise"
-        ),
-        "leave it out here, and set it in the case",
-    )
 }
