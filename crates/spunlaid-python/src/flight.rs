@@ -52,7 +52,7 @@ impl Flight {
             let starts = (0..fibres).step_by(WIDTH);
             let pack = |first: u64| {
                 let last = fibres.min(first + WIDTH as u64);
-                let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case: of, replicate }).collect();
+                let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job::new(of, replicate)).collect();
                 flight::Flight::new(&jobs, Isa::detect())
             };
             starts.map(pack).collect::<Result<Vec<_>, Failure>>()

@@ -13,7 +13,7 @@ fn main() {
     let changes = [("run.scheme", "implicit-tension"), ("run.time_step", "500 µs")];
     let changes = changes.map(|(key, value)| (key.to_owned(), value.to_owned()));
     let (case, _) = read_case(Path::new("cases/table1.toml"), &changes).expect("the case of the repository");
-    let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job { case: &case, replicate }).collect();
+    let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job::new(&case, replicate)).collect();
     let mut flight = Flight::new(&jobs, Isa::detect()).expect("cases that fly together");
     flight.step_to(seconds).expect("a flight that stays finite");
     let amplitude = (0..8).map(|lane| flight.end_node().motion(lane, seconds).amplitude_y).sum::<f64>() / 8.0;

@@ -37,7 +37,7 @@ fn main() {
             Ok((case, _)) => {
                 let mut worst: f64 = 0.0;
                 let driven = case.driving_speed();
-                let jobs: Vec<_> = (0..8).map(|replicate| Job { case: &case, replicate }).collect();
+                let jobs: Vec<_> = (0..8).map(|replicate| Job::new(&case, replicate)).collect();
                 let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
                 let instants = case.run.steps / case.run.output_steps;
                 let mut end = Ok(());

@@ -61,6 +61,11 @@ impl<T> PerLane<T> {
         PerLane(self.0.iter().map(value).collect())
     }
 
+    /// What follows from each together with the same fibre's entry of another kind.
+    pub(crate) fn zip<U, V>(&self, other: &PerLane<U>, value: impl Fn(&T, &U) -> V) -> PerLane<V> {
+        PerLane(self.0.iter().enumerate().map(|(lane, entry)| value(entry, other.of(lane))).collect())
+    }
+
     /// Whether something holds for any of them.
     pub(crate) fn any(&self, holds: impl Fn(&T) -> bool) -> bool {
         self.0.iter().any(holds)

@@ -29,6 +29,16 @@ impl Root {
     }
 }
 
+/// Where the root of a fibre is, across the flow. The fibre's own coordinates begin there; the air is looked up at the sum of
+/// the two. The mean flow is the same for all `z`, the turbulence is not.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    /// Distance from the middle of the slot along the machine direction [m].
+    pub y: f64,
+    /// Distance from the first fibre along the cross direction [m].
+    pub z: f64,
+}
+
 /// A fibre of elements with equal rest length, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre {

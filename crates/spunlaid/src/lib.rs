@@ -61,6 +61,8 @@ pub mod units;
 
 pub mod error;
 
+mod threads;
+
 mod company;
 
 mod file;

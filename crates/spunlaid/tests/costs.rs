@@ -78,7 +78,7 @@ fn flights(case: &Case) -> (Vec<Trajectory>, u64) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
         Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
-    let jobs: Vec<Job<'_>> = (0..case.run.replicates).map(|replicate| Job { case, replicate }).collect();
+    let jobs: Vec<Job<'_>> = (0..case.run.replicates).map(|replicate| Job::new(case, replicate)).collect();
     let flights = fly_together(&jobs, Keep::SAMPLES, computing).expect("the case flies");
     (flights, fibre_steps.into_inner())
 }
@@ -227,7 +227,7 @@ fn memory_of_a_flight_does_not_grow_with_its_recorded_instants() {
             fibre_steps: &fibre_steps,
             recorder: None,
         };
-        let jobs = [0, 1].map(|replicate| Job { case: &case, replicate });
+        let jobs = [0, 1].map(|replicate| Job::new(&case, replicate));
         let (flown, memory) =
             memory_of(|| fly_together(&jobs, Keep::CURVES, computing).expect("the case flies"));
         assert!(flown.iter().all(|flight| flight.samples.is_empty()));
@@ -261,7 +261,7 @@ fn statistics_keep_a_few_numbers_of_each_flight_however_long() {
 #[test]
 fn memory_of_a_flight_does_not_grow_with_its_time() {
     let case = table1(Scheme::ImplicitTension, 5e-4, 1.0, WIDTH as u64);
-    let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case: &case, replicate }).collect();
+    let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job::new(&case, replicate)).collect();
     let mut flight = Flight::new(&jobs, Isa::detect()).expect("the case flies");
     // 256 harmonics of 100 Hz: windows follow one another every 1.92 s.
     flight.step_to(4.0).expect("the case flies");

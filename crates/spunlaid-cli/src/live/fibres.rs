@@ -33,7 +33,7 @@ impl Fibres {
     /// # Errors
     /// Those of [`Flight::new`].
     pub(super) fn new(case: Case) -> Result<Self, Error> {
-        let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case: &case, replicate }).collect();
+        let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job::new(&case, replicate)).collect();
         let flight = Flight::new(&jobs, Isa::detect())?;
         let seen = flight.snapshot();
         Ok(Self { flight, case, done: 0, seen })
@@ -187,7 +187,7 @@ mod tests {
             times.len() > 70 && times.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-12),
             "{times:?}"
         );
-        let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job { case: &case, replicate }).collect();
+        let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job::new(&case, replicate)).collect();
         let mut other = Flight::new(&jobs, Isa::detect()).unwrap();
         other.step_to(fibres.flight().time()).unwrap();
         assert_eq!(other.chain().position.last(), fibres.flight().chain().position.last());

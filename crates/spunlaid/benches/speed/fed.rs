@@ -56,7 +56,7 @@ fn case(name: &str, set: &[(&str, String)]) -> Case {
 
 /// Eight fibres after their start.
 fn flight(case: &Case) -> Flight {
-    let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case, replicate }).collect();
+    let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job::new(case, replicate)).collect();
     let mut flight = Flight::new(&jobs, Isa::detect()).expect("a case that flies");
     flight.advance((DOWN / case.run.time_step) as u64);
     flight

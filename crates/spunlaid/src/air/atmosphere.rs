@@ -9,10 +9,10 @@
 //! own: it may belong to one flight, or be a handle to what many flights read. Velocities that are all written into a buffer
 //! beforehand cost up to a seventh of a step: the signals of many eddies do not fit into the first-level cache.
 
+use super::at_elements::OnTheWay;
 use super::eddy_wind::{InEddies, LastEddy};
-use super::stations::OnTheWay;
 use super::surroundings::InFlow;
-use super::{Eddies, EddyWind, Stations, Surroundings, Wind};
+use super::{AirInSpace, Eddies, EddyWind, Stations, Surroundings, Wind};
 use crate::error::{Error, Fault};
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
@@ -28,6 +28,8 @@ pub enum Atmosphere {
     Flow(EddyWind, Surroundings),
     /// The air along the way of fed fibres, with a signal for each station.
     Way(Wind, Stations),
+    /// Fields of eddies in space, which fibres side by side may share.
+    Space(AirInSpace),
 }
 
 /// The velocities of the air at the elements at one instant.
@@ -116,6 +118,7 @@ impl Atmosphere {
             Self::Uniform(air) => Velocities::Uniform(air.look(time)),
             Self::Flow(air, flow) => Velocities::Flow(air.look(time), flow.look(step, position)),
             Self::Way(wind, stations) => Velocities::Way(stations.look(step, time, wind, position)),
+            Self::Space(air) => Velocities::Way(air.look(step, time, position)),
         }
     }
 
@@ -135,6 +138,9 @@ impl Atmosphere {
         if let Self::Flow(_, flow) = self {
             fits("surrounding flow", "elements", flow.elements(), elements)?;
         }
+        if let Self::Space(air) = self {
+            fits("air in space", "elements", air.elements(), elements)?;
+        }
         Ok(())
     }
 
@@ -144,6 +150,8 @@ impl Atmosphere {
             Self::Uniform(EddyWind { wind, .. })
             | Self::Flow(EddyWind { wind, .. }, _)
             | Self::Way(wind, _) => wind.prepare(),
+            // Made at the first look.
+            Self::Space(_) => {}
         }
     }
 
@@ -153,13 +161,16 @@ impl Atmosphere {
             Self::Uniform(_) => {}
             Self::Flow(_, flow) => flow.forget(),
             Self::Way(_, stations) => stations.forget(),
+            Self::Space(air) => air.forget(),
         }
     }
 
     /// Follows fibres that have grown at their roots and become shorter at their ends to so many elements.
     pub(crate) fn follow(&mut self, elements: usize, born: bool) {
-        if let Self::Way(_, stations) = self {
-            stations.follow(elements, born);
+        match self {
+            Self::Way(_, stations) => stations.follow(elements, born),
+            Self::Space(air) => air.follow(elements, born),
+            Self::Uniform(_) | Self::Flow(..) => {}
         }
     }
 
@@ -169,6 +180,7 @@ impl Atmosphere {
             (Self::Uniform(one), Self::Uniform(other)) => one.eddies == other.eddies,
             (Self::Flow(one, _), Self::Flow(other, _)) => one.eddies == other.eddies,
             (Self::Way(one, _), Self::Way(other, _)) => one.eddies() == other.eddies(),
+            (Self::Space(_), Self::Space(_)) => true,
             _ => false,
         }
     }
@@ -184,6 +196,7 @@ impl Atmosphere {
                 *wind = new_wind;
                 stations.change(new_stations);
             }
+            (Self::Space(air), Self::Space(by)) => air.change(by),
             (air, by) => *air = by,
         }
     }
@@ -194,6 +207,7 @@ impl Atmosphere {
             Self::Uniform(_) => None,
             Self::Flow(_, flow) => Some(flow.outside(lane)),
             Self::Way(_, stations) => stations.outside(lane),
+            Self::Space(air) => air.outside(lane),
         }
     }
 }

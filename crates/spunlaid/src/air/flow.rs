@@ -52,6 +52,11 @@ impl Flow {
         }
     }
 
+    /// Whether it is a CFD solution.
+    pub(crate) const fn is_field(&self) -> bool {
+        matches!(self, Self::Field(_))
+    }
+
     /// Which numbers the flow contains besides the velocity.
     pub fn tells(&self) -> FromFlow {
         match self {

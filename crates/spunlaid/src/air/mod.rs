@@ -7,13 +7,17 @@
 //! Atmosphere → the velocity at each element at a time, from all of these
 //! ```
 
+mod at_elements;
 mod atmosphere;
 mod dry_air;
 mod eddies;
+mod eddy_field;
 mod eddy_turbulence;
 mod eddy_wind;
 mod flow;
 mod from_file;
+mod in_space;
+mod lateral;
 mod measured;
 mod placed_field;
 mod profile;
@@ -26,11 +30,14 @@ pub use atmosphere::Atmosphere;
 pub(crate) use atmosphere::{Instant, Velocities, VelocityAt, VelocityTask, misfit};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
 pub use eddies::{Eddies, EddyModel};
+pub use eddy_field::{EddyField, Extent};
 pub use eddy_turbulence::EddyTurbulence;
 pub use eddy_wind::EddyWind;
 pub(crate) use eddy_wind::LastEddy;
 pub use flow::{Flow, FromFlow, LocalAir};
 pub use from_file::FromFile;
+pub use in_space::AirInSpace;
+pub use lateral::{Lateral, Widening};
 pub use measured::{APART, Measured, RecordLayout, RecordNumbers};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
@@ -71,6 +78,10 @@ pub struct Air {
     pub spectrum: SpectrumShape,
     /// How the turbulence is related along the fibre.
     pub eddies: EddyModel,
+    /// How the turbulence differs across the flow.
+    pub lateral: Lateral,
+    /// Where the mean flow of a profile widens as it slows.
+    pub widening: Widening,
     /// Records of the fluctuation, one for all eddies or one for each; empty if the fluctuation is synthesised.
     pub records: Vec<FromFile<Measured>>,
 }
@@ -104,6 +115,8 @@ impl Air {
             speed_factor: 1.0,
             spectrum: SpectrumShape::Flat,
             eddies: EddyModel::Independent,
+            lateral: Lateral::Uniform,
+            widening: Widening::None,
             records: Vec::new(),
         };
         air.harmonics = air.default_harmonics(1.0);

@@ -7,11 +7,12 @@
 //! A fed element does not stay with an eddy: it feels the air of the place where it is. Between two stations the signal
 //! is interpolated with weights that keep its variance.                                           theory.md (64)
 
+use super::at_elements::{AirAtElements, OnTheWay};
 use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Wind};
 use crate::company::{PerLane, shared};
+use crate::fibre::Place;
 use crate::field::Hint;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, indices};
-use crate::nodes::Nodes;
 use crate::vec3::Vec3;
 
 /// Most stations along the way.
@@ -108,15 +109,6 @@ impl Way {
     }
 }
 
-/// The air at an element of eight fibres.
-#[derive(Clone, Copy, Debug)]
-struct ElementAir {
-    /// Velocity at the last look [m/s].
-    value: Vec3<Lanes>,
-    /// Its rise in a step [m/s].
-    rise: Vec3<Lanes>,
-}
-
 /// The air along the way of up to eight fed fibres, and at their elements.
 #[derive(Clone, Debug)]
 pub struct Stations {
@@ -127,18 +119,23 @@ pub struct Stations {
     still: Vec<[Lanes; 2]>,
     /// `2(1−ρ)` with the correlation `ρ` of a station's signal and the next one's.
     apart: Vec<Lanes>,
-    looked: bool,
     /// Of each station, at the last look, in each lane: fluctuation, and mean velocity along x [m/s].
     now: Vec<[[f64; 4]; WIDTH]>,
-    elements: Nodes<ElementAir>,
+    elements: AirAtElements,
     /// The mean flow and the rms in a field.
     field: Option<Surroundings>,
 }
 
 impl Stations {
     /// * `lanes` – air and stations of each fibre
+    /// * `places` – of the fibres' roots
     /// * `elements` – number of elements at the start
-    pub(crate) fn new(way: Way, lanes: &PerLane<(Air, StationGrid)>, elements: usize) -> Self {
+    pub(crate) fn new(
+        way: Way,
+        lanes: &PerLane<(Air, StationGrid)>,
+        places: &PerLane<Place>,
+        elements: usize,
+    ) -> Self {
         let mut hint = Hint::default();
         let here = lanes.map(|(air, grid)| {
             let still = (0..way.stations).map(|k| {
@@ -162,17 +159,16 @@ impl Stations {
             true => here.lanes(|(_, correlations)| 2.0 * (1.0 - correlations[k])),
             false => Lanes::ZERO,
         };
-        let field = way
-            .in_field
-            .then(|| Surroundings::around_elements(lanes.map(|(air, _)| air.clone()), elements, way.every));
-        let nothing = ElementAir { value: Vec3::ZERO, rise: Vec3::ZERO };
+        let field = way.in_field.then(|| {
+            let airs = lanes.zip(places, |(air, _), place| (air.clone(), *place));
+            Surroundings::around_elements(airs, elements, way.every)
+        });
         Self {
             per_length: lanes.lanes(|(_, grid)| 1.0 / grid.spacing),
             still: (0..way.stations).map(still).collect(),
             apart: (0..way.stations).map(apart).collect(),
-            looked: false,
             now: vec![[[0.0; 4]; WIDTH]; way.stations],
-            elements: vec![nothing; elements].into(),
+            elements: AirAtElements::new(elements, way.every),
             field,
             way,
         }
@@ -185,7 +181,7 @@ impl Stations {
 
     /// Forgets the looks so far.
     pub(crate) fn forget(&mut self) {
-        self.looked = false;
+        self.elements.forget();
         if let Some(field) = &mut self.field {
             field.forget();
         }
@@ -195,6 +191,7 @@ impl Stations {
     pub(crate) fn change(&mut self, by: Self) {
         let Self { way, per_length, still, apart, field, .. } = by;
         (self.way, self.per_length, self.still, self.apart) = (way, per_length, still, apart);
+        self.elements.every = self.way.every;
         if let (Some(field), Some(new)) = (&mut self.field, field) {
             field.change(new);
         }
@@ -202,10 +199,7 @@ impl Stations {
 
     /// Follows a chain that has grown at its root and become shorter at its end to so many elements.
     pub(crate) fn follow(&mut self, elements: usize, born: bool) {
-        if born {
-            self.elements.push_root(self.elements[0]);
-        }
-        self.elements.truncate(elements);
+        self.elements.follow(elements, born);
         if let Some(field) = &mut self.field {
             field.follow(elements, born);
         }
@@ -220,11 +214,10 @@ impl Stations {
         wind: &mut Wind,
         position: &[Vec3<Lanes>],
     ) -> OnTheWay<'_, S> {
-        let since = step % self.way.every;
-        if since == 0 {
+        if self.elements.is_look_due(step) {
             S::ISA.run(Look { stations: self, t, wind, position });
         }
-        OnTheWay { elements: &self.elements, steps: Wide::splat(since as f64) }
+        self.elements.now(step)
     }
 
     /// Keeps the velocity at a station, which has this signal.
@@ -258,11 +251,10 @@ impl Stations {
             field.look_up::<S>(position);
         }
         let (half, one) = (Wide::<S>::splat(0.5), Wide::splat(1.0));
-        // The first look has none before it to extrapolate from.
-        let per_step = Wide::splat(if self.looked { 1.0 / self.way.every as f64 } else { 0.0 });
+        let per_step = self.elements.per_step();
         let (per_length, last) = (Wide::load(&self.per_length), (self.way.stations - 1) as f64);
         let (end, before_end) = (Wide::splat(last), Wide::splat(last - 1.0));
-        for (j, (ends, here)) in position.windows(2).zip(self.elements.iter_mut()).enumerate() {
+        for (j, (ends, here)) in position.windows(2).zip(self.elements.each()).enumerate() {
             let centre = (Wide::<S>::load(&ends[0].x) + Wide::load(&ends[1].x)) * half;
             let place = (centre * per_length - half).max(Wide::zero());
             let place = Wide::select_less(place, end, place, end);
@@ -290,11 +282,9 @@ impl Stations {
                 flow = Vec3::new(Wide::load(u), Wide::load(v), Wide::load(w));
                 fluctuation = fluctuation * Wide::load(rms);
             }
-            let value = flow + fluctuation;
-            here.rise = ((value - Vec3::load(&here.value)) * per_step).store();
-            here.value = value.store();
+            here.keep(flow + fluctuation, per_step);
         }
-        self.looked = true;
+        self.elements.finish_look();
     }
 }
 
@@ -315,22 +305,6 @@ impl Task for Look<'_> {
     }
 }
 
-/// The air at the elements of fed fibres at one instant.
-pub(crate) struct OnTheWay<'a, S: Register> {
-    elements: &'a [ElementAir],
-    /// Steps since the last look.
-    steps: Wide<S>,
-}
-
-impl<S: Register> OnTheWay<'_, S> {
-    /// Velocity of the air at element `j` [m/s].
-    #[inline(always)]
-    pub(super) fn at(&self, j: usize) -> Vec3<Wide<S>> {
-        let ElementAir { value, rise } = &self.elements[j];
-        Vec3::load(rise).mul_add(self.steps, Vec3::load(value))
-    }
-}
-
 /// Longest time between two looks at the air [s]: fibre and air pass a quarter of a length scale.
 pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
     air.length_scale / air.velocity.abs().max(feed_speed) / LOOKS
@@ -338,7 +312,7 @@ pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{PerLane, StationGrid, Stations, Way};
+    use super::{PerLane, Place, StationGrid, Stations, Way};
     use crate::air::{Air, EddyModel, Stream, StreamKey, Wind};
     use crate::air::{Atmosphere, Instant, Velocities};
     use crate::lanes::{Isa, Lanes, Plain, WIDTH};
@@ -377,7 +351,8 @@ mod tests {
                 .map(|j| Vec3::splat(Vec3::new(place(j), 0.0, 0.0)))
                 .collect();
             let lanes = PerLane::new(vec![(air.clone(), grid)]).unwrap();
-            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, position.len() - 1);
+            let middle = PerLane::new(vec![Place::default()]).unwrap();
+            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, &middle, position.len() - 1);
             Self { grid, air: Atmosphere::Way(wind, stations), position, looks: 0 }
         }
 

@@ -3,6 +3,7 @@
 use super::Air;
 use crate::company::PerLane;
 use crate::error::Error;
+use crate::fibre::Place as RootPlace;
 use crate::field::{Around, Hint};
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::nodes::Nodes;
@@ -47,7 +48,7 @@ const UNKNOWN: Nearby = Nearby {
 /// The air around the elements of eight fibres.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
-    airs: PerLane<Air>,
+    airs: PerLane<(Air, RootPlace)>,
     places: Nodes<Place>,
     nearby: Nodes<Nearby>,
     /// Where each fibre's element was found last.
@@ -67,10 +68,11 @@ impl Surroundings {
     /// # Errors
     /// No air or more than eight.
     pub fn new(airs: Vec<Air>, elements: usize, every: u64) -> Result<Self, Error> {
-        Ok(Self::around_elements(PerLane::new(airs)?, elements, every))
+        let middle = |air| (air, RootPlace::default());
+        Ok(Self::around_elements(PerLane::new(airs.into_iter().map(middle).collect())?, elements, every))
     }
 
-    pub(crate) fn around_elements(airs: PerLane<Air>, elements: usize, every: u64) -> Self {
+    pub(crate) fn around_elements(airs: PerLane<(Air, RootPlace)>, elements: usize, every: u64) -> Self {
         let every = every.max(1);
         let places = vec![Place::default(); elements].into();
         let nearby = vec![UNKNOWN; elements].into();
@@ -166,7 +168,9 @@ impl Surroundings {
         let (nearby, hints) = (&mut self.nearby[element], &mut self.hints[element]);
         for (lane, hint) in hints.iter_mut().enumerate().filter(|(lane, _)| beyond.0[*lane] > 0.0) {
             let at = centre.lane(lane);
-            let Around { value, gradients, reach, inside } = self.airs.of(lane).around(at, hint);
+            let (air, root) = self.airs.of(lane);
+            let in_slot = Vec3::new(at.x, at.y + root.y, at.z);
+            let Around { value, gradients, reach, inside } = air.around(in_slot, hint);
             nearby.at.set_lane(lane, at);
             nearby.reach.0[lane] = reach;
             nearby.outside.0[lane] = if inside { 0.0 } else { 1.0 };

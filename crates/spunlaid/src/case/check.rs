@@ -4,7 +4,7 @@ use super::keys::{self, finding};
 use super::memory::FLIGHT_MEMORY_LIMIT;
 use super::note::Note;
 use super::{Case, FEEDING, StepLimit};
-use crate::air::{FromFile, Measured};
+use crate::air::{FromFile, Lateral, Measured};
 use crate::chain::schemes::Scheme;
 use crate::error::{self, Fault, Finding, Place, Problem};
 use crate::fibre::Root;
@@ -42,6 +42,7 @@ impl Case {
         if check.problems.is_empty() {
             check.memory();
             check.times();
+            check.shared_record();
             check.records();
         }
         if check.problems.is_empty() {
@@ -343,6 +344,17 @@ impl Check<'_> {
                 "shorten run.duration, lengthen air.length_scale or record for longer",
             );
             self.blame_key("air.record", format!("{}", record.path().display()), fault);
+        }
+    }
+
+    /// A field in space cannot be made from a record.
+    fn shared_record(&mut self) {
+        let lateral = self.case.air.lateral;
+        if lateral != Lateral::Uniform && !self.case.air.records.is_empty() {
+            let remedy = "a record is measured at one point and does not tell how the air differs across the flow; write \
+                          air.lateral = \"uniform\", or take the numbers and the spectrum of the record (spunlaid analyse) instead of it";
+            let fault = Fault::excludes("air.record", remedy);
+            self.blame_key("air.lateral", format!("\"{}\"", lateral.name()), fault);
         }
     }
 

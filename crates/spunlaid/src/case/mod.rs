@@ -15,11 +15,12 @@ pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
 pub(crate) use usual::unusual;
 
-use crate::air::{Air, Eddies, EddyTurbulence, StationGrid, time_between_looks};
+use crate::air::{Air, Eddies, EddyTurbulence, Extent, StationGrid, time_between_looks};
 use crate::chain::Strand;
 use crate::chain::schemes::Scheme;
 use crate::drag::Drag;
 use crate::fibre::Fibre;
+use crate::field::Hint;
 use crate::line::Line;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
@@ -177,6 +178,22 @@ impl Case {
     /// The stations of the air between inlet and belt; `None` for a fibre of fixed length.
     pub fn stations(&self) -> Option<StationGrid> {
         self.line.map(|line| self.air.stations(line.distance))
+    }
+
+    /// Length of the way along which the air is described, from the root to the belt or a little beyond the end of a fibre of
+    /// fixed length [m].
+    pub(crate) fn way_of_air(&self) -> f64 {
+        self.line.map_or(1.1 * self.fibre.length, |line| line.distance)
+    }
+
+    /// After what distances a field of eddies in space repeats itself: ten times the largest length scale on the way.
+    pub(crate) fn extent_of_air(&self) -> Extent {
+        const PLACES: usize = 64;
+        let mut hint = Hint::default();
+        let x = |i: usize| self.way_of_air() * i as f64 / PLACES as f64;
+        let scales = (0..=PLACES).map(|i| self.air.local(Vec3::new(x(i), 0.0, 0.0), &mut hint).length_scale);
+        let side = 10.0 * scales.fold(0.0, f64::max);
+        Extent { y: side, z: side }
     }
 
     /// The eddies along the fibre.

@@ -140,6 +140,6 @@ fn fly_one(
 ) -> Result<Vec<Result<Trajectory, Error>>, Error> {
     let first = index as u64 * WIDTH as u64;
     let last = case.run.replicates.min(first + WIDTH as u64);
-    let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job { case, replicate }).collect();
+    let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job::new(case, replicate)).collect();
     fly_each(&jobs, keep, computing)
 }

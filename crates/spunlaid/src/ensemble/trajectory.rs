@@ -266,7 +266,7 @@ fn fly_until_lost(
 pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     const TRIAL: f64 = 0.05;
     let steps = ((2e5 / case.fibre.elements as f64).clamp(1.0, 1e4) as u64).min(case.run.steps).max(1);
-    let mut flight = Flight::new(&[Job { case, replicate: 0 }], isa)?;
+    let mut flight = Flight::new(&[Job::new(case, 0)], isa)?;
     if let Some(line) = case.line {
         // Until the fibre has come down.
         let down = 1.5 * line.distance / line.feed_speed / case.run.time_step;

@@ -40,7 +40,7 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
     let eddies = case.eddies();
     let lanes = case.run.replicates.min(WIDTH as u64) as usize;
     let streams: Vec<Stream> =
-        (0..lanes as u64).map(|replicate| Job { case, replicate }.stream(&eddies)).collect();
+        (0..lanes as u64).map(|replicate| Job::new(case, replicate).stream(&eddies)).collect();
     let turbulence = streams.first().ok_or_else(Error::no_fibre)?.eddies.clone();
     // A fed fibre passes the stations on its way; some of them say as much as all.
     let most = if case.line.is_some() { STATIONS } else { usize::MAX };

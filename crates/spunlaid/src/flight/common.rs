@@ -40,6 +40,8 @@ shared! {
         way: Option<Way>,
         eddies: Eddies = "which element lies in which eddy (air.length_scale, air.eddies)",
         wind: Sampling,
+        /// Of turbulence that differs across the flow, `k_max L_T`.
+        lateral_cutoff: Option<Bits> = "how the turbulence differs across the flow (air.lateral, air.lateral_cutoff)",
         /// Steps from one look at the flow around a fibre of fixed length to the next; none if the air is the same everywhere.
         every: Option<u64> = "how often the flow around the fibre is looked up (air.length_scale, air.velocity, or a flow that is not uniform)",
     }
@@ -63,6 +65,7 @@ impl Common {
             way: stations.map(|stations| Way::of(air, &stations, looks())),
             wind: Sampling::of(air, eddies.count()),
             eddies,
+            lateral_cutoff: air.lateral.cutoff().map(Bits::from),
             every: (line.is_none() && !air.is_uniform()).then(looks),
         }
     }

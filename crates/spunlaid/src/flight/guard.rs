@@ -1,6 +1,6 @@
 //! The guard: a fibre whose computation has diverged, or which does not come down, is lost. No mean may contain it.
 
-use super::Flight;
+use super::{Entry, Flight};
 use crate::error::{Error, Fault};
 use crate::fibre::Root;
 use crate::line::Line;
@@ -27,15 +27,15 @@ impl Flight {
     /// company or in none.
     fn diverged(&self, lane: usize) -> Option<Error> {
         let (node, sign) = self.sign_of_divergence(lane)?;
-        let case = self.cases.get(lane);
+        let entry = self.entries.get(lane);
         Some(Error::Diverged {
-            replicate: case.map_or(lane as u64, |(_, replicate)| *replicate) + 1,
+            replicate: entry.map_or(lane as u64, |entry| entry.replicate) + 1,
             node: node + 1,
             time: self.time(),
             sign,
-            cause: case.map_or_else(
+            cause: entry.map_or_else(
                 || "lower the time step".to_owned(),
-                |(case, _)| case.likely_cause_of_divergence(),
+                |entry| entry.case.likely_cause_of_divergence(),
             ),
         })
     }
@@ -44,7 +44,7 @@ impl Flight {
     fn sign_of_divergence(&self, lane: usize) -> Option<(usize, String)> {
         let (chain, nodes) = (&self.chain, self.chain.nodes()[lane]);
         let at = |i: usize| chain.position[i].lane(lane);
-        let case = self.cases.get(lane).map(|(case, _)| case);
+        let case = self.case(lane);
         if let Some(node) = (0..nodes).find(|&i| !at(i).norm().is_finite()) {
             // A held root becomes NaN only through the first element.
             let held = case.is_some_and(|case| case.fibre.root != Root::Free);
@@ -93,7 +93,7 @@ impl Flight {
         let length = |lane: usize, line: &Line| {
             in_air[lane] as f64 * self.chain.constants.elements.at(0).rest_length.0[lane] / line.distance
         };
-        self.cases.iter().enumerate().find_map(|(lane, (case, replicate))| {
+        self.entries.iter().enumerate().find_map(|(lane, Entry { case, replicate, .. })| {
             let line = case.line.as_ref()?;
             (length(lane, line) > MOST_IN_AIR).then(|| {
                 let time = self.time();

@@ -7,7 +7,7 @@
 //!
 //! # fn main() -> Result<(), spunlaid::error::Error> {
 //! let (case, _notes) = parse_case(starter_case(), "starter.toml", &[])?;
-//! let jobs = [0, 1, 2].map(|replicate| Job { case: &case, replicate });
+//! let jobs = [0, 1, 2].map(|replicate| Job::new(&case, replicate));
 //! let mut flight = Flight::new(&jobs, Isa::detect())?;
 //! flight.step_to(0.01)?;
 //! let end = flight.snapshot().position.last().map(|end| end.lane(2));
@@ -36,7 +36,7 @@ mod tests;
 pub(crate) use common::{Clock, Common};
 pub use end_node::{EndNodeMotion, EndNodeStatistics};
 
-use crate::air::{Atmosphere, Eddies, Stream, StreamKey};
+use crate::air::{Atmosphere, Eddies, EddyField, Stream, StreamKey};
 use crate::case::Case;
 use crate::chain::Chain;
 use crate::chain::laying::Fed;
@@ -44,8 +44,10 @@ pub use crate::chain::laying::LaidPoint;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
 use crate::energy::Energy;
+use crate::fibre::Place;
 use crate::lanes::{Isa, Lanes, WIDTH};
 use crate::vec3::Vec3;
+use std::sync::Arc;
 
 /// One replicate of a case: the smallest piece of work.
 #[derive(Clone, Copy, Debug)]
@@ -54,9 +56,16 @@ pub struct Job<'a> {
     pub case: &'a Case,
     /// Which replicate of it.
     pub replicate: u64,
+    /// Where its root is.
+    pub place: Place,
 }
 
-impl Job<'_> {
+impl<'a> Job<'a> {
+    /// A replicate whose root is in the middle.
+    pub fn new(case: &'a Case, replicate: u64) -> Self {
+        Self { case, replicate, place: Place::default() }
+    }
+
     /// How its fibre is fed and laid; `None` for a fibre of fixed length. The first ends of successive replicates are off
     /// the axis in directions that spread evenly.
     pub(crate) fn fed(&self) -> Option<Fed> {
@@ -84,12 +93,14 @@ pub(crate) struct AirOf<'a> {
     pub(crate) case: &'a Case,
     /// Time until which the air has to last [s]. Which stretches of a record a fibre gets depends on it.
     pub(crate) horizon: f64,
+    /// A field of eddies that all fibres share and that another owner makes.
+    pub(crate) field: Option<&'a Arc<EddyField>>,
 }
 
 impl<'a> AirOf<'a> {
     /// The air of a run of the case itself.
     pub(crate) fn run(case: &'a Case) -> Self {
-        Self { case, horizon: case.air_horizon() }
+        Self { case, horizon: case.air_horizon(), field: None }
     }
 }
 
@@ -100,8 +111,8 @@ impl<'a> AirOf<'a> {
 #[derive(Clone, Debug)]
 pub struct Flight {
     isa: Isa,
-    /// The fibres' cases and replicates; empty if the flight was assembled from parts.
-    cases: Vec<(Case, u64)>,
+    /// What the fibres are; empty if the flight was assembled from parts.
+    entries: Vec<Entry>,
     scheme: Scheme,
     damped: bool,
     h: f64,
@@ -114,6 +125,26 @@ pub struct Flight {
     end_node: EndNodeStatistics,
     /// Sum over all steps of the strain of the element at the root [-].
     root_strain: Lanes,
+}
+
+/// What the fibre of a lane is: a [`Job`] of its own.
+#[derive(Clone, Debug)]
+struct Entry {
+    case: Case,
+    replicate: u64,
+    place: Place,
+}
+
+impl Entry {
+    fn job(&self) -> Job<'_> {
+        Job { case: &self.case, replicate: self.replicate, place: self.place }
+    }
+}
+
+impl From<&Job<'_>> for Entry {
+    fn from(job: &Job<'_>) -> Self {
+        Self { case: job.case.clone(), replicate: job.replicate, place: job.place }
+    }
 }
 
 /// State of the fibres at the start.
@@ -165,6 +196,13 @@ impl Flight {
         }
     }
 
+    /// Gives all fibres a field of eddies that has been made for the steps to come.
+    pub(crate) fn give_field(&mut self, field: &Arc<EddyField>) {
+        if let Atmosphere::Space(air) = &mut self.air {
+            air.give(field);
+        }
+    }
+
     /// Points that the fibre in a lane has laid on the belt since the last call, in the order in which they were fed.
     pub fn take_laid(&mut self, lane: usize) -> Vec<LaidPoint> {
         self.chain.laying.as_mut().map_or_else(Vec::new, |laying| std::mem::take(&mut laying.laid[lane]))
@@ -172,13 +210,13 @@ impl Flight {
 
     /// Number of fibres. The lanes after them repeat the first fibre.
     pub fn fibres(&self) -> usize {
-        if self.cases.is_empty() { WIDTH } else { self.cases.len() }
+        if self.entries.is_empty() { WIDTH } else { self.entries.len() }
     }
 
     /// The present case of the fibre in a lane, with all changes made in flight. `None` for an unused lane, and
     /// if the flight was assembled from parts.
     pub fn case(&self, lane: usize) -> Option<&Case> {
-        self.cases.get(lane).map(|(case, _)| case)
+        self.entries.get(lane).map(|entry| &entry.case)
     }
 
     /// The times of its cases.

@@ -1,8 +1,7 @@
 //! Changes in flight.
 
 use super::start::surrounded;
-use super::{AirOf, Common, Flight, Job};
-use crate::case::Case;
+use super::{AirOf, Common, Entry, Flight};
 use crate::case::keys::{self, Value};
 use crate::company::PerLane;
 use crate::energy::Energy;
@@ -23,29 +22,28 @@ impl Flight {
         if !key.in_flight {
             return Err(fixed(key.name, "a flight keeps its mesh, its times, its eddies and its files"));
         }
-        let mut cases = self.cases.clone();
-        if cases.is_empty() {
+        let mut entries = self.entries.clone();
+        if entries.is_empty() {
             return Err(Error::flight(
                 "this flight was put together without a case, so its keys cannot be set",
                 "make it from cases",
             ));
         }
         let value = value.into();
-        for (case, _) in &mut cases {
+        for Entry { case, .. } in &mut entries {
             if key.get(case).is_none() {
                 return Err(fixed(key.name, "it has no meaning for the case of this flight"));
             }
             key.set(case, value.clone())?;
             case.check().map_err(Error::Rejected)?;
         }
-        self.fly_on_as(cases, key.name)
+        self.fly_on_as(entries, key.name)
     }
 
-    fn fly_on_as(&mut self, cases: Vec<(Case, u64)>, key: &'static str) -> Result<(), Error> {
-        let jobs = cases.iter().map(|(case, replicate)| Job { case, replicate: *replicate }).collect();
-        let jobs = PerLane::new(jobs)?;
+    fn fly_on_as(&mut self, entries: Vec<Entry>, key: &'static str) -> Result<(), Error> {
+        let jobs = PerLane::new(entries.iter().map(Entry::job).collect())?;
         let common = Common::of_all(&jobs)?;
-        let air = surrounded(&common, &jobs, self.isa, AirOf::run(&cases[0].0))?;
+        let air = surrounded(&common, &jobs, self.isa, AirOf::run(&entries[0].case))?;
         let strands = jobs.map(|job| job.case.strand());
         let meshed_anew = self.chain.laying.is_none() && common.chain.elements != self.chain.elements();
         if !self.air.has_eddies_of(&air) || meshed_anew {
@@ -64,7 +62,7 @@ impl Flight {
 
         self.damped = common.chain.damped;
         self.air.change(air);
-        self.cases = cases;
+        self.entries = entries;
         Ok(())
     }
 

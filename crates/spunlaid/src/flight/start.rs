@@ -1,7 +1,9 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
-use super::{AirOf, Clock, Common, EndNodeStatistics, Flight, Job, Start};
-use crate::air::{Atmosphere, EddyWind, Stations, Surroundings, Wind, misfit};
+use super::{AirOf, Clock, Common, EndNodeStatistics, Entry, Flight, Job, Start};
+use crate::air::{
+    AirInSpace, Atmosphere, EddyField, EddyWind, Stations, StreamKey, Surroundings, Wind, misfit,
+};
 use crate::case::Case;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
@@ -12,6 +14,7 @@ use crate::error::{Error, Fault};
 use crate::fibre::Fibre;
 use crate::lanes::{Isa, Lanes};
 use crate::vec3::Vec3;
+use std::sync::Arc;
 
 impl Flight {
     /// Fibres at the start of their cases: straight and at rest, in moving air.
@@ -38,7 +41,7 @@ impl Flight {
         }
         let damped = common.chain.damped;
         let mut flight = Self::with_chain(isa, chain, damped, air, common.scheme, common.clock)?;
-        flight.cases = jobs.iter().map(|job| (job.case.clone(), job.replicate)).collect();
+        flight.entries = jobs.iter().map(Entry::from).collect();
         Ok(flight)
     }
 
@@ -90,7 +93,7 @@ impl Flight {
         }
         let mut flight = Self {
             isa,
-            cases: Vec::new(),
+            entries: Vec::new(),
             scheme,
             damped,
             h,
@@ -192,18 +195,48 @@ pub(super) fn surrounded(
     air: AirOf<'_>,
 ) -> Result<Atmosphere, Error> {
     let Common { way, every, chain, .. } = common;
+    if let Some(cutoff) = common.lateral_cutoff {
+        let every = every.unwrap_or_else(|| way.as_ref().map_or(1, |way| way.every));
+        let mut last: Option<(&Job<'_>, Arc<EddyField>)> = None;
+        let lanes = jobs.iter().map(|job| {
+            let key = StreamKey { seed: job.case.run.seed, replicate: job.replicate };
+            let distance = job.case.way_of_air();
+            let field = match (air.field, &last) {
+                (Some(field), _) => Arc::clone(field),
+                // Fibres of one replicate are neighbours, and replicates of one case have one plan.
+                (_, Some((other, field))) if std::ptr::eq(other.case, job.case) => {
+                    match other.replicate == job.replicate {
+                        true => Arc::clone(field),
+                        false => Arc::new(field.with_key(key)),
+                    }
+                }
+                _ => Arc::new(EddyField::new(
+                    &job.case.air,
+                    distance,
+                    job.case.extent_of_air(),
+                    cutoff.number(),
+                    key,
+                )),
+            };
+            last = Some((job, Arc::clone(&field)));
+            (job.case.air.clone(), job.place, field, distance)
+        });
+        let lanes = PerLane::new(lanes.collect())?;
+        return Ok(Atmosphere::Space(AirInSpace::new(&lanes, chain.elements, every)));
+    }
     // Eddies of finer elements, if the air is that of finer elements.
     let eddies = if way.is_some() { common.eddies.clone() } else { air.case.eddies() };
     let elements = air.case.fibre.elements;
     let streams = jobs.map(|job| {
         let case = Case { fibre: Fibre { elements, ..job.case.fibre }, ..job.case.clone() };
-        Job { case: &case, replicate: job.replicate }.stream(&eddies)
+        Job { case: &case, ..*job }.stream(&eddies)
     });
     let wind = Wind::sampled(isa, common.wind.clone().of_eddies(eddies.count()), streams, air.horizon);
     if let Some(way) = way {
         let of = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
         let lanes = PerLane::new(jobs.iter().filter_map(of).collect())?;
-        let stations = Stations::new(way.clone(), &lanes, chain.elements);
+        let places = jobs.map(|job| job.place);
+        let stations = Stations::new(way.clone(), &lanes, &places, chain.elements);
         return Ok(Atmosphere::Way(wind, stations));
     }
     let wind = wind.for_steps_of(common.clock.time_step());
@@ -211,7 +244,7 @@ pub(super) fn surrounded(
     Ok(match every {
         None => Atmosphere::Uniform(air),
         Some(every) => {
-            let airs = jobs.map(|job| job.case.air.clone());
+            let airs = jobs.map(|job| (job.case.air.clone(), job.place));
             Atmosphere::Flow(air, Surroundings::around_elements(airs, chain.elements, *every))
         }
     })

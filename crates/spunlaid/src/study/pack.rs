@@ -159,9 +159,8 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     let packing = Packing::new(points, batches);
     let work = |flight: usize| {
         let jobs = packing.jobs(flight);
-        let job = |&(point, replicate): &(usize, u64)| {
-            Some(Job { case: points[point].experiment.case()?, replicate })
-        };
+        let job =
+            |&(point, replicate): &(usize, u64)| Some(Job::new(points[point].experiment.case()?, replicate));
         let flying: Vec<Job<'_>> = jobs.iter().filter_map(job).collect();
         let (mut trajectories, mut lost) = (Vec::new(), Vec::new());
         for (&(point, replicate), flown) in jobs.iter().zip(fly_each(&flying, keep, computing)?) {

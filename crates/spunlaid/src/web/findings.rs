@@ -6,10 +6,10 @@ use super::map::Map;
 use super::one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
 use super::sensitivity::{Sensitivity, Source, sensitivities};
-use super::threads::each;
 use super::uniformity::{Unevenness, unevenness_at};
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::{Error, Fault};
+use crate::threads::try_each;
 use crate::units::Dimension;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -138,7 +138,7 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
     };
     let places = web.places(columns.len() as f64 * sheet.cell);
     let mut patches = Vec::new();
-    let uneven = each(by.threads, sides.len(), |i| Ok(unevenness_at(&map, sides[i], &places)))?;
+    let uneven = try_each(by.threads, sides.len(), |i| Ok(unevenness_at(&map, sides[i], &places)))?;
     for (i, map) in uneven.into_iter().enumerate() {
         let Some(map) = map else { continue };
         let flown = the_one(|fibres| matches!(fibres, Fibres::Curves(_)), i);
@@ -200,7 +200,7 @@ fn expected(
 ) -> Result<Vec<Expected>, Error> {
     let sheet = &web.sheet;
     let closed = sheet.edges == Edges::Periodic;
-    let found = each(by.threads, layers.len(), |i| one_fibre(&layers[i], sides, of, by))?;
+    let found = try_each(by.threads, layers.len(), |i| one_fibre(&layers[i], sides, of, by))?;
     let expected = |i: usize| {
         // Places of a patch.
         let count = if closed { columns.len() } else { columns.len() + 1 - sides[i] };

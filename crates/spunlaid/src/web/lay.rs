@@ -4,11 +4,11 @@ use super::curves::Stretches;
 use super::map::Map;
 use super::raster::{Draw, Pens};
 use super::strip::Strip;
-use super::threads::each;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::{Error, Fault};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use crate::surrogate::{PATH_POINTS, PathKey, Paths, Surrogate};
+use crate::threads::try_each;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::ops::Range;
@@ -364,7 +364,7 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<LaidWeb, Error> {
     // Strips are large; a thread uses one again.
     let strips = Mutex::new(Vec::new());
     let held = |of: &Mutex<Vec<Strip>>| of.lock().unwrap_or_else(PoisonError::into_inner).pop();
-    each(by.threads, units.len(), |unit| {
+    try_each(by.threads, units.len(), |unit| {
         let (plan, which) = &units[unit];
         let mut strip = held(&strips).unwrap_or_else(|| Strip::new(rows));
         plan.draw(web, which.clone(), &mut strip, by)?;

@@ -17,7 +17,6 @@ mod raster;
 mod sensitivity;
 mod strands;
 mod strip;
-mod threads;
 pub mod uniformity;
 mod waves;
 mod whole_error;

@@ -1,11 +1,11 @@
 //! What one fibre alone says about the unevenness of a web of many.
 
 use super::lay::{Laying, lay};
-use super::threads::each;
 use super::uniformity::boxes;
 use super::{Edges, Fibres, Filaments, Layer, Row, Sheet, Web};
 use crate::error::Error;
 use crate::statistics::Estimate;
+use crate::threads::try_each;
 use std::sync::Arc;
 
 /// How the unevenness is found from single fibres.
@@ -119,7 +119,7 @@ fn add(
     let metres = map.quantum / layer.linear_density;
     let length = layer.fed_length(&web.sheet);
     let share = metres / (rows as f64);
-    let of_sides = each(by.threads, sides.len(), |i| {
+    let of_sides = try_each(by.threads, sides.len(), |i| {
         let mut squares = vec![0.0; of.fibres as usize];
         let mut profiles = vec![vec![0.0; apart]; of.fibres as usize];
         boxes(&map, sides[i], [map.columns, map.rows], |_, boxes| {

@@ -2,11 +2,11 @@
 
 use super::lay::Laying;
 use super::one_fibre::{OneFibre, one_fibre};
-use super::threads::each;
 use super::{Curves, Fibres, Layer, Web};
 use crate::error::Error;
 use crate::statistics::Estimate;
 use crate::surrogate::Surrogate;
+use crate::threads::try_each;
 use std::sync::Arc;
 
 /// A number of a line that changes the unevenness of its web.
@@ -158,7 +158,7 @@ pub fn sensitivities(
     let largest = sides.iter().copied().max().unwrap_or(1) as f64 * of.cell;
     let both = |lever: Lever| Some((lever, lever.both(layer, 1.0 + STEP, largest + of.cell)?));
     let turned: Vec<(Lever, (Source, [Layer; 2]))> = Lever::ALL.into_iter().filter_map(both).collect();
-    let of_both: Vec<Vec<Estimate>> = each(by.threads, 2 * turned.len(), |i| {
+    let of_both: Vec<Vec<Estimate>> = try_each(by.threads, 2 * turned.len(), |i| {
         let (lever, (_, layers)) = &turned[i / 2];
         // Of the number of filaments, the law is known; of a fast belt, nothing is told.
         if *lever == Lever::Filaments || (*lever == Lever::BeltSpeed && layer.belt_changes_flight()) {

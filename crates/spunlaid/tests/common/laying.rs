@@ -23,7 +23,7 @@ pub fn spunbond(set: &[(&str, &str)]) -> Case {
 
 /// Replicates of a case at their start, side by side.
 pub fn flight(case: &Case, replicates: Range<u64>) -> Flight {
-    let jobs: Vec<Job> = replicates.map(|replicate| Job { case, replicate }).collect();
+    let jobs: Vec<Job> = replicates.map(|replicate| Job::new(case, replicate)).collect();
     Flight::new(&jobs, Isa::detect()).unwrap()
 }
 

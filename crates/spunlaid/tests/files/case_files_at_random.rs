@@ -2,7 +2,7 @@
 
 use crate::cases::{bits, read_again, remarks};
 use proptest::prelude::*;
-use spunlaid::air::{Air, EddyModel};
+use spunlaid::air::{Air, EddyModel, Lateral};
 use spunlaid::case::{Case, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
@@ -39,6 +39,10 @@ prop_compose! {
     }
 }
 
+fn lateral() -> impl Strategy<Value = Lateral> {
+    prop_oneof![Just(Lateral::Uniform), between(0, 2).prop_map(|cutoff| Lateral::VonKarman { cutoff })]
+}
+
 fn friction_law() -> impl Strategy<Value = FrictionLaw> {
     let [_, others @ ..] = FrictionLaw::ALL;
     prop_oneof![
@@ -55,10 +59,10 @@ prop_compose! {
             0f64..2.0, between(-6, -4), 1usize..50, friction_law(), prop::sample::select(NormalLaw::ALL.to_vec()),
         ),
         (share, steps, spin_up, output, damping) in (0.01f64..0.99, 1u64..1_000_000_000, 0f64..1.0, 0f64..1.0, 0f64..100.0),
-        (replicates, seed, leapfrog, gravity) in (1u64..100, any::<u64>(), any::<bool>(), -10f64..10.0),
+        (replicates, seed, leapfrog, gravity, lateral) in (1u64..100, any::<u64>(), any::<bool>(), -10f64..10.0, lateral()),
     ) -> Case {
         let air = Air {
-            velocity, turbulence_intensity, length_scale, cutoff_frequency, density, kinematic_viscosity, harmonics: 1,
+            velocity, turbulence_intensity, length_scale, cutoff_frequency, density, kinematic_viscosity, harmonics: 1, lateral,
             ..Air::uniform(1.0, 0.0, 1.0, 1.0)
         };
         let scheme = if leapfrog { Scheme::Leapfrog } else { Scheme::SemiImplicitEuler };

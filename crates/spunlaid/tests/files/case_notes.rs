@@ -28,15 +28,15 @@ fn what_was_rounded_is_said() {
         ),
         (
             "time_step = \"3 µs\"",
-            "case.toml:35: run.time_step = \"3 µs\" does not divide run.duration into whole steps: 333334 of 2.999994 µs are used",
+            "case.toml:36: run.time_step = \"3 µs\" does not divide run.duration into whole steps: 333334 of 2.999994 µs are used",
         ),
         (
             "spin_up = \"1.4 µs\"",
-            "case.toml:35: run.spin_up = \"1.4 µs\" is not a whole number of time steps: 1 µs is used",
+            "case.toml:36: run.spin_up = \"1.4 µs\" is not a whole number of time steps: 1 µs is used",
         ),
         (
             "output_interval = \"0.1 µs\"",
-            "case.toml:35: run.output_interval = \"0.1 µs\" is not a whole number of time steps: 1 µs is used",
+            "case.toml:36: run.output_interval = \"0.1 µs\" is not a whole number of time steps: 1 µs is used",
         ),
     ] {
         assert_eq!(remarks(&with(line)).join("\n"), said);

@@ -30,11 +30,12 @@ fn all_of(said: Result<Vec<String>, Error>) -> String {
 }
 
 /// Cases of every kind, with what makes each key mean something.
-const CASES: [(&str, Set<'static>); 8] = [
+const CASES: [(&str, Set<'static>); 9] = [
     ("starter", &[]),
     ("starter", &[("fibre.diameter", "auto")]),
     ("starter", &[("air.eddies", "convected")]),
     ("fed", &[]),
+    ("fed", &[("air.lateral", "von-karman")]),
     ("spunbond", &[("belt.contact", "friction")]),
     ("profile", &[]),
     ("point_table", &[]),

@@ -77,7 +77,7 @@ fn patterns_come_in_their_order_as_the_belt_slows_down() {
     let threads = belts.map(|belt| Thread { element: 0.0625, belt, ..Thread::new(28.6) });
     let time = threads[0].time_of_turns(10.0);
     let cases = threads.map(|thread| thread.case(time));
-    let jobs: Vec<Job> = cases.iter().map(|case| Job { case, replicate: 0 }).collect();
+    let jobs: Vec<Job> = cases.iter().map(|case| Job::new(case, 0)).collect();
     let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
     flight.step_to(time).unwrap();
     // Turns that are to one side, and all turns, to a height's length of thread; how far the thread turns back and forth.

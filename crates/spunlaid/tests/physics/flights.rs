@@ -22,7 +22,7 @@ fn rejects_jobs_that_cannot_fly_together() {
     damped.run.damping = 1.0;
     broken.fibre.diameter = -1.0;
     let fault = |cases: &[&Case]| {
-        let jobs: Vec<Job<'_>> = cases.iter().map(|&case| Job { case, replicate: 0 }).collect();
+        let jobs: Vec<Job<'_>> = cases.iter().map(|&case| Job::new(case, 0)).collect();
         Flight::new(&jobs, Isa::detect()).map(|_| ()).unwrap_err()
     };
     for (cases, message) in [
@@ -45,7 +45,7 @@ fn rejects_jobs_that_cannot_fly_together() {
 #[test]
 fn identical_in_however_many_strides_it_is_stepped() {
     let case = table1();
-    let flight = || Flight::new(&[Job { case: &case, replicate: 2 }], Isa::detect()).unwrap();
+    let flight = || Flight::new(&[Job::new(&case, 2)], Isa::detect()).unwrap();
     let (mut whole, mut strides) = (flight(), flight());
     // Beyond the case's own duration, into the third window of the turbulence.
     whole.step_to(4.0).unwrap();
@@ -62,7 +62,7 @@ fn identical_in_however_many_strides_it_is_stepped() {
 /// Error of the energy balance after several changes in flight, as a share of the air's work: rms of eight fibres.
 fn imbalance_after_changes(scheme: Scheme, time_step: f64) -> f64 {
     let case = common::table1(scheme, time_step, 0.06, 8);
-    let jobs = [0, 1, 2, 3, 4, 5, 6, 7].map(|replicate| Job { case: &case, replicate });
+    let jobs = [0, 1, 2, 3, 4, 5, 6, 7].map(|replicate| Job::new(&case, replicate));
     let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
     flight.step_to(0.02).unwrap();
     flight.set("run.gravity", "5 m/s²").unwrap();
@@ -95,7 +95,7 @@ fn identical_to_a_flight_that_began_so_when_set_at_the_start() {
     let mut fast = slow.clone();
     fast.air.velocity = 20.0;
     let at_end = |case, change: bool| {
-        let mut flight = Flight::new(&[Job { case, replicate: 3 }], Isa::detect()).unwrap();
+        let mut flight = Flight::new(&[Job::new(case, 3)], Isa::detect()).unwrap();
         if change {
             flight.set("air.velocity", "20 m/s").unwrap();
         }
@@ -108,7 +108,7 @@ fn identical_to_a_flight_that_began_so_when_set_at_the_start() {
 #[test]
 fn rejects_what_cannot_change_and_flies_on() {
     let case = table1();
-    let mut flight = Flight::new(&[Job { case: &case, replicate: 0 }], Isa::detect()).unwrap();
+    let mut flight = Flight::new(&[Job::new(&case, 0)], Isa::detect()).unwrap();
     flight.step_to(0.01).unwrap();
     let before = flight.snapshot().position;
     for (key, value, told) in [
@@ -135,6 +135,6 @@ fn rejects_what_cannot_change_and_flies_on() {
 #[test]
 fn a_flight_belongs_to_its_owner_and_may_go_to_another_thread() {
     fn is_free<T: Send + 'static>(_: &T) {}
-    let flight = Flight::new(&[Job { case: &table1(), replicate: 0 }], Isa::detect()).unwrap();
+    let flight = Flight::new(&[Job::new(&table1(), 0)], Isa::detect()).unwrap();
     is_free(&flight);
 }

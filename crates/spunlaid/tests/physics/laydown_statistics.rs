@@ -91,7 +91,7 @@ fn identical_lay_down_for_any_packing_instruction_set_and_number_of_threads() {
         let alone = laid_until(&mut flight(&case, replicate..replicate + 1), 0.06);
         assert_eq!(bits(&alone[0]), together[replicate as usize], "replicate {replicate} alone");
     }
-    let jobs: Vec<Job> = (0..8).map(|replicate| Job { case: &case, replicate }).collect();
+    let jobs: Vec<Job> = (0..8).map(|replicate| Job::new(&case, replicate)).collect();
     for isa in Isa::available() {
         let mut flight = Flight::new(&jobs, isa).unwrap();
         for (laid, meant) in laid_until(&mut flight, 0.06).iter().zip(&together) {

@@ -218,7 +218,7 @@ fn invariant_strain_99_hardly_depends_on_the_step() {
         let mut case = table1(scheme);
         let steps = |time: f64| (time / h).round() as u64;
         (case.run.time_step, case.run.steps, case.run.output_steps) = (h, steps(1.0), steps(1e-3));
-        let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job { case: &case, replicate }).collect();
+        let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job::new(&case, replicate)).collect();
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
         let computing = Computing {
             threads: 1,
@@ -248,7 +248,7 @@ fn analytic_integral_of_the_strain_at_the_root() {
     // After each step the scheme's tension is that of the stretch, so the integral is the sum of the tensions seen.
     let mut case = table1(Scheme::Leapfrog);
     (case.run.time_step, case.fibre.direction) = (1e-5, V::new(0.6, 0.0, 0.8));
-    let jobs: Vec<Job<'_>> = (0..3).map(|replicate| Job { case: &case, replicate }).collect();
+    let jobs: Vec<Job<'_>> = (0..3).map(|replicate| Job::new(&case, replicate)).collect();
     let mut flight = Flight::new(&jobs, Isa::detect()).expect("the case flies");
     let stiffness = case.fibre.youngs_modulus * case.fibre.cross_section();
     let mut sum = [0.0; WIDTH];

@@ -262,7 +262,7 @@ fn identical_alone_and_in_company_of_another_kind_of_flow() {
                 wrong.push(format!("{name}, {order:?}: {}", differ.join(", ")));
             }
             // Told that they cannot fly together, or the same bits as alone.
-            let jobs = order.map(|i| Job { case: &cases[i], replicate: 0 });
+            let jobs = order.map(|i| Job::new(&cases[i], 0));
             let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
             match fly_together(&jobs, KEPT, computing(&stop, &steps)) {
                 Err(Error::Flight(fault))

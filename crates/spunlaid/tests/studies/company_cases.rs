@@ -5,12 +5,13 @@ use std::sync::OnceLock;
 use tempfile::TempDir;
 
 /// Cases to start from, of each kind of fibre and air. Between them, every key has a meaning.
-pub const CASES: [(&str, &str); 9] = [
+pub const CASES: [(&str, &str); 10] = [
     ("fixed", FIXED),
     ("fixed, convected", CONVECTED),
     ("fixed, in a profile", PROFILE),
     ("fixed, in a field", FIELD),
     ("fixed, in a record", RECORD),
+    ("fixed, in shared air", SHARED),
     ("fixed, step and diameter from others", FROM_OTHERS),
     ("fed", FED),
     ("fed, sliding in a profile", SLIDING),
@@ -112,6 +113,29 @@ youngs_modulus = '2 GPa'
 element_length = '20 mm'
 [air]
 record = 'RECORD'
+[run]
+duration = '8 ms'
+spin_up = '1 ms'
+output_interval = '0.5 ms'
+scheme = 'implicit-tension'
+time_step = '100 µs'
+";
+
+const SHARED: &str = "version = 1
+[fibre]
+length = '0.1 m'
+diameter = '30 µm'
+density = '950 kg/m³'
+youngs_modulus = '2 GPa'
+element_length = '10 mm'
+[air]
+velocity = '10 m/s'
+turbulence_intensity = 0.1
+length_scale = '20 mm'
+cutoff_frequency = '200 Hz'
+eddies = 'convected'
+lateral = 'von-karman'
+lateral_cutoff = 8
 [run]
 duration = '8 ms'
 spin_up = '1 ms'

@@ -276,7 +276,7 @@ replicates = 12
         let told = told.0.lock().unwrap();
         assert!(told.values().any(|(begun, _)| *begun > 1));
         for flight in flown {
-            let jobs = [Job { case: &case, replicate: flight.replicate }];
+            let jobs = [Job::new(&case, flight.replicate)];
             let alone = fly_together(
                 &jobs,
                 Keep::SAMPLES,

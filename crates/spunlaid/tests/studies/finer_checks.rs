@@ -114,7 +114,7 @@ fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves
     let mut fine = case.clone();
     fine.run.scheme = Scheme::Leapfrog;
     fine.set_time_step(check.time_step);
-    let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job { case: &fine, replicate }).collect();
+    let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job::new(&fine, replicate)).collect();
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
         Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };

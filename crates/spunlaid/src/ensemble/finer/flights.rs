@@ -23,11 +23,11 @@ pub(in crate::ensemble) struct Flight {
 impl FinerPlan {
     /// Flies one of its cases. Nothing that is recorded is kept, but for the paths that are compared.
     pub(in crate::ensemble) fn fly(&self, case: &Case, computing: Computing<'_>) -> Result<Flight, Error> {
-        let jobs: Vec<Job<'_>> = (0..self.replicates).map(|replicate| Job { case, replicate }).collect();
+        let jobs: Vec<Job<'_>> = (0..self.replicates).map(|replicate| Job::new(case, replicate)).collect();
         // A carried pattern has a signal for each element. Both feel the one of the finer elements.
         let carried = case.line.is_none() && matches!(case.air.eddies, EddyModel::Convected { .. });
         let of = if carried { &self.fine } else { case };
-        let air = AirOf { case: of, horizon: self.horizon };
+        let air = AirOf { case: of, horizon: self.horizon, field: None };
         let paths = Paths { every: 1, ..Paths::of_run(Ok(self), None) };
         let computing = Computing { recorder: Some(&paths), ..computing };
         let trajectories = fly_in_air(&jobs, Keep::NUMBERS, air, computing)?;

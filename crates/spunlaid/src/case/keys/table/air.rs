@@ -8,8 +8,8 @@ use super::super::row::{
 use super::super::value::Sign::{Any, NotNegative, Positive};
 use super::super::value::{Content, FileKind, Kind, SPECTRA, Value};
 use crate::air::{
-    Axis, EddyModel, Flow, LENGTH_CONSTANT, PlacedField, SUTHERLAND_RANGE, SpectrumShape, TIME_CONSTANT,
-    density_at, kinematic_viscosity_at,
+    Axis, EddyModel, Flow, LENGTH_CONSTANT, Lateral, PlacedField, SUTHERLAND_RANGE, SpectrumShape,
+    TIME_CONSTANT, Widening, density_at, kinematic_viscosity_at,
 };
 use crate::error::Fault;
 use crate::units::Dimension;
@@ -135,6 +135,27 @@ pub(super) const KEYS: &[Key] = &[
     .label("Factor on the velocity of the air")
     .slider(0.2, 3.0)
     .in_flight(),
+    choose("air.widening", || Widening::ALL.map(Widening::name).to_vec(), Access {
+        get: |case| matches!(case.air.flow, Flow::Profile(_)).then(|| case.air.widening.name().into()),
+        set: |case, value| {
+            let widening = named(value, &Widening::ALL, Widening::name)?;
+            let remedy = match (&case.air.flow, widening) {
+                (Flow::Profile(_), _) | (_, Widening::None) => {
+                    case.air.widening = widening;
+                    return Ok(());
+                }
+                (Flow::Uniform, _) => "leave it out: air that keeps its speed does not widen",
+                (Flow::Field(_), _) => "leave it out: the field's own velocity across says how the flow widens",
+            };
+            Err(Fault::needs("air.profile", remedy))
+        },
+    })
+    .value("none")
+    .meaning(
+        "Whether the mean flow of a profile widens where it slows. `md`: along y, the machine direction, as in a plane channel, \
+         with the velocity `−y dU/dx` from the middle of the slot. `none`: the air only slows.",
+    )
+    .label("Widening of the mean flow"),
     quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative, of_air!(turbulence_intensity))
         .told(|case| case.air.from_flow.turbulence_intensity)
         .required("0.1")
@@ -288,6 +309,37 @@ pub(super) const KEYS: &[Key] = &[
     .meaning("Time constant with which a convected pattern loses its correlation while it travels.")
     .label("Decay time of the eddies")
     .slider(1e-3, 0.1),
+    choose("air.lateral", || Lateral::ALL.map(Lateral::name).to_vec(), Access {
+        get: |case| Some(case.air.lateral.name().into()),
+        set: |case, value| change(&mut case.air.lateral, value, &Lateral::ALL, Lateral::name),
+    })
+    .value("uniform")
+    .meaning(
+        "How the turbulence differs across the flow. `uniform`: not at all, and each fibre has turbulence of its own. \
+         `von-karman`: as in isotropic turbulence, and fibres that hang side by side share their eddies.",
+    )
+    .label("Turbulence across the flow"),
+    quantity("air.lateral_cutoff", Dimension::Ratio, Positive, Access {
+        get: |case| case.air.lateral.cutoff().map(Value::Number),
+        set: |case, value| match &mut case.air.lateral {
+            Lateral::VonKarman { cutoff } => {
+                *cutoff = number(value)?;
+                Ok(())
+            }
+            Lateral::Uniform => {
+                let remedy = "leave it out, or let the turbulence differ across the flow";
+                Err(Fault::needs("air.lateral = \"von-karman\"", remedy))
+            }
+        },
+    })
+    .value("15")
+    .usual(5.0, 60.0)
+    .meaning(
+        "Largest lateral wave number of the turbulence times its length scale. A larger one resolves smaller eddies across the \
+         flow and takes more memory. Compare results of the same cut-off only.",
+    )
+    .label("Lateral cut-off *k*_{max}*L*_{T}")
+    .slider(8.0, 25.0),
     key("air.harmonics", Kind::Whole(1, usize::MAX as u64), Access {
         get: |case| Some(Value::Whole(case.air.harmonics as u64)),
         set: |case, value| {

@@ -1,31 +1,46 @@
 //! Work that is shared among threads.
 
 use crate::error::Error;
+use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Does pieces of work on some threads; the results are in the order of the pieces.
 ///
 /// * `work` – does the piece of a number
+pub(crate) fn each<T: Send>(threads: usize, pieces: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let Ok(done) = share(threads, pieces, |piece| Ok::<_, Infallible>(work(piece)));
+    done
+}
+
+/// As [`each`], with work that may fail.
 ///
 /// # Errors
 /// The error of a piece; the pieces after it may not be done.
-pub(super) fn each<T: Send>(
+pub(crate) fn try_each<T: Send>(
     threads: usize,
     pieces: usize,
     work: impl Fn(usize) -> Result<T, Error> + Sync,
 ) -> Result<Vec<T>, Error> {
+    share(threads, pieces, work)
+}
+
+fn share<T: Send, E: Send>(
+    threads: usize,
+    pieces: usize,
+    work: impl Fn(usize) -> Result<T, E> + Sync,
+) -> Result<Vec<T>, E> {
     let next = AtomicUsize::new(0);
     let some = || {
         let mut done = Vec::new();
         loop {
             let piece = next.fetch_add(1, Ordering::Relaxed);
             if piece >= pieces {
-                return Ok(done);
+                return Ok::<_, E>(done);
             }
             done.push((piece, work(piece)?));
         }
     };
-    let done: Vec<Result<_, Error>> = std::thread::scope(|scope| {
+    let done: Vec<Result<_, E>> = std::thread::scope(|scope| {
         let helpers: Vec<_> = (1..threads.min(pieces)).map(|_| scope.spawn(some)).collect();
         let own = some();
         let helpers = helpers.into_iter().map(|helper| helper.join());

@@ -1,0 +1,106 @@
+//! A field of eddies in space, in which neighbouring fibres feel the same gusts.
+//!
+//! `u'(x, y, z, t) = u · G(c, y, z; a)`: air has the label `c`, the time at which it passed the inlet, and the age `a`, the
+//! decay times that have gone by since. `G` is a sum of waves in `c`, `y` and `z` with von Kármán's structure across; its
+//! phases walk as the age grows.                                                        theory.md (80) to (85)
+//!
+//! ```text
+//! way        travel time and age along the way; where the generations are
+//! lattice    the points across, and the weights of the interpolation
+//! plan       the shape of the turbulence in each generation
+//! synthesis  random modes → two windows of a generation
+//! tape       windows joined to endless samples, made and forgotten block by block
+//! look       the fluctuation at a time and a place
+//! ```
+
+mod lattice;
+mod look;
+mod plan;
+mod synthesis;
+mod tape;
+#[cfg(test)]
+mod tests;
+mod way;
+
+pub use lattice::Extent;
+
+use self::plan::Plan;
+use self::synthesis::Synthesis;
+use self::tape::{BEFORE, NEEDED, Tape};
+use super::{Air, StreamKey};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A field of eddies with the mean zero and the rms one, as far as it has been made. Clones share what has been made.
+///
+/// Equal airs, extents and keys give equal fields, bit for bit, in whatever order and with however many threads they are made.
+#[derive(Clone)]
+pub struct EddyField {
+    plan: Arc<Plan>,
+    synthesis: Arc<Synthesis>,
+    key: StreamKey,
+    /// Of each generation.
+    tapes: Vec<Tape>,
+    /// Times for which the field can be looked at [s].
+    made: Range<f64>,
+}
+
+impl std::fmt::Debug for EddyField {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("EddyField").field("key", &self.key).field("made", &self.made).finish_non_exhaustive()
+    }
+}
+
+impl EddyField {
+    /// * `distance` – from the inlet, or the root, to the end of the way [m]
+    /// * `extent` – after which the field repeats itself across
+    /// * `cutoff` – largest wave number across, times the smallest length scale [-]; zero for the same fluctuation everywhere
+    ///   across
+    pub fn new(air: &Air, distance: f64, extent: Extent, cutoff: f64, key: StreamKey) -> Self {
+        let plan = Plan::new(air, distance, extent, cutoff);
+        let tapes = vec![Tape::default(); plan.generations.len()];
+        Self { synthesis: Arc::new(Synthesis::new(&plan)), plan: Arc::new(plan), key, tapes, made: 0.0..0.0 }
+    }
+
+    /// Another field of the same air, with a key of its own.
+    #[must_use]
+    pub fn with_key(&self, key: StreamKey) -> Self {
+        let tapes = vec![Tape::default(); self.tapes.len()];
+        Self { key, tapes, made: 0.0..0.0, ..self.clone() }
+    }
+
+    /// The most memory that a field takes [bytes].
+    ///
+    /// * as of [`EddyField::new`]
+    pub fn memory(air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
+        Plan::memory(air, distance, extent, cutoff)
+    }
+
+    /// A good length of the blocks of time for which the field is made [s].
+    pub fn block(&self) -> f64 {
+        self.plan.repeat_time / 8.0
+    }
+
+    /// Whether the field can be looked at now.
+    #[inline(always)]
+    pub(crate) fn is_made_for(&self, time: f64) -> bool {
+        self.made.start <= time && time < self.made.end
+    }
+
+    /// Makes what is looked at between two times [s], and forgets what lies before them.
+    pub fn make(&mut self, times: Range<f64>, threads: usize) {
+        let Self { plan, synthesis, key, .. } = self;
+        let last = plan.generations.len() - 1;
+        for (j, tape) in self.tapes.iter_mut().enumerate() {
+            let (spacing, margin) = (plan.spacing(j), NEEDED as f64);
+            let youngest = plan.generations[j.saturating_sub(1)].travel;
+            let oldest = plan.generations[(j + 1).min(last)].travel;
+            let travels = if plan.way.is_carried() { [youngest, oldest] } else { [0.0, 0.0] };
+            let travels = if last == 0 { [0.0, plan.way.longest_travel()] } else { travels };
+            let first = ((times.start - travels[1]) / spacing - margin).floor() as i64 - BEFORE;
+            let end = ((times.end - travels[0]) / spacing + margin).ceil() as i64 + 1;
+            tape.extend((&**plan, &**synthesis, *key), j, first..end, threads);
+        }
+        self.made = times;
+    }
+}

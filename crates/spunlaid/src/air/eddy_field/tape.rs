@@ -1,0 +1,179 @@
+//! The samples of one generation, in the order of their labels.
+
+use super::Plan;
+use super::synthesis::{Line, Synthesis};
+use crate::air::StreamKey;
+use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Samples before a place that its interpolation needs, and all that it needs.
+pub(super) const BEFORE: i64 = 1;
+pub(super) const NEEDED: usize = 4;
+/// Points of a line after which it repeats its first ones, so that those around a place lie side by side.
+pub(super) const REPEATED: usize = NEEDED - 1;
+/// Blocks in a pair of windows.
+const BLOCKS: usize = 6;
+
+/// Some successive samples of a generation. It begins with the last [`REPEATED`] samples of the block before it.
+#[derive(Debug)]
+pub(super) struct Block {
+    /// Number of the first sample; sample `m` has the label `m` spacings.
+    pub(super) first: i64,
+    /// Number after the last sample.
+    pub(super) end: i64,
+    /// For each y: `[sample][z][component]`.
+    pub(super) lines: Vec<Box<[f32]>>,
+}
+
+/// A generation as far as it has been made.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tape {
+    pub(super) blocks: Vec<Arc<Block>>,
+    /// The pair of windows that comes next; none before the first.
+    next: Option<i64>,
+    /// What the last window adds to the samples after the blocks, and the last samples of the blocks: for each y
+    /// `[sample][z][component]`.
+    rest: Arc<Vec<Rest>>,
+}
+
+/// What a pair of windows leaves to the next, along one line.
+#[derive(Clone, Debug, Default)]
+struct Rest {
+    fading: Vec<f32>,
+    last: Vec<f32>,
+}
+
+/// How windows follow each other, in samples.
+#[derive(Clone, Copy)]
+struct Windows {
+    /// Time in which a window repeats.
+    period: usize,
+    /// Time in which one fades out and the next one in.
+    fade: usize,
+    /// From the start of one to that of the next.
+    hop: usize,
+}
+
+impl Windows {
+    fn new(period: usize) -> Self {
+        Self { period, fade: period / 4, hop: period - period / 4 }
+    }
+
+    /// The pair of windows that has to be made first for a sample to be complete.
+    fn first_pair(self, sample: i64) -> i64 {
+        (sample - self.fade as i64).div_euclid(2 * self.hop as i64)
+    }
+
+    /// Factors of the window that fades out and of the one that fades in, at a sample of the fade.
+    fn factors(self, sample: usize) -> [f32; 2] {
+        let angle = FRAC_PI_2 * (sample as f64 + 0.5) / self.fade as f64;
+        [libm::cos(angle) as f32, libm::sin(angle) as f32]
+    }
+}
+
+impl Tape {
+    /// Makes the samples of a range, and forgets those before it.
+    pub(super) fn extend(
+        &mut self,
+        (plan, synthesis, key): (&Plan, &Synthesis, StreamKey),
+        generation: usize,
+        samples: Range<i64>,
+        threads: usize,
+    ) {
+        let windows = Windows::new(plan.generations[generation].samples);
+        self.blocks.retain(|block| block.end > samples.start);
+        let first = windows.first_pair(samples.start - REPEATED as i64);
+        let goes_on = match self.blocks.first() {
+            Some(block) => block.first <= samples.start,
+            None => self.next.is_some_and(|next| next > first),
+        };
+        if !goes_on {
+            *self = Self { next: Some(first), ..Self::default() };
+        }
+        let mut pair = self.next.unwrap_or(first);
+        while 2 * pair * (windows.hop as i64) < samples.end {
+            let rest = std::mem::take(&mut self.rest);
+            let nothing = Rest::default();
+            let made = synthesis.lines(plan, key, (generation, pair), threads, |y, line| {
+                windows.join(plan.lattice.points[1], line, rest.get(y).unwrap_or(&nothing))
+            });
+            let (mut blocks, mut left) = (Vec::new(), Vec::new());
+            for (lines, rest) in made {
+                blocks.push(lines);
+                left.push(rest);
+            }
+            let start = 2 * pair * windows.hop as i64;
+            let each = (2 * windows.hop).div_ceil(BLOCKS);
+            for number in 0..BLOCKS {
+                let first = start + (number * each) as i64;
+                let end = first + each.min(2 * windows.hop - number * each) as i64;
+                let lines = blocks.iter_mut().map(|lines| std::mem::take(&mut lines[number])).collect();
+                if end > samples.start {
+                    self.blocks.push(Arc::new(Block { first: first - REPEATED as i64, end, lines }));
+                }
+            }
+            self.rest = Arc::new(left);
+            pair += 1;
+            self.next = Some(pair);
+        }
+    }
+
+    /// The block in which all samples around a place lie.
+    ///
+    /// * `sample` – the one before the place
+    #[inline(always)]
+    pub(super) fn around(&self, sample: i64) -> Option<&Block> {
+        let last = sample + NEEDED as i64 - 1 - BEFORE;
+        self.blocks.iter().find(|block| last < block.end).map(|block| &**block)
+    }
+}
+
+impl Windows {
+    /// Joins two windows to what the ones before have left, along one line: the samples of each block, and what is left.
+    fn join(self, points: usize, [one, other]: Line, rest: &Rest) -> (Vec<Box<[f32]>>, Rest) {
+        let row = (points + REPEATED) * 3;
+        let total = 2 * self.hop;
+        let mut samples = vec![0.0_f32; (REPEATED + total + self.fade) * row];
+        if !rest.last.is_empty() {
+            samples[..REPEATED * row].copy_from_slice(&rest.last);
+        }
+        let mut add = |sample: usize, window: &[f32], m: usize, factor: f32| {
+            let into = &mut samples[(REPEATED + sample) * row..][..row];
+            for component in 0..3 {
+                let values = &window[(component * self.period + m) * points..][..points];
+                for (z, value) in values.iter().enumerate() {
+                    into[3 * z + component] += factor * value;
+                }
+            }
+        };
+        for (start, window) in [(0, &one), (self.hop, &other)] {
+            for m in 0..self.period {
+                let factor = match m {
+                    m if m < self.fade => self.factors(m)[1],
+                    m if m < self.hop => 1.0,
+                    m => self.factors(m - self.hop)[0],
+                };
+                add(start + m, window, m, factor);
+            }
+        }
+        for (sample, fading) in samples[REPEATED * row..].iter_mut().zip(&rest.fading) {
+            *sample += fading;
+        }
+        let repeat = |row: &mut [f32]| {
+            for i in 0..3 * REPEATED {
+                row[3 * points + i] = row[i % (3 * points)];
+            }
+        };
+        samples.chunks_exact_mut(row).for_each(repeat);
+        let fading = samples[(REPEATED + total) * row..].to_vec();
+        let last = samples[total * row..][..REPEATED * row].to_vec();
+        let each = total.div_ceil(BLOCKS);
+        let blocks = (0..BLOCKS).map(|number| {
+            let first = number * each;
+            let end = (first + each).min(total) + REPEATED;
+            samples[first * row..end * row].into()
+        });
+        (blocks.collect(), Rest { fading, last })
+    }
+}

@@ -1,0 +1,171 @@
+//! The way of the air from the inlet to the belt, and the generations of the field along it.
+
+use crate::air::{Air, EddyModel, LocalAir};
+use crate::field::Hint;
+use crate::vec3::Vec3;
+
+/// Pieces of the way. The travel time is then exact to 1e-4 of the shortest period.
+const PIECES: usize = 2048;
+/// Largest age between two generations, in decay times. theory.md (84)
+const LONGEST_AGE: f64 = 1.0 / 6.0;
+/// Largest change of speed, length scale or cut-off frequency from one generation to the next, as a logarithm.
+const LARGEST_CHANGE: f64 = 0.2;
+/// Most generations.
+const MOST: usize = 1000;
+/// Slowest air that carries eddies, over the fastest.
+const SLOWEST: f64 = 1e-3;
+
+/// The place of an eddy among the generations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Passage {
+    /// Number of the generation before it and, as its fraction, the way to the next.
+    pub(super) generation: f64,
+    /// Time that the air has travelled since the inlet [s]; the label of air is the time less this.
+    pub(super) travel: f64,
+}
+
+/// The air where a generation is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stage {
+    /// Travel time from the inlet [s].
+    pub(super) travel: f64,
+    /// Mean speed [m/s].
+    pub(super) speed: f64,
+    /// Length of an eddy [m].
+    pub(super) length_scale: f64,
+    /// Cut-off frequency [Hz].
+    pub(super) cutoff_frequency: f64,
+}
+
+/// How eddies pass from the inlet to the belt.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct WayOfEddies {
+    pieces_per_length: f64,
+    /// At the ends of the pieces.
+    passages: Vec<Passage>,
+    pub(super) stages: Vec<Stage>,
+    /// Age from one generation to the next, in decay times; zero for a frozen pattern, infinite for independent eddies.
+    pub(super) ageing: f64,
+}
+
+impl WayOfEddies {
+    /// * `distance` – from the inlet, or the root, to the end of the way [m]
+    pub(super) fn new(air: &Air, distance: f64) -> Self {
+        let mut hint = Hint::default();
+        let x = |i: f64| distance * i / PIECES as f64;
+        let mut stage = |i: f64| {
+            let local = air.local(Vec3::new(x(i), 0.0, 0.0), &mut hint);
+            Stage { travel: 0.0, ..Stage::of(&local, air) }
+        };
+        let mut stages: Vec<Stage> = (0..=PIECES).map(|i| stage(i as f64)).collect();
+        let mut middles: Vec<Stage> = (0..PIECES).map(|i| stage(i as f64 + 0.5)).collect();
+        let fastest = stages.iter().map(|stage| stage.speed).fold(f64::MIN_POSITIVE, f64::max);
+        for stage in stages.iter_mut().chain(&mut middles) {
+            stage.speed = stage.speed.max(SLOWEST * fastest);
+        }
+        // Simpson's rule.
+        let piece = distance / PIECES as f64;
+        let sums = |value: fn(&Stage) -> f64| {
+            let mut sums = vec![0.0];
+            for (ends, middle) in stages.windows(2).zip(&middles) {
+                let step = (value(&ends[0]) + 4.0 * value(middle) + value(&ends[1])) * piece / 6.0;
+                sums.push(sums[sums.len() - 1] + step);
+            }
+            sums
+        };
+        let travels = sums(|stage| 1.0 / stage.speed);
+        let lengths = sums(|stage| 1.0 / stage.length_scale);
+        for (stage, travel) in stages.iter_mut().zip(&travels) {
+            stage.travel = *travel;
+        }
+        let pieces_per_length = 1.0 / piece;
+        let EddyModel::Convected { decay_time } = air.eddies else {
+            let passages = lengths.iter().map(|&generation| Passage { generation, travel: 0.0 }).collect();
+            let eddies = lengths[PIECES].ceil().clamp(1.0, MOST as f64) as usize;
+            let stages = (0..eddies)
+                .map(|eddy| Stage { travel: 0.0, ..at(&stages, &lengths, eddy as f64 + 0.5) })
+                .collect();
+            return Self { pieces_per_length, passages, stages, ageing: f64::INFINITY };
+        };
+        let whole = travels[PIECES];
+        let steps = steps(&stages, &travels, whole / decay_time);
+        let travel = if steps == 0 { 0.0 } else { whole / steps as f64 };
+        let passages = travels
+            .iter()
+            .map(|&time| Passage { generation: if steps == 0 { 0.0 } else { time / travel }, travel: time });
+        Self {
+            pieces_per_length,
+            passages: passages.collect(),
+            stages: (0..=steps).map(|j| at(&stages, &travels, j as f64 * travel)).collect(),
+            ageing: travel / decay_time,
+        }
+    }
+
+    /// Whether the pattern of one generation passes into that of the next.
+    pub(super) fn is_carried(&self) -> bool {
+        self.ageing.is_finite()
+    }
+
+    /// Travel time of the air at the end of the way [s].
+    pub(super) fn longest_travel(&self) -> f64 {
+        self.passages[PIECES].travel
+    }
+
+    /// The passage of the air at a distance `x` [m] from the inlet.
+    #[inline(always)]
+    pub(super) fn passage(&self, x: f64) -> Passage {
+        let place = (x * self.pieces_per_length).clamp(0.0, PIECES as f64);
+        let piece = (place as usize).min(PIECES - 1);
+        let (start, end, share) = (self.passages[piece], self.passages[piece + 1], place - piece as f64);
+        Passage {
+            generation: start.generation + share * (end.generation - start.generation),
+            travel: start.travel + share * (end.travel - start.travel),
+        }
+    }
+}
+
+impl Stage {
+    fn of(local: &LocalAir, air: &Air) -> Self {
+        Self {
+            travel: 0.0,
+            speed: local.velocity.norm(),
+            length_scale: local.length_scale,
+            cutoff_frequency: local.cutoff_frequency.min(air.cutoff_frequency),
+        }
+    }
+}
+
+/// The stage at which a rising quantity has a value.
+fn at(stages: &[Stage], rising: &[f64], value: f64) -> Stage {
+    let end = rising.partition_point(|known| *known < value).clamp(1, rising.len() - 1);
+    let (a, b) = (&stages[end - 1], &stages[end]);
+    let rise = rising[end] - rising[end - 1];
+    let share = if rise > 0.0 { ((value - rising[end - 1]) / rise).clamp(0.0, 1.0) } else { 0.0 };
+    let between = |quantity: fn(&Stage) -> f64| quantity(a) + share * (quantity(b) - quantity(a));
+    Stage {
+        travel: between(|stage| stage.travel),
+        speed: between(|stage| stage.speed),
+        length_scale: between(|stage| stage.length_scale),
+        cutoff_frequency: between(|stage| stage.cutoff_frequency),
+    }
+}
+
+/// Steps of equal travel time in which neither age nor air change too much. None if the pattern is the same everywhere.
+///
+/// * `age` – of the air at the end of the way, in decay times
+fn steps(stages: &[Stage], travels: &[f64], age: f64) -> usize {
+    let whole = travels[travels.len() - 1];
+    let change = |a: &Stage, b: &Stage| {
+        let ratios =
+            [a.speed / b.speed, a.length_scale / b.length_scale, a.cutoff_frequency / b.cutoff_frequency];
+        ratios.into_iter().map(|ratio| libm::log(ratio).abs()).fold(0.0, f64::max)
+    };
+    let least = (age / LONGEST_AGE - 1e-9).ceil().clamp(0.0, MOST as f64) as usize;
+    (least..MOST)
+        .find(|&steps| {
+            let stage = |j: usize| at(stages, travels, whole * j as f64 / steps.max(1) as f64);
+            let largest = if steps == 0 { 1e-6 } else { LARGEST_CHANGE };
+            (0..steps.max(1)).all(|j| change(&stage(j), &stage(j + 1)) <= largest)
+        })
+        .unwrap_or(MOST)
+}

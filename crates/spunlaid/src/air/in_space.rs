@@ -1,0 +1,212 @@
+//! The air around eight fibres in fields of eddies in space.
+//!
+//! ```text
+//! EddyField → fluctuation of rms one at an element's place in space
+//! MeanAlong, or Surroundings in a CFD field → mean velocity and rms there → the velocity
+//! ```
+
+use super::at_elements::{AirAtElements, OnTheWay};
+use super::{Air, EddyField, Surroundings};
+use crate::company::PerLane;
+use crate::fibre::Place;
+use crate::field::Hint;
+use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
+use crate::vec3::Vec3;
+use std::sync::Arc;
+
+/// Pieces of the way in each of which the mean flow is linear.
+const PIECES: usize = 1024;
+
+/// Air with a field of eddies in space, around up to eight fibres.
+#[derive(Clone, Debug)]
+pub struct AirInSpace {
+    fields: PerLane<Field>,
+    places: PerLane<Place>,
+    means: PerLane<MeanAlong>,
+    elements: AirAtElements,
+    /// The mean flow and the rms in a CFD field.
+    surroundings: Option<Surroundings>,
+}
+
+/// The field of a fibre.
+#[derive(Clone, Debug)]
+struct Field {
+    field: Arc<EddyField>,
+    /// The first lane that has the same field.
+    same_as: usize,
+}
+
+/// Mean flow and rms along the way.
+#[derive(Clone, Debug)]
+struct MeanAlong {
+    per_length: f64,
+    /// At the ends of the pieces: velocity along x [m/s], change of the velocity along y with y [1/s], rms [m/s].
+    ends: Arc<Vec<[f64; 3]>>,
+}
+
+impl MeanAlong {
+    /// * `distance` – to the end of the way [m]
+    fn new(air: &Air, distance: f64) -> Self {
+        let mut hint = Hint::default();
+        let mut end = |i: usize| {
+            let x = distance * i as f64 / PIECES as f64;
+            let local = air.local(Vec3::new(x, 1.0, 0.0), &mut hint);
+            [local.velocity.x, local.velocity.y, local.rms]
+        };
+        Self { per_length: PIECES as f64 / distance, ends: Arc::new((0..=PIECES).map(&mut end).collect()) }
+    }
+
+    #[inline(always)]
+    fn at(&self, x: f64) -> [f64; 3] {
+        let place = (x * self.per_length).clamp(0.0, PIECES as f64);
+        let piece = (place as usize).min(PIECES - 1);
+        let (start, end, share) = (&self.ends[piece], &self.ends[piece + 1], place - piece as f64);
+        [0, 1, 2].map(|i| start[i] + share * (end[i] - start[i]))
+    }
+}
+
+impl AirInSpace {
+    /// * `lanes` – of each fibre: its air, its place, its field, and the distance to the end of its way [m]
+    /// * `every` – steps from one look to the next
+    pub(crate) fn new(
+        lanes: &PerLane<(Air, Place, Arc<EddyField>, f64)>,
+        elements: usize,
+        every: u64,
+    ) -> Self {
+        let fields: Vec<&Arc<EddyField>> = lanes.iter().map(|(_, _, field, _)| field).collect();
+        let mut lane = 0;
+        let in_field = lanes.of(0).0.flow.is_field();
+        Self {
+            fields: lanes.map(|(_, _, field, _)| {
+                let same_as = fields.iter().position(|other| Arc::ptr_eq(other, field)).unwrap_or(lane);
+                lane += 1;
+                Field { field: Arc::clone(field), same_as }
+            }),
+            places: lanes.map(|(_, place, _, _)| *place),
+            means: lanes.map(|(air, _, _, distance)| MeanAlong::new(air, *distance)),
+            elements: AirAtElements::new(elements, every),
+            surroundings: in_field.then(|| {
+                let airs = lanes.map(|(air, place, _, _)| (air.clone(), *place));
+                Surroundings::around_elements(airs, elements, every)
+            }),
+        }
+    }
+
+    pub(super) fn elements(&self) -> usize {
+        self.elements.len()
+    }
+
+    /// Gives all fibres a field that has been made for the times to come.
+    pub(crate) fn give(&mut self, field: &Arc<EddyField>) {
+        self.fields = self.fields.map(|_| Field { field: Arc::clone(field), same_as: 0 });
+    }
+
+    /// Share of the time that the elements of a lane's fibre have spent outside of a CFD field's data.
+    pub(super) fn outside(&self, lane: usize) -> Option<f64> {
+        self.surroundings.as_ref().map(|surroundings| surroundings.outside(lane))
+    }
+
+    pub(super) fn forget(&mut self) {
+        self.elements.forget();
+        if let Some(surroundings) = &mut self.surroundings {
+            surroundings.forget();
+        }
+    }
+
+    pub(super) fn follow(&mut self, elements: usize, born: bool) {
+        self.elements.follow(elements, born);
+        if let Some(surroundings) = &mut self.surroundings {
+            surroundings.follow(elements, born);
+        }
+    }
+
+    /// Replaces the air by another one. The values of the last look are kept until the next.
+    pub(super) fn change(&mut self, by: Self) {
+        let Self { fields, places, means, elements, surroundings } = by;
+        (self.fields, self.places, self.means) = (fields, places, means);
+        self.elements.every = elements.every;
+        if let (Some(own), Some(new)) = (&mut self.surroundings, surroundings) {
+            own.change(new);
+        }
+    }
+
+    /// Looks at the air at the elements before a step at the time `t` [s].
+    #[inline(always)]
+    pub(super) fn look<S: Register>(
+        &mut self,
+        step: u64,
+        t: f64,
+        position: &[Vec3<Lanes>],
+    ) -> OnTheWay<'_, S> {
+        if self.elements.is_look_due(step) {
+            self.make_for(t);
+            S::ISA.run(Look { air: self, t, position });
+        }
+        self.elements.now(step)
+    }
+
+    /// Makes the fields for a time, unless their owner has made them.
+    #[inline(never)]
+    fn make_for(&mut self, t: f64) {
+        if !self.fields.any(|Field { field, .. }| !field.is_made_for(t)) {
+            return;
+        }
+        let mut made: Vec<Arc<EddyField>> = Vec::new();
+        self.fields = self.fields.map(|Field { field, same_as }| {
+            let mut field = Arc::clone(made.get(*same_as).unwrap_or(field));
+            if !field.is_made_for(t) {
+                let block = field.block();
+                Arc::make_mut(&mut field).make(t..t + block, 1);
+            }
+            made.push(Arc::clone(&field));
+            Field { field, same_as: *same_as }
+        });
+    }
+
+    /// Looks up the air at the elements at the time `t` [s].
+    #[inline(always)]
+    fn look_up<S: Register>(&mut self, t: f64, position: &[Vec3<Lanes>]) {
+        if let Some(surroundings) = &mut self.surroundings {
+            surroundings.look_up::<S>(position);
+        }
+        let per_step = self.elements.per_step();
+        let half = Wide::<S>::splat(0.5);
+        for (j, (ends, element)) in position.windows(2).zip(self.elements.each()).enumerate() {
+            let centre = ((Vec3::load(&ends[0]) + Vec3::load(&ends[1])) * half).store();
+            let (mut mean, mut fluctuation, mut rms) = (Vec3::ZERO, Vec3::ZERO, Lanes::ZERO);
+            for lane in 0..WIDTH {
+                let (place, at) = (self.places.of(lane), centre.lane(lane));
+                let (y, z) = (at.y + place.y, at.z + place.z);
+                let [u, v, w] = self.fields.of(lane).field.fluctuation(t, [at.x, y, z]);
+                fluctuation.set_lane(lane, Vec3::new(u, v, w));
+                let [speed, widening, strength] = self.means.of(lane).at(at.x);
+                mean.set_lane(lane, Vec3::new(speed, widening * y, 0.0));
+                rms.0[lane] = strength;
+            }
+            let (mut mean, mut rms) = (Vec3::<Wide<S>>::load(&mean), Wide::load(&rms));
+            if let Some(surroundings) = &self.surroundings {
+                let [u, v, w, strength] = surroundings.value(j);
+                mean = Vec3::new(Wide::load(u), Wide::load(v), Wide::load(w));
+                rms = Wide::load(strength);
+            }
+            element.keep(Vec3::load(&fluctuation).mul_add(rms, mean), per_step);
+        }
+        self.elements.finish_look();
+    }
+}
+
+/// [`AirInSpace::look_up`].
+struct Look<'a> {
+    air: &'a mut AirInSpace,
+    t: f64,
+    position: &'a [Vec3<Lanes>],
+}
+
+impl Task for Look<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<S: Register>(self) {
+        self.air.look_up::<S>(self.t, self.position);
+    }
+}
