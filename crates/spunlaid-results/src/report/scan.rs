@@ -9,6 +9,7 @@ use crate::Failure;
 use crate::figures::SEEN;
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::web::Performance;
+use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure, Unit};
 use spunlaid::scan::{Findings, PatchFindings};
 use spunlaid::web::Map;
 use spunlaid_charts::Figure;
@@ -52,7 +53,10 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         data,
         fibres: false,
         verdict: verdict(of),
-        heads: vec!["Patch", "CV", "95 % interval", "Noise of the camera", "Lost by one more pixel of blur"],
+        heads: ["Patch", "CV", "95 % interval"]
+            .into_iter()
+            .chain(OF_SCANNED_PATCHES.iter().map(|declared| declared.label))
+            .collect(),
         patches: of.patches.iter().map(row).collect(),
         about_patches: "The interval is that of the web, of which the scan is one piece. The noise of the camera is as it was given, and then taken out of the CV, or the most that it can be. Where one \
                         more pixel of blur changes little, the blur of the camera has changed little too.",
@@ -74,8 +78,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
 }
 
 fn row(of: &PatchFindings) -> Vec<String> {
-    let share = |share: f64| format!("{}{THIN}%", significant(100.0 * share, 2));
-    vec![
+    let mut cells = vec![
         millimetres(of.unevenness.patch),
         per_cent(of.unevenness.cv, of.unevenness.standard_error),
         of.interval.map_or_else(
@@ -84,9 +87,16 @@ fn row(of: &PatchFindings) -> Vec<String> {
                 format!("{} to {}{THIN}%", significant(100.0 * low, 3), significant(100.0 * high, 3))
             },
         ),
-        share(of.noise),
-        share(of.blur),
-    ]
+    ];
+    cells.extend(OF_SCANNED_PATCHES.iter().map(|declared| shown(declared, of).unwrap_or_default()));
+    cells
+}
+
+/// A declared measure with its unit; none if there is no value.
+fn shown<T>(declared: &ScanMeasure<T>, of: &T) -> Option<String> {
+    let Unit { shown, per_si } = declared.unit;
+    let number = significant((declared.number)(of)? * per_si, declared.digits);
+    Some(if shown.is_empty() { number } else { format!("{number}{THIN}{shown}") })
 }
 
 /// The map with the spots that were left out, as dark as they were.
@@ -125,18 +135,9 @@ fn facts(input: &ScanReport<'_>) -> Vec<Vec<String>> {
         ("File", input.file.to_owned()),
         ("Pixels", format!("{} × {} of {}", of.map.columns, of.map.rows, millimetres(of.map.cell))),
     ];
-    facts.extend(of.white.map(|white| ("Grey level of the lamp without web", significant(white, 5))));
-    facts.extend(of.density.map(|density| ("Mean optical density ln(white/level)", significant(density, 3))));
-    facts.extend(of.shading.map(|share| {
-        (
-            "Shading that was taken out, brightest over darkest",
-            format!("{}{THIN}%", significant(100.0 * share, 2)),
-        )
-    }));
-    if of.aside.cut_off > 0.0 {
-        let area = format!("{}{THIN}mm²", significant(of.aside.cut_off * 1e6, 3));
-        facts.push(("Cut off beside the web, with the bare lamp", area));
-    }
+    // What is zero has not been found.
+    let labelled = OF_SCANS.iter().filter(|one| !one.label.is_empty() && (one.number)(of) != Some(0.0));
+    facts.extend(labelled.filter_map(|declared| Some((declared.label, shown(declared, of)?))));
     if let Some(largest) = of.aside.spots.first() {
         let told = format!(
             "{}, {}{THIN}mm² in all; the largest {}{THIN}mm², {} from the left and {} from the top of the picture",

@@ -12,6 +12,7 @@ use crate::error::{Error, Fault, Finding, Place};
 use crate::layers::keys::WEB;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The entries of a file and of the overrides, and the problems found so far.
@@ -80,21 +81,25 @@ impl<'a, T> Document<'a, T> {
     /// Takes what stands in a table: keys, tables and lists. The top of the file is a table without a name.
     ///
     /// * `before` – what comes before its keys in their full names, `layer.2.line.`
-    /// * `list` – the list of an override in which it stands; a position in it is not one in the file
-    fn take_table(
-        &mut self,
-        before: &str,
-        table: &'static str,
-        keys: DeTable<'a>,
-        list: Option<&(Place, Option<String>)>,
-    ) {
+    /// * `list` – the override in which it stands
+    fn take_table(&mut self, before: &str, table: &'static str, keys: DeTable<'a>, list: Option<&Entry<'a>>) {
         for ((at, name), value) in in_order(keys) {
-            let mut entry = Entry::of_file(&self.source, at, value);
-            if let Some((place, shown)) = list {
-                (entry.place, entry.shown) = (place.clone(), shown.clone());
-            }
+            let entry = self.entry(at, value, list);
             self.take(before, table, &name, entry);
         }
+    }
+
+    /// An entry that stands at byte `at` of the file, or in an override; a position in it is not one in the file.
+    fn entry(&self, at: usize, value: Spanned<DeValue<'a>>, list: Option<&Entry<'a>>) -> Entry<'a> {
+        let mut entry = Entry::of_file(&self.source, at, value);
+        if let Some(Entry { place, shown, .. }) = list {
+            (entry.place, entry.shown) = (place.clone(), shown.clone());
+        }
+        entry
+    }
+
+    fn reject(&mut self, key: &str, entry: &Entry<'_>, what: Fault) {
+        self.written.problems.push(entry.problem(key, what));
     }
 
     /// Takes what stands in a table by its name: a key, a table or a list. What is unknown is rejected.
@@ -115,63 +120,49 @@ impl<'a, T> Document<'a, T> {
     }
 
     /// Takes a table within another one, or at the top of the file.
-    fn take_inner(&mut self, full: &str, table: &'static str, entry: Entry<'a>) {
+    fn take_inner(&mut self, full: &str, table: &'static str, mut entry: Entry<'a>) {
         let header = if full == table { format!("[{table}]") } else { format!("[layer.{table}]") };
         if self.layered && full == table && self.list_of(table).is_some() {
-            let what = Fault::new(
-                "cannot stand beside [[layer]]",
-                format!("write [layer.{table}] below the [[layer]] that it belongs to"),
-            );
-            self.written.problems.push(Finding { value: None, ..entry.problem(&header, what) });
+            let remedy = format!("write [layer.{table}] below the [[layer]] that it belongs to");
+            entry.shown = None;
+            self.reject(&header, &entry, Fault::new("cannot stand beside [[layer]]", remedy));
             return;
         }
-        match (&entry.place, entry.value) {
+        let what = match (&entry.place, std::mem::replace(&mut entry.value, DeValue::Boolean(false))) {
             (Place::Override(word), _) => {
-                let what = Fault::wrong_type("a table", format!("one of its keys, {word} {full}.key=value"));
-                let (place, key) = (entry.place.clone(), full.to_owned());
-                self.written.problems.push(Finding { place, key, value: None, what });
+                entry.shown = None;
+                Fault::wrong_type("a table", format!("one of its keys, {word} {full}.key=value"))
             }
-            (_, DeValue::Table(keys)) => self.take_table(&format!("{full}."), table, keys, None),
-            (_, other) => {
-                self.written.excuse(format!("{full}."));
-                let what = Fault::wrong_type(kind(&other), format!("a table, {header}"));
-                let (place, key, value) = (entry.place, full.to_owned(), entry.shown);
-                self.written.problems.push(Finding { place, key, value, what });
-            }
-        }
+            (_, DeValue::Table(keys)) => return self.take_table(&format!("{full}."), table, keys, None),
+            (_, other) => Fault::wrong_type(kind(&other), format!("a table, {header}")),
+        };
+        self.written.excuse(format!("{full}."));
+        self.reject(full, &entry, what);
     }
 
     /// Takes a list of tables in place of the one there was.
-    fn take_list(&mut self, full: &str, list: &'static TableList, entry: Entry<'a>) {
+    fn take_list(&mut self, full: &str, list: &'static TableList, mut entry: Entry<'a>) {
         self.remove(full);
-        let Entry { place, shown, value, .. } = entry;
-        let tables = match value {
-            DeValue::Array(tables) if !tables.is_empty() => tables,
-            other => {
-                let found = if other.is_array() { "an empty list" } else { kind(&other) };
-                let what = Fault::wrong_type(found, list.wanted);
-                self.written.set(full.to_owned(), WrittenValue { place, shown, value: None });
-                self.written.reject(full, what);
-                return;
-            }
+        let tables = match std::mem::replace(&mut entry.value, DeValue::Boolean(false)) {
+            DeValue::Array(tables) if !tables.is_empty() => Ok(tables),
+            DeValue::Array(_) => Err("an empty list"),
+            other => Err(kind(&other)),
         };
-        let count = Some(Value::Whole(tables.len() as u64));
-        self.written
-            .set(full.to_owned(), WrittenValue { place: place.clone(), shown: shown.clone(), value: count });
-        let of_override = matches!(place, Place::Override(_)).then_some((place, shown));
-        for (number, table) in (1..).zip(tables) {
-            let item = Entry::of_file(&self.source, table.span().start, table);
-            let before = format!("{full}.{number}.");
+        let value = tables.as_ref().ok().map(|tables| Value::Whole(tables.len() as u64));
+        let (place, shown) = (entry.place.clone(), entry.shown.clone());
+        self.written.set(full.to_owned(), WrittenValue { place, shown, value });
+        if let Err(found) = tables {
+            self.reject(full, &entry, Fault::wrong_type(found, list.wanted));
+        }
+        let of_override = Some(&entry).filter(|entry| matches!(entry.place, Place::Override(_)));
+        for (number, table) in (1..).zip(tables.into_iter().flatten()) {
+            let item = self.entry(table.span().start, table, of_override);
+            let full = format!("{full}.{number}");
             if let DeValue::Table(keys) = item.value {
-                self.take_table(&before, list.name, keys, of_override.as_ref());
+                self.take_table(&format!("{full}."), list.name, keys, of_override);
             } else {
-                let what = Fault::wrong_type(kind(&item.value), list.wanted);
-                let mut problem = item.problem(before.trim_end_matches('.'), what);
-                if let Some((place, shown)) = &of_override {
-                    (problem.place, problem.value) = (place.clone(), shown.clone());
-                }
-                self.written.problems.push(problem);
-                self.written.excuse(before);
+                self.reject(&full, &item, Fault::wrong_type(kind(&item.value), list.wanted));
+                self.written.excuse(format!("{full}."));
             }
         }
     }
@@ -218,7 +209,7 @@ impl<'a, T> Document<'a, T> {
         } else if let Some(home) = keys.home_of(name) {
             self.written.excuse(format!("{layer}{}", home.name));
             let what = Fault::misplaced(home.table(), home.short());
-            self.written.problems.push(entry.problem(&key, what));
+            self.reject(&key, entry, what);
             return;
         } else if let Some(meant) = keys.like(table, name).first() {
             let full = if meant.table() == table {

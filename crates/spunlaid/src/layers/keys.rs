@@ -152,10 +152,12 @@ pub const WEB_KEYS: &[WebKey] = &[
          `[layer.laydown]` and `[layer.line]` in place of the three tables below; their basis weights add up.",
     ),
     positive("fibre.diameter", Dimension::Length, of_layer!(diameter))
+        .told(is_flown)
         .required("18 µm")
         .meaning("Diameter of the round filaments. With `laydown.case` or `laydown.results` it is that of the case.")
         .label("Fibre diameter *d*"),
     positive("fibre.density", Dimension::Density, of_layer!(density))
+        .told(is_flown)
         .required("910 kg/m³")
         .meaning("Density of the polymer. With `laydown.case` or `laydown.results` it is that of the case.")
         .label("Fibre density"),
@@ -196,12 +198,14 @@ pub const WEB_KEYS: &[WebKey] = &[
         .label("Noise of the direction *A*")
         .usual(0.1, 1e4),
     positive("line.feed_speed", Dimension::Velocity, of_layer!(feed_speed))
+        .told(is_flown)
         .required("50 m/s")
         .meaning(
             "Speed at which each filament is fed: the spinning speed. With `laydown.case` or `laydown.results` it is that of the case.",
         )
         .label("Feed speed"),
     positive("line.belt_speed", Dimension::Velocity, of_layer!(belt_speed))
+        .told(is_flown)
         .required("3 m/s")
         .meaning("Speed of the belt. It is written once, in any of the layers, because all lie on one belt. With `laydown.case` or \
              `laydown.results` it is that of the case.")
@@ -316,6 +320,11 @@ pub const WEB_KEYS: &[WebKey] = &[
 
 /// Where the numbers of a surrogate come from if they are left out.
 const IDENTIFIED: &str = "identified in what the fibres of the case have laid";
+
+/// Whether the case of flown fibres gives the value.
+fn is_flown(web: &WebSpec) -> bool {
+    layer(web).is_some_and(|layer| layer.source.case().is_some())
+}
 
 fn layer(web: &WebSpec) -> Option<&LayerSpec> {
     web.layers.first()

@@ -168,7 +168,7 @@ fn rejects_what_cannot_vary_of_a_layer() {
         ),
         ("layer.3.line.filaments_per_metre = [100]", "there is no such layer or row; the web has 2 layers"),
         ("layer.M.line.filament_per_metre = [100]", "did you mean line.filaments_per_metre?"),
-        ("layer.M.line.belt_speed = ['4 m/s']", "with which the fibres of layer 1 are flown"),
+        ("layer.M.line.belt_speed = ['4 m/s']", "leave it out here, and set belt.speed in"),
         ("run.replicates = [4]", "the flights of all points have the same; write it under [set]"),
     ] {
         let text = format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n{line}\n");

@@ -1,9 +1,13 @@
 //! `summary.json`: all results of a web.
 
 use crate::figures::SEEN;
+use crate::output::summary::InOrder;
 use serde::Serialize;
+use serde_json::Value as Json;
+use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure};
 use spunlaid::scan;
 use spunlaid::statistics::{Estimate, interval_of_deviation};
+use spunlaid::web::uniformity::Unevenness;
 use spunlaid::web::{Clouds, Edges, Findings, Map, Web};
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
@@ -18,31 +22,9 @@ pub struct Summary<'a> {
     layers: &'a [Layer],
     web: WebSummary,
     #[serde(skip_serializing_if = "Option::is_none")]
-    scan: Option<Scan<'a>>,
+    scan: Option<InOrder<Json>>,
     performance: Performance,
     notes: &'a [String],
-}
-
-/// How a scan was read.
-#[derive(Clone, Copy, Debug, Serialize)]
-struct Scan<'a> {
-    file: &'a str,
-    /// Grey level of the lamp without web.
-    white: Option<f64>,
-    mean_density: Option<f64>,
-    /// How much brighter the lamp was at its brightest than at its darkest place, before this was taken out.
-    shading: Option<f64>,
-    filled_pixels: usize,
-    saturated_pixels: usize,
-    lighter_pixels: usize,
-    /// Area beside the rectangle that was cut out, because the bare lamp is seen there.
-    cut_off_m2: f64,
-    /// Grey level of the bare lamp there, over that of its picture if there is one.
-    bare_lamp: Option<f64>,
-    /// Dark spots that were left out.
-    dark_spots: usize,
-    /// Their area.
-    dark_spots_m2: f64,
 }
 
 /// What a layer was laid from.
@@ -97,7 +79,7 @@ struct WebSummary {
     /// Where edges cut fibre off: the strips that all but the map leaves out.
     #[serde(skip_serializing_if = "Option::is_none")]
     edges: Option<Margins>,
-    patches: Vec<Patch>,
+    patches: Vec<InOrder<Json>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     orientation_md: Option<Number>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -107,51 +89,6 @@ struct WebSummary {
     cloudiness: Option<Cloudiness>,
     clouds: Vec<Octave>,
     sensitivities: Vec<Levers>,
-}
-
-#[derive(Debug, Default, Serialize)]
-struct Patch {
-    patch_m: f64,
-    cv: f64,
-    /// By chance alone.
-    cv_standard_error: Option<f64>,
-    /// By the few fibres that were flown.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_flight_error: Option<f64>,
-    /// By the surrogate in place of the flown curves.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_model_error: Option<f64>,
-    /// By all causes; none if one is not known.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_whole_error: Option<f64>,
-    /// 95 % confidence interval of the CV of all such webs.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_interval: Option<[f64; 2]>,
-    /// Why the true CV cannot be told.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    no_interval: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_one_fibre: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_one_fibre_standard_error: Option<f64>,
-    /// That the flown curves let expect.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_flown: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_flown_standard_error: Option<f64>,
-    /// That paths of the surrogate let expect.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_surrogate: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_surrogate_standard_error: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_straight_fibres: Option<f64>,
-    /// Of the noise of the camera alone, at most or as given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_noise: Option<f64>,
-    /// Share by which one more pixel of blur lowers the CV.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    blur_of_a_pixel: Option<f64>,
 }
 
 /// What the edges of a web take.
@@ -206,7 +143,7 @@ struct Levers {
 
 impl WebSummary {
     /// What any map says.
-    fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<Patch>) -> Self {
+    fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<InOrder<Json>>) -> Self {
         let cloudiness = clouds.map(|clouds| {
             let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
             let interval = standard_error.map(|error| interval_of_deviation(index, error));
@@ -236,6 +173,28 @@ impl WebSummary {
     }
 }
 
+/// The numbers of the patches of one size. Those that are not known are left out.
+///
+/// * `errors` – of the CV by other causes than chance
+/// * `interval` – 95 % confidence interval of the CV of all such webs, or why it cannot be told
+fn patch<'a>(
+    of: &Unevenness,
+    errors: &[(&'a str, Option<f64>)],
+    interval: Result<[f64; 2], String>,
+    more: impl Iterator<Item = (&'a str, Option<f64>)>,
+) -> InOrder<Json> {
+    let known = |(name, number): (&'a str, Option<f64>)| Some((name, number?.into()));
+    let chance =
+        [("patch_m", of.patch.into()), ("cv", of.cv.into()), ("cv_standard_error", of.standard_error.into())];
+    let interval = match interval {
+        Ok(ends) => ("cv_interval", ends.to_vec().into()),
+        Err(why) => ("no_interval", why.into()),
+    };
+    let errors = errors.iter().copied().filter_map(known);
+    let all = chance.into_iter().chain(errors).chain([interval]).chain(more.filter_map(known));
+    InOrder(all.map(|(name, value): (&str, Json)| (name.to_owned(), value)).collect())
+}
+
 impl Number {
     fn of(of: &Estimate) -> Self {
         Self { mean: of.mean, standard_error: of.standard_error }
@@ -251,23 +210,23 @@ impl<'a> Summary<'a> {
         performance: Performance,
         notes: &'a [String],
     ) -> Self {
-        let patches = of.patches.iter().map(|patch| Patch {
-            patch_m: patch.map.patch,
-            cv: patch.map.cv,
-            cv_standard_error: patch.map.standard_error,
-            cv_interval: patch.map.interval(),
-            no_interval: patch.map.interval().is_none().then(|| "the map is too small".to_owned()),
-            cv_one_fibre: Some(patch.one_fibre.0),
-            cv_one_fibre_standard_error: Some(patch.one_fibre.1),
-            cv_flight_error: patch.whole_error().flight,
-            cv_model_error: patch.whole_error().model,
-            cv_whole_error: patch.whole_error().whole(),
-            cv_flown: patch.flown.map(|of| of.0),
-            cv_flown_standard_error: patch.flown.map(|of| of.1),
-            cv_surrogate: patch.surrogate.map(|of| of.0),
-            cv_surrogate_standard_error: patch.surrogate.map(|of| of.1),
-            cv_straight_fibres: Some(patch.straight_fibres),
-            ..Patch::default()
+        let patches = of.patches.iter().map(|of| {
+            let (whole, too_small) = (of.whole_error(), || "the map is too small".to_owned());
+            let errors = [
+                ("cv_flight_error", whole.flight),
+                ("cv_model_error", whole.model),
+                ("cv_whole_error", whole.whole()),
+            ];
+            let expected = [
+                ("cv_one_fibre", Some(of.one_fibre.0)),
+                ("cv_one_fibre_standard_error", Some(of.one_fibre.1)),
+                ("cv_flown", of.flown.map(|of| of.0)),
+                ("cv_flown_standard_error", of.flown.map(|of| of.1)),
+                ("cv_surrogate", of.surrogate.map(|of| of.0)),
+                ("cv_surrogate_standard_error", of.surrogate.map(|of| of.1)),
+                ("cv_straight_fibres", Some(of.straight_fibres)),
+            ];
+            patch(&of.map, &errors, of.map.interval().ok_or_else(too_small), expected.into_iter())
         });
         let levers = of.sensitivities.iter().flat_map(|sensitivity| {
             let each = sensitivity.elasticity.iter().zip(&of.patches);
@@ -309,15 +268,9 @@ impl<'a> Summary<'a> {
         performance: Performance,
         notes: &'a [String],
     ) -> Self {
-        let patches = of.patches.iter().map(|patch| Patch {
-            patch_m: patch.unevenness.patch,
-            cv: patch.unevenness.cv,
-            cv_standard_error: patch.unevenness.standard_error,
-            cv_interval: patch.interval.ok(),
-            no_interval: patch.interval.err().map(|doubt| doubt.to_string()),
-            cv_noise: Some(patch.noise),
-            blur_of_a_pixel: Some(patch.blur),
-            ..Patch::default()
+        let patches = of.patches.iter().map(|of| {
+            let declared = OF_SCANNED_PATCHES.iter().map(|declared| (declared.name, (declared.number)(of)));
+            patch(&of.unevenness, &[], of.interval.map_err(|doubt| doubt.to_string()), declared)
         });
         let mut web = WebSummary::of_map(&of.map, of.clouds.as_ref(), patches.collect());
         if let Some(guess) = of.guess {
@@ -328,24 +281,19 @@ impl<'a> Summary<'a> {
             }
         }
         let basis_weight_kg_m2 = web.basis_weight_kg_m2.filter(|_| of.mean_known);
+        let number = |declared: &ScanMeasure<scan::Findings>| {
+            let number = (declared.number)(of);
+            let number =
+                if declared.digits == 0 { number.map(|count| count as u64).into() } else { number.into() };
+            (declared.name.to_owned(), number)
+        };
+        let scan = std::iter::once(("file".to_owned(), file.into())).chain(OF_SCANS.iter().map(number));
         Self {
             schema_version: SCHEMA_VERSION,
             spunlaid_version: env!("CARGO_PKG_VERSION"),
             layers: &[],
             web: WebSummary { basis_weight_kg_m2, ..web },
-            scan: Some(Scan {
-                file,
-                white: of.white,
-                mean_density: of.density,
-                shading: of.shading,
-                filled_pixels: of.pixels.filled,
-                saturated_pixels: of.pixels.saturated,
-                lighter_pixels: of.pixels.lighter,
-                cut_off_m2: of.aside.cut_off,
-                bare_lamp: of.aside.bare,
-                dark_spots: of.aside.spots.len(),
-                dark_spots_m2: of.aside.masked,
-            }),
+            scan: Some(InOrder(scan.collect())),
             performance,
             notes,
         }

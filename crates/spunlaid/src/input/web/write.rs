@@ -16,9 +16,13 @@ pub fn write_web(spec: &WebSpec) -> String {
         if layered {
             text += &format!("\n[[layer]]\n{}", in_lines(&of_table(&alone, "layer")));
         }
+        // All layers lie on one belt, whose speed is that of a flown case or is written once.
+        let no_belt = number > 0 || spec.layers.iter().any(|layer| layer.source.case().is_some());
         for table in ["fibre", "laydown", "line"] {
             let header = if layered { format!("layer.{table}") } else { table.to_owned() };
-            text += &format!("\n[{header}]\n{}", in_lines(&of_table(&alone, table)));
+            let mut lines = of_table(&alone, table);
+            lines.retain(|line| !(no_belt && line.starts_with("belt_speed = ")));
+            text += &format!("\n[{header}]\n{}", in_lines(&lines));
         }
         if let Filaments::Rows(rows) = &layer.filaments {
             let row = |row| {
