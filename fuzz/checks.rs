@@ -128,7 +128,7 @@ pub fn scan(data: &[u8]) -> bool {
                 let (transmitted, weight) =
                     (Light::Transmitted { mean: None, white: None }, Light::Weight { mean: None });
                 for light in [transmitted, weight] {
-                    match scan::analyse(&picture, &scan::Settings::of(light)) {
+                    match scan::analyse(&picture, &scan::Settings::new(light)) {
                         Ok(found) => {
                             found.notes.iter().for_each(|note| assert_sayable(note, 1));
                             assert!(found.patches.iter().all(|patch| patch.unevenness.cv.is_finite()));

@@ -16,10 +16,10 @@ pub(crate) fn runs(points: &[Point]) -> Vec<Vec<Point>> {
 /// so that no peak is lost.
 pub(crate) fn along_x(points: &[Point]) -> Vec<Point> {
     let column = |p: &Point| (2.0 * p.0).floor();
-    let mut kept = Vec::new();
+    let mut few = Vec::new();
     for part in points.chunk_by(|a, b| column(a) == column(b)) {
         if part.len() <= 4 {
-            kept.extend_from_slice(part);
+            few.extend_from_slice(part);
             continue;
         }
         let by_height = |a: &usize, b: &usize| part[*a].1.total_cmp(&part[*b].1);
@@ -28,21 +28,21 @@ pub(crate) fn along_x(points: &[Point]) -> Vec<Point> {
         let mut picked = vec![0, low, high, part.len() - 1];
         picked.sort_unstable();
         picked.dedup();
-        kept.extend(picked.into_iter().map(|i| part[i]));
+        few.extend(picked.into_iter().map(|i| part[i]));
     }
-    kept
+    few
 }
 
 /// Thins a path that goes anywhere: points closer than a quarter of a pixel to the last kept one go.
 pub(crate) fn path(points: &[Point]) -> Vec<Point> {
-    let mut kept: Vec<Point> = Vec::new();
+    let mut few: Vec<Point> = Vec::new();
     for &p in points {
         let near = |q: &Point| (p.0 - q.0).hypot(p.1 - q.1) < 0.25;
-        if !kept.last().is_some_and(near) {
-            kept.push(p);
+        if !few.last().is_some_and(near) {
+            few.push(p);
         }
     }
-    kept
+    few
 }
 
 /// At most `count` indices of `0..length`, evenly spread, the first and the last among them.
@@ -69,10 +69,10 @@ mod tests {
         let mut points: Vec<Point> = (0..100_000).map(|i| (f64::from(i) * 1e-3, 0.0)).collect();
         points[50_123].1 = 7.0;
         points[70_001].1 = -3.0;
-        let kept = along_x(&points);
-        assert!(kept.len() <= 800);
-        assert!(kept.contains(&points[50_123]) && kept.contains(&points[70_001]));
-        assert_eq!((kept.first(), kept.last()), (points.first(), points.last()));
+        let few = along_x(&points);
+        assert!(few.len() <= 800);
+        assert!(few.contains(&points[50_123]) && few.contains(&points[70_001]));
+        assert_eq!((few.first(), few.last()), (points.first(), points.last()));
     }
 
     #[test]

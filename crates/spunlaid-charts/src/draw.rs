@@ -183,10 +183,10 @@ fn draw_shade(svg: &mut Svg, plot: &Plot, series: &Series, mark: &Mark) {
             let usable = |&&(x, a, b): &&(f64, f64, f64)| {
                 plot.x.holds(x) && a.is_finite() && b.is_finite() && a.max(b) >= lo
             };
-            let kept: Vec<_> = points.iter().filter(usable).collect();
+            let band: Vec<_> = points.iter().filter(usable).collect();
             let edge = |value: f64| plot.up(value.clamp(lo, hi));
-            let upper: Vec<_> = kept.iter().map(|&&(x, _, b)| (plot.along(x), edge(b))).collect();
-            let lower: Vec<_> = kept.iter().map(|&&(x, a, _)| (plot.along(x), edge(a))).collect();
+            let upper: Vec<_> = band.iter().map(|&&(x, _, b)| (plot.along(x), edge(b))).collect();
+            let lower: Vec<_> = band.iter().map(|&&(x, a, _)| (plot.along(x), edge(a))).collect();
             let mut outline = along_x(&upper);
             outline.extend(along_x(&lower).into_iter().rev());
             svg.polygon(&outline, series.colour, 0.2, None);
@@ -260,15 +260,15 @@ fn spread<'a>(plot: &Plot, points: &[&'a (f64, f64)], index: usize) -> Vec<&'a (
     let step = 1.0 / 10.0;
     let shift = if index.is_multiple_of(2) { 0.25 } else { 0.75 };
     let mut next = shift * step;
-    let mut kept = Vec::new();
+    let mut marked = Vec::new();
     for &p in points {
         let place = plot.x.place(p.0);
         if place >= next {
-            kept.push(p);
+            marked.push(p);
             next = ((place / step - shift).floor() + 1.0 + shift) * step;
         }
     }
-    kept
+    marked
 }
 
 fn draw_error(svg: &mut Svg, plot: &Plot, (x, y): (f64, f64), error: f64, colour: &str) {

@@ -21,7 +21,7 @@ pub struct Figure {
 
 impl Figure {
     /// The figure of a chart.
-    pub fn of(chart: &Chart, caption: impl Into<String>) -> Self {
+    pub fn new(chart: &Chart, caption: impl Into<String>) -> Self {
         Self {
             name: chart.name.clone(),
             title: chart.title.clone(),
@@ -143,7 +143,7 @@ mod tests {
     fn words_stand_in_the_table() {
         let chart = Chart::new("c", "", Axis::of_words("Law", ["one", "two"]), Axis::linear("*y* (mm)"))
             .scatter(Series::new("*y*", "red"), &[(0.1, 1.0, None), (0.9, 2.0, None)]);
-        let figure = Figure::of(&chart, "");
+        let figure = Figure::new(&chart, "");
         assert_eq!(figure.table.csv(), "series,law,y_mm\ny,one,1\ny,two,2\n");
         assert!(figure.svg.contains(">one</text>") && figure.svg.contains(">two</text>"), "{}", figure.svg);
     }
@@ -154,6 +154,6 @@ mod tests {
         let chart = chart("*y* (mm)")
             .line(Series::new("zero", "grey").adorning(), &[(0.0, 0.0), (2.0, 0.0)])
             .line(Series::new("*y*", "red").unlabelled().thinned_from(full), &[(0.0, 1.0), (2.0, 3.0)]);
-        assert_eq!(Figure::of(&chart, "").table.csv(), "series,time_s,y_mm\ny,0,1\ny,1,2\ny,2,3\n");
+        assert_eq!(Figure::new(&chart, "").table.csv(), "series,time_s,y_mm\ny,0,1\ny,1,2\ny,2,3\n");
     }
 }

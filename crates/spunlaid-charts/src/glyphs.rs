@@ -120,7 +120,7 @@ impl<'a> Font<'a> {
 
     /// How much closer a pair of glyphs stands, in units of the font.
     fn closer(&self, first: GlyphId, second: GlyphId) -> i16 {
-        let of = |pair: &PairAdjustment<'_>| match pair {
+        let adjustment = |pair: &PairAdjustment<'_>| match pair {
             PairAdjustment::Format1 { coverage, sets } => {
                 Some(sets.get(coverage.get(first)?)?.get(second)?.0.x_advance)
             }
@@ -129,7 +129,7 @@ impl<'a> Font<'a> {
                 Some(matrix.get((classes.0.get(first), classes.1.get(second)))?.0.x_advance)
             }
         };
-        self.pairs.iter().find_map(of).unwrap_or(0)
+        self.pairs.iter().find_map(adjustment).unwrap_or(0)
     }
 }
 
@@ -185,8 +185,8 @@ mod tests {
         let svg = outlined(&format!("<svg xmlns=\"{SVG}\">{text}</svg>")).unwrap();
         assert!(!svg.contains("<text"), "{svg}");
         let (transform, d) = (between(&svg, "translate(", ")"), between(&svg, " d=\"", "\""));
-        let numbers = |of: &str| -> Vec<f64> {
-            of.split(|c: char| c.is_ascii_alphabetic() || c == ' ').filter_map(|n| n.parse().ok()).collect()
+        let numbers = |text: &str| -> Vec<f64> {
+            text.split(|c: char| c.is_ascii_alphabetic() || c == ' ').filter_map(|n| n.parse().ok()).collect()
         };
         let at = numbers(transform);
         numbers(d).chunks(2).map(|point| (point[0] + at[0], point[1] + at[1])).collect()
@@ -196,8 +196,10 @@ mod tests {
         text.split_once(before).unwrap().1.split_once(after).unwrap().0
     }
 
-    fn extent(of: &[(f64, f64)]) -> [f64; 2] {
-        of.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (x, _)| [low.min(*x), high.max(*x)])
+    fn extent(points: &[(f64, f64)]) -> [f64; 2] {
+        points
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (x, _)| [low.min(*x), high.max(*x)])
     }
 
     #[test]

@@ -19,7 +19,7 @@
 //! let chart = Chart::new("amplitude_over_velocity", "Amplitude over the velocity", velocity, amplitude)
 //!     .scatter(Series::circles("*y*"), &[(5.0, 4.8, Some(0.1)), (10.0, 9.8, Some(0.2))])
 //!     .scatter(Series::triangles("*z*"), &[(5.0, 4.7, Some(0.1)), (10.0, 9.5, None)]);
-//! let figure = Figure::of(&chart, "Mean over ten replicates; bars are one standard error.");
+//! let figure = Figure::new(&chart, "Mean over ten replicates; bars are one standard error.");
 //!
 //! assert!(figure.svg.starts_with("<svg"));
 //! assert!(png(&figure.svg)?.starts_with(b"\x89PNG"));

@@ -47,7 +47,7 @@ impl Rose {
 
     fn svg(&self) -> String {
         let mut svg = Svg::new(SIZE.0, SIZE.1, &self.title);
-        let reference = self.reference.as_ref().map_or(0.0, |of| of.0);
+        let reference = self.reference.as_ref().map_or(0.0, |reference| reference.0);
         let values = self.classes.iter().map(|class| class.0).filter(|value| value.is_finite());
         let largest = values.fold(reference, f64::max);
         let step = ring_step(largest);
@@ -160,7 +160,7 @@ mod tests {
     use super::*;
 
     fn rose(classes: Vec<(f64, Option<f64>)>) -> Rose {
-        let words = |of: &str| of.to_owned();
+        let words = |text: &str| text.to_owned();
         Rose {
             name: words("rose"),
             title: words("Rose"),

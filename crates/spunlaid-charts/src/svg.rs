@@ -322,12 +322,12 @@ fn spans(text: &str, size: f64) -> String {
 
 /// Width of a label [px].
 pub fn width(text: &str, size: f64) -> f64 {
-    let of = |(setting, piece): &(Setting, String)| match setting {
+    let width_of_piece = |(setting, piece): &(Setting, String)| match setting {
         Setting::Upright => glyphs::width(piece, false, size),
         Setting::Italic => glyphs::width(piece, true, size),
         Setting::Raised | Setting::Lowered => glyphs::width(piece, false, SMALL * size),
     };
-    pieces(text).iter().map(of).sum()
+    pieces(text).iter().map(width_of_piece).sum()
 }
 
 #[cfg(test)]

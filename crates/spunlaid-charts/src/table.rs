@@ -59,7 +59,7 @@ impl Table {
 
 impl Table {
     fn cell(&self, column: usize, value: f64) -> String {
-        let words = self.words.iter().find(|(of, _)| *of == column).map(|(_, words)| words);
+        let words = self.words.iter().find(|(index, _)| *index == column).map(|(_, words)| words);
         match words.and_then(|words| words.get(value.round() as usize)).filter(|_| value.is_finite()) {
             Some(word) => word.clone(),
             None => shortest(value),

@@ -11,7 +11,7 @@ pub(crate) enum Failure {
     /// Something that the user can mend, or that the operating system does not allow.
     Error(Error),
     /// A study was interrupted.
-    Paused { done: u64, of: u64, what: &'static str },
+    Paused { done: u64, total: u64, what: &'static str },
     /// Fibres were lost; the results are those of all others.
     FibresLost { lost: String },
     /// The program panicked; the message has been printed.
@@ -60,10 +60,10 @@ impl fmt::Display for Failure {
                 write!(f, "interrupted; nothing was written. Repeat the command to start again")
             }
             Self::Error(error) => f.write_str(&error.with_options()),
-            Self::Paused { done, of, what } => {
+            Self::Paused { done, total, what } => {
                 write!(
                     f,
-                    "interrupted; {done} of {of} {what} are done and kept. Repeat the command to continue"
+                    "interrupted; {done} of {total} {what} are done and kept. Repeat the command to continue"
                 )
             }
             Self::FibresLost { lost } => f.write_str(lost),
@@ -127,7 +127,8 @@ mod tests {
         ] {
             assert_eq!(not_the_inputs_fault.exit_code(), 2, "{not_the_inputs_fault:?}");
         }
-        for interrupted in [Failure::Paused { done: 1, of: 2, what: "fibres" }, Error::Interrupted.into()] {
+        for interrupted in [Failure::Paused { done: 1, total: 2, what: "fibres" }, Error::Interrupted.into()]
+        {
             assert_eq!(interrupted.exit_code(), 130, "{interrupted:?}");
         }
     }
@@ -136,8 +137,8 @@ mod tests {
     fn each_problem_is_followed_by_its_option() {
         let problems = [("makes 300 points", "--points"), ("is unknown", "")];
         let problems = problems.map(|(text, option)| Fault::new(text, "mend it").option(option).into());
-        let told = Failure::from(Error::Rejected(problems.into())).to_string();
-        assert_eq!(told, "makes 300 points; mend it (--points)\nis unknown; mend it");
+        let message = Failure::from(Error::Rejected(problems.into())).to_string();
+        assert_eq!(message, "makes 300 points; mend it (--points)\nis unknown; mend it");
     }
 
     #[test]

@@ -175,7 +175,7 @@ pub(crate) fn records(rows: &PyReadonlyArray2<'_, f64>, numbers: usize) -> PyRes
     if rows.ncols() != columns {
         return Err(PyValueError::new_err(format!("records have {columns} columns, not {}", rows.ncols())));
     }
-    let of = |row: numpy::ndarray::ArrayView1<'_, f64>| {
+    let record = |row: numpy::ndarray::ArrayView1<'_, f64>| {
         let landing = if row[2] == 0.0 {
             Landing::Measured((0..numbers).map(|i| row[HEAD + i]).collect())
         } else {
@@ -183,5 +183,5 @@ pub(crate) fn records(rows: &PyReadonlyArray2<'_, f64>, numbers: usize) -> PyRes
         };
         Record { point: row[0] as u64, replicate: row[1] as u64, landing }
     };
-    Ok(rows.rows().into_iter().map(of).collect())
+    Ok(rows.rows().into_iter().map(record).collect())
 }

@@ -116,18 +116,18 @@ impl Case {
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (all, text) = (PyDict::new(py), write_case(&self.case));
         for table in TABLES {
-            let of = PyDict::new(py);
+            let dict = PyDict::new(py);
             let head = format!("\n[{table}]\n");
             let written = text.split_once(&head).map_or("", |(_, rest)| rest);
             let written = written.split_once("\n[").map_or(written, |(own, _)| own);
             for key in keys::of_table(table) {
                 let start = format!("{} = ", key.short());
                 if written.lines().any(|line| line.starts_with(&start)) {
-                    of.set_item(key.short(), to_python(py, key.get(&self.case))?)?;
+                    dict.set_item(key.short(), to_python(py, key.get(&self.case))?)?;
                 }
             }
-            if !of.is_empty() {
-                all.set_item(table, of)?;
+            if !dict.is_empty() {
+                all.set_item(table, dict)?;
             }
         }
         Ok(all)

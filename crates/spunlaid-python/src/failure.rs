@@ -24,9 +24,9 @@ pub(crate) fn raised(py: Python<'_>, error: impl Into<Error>) -> PyErr {
 
 /// A panic, which is a fault of the library: an exception too, so that no session is lost.
 pub(crate) fn raised_of_panic(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
-    let told = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    let told = told.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
-    let text = format!("a fault of spunlaid itself: {told}; please report it with the case");
+    let message = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let message = message.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
+    let text = format!("a fault of spunlaid itself: {message}; please report it with the case");
     instance(py, "InternalError", (text,)).unwrap_or_else(|error| error)
 }
 
@@ -52,16 +52,16 @@ fn listed<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Bound<'py, PyL
             Place::File { file, .. } | Place::Point { study: file, .. } => Some(file),
             Place::Code | Place::Override(_) => None,
         };
-        let of = PyDict::new(py);
-        of.set_item("key", Some(&problem.key).filter(|key| !key.is_empty()))?;
-        of.set_item("value", &problem.value)?;
-        of.set_item("message", &problem.what.message)?;
-        of.set_item("remedy", remedy)?;
-        of.set_item("file", file)?;
-        of.set_item("line", problem.place.line())?;
-        of.set_item("column", problem.place.column())?;
-        of.set_item("text", problem.to_string())?;
-        list.append(of)?;
+        let dict = PyDict::new(py);
+        dict.set_item("key", Some(&problem.key).filter(|key| !key.is_empty()))?;
+        dict.set_item("value", &problem.value)?;
+        dict.set_item("message", &problem.what.message)?;
+        dict.set_item("remedy", remedy)?;
+        dict.set_item("file", file)?;
+        dict.set_item("line", problem.place.line())?;
+        dict.set_item("column", problem.place.column())?;
+        dict.set_item("text", problem.to_string())?;
+        list.append(dict)?;
     }
     Ok(list)
 }

@@ -43,8 +43,8 @@ impl Flight {
     #[new]
     #[pyo3(signature = (case, replicates = None))]
     fn new(py: Python<'_>, case: &Case, replicates: Option<u64>) -> PyResult<Self> {
-        let of = &*case.case;
-        let fibres = replicates.unwrap_or_else(|| of.run.replicates.min(WIDTH as u64));
+        let description = &*case.case;
+        let fibres = replicates.unwrap_or_else(|| description.run.replicates.min(WIDTH as u64));
         if !(1..=MOST).contains(&fibres) {
             return Err(PyValueError::new_err(format!("replicates must be 1 to {MOST}, not {fibres}")));
         }
@@ -52,7 +52,8 @@ impl Flight {
             let starts = (0..fibres).step_by(WIDTH);
             let pack = |first: u64| {
                 let last = fibres.min(first + WIDTH as u64);
-                let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job::new(of, replicate)).collect();
+                let jobs: Vec<Job<'_>> =
+                    (first..last).map(|replicate| Job::new(description, replicate)).collect();
                 flight::Flight::new(&jobs, Isa::detect())
             };
             starts.map(pack).collect::<Result<Vec<_>, Failure>>()
@@ -153,15 +154,16 @@ impl Flight {
         let all = PyDict::new(py);
         type Number = fn(&spunlaid::energy::Energy) -> spunlaid::lanes::Lanes;
         let numbers: [(&str, Number); 6] = [
-            ("kinetic_j", |of| of.kinetic),
-            ("axial_j", |of| of.axial),
-            ("bending_j", |of| of.bending),
-            ("gravity_work_j", |of| of.gravity_work),
-            ("air_work_j", |of| of.drag_work),
-            ("imbalance_j", |of| of.imbalance()),
+            ("kinetic_j", |energy| energy.kinetic),
+            ("axial_j", |energy| energy.axial),
+            ("bending_j", |energy| energy.bending),
+            ("gravity_work_j", |energy| energy.gravity_work),
+            ("air_work_j", |energy| energy.drag_work),
+            ("imbalance_j", |energy| energy.imbalance()),
         ];
-        for (name, of) in numbers {
-            let mut values: Vec<f64> = snapshots.iter().flat_map(|snapshot| of(&snapshot.energy).0).collect();
+        for (name, quantity) in numbers {
+            let mut values: Vec<f64> =
+                snapshots.iter().flat_map(|snapshot| quantity(&snapshot.energy).0).collect();
             values.truncate(self.fibres as usize);
             all.set_item(name, PyArray1::from_vec(py, values))?;
         }
@@ -172,10 +174,10 @@ impl Flight {
     fn take_laid<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let laid = guarded(py, || {
             let mut packs = self.lock();
-            let of = |pack: &mut flight::Flight| -> Vec<Vec<LaidPoint>> {
+            let curves = |pack: &mut flight::Flight| -> Vec<Vec<LaidPoint>> {
                 (0..pack.fibres()).map(|lane| pack.take_laid(lane)).collect()
             };
-            Ok(packs.iter_mut().flat_map(of).collect::<Vec<_>>())
+            Ok(packs.iter_mut().flat_map(curves).collect::<Vec<_>>())
         })?;
         let all = PyList::empty(py);
         for points in laid {
@@ -209,13 +211,13 @@ impl Flight {
         snapshot.nodes.into_iter().enumerate()
     }
 
-    fn vectors<'py>(&self, py: Python<'py>, of: VectorField) -> PyResult<Bound<'py, PyAny>> {
+    fn vectors<'py>(&self, py: Python<'py>, field: VectorField) -> PyResult<Bound<'py, PyAny>> {
         let snapshots = self.snapshots(py)?;
         let width = snapshots.iter().flat_map(Self::lanes).map(|(_, nodes)| nodes).max().unwrap_or(0);
         let mut flat = Vec::new();
         for snapshot in &snapshots {
             for (lane, nodes) in Self::lanes(snapshot) {
-                let vectors = of(snapshot).iter().take(nodes).map(|vector| vector.lane(lane));
+                let vectors = field(snapshot).iter().take(nodes).map(|vector| vector.lane(lane));
                 flat.extend(vectors.flat_map(|vector| [vector.x, vector.y, vector.z]));
                 flat.extend(std::iter::repeat_n(f64::NAN, 3 * (width - nodes)));
             }
@@ -231,10 +233,10 @@ pub(crate) fn laid_columns<'py>(py: Python<'py>, points: &[LaidPoint]) -> PyResu
     type Number = fn(&LaidPoint) -> f64;
     let columns: [(&str, Number); 4] =
         [("s_m", |p| p.fed), ("time_s", |p| p.time), ("md_m", |p| p.md), ("cd_m", |p| p.cd)];
-    let of = PyDict::new(py);
+    let dict = PyDict::new(py);
     for (name, column) in columns {
         let values = PyArray1::from_vec(py, points.iter().map(column).collect());
-        of.set_item(name, crate::samples::locked(values.as_any())?)?;
+        dict.set_item(name, crate::samples::locked(values.as_any())?)?;
     }
-    Ok(of)
+    Ok(dict)
 }

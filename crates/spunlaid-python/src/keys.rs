@@ -20,18 +20,18 @@ pub(crate) fn keys(py: Python<'_>, web: bool) -> PyResult<Bound<'_, PyList>> {
 
 /// What is told of a key.
 fn about<'py, T>(py: Python<'py>, key: &Key<T>) -> PyResult<Bound<'py, PyDict>> {
-    let of = PyDict::new(py);
-    of.set_item("name", key.name)?;
-    of.set_item("unit", key.dimension().map(|dimension| dimension.si_unit()))?;
-    of.set_item("allowed", key.allowed())?;
-    of.set_item("words", key.kind.words())?;
-    of.set_item("required", matches!(key.left_out, LeftOut::Required(_)))?;
+    let dict = PyDict::new(py);
+    dict.set_item("name", key.name)?;
+    dict.set_item("unit", key.dimension().map(|dimension| dimension.si_unit()))?;
+    dict.set_item("allowed", key.allowed())?;
+    dict.set_item("words", key.kind.words())?;
+    dict.set_item("required", matches!(key.left_out, LeftOut::Required(_)))?;
     let (LeftOut::Required(text) | LeftOut::Value(text) | LeftOut::Follows(text)) = key.left_out;
-    of.set_item("left_out", text)?;
-    of.set_item("meaning", key.meaning)?;
-    of.set_item("label", key.label)?;
-    of.set_item("varies", key.varies)?;
-    of.set_item("in_flight", key.in_flight)?;
-    of.set_item("usual", key.slider)?;
-    Ok(of)
+    dict.set_item("left_out", text)?;
+    dict.set_item("meaning", key.meaning)?;
+    dict.set_item("label", key.label)?;
+    dict.set_item("varies", key.varies)?;
+    dict.set_item("in_flight", key.in_flight)?;
+    dict.set_item("usual", key.slider)?;
+    Ok(dict)
 }

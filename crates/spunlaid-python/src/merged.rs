@@ -12,10 +12,10 @@ use toml::de::{DeTable, DeValue};
 pub(crate) fn merged(text: &str, changes: &[(String, String)]) -> String {
     let mut tables: BTreeMap<String, BTreeMap<String, String>> = BTreeMap::new();
     let mut put = |table: &str, key: &str, value: Option<String>| {
-        let of = tables.entry(table.to_owned()).or_default();
+        let entries = tables.entry(table.to_owned()).or_default();
         match value {
-            Some(value) => drop(of.insert(key.to_owned(), value)),
-            None => drop(of.remove(key)),
+            Some(value) => drop(entries.insert(key.to_owned(), value)),
+            None => drop(entries.remove(key)),
         }
     };
     let (root, _) = DeTable::parse_recoverable(text);

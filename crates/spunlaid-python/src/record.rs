@@ -37,7 +37,7 @@ pub(crate) fn analyse<'py>(
             Some(Err(fault)) => return Err(PyValueError::new_err(format!("integral = {text:?} {fault}"))),
             None => {
                 let text = format!(
-                    "integral = {text:?} is no rule; write \"first-zero\", \"e-fold\" or \"fixed=20 ms\""
+                    "integral = {text:?} is not a rule; write \"first-zero\", \"e-fold\" or \"fixed=20 ms\""
                 );
                 return Err(PyValueError::new_err(text));
             }
@@ -55,15 +55,15 @@ pub(crate) fn analyse<'py>(
     }
     let settings = Settings { integral, flat_until, mean_velocity, ..Settings::default() };
     let source = source(record, rate, columns)?;
-    let (record, of) = watched(py, &Watch::default(), None, || {
+    let (record, analysis) = watched(py, &Watch::default(), None, || {
         let record = match source {
             Source::File(path, layout) => read_record(&path, &layout).map_err(Error::File)?,
             Source::Array(record) => record,
         };
-        let of = analysed(&record, &settings).map_err(Error::File)?;
-        Ok((record, of))
+        let analysis = analysed(&record, &settings).map_err(Error::File)?;
+        Ok((record, analysis))
     })?;
-    told(py, &record, &of)
+    results(py, &record, &analysis)
 }
 
 fn source(record: &Bound<'_, PyAny>, rate: Option<f64>, columns: Vec<String>) -> PyResult<Source> {
@@ -103,19 +103,19 @@ fn source(record: &Bound<'_, PyAny>, rate: Option<f64>, columns: Vec<String>) ->
 }
 
 /// The text of analysis.json and air.toml, and the curves.
-fn told<'py>(py: Python<'py>, record: &Record, of: &Analysis) -> PyResult<Bound<'py, PyDict>> {
+fn results<'py>(py: Python<'py>, record: &Record, analysis: &Analysis) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
-    all.set_item("json", analysis_json(record, of))?;
-    all.set_item("air_toml", air_block(&record.file, of))?;
+    all.set_item("json", analysis_json(record, analysis))?;
+    all.set_item("air_toml", air_block(&record.file, analysis))?;
     let curves = PyList::empty(py);
-    for component in &of.components {
+    for component in &analysis.components {
         let curve = PyDict::new(py);
         let Spectrum { step, density, .. } = &component.spectrum;
         let frequencies = (0..density.len()).map(|i| (i + 1) as f64 * step).collect();
         curve.set_item("frequency_hz", PyArray1::from_vec(py, frequencies))?;
         curve.set_item("density", PyArray1::from_slice(py, density))?;
         let values = &component.autocorrelation.coefficients;
-        let lags = (0..values.len()).map(|i| i as f64 * of.interval).collect();
+        let lags = (0..values.len()).map(|i| i as f64 * analysis.interval).collect();
         curve.set_item("lag_s", PyArray1::from_vec(py, lags))?;
         curve.set_item("autocorrelation", PyArray1::from_slice(py, values))?;
         curves.append(curve)?;

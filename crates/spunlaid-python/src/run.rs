@@ -39,20 +39,22 @@ pub(crate) fn fly(
     samples: bool,
     shapes: bool,
 ) -> PyResult<RunResults> {
-    let (of, run) = (Arc::clone(&case.case), case.case.run);
-    let plans = if check_step { FinerPlans::of(&of) } else { FinerPlans::none("it was not asked for") };
-    let watch = Watch::of(run.steps.saturating_mul(run.replicates).saturating_add(plans.fibre_steps()));
+    let (description, run) = (Arc::clone(&case.case), case.case.run);
+    let plans =
+        if check_step { FinerPlans::of(&description) } else { FinerPlans::none("it was not asked for") };
+    let watch =
+        Watch::new(run.steps.saturating_mul(description.fibres()).saturating_add(plans.fibre_steps()));
     let belt = LaidCurves::default();
     let computing = Computing {
         threads: self::threads(threads),
         isa: Isa::detect(),
         stop: &watch.stop,
         fibre_steps: &watch.done,
-        recorder: of.line.is_some().then_some(&belt as &dyn Recorder),
+        recorder: description.line.is_some().then_some(&belt as &dyn Recorder),
     };
     let started = Instant::now();
     let (results, checks, collected) = watched(py, &watch, progress.as_ref(), || {
-        let shapes = if shapes { KeepShapes::within(&of, POSITIONS) } else { KeepShapes::NONE };
+        let shapes = if shapes { KeepShapes::within(&description, POSITIONS) } else { KeepShapes::NONE };
         let (mut collector, mut collected) = (Results::collector(KEPT), Collected::default());
         let take = |landed: Result<Trajectory, LostFibre>| {
             match landed {
@@ -72,20 +74,30 @@ pub(crate) fn fly(
             Ok::<(), Error>(())
         };
         let keep = Keep { curves: true, samples, shapes };
-        let checks = fly_and_check(&of, &plans, keep, computing, take)?;
+        let checks = fly_and_check(&description, &plans, keep, computing, take)?;
         Ok((collector.finish(), checks, collected))
     })?;
-    let performance = folder::performance(&of, &results, &plans, computing, started.elapsed().as_secs_f64());
+    let performance =
+        folder::performance(&description, &results, &plans, computing, started.elapsed().as_secs_f64());
     let mut notes = Note::of_results(&case.notes);
-    notes.extend(folder::lost(&of, &results));
+    notes.extend(folder::lost(&description, &results));
     notes.extend(folder::outside(&results));
-    notes.extend(folder::coarse_shapes(&of, &results));
+    notes.extend(folder::coarse_shapes(&description, &results));
     let is_lost = |replicate| results.lost.iter().any(|fibre| fibre.replicate == replicate);
-    let laid = (0..if of.line.is_some() { run.replicates } else { 0 })
+    let laid = (0..if description.line.is_some() { run.replicates } else { 0 })
         .map(|replicate| if is_lost(replicate) { Vec::new() } else { belt.take(replicate) })
         .collect();
     let samples = if samples { Some(collected.into_numpy(py)?) } else { None };
-    Ok(RunResults { name: case.stem(), case: of, results, checks, notes, performance, samples, laid })
+    Ok(RunResults {
+        name: case.stem(),
+        case: description,
+        results,
+        checks,
+        notes,
+        performance,
+        samples,
+        laid,
+    })
 }
 
 impl RunResults {
@@ -148,13 +160,13 @@ impl RunResults {
     fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let all = PyList::empty(py);
         for number in &self.results.numbers {
-            let of = described(py, number.measure)?;
-            of.set_item("mean", number.estimate.mean)?;
-            of.set_item("standard_error", number.estimate.standard_error)?;
-            of.set_item("shown", number.value())?;
+            let dict = described(py, number.measure)?;
+            dict.set_item("mean", number.estimate.mean)?;
+            dict.set_item("standard_error", number.estimate.standard_error)?;
+            dict.set_item("shown", number.value())?;
             let values = PyArray1::from_slice(py, &number.estimate.values);
-            of.set_item("values", locked(values.as_any())?)?;
-            all.append(of)?;
+            dict.set_item("values", locked(values.as_any())?)?;
+            all.append(dict)?;
         }
         Ok(all)
     }
@@ -164,15 +176,15 @@ impl RunResults {
     fn curves<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let all = PyList::empty(py);
         for curve in &self.results.curves {
-            let of = described(py, curve.measure)?;
-            let column = |of: &dyn Fn(&spunlaid::ensemble::Place) -> f64| {
-                locked(PyArray1::from_vec(py, curve.places.iter().map(of).collect()).as_any())
+            let dict = described(py, curve.measure)?;
+            let column = |quantity: &dyn Fn(&spunlaid::ensemble::Place) -> f64| {
+                locked(PyArray1::from_vec(py, curve.places.iter().map(quantity).collect()).as_any())
             };
-            of.set_item("at", column(&|place| place.at)?)?;
-            of.set_item("mean", column(&|place| place.mean)?)?;
-            of.set_item("standard_error", column(&|place| place.standard_error.unwrap_or(f64::NAN))?)?;
-            of.set_item("largest", column(&|place| place.largest)?)?;
-            all.append(of)?;
+            dict.set_item("at", column(&|place| place.at)?)?;
+            dict.set_item("mean", column(&|place| place.mean)?)?;
+            dict.set_item("standard_error", column(&|place| place.standard_error.unwrap_or(f64::NAN))?)?;
+            dict.set_item("largest", column(&|place| place.largest)?)?;
+            all.append(dict)?;
         }
         Ok(all)
     }
@@ -180,18 +192,19 @@ impl RunResults {
     /// Times, and positions of all nodes: replicates x times x nodes x 3, NaN where a fibre has fewer nodes.
     #[getter]
     fn shapes<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let kept: Vec<&Trajectory> =
-            self.results.trajectories.iter().filter(|of| !of.shapes.is_empty()).collect();
-        let times: Vec<f64> =
-            kept.first().map_or_else(Vec::new, |of| of.shapes.iter().map(|shape| shape.time).collect());
-        let shapes = || kept.iter().flat_map(|of| &of.shapes);
+        let trajectories: Vec<&Trajectory> =
+            self.results.trajectories.iter().filter(|trajectory| !trajectory.shapes.is_empty()).collect();
+        let times: Vec<f64> = trajectories
+            .first()
+            .map_or_else(Vec::new, |trajectory| trajectory.shapes.iter().map(|shape| shape.time).collect());
+        let shapes = || trajectories.iter().flat_map(|trajectory| &trajectory.shapes);
         let nodes = shapes().map(|shape| shape.position.len()).max().unwrap_or(0);
-        let mut flat = Vec::with_capacity(kept.len() * times.len() * nodes * 3);
+        let mut flat = Vec::with_capacity(trajectories.len() * times.len() * nodes * 3);
         for shape in shapes() {
             flat.extend(shape.position.iter().flat_map(|p| [p.x, p.y, p.z]));
             flat.extend(std::iter::repeat_n(f64::NAN, 3 * (nodes - shape.position.len())));
         }
-        let shape = [kept.len(), times.len(), nodes, 3];
+        let shape = [trajectories.len(), times.len(), nodes, 3];
         let positions = PyArray1::from_vec(py, flat).reshape(shape)?;
         Ok((locked(PyArray1::from_vec(py, times).as_any())?, locked(positions.as_any())?))
     }
@@ -266,28 +279,28 @@ impl RunResults {
 
 /// What a finer discretisation changes, by name.
 fn differences<'py>(py: Python<'py>, check: &FinerCheck) -> PyResult<Bound<'py, PyDict>> {
-    let of = PyDict::new(py);
-    of.set_item("duration_s", check.duration)?;
-    of.set_item("share_of_run", check.share_of_run)?;
-    of.set_item("error_over_difference", check.error_over_change())?;
+    let dict = PyDict::new(py);
+    dict.set_item("duration_s", check.duration)?;
+    dict.set_item("share_of_run", check.share_of_run)?;
+    dict.set_item("error_over_difference", check.error_over_change())?;
     for (name, difference) in check.differences() {
-        of.set_item(&name, difference.mean)?;
-        of.set_item(format!("{name}_standard_error"), difference.standard_error)?;
+        dict.set_item(&name, difference.mean)?;
+        dict.set_item(format!("{name}_standard_error"), difference.standard_error)?;
     }
-    Ok(of)
+    Ok(dict)
 }
 
 /// Name, unit and meaning of a measure.
 fn described<'py>(py: Python<'py>, measure: &Measure) -> PyResult<Bound<'py, PyDict>> {
-    let of = PyDict::new(py);
-    of.set_item("column", measure.column)?;
-    of.set_item("name", measure.name)?;
-    of.set_item("label", measure.label)?;
-    of.set_item("meaning", measure.meaning)?;
-    of.set_item("group", measure.group.name)?;
-    of.set_item("unit", measure.unit.shown)?;
-    of.set_item("per_si", measure.unit.per_si)?;
-    Ok(of)
+    let dict = PyDict::new(py);
+    dict.set_item("column", measure.column)?;
+    dict.set_item("name", measure.name)?;
+    dict.set_item("label", measure.label)?;
+    dict.set_item("meaning", measure.meaning)?;
+    dict.set_item("group", measure.group.name)?;
+    dict.set_item("unit", measure.unit.shown)?;
+    dict.set_item("per_si", measure.unit.per_si)?;
+    Ok(dict)
 }
 
 /// The measures that are numbers: a dict for each.

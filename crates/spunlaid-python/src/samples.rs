@@ -45,8 +45,8 @@ impl Collected {
         }
         for sample in samples {
             let mut sample = *sample;
-            for (column, (_, of)) in self.columns.iter_mut().zip(FIELDS) {
-                column.push(*of(&mut sample));
+            for (column, (_, field)) in self.columns.iter_mut().zip(FIELDS) {
+                column.push(*field(&mut sample));
             }
         }
     }
@@ -143,9 +143,9 @@ impl Borrowed<'_> {
     pub(crate) fn samples(&self, replicate: usize) -> Vec<Sample> {
         let mut samples: Vec<Sample> =
             self.times.iter().map(|time| Sample { time: *time, ..Sample::default() }).collect();
-        for (column, (_, of)) in self.columns.iter().zip(FIELDS) {
+        for (column, (_, field)) in self.columns.iter().zip(FIELDS) {
             for (sample, value) in samples.iter_mut().zip(column.as_array().row(replicate)) {
-                *of(sample) = *value;
+                *field(sample) = *value;
             }
         }
         samples

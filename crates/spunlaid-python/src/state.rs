@@ -21,27 +21,27 @@ use spunlaid_results::output::summary::Performance;
 use std::sync::Arc;
 
 /// The function that makes the results again, and its argument.
-pub(crate) fn reduced<'py>(py: Python<'py>, of: &RunResults) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn reduced<'py>(py: Python<'py>, run: &RunResults) -> PyResult<Bound<'py, PyAny>> {
     let state = PyDict::new(py);
-    state.set_item("name", &of.name)?;
-    state.set_item("case", write_case(&absolute(&of.case)))?;
-    state.set_item("notes", &of.notes)?;
-    state.set_item("lost", of.lost())?;
-    let p = of.performance;
+    state.set_item("name", &run.name)?;
+    state.set_item("case", write_case(&absolute(&run.case)))?;
+    state.set_item("notes", &run.notes)?;
+    state.set_item("lost", run.lost())?;
+    let p = run.performance;
     state.set_item("performance", (p.wall_s, p.threads, p.element_steps, p.ns_per_element_step))?;
-    for (name, check) in [("step_check", &of.checks.step), ("mesh_check", &of.checks.mesh)] {
+    for (name, check) in [("step_check", &run.checks.step), ("mesh_check", &run.checks.mesh)] {
         match check {
             Ok(check) => state.set_item(name, check_state(py, check)?)?,
             Err(why) => state.set_item(name, why)?,
         }
     }
     let numbers = PyList::empty(py);
-    for number in &of.results.numbers {
+    for number in &run.results.numbers {
         numbers.append((number.measure.name, estimate(py, &number.estimate)))?;
     }
     state.set_item("numbers", numbers)?;
     let curves = PyList::empty(py);
-    for curve in &of.results.curves {
+    for curve in &run.results.curves {
         let flat = curve.places.iter().flat_map(|place| {
             [place.at, place.mean, place.standard_error.unwrap_or(f64::NAN), place.largest]
         });
@@ -49,7 +49,7 @@ pub(crate) fn reduced<'py>(py: Python<'py>, of: &RunResults) -> PyResult<Bound<'
     }
     state.set_item("curves", curves)?;
     let trajectories = PyList::empty(py);
-    for trajectory in &of.results.trajectories {
+    for trajectory in &run.results.trajectories {
         let shapes = PyList::empty(py);
         for shape in &trajectory.shapes {
             let flat = shape.position.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
@@ -58,9 +58,9 @@ pub(crate) fn reduced<'py>(py: Python<'py>, of: &RunResults) -> PyResult<Bound<'
         trajectories.append((trajectory.replicate, shapes, points(py, &trajectory.laid)))?;
     }
     state.set_item("trajectories", trajectories)?;
-    let laid = of.laid.iter().map(|laid| points(py, laid)).collect::<Vec<_>>();
+    let laid = run.laid.iter().map(|laid| points(py, laid)).collect::<Vec<_>>();
     state.set_item("laid", laid)?;
-    if let Some(samples) = &of.samples {
+    if let Some(samples) = &run.samples {
         let columns: Vec<_> = samples.columns.iter().map(|column| column.clone_ref(py)).collect();
         state.set_item("samples", (samples.times.clone_ref(py), columns))?;
     }
@@ -99,15 +99,15 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
         Results { numbers: Vec::new(), curves: Vec::new(), trajectories: Vec::new(), lost: lost.collect() };
     let numbers: Vec<(String, EstimateState)> = need("numbers")?.extract()?;
     for (name, estimate) in numbers {
-        results.numbers.push(Number { measure: measure(&name)?, estimate: told(estimate)? });
+        results.numbers.push(Number { measure: measure(&name)?, estimate: restored_estimate(estimate)? });
     }
     let curves: Vec<(String, PyReadonlyArray1<'_, f64>)> = need("curves")?.extract()?;
     for (name, flat) in curves {
-        let places = flat.as_slice()?.chunks_exact(4).map(|of| Place {
-            at: of[0],
-            mean: of[1],
-            standard_error: Some(of[2]).filter(|error| !error.is_nan()),
-            largest: of[3],
+        let places = flat.as_slice()?.chunks_exact(4).map(|row| Place {
+            at: row[0],
+            mean: row[1],
+            standard_error: Some(row[2]).filter(|error| !error.is_nan()),
+            largest: row[3],
         });
         results.curves.push(Curve { measure: measure(&name)?, places: places.collect() });
     }
@@ -124,7 +124,8 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
     };
     for (replicate, shapes, laid) in trajectories {
         let shape = |(time, flat): (f64, PyReadonlyArray1<'_, f64>)| -> PyResult<Shape> {
-            let vectors = flat.as_slice()?.chunks_exact(3).map(|of| Vec3::new(of[0], of[1], of[2]));
+            let vectors =
+                flat.as_slice()?.chunks_exact(3).map(|vector| Vec3::new(vector[0], vector[1], vector[2]));
             Ok(Shape { time, position: vectors.collect() })
         };
         let recorded = samples.as_ref().map(|samples| samples.borrowed(py).samples(replicate as usize));
@@ -178,7 +179,7 @@ fn check_of(state: &Bound<'_, PyAny>, refined: Refined) -> PyResult<FinerCheck> 
     let changes = changes.into_iter().map(|(name, estimate)| {
         let statistic = Statistic::all().find(|statistic| statistic.name == name);
         let statistic = statistic.ok_or_else(|| unknown("statistic", &name))?;
-        Ok(Change { statistic, estimate: told(estimate)? })
+        Ok(Change { statistic, estimate: restored_estimate(estimate)? })
     });
     Ok(FinerCheck {
         refined,
@@ -190,7 +191,7 @@ fn check_of(state: &Bound<'_, PyAny>, refined: Refined) -> PyResult<FinerCheck> 
         duration,
         replicates,
         share_of_run,
-        path: path.map(told).transpose()?,
+        path: path.map(restored_estimate).transpose()?,
         changes: changes.collect::<PyResult<_>>()?,
     })
 }
@@ -198,11 +199,11 @@ fn check_of(state: &Bound<'_, PyAny>, refined: Refined) -> PyResult<FinerCheck> 
 /// Mean, standard error and values.
 type EstimateState<'py> = (f64, Option<f64>, PyReadonlyArray1<'py, f64>);
 
-fn estimate<'py>(py: Python<'py>, of: &Estimate) -> (f64, Option<f64>, Bound<'py, PyArray1<f64>>) {
-    (of.mean, of.standard_error, PyArray1::from_slice(py, &of.values))
+fn estimate<'py>(py: Python<'py>, estimate: &Estimate) -> (f64, Option<f64>, Bound<'py, PyArray1<f64>>) {
+    (estimate.mean, estimate.standard_error, PyArray1::from_slice(py, &estimate.values))
 }
 
-fn told((mean, standard_error, values): EstimateState<'_>) -> PyResult<Estimate> {
+fn restored_estimate((mean, standard_error, values): EstimateState<'_>) -> PyResult<Estimate> {
     Ok(Estimate { mean, standard_error, values: values.as_slice()?.to_vec() })
 }
 
@@ -220,13 +221,13 @@ fn points<'py>(py: Python<'py>, laid: &[LaidPoint]) -> Bound<'py, PyArray2<f64>>
 
 fn points_of(array: &PyReadonlyArray2<'_, f64>) -> Vec<LaidPoint> {
     let rows = array.as_array();
-    let of = |row: numpy::ndarray::ArrayView1<'_, f64>| LaidPoint {
+    let laid_point = |row: numpy::ndarray::ArrayView1<'_, f64>| LaidPoint {
         fed: row[0],
         time: row[1],
         md: row[2],
         cd: row[3],
     };
-    if rows.ncols() == 4 { rows.rows().into_iter().map(of).collect() } else { Vec::new() }
+    if rows.ncols() == 4 { rows.rows().into_iter().map(laid_point).collect() } else { Vec::new() }
 }
 
 /// The case with the full paths of its files, so that they are found from any folder.

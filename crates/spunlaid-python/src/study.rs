@@ -102,7 +102,7 @@ impl Study {
     #[pyo3(signature = (threads = None, progress = None))]
     fn fly(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<()> {
         let watch = Watch::default();
-        let of = Progress::default();
+        let counters = Progress::default();
         let computing = Computing {
             threads: self::threads(threads),
             isa: Isa::detect(),
@@ -111,28 +111,28 @@ impl Study {
             recorder: None,
         };
         // Progress is told in fibres, as it is on a cluster.
-        let told = Watch::default();
+        let shown = Watch::default();
         let stopped = &watch.stop;
         let finished = AtomicBool::new(false);
-        watched(py, &told, progress.as_ref(), || {
+        watched(py, &shown, progress.as_ref(), || {
             std::thread::scope(|scope| {
                 scope.spawn(|| {
                     while !finished.load(Ordering::Acquire) {
-                        told.done.store(of.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
-                        told.of.store(of.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
-                        stopped.fetch_or(told.stop.load(Ordering::Relaxed), Ordering::Relaxed);
+                        shown.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
+                        shown.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
+                        stopped.fetch_or(shown.stop.load(Ordering::Relaxed), Ordering::Relaxed);
                         std::thread::park_timeout(std::time::Duration::from_millis(20));
                     }
                 });
                 let flown = self.with_journal(|journal| {
                     let lent = Mutex::new(std::mem::replace(journal, Journal::in_memory(0)));
-                    let flown = run(&self.file.study, &lent, computing, &of);
+                    let flown = run(&self.file.study, &lent, computing, &counters);
                     *journal = lent.into_inner().unwrap_or_else(PoisonError::into_inner);
                     flown
                 });
                 finished.store(true, Ordering::Release);
-                told.done.store(of.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
-                told.of.store(of.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
+                shown.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
+                shown.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
                 flown
             })
         })
@@ -195,8 +195,8 @@ impl Study {
     fn fibres(&self, py: Python<'_>) -> PyResult<(u64, u64)> {
         guarded(py, || {
             let points = 0..self.file.study.points.len();
-            let held = self.with_journal(|journal| Ok(points.map(|point| journal.held(point)).sum()))?;
-            Ok((held, self.round().0.wanted().iter().sum()))
+            let count = self.with_journal(|journal| Ok(points.map(|point| journal.held(point)).sum()))?;
+            Ok((count, self.round().0.wanted().iter().sum()))
         })
     }
 
@@ -209,11 +209,11 @@ impl Study {
     /// bundle.
     #[getter]
     fn work(&self) -> f64 {
-        let of = |experiment: &Experiment| match experiment {
+        let cost = |experiment: &Experiment| match experiment {
             Experiment::Case(case) => case.run.steps as f64 * case.fibre.elements as f64,
             Experiment::Web(_) => f64::INFINITY,
         };
-        self.file.study.points.iter().map(|point| of(&point.experiment)).fold(0.0, f64::max)
+        self.file.study.points.iter().map(|point| cost(&point.experiment)).fold(0.0, f64::max)
     }
 
     /// The keys that differ between points: name, SI unit, whether a factor, its words, its values at the points.
@@ -221,20 +221,20 @@ impl Study {
     fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let (all, study) = (PyList::empty(py), &self.file.study);
         for (index, input) in study.inputs().enumerate() {
-            let of = PyDict::new(py);
-            of.set_item("key", input.key)?;
-            of.set_item("column", input.column())?;
-            of.set_item("unit", input.dimension.si_unit())?;
-            of.set_item("factor", index < study.factors.len())?;
+            let dict = PyDict::new(py);
+            dict.set_item("key", input.key)?;
+            dict.set_item("column", input.column())?;
+            dict.set_item("unit", input.dimension.si_unit())?;
+            dict.set_item("factor", index < study.factors.len())?;
             let values =
                 study.points.iter().map(|point| point.values.get(index).copied().unwrap_or(f64::NAN));
             if input.words.is_empty() {
-                of.set_item("values", PyArray1::from_vec(py, values.collect()))?;
+                dict.set_item("values", PyArray1::from_vec(py, values.collect()))?;
             } else {
                 let words: Vec<&str> = values.map(|value| input.word(value).unwrap_or("")).collect();
-                of.set_item("values", words)?;
+                dict.set_item("values", words)?;
             }
-            all.append(of)?;
+            all.append(dict)?;
         }
         Ok(all)
     }
@@ -245,21 +245,25 @@ impl Study {
         let points = &self.file.study.points;
         let results = guarded(py, || {
             self.with_journal(|journal| {
-                let of = |point: usize| results_of_point(&self.file.study, journal, point);
-                (0..points.len()).map(of).collect::<Result<Vec<_>, Failure>>()
+                let results_at = |point: usize| results_of_point(&self.file.study, journal, point);
+                (0..points.len()).map(results_at).collect::<Result<Vec<_>, Failure>>()
             })
         })?;
         let all = PyDict::new(py);
         let numbers = self.file.study.quantities.len();
         let shape = [points.len(), numbers];
-        let mean = PyArray1::from_vec(py, results.iter().flat_map(|of| of.mean.iter().copied()).collect())
-            .reshape(shape)?;
-        let errors =
-            (results.iter()).flat_map(|of| (0..numbers).map(|i| of.standard_error(i).unwrap_or(f64::NAN)));
+        let mean =
+            PyArray1::from_vec(py, results.iter().flat_map(|point| point.mean.iter().copied()).collect())
+                .reshape(shape)?;
+        let errors = (results.iter())
+            .flat_map(|point| (0..numbers).map(|i| point.standard_error(i).unwrap_or(f64::NAN)));
         all.set_item("mean", mean)?;
         all.set_item("standard_error", PyArray1::from_vec(py, errors.collect()).reshape(shape)?)?;
-        all.set_item("n", PyArray1::from_vec(py, results.iter().map(|of| of.n as i64).collect()))?;
-        all.set_item("lost", PyArray1::from_vec(py, results.iter().map(|of| of.lost as i64).collect()))?;
+        all.set_item("n", PyArray1::from_vec(py, results.iter().map(|point| point.n as i64).collect()))?;
+        all.set_item(
+            "lost",
+            PyArray1::from_vec(py, results.iter().map(|point| point.lost as i64).collect()),
+        )?;
         let seeds = points.iter().map(|point| point.experiment.seed()).collect();
         all.set_item("seed", PyArray1::from_vec(py, seeds))?;
         Ok(all)
@@ -302,16 +306,16 @@ impl Study {
         let all = PyList::empty(py);
         for ranking in &found.of_measures {
             for effect in &ranking.effects {
-                let of = PyDict::new(py);
+                let dict = PyDict::new(py);
                 let factor = &study.factors[effect.factor];
-                of.set_item("measure", &study.quantities[ranking.measure].column)?;
-                of.set_item("factor", &factor.key)?;
-                of.set_item("from", effect.from)?;
-                of.set_item("to", effect.to)?;
-                of.set_item("change", effect.change)?;
-                of.set_item("half_width", effect.half_width)?;
-                of.set_item("explained", ranking.explained)?;
-                all.append(of)?;
+                dict.set_item("measure", &study.quantities[ranking.measure].column)?;
+                dict.set_item("factor", &factor.key)?;
+                dict.set_item("from", effect.from)?;
+                dict.set_item("to", effect.to)?;
+                dict.set_item("change", effect.change)?;
+                dict.set_item("half_width", effect.half_width)?;
+                dict.set_item("explained", ranking.explained)?;
+                all.append(dict)?;
             }
         }
         Ok((all, found.refusal.map(|refusal| refusal.to_string())))
@@ -343,9 +347,9 @@ impl Study {
 
     /// The case or web of a point, counted from 0, as text.
     fn point_text(&self, point: usize) -> PyResult<String> {
-        let of = self.file.study.points.get(point);
-        let of = of.ok_or_else(|| PyIndexError::new_err(format!("there is no point {point}")))?;
-        Ok(match &of.experiment {
+        let found = self.file.study.points.get(point);
+        let found = found.ok_or_else(|| PyIndexError::new_err(format!("there is no point {point}")))?;
+        Ok(match &found.experiment {
             Experiment::Case(case) => spunlaid::input::write_case(&crate::state::absolute(case)),
             web @ Experiment::Web(_) => write_experiment(web),
         })
@@ -383,7 +387,7 @@ impl Study {
     #[getter]
     fn measures(&self) -> Vec<(&str, &str, &str, &'static str)> {
         let all = &self.file.study.quantities;
-        all.iter().map(|of| (&*of.column, &*of.name, &*of.label, of.meaning)).collect()
+        all.iter().map(|column| (&*column.column, &*column.name, &*column.label, column.meaning)).collect()
     }
 }
 
@@ -394,8 +398,8 @@ impl Study {
 
     /// Does something with the journal. One that was let go of is opened for that only.
     fn with_journal<T>(&self, work: impl FnOnce(&mut Journal) -> Result<T, Failure>) -> Result<T, Failure> {
-        let mut held = self.journal();
-        match (held.as_mut(), &self.out) {
+        let mut kept_open = self.journal();
+        match (kept_open.as_mut(), &self.out) {
             (Some(journal), _) => work(journal),
             (None, Some(out)) => work(&mut StudyFolder::open(out, &self.file, false, &NEVER)?.1),
             (None, None) => work(&mut Journal::in_memory(self.file.study.points.len())),

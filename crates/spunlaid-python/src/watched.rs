@@ -18,12 +18,12 @@ pub(crate) struct Watch {
     pub(crate) stop: AtomicBool,
     /// Parts done, and their number.
     pub(crate) done: AtomicU64,
-    pub(crate) of: AtomicU64,
+    pub(crate) total: AtomicU64,
 }
 
 impl Watch {
-    pub(crate) fn of(parts: u64) -> Self {
-        Self { of: AtomicU64::new(parts), ..Self::default() }
+    pub(crate) fn new(parts: u64) -> Self {
+        Self { total: AtomicU64::new(parts), ..Self::default() }
     }
 }
 
@@ -43,8 +43,8 @@ pub(crate) fn watched<T: Send>(
     let (finished, changed) = (Mutex::new(false), Condvar::new());
     let tell = |py: Python<'_>| match progress {
         Some(progress) => {
-            let (done, of) = (watch.done.load(Ordering::Relaxed), watch.of.load(Ordering::Relaxed));
-            progress.call1(py, (done.min(of), of)).map(drop)
+            let (done, total) = (watch.done.load(Ordering::Relaxed), watch.total.load(Ordering::Relaxed));
+            progress.call1(py, (done.min(total), total)).map(drop)
         }
         None => Ok(()),
     };

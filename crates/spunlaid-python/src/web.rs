@@ -8,12 +8,12 @@ use pyo3::types::PyDict;
 use spunlaid::case::Note;
 use spunlaid::input::{Overrides, WebFile, parse_web, read_web};
 use spunlaid::lanes::Isa;
-use spunlaid::layers::{Flyer, OfLayer, to_lay};
-use spunlaid::web::{Findings, Laying, Web, find, pieces};
+use spunlaid::layers::{Flights, FlownWeb, Flyer};
+use spunlaid::web::{Findings, Laying};
 use spunlaid_results::folders::web::{WebFolder, notes};
 use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::web::{ENTRIES, Performance};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
@@ -23,8 +23,7 @@ use std::time::Instant;
 pub(crate) struct LaidWeb {
     name: String,
     file: WebFile,
-    web: Web,
-    layers: Vec<OfLayer>,
+    flown: FlownWeb,
     findings: Findings,
     notes: Vec<String>,
     performance: Performance,
@@ -41,36 +40,34 @@ pub(crate) fn lay_web(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<LaidWeb> {
     let changes = overrides(changes)?;
-    let of = Overrides { values: &changes, word: "web:" };
+    let set = Overrides { values: &changes, word: "web:" };
     let (name, file) = match path {
         Some(path) => {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            (name, guarded(py, || read_web(&path, of))?)
+            (name, guarded(py, || read_web(&path, set))?)
         }
-        None => ("web".to_owned(), guarded(py, || parse_web("", "web", of))?),
+        None => ("web".to_owned(), guarded(py, || parse_web("", "web", set))?),
     };
     let threads = self::threads(threads);
     let watch = Watch::default();
-    let (web, layers, findings, performance) = watched(py, &watch, progress.as_ref(), || {
+    let (flown, findings, performance) = watched(py, &watch, progress.as_ref(), || {
         let started = Instant::now();
         // The flights have a counter of their own; it is looked at while they fly.
-        let follow = |_: &Path, _: u64, (done, of): (&AtomicU64, u64), work: &mut (dyn FnMut() + Send)| {
-            watch.of.store(of, Ordering::Relaxed);
+        let follow = |Flights { done, steps, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
+            watch.total.store(steps, Ordering::Relaxed);
             copied(done, &watch.done, work);
         };
         let mut flyer = Flyer::new(threads, &watch.stop, &follow);
-        let layers = file.spec.layers.iter().map(|layer| flyer.fibres(&file.spec, layer));
-        let layers: Vec<OfLayer> = layers.collect::<Result<_, _>>()?;
-        let web = to_lay(&file.spec, &layers);
+        let mut flown = flyer.web(&file.spec)?;
         watch.done.store(0, Ordering::Relaxed);
-        watch.of.store(pieces(&web)?, Ordering::Relaxed);
-        let by = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
-        let findings = find(&web, by)?;
+        watch.total.store(flown.pieces()?, Ordering::Relaxed);
+        let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
+        let findings = flown.find(laying)?;
         let wall_s = started.elapsed().as_secs_f64();
-        Ok((web, layers, findings, Performance { wall_s, threads, instruction_set: by.isa.name() }))
+        Ok((flown, findings, Performance { wall_s, threads, instruction_set: laying.isa.name() }))
     })?;
-    let notes = [Note::of_results(&file.notes), notes(&web, &findings, &layers)].concat();
-    Ok(LaidWeb { name, file, web, layers, findings, notes, performance })
+    let notes = [Note::of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();
+    Ok(LaidWeb { name, file, flown, findings, notes, performance })
 }
 
 /// Does `work` while another thread copies its counter.
@@ -94,8 +91,8 @@ impl LaidWeb {
         WebFolder {
             name: &self.name,
             file: &self.file,
-            web: &self.web,
-            layers: &self.layers,
+            web: &self.flown.web,
+            layers: &self.flown.layers,
             findings: &self.findings,
             notes: &self.notes,
             performance: self.performance,
@@ -144,31 +141,31 @@ impl LaidWeb {
     }
 
     /// The unevenness over patches: side of the patch [m], CV of the map with its standard errors by cause and the ends of its 95 % interval by
-    /// chance, CV that single fibres, flown curves and the surrogate let expect with their standard errors, CV of straight fibres. What is not known is NaN.
+    /// chance, the CV expected from single fibres, from flown curves and from the surrogate with their standard errors, CV of straight fibres. What is not known is NaN.
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let of = &self.findings.patches;
+        let patches = &self.findings.patches;
         let all = PyDict::new(py);
         type Number = fn(&spunlaid::web::PatchFindings) -> f64;
         let columns: [(&str, Number); 15] = [
-            ("patch_m", |of| of.map.patch),
-            ("cv", |of| of.map.cv),
-            ("cv_standard_error", |of| of.map.standard_error.unwrap_or(f64::NAN)),
-            ("cv_low", |of| of.map.interval().map_or(f64::NAN, |ends| ends[0])),
-            ("cv_high", |of| of.map.interval().map_or(f64::NAN, |ends| ends[1])),
-            ("cv_flight_error", |of| of.whole_error().flight.unwrap_or(f64::NAN)),
-            ("cv_model_error", |of| of.whole_error().model.unwrap_or(f64::NAN)),
-            ("cv_whole_error", |of| of.whole_error().whole().unwrap_or(f64::NAN)),
-            ("cv_flown", |of| of.flown.map_or(f64::NAN, |of| of.0)),
-            ("cv_flown_standard_error", |of| of.flown.map_or(f64::NAN, |of| of.1)),
-            ("cv_surrogate", |of| of.surrogate.map_or(f64::NAN, |of| of.0)),
-            ("cv_surrogate_standard_error", |of| of.surrogate.map_or(f64::NAN, |of| of.1)),
-            ("cv_single_fibres", |of| of.one_fibre.0),
-            ("cv_single_fibres_standard_error", |of| of.one_fibre.1),
-            ("cv_straight_fibres", |of| of.straight_fibres),
+            ("patch_m", |patches| patches.map.patch),
+            ("cv", |patch| patch.map.cv),
+            ("cv_standard_error", |patch| patch.map.standard_error.unwrap_or(f64::NAN)),
+            ("cv_low", |patch| patch.map.interval().map_or(f64::NAN, |ends| ends[0])),
+            ("cv_high", |patch| patch.map.interval().map_or(f64::NAN, |ends| ends[1])),
+            ("cv_flight_error", |patch| patch.whole_error().flight.unwrap_or(f64::NAN)),
+            ("cv_model_error", |patch| patch.whole_error().model.unwrap_or(f64::NAN)),
+            ("cv_whole_error", |patch| patch.whole_error().whole().unwrap_or(f64::NAN)),
+            ("cv_flown", |patch| patch.flown.map_or(f64::NAN, |patch| patch.0)),
+            ("cv_flown_standard_error", |patch| patch.flown.map_or(f64::NAN, |patch| patch.1)),
+            ("cv_surrogate", |patch| patch.surrogate.map_or(f64::NAN, |patch| patch.0)),
+            ("cv_surrogate_standard_error", |patch| patch.surrogate.map_or(f64::NAN, |patch| patch.1)),
+            ("cv_single_fibres", |patch| patch.one_fibre.0),
+            ("cv_single_fibres_standard_error", |patch| patch.one_fibre.1),
+            ("cv_straight_fibres", |patch| patch.straight_fibres),
         ];
         for (name, column) in columns {
-            all.set_item(name, PyArray1::from_vec(py, of.iter().map(column).collect()))?;
+            all.set_item(name, PyArray1::from_vec(py, patches.iter().map(column).collect()))?;
         }
         Ok(all)
     }
@@ -179,8 +176,8 @@ impl LaidWeb {
         watched(py, &watch, None, || {
             let staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
             let threads = threads(None);
-            let by = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
-            self.folder().write(&staging, by)?;
+            let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
+            self.folder().write(&staging, laying)?;
             staging.publish()
         })
     }

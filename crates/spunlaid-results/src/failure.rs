@@ -90,9 +90,9 @@ mod tests {
     #[test]
     fn a_folder_of_another_study_lists_some_of_the_differences() {
         let differences = (0..30).map(|i| format!("study.toml: difference {i}")).collect();
-        let told = other_study(Path::new("r"), differences).to_string();
-        assert!(told.starts_with("r: holds results of another study; name another folder"), "{told}");
-        assert_eq!(told.lines().nth(1), Some("study.toml: difference 0"));
-        assert_eq!(told.lines().count(), 21);
+        let message = other_study(Path::new("r"), differences).to_string();
+        assert!(message.starts_with("r: holds results of another study; name another folder"), "{message}");
+        assert_eq!(message.lines().nth(1), Some("study.toml: difference 0"));
+        assert_eq!(message.lines().count(), 21);
     }
 }

@@ -101,8 +101,8 @@ fn superscript(exponent: i32) -> String {
 }
 
 /// `1 of 10 fibres was lost`.
-pub fn lost_of(lost: u64, of: u64) -> String {
-    format!("{lost} of {of} fibres {} lost", if lost == 1 { "was" } else { "were" })
+pub fn lost_of(lost: u64, all: u64) -> String {
+    format!("{lost} of {all} fibres {} lost", if lost == 1 { "was" } else { "were" })
 }
 
 #[cfg(test)]

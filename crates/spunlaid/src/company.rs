@@ -75,10 +75,10 @@ impl<T> PerLane<T> {
     ///
     /// # Errors
     /// If one differs from the first; the fault says in what.
-    pub(crate) fn shared<S: Shared>(&self, mut of: impl FnMut(&T) -> S) -> Result<S, Error> {
-        let first = of(&self.0[0]);
+    pub(crate) fn shared<S: Shared>(&self, mut setting: impl FnMut(&T) -> S) -> Result<S, Error> {
+        let first = setting(&self.0[0]);
         for (lane, other) in self.0.iter().enumerate().skip(1) {
-            if let Some(what) = first.difference(&of(other)) {
+            if let Some(what) = first.difference(&setting(other)) {
                 return Err(Error::flight(
                     format!("fibre {} cannot fly beside the first: they differ in {what}", lane + 1),
                     "fibres of one flight must agree in it",

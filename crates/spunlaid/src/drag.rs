@@ -41,7 +41,7 @@ impl Drag {
             factor: factor * density * viscosity * l,
             growth: Growth::Curve(curve, 2.0 * libm::log2(s)),
         };
-        let layer = |of| curve(2.0 * PI, of, 0.25 * d * re_per_velocity / l);
+        let layer = |layer| curve(2.0 * PI, layer, 0.25 * d * re_per_velocity / l);
         let (along, across) = (self.along, self.across);
         ElementDrag {
             along: match along.form() {
@@ -49,7 +49,7 @@ impl Drag {
                     let coefficient = along.coefficient(re_per_velocity, 1.0);
                     power(PI * pressure_area * coefficient, 1.0 - exponent)
                 }
-                friction::Form::Layer(of) => layer(of),
+                friction::Form::Layer(curve) => layer(curve),
             },
             across: match across.form() {
                 normal::Form::Power { exponent, coefficient } => {
@@ -108,8 +108,8 @@ impl Share {
                 Growth::Power(p) => libm::pow(speed, 1.0 + p),
                 Growth::Curve(..) if speed == 0.0 => 0.0,
                 Growth::Curve(curve, shift) => {
-                    let by = if curve.fades() { place } else { 1.0 };
-                    speed * curve.exact(speed / by * libm::exp2(0.5 * shift))
+                    let fading = if curve.fades() { place } else { 1.0 };
+                    speed * curve.exact(speed / fading * libm::exp2(0.5 * shift))
                 }
             }
     }
@@ -144,8 +144,11 @@ impl DragLanes {
     ///
     /// * `curve` – of all of them, along and across
     pub(crate) fn pack(curve: [Option<Curve>; 2], lanes: &[ElementDrag; WIDTH]) -> Self {
-        let both = |of: &dyn Fn(&Share, f64) -> f64| {
-            [Lanes::from_fn(|i| of(&lanes[i].along, 1.0)), Lanes::from_fn(|i| of(&lanes[i].across, 0.5))]
+        let both = |number: &dyn Fn(&Share, f64) -> f64| {
+            [
+                Lanes::from_fn(|i| number(&lanes[i].along, 1.0)),
+                Lanes::from_fn(|i| number(&lanes[i].across, 0.5)),
+            ]
         };
         let growth = |share: &Share, per_square| match share.growth {
             Growth::Power(p) => per_square * p,

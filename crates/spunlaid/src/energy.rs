@@ -83,9 +83,9 @@ impl Energy {
     /// Potential and kinetic energy plus the dissipation of the implicit tension, minus the work of gravity,
     /// drag, damping, feed and belt and the energy carried in with the fibre [J]. It differs from zero by the error of the time integration only. theory.md (36)
     pub fn imbalance(&self) -> Lanes {
-        let held = self.kinetic + self.axial + self.bending + self.tension_dissipation;
-        let given = self.initial + self.carried + self.feed_work + self.belt_work;
-        held - given - self.gravity_work - self.drag_work - self.damping_work
+        let stored = self.kinetic + self.axial + self.bending + self.tension_dissipation;
+        let supplied = self.initial + self.carried + self.feed_work + self.belt_work;
+        stored - supplied - self.gravity_work - self.drag_work - self.damping_work
     }
 }
 

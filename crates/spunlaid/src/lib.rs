@@ -96,6 +96,8 @@ pub mod observe;
 
 pub mod ensemble;
 
+pub mod beam;
+
 pub mod layers;
 
 pub mod study;

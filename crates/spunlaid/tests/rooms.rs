@@ -29,6 +29,7 @@ const ROOMS: &[&[&str]] = &[
     &["flight"],
     &["observe"],
     &["ensemble"],
+    &["beam"],
     &["layers"],
     &["study"],
     &["input"],

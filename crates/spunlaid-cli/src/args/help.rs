@@ -149,8 +149,8 @@ Examples:
   spunlaid reproduce --scheme implicit-tension --replicates 40   faster, with smaller errors
   spunlaid reproduce --figures 9,11a --out results/two";
 
-pub(super) const ANALYSE_HELP: &str = "\
-A record is an evenly sampled CSV or Parquet file with one time column and one to three velocity
+pub(super) const ANALYSE_HELP: &str =
+    "A record is an evenly sampled CSV or Parquet file with one time column and one to three velocity
 columns. CSV cells are separated by comma, semicolon, tab or blanks:
 
   time_s,u_m_s,v_m_s          Zeit [ms];u [m/s]          (or no time column and --rate \"20 kHz\")
@@ -173,7 +173,7 @@ The integral time is the integral of the autocorrelation up to
 
 PNG and TIFF are scans of a web in transmitted light; .npy, a CSV with --pixel (a line for each row)
 and the map.png of `spunlaid web` are maps of its basis weight. The results folder then holds what
-that of `spunlaid web` holds: report.html, summary.json, map.npy and figures/. PNG and TIFF tell how
+that of `spunlaid web` holds: report.html, summary.json, map.npy and figures/. PNG and TIFF state how
 large a pixel is by their resolution; check it, or give --pixel.
 
 Examples:

@@ -55,17 +55,17 @@ fn of_records(asked: &Analyse) -> Option<&'static str> {
 
 /// The first option given that only a scan or a map takes.
 fn of_scans(asked: &Analyse) -> Option<&'static str> {
-    let of = &asked.scan;
+    let scan_options = &asked.scan;
     let given = [
-        ("--weight", of.weight.is_some()),
-        ("--light", of.light.is_some()),
-        ("--lamp", of.lamp.is_some()),
-        ("--white", of.white.is_some()),
-        ("--keep-shading", of.keep_shading),
-        ("--keep-spots", of.keep_spots),
-        ("--noise", of.noise.is_some()),
-        ("--md", of.md != Direction::Columns),
-        ("--patches", !of.patches.is_empty()),
+        ("--weight", scan_options.weight.is_some()),
+        ("--light", scan_options.light.is_some()),
+        ("--lamp", scan_options.lamp.is_some()),
+        ("--white", scan_options.white.is_some()),
+        ("--keep-shading", scan_options.keep_shading),
+        ("--keep-spots", scan_options.keep_spots),
+        ("--noise", scan_options.noise.is_some()),
+        ("--md", scan_options.md != Direction::Columns),
+        ("--patches", !scan_options.patches.is_empty()),
     ];
     given.into_iter().find_map(|(name, given)| given.then_some(name))
 }
@@ -75,18 +75,18 @@ fn record(analyse: &Analyse) -> Result<(), Failure> {
     let folder = super::folder(analyse.out.as_ref(), name);
     let staging = Staging::new(&folder, ENTRIES, analyse.force, super::interrupt::stop_on_ctrl_c())?;
     let record = read_record(&analyse.record, &layout(analyse))?;
-    let of = spunlaid::record::analyse(&record, &settings(analyse))?;
+    let analysis = spunlaid::record::analyse(&record, &settings(analyse))?;
     let remarks = remarks(&record);
     remarks.iter().for_each(|remark| say::aside(&format!("note: {remark}")));
-    of.warnings.iter().for_each(|warning| say::warning(&warning.to_string()));
+    analysis.warnings.iter().for_each(|warning| say::warning(&warning.to_string()));
 
-    let json = analysis_json(&record, &of);
-    write(&staging, &name.to_string_lossy(), &record, &of, &remarks, &json)?;
+    let json = analysis_json(&record, &analysis);
+    write(&staging, &name.to_string_lossy(), &record, &analysis, &remarks, &json)?;
     staging.publish()?;
     if analyse.json {
         say::text(&json);
     } else if !analyse.quiet {
-        say::text(&result_table(&record, &of));
+        say::text(&result_table(&record, &analysis));
         say::line(&format!("\nthe [air] of a case is in {}", folder.join("air.toml").display()));
         say::line(&format!("open {}", folder.join("report.html").display()));
     }
@@ -143,18 +143,24 @@ fn write(
     staging: &Staging<'_>,
     name: &str,
     record: &Record,
-    of: &Analysis,
+    analysis: &Analysis,
     remarks: &[String],
     json: &str,
 ) -> Result<(), Failure> {
-    let figures = record_figures(record, of);
+    let figures = record_figures(record, analysis);
     pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
-    let air = air_block(&record.file, of);
-    let page =
-        analysis_html(&AnalysisReport { name, record, analysis: of, figures: &figures, remarks, air: &air });
+    let air = air_block(&record.file, analysis);
+    let page = analysis_html(&AnalysisReport {
+        name,
+        record,
+        analysis: analysis,
+        figures: &figures,
+        remarks,
+        air: &air,
+    });
     staging.write("report.html", page)?;
-    staging.write("spectrum.csv", spectrum_csv(of))?;
-    staging.write("autocorrelation.csv", autocorrelation_csv(of))?;
+    staging.write("spectrum.csv", spectrum_csv(analysis))?;
+    staging.write("autocorrelation.csv", autocorrelation_csv(analysis))?;
     staging.write("air.toml", air)?;
     Ok(staging.write("analysis.json", json)?)
 }

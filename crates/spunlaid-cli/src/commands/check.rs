@@ -25,7 +25,7 @@ pub(crate) fn check(check: &Check) -> Result<(), Failure> {
     let started = Instant::now();
     let (case, notes) = check.source.read(&[])?;
     notes.iter().for_each(say::note);
-    let expected = Expected::of(&case, started.elapsed().as_secs_f64())?;
+    let expected = Expected::new(&case, started.elapsed().as_secs_f64())?;
     if check.json {
         say::text(&json(&case, expected, notes.iter().map(Note::to_string).collect()));
         return Ok(());
@@ -113,7 +113,7 @@ fn error_of_mesh(case: &Case) {
             significant(100.0 * plan.share_of_run, 2)
         )),
         Err(why) => say::line(&format!(
-            "#   its error is not found by a run, because {why}; to find out: spunlaid run with --set \
+            "#   a run does not find its error, because {why}; to find it, fly the case again with --set \
              fibre.element_length=\"{half}\""
         )),
     }
@@ -122,7 +122,7 @@ fn error_of_mesh(case: &Case) {
         let (_, cost) =
             OF_STARTER.iter().rev().find(|(least, _)| parts >= 0.9 * least).unwrap_or(&OF_STARTER[0]);
         say::line(&format!(
-            "#   {} elements to an eddy; in the case of `spunlaid new` about as many put {cost}",
+            "#   {} elements to an eddy; in the case of `spunlaid new`, about as many made {cost}",
             significant(parts, 2)
         ));
     }
@@ -139,7 +139,7 @@ const OF_STARTER: [(f64, &str); 5] = [
 
 /// Feed, belt and stations of the air.
 fn fed(case: &Case, line: Line) {
-    let length = |of: f64| Dimension::Length.pretty_to(of, 3);
+    let length = |metres: f64| Dimension::Length.pretty_to(metres, 3);
     let rest_length = case.fibre.rest_length();
     say::line(&format!(
         "#   elements of {}, one fed every {} ({} step{}); {} from the inlet to the belt",
@@ -189,11 +189,11 @@ impl Expected {
     /// Measures the time of a few steps.
     ///
     /// * `reading` – time that it took to read the case and its files [s]
-    fn of(case: &Case, reading: f64) -> Result<Self, Failure> {
+    fn new(case: &Case, reading: f64) -> Result<Self, Failure> {
         /// Time for figures and report [s], and for writing the position of a node.
         const FIGURES: f64 = 0.4;
         const WRITING: f64 = 0.7e-6;
-        let flights = case.run.replicates.div_ceil(WIDTH as u64);
+        let flights = case.flights();
         let busy = (threads(None) as u64).min(flights);
         // A flight takes as long whether its lanes are full or not. The checks are some more, of their own length.
         let again = FinerPlans::of(case).share_of_run() * flights as f64;
@@ -230,18 +230,18 @@ fn memory(case: &Case, threads: u64) -> f64 {
     let flying = case.flight_memory().total() * threads as f64
         + ROW * rows.min(ROWS)
         + (ROW * rows).min(FIBRE * fibres);
-    let kept = air.field_memory() as f64 + POSITION * positions(case);
-    PROGRAM + reading.max(kept + flying.max(FIGURES))
+    let memory = air.field_memory() as f64 + POSITION * positions(case);
+    PROGRAM + reading.max(memory + flying.max(FIGURES))
 }
 
 /// Size of the largest of the files of the air [bytes]; they are read one after the other.
 fn largest_file(air: &Air) -> f64 {
     let size = |file: &Path| fs::metadata(file).map_or(0, |about| about.len()) as f64;
-    let of = |(file, parts): (&Path, &[PathBuf])| {
+    let bytes = |(file, parts): (&Path, &[PathBuf])| {
         let folder = file.parent().unwrap_or(Path::new(""));
         parts.iter().map(|part| size(&folder.join(part))).fold(size(file), f64::max)
     };
-    air.files().into_iter().map(of).fold(0.0, f64::max)
+    air.files().into_iter().map(bytes).fold(0.0, f64::max)
 }
 
 /// Number of recorded instants of a fibre.
@@ -251,8 +251,8 @@ fn instants(case: &Case) -> f64 {
 
 /// Number of node positions that are kept for the report and ParaView.
 fn positions(case: &Case) -> f64 {
-    let kept = KeepShapes::within(case, POSITIONS);
-    instants(case) / kept.every as f64 * kept.replicates as f64 * (case.fibre.elements + 1) as f64
+    let shapes = KeepShapes::within(case, POSITIONS);
+    instants(case) / shapes.every as f64 * shapes.replicates as f64 * (case.fibre.elements + 1) as f64
 }
 
 /// Size of the results: tables, shapes as text, figures and report [bytes].

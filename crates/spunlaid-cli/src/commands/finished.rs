@@ -67,7 +67,8 @@ pub(super) fn continued(run: &Run, until: f64) -> Result<(Case, Vec<String>), Fa
     };
     if !case.air.records.is_empty() {
         return refused(
-            "its air follows a record, and which stretches of it are flown through depends on the duration"
+            "its air follows a record, and the duration decides which stretches of the record the fibres fly \
+             through"
                 .to_owned(),
             "run its case.toml with --set run.duration=… and name another folder with --out",
         );
@@ -98,8 +99,8 @@ pub(super) fn continued(run: &Run, until: f64) -> Result<(Case, Vec<String>), Fa
     let (harmonics, usual) = (case.air.harmonics, case.air.default_harmonics(time));
     if case.air.rms() > 0.0 && harmonics != usual {
         notes.push(format!(
-            "{folder}: the turbulence keeps the {harmonics} harmonics of the first flight, with new phases every {}; a \
-             flight to {} of its own would have {usual}",
+            "{folder}: the turbulence keeps the {harmonics} harmonics of the first flight, with new phases every \
+             {}; a new flight to {} would have {usual}",
             Dimension::Time.pretty(0.75 * case.air.repeat_time()),
             Dimension::Time.pretty(time)
         ));

@@ -45,8 +45,8 @@ fn folder(asked: Option<&PathBuf>, name: impl AsRef<Path>) -> PathBuf {
 }
 
 /// `1 fibre`, `2 fibres`.
-fn plural(count: u64, of: &str) -> String {
-    if count == 1 { format!("1 {of}") } else { format!("{count} {of}s") }
+fn plural(count: u64, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }
 
 /// A table whose columns stand below their heads.

@@ -222,7 +222,7 @@ struct PaperResults {
 
 impl PaperResults {
     fn trend(&self, trend: &Trend) -> Vec<TrendPoint> {
-        trend.points.iter().map(|&(value, point)| TrendPoint::of(value, &self.points[point])).collect()
+        trend.points.iter().map(|&(value, point)| TrendPoint::new(value, &self.points[point])).collect()
     }
 
     fn errors(&self) -> Vec<(f64, Vec<Place>)> {

@@ -46,8 +46,8 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     let plans = FinerPlans::of(&case);
     let (results, checks) = progress::follow(
         &fibre_steps,
-        case.run.steps * case.run.replicates + plans.fibre_steps(),
-        &format!("flying {}", plural(case.run.replicates, "fibre")),
+        case.run.steps * case.fibres() + plans.fibre_steps(),
+        &format!("flying {}", plural(case.fibres(), "fibre")),
         run.quiet,
         || files::fly(&case, &plans, computing, staging.as_ref()),
     )?;

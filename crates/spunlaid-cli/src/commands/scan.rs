@@ -28,26 +28,26 @@ pub(super) fn scan(asked: &Analyse) -> Result<(), Failure> {
     let staging = Staging::new(&folder, ENTRIES, asked.force, stop_on_ctrl_c())?;
     let started = Instant::now();
     let picture = turned(read(&asked.record, asked.scan.pixel)?, asked);
-    let of = analyse(&picture, &settings(asked, &picture)?)?;
+    let findings = analyse(&picture, &settings(asked, &picture)?)?;
     let performance = Performance {
         wall_s: started.elapsed().as_secs_f64(),
         threads: 1,
         instruction_set: Isa::detect().name(),
     };
-    let notes: Vec<String> = of.notes.iter().map(ToString::to_string).collect();
-    let summary = Summary::of_scan(&picture.file, &of, performance, &notes).to_json();
-    web::write_scan(&staging, &of.map)?;
-    let figures = scan_figures(&of);
+    let notes: Vec<String> = findings.notes.iter().map(ToString::to_string).collect();
+    let summary = Summary::of_scan(&picture.file, &findings, performance, &notes).to_json();
+    web::write_scan(&staging, &findings.map)?;
+    let figures = scan_figures(&findings);
     pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let (name, file, notes) = (&name, &picture.file, &notes);
-    let report = ScanReport { name, file, findings: &of, figures: &figures, notes, performance };
+    let report = ScanReport { name, file, findings: &findings, figures: &figures, notes, performance };
     staging.write("report.html", scan_html(&report)?)?;
     staging.write("summary.json", &summary)?;
     staging.publish()?;
     if asked.json {
         say::text(&summary);
     } else if !asked.quiet {
-        say::text(&told(&of));
+        say::text(&table(&findings));
         notes.iter().for_each(|note| say::remark(false, note));
         say::line(&format!("open {}", folder.join("report.html").display()));
     }
@@ -60,28 +60,28 @@ fn turned(picture: Picture, asked: &Analyse) -> Picture {
 }
 
 fn settings(asked: &Analyse, picture: &Picture) -> Result<Settings, Failure> {
-    let of = &asked.scan;
+    let options = &asked.scan;
     let usual = if picture.holds_light() { LightName::Transmitted } else { LightName::Weight };
-    let light = match of.light.unwrap_or(usual) {
-        LightName::Transmitted => Light::Transmitted { mean: of.weight, white: of.white },
-        LightName::Weight => Light::Weight { mean: of.weight },
+    let light = match options.light.unwrap_or(usual) {
+        LightName::Transmitted => Light::Transmitted { mean: options.weight, white: options.white },
+        LightName::Weight => Light::Weight { mean: options.weight },
     };
-    let lamp = of.lamp.as_ref().map(|lamp| Ok::<_, Failure>(turned(read(lamp, picture.pixel)?, asked)));
+    let lamp = options.lamp.as_ref().map(|lamp| Ok::<_, Failure>(turned(read(lamp, picture.pixel)?, asked)));
     Ok(Settings {
         lamp: lamp.transpose()?,
-        keep_shading: of.keep_shading,
-        keep_spots: of.keep_spots,
-        noise: of.noise,
-        patches: of.patches.clone(),
-        ..Settings::of(light)
+        keep_shading: options.keep_shading,
+        keep_spots: options.keep_spots,
+        noise: options.noise,
+        patches: options.patches.clone(),
+        ..Settings::new(light)
     })
 }
 
 /// The table for the terminal.
-fn told(of: &Findings) -> String {
+fn table(findings: &Findings) -> String {
     let mut text = String::new();
-    if of.mean_known {
-        text.push_str(&format!("basis weight {} g/m²\n", significant(of.map.basis_weight() * 1e3, 4)));
+    if findings.mean_known {
+        text.push_str(&format!("basis weight {} g/m²\n", significant(findings.map.basis_weight() * 1e3, 4)));
     }
     let heads = ["patch", "CV", "noise of the camera", "lost by a pixel of blur", "95 % interval"];
     let line = |cells: [&str; 5]| {
@@ -90,7 +90,7 @@ fn told(of: &Findings) -> String {
     };
     text.push_str("unevenness, CV in % ± standard error\n");
     text.push_str(&line(heads));
-    for patch in &of.patches {
+    for patch in &findings.patches {
         let found = patch.unevenness;
         let interval = patch.interval.map_or_else(
             |doubt| format!("none: {doubt}"),

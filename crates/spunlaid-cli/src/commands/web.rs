@@ -8,14 +8,13 @@ use crate::{progress, say};
 use spunlaid::case::Note;
 use spunlaid::input::{Overrides, read_web};
 use spunlaid::lanes::Isa;
-use spunlaid::layers::{Flyer, OfLayer, to_lay};
-use spunlaid::web::{Findings, Laying, PatchFindings, find, pieces};
+use spunlaid::layers::{Flights, FlownWeb, Flyer};
+use spunlaid::web::{Findings, Laying, PatchFindings};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::{plus_minus, significant};
 use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::web::{ENTRIES, Performance};
-use std::path::Path;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
@@ -31,30 +30,22 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
     let started = Instant::now();
     let follow = flying(asked.quiet);
     let mut flyer = Flyer::new(threads(asked.threads), stop, &follow);
-    let layers = file.spec.layers.iter().map(|layer| flyer.fibres(&file.spec, layer));
-    let layers: Vec<OfLayer> = layers.collect::<Result<_, _>>()?;
-    let web = to_lay(&file.spec, &layers);
+    let mut flown = flyer.web(&file.spec)?;
 
     let laid = AtomicU64::new(0);
     let by = Laying { threads: threads(asked.threads), isa: Isa::detect(), stop, laid: &laid };
-    let label = format!("laying {} km of fibre", significant(web.fibre_length() / 1e3, 3));
-    let findings = progress::follow(&laid, pieces(&web)?, &label, asked.quiet, || find(&web, by))?;
+    let label = format!("laying {} km of fibre", significant(flown.web.fibre_length() / 1e3, 3));
+    let findings = progress::follow(&laid, flown.pieces()?, &label, asked.quiet, || flown.find(by))?;
+    let FlownWeb { web, layers, .. } = &flown;
     let performance = Performance {
         wall_s: started.elapsed().as_secs_f64(),
         threads: by.threads,
         instruction_set: by.isa.name(),
     };
-    let found = folders::web::notes(&web, &findings, &layers);
+    let found = folders::web::notes(web, &findings, layers);
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
-    let written = WebFolder {
-        name: &name,
-        file: &file,
-        web: &web,
-        layers: &layers,
-        findings: &findings,
-        notes: &notes,
-        performance,
-    };
+    let written =
+        WebFolder { name: &name, file: &file, web, layers, findings: &findings, notes: &notes, performance };
     if let Some(staging) = staging {
         written.write(&staging, by)?;
         staging.publish()?;
@@ -73,11 +64,13 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
 }
 
 /// Shows the progress of the flights of a case.
-fn flying(quiet: bool) -> impl Fn(&Path, u64, (&AtomicU64, u64), &mut (dyn FnMut() + Send)) {
-    move |path, fibres, (done, of), work| {
+fn flying(quiet: bool) -> impl Fn(Flights<'_>, &mut (dyn FnMut() + Send)) {
+    move |flights, work| {
+        let Flights { path, fibres, done, steps, time_step } = flights;
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let label = format!("flying {} of {name}", plural(fibres, "fibre"));
-        progress::follow(done, of, &label, quiet, work);
+        let seconds = significant(steps as f64 * time_step, 3);
+        let label = format!("flying {} of {name}, {seconds} fibre-seconds", plural(fibres, "fibre"));
+        progress::follow(done, steps, &label, quiet, work);
     }
 }
 

@@ -61,8 +61,12 @@ impl Batches {
     ///
     /// * `motions` – of the eight fibres within it
     /// * `of` – amplitude, frequency and mean of a motion in the direction wanted
-    pub(super) fn add(&mut self, motions: &[EndNodeMotion; WIDTH], of: fn(&EndNodeMotion) -> [f64; 3]) {
-        let motions = motions.each_ref().map(of);
+    pub(super) fn add(
+        &mut self,
+        motions: &[EndNodeMotion; WIDTH],
+        quantities: fn(&EndNodeMotion) -> [f64; 3],
+    ) {
+        let motions = motions.each_ref().map(quantities);
         let batch = Batch {
             mean: motions.map(|[_, _, mean]| mean),
             variance: motions.map(|[amplitude, ..]| amplitude * amplitude),
@@ -210,30 +214,30 @@ mod tests {
     }
 
     /// Number of batches of the first duration that count.
-    fn counted(of: &Batches) -> u64 {
-        (of.batches.len() as u64) << of.merged
+    fn counted(batches: &Batches) -> u64 {
+        (batches.batches.len() as u64) << batches.merged
     }
 
     #[test]
     fn analytic_amplitude_is_that_of_all_the_time_however_it_is_cut() {
         // 8 · 64 pieces are joined four times; rounding only.
         for pieces in [1, 5, 63, 64, 512] {
-            let (of, whole) = batches(&mut Chance(1), 0.9, pieces, 20);
+            let (found, whole) = batches(&mut Chance(1), 0.9, pieces, 20);
             let wanted = whole.iter().sum::<f64>() / WIDTH as f64;
-            assert_eq!(counted(&of), pieces as u64);
+            assert_eq!(counted(&found), pieces as u64);
             assert!(
-                (of.amplitude().value / wanted - 1.0).abs() < 1e-12,
+                (found.amplitude().value / wanted - 1.0).abs() < 1e-12,
                 "{pieces}: {:?}, {wanted}",
-                of.amplitude()
+                found.amplitude()
             );
-            assert!(of.batches.len() < MOST);
+            assert!(found.batches.len() < MOST);
         }
     }
 
     #[test]
     fn an_unfinished_batch_does_not_count_yet() {
-        let (of, _) = batches(&mut Chance(1), 0.9, 65, 20);
-        assert_eq!((counted(&of), of.filling.map(|f| f.holds)), (64, Some(1)));
+        let (found, _) = batches(&mut Chance(1), 0.9, 65, 20);
+        assert_eq!((counted(&found), found.filling.map(|f| f.holds)), (64, Some(1)));
     }
 
     #[test]
@@ -244,8 +248,8 @@ mod tests {
         let mut chance = Chance(5);
         let (mut once, mut twice, cases) = (0, 0, 400);
         for _ in 0..cases {
-            let (of, _) = batches(&mut chance, (-0.05_f64).exp(), 256, 10);
-            let amplitude = of.amplitude();
+            let (found, _) = batches(&mut chance, (-0.05_f64).exp(), 256, 10);
+            let amplitude = found.amplitude();
             let error = amplitude.error.unwrap();
             // Within 2560 samples the mean takes 40/2560 of the variance with it.
             let truth = (1.0 - 40.0 / 2560.0_f64).sqrt();

@@ -173,7 +173,7 @@ mod tests {
 
     fn board() -> Board {
         let fibres = Fibres::new(parse_case(starter_case(), "a.toml", &[]).unwrap().0).unwrap();
-        Board::new(Frame::of(fibres.seen(), &Lately::new()))
+        Board::new(Frame::new(fibres.snapshot(), &Lately::new()))
     }
 
     fn text(news: News) -> String {

@@ -71,8 +71,8 @@ impl Document {
         let memory = memory.chain + memory.turbulence + memory.synthesis;
         if memory > MOST_MEMORY {
             return Err(complaint(format!(
-                "eight fibres of this case take {:.0} MB of memory, and a page flies up to {:.0} MB; give longer elements, longer \
-                 eddies or fewer harmonics",
+                "eight fibres of this case take {:.0} MB of memory, and a page can use {:.0} MB; give longer \
+                 elements, longer eddies or fewer harmonics",
                 memory * 1e-6,
                 MOST_MEMORY * 1e-6
             )));
@@ -150,9 +150,9 @@ impl Document {
             };
             if matches!(key.kind, Kind::File(_)) {
                 for_each_text(old, &mut |text| {
-                    let here = folder.join(text.value());
+                    let path = folder.join(text.value());
                     if !words.contains(&text.value().as_str()) {
-                        *text = toml_edit::Formatted::new(here.to_string_lossy().into_owned());
+                        *text = toml_edit::Formatted::new(path.to_string_lossy().into_owned());
                     }
                 });
             }
@@ -168,8 +168,8 @@ impl Document {
 }
 
 /// The texts of a value or of the list that it is.
-fn for_each_text(of: &mut Value, act: &mut impl FnMut(&mut toml_edit::Formatted<String>)) {
-    match of {
+fn for_each_text(value: &mut Value, act: &mut impl FnMut(&mut toml_edit::Formatted<String>)) {
+    match value {
         Value::String(text) => act(text),
         Value::Array(all) => all.iter_mut().for_each(|one| for_each_text(one, act)),
         _ => {}
@@ -221,13 +221,13 @@ pub(super) fn complaints(error: &Error) -> Vec<Complaint> {
     let Error::Rejected(problems) = error else {
         return complaint(error.to_string());
     };
-    let of = |problem: &spunlaid::error::Problem| {
+    let mistake = |problem: &spunlaid::error::Problem| {
         let line = problem.place.line().and_then(|line| usize::try_from(line).ok());
         let mut problem = problem.clone();
         problem.place = Place::Code;
         Complaint { line, text: problem.to_string() }
     };
-    problems.iter().take(20).map(of).collect()
+    problems.iter().take(20).map(mistake).collect()
 }
 
 #[cfg(test)]
@@ -316,8 +316,8 @@ mod tests {
     #[test]
     fn saved_paths_are_read_from_the_present_folder() {
         let text = "[air]\nrecord = [\"a.csv\", \"b/c.csv\"]\nspectrum = \"von-karman\"\n";
-        let of = Document::new(text.to_owned(), Some(PathBuf::from("cases/x.toml")));
+        let document = Document::new(text.to_owned(), Some(PathBuf::from("cases/x.toml")));
         let wanted = "[air]\nrecord = [\"cases/a.csv\", \"cases/b/c.csv\"]\nspectrum = \"von-karman\"\n";
-        assert_eq!(of.to_save(), wanted);
+        assert_eq!(document.to_save(), wanted);
     }
 }

@@ -16,7 +16,7 @@ pub(super) struct Fibres {
     /// Steps since the start of the flight.
     done: u64,
     /// The fibres at the end of the last stretch.
-    seen: Snapshot,
+    snapshot: Snapshot,
 }
 
 /// What is there to see at a recorded instant.
@@ -35,16 +35,16 @@ impl Fibres {
     pub(super) fn new(case: Case) -> Result<Self, Error> {
         let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job::new(&case, replicate)).collect();
         let flight = Flight::new(&jobs, Isa::detect())?;
-        let seen = flight.snapshot();
-        Ok(Self { flight, case, done: 0, seen })
+        let snapshot = flight.snapshot();
+        Ok(Self { flight, case, done: 0, snapshot })
     }
 
     pub(super) const fn case(&self) -> &Case {
         &self.case
     }
 
-    pub(super) const fn seen(&self) -> &Snapshot {
-        &self.seen
+    pub(super) const fn snapshot(&self) -> &Snapshot {
+        &self.snapshot
     }
 
     pub(super) const fn flight(&self) -> &Flight {
@@ -73,9 +73,9 @@ impl Fibres {
             }
         }
         let mut other = Self::new(case)?;
-        if let Some([position, velocity]) = carried_over(&self.case, &self.seen, &other.case) {
+        if let Some([position, velocity]) = carried_over(&self.case, &self.snapshot, &other.case) {
             other.flight.restart_from(position, velocity)?;
-            other.seen = other.flight.snapshot();
+            other.snapshot = other.flight.snapshot();
         }
         *self = other;
         Ok(true)
@@ -109,16 +109,16 @@ impl Fibres {
                 continue;
             }
             let is_instant = self.done.is_multiple_of(every);
-            self.seen = self.flight.observe();
+            self.snapshot = self.flight.observe();
             self.done += 1;
             if is_instant {
                 let laid = from_fn(|lane| self.flight.take_laid(lane));
-                see(Instant { snapshot: &self.seen, laid: &laid, flight: &mut self.flight });
+                see(Instant { snapshot: &self.snapshot, laid: &laid, flight: &mut self.flight });
             }
         }
         // Looking does not check the positions; flying on does, and says which fibre is lost.
         let is_finite = |p: &Vec3<Lanes>| (0..WIDTH).all(|lane| p.lane(lane).norm().is_finite());
-        if !self.seen.position.iter().all(is_finite) {
+        if !self.snapshot.position.iter().all(is_finite) {
             self.flight.step_to(self.flight.time() + self.flight.time_step())?;
         }
         Ok(())
@@ -127,15 +127,15 @@ impl Fibres {
 
 /// Positions and velocities of the nodes of another case at which fibres of fixed length go on. Their directions stay, along
 /// the share of the length; strain stays as well.
-fn carried_over(old: &Case, seen: &Snapshot, new: &Case) -> Option<[Vec<Vec3<Lanes>>; 2]> {
+fn carried_over(old: &Case, snapshot: &Snapshot, new: &Case) -> Option<[Vec<Vec3<Lanes>>; 2]> {
     let same_hold = (old.fibre.root, old.fibre.direction) == (new.fibre.root, new.fibre.direction);
     if old.line.is_some() || new.line.is_some() || !same_hold {
         return None;
     }
     let (from, to) = (old.fibre.elements, new.fibre.elements);
     let longer = new.fibre.rest_length() / old.fibre.rest_length();
-    let element = |i: usize| seen.position[i + 1] - seen.position[i];
-    let mut at = *seen.position.first()?;
+    let element = |i: usize| snapshot.position[i + 1] - snapshot.position[i];
+    let mut at = *snapshot.position.first()?;
     let mut position = vec![at];
     for i in 0..to {
         // The old element at the middle of the new one.
@@ -146,7 +146,7 @@ fn carried_over(old: &Case, seen: &Snapshot, new: &Case) -> Option<[Vec<Vec3<Lan
     let velocity = (0..=to)
         .map(|i| {
             let (place, share) = (i * from / to, ((i * from) % to) as f64 / to as f64);
-            let [a, b] = [place, (place + 1).min(from)].map(|place| seen.velocity[place]);
+            let [a, b] = [place, (place + 1).min(from)].map(|place| snapshot.velocity[place]);
             a + (b - a) * Lanes::splat(share)
         })
         .collect();
@@ -171,7 +171,7 @@ mod tests {
     }
 
     fn end(fibres: &Fibres) -> Vec3<Lanes> {
-        *fibres.seen().position.last().unwrap()
+        *fibres.snapshot().position.last().unwrap()
     }
 
     #[test]
@@ -223,7 +223,7 @@ mod tests {
         fibres.fly(2000, |_| {}).unwrap();
         let before = end(&fibres);
         fibres.become_of(case(&[("fibre.length", "1.2 m"), ("fibre.element_length", "25 mm")])).unwrap();
-        assert_eq!(fibres.seen().position.len(), 49);
+        assert_eq!(fibres.snapshot().position.len(), 49);
         for lane in 0..WIDTH {
             let [a, b] = [before, end(&fibres)].map(|end| end.lane(lane));
             // Each old element became two or three new ones; what is left is rounding of shares.
@@ -258,6 +258,6 @@ mod tests {
         let mut slower = case;
         slower.run.seed = 5;
         assert!(fibres.become_of(slower).unwrap());
-        assert!(fibres.seen().position.len() < 10);
+        assert!(fibres.snapshot().position.len() < 10);
     }
 }

@@ -118,7 +118,7 @@ pub(super) struct Frame {
 
 impl Frame {
     /// A frame that shows these shapes; its other fields are to be set.
-    pub(super) fn of(snapshot: &Snapshot, lately: &Lately) -> Self {
+    pub(super) fn new(snapshot: &Snapshot, lately: &Lately) -> Self {
         let mut nodes = [0; WIDTH];
         let mut positions = Vec::new();
         for (lane, count) in nodes.iter_mut().enumerate() {
@@ -210,7 +210,7 @@ mod tests {
             fibres.fly(steps, |i| lately.add(i.snapshot.time, i.snapshot, &i.laid[0])).unwrap();
         };
         see(&mut fibres, &mut lately, 4001);
-        let mut frame = Frame::of(fibres.seen(), &lately);
+        let mut frame = Frame::new(fibres.snapshot(), &lately);
         (frame.generation, frame.behind, frame.speed) = (7, true, 0.5);
         let (mut had, mut other) = (Had::default(), Had::default());
         let bytes = frame.bytes(&mut had);
@@ -218,19 +218,19 @@ mod tests {
         let (samples, nodes) = (u16_at(&bytes, 6), u16_at(&bytes, 22));
         assert_eq!((samples, nodes, number(&bytes, 16)), (5, 21, 0.5));
         assert_eq!(bytes.len(), 48 + 12 * 8 * nodes + 16 * samples);
-        assert_eq!(f64::from_le_bytes(bytes[8..16].try_into().unwrap()), fibres.seen().time);
+        assert_eq!(f64::from_le_bytes(bytes[8..16].try_into().unwrap()), fibres.snapshot().time);
         // The last node of the third fibre.
-        let third = fibres.seen().position[20].lane(2);
+        let third = fibres.snapshot().position[20].lane(2);
         let at = 48 + 12 * (3 * nodes - 1);
         for (i, x) in [third.x, third.y, third.z].into_iter().enumerate() {
             assert_eq!(number(&bytes, at + 4 * i), (1e3 * x) as f32);
         }
         // The fourth sample is of 3 ms.
         let at = 48 + 12 * 8 * nodes + 16 * 3;
-        assert!((number(&bytes, at) - (fibres.seen().time - 3e-3) as f32).abs() < 1e-7);
+        assert!((number(&bytes, at) - (fibres.snapshot().time - 3e-3) as f32).abs() < 1e-7);
 
         see(&mut fibres, &mut lately, 2000);
-        let frame = Frame::of(fibres.seen(), &lately);
+        let frame = Frame::new(fibres.snapshot(), &lately);
         assert_eq!(u16_at(&frame.bytes(&mut had), 6), 2);
         assert_eq!(u16_at(&frame.bytes(&mut had), 6), 0);
         assert_eq!(u16_at(&frame.bytes(&mut other), 6), 7);
@@ -240,20 +240,20 @@ mod tests {
     fn a_page_that_lags_far_behind_gets_the_last_entries() {
         let mut tail = Tail::new(4);
         (0..10).for_each(|i| tail.push(i));
-        let of = |since| {
+        let entries_since = |since| {
             let (first, entries) = tail.since(since);
             (first, entries.collect::<Vec<i32>>())
         };
-        assert_eq!(of(0), (6, vec![6, 7, 8, 9]));
-        assert_eq!(of(8), (8, vec![8, 9]));
-        assert_eq!(of(10), (10, vec![]));
+        assert_eq!(entries_since(0), (6, vec![6, 7, 8, 9]));
+        assert_eq!(entries_since(8), (8, vec![8, 9]));
+        assert_eq!(entries_since(10), (10, vec![]));
     }
 
     #[test]
     fn many_nodes_are_thinned_with_both_ends() {
         assert_eq!(thinned(3, 5), [0, 1, 2]);
-        let of = thinned(1000, 96);
-        assert_eq!((of.len(), of[0], of[95]), (96, 0, 999));
-        assert!(of.is_sorted_by(|a, b| a < b));
+        let indices = thinned(1000, 96);
+        assert_eq!((indices.len(), indices[0], indices[95]), (96, 0, 999));
+        assert!(indices.is_sorted_by(|a, b| a < b));
     }
 }

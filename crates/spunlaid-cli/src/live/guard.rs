@@ -26,7 +26,7 @@ impl Refusal {
     /// What is answered.
     pub(super) const fn text(self) -> &'static str {
         match self {
-            Self::Host => "This server is to be reached as 127.0.0.1 only.\n",
+            Self::Host => "Use this server only by its address 127.0.0.1.\n",
             Self::Origin => "Pages of other servers may not talk to this one.\n",
             Self::Token => "There is nothing here. Use the whole address that `spunlaid live` has printed.\n",
         }

@@ -78,7 +78,7 @@ impl Request {
             Ok(httparse::Status::Complete(length)) => length,
             Ok(httparse::Status::Partial) => return Ok(None),
             Err(error) => {
-                let line = format!("This is no request that can be answered: {error}.\n");
+                let line = format!("This request cannot be answered: {error}.\n");
                 return Err(Response::plain("400 Bad Request", &line));
             }
         };

@@ -36,7 +36,7 @@ pub(super) struct Map {
 
 impl LaidStatistics {
     /// No points yet; `None` for fibres of fixed length.
-    pub(super) fn of(case: &Case) -> Option<Self> {
+    pub(super) fn new(case: &Case) -> Option<Self> {
         let line = case.line?;
         let belt_ratio = line.belt_speed / line.feed_speed;
         let tracing =
@@ -56,27 +56,28 @@ impl LaidStatistics {
         let points = self.traces[0].points();
         // A fit takes longer than all else.
         if points as f64 > (1.0 + FIT_AGAIN) * self.fitted.0 as f64 {
-            let noises = laid.iter().filter_map(|of| {
-                let sigmas = [of.sigma_md, of.sigma_cd];
-                let found = identify(sigmas, of.lag_step, [&of.correlation_md, &of.correlation_cd]);
+            let noises = laid.iter().filter_map(|curve| {
+                let sigmas = [curve.sigma_md, curve.sigma_cd];
+                let found = identify(sigmas, curve.lag_step, [&curve.correlation_md, &curve.correlation_cd]);
                 Some(found.ok()?.surrogate.noise)
             });
             self.fitted = (points, noises.collect());
         }
-        let over = |of: fn(&laydown::LaidCurve) -> f64| laid.iter().map(of).collect::<Vec<f64>>();
+        let values_of =
+            |quantity: fn(&laydown::LaidCurve) -> f64| laid.iter().map(quantity).collect::<Vec<f64>>();
         let all = [
-            ("sigma_md", over(|of| of.sigma_md)),
-            ("sigma_cd", over(|of| of.sigma_cd)),
+            ("sigma_md", values_of(|curve| curve.sigma_md)),
+            ("sigma_cd", values_of(|curve| curve.sigma_cd)),
             ("noise", self.fitted.1.clone()),
-            ("half_correlation_length_md", over(|of| of.half_correlation_length_md)),
-            ("half_correlation_length_cd", over(|of| of.half_correlation_length_cd)),
-            ("orientation_md", over(|of| of.orientation_md)),
+            ("half_correlation_length_md", values_of(|curve| curve.half_correlation_length_md)),
+            ("half_correlation_length_cd", values_of(|curve| curve.half_correlation_length_cd)),
+            ("orientation_md", values_of(|curve| curve.orientation_md)),
         ];
         all.into_iter()
             .filter_map(|(name, values)| {
                 let finite: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
-                let of = Estimate::of(finite);
-                Number::of(name, of.mean, of.standard_error)
+                let estimate = Estimate::new(finite);
+                Number::new(name, estimate.mean, estimate.standard_error)
             })
             .collect()
     }
@@ -84,17 +85,18 @@ impl LaidStatistics {
     /// Where the fibres came down; `None` before they have.
     pub(super) fn map(&self) -> Option<Map> {
         let laid = self.traces.each_ref().map(Trace::finish);
-        let with_points = || laid.iter().filter(|of| of.mean[0].is_finite());
-        let cell = with_points().map(|of| of.footprint.cell).fold(0.0, f64::max);
+        let with_points = || laid.iter().filter(|curve| curve.mean[0].is_finite());
+        let cell = with_points().map(|curve| curve.footprint.cell).fold(0.0, f64::max);
         let mut counted = Vec::new();
-        for of in with_points() {
+        for curve in with_points() {
             counted.extend(
-                cells(&of.footprint, of.mean).map(|(at, count)| (at.map(|x| (x / cell).floor()), count)),
+                cells(&curve.footprint, curve.mean)
+                    .map(|(at, count)| (at.map(|x| (x / cell).floor()), count)),
             );
         }
         let range = |axis: usize| {
-            let of = || counted.iter().map(|(place, _)| place[axis]);
-            (of().fold(f64::INFINITY, f64::min), of().fold(f64::NEG_INFINITY, f64::max))
+            let places = || counted.iter().map(|(place, _)| place[axis]);
+            (places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max))
         };
         let ((left, right), (bottom, top)) = (range(0), range(1));
         let [columns, rows] = [right - left, top - bottom].map(|cells| cells as usize + 1);
@@ -110,9 +112,9 @@ impl LaidStatistics {
 }
 
 /// The middles of the cells that hold points, relative to a place [m], and their counts.
-fn cells(of: &Footprint, mean: [f64; 2]) -> impl Iterator<Item = ([f64; 2], u64)> {
-    let (corner, cell) = (of.corner(), of.cell);
-    of.rows().enumerate().flat_map(move |(row, counts)| {
+fn cells(footprint: &Footprint, mean: [f64; 2]) -> impl Iterator<Item = ([f64; 2], u64)> {
+    let (corner, cell) = (footprint.corner(), footprint.cell);
+    footprint.rows().enumerate().flat_map(move |(row, counts)| {
         counts.iter().enumerate().filter(|(_, count)| **count > 0).map(move |(column, count)| {
             let middle = |index: usize, axis: usize| corner[axis] + (index as f64 + 0.5) * cell - mean[axis];
             ([middle(column, 0), middle(row, 1)], *count)
@@ -132,7 +134,7 @@ mod tests {
         let (case, _) =
             parse_case(starter_case_of_fed(), "fed.toml", &[("fibre.element_length".into(), "4 mm".into())])
                 .unwrap();
-        let mut laid = LaidStatistics::of(&case).unwrap();
+        let mut laid = LaidStatistics::new(&case).unwrap();
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let mut points: Vec<f64> = Vec::new();
         let mut all = 0;
@@ -161,16 +163,16 @@ mod tests {
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let mut measured = Statistics::new(&case, fibres.flight());
         fibres.fly((0.5 / case.run.time_step) as u64, |instant| measured.see(instant)).unwrap();
-        let told = serde_json::to_value(measured.told(3, fibres.flight())).unwrap();
-        assert_eq!(told["numbers"][0]["name"], "sigma_md");
-        let sigma = told["numbers"][0]["value"].as_f64().unwrap();
-        let error = told["numbers"][0]["error"].as_f64().unwrap();
-        assert!(sigma > 1.0 && error > 0.0 && error < sigma, "{told}");
+        let statistics = serde_json::to_value(measured.message(3, fibres.flight())).unwrap();
+        assert_eq!(statistics["numbers"][0]["name"], "sigma_md");
+        let sigma = statistics["numbers"][0]["value"].as_f64().unwrap();
+        let error = statistics["numbers"][0]["error"].as_f64().unwrap();
+        assert!(sigma > 1.0 && error > 0.0 && error < sigma, "{statistics}");
     }
 
     #[test]
     fn fibres_of_fixed_length_lay_nothing() {
         let (case, _) = parse_case(starter_case(), "a.toml", &[]).unwrap();
-        assert!(LaidStatistics::of(&case).is_none());
+        assert!(LaidStatistics::new(&case).is_none());
     }
 }

@@ -28,7 +28,7 @@ pub(super) struct Statistics {
     duration: f64,
     /// Start of the present batch [s].
     batch: Option<f64>,
-    of: Motion,
+    motion: Motion,
 }
 
 #[derive(Debug)]
@@ -81,11 +81,11 @@ impl Statistics {
             Some(line) => spin_up.max(4.0 * line.distance / line.feed_speed),
             None => spin_up.max(SETTLING),
         };
-        let of = match LaidStatistics::of(case) {
+        let motion = match LaidStatistics::new(case) {
             Some(laid) => Motion::Fed(Box::new(laid)),
-            None => Motion::Fixed(Box::new(Swinging::of(case, flight))),
+            None => Motion::Fixed(Box::new(Swinging::new(case, flight))),
         };
-        Self { from: flight.time() + settling, duration: 0.0, batch: None, of }
+        Self { from: flight.time() + settling, duration: 0.0, batch: None, motion }
     }
 
     /// Sees a recorded instant.
@@ -101,7 +101,7 @@ impl Statistics {
             return;
         };
         self.duration = now - self.from;
-        match &mut self.of {
+        match &mut self.motion {
             Motion::Fed(laid) => laid.see(&instant),
             Motion::Fixed(swinging) => {
                 swinging.see(&instant);
@@ -117,9 +117,9 @@ impl Statistics {
     }
 
     /// What has been found so far.
-    pub(super) fn told(&mut self, generation: u32, flight: &Flight) -> StatisticsMessage {
+    pub(super) fn message(&mut self, generation: u32, flight: &Flight) -> StatisticsMessage {
         let settling = (self.from - flight.time()).max(0.0);
-        let mut told = StatisticsMessage {
+        let mut message = StatisticsMessage {
             generation,
             duration: self.duration,
             settling,
@@ -127,22 +127,22 @@ impl Statistics {
             curves: None,
             footprint: None,
         };
-        match &mut self.of {
+        match &mut self.motion {
             Motion::Fed(laid) => {
-                told.numbers = laid.numbers();
-                told.footprint = laid.map();
+                message.numbers = laid.numbers();
+                message.footprint = laid.map();
             }
             Motion::Fixed(swinging) => {
-                told.numbers = swinging.numbers();
-                told.curves = (self.duration > 0.0).then(|| swinging.curves(flight));
+                message.numbers = swinging.numbers();
+                message.curves = (self.duration > 0.0).then(|| swinging.curves(flight));
             }
         }
-        told
+        message
     }
 }
 
 impl Swinging {
-    fn of(case: &Case, flight: &Flight) -> Self {
+    fn new(case: &Case, flight: &Flight) -> Self {
         let observer =
             DECLARED.iter().find(|d| d.measures.iter().any(|m| m.name == "amplitude_y_along_fibre"));
         let welch = Welch::new(case.run.output_interval(), SEGMENT, Window::Hann, 0.5);
@@ -158,9 +158,9 @@ impl Swinging {
 
     fn see(&mut self, instant: &Instant<'_>) {
         let samples = [Sample::default(); WIDTH];
-        let seen =
+        let observation =
             Observation { snapshot: instant.snapshot, samples: &samples, settled: true, laid: instant.laid };
-        self.along.see(&seen);
+        self.along.see(&observation);
         let Some(end) = instant.snapshot.position.last() else {
             return;
         };
@@ -181,12 +181,12 @@ impl Swinging {
     }
 
     fn numbers(&self) -> Vec<Number> {
-        let of = |name, Settling { value, error }| Number::of(name, value, error);
+        let number = |name, Settling { value, error }| Number::new(name, value, error);
         [
-            of("amplitude_y", self.y.amplitude()),
-            of("amplitude_z", self.z.amplitude()),
-            of("frequency_y", self.y.frequency()),
-            of("frequency_z", self.z.frequency()),
+            number("amplitude_y", self.y.amplitude()),
+            number("amplitude_z", self.z.amplitude()),
+            number("frequency_y", self.y.frequency()),
+            number("frequency_z", self.z.frequency()),
         ]
         .into_iter()
         .flatten()
@@ -210,7 +210,8 @@ impl Swinging {
         }
         let [y, z] = self.spectrum.each_ref().map(|welch| welch.clone().finish());
         let frequency = y.points().map(|(frequency, _)| frequency).collect();
-        let density = |of: &spunlaid::statistics::Spectrum| of.density.iter().map(|p| p * 1e6).collect();
+        let density =
+            |spectrum: &spunlaid::statistics::Spectrum| spectrum.density.iter().map(|p| p * 1e6).collect();
         Curves { along, spectrum: [frequency, density(&y), density(&z)] }
     }
 }
@@ -264,9 +265,9 @@ mod tests {
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let mut measured = Statistics::new(&case, fibres.flight());
         fibres.fly(case.run.steps + 1, |instant| measured.see(instant)).unwrap();
-        let told = measured.told(1, fibres.flight());
-        assert!((told.duration - 2.0).abs() < 1e-9 && told.settling == 0.0);
-        for number in &told.numbers {
+        let message = measured.message(1, fibres.flight());
+        assert!((message.duration - 2.0).abs() < 1e-9 && message.settling == 0.0);
+        for number in &message.numbers {
             let run = results.estimate(number.name).mean * measure(number.name).unwrap().unit.per_si;
             // The batches begin and end within a step of the run's; a crossing at their seams may be missed, at most one of
             // 70 in each.
@@ -274,8 +275,8 @@ mod tests {
             assert!((number.value.unwrap() / run - 1.0).abs() < tolerance, "{number:?}: {run}");
             assert!(number.error.is_some_and(|e| e > 0.0 && e < 0.3 * run), "{number:?}");
         }
-        let curves = told.curves.unwrap();
-        let amplitude = told.numbers[0].value.unwrap();
+        let curves = message.curves.unwrap();
+        let amplitude = message.numbers[0].value.unwrap();
         // The end of the curve is taken at recorded instants, the amplitude at all steps.
         assert!((curves.along[1].last().unwrap() / amplitude - 1.0).abs() < 0.01);
         let variance: f64 = curves.spectrum[1].iter().sum::<f64>() * curves.spectrum[0][0];
@@ -287,7 +288,7 @@ mod tests {
     fn nothing_is_told_before_the_fibres_have_settled() {
         let (case, _) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
         let fibres = Fibres::new(case.clone()).unwrap();
-        let told = Statistics::new(&case, fibres.flight()).told(1, fibres.flight());
-        assert!(told.settling > 0.4 && told.curves.is_none() && told.numbers[0].value.is_none());
+        let message = Statistics::new(&case, fibres.flight()).message(1, fibres.flight());
+        assert!(message.settling > 0.4 && message.curves.is_none() && message.numbers[0].value.is_none());
     }
 }

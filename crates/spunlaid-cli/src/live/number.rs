@@ -16,7 +16,7 @@ pub(super) struct Number {
 
 impl Number {
     /// * `value`, `error` – in SI units
-    pub(super) fn of(name: &str, value: f64, error: Option<f64>) -> Option<Self> {
+    pub(super) fn new(name: &str, value: f64, error: Option<f64>) -> Option<Self> {
         let Measure { name, label, meaning, unit, .. } = *measure(name)?;
         let finite = |x: f64| x.is_finite().then_some(x * unit.per_si);
         Some(Self {

@@ -11,7 +11,7 @@ const LONGEST: usize = 80;
 /// The name of the file for a name that was given, with its extension.
 ///
 /// # Errors
-/// In words, why it is no plain name of a case.
+/// Says why it is not a plain name of a case.
 pub(super) fn plain_name(given: &str) -> Result<String, String> {
     let given = given.trim();
     let name = if given.ends_with(".toml") { given.to_owned() } else { format!("{given}.toml") };
@@ -23,7 +23,7 @@ pub(super) fn plain_name(given: &str) -> Result<String, String> {
         || !name.chars().all(plain)
     {
         return Err(format!(
-            "\"{}\" is no plain name of a file; write letters, digits, - and _, at most {LONGEST} of them",
+            "\"{}\" is not a plain name of a file; write letters, digits, - and _, at most {LONGEST} of them",
             given.chars().take(LONGEST).map(|c| if c.is_control() { '?' } else { c }).collect::<String>()
         ));
     }
@@ -36,13 +36,13 @@ pub(super) fn plain_name(given: &str) -> Result<String, String> {
 /// The answer that tells why not.
 pub(super) fn save(folder: &Path, name: &str, text: &str, replace: bool) -> Result<(), Answer> {
     let path = folder.join(name);
-    let there = fs::symlink_metadata(&path).ok();
-    if there.as_ref().is_some_and(|there| !there.is_file()) {
-        return Err(Answer::refused(format!("{name} is there and is no plain file; give another name")));
+    let metadata = fs::symlink_metadata(&path).ok();
+    if metadata.as_ref().is_some_and(|metadata| !metadata.is_file()) {
+        return Err(Answer::refused(format!("{name} exists and is not a plain file; give another name")));
     }
     let mut options = OpenOptions::new();
     options.write(true);
-    if replace && there.is_some() {
+    if replace && metadata.is_some() {
         options.truncate(true);
     } else {
         options.create_new(true);

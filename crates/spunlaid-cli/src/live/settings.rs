@@ -129,18 +129,26 @@ mod tests {
             all.iter().map(|s| s.key).collect::<Vec<_>>(),
             present(&case).iter().map(|p| p.key).collect::<Vec<_>>()
         );
-        let of = |name: &str| all.iter().find(|s| s.key == name).unwrap();
-        assert_eq!(of("air.velocity").takes, Takes::Quantity { low: 0.0, high: 60.0, logarithmic: false });
-        assert_eq!(of("fibre.diameter").takes, Takes::Quantity { low: 5e-6, high: 2e-4, logarithmic: false });
+        let setting = |name: &str| all.iter().find(|s| s.key == name).unwrap();
         assert_eq!(
-            of("fibre.youngs_modulus").takes,
+            setting("air.velocity").takes,
+            Takes::Quantity { low: 0.0, high: 60.0, logarithmic: false }
+        );
+        assert_eq!(
+            setting("fibre.diameter").takes,
+            Takes::Quantity { low: 5e-6, high: 2e-4, logarithmic: false }
+        );
+        assert_eq!(
+            setting("fibre.youngs_modulus").takes,
             Takes::Quantity { low: 1e7, high: 1e10, logarithmic: true }
         );
         assert!(
-            of("air.velocity").in_flight && of("air.velocity").first && !of("air.length_scale").in_flight
+            setting("air.velocity").in_flight
+                && setting("air.velocity").first
+                && !setting("air.length_scale").in_flight
         );
-        assert_eq!(of("fibre.root").takes, Takes::Word { words: vec!["pinned", "clamped", "free"] });
-        assert!(of("run.seed").about.contains("Default: 1."));
+        assert_eq!(setting("fibre.root").takes, Takes::Word { words: vec!["pinned", "clamped", "free"] });
+        assert!(setting("run.seed").about.contains("Default: 1."));
         let first: Vec<&str> = all.iter().filter(|s| s.first).map(|s| s.key).collect();
         assert_eq!(first.len(), 8, "{first:?}");
         assert_eq!(present(&case).iter().find(|p| p.key == "fibre.diameter").unwrap().text, "50 µm");
@@ -150,8 +158,8 @@ mod tests {
     fn a_fed_fibre_has_feed_and_belt_and_no_length() {
         let (case, _) = parse_case(starter_case_of_fed(), "a.toml", &[]).unwrap();
         let all = settings(&case);
-        for (key, there) in [("feed.speed", true), ("belt.speed", true), ("fibre.length", false)] {
-            assert_eq!(all.iter().any(|s| s.key == key && s.first), there, "{key}");
+        for (key, is_setting) in [("feed.speed", true), ("belt.speed", true), ("fibre.length", false)] {
+            assert_eq!(all.iter().any(|s| s.key == key && s.first), is_setting, "{key}");
         }
     }
 }

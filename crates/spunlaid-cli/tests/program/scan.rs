@@ -145,7 +145,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     let told = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out guessed")));
     assert!(told.contains("none: the level of the lamp is a guess"), "{told}");
     let notes = desk.summary("guessed")["notes"].to_string();
-    assert!(notes.contains("so no interval is told: take a picture of the lamp"), "{notes}");
+    assert!(notes.contains("so no interval is given; take a picture of the lamp"), "{notes}");
     let told = success(&mut desk.spunlaid("compare laid guessed --out guesses"));
     assert!(
         told.contains("  0 of 1 measures differ")

@@ -35,7 +35,7 @@ pub struct Curves {
     /// Name of the run.
     pub name: String,
     /// The rows of each curve, by the curve’s name.
-    pub of: BTreeMap<String, Vec<Row>>,
+    pub rows: BTreeMap<String, Vec<Row>>,
 }
 
 /// A figure for each declared curve that all runs have.
@@ -45,13 +45,14 @@ pub fn overlaid_figures(runs: &[Curves]) -> Vec<Figure> {
         if measure.kind == Kind::Number {
             continue;
         }
-        match declared.iter_mut().find(|of| of[0].figure.name == measure.figure.name) {
-            Some(of) => of.push(measure),
+        match declared.iter_mut().find(|measures| measures[0].figure.name == measure.figure.name) {
+            Some(measures) => measures.push(measure),
             None => declared.push(vec![measure]),
         }
     }
-    let in_all = |of: &&Vec<&Measure>| runs.iter().all(|run| run.of.contains_key(of[0].figure.name));
-    declared.iter().filter(in_all).map(|of| overlaid(runs, of)).collect()
+    let in_all =
+        |measures: &&Vec<&Measure>| runs.iter().all(|run| run.rows.contains_key(measures[0].figure.name));
+    declared.iter().filter(in_all).map(|measures| overlaid(runs, measures)).collect()
 }
 
 fn overlaid(runs: &[Curves], measures: &[&Measure]) -> Figure {
@@ -60,7 +61,7 @@ fn overlaid(runs: &[Curves], measures: &[&Measure]) -> Figure {
     let mut chart = Chart::new(figure.name, figure.title, along, up).when_empty("nothing to compare");
     let mut with_errors = false;
     for (run, colour) in runs.iter().zip(COLOURS) {
-        let rows = run.of.get(figure.name).map_or(&[][..], Vec::as_slice);
+        let rows = run.rows.get(figure.name).map_or(&[][..], Vec::as_slice);
         let mut names: Vec<&str> = Vec::new();
         // Largest values over time belong to single fibres, and lines across at a frequency are no curves.
         let is_curve = |row: &&Row| row.value.is_finite() && !row.series.ends_with(" largest");
@@ -70,19 +71,19 @@ fn overlaid(runs: &[Curves], measures: &[&Measure]) -> Figure {
             }
         }
         for (name, dash) in names.iter().zip(DASHES) {
-            let of = || rows.iter().filter(is_curve).filter(|row| row.series == *name);
+            let curve = || rows.iter().filter(is_curve).filter(|row| row.series == *name);
             let label = if names.len() == 1 { run.name.clone() } else { format!("{}, {name}", run.name) };
-            let band: Vec<_> = of()
+            let band: Vec<_> = curve()
                 .filter_map(|row| Some((row.at, row.value - row.error?, row.value + row.error?)))
                 .collect();
             with_errors |= !band.is_empty();
             if !band.is_empty() {
                 chart = chart.band(Series::new(&label, colour).unlabelled(), &band);
             }
-            let line: Vec<_> = of().map(|row| (row.at, row.value)).collect();
+            let line: Vec<_> = curve().map(|row| (row.at, row.value)).collect();
             chart = chart.line(Series { dash, ..Series::new(&label, colour) }.width(1.3), &line);
         }
     }
     let bands = if with_errors { " The bands are ± one standard error of the mean." } else { "" };
-    Figure::of(&chart, format!("{} Means over the replicates of each run.{bands}", figure.caption))
+    Figure::new(&chart, format!("{} Means over the replicates of each run.{bands}", figure.caption))
 }

@@ -11,10 +11,10 @@ const CYLINDERS: &str = include_str!("../../../spunlaid/tests/published/cylinder
 const COTTON: &str = include_str!("../../../spunlaid/tests/published/cotton_fibres.csv");
 
 /// A law over Reynolds numbers between powers of ten.
-fn law(decades: (f64, f64), of: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+fn law(decades: (f64, f64), coefficient: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     let steps = 120;
     let re = |i: i32| 10f64.powf(decades.0 + (decades.1 - decades.0) * f64::from(i) / f64::from(steps));
-    (0..=steps).map(|i| (re(i), of(re(i)))).collect()
+    (0..=steps).map(|i| (re(i), coefficient(re(i)))).collect()
 }
 
 /// The two fits to the drag of cotton fibres, each over its Reynolds numbers.

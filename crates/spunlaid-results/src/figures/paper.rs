@@ -24,7 +24,7 @@ pub fn velocity_history(record: &[(f64, f64)], mean: f64) -> Figure {
         Series::reference("mean").dashed("6 4"),
         &[(record.first().map_or(0.0, |r| r.0), mean), (record.last().map_or(1.0, |r| r.0), mean)],
     );
-    Figure::of(
+    Figure::new(
         &chart,
         format!(
             "Figure 2. The synthesised velocity in the first eddy of the first replicate, mean {mean} m/s."
@@ -45,7 +45,7 @@ pub fn spectrum(points: &[SpectrumPoint]) -> Figure {
     )
     .line(Series::new("synthesised", BLUE).width(1.3), &realised)
     .line(Series::reference("flat model").dashed("6 4").width(1.6), &wanted);
-    Figure::of(
+    Figure::new(
         &chart,
         "Figure 3. The spectrum of the synthesised velocity (Welch’s estimate over components, eddies and \
          replicates) and the flat model it is made from: constant up to the cut-off and zero above. What is \
@@ -56,8 +56,8 @@ pub fn spectrum(points: &[SpectrumPoint]) -> Figure {
 
 /// Figure 8a: the fibre at the end, magnified across.
 pub fn final_shape(shape: &[Vec3<f64>]) -> Figure {
-    let along = |of: fn(&Vec3<f64>) -> f64| -> Vec<(f64, f64)> {
-        shape.iter().map(|p| (p.x * MM, of(p) * MM)).collect()
+    let along = |coordinate: fn(&Vec3<f64>) -> f64| -> Vec<(f64, f64)> {
+        shape.iter().map(|p| (p.x * MM, coordinate(p) * MM)).collect()
     };
     let chart = Chart::new(
         "figure_8a",
@@ -69,7 +69,7 @@ pub fn final_shape(shape: &[Vec3<f64>]) -> Figure {
     .line(Series::triangles("z"), &along(|p| p.z))
     .scatter(Series::circles("y").adorning(), &with_no_error(&along(|p| p.y)))
     .scatter(Series::triangles("z").adorning(), &with_no_error(&along(|p| p.z)));
-    Figure::of(
+    Figure::new(
         &chart,
         "Figure 8a. The first replicate after one second, seen from two sides; the axes across are magnified. \
          Markers are the nodes."
@@ -103,7 +103,7 @@ pub fn step_errors(runs: &[(f64, Vec<Place>)]) -> Figure {
         let series = Series::new(&format!("{:.0} µs", step * 1e6), colour).width(1.2);
         chart = chart.line(series.thinned_from(all), &means);
     }
-    Figure::of(
+    Figure::new(
         &chart,
         "Figure 8b. Work of all forces against the kinetic energy (Eq 36), mean over the replicates, for three \
          time steps."
@@ -131,7 +131,7 @@ fn chart(
     name: &str,
     what: &str,
     label: &str,
-    of: fn(&TrendPoint) -> Both,
+    quantity: fn(&TrendPoint) -> Both,
     scale: f64,
 ) -> Figure {
     let (symbol, unit, to_unit) = parameter.unit();
@@ -151,7 +151,7 @@ fn chart(
         let spots: Vec<(f64, f64, Option<f64>)> = points
             .iter()
             .map(|p| {
-                let (mean, error) = of(p)[i];
+                let (mean, error) = quantity(p)[i];
                 (p.value * to_unit, mean * scale, error.map(|e| e * scale))
             })
             .collect();
@@ -159,7 +159,7 @@ fn chart(
     }
     let n = points.iter().map(|p| p.n).min().unwrap_or(0);
     let paper = name.trim_start_matches("figure_");
-    Figure::of(
+    Figure::new(
         &chart,
         format!(
             "Figure {paper}. {what} of the free end in y (circles) and z (triangles), mean over {n} replicates; \

@@ -1,7 +1,7 @@
 //! Made-up results for the tests.
 
 use spunlaid::air::Air;
-use spunlaid::case::{Case, Run};
+use spunlaid::case::{Case, Neighbours, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::ensemble::{Results, Sample, Shape, SpectrumPoint, Trajectory};
@@ -27,6 +27,7 @@ pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         line: None,
+        neighbours: Neighbours::default(),
         run: Run {
             time_step: 1e-3,
             steps: instants as u64 - 1,
@@ -73,11 +74,11 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
     let samples: Vec<Sample> = times.iter().map(sample).collect();
     let frequency = if amplitude == 0.0 { 0.0 } else { 17.0 + 0.1 * replicate as f64 };
     let along = |share: f64| {
-        let of =
+        let amplitude_of_node =
             |node: usize| share * amplitude * node as f64 / nodes as f64 * (1.0 + 0.01 * replicate as f64);
         Value::Curve(
             (0..nodes).map(|node| node as f64 / (nodes - 1) as f64).collect(),
-            (0..nodes).map(of).collect(),
+            (0..nodes).map(amplitude_of_node).collect(),
         )
     };
     let spectrum = || {
@@ -85,7 +86,8 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
         let density = frequencies.iter().map(|f| amplitude * amplitude / (1.0 + f * f)).collect();
         Value::Curve(frequencies, density)
     };
-    let over_time = |of: fn(&Sample) -> f64| Value::Curve(times.clone(), samples.iter().map(of).collect());
+    let over_time =
+        |quantity: fn(&Sample) -> f64| Value::Curve(times.clone(), samples.iter().map(quantity).collect());
     let value = |measure: &Measure| match measure.name {
         "amplitude_y" => Value::Number(amplitude),
         "amplitude_z" => Value::Number(amplitude * (1.0 + 0.01 * replicate as f64)),
@@ -97,7 +99,7 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
         "balance_error_over_time" => over_time(Sample::balance_error_percent),
         _ => match measure.kind {
             Kind::Number => Value::Number(1e-4),
-            Kind::Profile | Kind::Way | Kind::Lag | Kind::Direction => along(0.5),
+            Kind::Profile | Kind::Way | Kind::Lag | Kind::Neighbour | Kind::Direction => along(0.5),
             Kind::Series => over_time(|sample| sample.time),
             Kind::Spectrum => spectrum(),
         },

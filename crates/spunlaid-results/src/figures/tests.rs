@@ -71,15 +71,15 @@ fn the_numbers_of_the_energies_are_not_thinned() {
     let figures = run_figures(&case, &results, &[]);
     let errors = figures.iter().find(|figure| figure.name == "energy_errors").unwrap();
     let text = errors.table.csv();
-    let of = |series: &str| -> Vec<f64> {
+    let values = |series: &str| -> Vec<f64> {
         let rows = text.lines().filter_map(|line| line.strip_prefix(series)?.strip_prefix(','));
         rows.map(|row| row.split(',').nth(1).unwrap().parse().unwrap_or(f64::NAN)).collect()
     };
     let wanted: Vec<f64> = results.curve("work_error_over_time").iter().map(|place| place.mean).collect();
-    let read = of("work check mean");
+    let read = values("work check mean");
     assert_eq!(read.len(), 1001);
     assert!(read.iter().zip(&wanted).all(|(a, b)| a == b || b.is_nan() && a.is_nan()), "{read:?}");
-    assert_eq!(of("full balance largest").len(), 1001);
+    assert_eq!(values("full balance largest").len(), 1001);
 }
 
 #[test]

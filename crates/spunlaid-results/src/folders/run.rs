@@ -210,13 +210,13 @@ pub fn performance(
     computing: Computing<'_>,
     wall_s: f64,
 ) -> Performance {
-    let flights = case.run.replicates.div_ceil(WIDTH as u64);
+    let flights = case.flights();
     let threads = computing.threads.min(flights as usize + plans.flights());
     // Of a fed fibre, as many as there are in the air on average.
     let elements =
         results.number("nodes_in_air").map_or(case.fibre.elements as f64, |nodes| nodes.estimate.mean);
     let of_checks = plans.element_steps() * elements / case.fibre.elements as f64;
-    let element_steps = (elements * (case.run.steps * case.run.replicates) as f64 + of_checks).round() as u64;
+    let element_steps = (elements * (case.run.steps * case.fibres()) as f64 + of_checks).round() as u64;
     Performance {
         wall_s,
         threads,

@@ -97,13 +97,13 @@ impl<'a> StudyFolder<'a> {
             Some(_) => {
                 let points = file.study.points.len();
                 let found = journal.go_on(points, MOST_REPLICATES, file.study.quantities.len())?;
-                let (held, asked) = (journal.most_held(), file.study.replicates.at_most);
-                if held > asked {
+                let (stored, wanted) = (journal.most_held(), file.study.replicates.at_most);
+                if stored > wanted {
                     let fault = Fault::new(
-                        format!("holds {held} replicates of a point, more than the {asked} of this study"),
-                        format!("ask for {held} or more, name another folder, or start again"),
+                        format!("holds {stored} replicates of a point, more than the {wanted} of this study"),
+                        format!("ask for {stored} or more, name another folder, or start again"),
                     );
-                    let options = format!("--replicates {held}, --out, --force");
+                    let options = format!("--replicates {stored}, --out, --force");
                     return Err(Failure::folder(path, fault.option(options)));
                 }
                 // These files follow from the study, so they are restored if someone has removed them. They are

@@ -37,7 +37,7 @@ fn web(element_length: &str, method: &str) -> (WebSpec, Case) {
 fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
     static STOP: AtomicBool = AtomicBool::new(false);
     let (mut spec, case) = web("4 mm", "surrogate");
-    let mut flyer = Flyer::new(2, &STOP, &|_, _, _, work| work());
+    let mut flyer = Flyer::new(2, &STOP, &|_, work| work());
     let of_case = flyer.fibres(&spec, &spec.layers[0]).unwrap();
     let Fibres::Surrogate(surrogate) = of_case.fibres else { panic!("{of_case:?}") };
 
@@ -61,10 +61,13 @@ fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
     staging.publish().unwrap();
     let results = results.finish();
     let measured = ["sigma_1", "sigma_2", "noise"].map(|name| results.estimate(name));
-    assert_eq!([surrogate.sigma_md, surrogate.sigma_cd, surrogate.noise], measured.clone().map(|of| of.mean));
     assert_eq!(
-        of_case.flown.clone().unwrap().numbers.clone().map(|of| of.standard_error),
-        measured.map(|of| of.standard_error)
+        [surrogate.sigma_md, surrogate.sigma_cd, surrogate.noise],
+        measured.clone().map(|estimate| estimate.mean)
+    );
+    assert_eq!(
+        of_case.flown.clone().unwrap().numbers.clone().map(|estimate| estimate.standard_error),
+        measured.map(|estimate| estimate.standard_error)
     );
 
     spec.layers[0].source = LaydownSource::Results { folder, case: Arc::new(case) };
@@ -81,26 +84,32 @@ fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
 #[test]
 fn rejects_fibres_that_make_no_web() {
     static STOP: AtomicBool = AtomicBool::new(false);
-    let mut flyer = Flyer::new(1, &STOP, &|_, _, _, work| work());
+    let mut flyer = Flyer::new(1, &STOP, &|_, work| work());
     // So long elements show too little of the autocorrelation to see a surrogate in it.
     let (spec, _) = web("25 mm", "surrogate");
-    let said = flyer.fibres(&spec, &spec.layers[0]).unwrap_err();
-    assert_eq!(said.exit_code(), 1);
-    let said = said.to_string();
-    assert!(said.starts_with("short.toml: no surrogate was identified in what its fibres lay: "), "{said}");
+    let message = flyer.fibres(&spec, &spec.layers[0]).unwrap_err();
+    assert_eq!(message.exit_code(), 1);
+    let message = message.to_string();
     assert!(
-        said.contains("with points closer together") && said.contains("web.method = \"dynamics\""),
-        "{said}"
+        message.starts_with("short.toml: no surrogate was identified in what its fibres lay: "),
+        "{message}"
+    );
+    assert!(
+        message.contains("with points closer together") && message.contains("web.method = \"dynamics\""),
+        "{message}"
     );
     // A sheet on which these filaments would meet themselves.
     let (mut small, _) = web("4 mm", "dynamics");
     small.sheet.length = 1e-3;
-    let said = flyer.fibres(&small, &small.layers[0]).unwrap_err().to_string();
-    assert!(said.starts_with("web.length = 1 mm is shorter than 8 times laydown.sigma_md = "), "{said}");
+    let message = flyer.fibres(&small, &small.layers[0]).unwrap_err().to_string();
+    assert!(
+        message.starts_with("web.length = 1 mm is shorter than 8 times laydown.sigma_md = "),
+        "{message}"
+    );
     // A folder without a table.
     let desk = tempfile::tempdir().unwrap();
-    let said = read_laid(desk.path()).unwrap_err().to_string();
-    assert!(said.contains("laid.parquet: "), "{said}");
+    let message = read_laid(desk.path()).unwrap_err().to_string();
+    assert!(message.contains("laid.parquet: "), "{message}");
     std::fs::write(desk.path().join("laid.parquet"), "PAR1 not at all PAR1").unwrap();
     assert!(read_laid(desk.path()).unwrap_err().to_string().contains("laid.parquet: "));
 }

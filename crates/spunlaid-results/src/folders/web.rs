@@ -10,7 +10,8 @@ use crate::report::{WebReport, web_html};
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::layers::OfLayer;
 use spunlaid::surrogate::Residual;
-use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, Web, Window, strands};
+use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, Web, strands};
+use std::borrow::Cow;
 
 /// Everything of a web that goes into the files.
 #[derive(Clone, Copy, Debug)]
@@ -42,9 +43,12 @@ impl WebFolder<'_> {
     ///
     /// # Errors
     /// If a file cannot be written, or the computation is interrupted.
-    pub fn write(&self, staging: &Staging<'_>, by: Laying<'_>) -> Result<(), Failure> {
-        let window = window(&self.file.spec);
-        let strands = strands(self.web, window, by)?;
+    pub fn write(&self, staging: &Staging<'_>, laying: Laying<'_>) -> Result<(), Failure> {
+        let window = self.file.spec.window();
+        let strands = match &self.findings.laid.together {
+            Some(together) => Cow::Borrowed(&together.strands[..]),
+            None => Cow::Owned(strands(self.web, window, laying)?),
+        };
         let figures = web_figures(self.web, self.findings);
         // The map is packed while the figures are drawn.
         let (files, drawn) = std::thread::scope(|scope| {
@@ -73,31 +77,27 @@ impl WebFolder<'_> {
     }
 }
 
-/// The square in the middle of the sheet whose single fibres are shown.
-fn window(spec: &WebSpec) -> Window {
-    let side = spec.window;
-    Window { corner: [spec.sheet.width, spec.sheet.length].map(|size| 0.5 * (size - side)), sides: [side; 2] }
-}
-
 /// What layers were laid from, for the files.
 fn rows(spec: &WebSpec, web: &Web, layers: &[OfLayer]) -> Vec<Layer> {
-    let row = |(i, (layer, of)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
+    let row = |(i, (layer, drawn)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
         let fit = residual(layers.get(i));
         let surrogate =
-            [Some(&of.fibres), of.compared.as_ref()].into_iter().flatten().find_map(|fibres| match fibres {
-                Fibres::Surrogate(surrogate) => Some(*surrogate),
-                Fibres::Curves(_) => None,
+            [Some(&drawn.fibres), drawn.compared.as_ref()].into_iter().flatten().find_map(|fibres| {
+                match fibres {
+                    Fibres::Surrogate(surrogate) => Some(*surrogate),
+                    Fibres::Curves(_) => None,
+                }
             });
         Layer {
             name: layer.name.clone().unwrap_or_else(|| (i + 1).to_string()),
-            linear_density_kg_m: of.linear_density,
-            feed_speed_m_s: of.feed_speed,
-            belt_speed_m_s: of.belt_speed,
-            filaments: of.count(&web.sheet),
-            basis_weight_kg_m2: of.basis_weight(&web.sheet),
-            sigma_md_m: surrogate.map(|of| of.sigma_md),
-            sigma_cd_m: surrogate.map(|of| of.sigma_cd),
-            noise_per_sqrt_m: surrogate.map(|of| of.noise),
+            linear_density_kg_m: drawn.linear_density,
+            feed_speed_m_s: drawn.feed_speed,
+            belt_speed_m_s: drawn.belt_speed,
+            filaments: drawn.count(&web.sheet),
+            basis_weight_kg_m2: drawn.basis_weight(&web.sheet),
+            sigma_md_m: surrogate.map(|drawn| drawn.sigma_md),
+            sigma_cd_m: surrogate.map(|drawn| drawn.sigma_cd),
+            noise_per_sqrt_m: surrogate.map(|drawn| drawn.noise),
             fit_residual: fit.map(|fit| fit.rms),
             fit_residual_by_chance: fit.and_then(|fit| fit.by_chance),
         }
@@ -111,24 +111,25 @@ fn residual(layer: Option<&OfLayer>) -> Option<Residual> {
 }
 
 /// What a reader must know of what was found.
-pub fn notes(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> {
-    let mut notes = about_the_model(web, of, layers);
-    let map = &of.laid.map;
-    if of.laid.cut > 0.0 {
-        let whole = map.total() as f64 * map.quantum + of.laid.cut;
+pub fn notes(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<String> {
+    let mut notes = about_the_model(web, findings, layers);
+    let map = &findings.laid.map;
+    if findings.laid.cut > 0.0 {
+        let whole = map.total() as f64 * map.quantum + findings.laid.cut;
         notes.push(format!(
             "{} % of the fibre lies beyond the edges of the sheet and is cut off",
-            significant(100.0 * of.laid.cut / whole, 2)
+            significant(100.0 * findings.laid.cut / whole, 2)
         ));
     }
-    if of.margins != [0.0; 2] {
-        let [first, last] = of.margins.map(|margin| significant(1e3 * margin, 3));
+    if findings.margins != [0.0; 2] {
+        let [first, last] = findings.margins.map(|margin| significant(1e3 * margin, 3));
         notes.push(format!(
-            "the first {first} mm and the last {last} mm across the web are left out of CV, clouds and autocorrelation, for the web is thinner there: they are edges, \
-             3 σ_CD inwards of the outermost filament (web.edges = \"cut\")"
+            "the first {first} mm and the last {last} mm across the web are left out of CV, clouds and \
+             autocorrelation, because the web is thinner at its edges, which reach 3 σ_CD inwards from the \
+             outermost filament (web.edges = \"cut\")"
         ));
     }
-    let unsure: Vec<String> = (of.patches.iter().filter(|patch| patch.map.standard_error.is_none()))
+    let unsure: Vec<String> = (findings.patches.iter().filter(|patch| patch.map.standard_error.is_none()))
         .map(|patch| significant(1e3 * patch.map.patch, 3))
         .collect();
     if !unsure.is_empty() {
@@ -140,7 +141,8 @@ pub fn notes(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> {
     }
     if map.cells.len() > web::MOST_CELLS {
         notes.push(
-            "the map is only in map.npy, for it has more cells than a table or a picture takes".to_owned(),
+            "the map is only in map.npy, because it has more cells than a table or a picture can hold"
+                .to_owned(),
         );
     }
     notes
@@ -152,28 +154,30 @@ const TOO_FEW: f64 = 0.025;
 const POOR_FIT: f64 = 0.05;
 
 /// Whether the surrogate speaks for the flown fibres, and which of them to believe where it does not.
-fn about_the_model(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> {
+fn about_the_model(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<String> {
     let mut notes = Vec::new();
     let by_surrogate = web.layers.iter().any(|layer| matches!(layer.fibres, Fibres::Surrogate(_)));
     let element = web.longest_element().unwrap_or(0.0);
-    let (seen, fine): (Vec<&PatchFindings>, Vec<_>) = of
+    let (coarse, fine): (Vec<&PatchFindings>, Vec<_>) = findings
         .patches
         .iter()
         .filter(|patch| patch.surrogate_is_far())
         .partition(|patch| patch.map.patch >= element);
-    let apart = |patch: &PatchFindings| patch.surrogate_over_flown().map_or(0.0, |of| of.0);
-    if let Some(most) = seen.iter().max_by(|a, b| apart(a).abs().total_cmp(&apart(b).abs())) {
-        let cv = |of: Option<(f64, f64)>| significant(100.0 * of.map_or(f64::NAN, |of| of.0), 3);
+    let apart = |patch: &PatchFindings| patch.surrogate_over_flown().map_or(0.0, |difference| difference.0);
+    if let Some(most) = coarse.iter().max_by(|a, b| apart(a).abs().total_cmp(&apart(b).abs())) {
+        let cv = |estimate: Option<(f64, f64)>| {
+            significant(100.0 * estimate.map_or(f64::NAN, |estimate| estimate.0), 3)
+        };
         let remedy = if by_surrogate {
             "web.method = \"dynamics\" lays the map from them"
         } else {
             "this map is laid from them"
         };
         notes.push(format!(
-            "the surrogate’s CV is more than 5 % from that of the flown curves over patches of {}: {} for {} %, {} % {}, over patches of {}. \
-             Believe the flown curves there: they are what the flight has laid, and the surrogate has only their spread and their \
-             autocorrelation. {remedy}",
-            sides(&seen),
+            "the surrogate’s CV is more than 5 % from that of the flown curves over patches of {}: {} for {} %, {} \
+             % {}, over patches of {}. Rely on the flown curves there: the flight has laid them, and the \
+             surrogate has only their spread and their autocorrelation. {remedy}",
+            sides(&coarse),
             cv(most.surrogate),
             cv(most.flown),
             significant(100.0 * apart(most).abs(), 2),
@@ -183,8 +187,9 @@ fn about_the_model(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> 
     }
     if !fine.is_empty() {
         notes.push(format!(
-            "over patches of {} surrogate and flown curves differ by more than 5 % too, and neither is to be believed within that: these patches \
-             are smaller than an element of the flight, {} mm (fibre.element_length)",
+            "over patches of {} the surrogate and the flown curves also differ by more than 5 %, and neither is \
+             accurate to 5 % there, because these patches are smaller than an element of the flight, {} mm \
+             (fibre.element_length)",
             sides(&fine),
             significant(element * 1e3, 3)
         ));
@@ -193,8 +198,8 @@ fn about_the_model(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> 
         !patch.surrogate_is_far()
             && patch.flown.is_some_and(|(cv, error)| error.is_nan() || error > TOO_FEW * cv)
     };
-    let unknown: Vec<&PatchFindings> = of.patches.iter().filter(too_few).collect();
-    let errors = unknown.iter().filter_map(|of| of.flown).map(|(cv, error)| error / cv);
+    let unknown: Vec<&PatchFindings> = findings.patches.iter().filter(too_few).collect();
+    let errors = unknown.iter().filter_map(|patch| patch.flown).map(|(cv, error)| error / cv);
     if let Some(error) = errors.max_by(f64::total_cmp) {
         let known = if error.is_nan() {
             "rests on a single fibre, so its error is not known".to_owned()
@@ -207,19 +212,21 @@ fn about_the_model(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> 
             sides(&unknown)
         ));
     }
-    if by_surrogate && of.patches.iter().any(|patch| patch.flown.is_none()) {
+    if by_surrogate && findings.patches.iter().any(|patch| patch.flown.is_none()) {
         notes.push(
-            "no fibre was flown for every layer of this web, so the errors are by chance only: how far a surrogate of these numbers is from \
-             real fibres is not known. Beside flown curves, its CV was seen to be up to 20 % off (docs/web.md)"
+            "no fibre was flown for every layer of this web, so the errors are by chance only, and it is not known \
+             how far a surrogate with these numbers is from real fibres. Compared with flown curves, its CV was \
+             up to 20 % wrong (docs/web.md)"
                 .to_owned(),
         );
     }
-    if let ([layer], false) = (&web.layers[..], of.sensitivities.is_empty())
+    if let ([layer], false) = (&web.layers[..], findings.sensitivities.is_empty())
         && layer.belt_changes_flight()
     {
         notes.push(format!(
-            "what a faster belt would do is not told: this one runs at {} of the feed’s speed and pulls at the fibre in the air, so the flight \
-             changes with it; fly webs at other speeds (a study over belt.speed, docs/web.md)",
+            "the effect of a faster belt is not given, because this belt runs at {} of the feed speed and pulls at \
+             the fibre in the air, so the flight changes with it; fly webs at other speeds (a study over \
+             belt.speed, docs/web.md)",
             significant(layer.belt_ratio(), 2)
         ));
     }
@@ -228,11 +235,11 @@ fn about_the_model(web: &Web, of: &Findings, layers: &[OfLayer]) -> Vec<String> 
         let beyond = (fit.rms.powi(2) - fit.by_chance.unwrap_or(0.0).powi(2)).max(0.0).sqrt();
         if beyond > POOR_FIT {
             notes.push(format!(
-                "the laid fibre of {} is not like any surrogate: its autocorrelation differs by {} (rms) from that of the best one, where chance \
-                 would leave {}",
+                "no surrogate describes the laid fibre of {} well: its autocorrelation differs by {} (rms) from \
+                 that of the best one, and chance would explain {}",
                 grams(layer.basis_weight(&web.sheet)),
                 significant(fit.rms, 2),
-                fit.by_chance.map_or_else(|| "an unknown part".to_owned(), |by| significant(by, 2))
+                fit.by_chance.map_or_else(|| "an unknown part".to_owned(), |residual| significant(residual, 2))
             ));
         }
     }
@@ -244,8 +251,8 @@ fn grams(weight: f64) -> String {
 }
 
 /// `2, 5 and 10 mm`.
-fn sides(of: &[&PatchFindings]) -> String {
-    let sides: Vec<String> = of.iter().map(|patch| significant(patch.map.patch * 1e3, 3)).collect();
+fn sides(patches: &[&PatchFindings]) -> String {
+    let sides: Vec<String> = patches.iter().map(|patch| significant(patch.map.patch * 1e3, 3)).collect();
     match sides.as_slice() {
         [first @ .., last] if !first.is_empty() => format!("{} and {last} mm", first.join(", ")),
         sides => format!("{} mm", sides.concat()),

@@ -87,32 +87,32 @@ struct Mean {
 
 /// The comparisons as JSON, in SI units.
 pub fn json(comparisons: &[Comparison]) -> String {
-    let mean = |of: &Estimate| {
-        let finite = of.values.iter().filter(|value| value.is_finite()).count();
-        let n = (!of.values.is_empty()).then_some(finite);
-        Mean { mean: of.mean, standard_error: of.standard_error, n }
+    let mean = |estimate: &Estimate| {
+        let finite = estimate.values.iter().filter(|value| value.is_finite()).count();
+        let n = (!estimate.values.is_empty()).then_some(finite);
+        Mean { mean: estimate.mean, standard_error: estimate.standard_error, n }
     };
-    let numbers = |of: &Compared| {
-        let [against, run] = &of.means;
+    let numbers = |compared: &Compared| {
+        let [against, run] = &compared.means;
         let numbers = Numbers {
             against: mean(against),
             run: mean(run),
-            difference: of.difference.map(|d| d.value),
-            standard_error: of.difference.map(|d| d.standard_error),
-            half_width: of.difference.map(|d| d.half_width()),
-            beyond_chance: of.difference.map(|d| d.is_beyond_chance()),
-            no_verdict: of.doubt.clone(),
+            difference: compared.difference.map(|d| d.value),
+            standard_error: compared.difference.map(|d| d.standard_error),
+            half_width: compared.difference.map(|d| d.half_width()),
+            beyond_chance: compared.difference.map(|d| d.is_beyond_chance()),
+            no_verdict: compared.doubt.clone(),
         };
-        (of.column.clone(), numbers)
+        (compared.column.clone(), numbers)
     };
-    let one = |of: &'_ Comparison| InOrder(of.measures.iter().map(numbers).collect());
-    let comparisons = comparisons.iter().map(|of| One {
-        run: &of.run,
-        against: &of.against,
-        paired: of.pairs.is_some(),
-        pairs: of.pairs,
-        reason: &of.reason,
-        measures: one(of),
+    let one = |comparison: &'_ Comparison| InOrder(comparison.measures.iter().map(numbers).collect());
+    let comparisons = comparisons.iter().map(|comparison| One {
+        run: &comparison.run,
+        against: &comparison.against,
+        paired: comparison.pairs.is_some(),
+        pairs: comparison.pairs,
+        reason: &comparison.reason,
+        measures: one(comparison),
     });
     let document = Document {
         schema_version: SCHEMA_VERSION,
@@ -128,8 +128,11 @@ pub fn json(comparisons: &[Comparison]) -> String {
 impl Comparison {
     /// How many measures differ beyond chance, of how many.
     pub fn beyond_chance(&self) -> (usize, usize) {
-        let known: Vec<bool> =
-            self.measures.iter().filter_map(|of| of.difference.map(|d| d.is_beyond_chance())).collect();
+        let known: Vec<bool> = self
+            .measures
+            .iter()
+            .filter_map(|measure| measure.difference.map(|d| d.is_beyond_chance()))
+            .collect();
         (known.iter().filter(|is| **is).count(), known.len())
     }
 }
@@ -138,8 +141,9 @@ impl Compared {
     /// Both means, the difference with its sign, and the verdict, in the unit of the measure.
     pub fn cells(&self) -> [String; 4] {
         let factor = self.per_si;
-        let mean =
-            |of: &Estimate| plus_minus(of.mean * factor, of.standard_error.map(|error| error * factor));
+        let mean = |estimate: &Estimate| {
+            plus_minus(estimate.mean * factor, estimate.standard_error.map(|error| error * factor))
+        };
         let difference = self.difference.map_or_else(
             || "–".to_owned(),
             |d| {
@@ -162,23 +166,23 @@ impl Compared {
 }
 
 /// A comparison for the terminal.
-pub fn table(of: &Comparison) -> String {
+pub fn table(comparison: &Comparison) -> String {
     let mut rows = vec![[
         String::new(),
-        of.against.clone(),
-        of.run.clone(),
+        comparison.against.clone(),
+        comparison.run.clone(),
         "difference".to_owned(),
         String::new(),
         String::new(),
     ]];
-    for one in &of.measures {
+    for one in &comparison.measures {
         let [against, run, difference, verdict] = one.cells();
         let unit = one.unit.to_owned();
         rows.push([one.label.clone(), against, run, difference, unit, verdict]);
     }
     let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..6).map(width).collect();
-    let mut text = format!("{} against {}: {}\n", of.run, of.against, of.reason);
+    let mut text = format!("{} against {}: {}\n", comparison.run, comparison.against, comparison.reason);
     for row in &rows {
         let mut line = format!("  {:<1$}", row[0], widths[0]);
         for i in 1..4 {
@@ -187,7 +191,7 @@ pub fn table(of: &Comparison) -> String {
         let _ = write!(line, "  {:<1$}  {2}", row[4], widths[4], row[5]);
         let _ = writeln!(text, "{}", line.trim_end());
     }
-    let (beyond, all) = of.beyond_chance();
+    let (beyond, all) = comparison.beyond_chance();
     let _ = writeln!(
         text,
         "  {beyond} of {all} measures differ beyond chance (95 % interval); one in twenty would by chance alone"

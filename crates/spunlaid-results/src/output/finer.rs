@@ -36,7 +36,7 @@ pub fn words(checks: &FinerChecks, case: &Case, results: &Results) -> [Result<Fi
         |(check, what, with)| {
             check
                 .as_ref()
-                .map(|check| FinerWords::of(check, case, results))
+                .map(|check| FinerWords::new(check, case, results))
                 .map_err(|why| not(what, with, why))
         },
     )
@@ -59,7 +59,7 @@ pub fn text(checks: &FinerChecks, case: &Case, results: &Results) -> String {
 }
 
 impl FinerWords {
-    fn of(check: &FinerCheck, case: &Case, results: &Results) -> Self {
+    fn new(check: &FinerCheck, case: &Case, results: &Results) -> Self {
         let FinerCheck { replicates, .. } = check;
         let extent = format!(
             "{replicates} replicate{} over the first {} s; it took {} % of the run's computing time",
@@ -109,8 +109,8 @@ impl FinerWords {
     }
 }
 
-fn percent(of: &Estimate) -> String {
-    format!("{} %", plus_minus(100.0 * of.mean, of.standard_error.map(|error| 100.0 * error)))
+fn percent(estimate: &Estimate) -> String {
+    format!("{} %", plus_minus(100.0 * estimate.mean, estimate.standard_error.map(|error| 100.0 * error)))
 }
 
 /// With what a step is compared.
@@ -128,7 +128,7 @@ fn of_the_step(check: &FinerCheck, results: &Results) -> String {
     let Some(Change { statistic, estimate }) = check.changes.first() else {
         return String::new();
     };
-    let of = statistic.label.to_lowercase();
+    let quantity = statistic.label.to_lowercase();
     // Where one end of the difference is the limit itself, the other end is the error.
     let factor = check.error_over_change().unwrap_or(1.0);
     let error = factor * (estimate.mean.abs() + estimate.standard_error.unwrap_or(0.0));
@@ -138,17 +138,20 @@ fn of_the_step(check: &FinerCheck, results: &Results) -> String {
     };
     let known = format!("standard error over the replicates is {} %", significant(100.0 * scatter, 2));
     if error < 0.5 * scatter {
-        format!("A shorter step would gain nothing: the {of}'s {known}")
+        format!("A shorter step would gain nothing: the {quantity}'s {known}")
     } else {
-        format!("Halve run.time_step and see whether the results move: the {of}'s {known}, no more than that")
+        format!(
+            "Halve run.time_step and see whether the results change by more than chance: the {quantity}'s \
+            {known}"
+        )
     }
 }
 
 /// The smallest relative standard error of some measures; `None` for a single replicate.
 fn scatter(measures: &[&str], results: &Results) -> Option<f64> {
     let relative = |name: &&str| {
-        let of = results.estimate(name);
-        of.standard_error.map(|error| error / of.mean).filter(|share| share.is_finite())
+        let estimate = results.estimate(name);
+        estimate.standard_error.map(|error| error / estimate.mean).filter(|share| share.is_finite())
     };
     measures.iter().filter_map(relative).reduce(f64::min)
 }
@@ -167,14 +170,14 @@ fn of_the_mesh(check: &FinerCheck) -> String {
             .fold(0.0, f64::max)
     };
     let (surely, at_most) = (shares(-SURE), shares(SURE));
-    let length = |of: f64| Dimension::Length.pretty_to(of, 3);
+    let length = |metres: f64| Dimension::Length.pretty_to(metres, 3);
     if check.error_over_change().is_none() {
         return if surely > FINE_ENOUGH {
             let half = length(check.element_length);
             format!("The elements are too long: write fibre.element_length = \"{half}\" and look again")
         } else {
-            "How far this is from very fine elements is not known from one halving: a laid fibre folds more finely than \
-             its elements, and each further halving may change as much again"
+            "One halving does not show how far this is from very fine elements: a laid fibre folds more finely \
+             than its elements, and each further halving may change as much again"
                 .to_owned()
         };
     }
@@ -192,8 +195,7 @@ fn of_the_mesh(check: &FinerCheck) -> String {
             length(proposed)
         );
     }
-    "Whether their error is below 3 % cannot be told from so little flight; a longer run would tell"
-        .to_owned()
+    "This run is too short to show whether their error is below 3 %; fly for longer".to_owned()
 }
 
 #[cfg(test)]
@@ -223,12 +225,16 @@ mod tests {
 
     #[test]
     fn advice_on_the_mesh_names_an_element_length() {
-        let of = |mean, error| of_the_mesh(&check(Refined::Elements, "frequency", mean, error));
+        let advice = |mean, error| of_the_mesh(&check(Refined::Elements, "frequency", mean, error));
         // 4/3 of 18.5 % is 25 %, of which a sixteenth is left at a quarter of 25 mm.
-        assert!(of(0.185, 0.015).contains("fibre.element_length = \"6.25 mm\" and look again"));
-        assert!(of(-0.045, 0.007).contains("fibre.element_length = \"12.5 mm\""), "{}", of(-0.045, 0.007));
-        assert!(of(0.011, 0.002).contains("below 3 %"));
-        assert!(of(0.01, 0.02).contains("cannot be told"));
+        assert!(advice(0.185, 0.015).contains("fibre.element_length = \"6.25 mm\" and look again"));
+        assert!(
+            advice(-0.045, 0.007).contains("fibre.element_length = \"12.5 mm\""),
+            "{}",
+            advice(-0.045, 0.007)
+        );
+        assert!(advice(0.011, 0.002).contains("below 3 %"));
+        assert!(advice(0.01, 0.02).contains("too short to show"));
         let laid = |mean| of_the_mesh(&check(Refined::Elements, "spread", mean, 1e-3));
         assert!(laid(0.05).contains("\"12.5 mm\"") && laid(3e-3).contains("not known from one halving"));
         assert!(of_the_mesh(&check(Refined::Elements, "chord_over_arc", 0.3, 1e-3)).contains("not known"));

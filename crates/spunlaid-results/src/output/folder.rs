@@ -126,10 +126,10 @@ impl<'a> Staging<'a> {
     fn swap(&self, new: &Path, folder: &Path) -> std::io::Result<()> {
         let old = self.staging.join(OLD);
         fs::create_dir(&old)?;
-        let there = |path: &Path| path.symlink_metadata().is_ok();
+        let exists = |path: &Path| path.symlink_metadata().is_ok();
         let mut moved: Vec<(PathBuf, PathBuf)> = Vec::new();
         let mut step = |from: PathBuf, to: PathBuf| {
-            if !there(&from) {
+            if !exists(&from) {
                 return Ok(());
             }
             fs::rename(&from, &to)?;

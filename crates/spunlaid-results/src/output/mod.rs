@@ -6,6 +6,7 @@ pub mod comparison;
 pub mod finer;
 pub mod folder;
 pub mod leftovers;
+mod neighbours;
 pub mod paraview;
 mod parquet;
 pub mod pictures;
@@ -19,7 +20,7 @@ pub mod web;
 use serde::Serialize;
 
 /// The text of a JSON file.
-pub fn json_text(of: &impl Serialize) -> String {
+pub fn json_text(value: &impl Serialize) -> String {
     // Serialising plain numbers and strings into memory cannot fail.
-    serde_json::to_string_pretty(of).unwrap_or_default() + "\n"
+    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }

@@ -28,7 +28,8 @@ pub fn write(staging: &Staging<'_>, case: &Case, trajectories: &[Trajectory]) ->
     let digits = first.shapes.len().div_ceil(every).to_string().len();
     for (number, (k, shape)) in first.shapes.iter().enumerate().step_by(every).enumerate() {
         let name = format!("shape/fibre_{number:0digits$}.vtp");
-        let lines: Vec<Line> = trajectories.iter().filter_map(|of| shape_line(of, k, rest_length)).collect();
+        let lines: Vec<Line> =
+            trajectories.iter().filter_map(|trajectory| shape_line(trajectory, k, rest_length)).collect();
         staging.write(&name, poly_data("replicate", &["distance_m"], &lines))?;
         let _ = writeln!(collection, "<DataSet timestep=\"{:?}\" part=\"0\" file=\"{name}\"/>", shape.time);
     }
@@ -46,19 +47,19 @@ pub fn write_laid(staging: &Staging<'_>, trajectories: &[Trajectory]) -> Result<
     }
 }
 
-fn laid_line(of: &Trajectory) -> Line {
-    let points = of.laid.iter();
+fn laid_line(trajectory: &Trajectory) -> Line {
+    let points = trajectory.laid.iter();
     Line {
-        number: of.replicate + 1,
+        number: trajectory.replicate + 1,
         points: points.clone().map(|p| Vec3::new(0.0, p.md, p.cd)).collect(),
         data: vec![points.clone().map(|p| p.fed).collect(), points.map(|p| p.time).collect()],
     }
 }
 
-fn shape_line(of: &Trajectory, k: usize, rest_length: f64) -> Option<Line> {
-    let points = &of.shapes.get(k)?.position;
+fn shape_line(trajectory: &Trajectory, k: usize, rest_length: f64) -> Option<Line> {
+    let points = &trajectory.shapes.get(k)?.position;
     let distance = (0..points.len()).map(|i| i as f64 * rest_length).collect();
-    Some(Line { number: of.replicate + 1, points: points.clone(), data: vec![distance] })
+    Some(Line { number: trajectory.replicate + 1, points: points.clone(), data: vec![distance] })
 }
 
 /// A line of a VTK file.

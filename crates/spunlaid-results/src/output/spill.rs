@@ -129,9 +129,9 @@ impl Spill {
 
 /// A number from its bytes.
 fn number(bytes: &[u8]) -> f64 {
-    let mut of = [0; BYTES];
-    of.copy_from_slice(bytes);
-    f64::from_le_bytes(of)
+    let mut number = [0; BYTES];
+    number.copy_from_slice(bytes);
+    f64::from_le_bytes(number)
 }
 
 #[cfg(test)]
@@ -206,8 +206,8 @@ mod tests {
         let spill = spill(&folder);
         let error = (0..IN_MEMORY).find_map(|i| spill.push(0, row(0, i)).err());
         assert!(matches!(error, Some(Error::Interrupted)), "{error:?}");
-        let told = spill.failure().unwrap().to_string();
-        assert!(told.starts_with("r/laid.parquet: cannot be written: "), "{told}");
+        let message = spill.failure().unwrap().to_string();
+        assert!(message.starts_with("r/laid.parquet: cannot be written: "), "{message}");
         // It is told once.
         assert!(spill.failure().is_none());
     }

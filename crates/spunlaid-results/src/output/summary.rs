@@ -1,5 +1,6 @@
 //! `summary.json`: all results of a run.
 
+use super::neighbours::NeighboursSummary;
 use serde::{Serialize, Serializer};
 use serde_json::Value as Json;
 use spunlaid::case::Case;
@@ -29,6 +30,9 @@ pub struct Summary<'a> {
     /// `end_node`, `fibre`, `energy`, `laydown`: the measures by group.
     #[serde(flatten)]
     measures: GroupSummary<'a>,
+    /// How the fibres move, or come down, together with their companions.
+    #[serde(skip_serializing_if = "NeighboursSummary::is_empty")]
+    neighbours: NeighboursSummary,
     /// Null if the run is too short for it, or if the fibres do not move across the flow.
     step_check: Option<FinerSummary<'a>>,
     /// The same of the elements.
@@ -75,7 +79,7 @@ impl<'a> FinerSummary<'a> {
             finer_time_step_s: check.time_step,
             finer_element_length_m: check.element_length,
             error_over_difference: check.error_over_change(),
-            differences: check.differences().map(|(name, of)| (name, of_mean(of))).collect(),
+            differences: check.differences().map(|(name, difference)| (name, of_mean(difference))).collect(),
         }
     }
 }
@@ -152,6 +156,7 @@ impl<'a> Summary<'a> {
             lost: results.lost.len(),
             lost_fibres: results.lost.iter().map(lost_summary).collect(),
             measures,
+            neighbours: NeighboursSummary::of(results),
             step_check: checks.step.as_ref().ok().map(FinerSummary::of),
             mesh_check: checks.mesh.as_ref().ok().map(FinerSummary::of),
             performance,
@@ -177,7 +182,7 @@ fn insert<'a>(into: &mut GroupSummary<'a>, group: &'static str, number: &'a Numb
 }
 
 fn summary_of(number: &Number) -> NumberSummary<'_> {
-    let over = |over| (number.measure.over_replicates == over).then(|| number.value());
+    let over = |value_if| (number.measure.over_replicates == value_if).then(|| number.value());
     NumberSummary {
         median: over(Aggregate::Median),
         largest: over(Aggregate::Largest),
@@ -220,6 +225,7 @@ fn json(value: Value) -> Json {
         Value::Whole(value) => value.into(),
         Value::Text(text) => text.into(),
         Value::Vector(v) => vec![v.x, v.y, v.z].into(),
+        Value::Numbers(numbers) => numbers.into(),
         Value::Content(Content::Spectrum(_)) => "measured".into(),
         Value::Content(content) => content.paths().into_iter().map(name).collect(),
         _ => Json::Null,

@@ -24,18 +24,18 @@ pub fn results(results: &Results) -> String {
 }
 
 /// The mean and its error, aligned at the sign ±. A median or a largest value has no error.
-fn value(of: &Number) -> String {
-    let factor = of.measure.unit.per_si;
-    if of.measure.over_replicates != Aggregate::Mean {
-        return format!("{:>10}", number(of.value() * factor));
+fn value(row: &Number) -> String {
+    let factor = row.measure.unit.per_si;
+    if row.measure.over_replicates != Aggregate::Mean {
+        return format!("{:>10}", number(row.value() * factor));
     }
     let (mean, error) =
-        rounded(of.estimate.mean * factor, of.estimate.standard_error.map(|error| error * factor));
+        rounded(row.estimate.mean * factor, row.estimate.standard_error.map(|error| error * factor));
     error.map_or_else(|| format!("{mean:>10}"), |error| format!("{mean:>10} ± {error}"))
 }
 
-fn remark(over: Aggregate, replicates: u64) -> &'static str {
-    match over {
+fn remark(aggregate: Aggregate, replicates: u64) -> &'static str {
+    match aggregate {
         Aggregate::Median if replicates > 1 => "  (median)",
         Aggregate::Largest if replicates > 1 => "  (largest)",
         Aggregate::Mean | Aggregate::Median | Aggregate::Largest => "",

@@ -46,7 +46,7 @@ const ENERGY: &[(Fibres, Column)] = &[
 /// The tables of fed fibres, or of fibres of fixed length: their files and columns.
 pub fn tables(fed: bool) -> Vec<(&'static str, Vec<Column>)> {
     let other = if fed { Fibres::Fixed } else { Fibres::Fed };
-    let energy = ENERGY.iter().filter(|(of, _)| *of != other).map(|(_, column)| *column).collect();
+    let energy = ENERGY.iter().filter(|(kind, _)| *kind != other).map(|(_, column)| *column).collect();
     let end = (!fed).then(|| ("end_node.parquet", END_NODE.to_vec()));
     end.into_iter().chain([("energy.parquet", energy)]).collect()
 }
@@ -98,14 +98,14 @@ impl Recorder for TableRecorder {
     }
 
     fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error> {
-        self.samples
-            .iter()
-            .try_for_each(|(columns, spill)| spill.push(replicate, columns.iter().map(|(_, of)| of(sample))))
+        self.samples.iter().try_for_each(|(columns, spill)| {
+            spill.push(replicate, columns.iter().map(|(_, value)| value(sample)))
+        })
     }
 
     fn lay(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
         self.laid.as_ref().map_or(Ok(()), |spill| {
-            points.iter().try_for_each(|point| spill.push(replicate, POINT.map(|(_, of)| of(point))))
+            points.iter().try_for_each(|point| spill.push(replicate, POINT.map(|(_, value)| value(point))))
         })
     }
 }

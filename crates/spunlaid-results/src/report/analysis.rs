@@ -46,66 +46,66 @@ struct Page<'a> {
 
 /// Makes the report as one HTML file.
 pub fn analysis_html(input: &AnalysisReport<'_>) -> String {
-    let of = input.analysis;
-    let (air_rows, components) = results(of);
+    let analysis = input.analysis;
+    let (air_rows, components) = results(analysis);
     let page = Page {
         name: input.name,
-        headline: headline(of),
-        summary: summary(input.record, of),
-        notes: of.warnings.iter().map(ToString::to_string).collect(),
+        headline: headline(analysis),
+        summary: summary(input.record, analysis),
+        notes: analysis.warnings.iter().map(ToString::to_string).collect(),
         remarks: input.remarks,
         air_rows,
         components,
-        durations: durations(of),
+        durations: durations(analysis),
         figures: input.figures,
         air: input.air,
-        methods: methods(of),
+        methods: methods(analysis),
         version: env!("CARGO_PKG_VERSION"),
     };
     rendered(&page)
 }
 
 /// `10.02 ± 0.04 m/s`; half the width of the interval follows the sign.
-fn around(of: &Interval, factor: f64, unit: &str) -> String {
-    format!("{}{THIN}{unit}", plus_minus(of.value * factor, Some(half_width(of) * factor)))
+fn around(interval: &Interval, factor: f64, unit: &str) -> String {
+    format!("{}{THIN}{unit}", plus_minus(interval.value * factor, Some(half_width(interval) * factor)))
 }
 
-fn headline(of: &Analysis) -> String {
+fn headline(analysis: &Analysis) -> String {
     format!(
         "The air flows at {} with a turbulence intensity of {} and a length scale of {}.",
-        around(&of.mean_velocity, 1.0, "m/s"),
-        around(&of.turbulence_intensity, 100.0, "%"),
-        around(&of.length_scale, 1e3, "mm"),
+        around(&analysis.mean_velocity, 1.0, "m/s"),
+        around(&analysis.turbulence_intensity, 100.0, "%"),
+        around(&analysis.length_scale, 1e3, "mm"),
     )
 }
 
-fn summary(record: &Record, of: &Analysis) -> String {
-    let names: Vec<&str> = of.components.iter().map(|c| c.name.as_str()).collect();
+fn summary(record: &Record, analysis: &Analysis) -> String {
+    let names: Vec<&str> = analysis.components.iter().map(|c| c.name.as_str()).collect();
     format!(
         "From {}: {} of {} at {} over {}, {} integral times. The values after ± and the ranges in the tables are \
          95{THIN}% confidence intervals.",
         record.file,
-        count(of.samples as u64, "sample"),
+        count(analysis.samples as u64, "sample"),
         names.join(", "),
-        Dimension::Frequency.pretty(1.0 / of.interval),
-        time(of.duration),
-        significant((of.duration / of.integral_time.value).round(), 3),
+        Dimension::Frequency.pretty(1.0 / analysis.interval),
+        time(analysis.duration),
+        significant((analysis.duration / analysis.integral_time.value).round(), 3),
     )
 }
 
-fn durations(of: &Analysis) -> String {
-    let long = |interval: &Interval| time(of.duration_for(interval, 0.05));
+fn durations(analysis: &Analysis) -> String {
+    let long = |interval: &Interval| time(analysis.duration_for(interval, 0.05));
     format!(
         "Intervals shrink with the square root of the length of the record. An interval of ±{THIN}5{THIN}% needs a record of \
          {} for the turbulence intensity, {} for the integral time and the length scale, and {} for the cut-off.",
-        long(&of.turbulence_intensity),
-        long(&of.integral_time),
-        long(&of.cutoff_frequency),
+        long(&analysis.turbulence_intensity),
+        long(&analysis.integral_time),
+        long(&analysis.cutoff_frequency),
     )
 }
 
-fn methods(of: &Analysis) -> Vec<(&'static str, String)> {
-    let Some(along) = of.components.first() else { return Vec::new() };
+fn methods(analysis: &Analysis) -> Vec<(&'static str, String)> {
+    let Some(along) = analysis.components.first() else { return Vec::new() };
     let (spectrum, flat) = (&along.spectrum, &along.flat);
     let hertz = |f: f64| Dimension::Frequency.pretty_to(f, 3);
     vec![
@@ -115,7 +115,7 @@ fn methods(of: &Analysis) -> Vec<(&'static str, String)> {
                 "The record is cut into {} blocks, each many integral times long, and every result is computed again with \
                  each block left out; the scatter of these gives the interval, by Student’s distribution (block jackknife). \
                  For plateau and cut-off the number of independent values averaged, here {}, gives it.",
-                of.blocks,
+                analysis.blocks,
                 flat.independent.round()
             ),
         ),
@@ -132,7 +132,7 @@ fn methods(of: &Analysis) -> Vec<(&'static str, String)> {
                  chooses the first zero, 1/e or a fixed lag. An integral to the first zero leaves out negative values \
                  after it: for a flat spectrum it is 18{THIN}% too long.",
                 along.name,
-                of.integral.words(),
+                analysis.integral.words(),
                 time(along.autocorrelation.limit)
             ),
         ),
@@ -179,13 +179,13 @@ mod tests {
     use crate::figures::{record_figures, record_sample};
 
     fn page(name: &str, components: usize, samples: usize) -> String {
-        let (record, of) = record_sample::autoregression(components, samples);
-        let figures = record_figures(&record, &of);
+        let (record, analysis) = record_sample::autoregression(components, samples);
+        let figures = record_figures(&record, &analysis);
         let remarks = [format!("{name} remark")];
         analysis_html(&AnalysisReport {
             name,
             record: &record,
-            analysis: &of,
+            analysis: &analysis,
             figures: &figures,
             remarks: &remarks,
             air: "[air]\n",

@@ -27,7 +27,7 @@ struct Page<'a> {
 }
 
 struct Table<'a> {
-    of: &'a Comparison,
+    comparison: &'a Comparison,
     rows: Vec<Row<'a>>,
     beyond: usize,
     all: usize,
@@ -41,23 +41,23 @@ struct Row<'a> {
     faint: bool,
 }
 
-fn row(of: &Compared) -> Row<'_> {
+fn row(compared: &Compared) -> Row<'_> {
     Row {
-        name: &of.label,
-        unit: of.unit,
-        cells: of.cells(),
-        faint: !of.difference.is_some_and(|difference| difference.is_beyond_chance()),
+        name: &compared.label,
+        unit: compared.unit,
+        cells: compared.cells(),
+        faint: !compared.difference.is_some_and(|difference| difference.is_beyond_chance()),
     }
 }
 
 /// The report as one HTML file.
 pub fn comparison_html(input: &ComparisonReport<'_>) -> String {
-    let tables = input.comparisons.iter().map(|of| {
-        let (beyond, all) = of.beyond_chance();
-        Table { of, rows: of.measures.iter().map(row).collect(), beyond, all }
+    let tables = input.comparisons.iter().map(|comparison| {
+        let (beyond, all) = comparison.beyond_chance();
+        Table { comparison, rows: comparison.measures.iter().map(row).collect(), beyond, all }
     });
-    let first = input.comparisons.first().map_or("", |of| of.against.as_str());
-    let others: Vec<&str> = input.comparisons.iter().map(|of| of.run.as_str()).collect();
+    let first = input.comparisons.first().map_or("", |comparison| comparison.against.as_str());
+    let others: Vec<&str> = input.comparisons.iter().map(|comparison| comparison.run.as_str()).collect();
     let page = Page {
         title: format!("{} against {first}", others.join(", ")),
         tables: tables.collect(),

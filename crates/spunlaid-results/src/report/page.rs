@@ -57,13 +57,14 @@ struct Page<'a> {
 
 /// The figures under headings, in the order of the headings.
 fn sections(figures: &[Figure]) -> Vec<(&'static str, Vec<&Figure>)> {
-    const HEADINGS: [&str; 6] = [
+    const HEADINGS: [&str; 7] = [
         "The laid fibre",
         "From the inlet to the belt",
         "Motion of the free end",
         "Along the fibre",
         "Over time",
         "Air",
+        "Neighbours in the same air",
     ];
     let kind = |figure: &Figure| {
         let mut measures = DECLARED.iter().flat_map(|declaration| declaration.measures);
@@ -76,6 +77,7 @@ fn sections(figures: &[Figure]) -> Vec<(&'static str, Vec<&Figure>)> {
         Some(Kind::Number | Kind::Spectrum) => HEADINGS[2],
         Some(Kind::Profile) => HEADINGS[3],
         Some(Kind::Series) => HEADINGS[4],
+        Some(Kind::Neighbour) => HEADINGS[6],
         None if figure.name.starts_with("end_node") => HEADINGS[2],
         None => HEADINGS[5],
     };

@@ -42,10 +42,10 @@ struct Row<'a> {
 
 /// The page as one HTML file.
 pub fn paper_html(input: &PaperReport<'_>) -> String {
-    let held = input.claims.iter().filter(|c| c.verdict == Verdict::Holds).count();
+    let count = input.claims.iter().filter(|c| c.verdict == Verdict::Holds).count();
     let headline = match input.claims.len() {
         0 => "The paper’s figures, drawn anew".to_owned(),
-        all => format!("{held} of the paper’s {all} claims hold"),
+        all => format!("{count} of the paper’s {all} claims hold"),
     };
     let rows = input.claims.iter().map(|claim| Row {
         claim,

@@ -34,32 +34,33 @@ pub struct ScanReport<'a> {
 
 /// The report as one HTML file.
 pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
-    let of = input.findings;
-    let (data, pixel) = light_table_data(&with_spots(of), None)?;
-    let seen = nearest(of.patches.iter().map(|patch| patch.unevenness.patch));
-    let weight = of.mean_known.then(|| of.map.basis_weight());
+    let findings = input.findings;
+    let (data, pixel) = light_table_data(&with_spots(findings), None)?;
+    let nearest_patch = nearest(findings.patches.iter().map(|patch| patch.unevenness.patch));
+    let weight = findings.mean_known.then(|| findings.map.basis_weight());
     let page = Page {
         command: "analyse",
         name: input.name,
-        headline: headline(weight, seen.map(|i| &of.patches[i].unevenness)),
+        headline: headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness)),
         summary: format!(
             "A scan of {} across and {} along the web.",
-            metres(of.map.columns as f64 * of.map.cell),
-            metres(of.map.rows as f64 * of.map.cell)
+            metres(findings.map.columns as f64 * findings.map.cell),
+            metres(findings.map.rows as f64 * findings.map.cell)
         ),
         notes: input.notes,
         caption: about_light_table(pixel)
-            + if of.aside.spots.is_empty() { "" } else { " Black spots were left out." },
+            + if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." },
         data,
         fibres: false,
-        verdict: verdict(of),
+        verdict: verdict(findings),
         heads: ["Patch", "CV", "95 % interval"]
             .into_iter()
-            .chain(OF_SCANNED_PATCHES.iter().map(|declared| declared.label))
+            .chain(OF_SCANNED_PATCHES.iter().map(|measure| measure.label))
             .collect(),
-        patches: of.patches.iter().map(row).collect(),
-        about_patches: "The interval is that of the web, of which the scan is one piece. The noise of the camera is as it was given, and then taken out of the CV, or the most that it can be. Where one \
-                        more pixel of blur changes little, the blur of the camera has changed little too.",
+        patches: findings.patches.iter().map(row).collect(),
+        about_patches: "The interval is that of the web, of which the scan is one piece. The noise of the camera \
+            is as it was given, and then taken out of the CV, or the most that it can be. Where one more pixel of \
+            blur changes little, the camera’s own blur has changed little as well.",
         lever_heads: Vec::new(),
         levers: Vec::new(),
         figures: input.figures,
@@ -77,41 +78,41 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
     Ok(rendered(&page))
 }
 
-fn row(of: &PatchFindings) -> Vec<String> {
+fn row(patch: &PatchFindings) -> Vec<String> {
     let mut cells = vec![
-        millimetres(of.unevenness.patch),
-        per_cent(of.unevenness.cv, of.unevenness.standard_error),
-        of.interval.map_or_else(
+        millimetres(patch.unevenness.patch),
+        per_cent(patch.unevenness.cv, patch.unevenness.standard_error),
+        patch.interval.map_or_else(
             |doubt| format!("none: {doubt}"),
             |[low, high]| {
                 format!("{} to {}{THIN}%", significant(100.0 * low, 3), significant(100.0 * high, 3))
             },
         ),
     ];
-    cells.extend(OF_SCANNED_PATCHES.iter().map(|declared| shown(declared, of).unwrap_or_default()));
+    cells.extend(OF_SCANNED_PATCHES.iter().map(|measure| shown(measure, patch).unwrap_or_default()));
     cells
 }
 
-/// A declared measure with its unit; none if there is no value.
-fn shown<T>(declared: &ScanMeasure<T>, of: &T) -> Option<String> {
-    let Unit { shown, per_si } = declared.unit;
-    let number = significant((declared.number)(of)? * per_si, declared.digits);
+/// The value of a declared measure with its unit; none if there is no value.
+fn shown<T>(measure: &ScanMeasure<T>, findings: &T) -> Option<String> {
+    let Unit { shown, per_si } = measure.unit;
+    let number = significant((measure.number)(findings)? * per_si, measure.digits);
     Some(if shown.is_empty() { number } else { format!("{number}{THIN}{shown}") })
 }
 
 /// The map with the spots that were left out, as dark as they were.
-fn with_spots(of: &Findings) -> Cow<'_, Map> {
-    if of.aside.mask.is_empty() {
-        return Cow::Borrowed(&of.map);
+fn with_spots(findings: &Findings) -> Cow<'_, Map> {
+    if findings.aside.mask.is_empty() {
+        return Cow::Borrowed(&findings.map);
     }
-    let darkest = of.map.cells.iter().copied().max().unwrap_or(0);
-    let cells = of.map.cells.iter().zip(&of.aside.mask);
+    let darkest = findings.map.cells.iter().copied().max().unwrap_or(0);
+    let cells = findings.map.cells.iter().zip(&findings.aside.mask);
     let cells = cells.map(|(cell, is_spot)| if *is_spot { darkest } else { *cell }).collect();
-    Cow::Owned(Map { cells, ..of.map.clone() })
+    Cow::Owned(Map { cells, ..findings.map.clone() })
 }
 
-fn verdict(of: &Findings) -> Vec<String> {
-    let Some(clouds) = &of.clouds else { return Vec::new() };
+fn verdict(findings: &Findings) -> Vec<String> {
+    let Some(clouds) = &findings.clouds else { return Vec::new() };
     let (index, error) = clouds.cloudiness(SEEN[0], SEEN[1]);
     let texture = clouds.texture_md();
     let mut sentences: Vec<String> = largest_clouds(clouds).into_iter().collect();
@@ -119,7 +120,7 @@ fn verdict(of: &Findings) -> Vec<String> {
         "Cloudiness index, wavelengths from {} to {}: {}.",
         millimetres(SEEN[0]),
         millimetres(SEEN[1]),
-        per_cent(index, error.filter(|_| of.guess.is_none()))
+        per_cent(index, error.filter(|_| findings.guess.is_none()))
     ));
     sentences.push(format!(
         "Texture along the machine direction: {}; ½ is no direction, 1 is all fine streaks along the machine direction, 0 all across.",
@@ -130,24 +131,30 @@ fn verdict(of: &Findings) -> Vec<String> {
 
 /// How the scan was read: a name and a value each.
 fn facts(input: &ScanReport<'_>) -> Vec<Vec<String>> {
-    let of = input.findings;
+    let findings = input.findings;
     let mut facts = vec![
         ("File", input.file.to_owned()),
-        ("Pixels", format!("{} × {} of {}", of.map.columns, of.map.rows, millimetres(of.map.cell))),
+        (
+            "Pixels",
+            format!("{} × {} of {}", findings.map.columns, findings.map.rows, millimetres(findings.map.cell)),
+        ),
     ];
     // What is zero has not been found.
-    let labelled = OF_SCANS.iter().filter(|one| !one.label.is_empty() && (one.number)(of) != Some(0.0));
-    facts.extend(labelled.filter_map(|declared| Some((declared.label, shown(declared, of)?))));
-    if let Some(largest) = of.aside.spots.first() {
-        let told = format!(
+    let is_found = |measure: &&ScanMeasure<Findings>| {
+        !measure.label.is_empty() && (measure.number)(findings) != Some(0.0)
+    };
+    let labelled = OF_SCANS.iter().filter(is_found);
+    facts.extend(labelled.filter_map(|measure| Some((measure.label, shown(measure, findings)?))));
+    if let Some(largest) = findings.aside.spots.first() {
+        let spots = format!(
             "{}, {}{THIN}mm² in all; the largest {}{THIN}mm², {} from the left and {} from the top of the picture",
-            of.aside.spots.len(),
-            significant(of.aside.masked * 1e6, 3),
+            findings.aside.spots.len(),
+            significant(findings.aside.masked * 1e6, 3),
             significant(largest.area * 1e6, 3),
             millimetres(largest.place[0]),
             millimetres(largest.place[1])
         );
-        facts.push(("Dark spots that were left out", told));
+        facts.push(("Dark spots that were left out", spots));
     }
     facts.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect()
 }

@@ -165,7 +165,7 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
 fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
     let of_figure = |figure: &str| -> Vec<usize> {
         let all = study.quantities.iter().enumerate();
-        all.filter(|(_, of)| of.figure.name == figure).map(|(index, _)| index).collect()
+        all.filter(|(_, quantity)| quantity.figure.name == figure).map(|(index, _)| index).collect()
     };
     let known = |quantity: &usize| results.iter().all(|point| point.mean[*quantity].is_finite());
     let middle = |figure| {
@@ -178,9 +178,10 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
     };
     let order = |a: &usize, b: &usize| results[*a].mean[quantity].total_cmp(&results[*b].mean[quantity]);
     let (best, worst) = ((0..results.len()).min_by(order)?, (0..results.len()).max_by(order)?);
-    let told = |point: usize| {
+    let words = |point: usize| {
         let values = study.inputs().zip(&study.points[point].values);
-        let values = values.map(|(of, value)| format!("{} {}", name_of_key(&of.key), of.pretty(*value)));
+        let values =
+            values.map(|(factor, value)| format!("{} {}", name_of_key(factor.key), factor.pretty(*value)));
         let cv = shown::cell(study, &results[point], quantity);
         format!("{} (CV {cv} %)", values.collect::<Vec<_>>().join(", "))
     };
@@ -188,17 +189,18 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
     (best != worst).then(|| {
         format!(
             " {how} patches of {side} the web is most even at {} and least even at {}.",
-            told(best),
-            told(worst)
+            words(best),
+            words(worst)
         )
     })
 }
 
 fn phases(study: &Study) -> &'static str {
     if study.noun() == "web" {
-        "Replicate 1 of every point has the same random numbers, and likewise replicate 2 and so on, as far as the keys \
-         allow. Errors are those of the scatter of the webs of a point, or of the parts of a single web; where fibres were \
-         flown, with the errors by these few fibres and by the surrogate. The flown CV is what the flown curves let expect."
+        "Replicate 1 of every point has the same random numbers, and likewise replicate 2 and so on, as far as the \
+         keys allow. Errors are those of the scatter of the webs of a point, or of the parts of a single web; \
+         where fibres were flown, with the errors by these few fibres and by the surrogate. The flown CV is the \
+         one expected from the flown curves."
     } else if study.common_phases {
         "Common phases: replicate 1 of every point has the same random phases of the turbulence, and likewise replicate 2 \
          and so on. Differences between points are therefore more certain than their error bars suggest, while the \
@@ -249,9 +251,9 @@ fn ranking_of(rankings: &[Ranking], quantity: usize) -> Option<&Ranking> {
     rankings.iter().find(|ranking| ranking.measure == quantity)
 }
 
-fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, of: &Effect) -> Cell {
+fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, head: &Effect) -> Cell {
     let ranking = ranking_of(rankings, quantity);
-    let effect = ranking.and_then(|ranking| ranking.effects.iter().find(|effect| effect.is_like(of)));
+    let effect = ranking.and_then(|ranking| ranking.effects.iter().find(|effect| effect.is_like(head)));
     effect.map_or_else(
         || Cell { text: "–".to_owned(), faint: true },
         |effect| {
@@ -265,11 +267,11 @@ fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, of: &Effect) -
 }
 
 fn explained(study: &Study, rankings: &[Ranking]) -> Vec<String> {
-    let of = |quantity: &usize| {
+    let explained = |quantity: &usize| {
         ranking_of(rankings, *quantity).filter(|ranking| ranking.explained.is_finite()).map_or_else(
             || "–".to_owned(),
             |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())),
         )
     };
-    shown::quantities(study).iter().map(of).collect()
+    shown::quantities(study).iter().map(explained).collect()
 }

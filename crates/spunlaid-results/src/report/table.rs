@@ -30,28 +30,28 @@ pub(super) struct ReplicateRow {
 /// A row for each number, under the headings of the measures.
 pub(super) fn groups(results: &Results) -> Vec<Group> {
     let same = |a: &Number, b: &Number| a.measure.group == b.measure.group;
-    let of = |numbers: &[Number]| Group {
+    let group = |numbers: &[Number]| Group {
         title: capitalised(numbers.first().map_or("", |one| one.measure.group.title)),
         rows: numbers.iter().map(row).collect(),
     };
-    results.numbers.chunk_by(same).map(of).collect()
+    results.numbers.chunk_by(same).map(group).collect()
 }
 
 fn row(one: &Number) -> Row {
     let (measure, factor) = (one.measure, one.measure.unit.per_si);
-    let (value, over) = match measure.over_replicates {
+    let (value, note) = match measure.over_replicates {
         Aggregate::Mean => (estimate_text(&one.estimate, factor), ""),
         Aggregate::Median => (number(one.value() * factor), "; median over the replicates"),
         Aggregate::Largest => (number(one.value() * factor), "; the largest of all replicates"),
     };
     let n = one.estimate.values.iter().filter(|value| value.is_finite()).count();
-    let over = if n > 1 { over } else { "" };
+    let note = if n > 1 { note } else { "" };
     Row {
         name: unbroken(measure.label),
         value,
         unit: measure.unit.shown,
         n,
-        meaning: unbroken(&format!("{}{over}", measure.meaning)),
+        meaning: unbroken(&format!("{}{note}", measure.meaning)),
     }
 }
 
@@ -71,11 +71,11 @@ pub(super) fn replicate_rows(results: &Results, most: usize) -> Vec<ReplicateRow
     let is_lost = |i: &usize| results.lost.iter().any(|fibre| fibre.replicate == *i as u64);
     let all = results.replicates() + results.lost.len();
     let listed: Vec<usize> = (0..all).filter(|i| !is_lost(i)).take(most).collect();
-    let of = |one: &Number| {
+    let cell = |one: &Number| {
         let values: Vec<f64> = listed.iter().filter_map(|i| one.estimate.values.get(*i).copied()).collect();
         column(&values, one.measure.unit.per_si)
     };
-    let columns: Vec<Vec<String>> = results.numbers.iter().map(of).collect();
+    let columns: Vec<Vec<String>> = results.numbers.iter().map(cell).collect();
     let values = |row: usize| columns.iter().filter_map(|c| c.get(row).cloned()).collect();
     listed.iter().enumerate().map(|(row, i)| ReplicateRow { number: i + 1, values: values(row) }).collect()
 }

@@ -178,13 +178,13 @@ fn nodes_of_a_fed_fibre_keep_their_numbers() {
     let results = sample::fed_results(&case, 8);
     let frames = super::frames::pack(&case, &results).expect("shapes were kept");
     let data: serde_json::Value = serde_json::from_str(&frames.json).expect("JSON");
-    let list = |of: &serde_json::Value| -> Vec<f64> {
-        of.as_array().expect("a list").iter().map(|v| v.as_f64().expect("a number")).collect()
+    let list = |value: &serde_json::Value| -> Vec<f64> {
+        value.as_array().expect("a list").iter().map(|v| v.as_f64().expect("a number")).collect()
     };
     let belt = &data["belt"];
     let (newest, times) = (list(&belt["newest"]), list(&data["times"]));
     let counts: Vec<Vec<f64>> = belt["counts"].as_array().expect("counts").iter().map(list).collect();
-    let decode = |of: &serde_json::Value| STANDARD.decode(of.as_str().expect("text")).expect("base64");
+    let decode = |value: &serde_json::Value| STANDARD.decode(value.as_str().expect("text")).expect("base64");
     let bytes = decode(&data["positions"]);
     let all: f64 = counts.iter().flatten().sum();
     assert_eq!(bytes.len(), 6 * all as usize);

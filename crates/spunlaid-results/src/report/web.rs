@@ -112,39 +112,41 @@ pub(super) struct Fibres {
 
 /// The report as one HTML file.
 pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
-    let of = input.findings;
-    let (data, pixel) = light_table_data(&of.laid.map, Some(fibres(input)))?;
-    let flown = of.patches.iter().any(|patch| patch.flown.is_some());
+    let findings = input.findings;
+    let (data, pixel) = light_table_data(&findings.laid.map, Some(fibres(input)))?;
+    let flown = findings.patches.iter().any(|patch| patch.flown.is_some());
     let mut heads = vec!["Patch", "CV of this map", "of its error: chance", "95 % interval by chance"];
     if flown {
         heads.extend(["few fibres flown", "model"]);
     }
-    let sources = sources(of);
+    let sources = sources(findings);
     heads.extend(sources.iter().map(|(head, _)| *head));
     heads.push("Straight fibres");
     let page = Page {
         command: "web",
         name: input.name,
         headline: headline(
-            Some(of.within().basis_weight()),
-            seen(of).map(|i| whole(&of.patches[i])).as_ref(),
+            Some(findings.within().basis_weight()),
+            headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
         ),
-        summary: [summary(input.web), about_the_error(of)].join(" "),
+        summary: [summary(input.web), about_the_error(findings)].join(" "),
         notes: input.notes,
         caption: caption(input, pixel),
         data,
         fibres: true,
-        verdict: verdict(of),
+        verdict: verdict(findings),
         heads,
-        patches: patches(of, flown, &sources),
+        patches: patches(findings, flown, &sources),
         about_patches: if flown {
-            "The error of the map is that of all its causes together: chance (another piece of the same web), the few fibres that were flown, and \
-             the model (the CV of the surrogate against that of the flown curves). What the flight itself leaves out is not in it."
+            "The error of the map is that of all its causes together: chance (another piece of the same web), the \
+             few fibres that were flown, and the model (the CV of the surrogate against that of the flown \
+             curves). It does not include what the flight itself leaves out."
         } else {
-            "The error is by chance only: no fibre was flown, so how far the surrogate is from real fibres is not known."
+            "The error is by chance only: no fibre was flown, so it is not known how far the surrogate is from \
+             real fibres."
         },
-        lever_heads: of.patches.iter().map(|patch| millimetres(patch.map.patch)).collect(),
-        levers: of.sensitivities.iter().map(levers).collect(),
+        lever_heads: findings.patches.iter().map(|patch| millimetres(patch.map.patch)).collect(),
+        levers: findings.sensitivities.iter().map(levers).collect(),
         figures: input.figures,
         file: File {
             title: "The web file",
@@ -169,8 +171,8 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     Ok(rendered(&page))
 }
 
-pub(super) fn cost(of: Performance) -> String {
-    format!("computed in {} on {}", time(of.wall_s), count(of.threads as u64, "thread"))
+pub(super) fn cost(performance: Performance) -> String {
+    format!("computed in {} on {}", time(performance.wall_s), count(performance.threads as u64, "thread"))
 }
 
 /// What the script of the light table gets, and the side of a pixel of its picture [m].
@@ -197,8 +199,8 @@ fn grams(weight: f64) -> String {
 }
 
 /// The patch nearest to what the eye judges first.
-fn seen(of: &Findings) -> Option<usize> {
-    nearest(of.patches.iter().map(|patch| patch.map.patch))
+fn headline_patch(findings: &Findings) -> Option<usize> {
+    nearest(findings.patches.iter().map(|patch| patch.map.patch))
 }
 
 /// Which of the sides of patches is nearest to what the eye judges first.
@@ -208,13 +210,13 @@ pub(super) fn nearest(patches: impl Iterator<Item = f64>) -> Option<usize> {
 }
 
 /// * `weight` – mean basis weight, if it is known [kg/m²]
-pub(super) fn headline(weight: Option<f64>, seen: Option<&Unevenness>) -> String {
+pub(super) fn headline(weight: Option<f64>, patch: Option<&Unevenness>) -> String {
     let web = weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams(weight)));
-    match seen {
-        Some(of) => format!(
+    match patch {
+        Some(unevenness) => format!(
             "{web} that varies by {} over patches of {}.",
-            per_cent(of.cv, of.standard_error),
-            millimetres(of.patch)
+            per_cent(unevenness.cv, unevenness.standard_error),
+            millimetres(unevenness.patch)
         ),
         None => format!("{web}."),
     }
@@ -225,8 +227,8 @@ pub(super) fn per_cent(cv: f64, error: Option<f64>) -> String {
 }
 
 /// `5.1 to 7.2 %`, or a dash.
-pub(super) fn interval(of: Option<[f64; 2]>) -> String {
-    of.map_or_else(
+pub(super) fn interval(ends: Option<[f64; 2]>) -> String {
+    ends.map_or_else(
         || "–".to_owned(),
         |[low, high]| {
             format!("{} to {}{THIN}%", significant(PER_CENT * low, 3), significant(PER_CENT * high, 3))
@@ -299,8 +301,8 @@ fn whole(patch: &PatchFindings) -> Unevenness {
 }
 
 /// What the error in the headline is made of, and what the flown curves say, in sentences.
-fn about_the_error(of: &Findings) -> String {
-    let Some(patch) = seen(of).map(|i| &of.patches[i]) else { return String::new() };
+fn about_the_error(findings: &Findings) -> String {
+    let Some(patch) = headline_patch(findings).map(|i| &findings.patches[i]) else { return String::new() };
     let error = patch.whole_error();
     let part = |part: Option<f64>| match part {
         Some(part) => format!("{}{THIN}%", significant(part * PER_CENT, 2)),
@@ -310,7 +312,8 @@ fn about_the_error(of: &Findings) -> String {
         return "The error is by chance only; that of the surrogate is not known, because no fibre was flown.".to_owned();
     };
     format!(
-        "Of the error {} is by chance, {} by the few fibres that were flown, and {} by the model. The flown curves themselves let expect {}.",
+        "Chance contributes {} to the error, the small number of flown fibres {}, and the model {}. The CV \
+         expected from the flown curves themselves is {}.",
         part(error.chance),
         part(error.flight),
         part(error.model),
@@ -322,20 +325,20 @@ fn about_the_error(of: &Findings) -> String {
 type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
 
 /// The expected CVs that are known.
-fn sources(of: &Findings) -> Vec<Column> {
+fn sources(findings: &Findings) -> Vec<Column> {
     let all: [Column; 2] = [
         ("CV expected, from the surrogate", |patch| patch.surrogate),
         ("CV expected, from the flown curves", |patch| patch.flown),
     ];
     let mut known: Vec<Column> =
-        all.into_iter().filter(|(_, cv)| of.patches.iter().any(|patch| cv(patch).is_some())).collect();
+        all.into_iter().filter(|(_, cv)| findings.patches.iter().any(|patch| cv(patch).is_some())).collect();
     if known.is_empty() {
         known.push(("CV expected, from single fibres", |patch| Some(patch.one_fibre)));
     }
     known
 }
 
-fn patches(of: &Findings, flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
+fn patches(findings: &Findings, flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
     let row = |patch: &PatchFindings| {
         let (map, error) = (whole(patch), patch.whole_error());
         let part = |part: Option<f64>| {
@@ -351,13 +354,13 @@ fn patches(of: &Findings, flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
             cells.extend([error.flight, error.model].map(part));
         }
         let expected = sources.iter().map(|(_, cv)| cv(patch));
-        cells.extend(
-            expected.map(|of| of.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, Some(error)))),
-        );
+        cells.extend(expected.map(|estimate| {
+            estimate.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, Some(error)))
+        }));
         cells.push(format!("{}{THIN}%", significant(patch.straight_fibres * PER_CENT, 3)));
         cells
     };
-    of.patches.iter().map(row).collect()
+    findings.patches.iter().map(row).collect()
 }
 
 const fn words(lever: Lever) -> &'static str {
@@ -370,30 +373,32 @@ const fn words(lever: Lever) -> &'static str {
     }
 }
 
-fn levers(of: &Sensitivity) -> (String, Vec<String>) {
+fn levers(sensitivity: &Sensitivity) -> (String, Vec<String>) {
     let cell = |elasticity: &Option<Estimate>| match elasticity {
-        Some(of) => format!("{}{THIN}%", plus_minus(of.mean, of.standard_error)),
+        Some(estimate) => format!("{}{THIN}%", plus_minus(estimate.mean, estimate.standard_error)),
         None => "not known".to_owned(),
     };
-    let source = match of.source {
+    let source = match sensitivity.source {
         Source::FlownFibres => ", from the flown curves",
         Source::Surrogate => ", from the surrogate",
         Source::Law => "",
     };
-    (format!("{}{source}", words(of.lever)), of.elasticity.iter().map(cell).collect())
+    (format!("{}{source}", words(sensitivity.lever)), sensitivity.elasticity.iter().map(cell).collect())
 }
 
-fn layer(of: &Layer) -> Vec<String> {
+fn layer(layer: &Layer) -> Vec<String> {
     let spread = |sigma: Option<f64>| sigma.map_or("–".to_owned(), millimetres);
     vec![
-        of.name.clone(),
-        of.filaments.to_string(),
-        grams(of.basis_weight_kg_m2),
-        spread(of.sigma_md_m),
-        spread(of.sigma_cd_m),
-        of.noise_per_sqrt_m.map_or("–".to_owned(), |noise| format!("{}{THIN}m^-½", significant(noise, 3))),
-        of.fit_residual.map_or("–".to_owned(), |residual| significant(residual, 2)),
-        of.fit_residual_by_chance.map_or("–".to_owned(), |residual| significant(residual, 2)),
+        layer.name.clone(),
+        layer.filaments.to_string(),
+        grams(layer.basis_weight_kg_m2),
+        spread(layer.sigma_md_m),
+        spread(layer.sigma_cd_m),
+        layer
+            .noise_per_sqrt_m
+            .map_or("–".to_owned(), |noise| format!("{}{THIN}m^-½", significant(noise, 3))),
+        layer.fit_residual.map_or("–".to_owned(), |residual| significant(residual, 2)),
+        layer.fit_residual_by_chance.map_or("–".to_owned(), |residual| significant(residual, 2)),
     ]
 }
 
@@ -413,29 +418,33 @@ pub(super) fn largest_clouds(clouds: &Clouds) -> Option<String> {
 }
 
 /// What makes the web uneven, and what would make it more even, in sentences.
-fn verdict(of: &Findings) -> Vec<String> {
-    let mut sentences: Vec<String> = of.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
-    let Some(i) = seen(of) else { return sentences };
-    let patch = &of.patches[i];
+fn verdict(findings: &Findings) -> Vec<String> {
+    let mut sentences: Vec<String> = findings.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
+    let Some(i) = headline_patch(findings) else { return sentences };
+    let patch = &findings.patches[i];
     // The flown curves are believed where there are some.
     let ratio = patch.flown.unwrap_or(patch.one_fibre).0 / patch.straight_fibres;
     let why = if ratio > 1.05 {
-        "a fibre that visits its own place again and again clouds the web"
+        "each fibre comes back to its own place again and again, which makes clouds"
     } else {
-        "nozzles at an even pitch take out what loops would make uneven"
+        "nozzles at an even pitch make up for the unevenness of the loops"
     };
     sentences.push(format!(
         "Over patches of {} the expected CV is {} times that of straight fibres of the same mass at random: {why}.",
         millimetres(patch.map.patch),
         significant(ratio, 3)
     ));
-    let known = of.sensitivities.iter().filter_map(|of| Some((of, of.elasticity[i].as_ref()?)));
+    let known = findings
+        .sensitivities
+        .iter()
+        .filter_map(|sensitivity| Some((sensitivity, sensitivity.elasticity[i].as_ref()?)));
     if let Some((most, elasticity)) = known.max_by(|a, b| a.1.mean.abs().total_cmp(&b.1.mean.abs())) {
         let way = if elasticity.mean < 0.0 { "more" } else { "less" };
         let effect =
             plus_minus(10.0 * elasticity.mean.abs(), elasticity.standard_error.map(|error| 10.0 * error));
         sentences.push(format!(
-            "Of the line’s numbers whose effect is known, {} lowers the CV over patches of {} most: 10 % {way} of it lowers the CV by about {effect} % of its value.",
+            "Among the numbers of the line whose effect is known, {} lowers the CV over patches of {} most: 10 % \
+             {way} of it lowers the CV by about {effect} % of its value.",
             words(most.lever),
             millimetres(patch.map.patch)
         ));

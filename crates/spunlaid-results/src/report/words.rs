@@ -9,8 +9,8 @@ use spunlaid::fibre::Root;
 use spunlaid::statistics::Estimate;
 
 /// A result with its standard error, `factor` converts the unit.
-pub(super) fn estimate_text(of: &Estimate, factor: f64) -> String {
-    plus_minus(of.mean * factor, of.standard_error.map(|error| error * factor))
+pub(super) fn estimate_text(estimate: &Estimate, factor: f64) -> String {
+    plus_minus(estimate.mean * factor, estimate.standard_error.map(|error| error * factor))
 }
 
 /// A number with its unit.
@@ -61,11 +61,11 @@ pub(super) fn headline(case: &Case, results: &Results) -> String {
     if case.line.is_some() {
         return headline_of_laid(results);
     }
-    let of = |axis| {
-        let of = |measure: &str| results.estimate(&format!("{measure}_{axis}"));
-        (axis, of("amplitude"), of("frequency"))
+    let motion = |axis| {
+        let motion = |measure: &str| results.estimate(&format!("{measure}_{axis}"));
+        (axis, motion("amplitude"), motion("frequency"))
     };
-    let both = ["y", "z"].map(of);
+    let both = ["y", "z"].map(motion);
     if both.iter().any(|(_, amplitude, _)| !amplitude.mean.is_finite()) {
         return "The motion of the free end could not be measured.".to_owned();
     }
@@ -142,7 +142,7 @@ fn significant_of(value: f64) -> f64 {
 /// What was simulated, in three sentences.
 pub(super) fn case(case: &Case) -> String {
     let (fibre, air, run) = (&case.fibre, &case.air, &case.run);
-    let held = match fibre.root {
+    let support = match fibre.root {
         Root::Pinned => "held at one end, free to turn there",
         Root::Clamped => "clamped at one end",
         Root::Free => "free at both ends",
@@ -187,9 +187,9 @@ pub(super) fn case(case: &Case) -> String {
         time(run.time_step),
     );
     if let Some(line) = case.line {
-        let held = if fibre.root == Root::Clamped { "" } else { ", free to turn at the inlet," };
+        let support = if fibre.root == Root::Clamped { "" } else { ", free to turn at the inlet," };
         return format!(
-            "A fibre of {} diameter is fed at {}{held} and comes down {medium}, on a belt {} below the inlet that moves at {}. \
+            "A fibre of {} diameter is fed at {}{support} and comes down {medium}, on a belt {} below the inlet that moves at {}. \
              {computed} The fibre is divided into elements of {}.",
             length(fibre.diameter),
             quantity(line.feed_speed, "m/s"),
@@ -199,7 +199,7 @@ pub(super) fn case(case: &Case) -> String {
         );
     }
     format!(
-        "A fibre of {} length and {} diameter, {held}, moves {medium}. {computed} The fibre is divided into {}.",
+        "A fibre of {} length and {} diameter, {support}, moves {medium}. {computed} The fibre is divided into {}.",
         length(fibre.length),
         length(fibre.diameter),
         count(fibre.elements as u64, "element"),

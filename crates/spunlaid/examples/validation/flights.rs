@@ -3,7 +3,7 @@
 use crate::common::*;
 use crate::title;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::case::{Case, Run};
+use spunlaid::case::{Case, Neighbours, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::FrictionLaw;
@@ -30,7 +30,14 @@ fn case(h: f64, replicates: u64) -> Case {
         damping: 0.0,
         shapes: None,
     };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), line: None, run }
+    Case {
+        fibre: table1_fibre(),
+        air: table1_air(),
+        drag: paper_drag(),
+        line: None,
+        neighbours: Neighbours::default(),
+        run,
+    }
 }
 
 fn results(case: &Case) -> Results {
@@ -179,7 +186,7 @@ pub fn trends() {
             let r = results(&case);
             let e = |name: &str| r.estimate(name);
             let both = |a: &Estimate, b: &Estimate| {
-                Estimate::of(a.values.iter().zip(&b.values).map(|(a, b)| 0.5 * (a + b)).collect())
+                Estimate::new(a.values.iter().zip(&b.values).map(|(a, b)| 0.5 * (a + b)).collect())
             };
             println!(
                 "  {name} {value}: {} mm, {} Hz",

@@ -22,7 +22,7 @@ fn found(light: &[f64], sides: &[usize], keep_spots: bool, seed: u64) -> Finding
         lamp,
         patches,
         keep_spots,
-        ..Settings::of(Light::Transmitted { mean: None, white: None })
+        ..Settings::new(Light::Transmitted { mean: None, white: None })
     };
     analyse(&picture(light, seed), &settings).expect("a web")
 }

@@ -32,7 +32,7 @@ fn web(filaments: Filaments, sizes: [f64; 2], edges: Edges) -> Web {
 }
 
 fn rows(pitch: f64, filaments: u64) -> Filaments {
-    Filaments::Rows(vec![Row { offset: 0.5 * pitch, pitch, filaments }])
+    Filaments::Rows(vec![Row::new(0.5 * pitch, pitch, filaments)])
 }
 
 /// The relative variance in waves of some lengths, by the definition: a plain Fourier sum over the whole closed sheet.

@@ -1,6 +1,6 @@
 //! How the mean flow, and the strength and size of its turbulence, change from place to place.
 
-use super::{Air, FromFile, PlacedField, Profile};
+use super::{Air, FromFile, PlacedField, Profile, Widening};
 use crate::field::{Around, Hint, Local};
 use crate::vec3::Vec3;
 
@@ -96,7 +96,7 @@ impl Air {
                 cutoff_frequency: self.cutoff_frequency,
                 inside: true,
             },
-            Flow::Profile(profile) => self.of_profile(profile, at.x),
+            Flow::Profile(profile) => self.of_profile(profile, at),
             Flow::Field(field) => self.of_field(field, at, hint),
         }
     }
@@ -154,7 +154,7 @@ impl Air {
         }
     }
 
-    /// In a profile the air changes along x only. The gradient is that between two points near by.
+    /// In a profile the air changes along x only, apart from the velocity with which it widens. The gradient is that between two points near by.
     fn around_in_profile(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
         let mut value = |x: f64| {
             let LocalAir { velocity, rms, inside, .. } = self.local(Vec3::new(x, at.y, at.z), hint);
@@ -169,6 +169,12 @@ impl Air {
         if reach.is_finite() && reach > 0.0 {
             let (before, after) = (value(at.x - reach).0, value(at.x + reach).0);
             gradients[0] = std::array::from_fn(|i| (after[i] - before[i]) / (2.0 * reach));
+        }
+        if let Flow::Profile(profile) = &self.flow
+            && let Some(rate) = self.widening_rate(profile, at.x)
+        {
+            // Between two rows the rate is the same for all x.
+            (gradients[0][1], gradients[1][1]) = (0.0, rate);
         }
         Around { value: here, gradients, reach, inside }
     }
@@ -256,7 +262,15 @@ impl Air {
         }
     }
 
-    fn of_profile(&self, profile: &Profile, x: f64) -> LocalAir {
+    /// How fast air that slows moves away from the middle of the slot, per distance from it: `−dU/dx` [1/s]. None if the mean
+    /// flow does not widen.                                                                          theory.md (49a)
+    fn widening_rate(&self, profile: &Profile, x: f64) -> Option<f64> {
+        (self.widening == Widening::MachineDirection)
+            .then(|| -self.speed_factor * profile.velocity_gradient(x))
+    }
+
+    fn of_profile(&self, profile: &Profile, at: Vec3<f64>) -> LocalAir {
+        let x = at.x;
         let column = |wanted: bool, column: &[f64], otherwise: f64| {
             if wanted { profile.at(column, x).unwrap_or(otherwise) } else { otherwise }
         };
@@ -266,7 +280,11 @@ impl Air {
             column(from.turbulence_intensity, &profile.turbulence_intensity, self.turbulence_intensity);
         let (first, last) = profile.range();
         LocalAir {
-            velocity: Vec3::new(velocity, 0.0, 0.0),
+            velocity: Vec3::new(
+                velocity,
+                self.widening_rate(profile, x).map_or(0.0, |rate| rate * at.y),
+                0.0,
+            ),
             rms: intensity * velocity.abs(),
             length_scale: column(from.length_scale, &profile.length_scale, self.length_scale),
             cutoff_frequency: if from.cutoff_frequency {

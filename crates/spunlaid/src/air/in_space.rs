@@ -177,7 +177,7 @@ impl AirInSpace {
             for lane in 0..WIDTH {
                 let (place, at) = (self.places.of(lane), centre.lane(lane));
                 let (y, z) = (at.y + place.y, at.z + place.z);
-                let [u, v, w] = self.fields.of(lane).field.fluctuation(t, [at.x, y, z]);
+                let [u, v, w] = self.fields.of(lane).field.fluctuation::<S>(t, [at.x, y, z]);
                 fluctuation.set_lane(lane, Vec3::new(u, v, w));
                 let [speed, widening, strength] = self.means.of(lane).at(at.x);
                 mean.set_lane(lane, Vec3::new(speed, widening * y, 0.0));

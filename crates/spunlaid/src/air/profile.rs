@@ -34,4 +34,15 @@ impl Profile {
         let (first, last) = self.range();
         linear(&self.x, column, x.clamp(first, last))
     }
+
+    /// How fast the velocity rises at `x` [m], `dU/dx` [1/s]. Outside of the rows it is zero, as the velocity is constant there.
+    pub(super) fn velocity_gradient(&self, x: f64) -> f64 {
+        let above = self.x.partition_point(|row| *row <= x);
+        match above.checked_sub(1) {
+            Some(below) if above < self.x.len() => {
+                (self.velocity[above] - self.velocity[below]) / (self.x[above] - self.x[below])
+            }
+            _ => 0.0,
+        }
+    }
 }

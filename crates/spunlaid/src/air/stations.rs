@@ -8,7 +8,7 @@
 //! is interpolated with weights that keep its variance.                                           theory.md (64)
 
 use super::at_elements::{AirAtElements, OnTheWay};
-use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Wind};
+use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Widening, Wind};
 use crate::company::{PerLane, shared};
 use crate::fibre::Place;
 use crate::field::Hint;
@@ -99,13 +99,19 @@ shared! {
         stations: usize = "the number of stations between inlet and belt (belt.distance, air.length_scale)",
         every: u64 = "how often the air on the way is looked up (air.length_scale, air.velocity, feed.speed)",
         in_field: bool = "whether the air is a field (air.field)",
+        widens: bool = "whether the mean flow widens (air.widening)",
     }
 }
 
 impl Way {
     /// * `every` – steps from one look to the next
     pub(crate) fn of(air: &Air, grid: &StationGrid, every: u64) -> Self {
-        Self { stations: grid.count, every: every.max(1), in_field: matches!(air.flow, Flow::Field(_)) }
+        Self {
+            stations: grid.count,
+            every: every.max(1),
+            in_field: matches!(air.flow, Flow::Field(_)),
+            widens: air.widening != Widening::None,
+        }
     }
 }
 
@@ -113,6 +119,8 @@ impl Way {
 #[derive(Clone, Debug)]
 pub struct Stations {
     way: Way,
+    /// Distance of each root from the middle of the slot [m].
+    off_middle: Lanes,
     /// Stations to a length [1/m].
     per_length: Lanes,
     /// Mean velocity along x [m/s], and factor of the signal.
@@ -164,6 +172,7 @@ impl Stations {
             Surroundings::around_elements(airs, elements, way.every)
         });
         Self {
+            off_middle: places.lanes(|place| place.y),
             per_length: lanes.lanes(|(_, grid)| 1.0 / grid.spacing),
             still: (0..way.stations).map(still).collect(),
             apart: (0..way.stations).map(apart).collect(),
@@ -277,6 +286,12 @@ impl Stations {
             let mut fluctuation = below.mul_add(share * scale, above * (rest * scale));
             let (upper, lower) = (Wide(upper), Wide(lower));
             let mut flow = Vec3::new((lower - upper).mul_add(share, upper), Wide::zero(), Wide::zero());
+            if self.way.widens {
+                // −y dU/dx, with the velocity between the stations as above.                        theory.md (49a)
+                let y = (Wide::load(&ends[0].y) + Wide::load(&ends[1].y))
+                    .mul_add(half, Wide::load(&self.off_middle));
+                flow.y = (upper - lower) * per_length * y;
+            }
             if let Some(field) = &self.field {
                 let [u, v, w, rms] = field.value(j);
                 flow = Vec3::new(Wide::load(u), Wide::load(v), Wide::load(w));
@@ -312,11 +327,12 @@ pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{PerLane, Place, StationGrid, Stations, Way};
-    use crate::air::{Air, EddyModel, Stream, StreamKey, Wind};
+    use super::{Hint, PerLane, Place, StationGrid, Stations, Way};
+    use crate::air::{Air, EddyModel, Flow, FromFile, Profile, Stream, StreamKey, Widening, Wind};
     use crate::air::{Atmosphere, Instant, Velocities};
     use crate::lanes::{Isa, Lanes, Plain, WIDTH};
     use crate::vec3::Vec3;
+    use std::sync::Arc;
 
     const SPEED: f64 = 35.0;
     const DECAY: f64 = 5e-3;
@@ -426,6 +442,48 @@ mod tests {
             let expected = (-later / DECAY).exp();
             // As above, for the product of two signals.
             assert!((both / own - expected).abs() < 0.03, "{share}: {} for {expected}", both / own);
+        }
+    }
+
+    /// Without turbulence, elements at any distance from the middle feel the velocity of the profile and of its widening.
+    #[test]
+    fn analytic_fed_fibres_feel_the_widening_of_a_profile() {
+        let rows = Profile { x: vec![0.0, 0.5], velocity: vec![60.0, 10.0], ..Profile::default() };
+        let flow = Flow::Profile(FromFile::new("profile.csv".into(), 1, Arc::new(rows)));
+        for widening in Widening::ALL {
+            let eddies = EddyModel::Convected { decay_time: DECAY };
+            let air = Air { flow: flow.clone(), widening, eddies, ..Air::uniform(SPEED, 0.0, 16e-3, 940.0) };
+            let grid = air.stations(0.5);
+            let eddies = air.turbulence_at(&grid);
+            let stream = Stream { air: air.clone(), eddies, key: StreamKey { seed: 1, replicate: 0 } };
+            let wind = Wind::along(Isa::detect(), vec![stream], 1.0).unwrap();
+            let roots = [0.01, -0.004];
+            let lanes = PerLane::new(vec![(air.clone(), grid); 2]).unwrap();
+            let places = PerLane::new(roots.map(|y| Place { y, z: 0.0 }).to_vec()).unwrap();
+            // Elements of a fibre that leans, between the first and the last station.
+            let position: Vec<_> = (1..25)
+                .map(|j| Vec3::splat(Vec3::new(0.02 * f64::from(j), 1e-3 * f64::from(j), 2e-3)))
+                .collect();
+            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, &places, position.len() - 1);
+            let mut air_at_fibre = Atmosphere::Way(wind, stations);
+            let now = Instant { step: 0, time: 0.0 };
+            let Velocities::Way(velocities) = air_at_fibre.look::<Plain>(now, &position) else {
+                panic!("another kind of air")
+            };
+            for (lane, root) in roots.into_iter().enumerate() {
+                for (j, ends) in position.windows(2).enumerate() {
+                    let middle = (ends[0].lane(lane) + ends[1].lane(lane)) * 0.5;
+                    let at = Vec3::new(middle.x, middle.y + root, middle.z);
+                    let expected = air.local(at, &mut Hint::default()).velocity;
+                    let felt = velocities.at(j).store().lane(lane);
+                    assert!(
+                        (felt - expected).norm() < 1e-10,
+                        "{widening:?} {at:?}: {felt:?} for {expected:?}"
+                    );
+                    let rate = if widening == Widening::None { 0.0 } else { 100.0 };
+                    assert!((expected.y - rate * at.y).abs() < 1e-10, "{at:?}: {expected:?}");
+                }
+            }
         }
     }
 }

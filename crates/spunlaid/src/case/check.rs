@@ -2,6 +2,7 @@
 
 use super::keys::{self, finding};
 use super::memory::FLIGHT_MEMORY_LIMIT;
+use super::neighbours::without_shared_air;
 use super::note::Note;
 use super::{Case, FEEDING, StepLimit};
 use crate::air::{FromFile, Lateral, Measured};
@@ -43,6 +44,7 @@ impl Case {
             check.memory();
             check.times();
             check.shared_record();
+            check.neighbours();
             check.records();
         }
         if check.problems.is_empty() {
@@ -355,6 +357,17 @@ impl Check<'_> {
                           air.lateral = \"uniform\", or take the numbers and the spectrum of the record (spunlaid analyse) instead of it";
             let fault = Fault::excludes("air.record", remedy);
             self.blame_key("air.lateral", format!("\"{}\"", lateral.name()), fault);
+        }
+    }
+
+    /// Companions share the air, so that there must be one to share.
+    fn neighbours(&mut self) {
+        if self.case.air.lateral == Lateral::Uniform {
+            for key in keys::of_table("neighbours") {
+                if let Some(value) = key.get(self.case) {
+                    self.blame_key(key.name, key.kind.pretty(&value), without_shared_air());
+                }
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 mod check;
 pub mod keys;
 mod memory;
+mod neighbours;
 mod note;
 mod remarks;
 mod step;
@@ -11,6 +12,7 @@ mod usual;
 pub(crate) use check::too_many_steps;
 pub use check::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
+pub use neighbours::Neighbours;
 pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
 pub(crate) use usual::unusual;
@@ -37,6 +39,8 @@ pub struct Case {
     /// Feed and belt of a fed fibre; `None` for a fibre of fixed length. The length of a fed fibre stands for the
     /// distance to the belt.
     pub line: Option<Line>,
+    /// Fibres that fly beside each replicate in the same air.
+    pub neighbours: Neighbours,
     /// Time, integration and ensemble.
     pub run: Run,
 }
@@ -186,14 +190,17 @@ impl Case {
         self.line.map_or(1.1 * self.fibre.length, |line| line.distance)
     }
 
-    /// After what distances a field of eddies in space repeats itself: ten times the largest length scale on the way.
+    /// After what distances a field of eddies in space repeats itself: ten times the largest length scale on the way, and four
+    /// times the largest distance of a companion.
     pub(crate) fn extent_of_air(&self) -> Extent {
         const PLACES: usize = 64;
         let mut hint = Hint::default();
         let x = |i: usize| self.way_of_air() * i as f64 / PLACES as f64;
         let scales = (0..=PLACES).map(|i| self.air.local(Vec3::new(x(i), 0.0, 0.0), &mut hint).length_scale);
         let side = 10.0 * scales.fold(0.0, f64::max);
-        Extent { y: side, z: side }
+        let farthest = |distances: &[f64]| distances.last().map_or(0.0, |distance| 4.0 * distance);
+        let Neighbours { cd, md } = &self.neighbours;
+        Extent { y: side.max(farthest(md)), z: side.max(farthest(cd)) }
     }
 
     /// The eddies along the fibre.

@@ -2,7 +2,6 @@
 
 use super::StepChoice;
 use crate::error::{Fault, Finding, Problem};
-use crate::field::FieldWarning;
 use crate::units::Dimension;
 
 /// A note or a warning about a case that can be run.
@@ -151,7 +150,7 @@ pub enum Remark {
     },
     /// Something about a CFD field.
     #[error("{0}")]
-    Field(FieldWarning),
+    Field(Fault),
     /// A value that is most likely a slip.
     #[error("is outside the usual range, {least} to {greatest}; {}", slip(instead))]
     Unusual {
@@ -260,6 +259,19 @@ pub enum Remark {
         "reaches out of the region where the flow is known; outside it, the air at the nearest known point is used"
     )]
     LeavesFlow,
+    /// A web in air that slows and does not widen.
+    #[error(
+        "lays filaments that have flown in air that slows from {} to {} and does not widen. A channel in which air slows widens, \
+         and carries the filaments apart along the machine direction, so that the web is more even; write widening = \"md\" in \
+         [air] of the case",
+        Dimension::Velocity.pretty_to(*from, 3), Dimension::Velocity.pretty_to(*to, 3)
+    )]
+    SlowsOnly {
+        /// Mean velocity at the inlet [m/s].
+        from: f64,
+        /// Mean velocity at the belt [m/s].
+        to: f64,
+    },
     /// A root outside of the field.
     #[error(
         "is outside of the box around the field, {low} to {high}; the air at the nearest point of the field is used there"
@@ -292,6 +304,15 @@ pub enum Remark {
         field: f64,
         /// Length of the fibre [m].
         fibre: f64,
+    },
+    /// A web in one air flies a case whose turbulence is the same across the flow.
+    #[error(
+        "flies the filaments of {case} with air.lateral = \"von-karman\" and the usual air.lateral_cutoff: with its own air.lateral = \"uniform\" \
+         all of them would lie alike"
+    )]
+    EddiesInSpace {
+        /// Path of the case.
+        case: String,
     },
     /// Elements that are shorter than the diameter.
     #[error("is larger than the element length, {}; use longer elements", Dimension::Length.pretty(*element_length))]
@@ -362,6 +383,7 @@ impl Remark {
                     | Self::CutoffLow { .. }
                     | Self::Field(_)
                     | Self::LeavesFlow
+                    | Self::SlowsOnly { .. }
                     | Self::RootOutside { .. }
                     | Self::NotAlong { .. }
                     | Self::FewReplicates

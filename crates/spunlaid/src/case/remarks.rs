@@ -3,7 +3,7 @@
 use super::Case;
 use super::keys::finding;
 use super::note::{Note, Remark};
-use crate::air::{Flow, SpectrumShape};
+use crate::air::{Flow, SpectrumShape, Widening};
 use crate::drag::NormalLaw;
 use crate::error::Place;
 use crate::field::Hint;
@@ -12,6 +12,8 @@ use crate::vec3::Vec3;
 
 /// Share of the measured drag across a fibre below which a case is warned [-].
 const LOW_DRAG: f64 = 0.5;
+/// Velocity at the belt over that at the inlet below which the widening of the air matters [-].
+const LEAST_SLOWING: f64 = 0.9;
 
 impl Case {
     /// Notes and warnings.
@@ -90,6 +92,16 @@ impl Case {
         notes.extend(root_outside);
         notes.extend(self.field_notes());
         notes
+    }
+
+    /// What is said of a web of such filaments, if the mean flow slows on their way and does not widen.
+    pub(crate) fn slows_only(&self) -> Option<Remark> {
+        if !matches!(self.air.flow, Flow::Profile(_)) || self.air.widening != Widening::None {
+            return None;
+        }
+        let velocity = |at| self.air.local(at, &mut Hint::default()).velocity.x;
+        let (from, to) = (velocity(Vec3::new(0.0, 0.0, 0.0)), velocity(self.along()));
+        (to < LEAST_SLOWING * from).then_some(Remark::SlowsOnly { from, to })
     }
 
     /// Whether the root is farther outside of a field's box than rounding.

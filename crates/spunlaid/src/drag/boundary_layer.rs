@@ -75,7 +75,7 @@ mod tests {
             Moving => (1.0 - s).powi(2),
             Held => s * (1.0 - s),
         };
-        let simpson = |of: &dyn Fn(f64) -> f64, n: usize| {
+        let simpson = |integrand: &dyn Fn(f64) -> f64, n: usize| {
             let weight = |i| {
                 if i == 0 || i == n {
                     1.0
@@ -85,7 +85,7 @@ mod tests {
                     2.0
                 }
             };
-            (0..=n).map(|i| weight(i) * of(i as f64 / n as f64)).sum::<f64>() / (3.0 * n as f64)
+            (0..=n).map(|i| weight(i) * integrand(i as f64 / n as f64)).sum::<f64>() / (3.0 * n as f64)
         };
         let momentum = |a: f64| a * simpson(&|s| profile(s) * (2.0 * a * s).exp(), 400);
         a * momentum(a) - a * simpson(&|s| momentum(a * s), 400)

@@ -35,14 +35,14 @@ impl Curve {
     }
 
     pub(super) fn table(self) -> &'static Table {
-        static MOVING: LazyLock<Table> = LazyLock::new(|| Table::of(Curve::Moving));
-        static HELD: LazyLock<Table> = LazyLock::new(|| Table::of(Curve::Held));
+        static MOVING: LazyLock<Table> = LazyLock::new(|| Table::new(Curve::Moving));
+        static HELD: LazyLock<Table> = LazyLock::new(|| Table::new(Curve::Held));
         static ACROSS: [OnceLock<Table>; NormalLaw::ALL.len()] =
             [const { OnceLock::new() }; NormalLaw::ALL.len()];
         match self {
             Self::Moving => &MOVING,
             Self::Held => &HELD,
-            Self::Across(law) => ACROSS[law as usize].get_or_init(|| Table::of(self)),
+            Self::Across(law) => ACROSS[law as usize].get_or_init(|| Table::new(self)),
         }
     }
 }
@@ -65,7 +65,7 @@ const CUBICS: usize = 128;
 const FURTHEST: f64 = 1000.0;
 
 impl Table {
-    fn of(curve: Curve) -> Self {
+    fn new(curve: Curve) -> Self {
         let middle = CUBICS as f64 / 2.0 + 1.0;
         let joins = match curve {
             Curve::Across(law) => match law.form() {

@@ -1,5 +1,6 @@
 //! Ensembles: replicates packed eight to a flight, flights shared out to threads.
 
+mod beside;
 mod end_path;
 mod finer;
 mod order;
@@ -52,7 +53,7 @@ pub fn fly<E: From<Error>>(
     mut take: impl FnMut(Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
     in_order(
-        flights(case),
+        pieces(case, keep),
         computing.threads,
         |index| fly_one(case, index, keep, computing),
         |flown| flown?.into_iter().try_for_each(|trajectory| take(trajectory?)),
@@ -78,15 +79,15 @@ pub fn fly_and_check<E: From<Error>>(
         Run(Result<Vec<Result<Trajectory, Error>>, Error>),
         Check(Result<finer::Flight, Error>),
     }
-    let flights = flights(case);
+    let pieces = pieces(case, keep);
     let more: Vec<_> = plans.all().flat_map(|plan| plan.flights().map(move |case| (plan, case))).collect();
     let paths = finer::Paths::of_run(plans.step.as_ref(), computing.recorder);
     let watched = Computing { recorder: Some(&paths), ..computing };
     let (mut flown, mut replicate, mut left, mut first_lost) = (Vec::new(), 0, 0, None);
     in_order(
-        flights + more.len(),
+        pieces + more.len(),
         computing.threads,
-        |index| match index.checked_sub(flights).and_then(|index| more.get(index)) {
+        |index| match index.checked_sub(pieces).and_then(|index| more.get(index)) {
             Some((plan, case)) => Landed::Check(plan.fly(case, computing)),
             None => Landed::Run(fly_one(case, index, keep, watched)),
         },
@@ -126,18 +127,30 @@ pub fn fly_and_check<E: From<Error>>(
     }))
 }
 
-/// Number of flights of a case.
-fn flights(case: &Case) -> usize {
-    case.run.replicates.div_ceil(WIDTH as u64) as usize
+/// Number of pieces of work of a case: flights of eight replicates, or replicates with their companions.
+fn pieces(case: &Case, keep: Keep) -> usize {
+    if has_companions(case, keep) {
+        case.run.replicates as usize
+    } else {
+        case.run.replicates.div_ceil(WIDTH as u64) as usize
+    }
 }
 
-/// Computes one flight of a case: for each fibre its trajectory, or the reason why it is lost.
+/// Whether companions fly beside the replicates. What is measured of them are curves.
+fn has_companions(case: &Case, keep: Keep) -> bool {
+    keep.curves && !case.neighbours.is_empty()
+}
+
+/// Computes one piece of work of a case: for each replicate its trajectory, or the reason why its fibre is lost.
 fn fly_one(
     case: &Case,
     index: usize,
     keep: Keep,
     computing: Computing<'_>,
 ) -> Result<Vec<Result<Trajectory, Error>>, Error> {
+    if has_companions(case, keep) {
+        return Ok(vec![beside::fly_beside(case, index as u64, keep, computing)?]);
+    }
     let first = index as u64 * WIDTH as u64;
     let last = case.run.replicates.min(first + WIDTH as u64);
     let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job::new(case, replicate)).collect();

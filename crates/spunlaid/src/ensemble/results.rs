@@ -215,5 +215,5 @@ impl Collector {
 /// Mean and standard error of the finite values, together with all values.
 fn of_the_defined(values: Vec<f64>) -> Estimate {
     let defined = values.iter().copied().filter(|value| value.is_finite()).collect();
-    Estimate { values, ..Estimate::of(defined) }
+    Estimate { values, ..Estimate::new(defined) }
 }

@@ -196,8 +196,12 @@ fn fly_until_lost(
     if let Some(recorder) = computing.recorder {
         jobs.iter().for_each(|job| recorder.begin(job.replicate));
     }
+    // The companions of a replicate fly after it and are not recorded.
+    let is_companion: Vec<bool> = (0..jobs.len())
+        .map(|lane| jobs[..lane].iter().any(|before| before.replicate == jobs[lane].replicate))
+        .collect();
     let clock = flight.clock().clone();
-    let mut observers = Observers::of(&flight, keep.curves);
+    let mut observers = Observers::new(&flight, keep.curves);
     let mut trajectories: Vec<Trajectory> =
         jobs.iter().map(|job| Trajectory { replicate: job.replicate, ..Trajectory::default() }).collect();
     let mut step = 0;
@@ -213,7 +217,7 @@ fn fly_until_lost(
                 adrift => FlightEnd::Lost { lane, error: adrift },
             });
         }
-        let samples: [Sample; WIDTH] = std::array::from_fn(|lane| Sample::of(&snapshot, lane));
+        let samples: [Sample; WIDTH] = std::array::from_fn(|lane| Sample::new(&snapshot, lane));
         let laid: [Vec<LaidPoint>; WIDTH] = std::array::from_fn(|lane| flight.take_laid(lane));
         let settled = step >= clock.spin_up_steps;
         observers.see(&Observation { snapshot: &snapshot, samples: &samples, settled, laid: &laid });
@@ -235,7 +239,7 @@ fn fly_until_lost(
                 let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);
                 trajectory.laid.extend(counted.take(room));
             }
-            if let Some(recorder) = computing.recorder {
+            if let Some(recorder) = computing.recorder.filter(|_| !is_companion[lane]) {
                 recorder.sample(trajectory.replicate, &samples[lane])?;
                 if !laid[lane].is_empty() {
                     recorder.lay(trajectory.replicate, &laid[lane])?;

@@ -1,7 +1,7 @@
 //! What is wrong with a value or a file, and what to do about it.
 
 use super::Problem;
-use super::words::{all_of, did_you_mean, one_of, shortest};
+use super::words::{all_of, did_you_mean, one_of};
 use std::borrow::Cow;
 use std::fmt;
 
@@ -124,10 +124,9 @@ impl Fault {
 
     /// Values from which a number follows that is too large or too small.
     pub(crate) fn degenerate(what: &str, value: f64) -> Self {
-        Self::new(
-            format!("makes {what} {}, which is out of the range of floating-point numbers", shortest(value)),
-            "check the values that it follows from",
-        )
+        let size = if value.abs() < 1.0 { "small" } else { "large" };
+        let message = format!("makes {what} too {size} for a floating-point number");
+        Self::new(message, "check the values that it follows from")
     }
 }
 

@@ -302,7 +302,7 @@ impl Values {
         let spacing = place.size / CELLS as f64;
         Around {
             value,
-            gradients: gradients.map(|of| of.map(|change| change / spacing)),
+            gradients: gradients.map(|changes| changes.map(|change| change / spacing)),
             reach: 0.5 * spacing,
             inside: self.inside,
         }

@@ -1,8 +1,7 @@
 //! Faults that several readers and makers of fields find.
 
-use super::values::LARGEST;
 use crate::error::{Fault, listed, memory};
-use crate::units::{excerpt, shortest};
+use crate::units::excerpt;
 
 /// Something else is written where a certain item is expected.
 pub(super) fn syntax(found: &str, wanted: &str) -> Fault {
@@ -26,7 +25,7 @@ pub(super) fn encoding(message: &str) -> Fault {
 /// The file needs more memory than is allowed [bytes].
 pub(super) fn too_large(most: u64) -> Fault {
     Fault::new(
-        format!("contains more than {}, the most that is read from a file", memory(most as f64)),
+        format!("contains more than {}, and no more is read from a file", memory(most as f64)),
         "cut out the part where the fibres fly",
     )
 }
@@ -59,14 +58,6 @@ pub(super) fn no_velocity(found: &[String]) -> Fault {
 /// The unit does not fit the quantity or is not supported.
 pub(super) fn wrong_unit(unit: &str, wanted: &str) -> Fault {
     Fault::new(format!("has the unit \"{}\"", excerpt(unit, 20)), format!("write the values in {wanted}"))
-}
-
-/// A value is NaN or too large.
-pub(super) fn out_of_range(value: f64) -> Fault {
-    Fault::new(
-        format!("{} is not a number between −{LARGEST:e} and {LARGEST:e}", shortest(value)),
-        "correct the value, or leave out points without one",
-    )
 }
 
 /// A cell names a point that does not exist.

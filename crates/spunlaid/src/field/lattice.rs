@@ -2,7 +2,7 @@
 
 use super::fault;
 use super::node::Node;
-use super::values::{Quantities, in_range};
+use super::values::{Quantities, check_range};
 use crate::error::{Fault, FileError};
 
 /// Coordinates that differ by less than this share of the extent count as equal.
@@ -27,10 +27,7 @@ struct Axis {
 impl Lattice {
     pub(super) fn new(axes: [Vec<f64>; 3], values: Vec<Quantities>) -> Result<Self, FileError> {
         for (axis, name) in axes.iter().zip(["x", "y", "z"]) {
-            if let Some(value) = axis.iter().find(|x| !in_range(**x)) {
-                let fault = fault::out_of_range(*value);
-                return Err(FileError::from(fault).array(name));
-            }
+            check_range(axis).map_err(|fault| FileError::from(fault).array(name))?;
             if axis.is_empty() {
                 return Err(FileError::from(fault::empty()).array(name));
             }

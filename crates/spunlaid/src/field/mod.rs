@@ -19,7 +19,7 @@
 //! **Output** is the air at any point, [`Local`]: velocity, `k`, `ε` and whether the point lies in the field. On a
 //! [lattice](Field::lattice) it is linear in each coordinate. In a [mesh](Field::mesh) it is linear in tetrahedra.
 //! Among [points](Field::points) it is a weighted mean of the nearest eight. A flow that is linear in space is
-//! reproduced exactly. Outside the field it is the air at the edge. A [`FieldWarning`] says what was left out or
+//! reproduced exactly. Outside the field it is the air at the edge. Warnings say what was left out or
 //! corrected.
 //!
 //! **Limits.** Coordinates and values lie within ±1e30. A file is held in memory while it is read. Further memory is
@@ -51,16 +51,14 @@ mod points;
 mod read;
 mod tree;
 mod values;
-mod warning;
 
 pub use bricks::Around;
 pub use mesh::cells::{Cells, Shape};
 pub use values::Values;
-pub use warning::FieldWarning;
 
 pub(crate) use read::ReadField;
 
-use crate::error::FileError;
+use crate::error::{Fault, FileError};
 use crate::vec3::Vec3;
 use bricks::Bricks;
 use lattice::Lattice;
@@ -153,7 +151,7 @@ impl Field {
         let count = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
         let quantities = values.check(count.unwrap_or(usize::MAX))?;
         let lattice = Lattice::new(axes, quantities)?;
-        Ok(Self::of(Support::Lattice(lattice), values))
+        Ok(Self::new(Support::Lattice(lattice), values))
     }
 
     /// A field on a mesh of cells, each cut into tetrahedra within which the values are linear.
@@ -173,10 +171,10 @@ impl Field {
         points: &[Vec3<f64>],
         cells: &Cells,
         values: &Values,
-    ) -> Result<(Self, Vec<FieldWarning>), FileError> {
+    ) -> Result<(Self, Vec<Fault>), FileError> {
         let quantities = values.check(points.len())?;
         let (mesh, warnings) = Mesh::new(points, cells, quantities)?;
-        Ok((Self::of(Support::Mesh(mesh), values), warnings))
+        Ok((Self::new(Support::Mesh(mesh), values), warnings))
     }
 
     /// A field of points without cells, in any order.
@@ -192,26 +190,26 @@ impl Field {
     ///
     /// # Errors
     /// When points are too few, or values are too few, too many or not finite.
-    pub fn points(points: &[Vec3<f64>], values: &Values) -> Result<(Self, Vec<FieldWarning>), FileError> {
+    pub fn points(points: &[Vec3<f64>], values: &Values) -> Result<(Self, Vec<Fault>), FileError> {
         let (nodes, warnings) = node::distinct(points, values)?;
         let support = match Lattice::of_points(&nodes) {
             Some(lattice) => Support::Lattice(lattice),
             None => Support::Points(Points::new(nodes)?),
         };
-        Ok((Self::of(support, values), warnings))
+        Ok((Self::new(support, values), warnings))
     }
 
     /// A lattice, of points in any order, or none if the points form no lattice.
     fn lattice_of_points(
         points: &[Vec3<f64>],
         values: &Values,
-    ) -> Result<Option<(Self, Vec<FieldWarning>)>, FileError> {
+    ) -> Result<Option<(Self, Vec<Fault>)>, FileError> {
         let (nodes, warnings) = node::distinct(points, values)?;
         let lattice = Lattice::of_points(&nodes);
-        Ok(lattice.map(|lattice| (Self::of(Support::Lattice(lattice), values), warnings)))
+        Ok(lattice.map(|lattice| (Self::new(Support::Lattice(lattice), values), warnings)))
     }
 
-    fn of(support: Support, values: &Values) -> Self {
+    fn new(support: Support, values: &Values) -> Self {
         let bricks = Bricks::new(support.bounds());
         Self { support, turbulence: values.has_turbulence(), bricks, lacks: None }
     }

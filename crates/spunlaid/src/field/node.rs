@@ -1,10 +1,8 @@
 //! Points with the values of the air there.
 
-use super::fault;
 use super::mean;
-use super::values::{Quantities, Values, in_range};
-use super::warning::FieldWarning;
-use crate::error::{FileError, Position};
+use super::values::{Quantities, Values, at_point, check_range};
+use crate::error::{Fault, FileError};
 use crate::vec3::Vec3;
 use std::cmp::Ordering;
 
@@ -24,33 +22,26 @@ pub(super) fn nodes(points: &[Vec3<f64>], values: Vec<Quantities>) -> Result<Vec
     for (point, values) in points.iter().zip(values) {
         // Adding zero turns −0 into 0, so that both count as one place.
         let at = [point.x + 0.0, point.y + 0.0, point.z + 0.0];
-        if let Some(value) = at.into_iter().find(|x| !in_range(*x)) {
-            let point = Position::Point(nodes.len() as u64 + 1);
-            return Err(FileError::from(fault::out_of_range(value)).at(point));
-        }
+        check_range(&at).map_err(|fault| at_point(fault, nodes.len()))?;
         nodes.push(Node { at, values });
     }
     Ok(nodes)
 }
 
 /// The points at different places, each with the mean of the values there, and a warning where they differ.
-pub(super) fn distinct(
-    points: &[Vec3<f64>],
-    values: &Values,
-) -> Result<(Vec<Node>, Vec<FieldWarning>), FileError> {
+pub(super) fn distinct(points: &[Vec3<f64>], values: &Values) -> Result<(Vec<Node>, Vec<Fault>), FileError> {
     let mut nodes = nodes(points, values.check(points.len())?)?;
-    let (place_of, merged) = merge(&mut nodes);
+    let (place_of, warning) = merge(&mut nodes);
     let mut number = 0..;
     nodes.retain(|_| number.next().is_some_and(|i: u32| place_of[i as usize] == i));
-    let warning = (merged > 0).then_some(FieldWarning::Merged { points: merged });
     Ok((nodes, warning.into_iter().collect()))
 }
 
 /// Merges points at the same place: the first of them gets the mean of their values.
 ///
-/// Returns for each point the first point at its place, and the number of points whose values differed from
+/// Returns for each point the first point at its place, and a warning if the values of some points differed from
 /// those of the first.
-pub(super) fn merge(nodes: &mut [Node]) -> (Vec<u32>, u64) {
+pub(super) fn merge(nodes: &mut [Node]) -> (Vec<u32>, Option<Fault>) {
     let mut order: Vec<u32> = (0..nodes.len() as u32).collect();
     order.sort_unstable_by(|a, b| compare(&nodes[*a as usize].at, &nodes[*b as usize].at).then(a.cmp(b)));
     let mut place_of: Vec<u32> = (0..nodes.len() as u32).collect();
@@ -58,19 +49,25 @@ pub(super) fn merge(nodes: &mut [Node]) -> (Vec<u32>, u64) {
     let mut rest = order.as_slice();
     while let Some(&first) = rest.first() {
         let Node { at, values } = nodes[first as usize];
-        let (here, after) = rest.split_at(rest.iter().take_while(|i| nodes[**i as usize].at == at).count());
-        let others = here.iter().filter(|i| nodes[**i as usize].values != values).count();
+        let (group, after) = rest.split_at(rest.iter().take_while(|i| nodes[**i as usize].at == at).count());
+        let others = group.iter().filter(|i| nodes[**i as usize].values != values).count();
         if others > 0 {
-            let share = 1.0 / here.len() as f64;
-            nodes[first as usize].values = mean(here.iter().map(|i| (share, &nodes[*i as usize].values)));
+            let share = 1.0 / group.len() as f64;
+            nodes[first as usize].values = mean(group.iter().map(|i| (share, &nodes[*i as usize].values)));
         }
-        for i in here {
+        for i in group {
             place_of[*i as usize] = first;
         }
         differ += others as u64;
         rest = after;
     }
-    (place_of, differ)
+    let warning = (differ > 0).then(|| {
+        Fault::plain(format!(
+            "{differ} points lie exactly at the place of another point but have other values; the mean of their \
+             values is used"
+        ))
+    });
+    (place_of, warning)
 }
 
 /// Orders points by z, then y, then x.

@@ -2,6 +2,7 @@
 
 use super::fault;
 use crate::error::{Fault, FileError, Position};
+use crate::units::shortest;
 use crate::vec3::Vec3;
 
 /// Largest coordinate [m] and largest value [SI] that are accepted. Larger ones make volumes and squares overflow.
@@ -57,7 +58,7 @@ impl Values {
             if decay.clone().next().is_some() && decay.clone().all(|epsilon| epsilon == 0.0) {
                 let fault = Fault::new(
                     format!(
-                        "is zero at all of the {} points where k is not, so that the eddies would be infinitely long",
+                        "is zero at all {} points at which k is above zero, so the eddies would be infinitely long",
                         decay.count()
                     ),
                     "write the ε or ω of the solution, or leave out k, and give turbulence_intensity, length_scale and cutoff_frequency in the case",
@@ -69,16 +70,25 @@ impl Values {
         for (i, velocity) in self.velocity.iter().enumerate() {
             let [k, epsilon] = if turbulent { [self.k[i], self.epsilon[i]] } else { [0.0; 2] };
             let values = [velocity.x, velocity.y, velocity.z, k, epsilon];
-            if let Some(value) = values.into_iter().find(|value| !in_range(*value)) {
-                return Err(FileError::from(fault::out_of_range(value)).at(Position::Point(i as u64 + 1)));
-            }
+            check_range(&values).map_err(|fault| at_point(fault, i))?;
             quantities.push(values);
         }
         Ok(quantities)
     }
 }
 
-/// Whether a number is finite and small enough to compute with.
-pub(super) fn in_range(value: f64) -> bool {
-    value.abs() <= LARGEST
+/// Checks that numbers are finite and small enough to compute with.
+pub(super) fn check_range(numbers: &[f64]) -> Result<(), Fault> {
+    match numbers.iter().find(|number| number.is_nan() || number.abs() > LARGEST) {
+        None => Ok(()),
+        Some(number) => Err(Fault::new(
+            format!("{} is not a number between −{LARGEST:e} and {LARGEST:e}", shortest(*number)),
+            "correct the value, or leave out points without one",
+        )),
+    }
+}
+
+/// The fault of a point, counted from 0.
+pub(super) fn at_point(fault: Fault, point: usize) -> FileError {
+    FileError::from(fault).at(Position::Point(point as u64 + 1))
 }

@@ -3,7 +3,6 @@
 use super::{Entry, Flight};
 use crate::error::{Error, Fault};
 use crate::fibre::Root;
-use crate::line::Line;
 use crate::units::Dimension;
 
 /// By how much an element may be off from the length that belongs to its tension, in parts of its rest length [-]. Where
@@ -20,7 +19,14 @@ impl Flight {
     /// The lane of the first fibre that is lost and the reason, if there is one.
     pub(crate) fn lost(&self) -> Option<(usize, Error)> {
         let diverged = |lane: usize| Some((lane, self.diverged(lane)?));
-        (0..self.fibres()).find_map(diverged).or_else(|| self.adrift())
+        let adrift = |lane: usize| Some((lane, self.adrift(lane)?));
+        (0..self.fibres()).find_map(diverged).or_else(|| (0..self.fibres()).find_map(adrift))
+    }
+
+    /// The lanes of all fibres that are lost, each with the reason.
+    pub(crate) fn all_lost(&self) -> impl Iterator<Item = (usize, Error)> {
+        let lost = |lane: usize| self.diverged(lane).or_else(|| self.adrift(lane));
+        (0..self.fibres()).filter_map(move |lane| Some((lane, lost(lane)?)))
     }
 
     /// Whether the computation of the fibre in a lane has diverged. A lane is judged by itself, so a fibre is lost in any
@@ -87,28 +93,25 @@ impl Flight {
         })
     }
 
-    /// The first fibre that does not reach the belt, if there is one: ten times the way has been fed and has not landed.
-    fn adrift(&self) -> Option<(usize, Error)> {
-        let in_air = self.chain.in_air();
-        let length = |lane: usize, line: &Line| {
-            in_air[lane] as f64 * self.chain.constants.elements.at(0).rest_length.0[lane] / line.distance
-        };
-        self.entries.iter().enumerate().find_map(|(lane, Entry { case, replicate, .. })| {
-            let line = case.line.as_ref()?;
-            (length(lane, line) > MOST_IN_AIR).then(|| {
-                let time = self.time();
-                let reached = self.chain.position.iter().map(|p| p.x.0[lane]).fold(f64::NEG_INFINITY, f64::max);
-                let (reached, distance) =
-                    (Dimension::Length.pretty_to(reached, 3), Dimension::Length.pretty(line.distance));
-                let what = Fault::new(
-                    format!(
-                        "the fibre does not reach the belt: after {time:.3} s, {MOST_IN_AIR} times the way to the belt has \
-                         been fed and has not landed, and the lowest node is {reached} from the inlet of {distance}"
-                    ),
-                    "give faster air towards the belt, more weight, or a belt that is nearer (belt.distance)",
-                );
-                (lane, Error::NotLanding { replicate: replicate + 1, time, what })
-            })
+    /// Whether the fibre in a lane does not reach the belt: ten times the way has been fed and has not landed.
+    fn adrift(&self, lane: usize) -> Option<Error> {
+        let Entry { case, replicate, .. } = self.entries.get(lane)?;
+        let line = case.line.as_ref()?;
+        let rest_length = self.chain.constants.elements.at(0).rest_length.0[lane];
+        let in_air = self.chain.in_air()[lane] as f64 * rest_length / line.distance;
+        (in_air > MOST_IN_AIR).then(|| {
+            let time = self.time();
+            let reached = self.chain.position.iter().map(|p| p.x.0[lane]).fold(f64::NEG_INFINITY, f64::max);
+            let (reached, distance) =
+                (Dimension::Length.pretty_to(reached, 3), Dimension::Length.pretty(line.distance));
+            let what = Fault::new(
+                format!(
+                    "the fibre does not reach the belt: after {time:.3} s, {MOST_IN_AIR} times the way to the belt has \
+                     been fed and has not landed, and the lowest node is {reached} from the inlet of {distance}"
+                ),
+                "give faster air towards the belt, more weight, or a belt that is nearer (belt.distance)",
+            );
+            Error::NotLanding { replicate: replicate + 1, time, what }
         })
     }
 }

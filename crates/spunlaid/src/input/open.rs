@@ -4,12 +4,11 @@ use super::data::DataFiles;
 use super::written::{WrittenValue, WrittenValues, sorted};
 use crate::air::{Air, EddyModel, Flow, PlacedField, RecordLayout, SpectrumShape};
 use crate::case::keys::{self, Content, FileKind, Key, Kind, LeftOut, Value};
-use crate::case::{Case, Note, Remark, Run};
+use crate::case::{Case, Neighbours, Note, Remark, Run};
 use crate::chain::schemes::Scheme;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::error::{Error, Fault, FileError};
 use crate::fibre::{Fibre, Root};
-use crate::field::FieldWarning;
 use crate::line::Line;
 use crate::vec3::Vec3;
 use std::path::PathBuf;
@@ -202,6 +201,7 @@ fn blank() -> Case {
         air: Air::uniform(nan, nan, nan, nan),
         drag: Drag { along: FrictionLaw::ALL[0], across: NormalLaw::ALL[0] },
         line: None,
+        neighbours: Neighbours::default(),
         run: Run {
             time_step: nan,
             steps: 0,
@@ -243,7 +243,7 @@ fn load(
     kind: FileKind,
     paths: &[PathBuf],
     layout: &RecordLayout,
-) -> Result<(Content, Vec<FieldWarning>), FileError> {
+) -> Result<(Content, Vec<Fault>), FileError> {
     let path = paths.first().cloned().unwrap_or_default();
     let content = match kind {
         FileKind::Profile => Content::Profile(files.profile(&path)?),

@@ -16,7 +16,7 @@ mod wide;
 pub(crate) use functions::{bend_ratio, cos_sin_turn, exp2, indices, log2, power};
 pub use isa::Isa;
 pub(crate) use isa::Task;
-pub(crate) use simd::{Plain, Register, Simd};
+pub(crate) use simd::{Plain, Register, Simd, Singles};
 pub(crate) use wide::Wide;
 
 use std::array::from_fn;

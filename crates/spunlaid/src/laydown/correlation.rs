@@ -138,8 +138,8 @@ mod tests {
                 assert_eq!(found.len(), lags.min((n - 1) / stride + 1), "{stride} {lags} {n}");
                 for (lag, found) in found.iter().enumerate() {
                     let pairs = n - lag * stride;
-                    let of = |i: usize| (values[i] - mean) * (values[i + lag * stride] - mean);
-                    let wanted = (0..pairs).map(of).sum::<f64>() / pairs as f64;
+                    let product = |i: usize| (values[i] - mean) * (values[i + lag * stride] - mean);
+                    let wanted = (0..pairs).map(product).sum::<f64>() / pairs as f64;
                     // Rounding of a few hundred sums of numbers near 1.
                     assert!(
                         (found - wanted).abs() < 1e-12,

@@ -94,11 +94,11 @@ mod tests {
 
     #[test]
     fn a_point_lies_in_its_cell_and_points_beyond_number_are_left_out() {
-        let mut of = Footprint::new(1.0, [0.0, 0.0]);
-        of.add([-0.5, 3.2]);
-        of.add([f64::NAN, 0.0]);
-        of.add([0.0, f64::INFINITY]);
-        let found: Vec<(usize, usize)> = (of.rows().enumerate())
+        let mut footprint = Footprint::new(1.0, [0.0, 0.0]);
+        footprint.add([-0.5, 3.2]);
+        footprint.add([f64::NAN, 0.0]);
+        footprint.add([0.0, f64::INFINITY]);
+        let found: Vec<(usize, usize)> = (footprint.rows().enumerate())
             .flat_map(|(row, counts)| counts.iter().enumerate().filter(|c| *c.1 > 0).map(move |c| (row, c.0)))
             .collect();
         assert_eq!(found, [(51, 47)]);

@@ -155,8 +155,7 @@ impl Trace {
             let before = self.recent.back().copied().unwrap_or(start);
             let part = self.last_part;
             // Without a part left over, the chord ends at the point itself.
-            let end =
-                |before: f64, here: f64| if part == 1.0 { here } else { before + part * (here - before) };
+            let end = |before: f64, now: f64| if part == 1.0 { now } else { before + part * (now - before) };
             self.chords.add(end(before[0], md) - start[0], end(before[1], cd) - start[1]);
         }
         self.recent.push_back([md, cd]);
@@ -173,7 +172,7 @@ impl Trace {
         let length = spacing * self.points().saturating_sub(1) as f64;
         let covariances = self.positions.each_ref().map(LaggedProducts::covariances);
         // A single point has no spread to speak of. Rounding may make a heap's variance negative.
-        let sigma = |of: &Vec<f64>| match of[..] {
+        let sigma = |covariances: &Vec<f64>| match covariances[..] {
             [variance, _, ..] => {
                 if variance < 0.0 {
                     0.0
@@ -185,8 +184,9 @@ impl Trace {
         };
         let sigma = covariances.each_ref().map(sigma);
         let lag_step = spacing * self.positions[0].stride() as f64;
-        let [correlation_md, correlation_cd] =
-            covariances.map(|of| of.iter().map(|covariance| covariance / of[0]).collect::<Vec<f64>>());
+        let [correlation_md, correlation_cd] = covariances.map(|covariances| {
+            covariances.iter().map(|covariance| covariance / covariances[0]).collect::<Vec<f64>>()
+        });
         let chord = spacing * ((self.chord - 1) as f64 + self.last_part);
         let resolved = spacing <= CHORD * (1.0 + ROUNDING);
         let Chords { count, directed, length: chords, cos_squared, directions } = self.chords;
@@ -296,9 +296,12 @@ mod tests {
             }
         }
         close(found.chord, 0.01);
-        let chords: Vec<[f64; 2]> =
-            counted.windows(6).map(|of| [of[5][0] - of[0][0], of[5][1] - of[0][1]]).collect();
-        let mean = |of: fn(&[f64; 2]) -> f64| chords.iter().map(of).sum::<f64>() / chords.len() as f64;
+        let chords: Vec<[f64; 2]> = counted
+            .windows(6)
+            .map(|points| [points[5][0] - points[0][0], points[5][1] - points[0][1]])
+            .collect();
+        let mean =
+            |quantity: fn(&[f64; 2]) -> f64| chords.iter().map(quantity).sum::<f64>() / chords.len() as f64;
         close(found.orientation_md, mean(|[x, y]| x * x / (x * x + y * y)));
         close(found.chord_over_arc, mean(|[x, y]| x.hypot(*y)) / 0.01);
         for (class, count) in found.directions.iter().enumerate() {
@@ -319,20 +322,20 @@ mod tests {
             .map(|i| 2.0 * PI * f64::from(i) / f64::from(points))
             .map(|angle| [radius * angle.cos(), radius * angle.sin()])
             .collect();
-        let of = traced(&circle, Tracing { spacing, belt_ratio: 0.0, skip: 0, reach: 0.1 });
-        for sigma in [of.sigma_md, of.sigma_cd] {
+        let curve = traced(&circle, Tracing { spacing, belt_ratio: 0.0, skip: 0, reach: 0.1 });
+        for sigma in [curve.sigma_md, curve.sigma_cd] {
             assert!((sigma / (radius / 2.0_f64.sqrt()) - 1.0).abs() < 1e-9, "{sigma}");
         }
         // Forty turns, cut off by the lag, leave 1/40 of a turn of the unbiased estimate uneven.
-        for half in [of.half_correlation_length_md, of.half_correlation_length_cd] {
+        for half in [curve.half_correlation_length_md, curve.half_correlation_length_cd] {
             assert!((half / (radius * PI / 3.0) - 1.0).abs() < 5e-3, "{half}");
         }
         // Between points the curve is straight: at most spacing²/(8R) inside the circle.
         let chord = 2.0 * radius * (CHORD / 2.0 / radius).sin();
         let inside = spacing * spacing / (8.0 * radius);
-        assert!((of.chord_over_arc * CHORD - chord).abs() < inside, "{} {chord}", of.chord_over_arc);
-        assert!((of.orientation_md - 0.5).abs() < 1e-3 && of.slope.abs() < 1e-3);
-        assert!(of.directions.iter().all(|count| count.abs_diff(40 * u64::from(points) / 36) < 60));
+        assert!((curve.chord_over_arc * CHORD - chord).abs() < inside, "{} {chord}", curve.chord_over_arc);
+        assert!((curve.orientation_md - 0.5).abs() < 1e-3 && curve.slope.abs() < 1e-3);
+        assert!(curve.directions.iter().all(|count| count.abs_diff(40 * u64::from(points) / 36) < 60));
     }
 
     #[test]
@@ -342,10 +345,13 @@ mod tests {
         let (radius, spacing) = (0.05_f64, 0.004_f64);
         let on = |s: f64| [radius * (s / radius).cos(), radius * (s / radius).sin()];
         let circle: Vec<[f64; 2]> = (0..500).map(|i| on(spacing * f64::from(i))).collect();
-        let of = traced(&circle, Tracing { spacing, belt_ratio: 0.0, skip: 0, reach: 0.1 });
+        let laid_circle = traced(&circle, Tracing { spacing, belt_ratio: 0.0, skip: 0, reach: 0.1 });
         let short = radius * (0.5 * spacing / radius).cos();
         let chord = (radius * radius + short * short - 2.0 * radius * short * (CHORD / radius).cos()).sqrt();
-        assert!((of.chord - 0.01).abs() < 1e-15 && (of.chord_over_arc / (chord / CHORD) - 1.0).abs() < 1e-12);
+        assert!(
+            (laid_circle.chord - 0.01).abs() < 1e-15
+                && (laid_circle.chord_over_arc / (chord / CHORD) - 1.0).abs() < 1e-12
+        );
         // The same of a stored curve, along which 10 mm are walked from each point.
         for spacing in [0.0013, 0.003, 0.004, 0.0099, 0.01, 0.015, 0.026] {
             let walk = |points: &[[f64; 2]], s: f64| {
@@ -354,35 +360,37 @@ mod tests {
                 [0, 1].map(|axis| points[at][axis] * (1.0 - part) + points[at + 1][axis] * part)
             };
             let points = curve(1002);
-            let of = traced(&points[..1001], Tracing { spacing, skip: 0, ..TRACING });
+            let laid = traced(&points[..1001], Tracing { spacing, skip: 0, ..TRACING });
             let starts = 0..=1000 - (CHORD / spacing - 1e-9).ceil() as u32;
             let chords: Vec<[f64; 2]> = (starts.map(|i| (i as usize, f64::from(i) * spacing)))
                 .map(|(i, s)| (points[i], walk(&points, s + CHORD)))
                 .map(|(start, end)| [end[0] - start[0], end[1] - start[1]])
                 .collect();
-            let mean = |of: fn(&[f64; 2]) -> f64| chords.iter().map(of).sum::<f64>() / chords.len() as f64;
+            let mean = |quantity: fn(&[f64; 2]) -> f64| {
+                chords.iter().map(quantity).sum::<f64>() / chords.len() as f64
+            };
             // Rounding of sums of a thousand numbers.
             let close = |found: f64, wanted: f64| {
                 assert!((found / wanted - 1.0).abs() < 1e-11, "{spacing}: {found}, {wanted}")
             };
-            close(of.orientation_md, mean(|[x, y]| x * x / (x * x + y * y)));
+            close(laid.orientation_md, mean(|[x, y]| x * x / (x * x + y * y)));
             if spacing > CHORD {
-                assert!(of.chord_over_arc.is_nan(), "{spacing}");
+                assert!(laid.chord_over_arc.is_nan(), "{spacing}");
             } else {
-                close(of.chord_over_arc, mean(|[x, y]| x.hypot(*y)) / CHORD);
+                close(laid.chord_over_arc, mean(|[x, y]| x.hypot(*y)) / CHORD);
             }
-            assert!((of.chord - CHORD).abs() < 1e-15);
+            assert!((laid.chord - CHORD).abs() < 1e-15);
         }
     }
 
     #[test]
     fn a_long_reach_takes_wider_lags() {
-        let of = traced(&curve(3000), Tracing { reach: 3.0, ..TRACING });
+        let coarse = traced(&curve(3000), Tracing { reach: 3.0, ..TRACING });
         let fine = traced(&curve(3000), Tracing { reach: 1.0, ..TRACING });
-        assert_eq!((of.lag_step, fine.lag_step), (6.0 * SPACING, 2.0 * SPACING));
-        assert!(of.lag_step * (of.correlation_md.len() - 1) as f64 >= 3.0 - 1e-9);
+        assert_eq!((coarse.lag_step, fine.lag_step), (6.0 * SPACING, 2.0 * SPACING));
+        assert!(coarse.lag_step * (coarse.correlation_md.len() - 1) as f64 >= 3.0 - 1e-9);
         for lag in [0, 1, 80] {
-            assert!((of.correlation_md[lag] - fine.correlation_md[3 * lag]).abs() < 1e-12);
+            assert!((coarse.correlation_md[lag] - fine.correlation_md[3 * lag]).abs() < 1e-12);
         }
     }
 

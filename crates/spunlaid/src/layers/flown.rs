@@ -15,7 +15,7 @@ use crate::lanes::Isa;
 use crate::laydown::{Trace, Tracing};
 use crate::statistics::Estimate;
 use crate::surrogate::{Residual, Surrogate, Unidentified, identify};
-use crate::web::{Curves, Fibres, Web};
+use crate::web::{Curves, Fibres, Findings, LaidWeb, Laying, Web, find_laid, measure_laid, pieces};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -42,18 +42,43 @@ pub struct FlownFibres {
     pub unidentified: Option<Unidentified>,
 }
 
-/// Shows the progress of a case's flights while it does the work that it is given: the path of the case, the number of
-/// fibres, the steps done and their number.
-pub type Follow<'a> = &'a dyn Fn(&Path, u64, (&AtomicU64, u64), &mut (dyn FnMut() + Send));
+/// The flights of a case, to be watched.
+#[derive(Clone, Copy, Debug)]
+pub struct Flights<'a> {
+    /// Path of the case.
+    pub path: &'a Path,
+    /// Number of fibres.
+    pub fibres: u64,
+    /// Steps of all fibres that have been done.
+    pub done: &'a AtomicU64,
+    /// Their number at the end; where it is not known yet, about so many.
+    pub steps: u64,
+    /// Time of a step [s].
+    pub time_step: f64,
+}
+
+/// Shows the progress of a case's flights while it does the work that it is given.
+pub type Follow<'a> = &'a dyn Fn(Flights<'_>, &mut (dyn FnMut() + Send));
+
+/// A web with its fibres.
+#[derive(Clone, Debug)]
+pub struct FlownWeb {
+    /// The web.
+    pub web: Web,
+    /// The fibres of its layers.
+    pub layers: Vec<OfLayer>,
+    /// What filaments in one air have laid; None of a web that is still to be laid.
+    laid: Option<LaidWeb>,
+}
 
 /// Number of cases and folders whose curves are kept, some megabytes each.
 const KEPT: usize = 16;
 
 /// Makes the fibres of the layers, those of one case or folder once for all layers.
 pub struct Flyer<'a> {
-    threads: usize,
-    stop: &'a AtomicBool,
-    follow: Follow<'a>,
+    pub(super) threads: usize,
+    pub(super) stop: &'a AtomicBool,
+    pub(super) follow: Follow<'a>,
     /// What the last cases and folders laid, by their paths.
     flown: Vec<(PathBuf, Arc<Case>, Arc<FlownFibres>)>,
 }
@@ -71,6 +96,25 @@ impl<'a> Flyer<'a> {
     /// * `stop` – set from elsewhere to stop early
     pub const fn new(threads: usize, stop: &'a AtomicBool, follow: Follow<'a>) -> Self {
         Self { threads, stop, follow, flown: Vec::new() }
+    }
+
+    /// A web and its fibres. Filaments that fly in one air have laid it then.
+    ///
+    /// # Errors
+    /// If the fibres cannot be flown or read, have laid nothing, or spread too far for the sheet; if no surrogate is
+    /// found where one is to be laid; and if it is stopped.
+    pub fn web(&mut self, spec: &WebSpec) -> Result<FlownWeb, Error> {
+        let (layers, laid) = match spec.method {
+            Method::SharedAir => {
+                let (layers, laid) = self.fly_together(spec)?;
+                (layers, Some(laid))
+            }
+            Method::Surrogate | Method::Dynamics => {
+                let layers = spec.layers.iter().map(|layer| self.fibres(spec, layer));
+                (layers.collect::<Result<_, _>>()?, None)
+            }
+        };
+        Ok(FlownWeb { web: to_lay(spec, &layers), layers, laid })
     }
 
     /// The fibres of a layer.
@@ -108,7 +152,7 @@ impl<'a> Flyer<'a> {
         spec.check_spreads([sigma_md.mean, sigma_cd.mean])?;
         let fibres = match spec.method {
             Method::Surrogate => Fibres::Surrogate(flown.surrogate(path)?),
-            Method::Dynamics => Fibres::Curves(Arc::clone(&flown.curves)),
+            Method::Dynamics | Method::SharedAir => Fibres::Curves(Arc::clone(&flown.curves)),
         };
         Ok(OfLayer { fibres, flown: Some(flown) })
     }
@@ -125,7 +169,10 @@ impl<'a> Flyer<'a> {
         };
         let replicates = case.run.replicates;
         let mut flown = Ok(());
-        (self.follow)(path, replicates, (&fibre_steps, case.run.steps * replicates), &mut || {
+        let steps = case.run.steps * replicates;
+        let time_step = case.run.time_step;
+        let flights = Flights { path, fibres: replicates, done: &fibre_steps, steps, time_step };
+        (self.follow)(flights, &mut || {
             flown = fly::<Error>(case, Keep::NUMBERS, computing, |_| Ok(()));
         });
         flown?;
@@ -137,7 +184,7 @@ impl<'a> Flyer<'a> {
 impl FlownFibres {
     /// * `path` – of the case or of the results, for messages
     /// * `laid` – all points of each replicate
-    fn of(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Error> {
+    pub(super) fn of(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Error> {
         let nothing = |reason: &str| Error::folder(path, Fault::plain(reason.to_owned()));
         let line = case.line.ok_or_else(|| nothing("its fibre is not fed on to a belt"))?;
         let spacing = case.fibre.rest_length();
@@ -166,7 +213,7 @@ impl FlownFibres {
         let delays = laid.iter().map(|points| points.iter().map(delay).collect());
         let curves = Curves::new(spacing, belt_ratio, places.collect())
             .and_then(|curves| curves.with_delays(delays.collect()))?;
-        let numbers = numbers.map(Estimate::of);
+        let numbers = numbers.map(Estimate::new);
         let correlations: Vec<[&[f64]; 2]> =
             traces.iter().map(|of| [&of.correlation_md[..], &of.correlation_cd[..]]).collect();
         let step = traces.first().map_or(f64::NAN, |of| of.lag_step);
@@ -193,13 +240,41 @@ impl FlownFibres {
     }
 }
 
+impl FlownWeb {
+    /// Pieces of filaments that are still to be laid.
+    ///
+    /// # Errors
+    /// If the web cannot be laid.
+    pub fn pieces(&self) -> Result<u64, Error> {
+        if self.laid.is_some() { Ok(0) } else { pieces(&self.web) }
+    }
+
+    /// Lays the web, unless it has been laid, and looks at it.
+    ///
+    /// # Errors
+    /// If the web cannot be laid, or if it is stopped.
+    pub fn find(&mut self, by: Laying<'_>) -> Result<Findings, Error> {
+        find_laid(&self.web, self.laid.take(), by)
+    }
+
+    /// [`FlownWeb::find`] without the sensitivities, which take as long as the rest.
+    ///
+    /// # Errors
+    /// As [`FlownWeb::find`].
+    pub fn measure(&mut self, by: Laying<'_>) -> Result<Findings, Error> {
+        measure_laid(&self.web, self.laid.take(), by)
+    }
+}
+
 /// The web with the fibres of its layers. Beside flown curves stands their surrogate, and the other way round.
-pub fn to_lay(spec: &WebSpec, layers: &[OfLayer]) -> Web {
+fn to_lay(spec: &WebSpec, layers: &[OfLayer]) -> Web {
     let mut web = spec.web(layers.iter().map(|layer| layer.fibres.clone()));
     for ((layer, of), named) in web.layers.iter_mut().zip(layers).zip(&spec.layers) {
         layer.compared = of.flown.as_ref().and_then(|flown| match spec.method {
             Method::Surrogate => Some(Fibres::Curves(Arc::clone(&flown.curves))),
-            Method::Dynamics => flown.surrogate(named.source.path()).ok().map(Fibres::Surrogate),
+            Method::Dynamics | Method::SharedAir => {
+                flown.surrogate(named.source.path()).ok().map(Fibres::Surrogate)
+            }
         });
     }
     web

@@ -44,7 +44,9 @@ pub static WEB: KeyTable<WebSpec> = KeyTable {
 /// Most filaments of a row, and per metre.
 const MOST_FILAMENTS: u64 = 10_000_000;
 /// How a web can be laid.
-pub(crate) const METHODS: [&str; 2] = ["surrogate", "dynamics"];
+pub(crate) const METHODS: [&str; 3] = ["surrogate", "dynamics", "shared-air"];
+/// The values of [`METHODS`].
+pub(crate) const ALL_METHODS: [Method; 3] = [Method::Surrogate, Method::Dynamics, Method::SharedAir];
 /// What becomes of fibre beyond the edges.
 pub(crate) const EDGES: [&str; 2] = ["periodic", "cut"];
 
@@ -100,7 +102,7 @@ macro_rules! of_row {
         Access {
             get: |web| match &layer(web)?.filaments {
                 Filaments::Rows(rows) => Some(rows.first()?.$field.into()),
-                Filaments::AtRandom { .. } => None,
+                Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
             },
             set: |web, value| match &mut layer_mut(web)?.filaments {
                 Filaments::Rows(rows) => {
@@ -108,7 +110,9 @@ macro_rules! of_row {
                     rows.iter_mut().take(1).for_each(|row| row.$field = value);
                     Ok(())
                 }
-                Filaments::AtRandom { .. } => Err(Fault::needs("line.rows", "leave it out")),
+                Filaments::AtRandom { .. } | Filaments::Slot { .. } => {
+                    Err(Fault::needs("line.rows", "leave it out"))
+                }
             },
         }
     };
@@ -212,18 +216,52 @@ pub const WEB_KEYS: &[WebKey] = &[
         .label("Belt speed"),
     key("line.filaments_per_metre", Kind::Whole(1, MOST_FILAMENTS), Access {
         get: |web| match layer(web)?.filaments {
-            Filaments::AtRandom { per_metre } => Some(Value::Whole(per_metre.round() as u64)),
+            Filaments::AtRandom { per_metre } | Filaments::Slot { per_metre, .. } => {
+                Some(Value::Whole(per_metre.round() as u64))
+            }
             Filaments::Rows(_) => None,
         },
         set: |web, value| {
-            layer_mut(web)?.filaments = Filaments::AtRandom { per_metre: whole(value)? as f64 };
+            let filaments = &mut layer_mut(web)?.filaments;
+            let per_metre = whole(value)? as f64;
+            *filaments = match *filaments {
+                Filaments::Slot { depth, .. } => Filaments::Slot { per_metre, depth },
+                _ => Filaments::AtRandom { per_metre },
+            };
             Ok(())
         },
     })
     .follows("`rows`")
     .varies()
-    .meaning("Number of filaments per metre of width, which come down at random places. The nearest whole number is laid.")
+    .meaning(
+        "Number of filaments per metre of width, which come down at random places, or with `depth` at an even pitch. The nearest whole \
+         number is laid.",
+    )
     .label("Filaments per metre"),
+    quantity("line.depth", Dimension::Length, Sign::NotNegative, Access {
+        get: |web| match layer(web)?.filaments {
+            Filaments::Slot { depth, .. } => Some(depth.into()),
+            _ => None,
+        },
+        set: |web, value| {
+            let filaments = &mut layer_mut(web)?.filaments;
+            *filaments = match *filaments {
+                Filaments::Slot { per_metre, .. } | Filaments::AtRandom { per_metre } => {
+                    Filaments::Slot { per_metre, depth: number(value)? }
+                }
+                Filaments::Rows(_) => return Err(in_rows()),
+            };
+            Ok(())
+        },
+    })
+    .follows("places at random in cross direction, all in the middle of the slot")
+    .meaning(
+        "Size in machine direction of the slot through which the filaments come, with `filaments_per_metre`: they are at an even pitch across \
+         the web, each at a random place of the depth. It changes a web in one air (`web.method = \"shared-air\"`), for filaments that are \
+         deeper in the slot hang in other eddies; elsewhere only the even pitch counts.",
+    )
+    .label("Depth of the slot")
+    .usual(1e-4, 1.0),
     quantity("line.rows.offset", Dimension::Length, Sign::Any, of_row!(offset, number))
         .value("0 mm")
         .meaning(
@@ -242,6 +280,14 @@ pub const WEB_KEYS: &[WebKey] = &[
         .varies()
         .meaning("Number of nozzles in a row.")
         .label("Nozzles of a row"),
+    quantity("line.rows.md", Dimension::Length, Sign::Any, of_row!(md, number))
+        .value("0 mm")
+        .meaning(
+            "Place of the row in machine direction at the inlet, from the middle of the slot. It changes a web in one air \
+             (`web.method = \"shared-air\"`).",
+        )
+        .label("Place of the row in machine direction")
+        .usual(1e-5, 1.0),
     positive("web.width", Dimension::Length, of_sheet!(sheet.width))
         .required("1 m")
         .meaning("Size of the web in cross direction, a whole number of cells.")
@@ -299,24 +345,42 @@ pub const WEB_KEYS: &[WebKey] = &[
     )
     .label("Edges"),
     choose("web.method", || METHODS.to_vec(), Access {
-        get: |web| Some(METHODS[usize::from(web.method == Method::Dynamics)].into()),
+        get: |web| Some(METHODS[web.method as usize].into()),
         set: |web, value| {
-            web.method = named(value, &[Method::Surrogate, Method::Dynamics], |one| METHODS[one as usize])?;
+            web.method = named(value, &ALL_METHODS, |one| METHODS[one as usize])?;
             Ok(())
         },
     })
     .value("surrogate")
     .meaning(
         "What is laid: `surrogate`, paths of the stochastic model, each its own; `dynamics`, the very curves of the flown fibres, \
-         again and again at other places.",
+         again and again at other places; `shared-air`, all filaments of the sheet are flown in one air, so that neighbours hang in the \
+         same gust and come down together. In the first two the filaments are independent of each other, which gives a lower bound of the \
+         unevenness.",
     )
     .label("Method"),
+    positive("web.memory_limit", Dimension::Memory, of_sheet!(memory_limit))
+        .value("4 GB")
+        .fixed()
+        .meaning(
+            "Most memory that the field of eddies may take with `web.method = \"shared-air\"`. A web that needs more is refused before it is flown.",
+        )
+        .label("Memory limit")
+        .usual(1e7, 1e13),
     positive("web.window", Dimension::Length, of_sheet!(window))
         .follows("20 mm, at most the web's smaller side")
         .meaning("Side of the square in the middle of the web whose single fibres are written to a file of polylines.")
         .label("Window")
         .usual(1e-5, 10.0),
 ];
+
+/// The fault of a depth beside rows.
+pub(crate) fn in_rows() -> Fault {
+    Fault::excludes(
+        "line.rows",
+        "rows have places in machine direction of their own, rows.md; keep one of them",
+    )
+}
 
 /// Where the numbers of a surrogate come from if they are left out.
 const IDENTIFIED: &str = "identified in what the fibres of the case have laid";

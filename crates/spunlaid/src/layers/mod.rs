@@ -7,8 +7,9 @@
 mod flown;
 pub(crate) mod keys;
 mod laid;
+mod shared_air;
 
-pub use flown::{FlownFibres, Flyer, Follow, OfLayer, to_lay};
+pub use flown::{Flights, FlownFibres, FlownWeb, Flyer, Follow, OfLayer};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey, place_in_web, web_key};
 pub use laid::{LAID, read as read_laid};
 
@@ -16,7 +17,7 @@ use crate::case::Case;
 use crate::error::{Error, Fault, Finding, Place, Problem};
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
-use crate::web::{Edges, Fibres, Filaments, Layer, Sheet, Web};
+use crate::web::{Edges, Fibres, Filaments, Layer, Sheet, Web, Window};
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -37,6 +38,8 @@ pub struct WebSpec {
     pub method: Method,
     /// Side of the square in the middle of the sheet whose single fibres are written out [m].
     pub window: f64,
+    /// Most memory that the air of a web in one air may take [B].
+    pub memory_limit: f64,
 }
 
 /// What a web is laid of.
@@ -46,6 +49,8 @@ pub enum Method {
     Surrogate,
     /// The curves of the flown fibres.
     Dynamics,
+    /// The curves of all filaments of the sheet, which fly in one air.
+    SharedAir,
 }
 
 /// A layer before its fibres have been flown.
@@ -115,7 +120,7 @@ impl LayerSpec {
     pub(crate) fn unknown(source: LaydownSource) -> Self {
         let nan = f64::NAN;
         let (diameter, density, feed_speed, belt_speed) = (nan, nan, nan, nan);
-        let filaments = Filaments::Rows(Vec::new());
+        let filaments = Filaments::AtRandom { per_metre: nan };
         Self { name: None, diameter, density, source, feed_speed, belt_speed, filaments }
     }
 
@@ -142,12 +147,18 @@ impl WebSpec {
     pub(crate) const fn unknown() -> Self {
         let nan = f64::NAN;
         let sheet = Sheet { width: nan, length: nan, cell: nan, patches: Vec::new(), edges: Edges::Periodic };
-        Self { sheet, layers: Vec::new(), seed: 0, method: Method::Surrogate, window: nan }
+        Self { sheet, layers: Vec::new(), seed: 0, method: Method::Surrogate, window: nan, memory_limit: nan }
     }
 
     /// The web of one of its layers alone.
     pub fn alone(&self, layer: usize) -> Self {
         Self { layers: self.layers.get(layer).cloned().into_iter().collect(), ..self.clone() }
+    }
+
+    /// The square in the middle of the sheet whose single fibres are shown.
+    pub fn window(&self) -> Window {
+        let corner = [self.sheet.width, self.sheet.length].map(|size| 0.5 * (size - self.window));
+        Window { corner, sides: [self.window; 2] }
     }
 
     /// The web, once the fibres of each layer are known, in their order.

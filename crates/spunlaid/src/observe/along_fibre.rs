@@ -25,7 +25,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
     ],
     applies: fixed,
-    observer: |flight| Box::new(Spread::of(flight)),
+    observer: |flight| Box::new(Spread::new(flight)),
 };
 
 const AMPLITUDE: Measure = Measure {
@@ -54,20 +54,21 @@ struct Spread {
 }
 
 impl Spread {
-    fn of(flight: &Flight) -> Self {
+    fn new(flight: &Flight) -> Self {
         let nodes = vec![Default::default(); flight.chain().elements() + 1];
         Self { rest_length: of_each(flight, |case| case.fibre.rest_length()), count: 0.0, nodes }
     }
 }
 
 impl Observer for Spread {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if !seen.settled {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if !observation.settled {
             return;
         }
         self.count += 1.0;
         let share = Lanes::splat(1.0 / self.count);
-        for ((mean, squares), &Vec3 { y, z, .. }) in self.nodes.iter_mut().zip(&seen.snapshot.position) {
+        for ((mean, squares), &Vec3 { y, z, .. }) in self.nodes.iter_mut().zip(&observation.snapshot.position)
+        {
             for ((mean, squares), p) in mean.iter_mut().zip(squares).zip([y, z]) {
                 let off = p - *mean;
                 *mean = *mean + off * share;
@@ -79,7 +80,8 @@ impl Observer for Spread {
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
         let distance: Vec<f64> = (0..self.nodes.len()).map(|i| i as f64 * self.rest_length[lane]).collect();
         let deviation = |squares: &Lanes| (squares.0[lane] / self.count).sqrt();
-        let of = |axis: usize| self.nodes.iter().map(|(_, squares)| deviation(&squares[axis])).collect();
-        vec![Value::Curve(distance.clone(), of(0)), Value::Curve(distance, of(1))]
+        let deviations =
+            |axis: usize| self.nodes.iter().map(|(_, squares)| deviation(&squares[axis])).collect();
+        vec![Value::Curve(distance.clone(), deviations(0)), Value::Curve(distance, deviations(1))]
     }
 }

@@ -51,7 +51,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
     ],
     applies: fed,
-    observer: |flight| Box::new(Way::of(flight)),
+    observer: |flight| Box::new(Way::new(flight)),
 };
 
 /// Sums over the elements in each class of distance.
@@ -63,18 +63,18 @@ struct Way {
 }
 
 impl Way {
-    fn of(flight: &Flight) -> Self {
+    fn new(flight: &Flight) -> Self {
         let distance = of_each(flight, |case| case.line.map_or(f64::NAN, |line| line.distance));
         Self { distance, classes: vec![[[0.0; 3]; CLASSES]; WIDTH] }
     }
 }
 
 impl Observer for Way {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if !seen.settled {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if !observation.settled {
             return;
         }
-        let snapshot = seen.snapshot;
+        let snapshot = observation.snapshot;
         for (lane, classes) in self.classes.iter_mut().enumerate() {
             let elements = snapshot.in_air[lane].min(snapshot.tension.len());
             for (j, tension) in snapshot.tension.iter().enumerate().take(elements) {
@@ -94,10 +94,10 @@ impl Observer for Way {
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
         let classes = &self.classes[lane];
         let at = |i: usize| (i as f64 + 0.5) / CLASSES as f64 * self.distance[lane];
-        let of = |which: usize| {
+        let curve = |which: usize| {
             let places = (0..CLASSES).map(at).collect();
             Value::Curve(places, classes.iter().map(|sums| sums[which] / sums[0]).collect())
         };
-        vec![of(1), of(2)]
+        vec![curve(1), curve(2)]
     }
 }

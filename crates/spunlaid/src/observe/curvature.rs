@@ -32,7 +32,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         series: "rms",
     }],
     applies: fixed,
-    observer: |flight| Box::new(Curvature::of(flight)),
+    observer: |flight| Box::new(Curvature::new(flight)),
 };
 
 /// Sums of squares at the nodes between two elements.
@@ -46,7 +46,7 @@ struct Curvature {
 }
 
 impl Curvature {
-    fn of(flight: &Flight) -> Self {
+    fn new(flight: &Flight) -> Self {
         let squares = vec![Lanes::ZERO; flight.chain().elements().saturating_sub(1)];
         let rest_length = of_each(flight, |case| case.fibre.rest_length());
         Self { isa: flight.isa(), rest_length, count: 0.0, squares }
@@ -54,10 +54,10 @@ impl Curvature {
 }
 
 impl Observer for Curvature {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if seen.settled {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if observation.settled {
             self.count += 1.0;
-            self.isa.run(Turns { position: &seen.snapshot.position, squares: &mut self.squares });
+            self.isa.run(Turns { position: &observation.snapshot.position, squares: &mut self.squares });
         }
     }
 

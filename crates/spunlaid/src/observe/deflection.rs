@@ -68,8 +68,8 @@ impl Deflection {
 }
 
 impl Observer for Deflection {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if let (true, Some(end)) = (observation.settled, observation.snapshot.position.last()) {
             for lane in 0..WIDTH {
                 let (y, z) = (end.y.0[lane], end.z.0[lane]);
                 self.add(lane, (y * y + z * z).sqrt());
@@ -88,10 +88,10 @@ mod tests {
 
     #[test]
     fn analytic_quantile_and_largest_of_known_distances() {
-        let mut seen = Deflection::default();
-        assert_eq!(seen.known(2).map(f64::is_nan), [true; 2]);
-        (0..=1000).for_each(|i| seen.add(2, f64::from(i) * 1e-3));
-        let [most_of_the_time, largest] = seen.known(2);
+        let mut observer = Deflection::default();
+        assert_eq!(observer.known(2).map(f64::is_nan), [true; 2]);
+        (0..=1000).for_each(|i| observer.add(2, f64::from(i) * 1e-3));
+        let [most_of_the_time, largest] = observer.known(2);
         assert!((most_of_the_time - 0.99).abs() < 1e-12);
         assert_eq!(largest, 1.0);
     }

@@ -49,9 +49,9 @@ pub(super) const BALANCE: Declaration = Declaration {
             name: "balance_error",
             column: "balance_error_percent",
             label: "Full balance, typical",
-            meaning: "error of the full energy balance, as a share of the energy that flowed: the works of air, gravity and \
-                      feed that came in, or what is held and went out; median over time, the spin-up included. It would \
-                      reveal a wrong force",
+            meaning: "error of the full energy balance, divided by the energy that flowed: by the work that came \
+                in from air, gravity and feed, or by the energy that is stored and that left; median over time, \
+                the spin-up included. It would reveal a wrong force",
             series: "full balance",
             ..TYPICAL
         },
@@ -82,8 +82,9 @@ pub(super) const DISSIPATION: Declaration = Declaration {
             name: "tension_dissipation",
             column: "tension_dissipation_percent",
             label: "Axial waves damped by the scheme",
-            meaning: "energy that the scheme has taken out of the motion by damping axial waves, as a share of the energy \
-                      that flowed; median over time, the spin-up included. It is no error: the full balance counts it",
+            meaning: "energy that the scheme has taken out of the motion by damping axial waves, divided by the \
+                energy that flowed; median over time, the spin-up included. It is not an error: the full balance \
+                counts it",
             over_replicates: Aggregate::Median,
             series: "typical",
             ..TAKEN_OUT
@@ -153,7 +154,7 @@ const FIGURE: Figure = Figure {
 #[derive(Debug)]
 struct Errors {
     /// The error of a sample [%].
-    of: fn(&Sample) -> f64,
+    error: fn(&Sample) -> f64,
     /// Whether it is drawn over time.
     drawn: bool,
     times: Thinned<f64>,
@@ -167,17 +168,19 @@ struct Errors {
 const DRAWN: usize = 1 << 12;
 
 impl Errors {
-    fn observer(of: fn(&Sample) -> f64, drawn: bool) -> Box<dyn Observer> {
+    fn observer(error: fn(&Sample) -> f64, drawn: bool) -> Box<dyn Observer> {
         let (times, percent) = Default::default();
-        Box::new(Self { of, drawn, times, percent, newest: [f64::NAN; WIDTH] })
+        Box::new(Self { error, drawn, times, percent, newest: [f64::NAN; WIDTH] })
     }
 }
 
 impl Observer for Errors {
-    fn see(&mut self, seen: &Observation<'_>) {
-        self.times.push(seen.snapshot.time);
-        for ((percent, newest), sample) in self.percent.iter_mut().zip(&mut self.newest).zip(seen.samples) {
-            *newest = (self.of)(sample);
+    fn see(&mut self, observation: &Observation<'_>) {
+        self.times.push(observation.snapshot.time);
+        for ((percent, newest), sample) in
+            self.percent.iter_mut().zip(&mut self.newest).zip(observation.samples)
+        {
+            *newest = (self.error)(sample);
             percent.push(*newest);
         }
     }

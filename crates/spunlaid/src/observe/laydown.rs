@@ -1,7 +1,8 @@
 //! The laid fibre: how wide it lies, in which directions, and the surrogate that describes it.
 
 use super::{
-    Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observation, Observer, Unit, Value, fed, of_each,
+    Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observation, Observer, RATIO, Unit, Value, fed,
+    of_each,
 };
 use crate::case::Case;
 use crate::flight::Flight;
@@ -15,7 +16,6 @@ pub const LAYDOWN: Group = Group { name: "laydown", title: "laid fibre" };
 pub const SURROGATE: Group = Group { name: "laydown.surrogate", title: "surrogate of the laid fibre" };
 
 const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
-const RATIO: Unit = Unit { shown: "", per_si: 1.0 };
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
@@ -23,8 +23,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "sigma_md",
             column: "sigma_md_m",
             label: "Spread in machine direction",
-            meaning: "standard deviation of the laid fibre's place about its straight trace, in machine direction. The \
-                      straight trace is what a fibre leaves that comes down at one place",
+            meaning: "standard deviation of the laid fibre's place about its straight trace, in machine direction. \
+                A fibre that came down at one place would leave the straight trace",
             series: "machine direction",
             ..SPREAD
         },
@@ -32,7 +32,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "sigma_cd",
             column: "sigma_cd_m",
             label: "Spread in cross direction",
-            meaning: "likewise in cross direction",
+            meaning: "the same in cross direction",
             series: "cross direction",
             ..SPREAD
         },
@@ -48,14 +48,14 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "half_correlation_length_cd",
             column: "half_correlation_length_cd_m",
             label: "Half correlation length in cross direction",
-            meaning: "likewise in cross direction",
+            meaning: "the same in cross direction",
             series: "cross direction",
             ..HALF_LENGTH
         },
         Measure {
             name: "belt_speed_ratio",
             column: "belt_speed_ratio",
-            label: "Belt speed found in the laid fibre, over the belt’s",
+            label: "Belt speed found from the laid fibre, over the true one",
             meaning: "mean of −d md/ds along the laid fibre, divided by belt speed / feed speed. It is one within its \
                       statistical error, whatever the fibre does",
             figure: &numbers("belt_speed_ratio", "Ratio of belt speeds", "ratio of belt speeds"),
@@ -84,7 +84,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "laid_length",
             column: "laid_length_m",
             label: "Length laid",
-            meaning: "length of fibre that has been laid after the spin-up and that the statistics rest on",
+            meaning: "length of fibre that was laid after the spin-up, from which the statistics are computed",
             unit: METRES,
             figure: &numbers("laid_length", "Length laid", "length laid"),
             ..RATIO_OF
@@ -117,8 +117,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "noise",
             column: "noise_per_sqrt_m",
             label: "Noise A of the surrogate",
-            meaning: "strength of the noise in the direction of the surrogate, from its autocorrelation over lags from 0.5 to \
-                      12 times the spread; not defined where the laid fibre is no random curve",
+            meaning: "strength of the noise in the direction of the surrogate, from its autocorrelation over lags \
+                from 0.5 to 12 times the spread; not defined where the laid fibre is not a random curve",
             unit: Unit { shown: "m^-0.5", per_si: 1.0 },
             group: SURROGATE,
             figure: &numbers("noise", "Noise A of the surrogate", "noise of the surrogate"),
@@ -156,8 +156,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "direction",
             column: "direction",
             label: "Directions of the laid fibre",
-            meaning: "share of the chords of 10 mm in each class of 10 degrees, times the number of classes: one without \
-                      orientation",
+            meaning: "share of the chords of 10 mm in each class of 10 degrees, times the number of classes: it is \
+                one without orientation",
             kind: Kind::Direction,
             group: LAYDOWN,
             figure: &Figure {
@@ -166,14 +166,14 @@ pub(super) const DECLARATION: Declaration = Declaration {
                 words: "directions",
                 logarithmic: false,
                 from_zero: true,
-                caption: "Directions of chords of 10 mm on the belt, in the sense of feed. 0° is the way of the belt’s run, \
-                          against which the laid fibre grows.",
+                caption: "Directions of chords of 10 mm on the belt, in the sense of feed. 0° is the direction in \
+                    which the belt runs; the laid fibre grows in the opposite direction.",
             },
             ..Measure::NUMBER
         },
     ],
     applies: fed,
-    observer: |flight| Box::new(LaidFibres::of(flight)),
+    observer: |flight| Box::new(LaidFibres::new(flight)),
 };
 
 const fn numbers(name: &'static str, title: &'static str, words: &'static str) -> Figure {
@@ -228,7 +228,7 @@ struct LaidFibres {
 }
 
 impl LaidFibres {
-    fn of(flight: &Flight) -> Self {
+    fn new(flight: &Flight) -> Self {
         let traces = (0..WIDTH).filter_map(|lane| flight.case(lane)).map(trace).collect();
         Self { traces, belt_ratio: of_each(flight, belt_ratio), count: 0.0, in_air: [0.0; WIDTH] }
     }
@@ -249,13 +249,13 @@ fn trace(case: &Case) -> Trace {
 }
 
 impl Observer for LaidFibres {
-    fn see(&mut self, seen: &Observation<'_>) {
-        for (trace, laid) in self.traces.iter_mut().zip(seen.laid) {
+    fn see(&mut self, observation: &Observation<'_>) {
+        for (trace, laid) in self.traces.iter_mut().zip(observation.laid) {
             laid.iter().for_each(|point| trace.add(point.md, point.cd));
         }
-        if seen.settled {
+        if observation.settled {
             self.count += 1.0;
-            for (sum, nodes) in self.in_air.iter_mut().zip(seen.snapshot.in_air) {
+            for (sum, nodes) in self.in_air.iter_mut().zip(observation.snapshot.in_air) {
                 *sum += nodes as f64;
             }
         }

@@ -15,6 +15,7 @@ mod end_node;
 mod energy;
 mod flow;
 mod laydown;
+mod neighbours;
 mod residence;
 mod root_tension;
 mod sample;
@@ -42,6 +43,10 @@ pub const DECLARED: &[&Declaration] = &[
     &spectrum::DECLARATION,
     &laydown::DECLARATION,
     &along_way::DECLARATION,
+    &neighbours::FED_CD,
+    &neighbours::FED_MD,
+    &neighbours::FIXED_CD,
+    &neighbours::FIXED_MD,
     &root_tension::DECLARATION,
     &strain::USUAL,
     &strain::LARGEST,
@@ -135,6 +140,8 @@ pub const MILLIMETRES: Unit = Unit { shown: "mm", per_si: 1e3 };
 pub const HERTZ: Unit = Unit { shown: "Hz", per_si: 1.0 };
 /// Millinewtons.
 pub const MILLINEWTONS: Unit = Unit { shown: "mN", per_si: 1e3 };
+/// A plain number.
+pub const RATIO: Unit = Unit { shown: "", per_si: 1.0 };
 /// Per metre.
 pub const PER_METRE: Unit = Unit { shown: "1/m", per_si: 1.0 };
 /// Square millimetres per hertz.
@@ -159,13 +166,15 @@ pub enum Kind {
     Way,
     /// A curve over the length of fibre between two points [m].
     Lag,
+    /// A curve over the distance between the roots of two fibres [m].
+    Neighbour,
     /// A curve over the direction on the belt [degrees], 0 in machine direction.
     Direction,
 }
 
 impl Kind {
     /// The abscissa of the curve: its name with the SI unit in a table, its label on an axis, and its unit.
-    pub const fn over(self) -> Option<(&'static str, &'static str, Unit)> {
+    pub const fn abscissa(self) -> Option<(&'static str, &'static str, Unit)> {
         match self {
             Self::Number => None,
             Self::Profile => Some(("distance_m", "Distance from the root along the fibre", MILLIMETRES)),
@@ -173,6 +182,7 @@ impl Kind {
             Self::Spectrum => Some(("frequency_hz", "Frequency *f*", HERTZ)),
             Self::Way => Some(("distance_m", "Distance from the inlet", MILLIMETRES)),
             Self::Lag => Some(("lag_m", "Length of fibre between two points", MILLIMETRES)),
+            Self::Neighbour => Some(("distance_m", "Distance between the fibres", MILLIMETRES)),
             Self::Direction => {
                 Some(("direction_degrees", "Direction on the belt", Unit { shown: "°", per_si: 1.0 }))
             }
@@ -233,7 +243,7 @@ pub enum Value {
 /// Looks at up to eight fibres while they fly.
 pub trait Observer: std::fmt::Debug + Send {
     /// Receives a recorded instant. The instants come in order and begin with the start.
-    fn see(&mut self, seen: &Observation<'_>);
+    fn see(&mut self, observation: &Observation<'_>);
 
     /// The values of one fibre at the end of the flight, one for each declared measure.
     fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value>;
@@ -248,7 +258,7 @@ impl Observers {
     ///
     /// * `curves` – whether to measure curves too. A study does without; observers of curves alone are then left
     ///   out.
-    pub fn of(flight: &Flight, curves: bool) -> Self {
+    pub fn new(flight: &Flight, curves: bool) -> Self {
         let wanted = |d: &&Declaration| curves || d.measures.iter().any(|m| m.kind == Kind::Number);
         let any = |d: &&Declaration| (0..WIDTH).any(|lane| applies(d, flight, lane));
         let declared = DECLARED.iter().copied().filter(wanted).filter(any);
@@ -256,8 +266,8 @@ impl Observers {
     }
 
     /// Passes a recorded instant to all observers.
-    pub fn see(&mut self, seen: &Observation<'_>) {
-        self.0.iter_mut().for_each(|(_, observer)| observer.see(seen));
+    pub fn see(&mut self, observation: &Observation<'_>) {
+        self.0.iter_mut().for_each(|(_, observer)| observer.see(observation));
     }
 
     /// The measures that apply to one fibre, in the order of their declarations.

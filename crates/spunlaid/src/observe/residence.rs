@@ -40,8 +40,8 @@ const SHARE: f64 = 0.9;
 struct Residence([Thinned<(f64, f64)>; WIDTH]);
 
 impl Observer for Residence {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if let (true, Some(end)) = (observation.settled, observation.snapshot.position.last()) {
             for (lane, places) in self.0.iter_mut().enumerate() {
                 places.push((end.y.0[lane], end.z.0[lane]));
             }

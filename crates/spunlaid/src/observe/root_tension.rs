@@ -55,8 +55,8 @@ struct RootTension {
 }
 
 impl Observer for RootTension {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if let (true, Some(&tension)) = (seen.settled, seen.snapshot.tension.first()) {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if let (true, Some(&tension)) = (observation.settled, observation.snapshot.tension.first()) {
             self.count += 1.0;
             self.sum = self.sum + tension;
             self.peak = Lanes::from_fn(|lane| self.peak.0[lane].max(tension.0[lane]));

@@ -40,7 +40,7 @@ pub struct Sample {
 
 impl Sample {
     /// The sample of the fibre in a lane.
-    pub(crate) fn of(snapshot: &Snapshot, lane: usize) -> Self {
+    pub(crate) fn new(snapshot: &Snapshot, lane: usize) -> Self {
         let e: &Energy = &snapshot.energy;
         let end = snapshot.position.get(snapshot.nodes[lane] - 1);
         Self {

@@ -26,7 +26,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
     ],
     applies: fixed,
-    observer: |flight| Box::new(EndPositions::of(flight)),
+    observer: |flight| Box::new(EndPositions::new(flight)),
 };
 
 const SPECTRUM: Measure = Measure {
@@ -53,7 +53,7 @@ const SEGMENT: usize = 1 << 12;
 struct EndPositions(Vec<[Welch; 2]>);
 
 impl EndPositions {
-    fn of(flight: &Flight) -> Self {
+    fn new(flight: &Flight) -> Self {
         let cases = (0..WIDTH).filter_map(|lane| flight.case(lane));
         Self(cases.map(|case| [welch(&case.run), welch(&case.run)]).collect())
     }
@@ -67,8 +67,8 @@ fn welch(run: &Run) -> Welch {
 }
 
 impl Observer for EndPositions {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if let (true, Some(end)) = (seen.settled, seen.snapshot.position.last()) {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if let (true, Some(end)) = (observation.settled, observation.snapshot.position.last()) {
             for (lane, [y, z]) in self.0.iter_mut().enumerate() {
                 y.push(end.y.0[lane], None);
                 z.push(end.z.0[lane], None);

@@ -15,14 +15,15 @@ pub(super) const USUAL: Declaration = Declaration {
     measures: &[measure(
         "strain_99",
         "Strain, 99 % of the time",
-        "strain of the element at the root that is not exceeded for 99 % of the time after the spin-up. It is averaged \
-         over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over the output interval if \
-         that is longer. It hardly depends on the time step; compare it with the strain that the polymer can take",
+        "strain that the element at the root does not exceed during 99 % of the time after the spin-up. It is \
+         averaged over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over the output \
+         interval if that is longer. It hardly depends on the time step; compare it with the strain that the \
+         polymer can take",
         Aggregate::Mean,
         "99 % of the time",
     )],
     applies: |case| case.fibre.root != Root::Free,
-    observer: |flight| Box::new(Averaged::of(flight)),
+    observer: |flight| Box::new(Averaged::new(flight)),
 };
 
 /// The extreme.
@@ -72,14 +73,14 @@ struct Averaged {
 }
 
 impl Averaged {
-    fn of(flight: &Flight) -> Self {
+    fn new(flight: &Flight) -> Self {
         let intervals =
             of_each(flight, |case| (case.fibre.axial_period() / case.run.output_interval()).round());
         // More intervals than the run has mean the whole run.
-        Self::over(intervals.map(|intervals| intervals.clamp(1.0, 1e15) as usize))
+        Self::over_intervals(intervals.map(|intervals| intervals.clamp(1.0, 1e15) as usize))
     }
 
-    fn over(intervals: [usize; WIDTH]) -> Self {
+    fn over_intervals(intervals: [usize; WIDTH]) -> Self {
         Self { intervals, first: None, last: VecDeque::new(), means: Default::default() }
     }
 
@@ -113,9 +114,9 @@ fn mean((from, before): &(f64, Lanes), (to, after): &(f64, Lanes), lane: usize) 
 }
 
 impl Observer for Averaged {
-    fn see(&mut self, seen: &Observation<'_>) {
-        if seen.settled {
-            self.add(seen.snapshot.time, seen.snapshot.root_strain_integral);
+    fn see(&mut self, observation: &Observation<'_>) {
+        if observation.settled {
+            self.add(observation.snapshot.time, observation.snapshot.root_strain_integral);
         }
     }
 
@@ -129,8 +130,8 @@ impl Observer for Averaged {
 struct Largest(Lanes);
 
 impl Observer for Largest {
-    fn see(&mut self, seen: &Observation<'_>) {
-        let now = seen.snapshot.energy.strain;
+    fn see(&mut self, observation: &Observation<'_>) {
+        let now = observation.snapshot.energy.strain;
         self.0 = Lanes::from_fn(|lane| self.0.0[lane].max(now.0[lane]));
     }
 
@@ -155,7 +156,7 @@ mod tests {
         let found = |intervals, integrals: &[(f64, Lanes)]| {
             // The other fibres average over other times.
             let mut averaged =
-                Averaged::over(std::array::from_fn(|lane| if lane == 3 { intervals } else { 7 }));
+                Averaged::over_intervals(std::array::from_fn(|lane| if lane == 3 { intervals } else { 7 }));
             integrals.iter().for_each(|(time, integral)| averaged.add(*time, *integral));
             averaged.usual(3)
         };

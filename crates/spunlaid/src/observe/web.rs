@@ -56,7 +56,7 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
             name: "cv_#_mm_one_fibre",
             column: "cv_#_mm_one_fibre",
             label: "CV from single fibres, # mm",
-            meaning: "coefficient of variation that is expected of independent filaments, from single fibres",
+            meaning: "coefficient of variation that is expected for independent filaments, from single fibres",
             figure: &ONE_FIBRE,
             series: "# mm",
             ..SHARE
@@ -70,7 +70,7 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
             name: "cv_#_mm_flown",
             column: "cv_#_mm_flown",
             label: "CV from the flown curves, # mm",
-            meaning: "coefficient of variation that the flown curves let expect",
+            meaning: "coefficient of variation that is expected from the flown curves",
             figure: &FLOWN,
             series: "# mm",
             ..SHARE
@@ -98,7 +98,8 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
             name: "cv_#_mm_chance",
             column: "cv_#_mm_chance",
             label: "Error of the CV by chance, # mm",
-            meaning: "standard error of the coefficient of variation of one map: another piece of the same web has another",
+            meaning: "standard error of the coefficient of variation of one map: another piece of the same web \
+                would have another coefficient",
             ..SHARE
         },
         number: |patch| patch.map.standard_error.unwrap_or(f64::NAN),
@@ -110,7 +111,7 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
             name: "cv_#_mm_few_fibres",
             column: "cv_#_mm_few_fibres",
             label: "Error of the CV by the few fibres, # mm",
-            meaning: "standard error of the coefficient of variation by the fibres that were flown, which are few",
+            meaning: "standard error of the coefficient of variation because only a few fibres were flown",
             ..SHARE
         },
         number: |patch| patch.whole_error().flight.unwrap_or(f64::NAN),
@@ -122,7 +123,8 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
             name: "cv_#_mm_model",
             column: "cv_#_mm_model",
             label: "Error of the CV by the model, # mm",
-            meaning: "how far the coefficient of variation is from that of the flown curves, by the surrogate",
+            meaning: "error of the coefficient of variation because of the surrogate: its difference from that of \
+                the flown curves",
             ..SHARE
         },
         number: |patch| patch.whole_error().model.unwrap_or(f64::NAN),
@@ -134,7 +136,7 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
             name: "cv_#_mm_flown_error",
             column: "cv_#_mm_flown_error",
             label: "Error of the flown CV, # mm",
-            meaning: "standard error of the coefficient of variation that the flown curves let expect",
+            meaning: "standard error of the coefficient of variation that is expected from the flown curves",
             ..SHARE
         },
         number: |patch| patch.flown.map_or(f64::NAN, |(_, error)| error),
@@ -232,8 +234,8 @@ const fn figure(name: &'static str, title: &'static str, words: &'static str) ->
 }
 
 const CV: Figure = figure("cv", "Unevenness of the web, CV", "CV of the web");
-const ONE_FIBRE: Figure = figure("cv_one_fibre", "CV that single fibres let expect", "expected CV");
-const FLOWN: Figure = figure("cv_flown", "CV that the flown curves let expect", "CV of the flown curves");
+const ONE_FIBRE: Figure = figure("cv_one_fibre", "CV expected from single fibres", "expected CV");
+const FLOWN: Figure = figure("cv_flown", "CV expected from the flown curves", "CV of the flown curves");
 const STRAIGHT: Figure = figure("cv_straight_fibres", "CV of straight fibres", "CV of straight fibres");
 
 /// σ_MD and σ_CD [m] and A [m^-½] of the surrogate of the first layer; NaN without one.

@@ -33,7 +33,7 @@ impl Verdict {
         }
     }
 
-    fn of(holds: bool) -> Self {
+    fn new(holds: bool) -> Self {
         if holds { Self::Holds } else { Self::Fails }
     }
 }
@@ -112,23 +112,23 @@ pub fn claims_of_step_errors(errors: &[(f64, f64, f64)]) -> Vec<Claim> {
             figure: "8b",
             claim: "A time step of 1 µs gives an error of less than 1 %.",
             evidence: format!("{last:.4} % at the end, {median:.4} % in the median over time"),
-            verdict: Verdict::of(last < 1.0 && median < 1.0),
+            verdict: Verdict::new(last < 1.0 && median < 1.0),
         },
         Claim {
             figure: "8b",
             claim: "The error falls with the time step, in proportion.",
             evidence: format!("median error ∝ h^{order:.2} over {} steps", errors.len()),
-            verdict: Verdict::of((order - 1.0).abs() < 0.2),
+            verdict: Verdict::new((order - 1.0).abs() < 0.2),
         },
     ]
 }
 
 /// The mean of y and z with its error, in units of `1/scale`. None if a point has no error.
-fn spots(points: &[TrendPoint], of: fn(&TrendPoint) -> Both, scale: f64) -> Option<Vec<Spot>> {
+fn spots(points: &[TrendPoint], quantity: fn(&TrendPoint) -> Both, scale: f64) -> Option<Vec<Spot>> {
     points
         .iter()
         .map(|point| {
-            let [(y, y_error), (z, z_error)] = of(point);
+            let [(y, y_error), (z, z_error)] = quantity(point);
             let error = y_error?.hypot(z_error?) / 2.0 * scale;
             Some(Spot { x: point.value, y: (y + z) / 2.0 * scale, error })
         })
@@ -200,10 +200,10 @@ fn thicker(spots: &[Spot]) -> (String, Verdict) {
         "{:.2} ± {:.2} mm at 18 µm, {:.2} ± {:.2} mm at 200 µm",
         thin.y, thin.error, thick.y, thick.error
     );
-    let by = significance(thin, thick);
-    let verdict = if by > REAL {
+    let difference = significance(thin, thick);
+    let verdict = if difference > REAL {
         Verdict::Holds
-    } else if by < -REAL {
+    } else if difference < -REAL {
         Verdict::Fails
     } else {
         Verdict::Open
@@ -226,15 +226,15 @@ fn sigmoid(spots: &[Spot]) -> (String, Verdict) {
         middle(steepest),
         per(last)
     );
-    let over = |end: (f64, f64)| (most.0 - end.0) / most.1.hypot(end.1);
-    let verdict = if over(first) > 2.0 && over(last) > 2.0 {
+    let significance_over = |end: (f64, f64)| (most.0 - end.0) / most.1.hypot(end.1);
+    let verdict = if significance_over(first) > 2.0 && significance_over(last) > 2.0 {
         Verdict::Holds
     } else if steepest > 0 && steepest + 1 < slopes.len() {
         Verdict::Open
     } else {
         // A point of inflection between the last two points cannot be seen.
         let end = if steepest == 0 { last } else { first };
-        if over(end) > 2.0 { Verdict::Fails } else { Verdict::Open }
+        if significance_over(end) > 2.0 { Verdict::Fails } else { Verdict::Open }
     };
     (evidence, verdict)
 }
@@ -244,17 +244,17 @@ mod tests {
     use super::*;
     use crate::study::Point;
 
-    fn points(parameter: Parameter, of: impl Fn(f64) -> f64) -> Vec<TrendPoint> {
+    fn points(parameter: Parameter, law: impl Fn(f64) -> f64) -> Vec<TrendPoint> {
         let point = |point: &Point| {
             let value = point.values[0];
-            let amplitude = [(of(value), Some(0.01 * of(value).abs())); 2];
+            let amplitude = [(law(value), Some(0.01 * law(value).abs())); 2];
             TrendPoint { value, amplitude, frequency: amplitude, n: 10 }
         };
         parameter.study().unwrap().points.iter().map(point).collect()
     }
 
-    fn verdicts(parameter: Parameter, of: impl Fn(f64) -> f64) -> Vec<Verdict> {
-        claims_of_trend(parameter, &points(parameter, of)).iter().map(|c| c.verdict).collect()
+    fn verdicts(parameter: Parameter, law: impl Fn(f64) -> f64) -> Vec<Verdict> {
+        claims_of_trend(parameter, &points(parameter, law)).iter().map(|c| c.verdict).collect()
     }
 
     #[test]

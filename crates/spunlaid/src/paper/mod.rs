@@ -169,12 +169,12 @@ pub struct TrendPoint {
 
 impl TrendPoint {
     /// Takes the values from the results of a study's point.
-    pub fn of(value: f64, results: &PointResults) -> Self {
-        let of = |name| results.of(name).unwrap_or((f64::NAN, None));
+    pub fn new(value: f64, results: &PointResults) -> Self {
+        let measure = |name| results.of(name).unwrap_or((f64::NAN, None));
         Self {
             value,
-            amplitude: ["amplitude_y", "amplitude_z"].map(of),
-            frequency: ["frequency_y", "frequency_z"].map(of),
+            amplitude: ["amplitude_y", "amplitude_z"].map(measure),
+            frequency: ["frequency_y", "frequency_z"].map(measure),
             n: results.n,
         }
     }

@@ -4,7 +4,7 @@ use super::doubts::{BLOCK_TIMES, BLOCKS, warnings};
 use super::flat::FlatPart;
 use super::interval::{Interval, error};
 use super::jackknife::{Blocks, Estimates};
-use super::{Autocorrelation, IntegralRule, Moments, Record, Samples, Trend, Warning};
+use super::{Autocorrelation, IntegralRule, Moments, Record, Samples, Trend};
 use crate::error::{Fault, FileError};
 use crate::statistics::{Spectrum, Welch, Window};
 use crate::units::{Dimension, shortest};
@@ -77,7 +77,7 @@ pub struct Analysis {
     /// Number of blocks of the jackknife.
     pub blocks: usize,
     /// Warnings about the record and the results.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Fault>,
 }
 
 /// The results of one component.
@@ -162,7 +162,8 @@ pub(crate) fn analyse_fluctuation(record: &Record, settings: &Settings) -> Resul
             (autocorrelation.integral_time().max(0.5 * interval), autocorrelation)
         })
         .collect();
-    let block_time = rough.iter().map(|(time, of)| block_time(*time, of)).fold(interval, f64::max);
+    let block_time =
+        rough.iter().map(|(time, correlation)| block_time(*time, correlation)).fold(interval, f64::max);
     let count = ((record.duration() / block_time) as usize).clamp(BLOCKS.0, BLOCKS.1);
     let blocks: Vec<Range<usize>> =
         (0..count).map(|b| b * samples / count..(b + 1) * samples / count).collect();
@@ -171,14 +172,14 @@ pub(crate) fn analyse_fluctuation(record: &Record, settings: &Settings) -> Resul
     let short = wanted_segment(longest / interval) > longest_segment(record) / 4;
 
     let summed: Vec<Blocks> = (record.components.iter().zip(&rough))
-        .map(|(component, (_, of))| {
+        .map(|(component, (_, correlation))| {
             // Enough lags for the estimates with a block left out, and for a figure.
-            let most = (4.0 * of.limit / interval) as usize + 16;
-            Blocks::of(&component.values, &blocks, most.min(longest_lag(samples)))
+            let most = (4.0 * correlation.limit / interval) as usize + 16;
+            Blocks::new(&component.values, &blocks, most.min(longest_lag(samples)))
         })
         .collect();
     let estimates: Vec<Estimates> =
-        (summed.iter()).map(|sums| Estimates::of(sums, count, interval, settings.integral)).collect();
+        (summed.iter()).map(|sums| Estimates::new(sums, count, interval, settings.integral)).collect();
     let components: Vec<Component> = (record.components.iter().zip(&estimates).zip(&summed))
         .map(|((samples, estimates), sums)| {
             component(samples, record, estimates, sums, (segment, short), settings)
@@ -233,14 +234,14 @@ fn check(record: &Record, settings: &Settings) -> Result<(), FileError> {
                 Some(name),
                 Fault::new(
                     format!(
-                        "holds numbers as large as {} m/s, which cannot be computed with",
+                        "holds values as large as {} m/s, which are too large to compute with",
                         shortest(value)
                     ),
                     "is the unit right?",
                 ),
             ));
         }
-        let Moments { mean, rms, .. } = Moments::of(values);
+        let Moments { mean, rms, .. } = Moments::new(values);
         if rms <= 1e-12 * mean.abs() || rms < 1.0 / LARGEST {
             return Err(refuse(
                 record,
@@ -313,7 +314,7 @@ fn segment(record: &Record, integral_time: f64, settings: &Settings) -> Result<u
                 record,
                 None,
                 Fault::new(
-                    format!("a segment of {asked} samples is not possible"),
+                    format!("a segment cannot have {asked} samples"),
                     format!("write a power of two from 8 to {most}, like {advice}"),
                 )
                 .option("--segment"),
@@ -358,10 +359,10 @@ fn component(
     let flat = if short {
         FlatPart::of_short(&samples.values, record.interval, (mean, variance), settings.flat_until, time)
     } else {
-        FlatPart::of(&spectrum, variance, settings.flat_until, time, record.duration())
+        FlatPart::new(&spectrum, variance, settings.flat_until, time, record.duration())
     };
-    let of_blocks = |of: fn(&Moments) -> f64| -> Vec<f64> {
-        sums.powers.iter().map(|powers| of(&powers.moments(sums.reference))).collect()
+    let of_blocks = |moment: fn(&Moments) -> f64| -> Vec<f64> {
+        sums.powers.iter().map(|powers| moment(&powers.moments(sums.reference))).collect()
     };
     let (least, most) =
         samples.values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
@@ -375,23 +376,23 @@ fn component(
         autocorrelation: estimates.autocorrelation.clone(),
         spectrum,
         flat,
-        mean_trend: Trend::of(&of_blocks(|m| m.mean)),
-        rms_trend: Trend::of(&of_blocks(|m| m.rms)),
+        mean_trend: Trend::new(&of_blocks(|m| m.mean)),
+        rms_trend: Trend::new(&of_blocks(|m| m.rms)),
         range: (least, most),
     }
 }
 
 /// Turbulence intensity and length scale; both need the mean velocity.
 fn together(estimates: &[Estimates], mean_velocity: Option<f64>) -> (Interval, Interval) {
-    let of = |pick: &dyn Fn(&Estimates) -> (Moments, f64)| {
+    let found = |pick: &dyn Fn(&Estimates) -> (Moments, f64)| {
         let along = pick(&estimates[0]);
         let velocity = mean_velocity.unwrap_or(along.0.mean).abs();
         let squares: f64 = estimates.iter().map(|e| pick(e).0.rms * pick(e).0.rms).sum();
         ((squares / estimates.len() as f64).sqrt() / velocity, along.1 * velocity)
     };
-    let whole = of(&|e| (e.moments, e.autocorrelation.integral_time()));
+    let whole = found(&|e| (e.moments, e.autocorrelation.integral_time()));
     let blocks = estimates[0].left_out.len();
-    let (intensities, lengths): (Vec<f64>, Vec<f64>) = (0..blocks).map(|b| of(&|e| e.left_out[b])).unzip();
+    let (intensities, lengths): (Vec<f64>, Vec<f64>) = (0..blocks).map(|b| found(&|e| e.left_out[b])).unzip();
     (Interval::jackknife(whole.0, &intensities, true), Interval::jackknife(whole.1, &lengths, true))
 }
 
@@ -405,5 +406,5 @@ pub(super) fn too_few_samples(found: usize, least: usize) -> Fault {
 
 /// The fault of a sampling rate [Hz] that is not above zero.
 pub(super) fn rate_fault(rate: f64) -> Fault {
-    Fault::new(format!("a sampling rate of {} Hz is not possible", shortest(rate)), "give a rate above zero")
+    Fault::new(format!("the sampling rate cannot be {} Hz", shortest(rate)), "give a rate above zero")
 }

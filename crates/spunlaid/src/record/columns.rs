@@ -68,8 +68,9 @@ pub(super) fn roles(heads: &[Head], named: bool, layout: &Layout) -> Result<Role
     }
     for (n, &i) in chosen.iter().enumerate() {
         if chosen[..n].contains(&i) || time == Some(i) {
-            return Err(FileError::from(Fault::new("is asked for twice", "name each column once"))
-                .column(&heads[i].text));
+            return Err(
+                FileError::from(Fault::new("is named twice", "name each column once")).column(&heads[i].text)
+            );
         }
     }
     if layout.columns.is_empty() {
@@ -129,9 +130,9 @@ fn find_velocities(heads: &[Head], named: bool, time: Option<usize>) -> Vec<usiz
 /// Finds a column by its header, its name without the unit, or its number.
 fn find(heads: &[Head], asked: &str) -> Result<usize, FileError> {
     let asked = asked.trim();
-    let by = |same: &dyn Fn(&Head) -> bool| heads.iter().position(same);
-    by(&|head| head.text == asked)
-        .or_else(|| by(&|head| head.name.eq_ignore_ascii_case(asked)))
+    let position = |same: &dyn Fn(&Head) -> bool| heads.iter().position(same);
+    position(&|head| head.text == asked)
+        .or_else(|| position(&|head| head.name.eq_ignore_ascii_case(asked)))
         .or_else(|| asked.parse().ok().and_then(|n: usize| n.checked_sub(1)).filter(|i| *i < heads.len()))
         .ok_or_else(|| {
             Fault::new(

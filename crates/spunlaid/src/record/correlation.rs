@@ -114,9 +114,9 @@ pub(super) fn lagged_products(
             std::array::from_fn(|lane| eight.get(lane).map_or(0..0, |(_, range)| range.clone()));
         let mut data: Vec<Complex> = (0..size)
             .map(|t| {
-                let there = |i: usize, most: usize| i < eight.len() && t < most;
+                let is_sample = |i: usize, most: usize| i < eight.len() && t < most;
                 let at = |i: usize, most: usize| {
-                    if there(i, most) { difference(piece[i].start + t) } else { 0.0 }
+                    if is_sample(i, most) { difference(piece[i].start + t) } else { 0.0 }
                 };
                 Complex { re: Lanes::from_fn(|i| at(i, piece[i].len())), im: Lanes::from_fn(|i| at(i, size)) }
             })
@@ -167,12 +167,12 @@ mod tests {
             assert!((found - wanted).abs() < 1e-14, "{coefficients:?}");
         }
         // Zero at 1 + 0.4/1.2; the integral 0.7 + ½ · 0.4 · ⅓.
-        let of = Autocorrelation::new(coefficients.clone(), 0.5, IntegralRule::FirstZero);
-        assert!((of.limit - 0.5 * 4.0 / 3.0).abs() < 1e-14 && of.limit_found);
-        assert!((of.integral_time() - 0.5 * (0.7 + 0.2 / 3.0)).abs() < 1e-14);
+        let found = Autocorrelation::new(coefficients.clone(), 0.5, IntegralRule::FirstZero);
+        assert!((found.limit - 0.5 * 4.0 / 3.0).abs() < 1e-14 && found.limit_found);
+        assert!((found.integral_time() - 0.5 * (0.7 + 0.2 / 3.0)).abs() < 1e-14);
         // To a lag of one and a half samples: 0.7 + ½ (0.4 − 0.2)/2.
-        let of = Autocorrelation::new(coefficients, 0.5, IntegralRule::Fixed(0.75));
-        assert!((of.integral_time() - 0.5 * 0.75).abs() < 1e-14);
+        let found = Autocorrelation::new(coefficients, 0.5, IntegralRule::Fixed(0.75));
+        assert!((found.integral_time() - 0.5 * 0.75).abs() < 1e-14);
     }
 
     #[test]

@@ -1,7 +1,9 @@
 //! What makes a record or its results doubtful.
 
-use super::{Analysis, Component, Record, Warning};
+use super::{Analysis, Component, Interval, Record, Trend};
+use crate::error::Fault;
 use crate::statistics::median;
+use crate::units::{Dimension, shortest};
 
 /// Fewest and most blocks of a record.
 pub(super) const BLOCKS: (usize, usize) = (8, 64);
@@ -13,95 +15,218 @@ const OUTLIER: f64 = 12.0;
 /// Largest number of samples that are sorted to find the median.
 const MOST_RANKED: usize = 1 << 16;
 
-/// All warnings about a record and its analysis.
-pub(super) fn warnings(record: &Record, analysis: &Analysis) -> Vec<Warning> {
-    let mut found = Vec::new();
+/// All warnings about a record and its analysis, with what to do about each.
+pub(super) fn warnings(record: &Record, analysis: &Analysis) -> Vec<Fault> {
+    let mut warnings = Vec::new();
     let numbers = (record.samples() * record.components.len()) as f64;
     let share = record.reading.filled as f64 / numbers;
     if share > 0.001 {
-        found.push(Warning::Filled { share });
+        let share = number(100.0 * share);
+        let message = format!("{share} % of the samples were missing; they were interpolated linearly");
+        warnings.push(Fault::plain(message));
     }
     let longest = analysis.components.iter().map(Component::block_time).fold(0.0, f64::max);
     if analysis.duration < BLOCKS.0 as f64 * longest {
-        let integral_time = analysis.integral_time.value;
-        let (integral_times, wanted) = (analysis.duration / integral_time, BLOCKS.0 as f64 * longest);
-        found.push(Warning::TooShort { integral_times, wanted });
+        let count = number(analysis.duration / analysis.integral_time.value);
+        warnings.push(Fault::new(
+            format!(
+                "the record lasts only {count} integral times, so the confidence intervals are uncertain"
+            ),
+            format!("measure for {} or longer", time(BLOCKS.0 as f64 * longest)),
+        ));
     }
     for (component, samples) in analysis.components.iter().zip(&record.components) {
-        if let Some((sample, deviations, count)) = outlier(&samples.values) {
-            found.push(Warning::Outlier {
-                component: component.name.clone(),
-                row: record.reading.cut_off_start + sample + 1,
-                time: sample as f64 * analysis.interval,
-                value: samples.values[sample],
-                deviations,
-                samples: count,
-            });
-        }
-        of_component(component, &samples.values, analysis.interval, &mut found);
+        let faults = [
+            spike(&samples.values, record.reading.cut_off_start, analysis.interval),
+            level(component),
+            clipping(&samples.values),
+            spectrum(component, analysis.interval),
+        ];
+        warnings.extend(faults.into_iter().flatten().map(|fault| Fault {
+            message: format!("{}: {}", component.name, fault.message).into(),
+            ..fault
+        }));
     }
     let intensity = analysis.turbulence_intensity.value;
     if intensity > 0.3 {
-        found.push(Warning::Turbulent { intensity });
+        warnings.push(Fault::plain(format!(
+            "with a turbulence intensity of {} the length scale by Taylor’s hypothesis is only an estimate, and a \
+             single hot wire does not measure reversed flow",
+            number(intensity)
+        )));
     }
     for component in analysis.components.iter().skip(1) {
         let slope = component.mean.value.abs() / analysis.mean_velocity.value.abs();
         if slope > 0.05 {
-            let degrees = libm::atan(slope).to_degrees();
-            found.push(Warning::Misaligned { component: component.name.clone(), degrees });
+            let (name, angle) = (&component.name, number(libm::atan(slope).to_degrees()));
+            let message = format!("{name}: the mean flow is inclined by {angle}° in this direction");
+            warnings.push(Fault::new(message, "is the probe aligned?"));
         }
     }
     let rms = || analysis.components.iter().map(|c| c.rms.value);
     let ratio = rms().fold(f64::INFINITY, f64::min) / rms().fold(0.0, f64::max);
     if ratio < 0.8 {
-        found.push(Warning::Anisotropic { ratio });
+        warnings.push(Fault::plain(format!(
+            "the smallest rms of the components is {} of the largest; the simulated turbulence is isotropic and has \
+             the mean of their energies",
+            number(ratio)
+        )));
     }
-    found
+    warnings
 }
 
-fn of_component(of: &Component, values: &[f64], interval: f64, found: &mut Vec<Warning>) {
-    let component = || of.name.clone();
-    if !of.autocorrelation.limit_found {
-        found.push(Warning::NoLimit { component: component(), lag: of.autocorrelation.limit });
+fn time(seconds: f64) -> String {
+    Dimension::Time.pretty_to(seconds, 3)
+}
+
+fn hertz(frequency: f64) -> String {
+    Dimension::Frequency.pretty_to(frequency, 3)
+}
+
+fn number(value: f64) -> String {
+    shortest(format!("{value:.2e}").parse().unwrap_or(value))
+}
+
+/// A sample that is far from all others.
+///
+/// * `missing` – rows of the data before the first sample
+fn spike(values: &[f64], missing: usize, interval: f64) -> Vec<Fault> {
+    let Some((sample, deviations, count)) = outlier(values) else {
+        return Vec::new();
+    };
+    let others = if count > 1 { format!(", the farthest of {count} outliers") } else { String::new() };
+    vec![Fault::new(
+        format!(
+            "{} m/s in data row {} (at {}) is {} standard deviations from the median{others}; such a spike is not \
+             turbulence and spoils every result",
+            number(values[sample]),
+            missing + sample + 1,
+            time(sample as f64 * interval),
+            number(deviations)
+        ),
+        "leave the cell empty and run the analysis again",
+    )]
+}
+
+/// Whether the mean and the rms stay the same over the record, and whether the autocorrelation falls far enough.
+fn level(component: &Component) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let autocorrelation = &component.autocorrelation;
+    if !autocorrelation.limit_found {
+        let lag = time(autocorrelation.limit);
+        faults.push(Fault::new(
+            format!(
+                "the autocorrelation does not fall far enough within {lag}, so the integral time is a lower bound"
+            ),
+            "remove the drift or measure for longer",
+        ));
     }
-    let rms = of.rms.value;
-    if of.mean_trend.significant && of.mean_trend.change.value.abs() > 0.1 * rms {
-        found.push(Warning::MeanDrifts { component: component(), change: of.mean_trend.change, rms });
+    let rms = component.rms.value;
+    let drifts = |trend: &Trend| trend.significant && trend.change.value.abs() > 0.1 * rms;
+    let change = |Interval { value, low, high }: Interval| {
+        format!("{} ± {} m/s over the record", number(value), number(0.5 * (high - low)))
+    };
+    if drifts(&component.mean_trend) {
+        let drift = component.mean_trend.change;
+        faults.push(Fault::new(
+            format!(
+                "the mean drifts by {} ({} of the rms), which makes the integral time and the plateau too large",
+                change(drift),
+                number(drift.value.abs() / rms)
+            ),
+            "remove the drift or cut the record",
+        ));
     }
-    if of.rms_trend.significant && of.rms_trend.change.value.abs() > 0.1 * rms {
-        found.push(Warning::RmsDrifts { component: component(), change: of.rms_trend.change, rms });
+    if drifts(&component.rms_trend) {
+        let drift = change(component.rms_trend.change);
+        let message =
+            format!("the rms drifts by {drift} (mean {} m/s): the flow was not steady", number(rms));
+        faults.push(Fault::plain(message));
     }
-    for sign in [1.0, -1.0] {
-        if let Some((samples, at)) = clipped(values, sign) {
-            found.push(Warning::Clipped { component: component(), samples, at });
-        }
-    }
-    let top = of.spectrum.density.len().div_ceil(10);
-    let end = &of.spectrum.density[of.spectrum.density.len() - top..];
-    let share = end.iter().sum::<f64>() / top as f64 / of.flat.density.value;
+    faults
+}
+
+fn clipping(values: &[f64]) -> Vec<Fault> {
+    let clipped = [1.0, -1.0].into_iter().filter_map(|sign| clipped(values, sign));
+    let fault = |(samples, extreme)| {
+        Fault::new(
+            format!(
+                "{samples} samples are all {} m/s, the extreme of the record: the instrument seems to clip at this \
+                 value, which makes the rms too small",
+                number(extreme)
+            ),
+            "measure with a wider range",
+        )
+    };
+    clipped.map(fault).collect()
+}
+
+/// Whether the spectrum is that of turbulence, and whether it is resolved.
+fn spectrum(component: &Component, interval: f64) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let (spectrum, flat) = (&component.spectrum, &component.flat);
+    let top = spectrum.density.len().div_ceil(10);
+    let end = &spectrum.density[spectrum.density.len() - top..];
+    let share = end.iter().sum::<f64>() / top as f64 / flat.density.value;
     if share > 0.05 {
-        found.push(Warning::Aliased { component: component(), share, highest: of.spectrum.highest() });
+        faults.push(Fault::new(
+            format!(
+                "at half the sampling rate, {}, the spectrum is still {} of its plateau: higher frequencies are \
+                 aliased into it",
+                hertz(spectrum.highest()),
+                number(share)
+            ),
+            "sample faster, or use a low-pass filter before sampling",
+        ));
     }
-    let integral_time = of.integral_time.value;
+    let integral_time = component.integral_time.value;
     if integral_time < 2.0 * interval {
-        found.push(Warning::Unresolved { component: component(), integral_time, interval });
+        faults.push(Fault::new(
+            format!(
+                "the integral time of {} is hardly longer than the {} between samples, so the samples are nearly \
+                 uncorrelated",
+                time(integral_time),
+                time(interval)
+            ),
+            "sample faster",
+        ));
     }
-    let tone = tone(&of.spectrum.density);
+    let tone = tone(&spectrum.density);
     if let Some((entry, share)) = tone {
-        let frequency = of.spectrum.frequency(entry);
-        found.push(Warning::Periodic { component: component(), frequency, share });
+        faults.push(Fault::plain(format!(
+            "{} % of the variance is at one frequency, {}: this is a tone (shed vortices, a fan, the mains) and not \
+             turbulence",
+            number(100.0 * share),
+            hertz(spectrum.frequency(entry))
+        )));
     }
-    if of.flat.coarse {
-        let (until, cutoff) = (of.flat.until, of.flat.cutoff.value);
-        found.push(Warning::CoarseSpectrum { component: component(), until, cutoff });
+    if flat.coarse {
+        faults.push(Fault::new(
+            format!(
+                "the plateau is the mean of the spectrum up to {}, but the cut-off is {}; the spectrum may not be flat \
+                 up to there",
+                hertz(flat.until),
+                hertz(flat.cutoff.value)
+            ),
+            "measure for longer, or use longer segments",
+        ));
     }
     // More than both errors explain, and more than the systematic difference of the rules.
-    let plateau = of.flat.integral_time();
-    let apart = libm::log(plateau / integral_time).abs();
-    let either = of.flat.cutoff.relative().hypot(of.integral_time.relative());
-    if tone.is_none() && !of.flat.coarse && apart > 1.5 * either && apart > 0.1 {
-        found.push(Warning::TimesDiffer { component: component(), autocorrelation: integral_time, plateau });
+    let plateau = flat.integral_time();
+    let difference = libm::log(plateau / integral_time).abs();
+    let error = flat.cutoff.relative().hypot(component.integral_time.relative());
+    if tone.is_none() && !flat.coarse && difference > 1.5 * error && difference > 0.1 {
+        faults.push(Fault::new(
+            format!(
+                "the integral time is {} by the autocorrelation and {} by the plateau of the spectrum: either the \
+                 autocorrelation becomes negative or the record drifts",
+                time(integral_time),
+                time(plateau)
+            ),
+            "look at both figures",
+        ));
     }
+    faults
 }
 
 /// The sample farthest off the others, its distance in standard deviations, and the number of such samples. Resolved
@@ -149,10 +274,10 @@ fn tone(density: &[f64]) -> Option<(usize, f64)> {
     let mean = |side: &[f64]| side.iter().sum::<f64>() / side.len() as f64;
     let level =
         [below, above].iter().filter(|side| !side.is_empty()).map(|side| mean(side)).fold(0.0, f64::max);
-    let seen = peak > 2;
+    let is_resolved = peak > 2;
     let line: f64 = near(peak.saturating_sub(2), peak + 3).sum();
     let share = line / density.iter().sum::<f64>();
-    (seen && density[peak] > 20.0 * level && share > 0.1).then_some((peak, share))
+    (is_resolved && density[peak] > 20.0 * level && share > 0.1).then_some((peak, share))
 }
 
 #[cfg(test)]

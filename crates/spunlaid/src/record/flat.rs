@@ -42,7 +42,7 @@ impl FlatPart {
     /// * `variance` – [(m/s)²] and the standard error of its logarithm
     /// * `until` – end of the flat part [Hz]; by default an eighth of the cut-off that follows
     /// * `duration` – of the record [s]
-    pub(super) fn of(
+    pub(super) fn new(
         spectrum: &Spectrum,
         variance: (f64, f64),
         until: Option<f64>,

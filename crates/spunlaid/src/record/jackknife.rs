@@ -31,12 +31,12 @@ pub(super) struct Blocks {
 impl Blocks {
     /// The whole record as one block.
     pub(super) fn whole(values: &[f64], lags: usize) -> Self {
-        Self::of(values, std::slice::from_ref(&(0..values.len())), lags)
+        Self::new(values, std::slice::from_ref(&(0..values.len())), lags)
     }
 
-    pub(super) fn of(values: &[f64], ranges: &[Range<usize>], lags: usize) -> Self {
+    pub(super) fn new(values: &[f64], ranges: &[Range<usize>], lags: usize) -> Self {
         let reference = values.iter().sum::<f64>() / values.len() as f64;
-        let powers: Vec<Powers> = ranges.iter().map(|r| Powers::of(&values[r.clone()], reference)).collect();
+        let powers: Vec<Powers> = ranges.iter().map(|r| Powers::new(&values[r.clone()], reference)).collect();
         let all_powers = powers.iter().fold(Powers::default(), |sum, p| sum.plus(p, 1.0));
         let products = lagged_products(values, reference, ranges, lags);
         let all_products =
@@ -88,7 +88,7 @@ pub(super) struct Estimates {
 }
 
 impl Estimates {
-    pub(super) fn of(sums: &Blocks, blocks: usize, interval: f64, rule: IntegralRule) -> Self {
+    pub(super) fn new(sums: &Blocks, blocks: usize, interval: f64, rule: IntegralRule) -> Self {
         let autocorrelation = sums.autocorrelation(None, interval, rule);
         // Each estimate to its own zero would jump, and all to the zero of the whole would leave out its scatter.
         let rule = match rule {
@@ -105,9 +105,9 @@ impl Estimates {
         Self { moments: sums.moments(None), autocorrelation, left_out: left_out.collect() }
     }
 
-    pub(super) fn moment(&self, of: fn(&Moments) -> f64, positive: bool) -> Interval {
-        let left_out: Vec<f64> = self.left_out.iter().map(|(moments, _)| of(moments)).collect();
-        Interval::jackknife(of(&self.moments), &left_out, positive)
+    pub(super) fn moment(&self, moment: fn(&Moments) -> f64, positive: bool) -> Interval {
+        let left_out: Vec<f64> = self.left_out.iter().map(|(moments, _)| moment(moments)).collect();
+        Interval::jackknife(moment(&self.moments), &left_out, positive)
     }
 
     /// The interval is that of `asinh` of the skewness, whose error depends least on its value; without the bias

@@ -13,7 +13,7 @@
 //!
 //! **The results**, with 95 % confidence intervals, are mean velocity [m/s], turbulence intensity [-], integral time [s],
 //! length scale [m] and cut-off frequency [Hz]; for each component also rms, skewness, flatness, spectrum
-//! [(m/s)²/Hz] and autocorrelation; and [`Warning`]s. The formulas are in
+//! [(m/s)²/Hz] and autocorrelation; and warnings, each with what to do about it. The formulas are in
 //! `docs/analyse.md` of the repository.
 //!
 //! **Limits.** Samples are evenly spaced to within 1 %; up to [`LONGEST_GAP`] missing samples in a row are
@@ -46,7 +46,7 @@ mod moments;
 mod parquet;
 mod rows;
 mod text;
-mod warning;
+mod trend;
 
 pub(crate) use analysis::analyse_fluctuation;
 pub use analysis::{Analysis, Component, Settings, SpectrumSettings, analyse};
@@ -55,7 +55,7 @@ pub use flat::FlatPart;
 pub use interval::Interval;
 pub use moments::Moments;
 pub use text::parse_csv;
-pub use warning::{Trend, Warning};
+pub use trend::Trend;
 
 use crate::error::{FileError, FileKind};
 use crate::file;

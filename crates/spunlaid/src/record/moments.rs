@@ -8,7 +8,7 @@ pub(super) struct Powers {
 }
 
 impl Powers {
-    pub(super) fn of(values: &[f64], reference: f64) -> Self {
+    pub(super) fn new(values: &[f64], reference: f64) -> Self {
         let mut sums = [0.0; 4];
         for value in values {
             let d = value - reference;
@@ -59,9 +59,9 @@ pub struct Moments {
 
 impl Moments {
     /// The moments of a list of values.
-    pub fn of(values: &[f64]) -> Self {
+    pub fn new(values: &[f64]) -> Self {
         let reference = values.iter().sum::<f64>() / values.len() as f64;
-        Powers::of(values, reference).moments(reference)
+        Powers::new(values, reference).moments(reference)
     }
 }
 
@@ -72,20 +72,23 @@ mod tests {
     #[test]
     fn analytic_moments_of_four_samples() {
         // 1, 2, 4, 5 about 3: −2, −1, 1, 2.
-        let of = Moments::of(&[1.0, 2.0, 4.0, 5.0]);
-        assert_eq!((of.mean, of.rms, of.skewness), (3.0, 2.5f64.sqrt(), 0.0));
-        assert!((of.flatness - 8.5 / 6.25).abs() < 1e-15);
+        let moments = Moments::new(&[1.0, 2.0, 4.0, 5.0]);
+        assert_eq!((moments.mean, moments.rms, moments.skewness), (3.0, 2.5f64.sqrt(), 0.0));
+        assert!((moments.flatness - 8.5 / 6.25).abs() < 1e-15);
         // 0, 0, 0, 4 about 1: −1, −1, −1, 3; variance 3, third 6, fourth 21.
-        let of = Moments::of(&[0.0, 0.0, 0.0, 4.0]);
-        assert!((of.skewness - 6.0 / 27f64.sqrt()).abs() < 1e-15 && (of.flatness - 21.0 / 9.0).abs() < 1e-15);
+        let moments = Moments::new(&[0.0, 0.0, 0.0, 4.0]);
+        assert!(
+            (moments.skewness - 6.0 / 27f64.sqrt()).abs() < 1e-15
+                && (moments.flatness - 21.0 / 9.0).abs() < 1e-15
+        );
     }
 
     #[test]
     fn leaving_a_block_out_is_having_the_others() {
         let values: Vec<f64> = (0..30).map(|i| f64::from(i * i % 17)).collect();
         let (a, b) = values.split_at(12);
-        let rest = Powers::of(&values, 5.0).plus(&Powers::of(a, 5.0), -1.0).moments(5.0);
-        let alone = Moments::of(b);
+        let rest = Powers::new(&values, 5.0).plus(&Powers::new(a, 5.0), -1.0).moments(5.0);
+        let alone = Moments::new(b);
         for (x, y) in [(rest.mean, alone.mean), (rest.rms, alone.rms), (rest.flatness, alone.flatness)] {
             assert!((x - y).abs() < 1e-12, "{x} {y}");
         }

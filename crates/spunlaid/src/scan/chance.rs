@@ -41,7 +41,7 @@ const WEB: f64 = 0.9;
 ///
 /// Source: Graybill and Wang, Journal of the American Statistical Association 75 (1980) 869–873, for the interval of a sum of variances.
 pub(super) fn scatter(map: &Map, masked: &[bool], side: usize) -> Option<Scatter> {
-    let blocks = Blocks::of(map, masked, side)?;
+    let blocks = Blocks::new(map, masked, side)?;
     if blocks.sides.iter().any(|side| *side < FEWEST) {
         let ends = [0.0, f64::INFINITY];
         return (blocks.variance > 0.0).then_some(Scatter {
@@ -56,18 +56,18 @@ pub(super) fn scatter(map: &Map, masked: &[bool], side: usize) -> Option<Scatter
     let mut bars: Vec<f64> = (1..along).map(|j| waves[j * across]).collect();
     // The infinitely long wave is missing: the mean of the piece is not that of the web. It is as strong as the next ones,
     // along that direction in which they are stronger, because streaks reach through the whole piece.
-    let beside =
-        |of: &dyn Fn(usize) -> usize| (1..=LONGEST).map(|k| waves[of(k)]).sum::<f64>() / LONGEST as f64;
-    let beside_streaks: Vec<f64> = (1..across).map(|i| beside(&|k| k * across + i)).collect();
-    let beside_bars: Vec<f64> = (1..along).map(|j| beside(&|k| j * across + k)).collect();
+    let mean_beside =
+        |wave: &dyn Fn(usize) -> usize| (1..=LONGEST).map(|k| waves[wave(k)]).sum::<f64>() / LONGEST as f64;
+    let beside_streaks: Vec<f64> = (1..across).map(|i| mean_beside(&|k| k * across + i)).collect();
+    let beside_bars: Vec<f64> = (1..along).map(|j| mean_beside(&|k| j * across + k)).collect();
     let mean_of = |waves: &[f64]| waves[..LONGEST].iter().sum::<f64>() / LONGEST as f64;
     let stronger = if mean_of(&streaks) > mean_of(&bars) { &mut streaks } else { &mut bars };
     stronger[..LONGEST].iter_mut().for_each(|wave| *wave *= 1.0 + 1.0 / LONGEST as f64);
     let rest = || (across..across * along).filter(|at| at % across != 0).map(|at| waves[at]);
     let (apart, fourth) = rest().fold((0.0, 0.0), |(sum, squares), wave| (sum + wave, squares + wave * wave));
-    let within = (blocks.variance - waves[1..].iter().sum::<f64>()).max(0.0);
+    let fine = (blocks.variance - waves[1..].iter().sum::<f64>()).max(0.0);
     // The square of a normal number has the variance 2 and the mean square 3.
-    let rest = apart + within;
+    let rest = apart + fine;
     let parts = [
         (streaks.iter().sum(), degrees(&streaks, &beside_streaks)),
         (bars.iter().sum(), degrees(&bars, &beside_bars)),
@@ -77,9 +77,9 @@ pub(super) fn scatter(map: &Map, masked: &[bool], side: usize) -> Option<Scatter
     if variance.is_nan() || variance <= 0.0 {
         return None;
     }
-    let sum = |of: &dyn Fn(f64) -> f64| -> f64 {
+    let sum = |share: &dyn Fn(f64) -> f64| -> f64 {
         let parts = parts.iter().filter(|part| part.0 > 0.0);
-        parts.map(|(variance, degrees)| (variance * of(degrees.max(1.0))).powi(2)).sum()
+        parts.map(|(variance, degrees)| (variance * share(degrees.max(1.0))).powi(2)).sum()
     };
     let [below, above] =
         [0.975, 0.025].map(|share| sum(&|degrees| degrees / chi_squared(share, degrees) - 1.0).sqrt());
@@ -97,8 +97,9 @@ fn degrees(waves: &[f64], floor: &[f64]) -> f64 {
         let near = &above[i.saturating_sub(NEAR)..(i + NEAR + 1).min(above.len())];
         (near.iter().sum::<f64>() / near.len() as f64).max(0.0)
     };
-    let (sum, squares) =
-        (0..above.len()).map(expected).fold((0.0, 0.0), |(sum, squares), of| (sum + of, squares + of * of));
+    let (sum, squares) = (0..above.len())
+        .map(expected)
+        .fold((0.0, 0.0), |(sum, squares), power| (sum + power, squares + power * power));
     // The mean square of the mean of n squares of normal numbers is 1 + 2/n.
     let equal = (1.0 + 2.0 / (2 * NEAR + 1) as f64) * sum * sum / squares - 2.0;
     // Without anything above the floor, the line is as even as can be.
@@ -110,8 +111,8 @@ impl Scatter {
     /// The scatter without that of independent noise of a known CV; None if nothing is left.
     pub(super) fn without(self, noise: f64) -> Option<Self> {
         let less = |variance: f64| (variance - noise * noise).max(0.0);
-        let of = Self { variance: less(self.variance), ends: self.ends.map(less), ..self };
-        (of.variance > 0.0).then_some(of)
+        let rest = Self { variance: less(self.variance), ends: self.ends.map(less), ..self };
+        (rest.variance > 0.0).then_some(rest)
     }
 
     pub(super) fn cv(&self) -> f64 {
@@ -142,7 +143,7 @@ struct Blocks {
 }
 
 impl Blocks {
-    fn of(map: &Map, masked: &[bool], side: usize) -> Option<Self> {
+    fn new(map: &Map, masked: &[bool], side: usize) -> Option<Self> {
         let sizes = [map.columns, map.rows];
         if side == 0 || sizes.iter().any(|size| side > *size) {
             return None;
@@ -152,30 +153,33 @@ impl Blocks {
         // Of each block: number, sum and sum of the squares of the deviations from the mean of all cells.
         let mut sums = vec![(0u64, 0.0, 0.0); sides[0] * sides[1]];
         let mean = map.total() as f64 / map.cells.len() as f64;
-        let block = |of: usize, at: usize| at * sides[of] / places[of];
+        let block = |axis: usize, at: usize| at * sides[axis] / places[axis];
         patches(map, masked, side, |row, column, weight| {
             let deviation = weight / mean - 1.0;
-            let of = &mut sums[block(1, row) * sides[0] + block(0, column)];
-            *of = (of.0 + 1, of.1 + deviation, of.2 + deviation * deviation);
+            let entry = &mut sums[block(1, row) * sides[0] + block(0, column)];
+            *entry = (entry.0 + 1, entry.1 + deviation, entry.2 + deviation * deviation);
         });
         let (count, sum, squares) =
-            sums.iter().fold((0, 0.0, 0.0), |all, of| (all.0 + of.0, all.1 + of.1, all.2 + of.2));
+            sums.iter().fold((0, 0.0, 0.0), |all, block| (all.0 + block.0, all.1 + block.1, all.2 + block.2));
         if (count as f64) < 0.5 * (places[0] * places[1]) as f64 {
             return None;
         }
         let of_all = sum / count as f64;
         let scale = (1.0 + of_all).recip();
-        let mean_of =
-            |of: &(u64, f64, f64)| if of.0 == 0 { 0.0 } else { (of.1 / of.0 as f64 - of_all) * scale };
-        let within = |of: &(u64, f64, f64)| {
-            (of.0 > 0).then(|| (of.2 / of.0 as f64 - (of.1 / of.0 as f64).powi(2)).max(0.0) * scale * scale)
+        let mean_of = |block: &(u64, f64, f64)| {
+            if block.0 == 0 { 0.0 } else { (block.1 / block.0 as f64 - of_all) * scale }
         };
-        let within: Vec<Option<f64>> = sums.iter().map(within).collect();
+        let variance_within = |block: &(u64, f64, f64)| {
+            (block.0 > 0).then(|| {
+                (block.2 / block.0 as f64 - (block.1 / block.0 as f64).powi(2)).max(0.0) * scale * scale
+            })
+        };
+        let variance_within: Vec<Option<f64>> = sums.iter().map(variance_within).collect();
         Some(Self {
             sides,
             means: sums.iter().map(mean_of).collect(),
             variance: (squares / count as f64 - of_all * of_all).max(0.0) * scale * scale,
-            error_within: error_of_mean(&within, sides[0]),
+            error_within: error_of_mean(&variance_within, sides[0]),
         })
     }
 
@@ -185,8 +189,8 @@ impl Blocks {
         let [across, along] = self.sides;
         let cosines = |side: usize| -> Vec<f64> {
             let wave = |k: usize, i: usize| {
-                let of = if k == 0 { 1.0 } else { 2f64.sqrt() };
-                of * libm::cos(PI * k as f64 * (i as f64 + 0.5) / side as f64) / side as f64
+                let norm = if k == 0 { 1.0 } else { 2f64.sqrt() };
+                norm * libm::cos(PI * k as f64 * (i as f64 + 0.5) / side as f64) / side as f64
             };
             (0..side * side).map(|at| wave(at / side, at % side)).collect()
         };
@@ -211,8 +215,8 @@ impl Blocks {
 /// Squared error of the mean of values on a lattice: from the scatter of all, of the columns and of the rows, the largest of them. An error
 /// that comes from few columns is enlarged by Student's t.
 fn error_of_mean(values: &[Option<f64>], columns: usize) -> f64 {
-    let mean = |of: &mut dyn Iterator<Item = &Option<f64>>| {
-        let values: Vec<f64> = of.flatten().copied().collect();
+    let mean = |parts: &mut dyn Iterator<Item = &Option<f64>>| {
+        let values: Vec<f64> = parts.flatten().copied().collect();
         (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
     };
     let by_column = (0..columns).filter_map(|i| mean(&mut values.iter().skip(i).step_by(columns)));
@@ -221,7 +225,7 @@ fn error_of_mean(values: &[Option<f64>], columns: usize) -> f64 {
         [values.iter().copied().flatten().collect(), by_column.collect(), by_row.collect()];
     let error = |values: Vec<f64>| {
         let t = student_t_95((values.len() as u64).max(2) - 1) / NORMAL_95;
-        (t * Estimate::of(values).standard_error.unwrap_or(0.0)).powi(2)
+        (t * Estimate::new(values).standard_error.unwrap_or(0.0)).powi(2)
     };
     sets.into_iter().map(error).fold(0.0, f64::max)
 }
@@ -245,7 +249,7 @@ fn patches(map: &Map, masked: &[bool], side: usize, mut take: impl FnMut(usize, 
     for row in 0..=map.rows - side {
         change(&mut sums, row + side - 1, true);
         let (mut mass, mut count) =
-            sums[..side - 1].iter().fold((0, 0), |all, of| (all.0 + of.0, all.1 + of.1));
+            sums[..side - 1].iter().fold((0, 0), |all, column| (all.0 + column.0, all.1 + column.1));
         for column in 0..=map.columns - side {
             let (first, last) = (sums[column], sums[column + side - 1]);
             (mass, count) = (mass + last.0, count + last.1);
@@ -267,9 +271,9 @@ fn patches(map: &Map, masked: &[bool], side: usize, mut take: impl FnMut(usize, 
 /// * `degrees` – one or more; they need not be whole
 fn chi_squared(share: f64, degrees: f64) -> f64 {
     if degrees > 100.0 {
-        let of = 2.0 / (9.0 * degrees);
+        let spread = 2.0 / (9.0 * degrees);
         let z = if share > 0.5 { NORMAL_95 } else { -NORMAL_95 };
-        return degrees * (1.0 - of + z * of.sqrt()).powi(3);
+        return degrees * (1.0 - spread + z * spread.sqrt()).powi(3);
     }
     let below = |x: f64| {
         let (a, x) = (0.5 * degrees, 0.5 * x);

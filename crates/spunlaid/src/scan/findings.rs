@@ -1,7 +1,7 @@
 //! Everything that is found out about a scanned web.
 
 use super::chance::scatter;
-use super::note::{self, Note};
+use super::note;
 use super::optics::{blurred, noise_at_most};
 use super::picture::Picture;
 use super::spots::{Spots, region};
@@ -33,7 +33,7 @@ pub struct Settings {
 
 impl Settings {
     /// What is usual.
-    pub const fn of(light: Light) -> Self {
+    pub const fn new(light: Light) -> Self {
         Self { light, lamp: None, keep_shading: false, keep_spots: false, noise: None, patches: Vec::new() }
     }
 }
@@ -63,8 +63,8 @@ pub struct Findings {
     pub clouds: Option<Clouds>,
     /// Autocorrelation coefficients of the basis weight in cross and in machine direction, pixel by pixel from lag zero.
     pub autocorrelation: [Vec<f64>; 2],
-    /// What a reader must know.
-    pub notes: Vec<Note>,
+    /// What was assumed, corrected or left out, and what to do about it.
+    pub notes: Vec<Fault>,
 }
 
 /// The unevenness over patches of one size.
@@ -107,17 +107,17 @@ pub struct Spot {
 }
 
 impl Aside {
-    fn of(picture: &Picture, lamp: Option<&Picture>, found: &Spots) -> Self {
+    fn new(picture: &Picture, lamp: Option<&Picture>, found: &Spots) -> Self {
         let (pixel, area) = (picture.pixel, picture.pixel * picture.pixel);
         let ([left, top], [columns, rows]) = (found.web.corner, found.web.sides);
         let masked = &found.dark;
         let level = |at: usize| picture.values[at] / lamp.map_or(1.0, |lamp| lamp.values[at]);
         let bare = (0..found.bare.len()).filter(|at| found.bare[*at]).map(level);
-        let mut seen = vec![false; masked.len()];
+        let mut visited = vec![false; masked.len()];
         let mut spots = Vec::new();
         for first in 0..masked.len() {
-            if masked[first] && !seen[first] {
-                let region = region(&mut seen, found.web.sides, first, |at| masked[at]);
+            if masked[first] && !visited[first] {
+                let region = region(&mut visited, found.web.sides, first, |at| masked[at]);
                 let count = region.len() as f64;
                 let mean = |place: &dyn Fn(usize) -> usize| {
                     (region.iter().map(|at| place(*at) as f64).sum::<f64>() / count + 0.5) * pixel
@@ -195,9 +195,9 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     let correction = Correction { lamp: settings.lamp.as_ref(), keep_shading: settings.keep_shading };
     let is_cleaned = matches!(settings.light, Light::Transmitted { .. }) && !settings.keep_spots;
     let spots = if is_cleaned { beside(picture, settings.light, correction)? } else { Spots::none(picture) };
-    let aside = Aside::of(picture, settings.lamp.as_ref(), &spots);
+    let aside = Aside::new(picture, settings.lamp.as_ref(), &spots);
     // Only the part that is web, of the picture and of its lamp.
-    let part = |of: &Picture| if spots.bare.is_empty() { None } else { Some(of.part(spots.web)) };
+    let part = |picture: &Picture| if spots.bare.is_empty() { None } else { Some(picture.part(spots.web)) };
     let (own, lamp) = (part(picture), settings.lamp.as_ref().and_then(part));
     let picture = own.as_ref().unwrap_or(picture);
     let correction = Correction { lamp: lamp.as_ref().or(settings.lamp.as_ref()), ..correction };
@@ -222,7 +222,8 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
         let found = found.ok_or(
             Fault::new(
                 format!(
-                    "varies by less over patches of {} than the given noise of the camera, {}, alone would",
+                    "varies less over patches of {} than the noise of the camera alone, {} as you gave it, would \
+                     make it vary",
                     Dimension::Length.pretty(patch),
                     shortest(settings.noise.unwrap_or(f64::NAN))
                 ),

@@ -36,7 +36,7 @@
 //! let text: String = (0..40).map(|y| row(y) + "\n").collect();
 //! let picture = parse(text.as_bytes(), "gauge.csv", 1e-3)?;
 //! let light = Light::Weight { mean: Some(16e-3) };
-//! let found = analyse(&picture, &Settings { patches: vec![2e-3], ..Settings::of(light) })?;
+//! let found = analyse(&picture, &Settings { patches: vec![2e-3], ..Settings::new(light) })?;
 //! assert!((found.map.basis_weight() / 16e-3 - 1.0).abs() < 1e-12);
 //! assert!(found.patches[0].unevenness.cv < 0.1);
 //! # Ok(())
@@ -54,7 +54,6 @@ mod spots;
 mod weigh;
 
 pub use findings::{Aside, Doubt, Findings, PatchFindings, Settings, Spot, analyse};
-pub use note::Note;
 pub use picture::{Format, Picture};
 pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, parse, read};
 pub use weigh::{Light, Pixels};

@@ -10,9 +10,9 @@ pub(super) fn noise_at_most(map: &Map) -> f64 {
     let mean = map.total() as f64 / map.cells.len() as f64;
     let (mut squares, mut count) = (0.0, 0u64);
     for row in 1..map.rows - 1 {
-        let [above, here, below] = [row - 1, row, row + 1].map(|row| map.row(row));
+        let [above, middle, below] = [row - 1, row, row + 1].map(|row| map.row(row));
         // The second difference down the picture, then that across.
-        let down = |i: usize| f64::from(above[i]) - 2.0 * f64::from(here[i]) + f64::from(below[i]);
+        let down = |i: usize| f64::from(above[i]) - 2.0 * f64::from(middle[i]) + f64::from(below[i]);
         for column in 1..map.columns - 1 {
             squares += (down(column - 1) - 2.0 * down(column) + down(column + 1)).powi(2);
         }
@@ -29,28 +29,28 @@ pub(super) fn blurred(map: &Map) -> Map {
         for row in cells.chunks_exact_mut(map.columns) {
             let mut before = row[0];
             for column in 0..row.len() {
-                let here = row[column];
-                let after = row.get(column + 1).copied().unwrap_or(here);
-                row[column] = binomial(before, here, after);
-                before = here;
+                let cell = row[column];
+                let after = row.get(column + 1).copied().unwrap_or(cell);
+                row[column] = binomial(before, cell, after);
+                before = cell;
             }
         }
         let mut before = cells[..map.columns].to_vec();
         for row in 0..map.rows {
             for (column, before) in before.iter_mut().enumerate() {
                 let at = row * map.columns + column;
-                let here = cells[at];
-                let after = cells.get(at + map.columns).copied().unwrap_or(here);
-                cells[at] = binomial(*before, here, after);
-                *before = here;
+                let cell = cells[at];
+                let after = cells.get(at + map.columns).copied().unwrap_or(cell);
+                cells[at] = binomial(*before, cell, after);
+                *before = cell;
             }
         }
     }
     Map { cells, ..map.clone() }
 }
 
-fn binomial(before: u32, here: u32, after: u32) -> u32 {
-    let sum = u64::from(before) + 2 * u64::from(here) + u64::from(after);
+fn binomial(before: u32, middle: u32, after: u32) -> u32 {
+    let sum = u64::from(before) + 2 * u64::from(middle) + u64::from(after);
     // A mean of numbers is no larger than they are.
     ((sum + 2) / 4) as u32
 }

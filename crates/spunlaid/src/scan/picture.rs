@@ -68,9 +68,9 @@ impl Picture {
     }
 
     /// A part of the picture.
-    pub(super) fn part(&self, of: Rectangle) -> Self {
-        let [columns, rows] = of.sides;
-        let (file, values) = (self.file.clone(), cut(&self.values, self.columns, of));
+    pub(super) fn part(&self, rectangle: Rectangle) -> Self {
+        let [columns, rows] = rectangle.sides;
+        let (file, values) = (self.file.clone(), cut(&self.values, self.columns, rectangle));
         Self { file, values, columns, rows, ..*self }
     }
 

@@ -14,13 +14,13 @@ pub(super) struct Shading {
 }
 
 /// The middle of a pixel, from −1 to 1.
-fn place(of: usize, side: usize) -> f64 {
-    (2 * of + 1) as f64 / side as f64 - 1.0
+fn place(pixel: usize, side: usize) -> f64 {
+    (2 * pixel + 1) as f64 / side as f64 - 1.0
 }
 
 impl Shading {
     /// Least squares over the values that are numbers.
-    pub(super) fn of(values: &[f64], columns: usize) -> Self {
+    pub(super) fn fit(values: &[f64], columns: usize) -> Self {
         let rows = values.len() / columns;
         let across: Vec<f64> = (0..columns).map(|column| place(column, columns)).collect();
         // Sums of u^k v^l, and of the values times u^k v^l.
@@ -98,7 +98,7 @@ mod tests {
             0.3 - 0.2 * u + 0.1 * v + 0.5 * u * u - 0.4 * u * v + 0.25 * v * v
         };
         let value = |i: usize| if i % 97 == 5 { f64::NAN } else { wanted(i % columns, i / columns) };
-        let shading = Shading::of(&(0..columns * rows).map(value).collect::<Vec<_>>(), columns);
+        let shading = Shading::fit(&(0..columns * rows).map(value).collect::<Vec<_>>(), columns);
         for row in 0..rows {
             for (column, found) in shading.row(row).enumerate() {
                 assert!((found - wanted(column, row)).abs() < 1e-13, "{found} at {column}, {row}");

@@ -24,8 +24,8 @@ pub(super) struct Spots {
 
 impl Spots {
     /// All of a picture is web.
-    pub(super) const fn none(of: &Picture) -> Self {
-        let web = Rectangle { corner: [0, 0], sides: [of.columns, of.rows] };
+    pub(super) const fn none(picture: &Picture) -> Self {
+        let web = Rectangle { corner: [0, 0], sides: [picture.columns, picture.rows] };
         Self { web, bare: Vec::new(), dark: Vec::new() }
     }
 }
@@ -102,9 +102,9 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
     let found = bare.iter().any(|is| *is);
     let web =
         if found { largest(&bare, columns) } else { Rectangle { corner: [0, 0], sides: [columns, rows] } };
-    let there = bare.iter().filter(|is| !**is).count();
-    if (web.sides[0] * web.sides[1]) as f64 <= KEPT * there as f64 {
-        let share = 1.0 - there as f64 / density.len() as f64;
+    let covered = bare.iter().filter(|is| !**is).count();
+    if (web.sides[0] * web.sides[1]) as f64 <= KEPT * covered as f64 {
+        let share = 1.0 - covered as f64 / density.len() as f64;
         return Err(Fault::new(format!("shows the bare lamp on {:.0} % of its area, and no large rectangle without it can be cut out", 100.0 * share), "turn the scan straight, and cut the picture so that it holds web only").option("--keep-spots"));
     }
     if !found {
@@ -135,8 +135,8 @@ impl Level {
         for (row, values) in self.values.chunks_exact(self.columns).enumerate() {
             let first = (row / STEP).min(rows - 1) * columns;
             for (column, value) in values.iter().enumerate().filter(|(_, value)| !value.is_nan()) {
-                let of = &mut sums[first + (column / STEP).min(columns - 1)];
-                *of = (of.0 + value, of.1 + 1);
+                let sum = &mut sums[first + (column / STEP).min(columns - 1)];
+                *sum = (sum.0 + value, sum.1 + 1);
             }
         }
         let values = sums.iter().map(|(sum, count)| sum / f64::from(*count)).collect();
@@ -154,13 +154,13 @@ impl Level {
         at_edge: bool,
     ) {
         let (across, along) = (self.columns, self.rows());
-        let mut seen = vec![false; self.values.len()];
+        let mut visited = vec![false; self.values.len()];
         let mut found = Vec::new();
         for first in 0..self.values.len() {
-            if seen[first] || !wanted(self.values[first]) {
+            if visited[first] || !wanted(self.values[first]) {
                 continue;
             }
-            let region = region(&mut seen, [across, along], first, |at| nearly(self.values[at]));
+            let region = region(&mut visited, [across, along], first, |at| nearly(self.values[at]));
             let is_edge = |at: &usize| {
                 let (i, j) = (at % across, at / across);
                 i == 0 || j == 0 || i + 1 == across || j + 1 == along
@@ -172,8 +172,8 @@ impl Level {
             let margin = if at_edge { self.block } else { 0 };
             for at in &region {
                 let [i, j] = [at % across, at / across];
-                let range = |at: usize, of: usize, size: usize| {
-                    let end = if at + 1 == of { size } else { (at + 1) * self.block };
+                let range = |at: usize, blocks: usize, size: usize| {
+                    let end = if at + 1 == blocks { size } else { (at + 1) * self.block };
                     (at * self.block).saturating_sub(margin)..(end + margin).min(size)
                 };
                 for row in range(j, along, rows) {
@@ -193,12 +193,12 @@ impl Level {
 
 /// The places that hang together with the first one, by their sides or corners.
 pub(super) fn region(
-    seen: &mut [bool],
+    visited: &mut [bool],
     [across, along]: [usize; 2],
     first: usize,
     belongs: impl Fn(usize) -> bool,
 ) -> Vec<usize> {
-    seen[first] = true;
+    visited[first] = true;
     let mut region = vec![first];
     let mut next = 0;
     while let Some(at) = region.get(next).copied() {
@@ -207,8 +207,8 @@ pub(super) fn region(
         for row in j.saturating_sub(1)..(j + 2).min(along) {
             for column in i.saturating_sub(1)..(i + 2).min(across) {
                 let other = row * across + column;
-                if !seen[other] && belongs(other) {
-                    seen[other] = true;
+                if !visited[other] && belongs(other) {
+                    visited[other] = true;
                     region.push(other);
                 }
             }
@@ -218,8 +218,8 @@ pub(super) fn region(
 }
 
 /// The values of a part of a lattice.
-pub(super) fn cut<T: Copy>(values: &[T], columns: usize, of: Rectangle) -> Vec<T> {
-    let ([left, top], [across, along]) = (of.corner, of.sides);
+pub(super) fn cut<T: Copy>(values: &[T], columns: usize, part: Rectangle) -> Vec<T> {
+    let ([left, top], [across, along]) = (part.corner, part.sides);
     values
         .chunks_exact(columns)
         .skip(top)
@@ -231,8 +231,8 @@ pub(super) fn cut<T: Copy>(values: &[T], columns: usize, of: Rectangle) -> Vec<T
 /// Widens what is marked, to both sides.
 fn widen(marks: &mut [bool], columns: usize, [across, along]: [usize; 2]) {
     let rows = marks.len() / columns;
-    let spread = |old: &[bool], at: usize, size: usize, by: usize| {
-        (at.saturating_sub(by)..(at + by + 1).min(size)).any(|at| old[at])
+    let spread = |old: &[bool], at: usize, size: usize, reach: usize| {
+        (at.saturating_sub(reach)..(at + reach + 1).min(size)).any(|at| old[at])
     };
     for row in marks.chunks_exact_mut(columns).filter(|row| row.iter().any(|is| *is)) {
         let old = row.to_vec();
@@ -257,7 +257,7 @@ fn largest(marks: &[bool], columns: usize) -> Rectangle {
         let mut open: Vec<(usize, usize)> = Vec::new();
         for (column, height) in heights.iter().copied().chain([0]).enumerate() {
             let mut first = column;
-            while let Some((from, open_height)) = open.last().copied().filter(|of| of.1 >= height) {
+            while let Some((from, open_height)) = open.last().copied().filter(|bar| bar.1 >= height) {
                 open.pop();
                 if open_height * (column - from) > best.sides[0] * best.sides[1] {
                     best = Rectangle {
@@ -280,13 +280,13 @@ mod tests {
     #[test]
     fn the_largest_rectangle_is_found() {
         let picture = ["x....xx", "......x", ".....xx", "..x....", "xxxxxxx", "......."];
-        let marks: Vec<bool> = picture.iter().flat_map(|row| row.bytes().map(|of| of == b'x')).collect();
+        let marks: Vec<bool> = picture.iter().flat_map(|row| row.bytes().map(|byte| byte == b'x')).collect();
         // By trying all of them.
         let mut most = 0;
         for (top, left) in (0..6).flat_map(|top| (0..7).map(move |left| (top, left))) {
             for (along, across) in (1..=6 - top).flat_map(|a| (1..=7 - left).map(move |b| (a, b))) {
-                let of = Rectangle { corner: [left, top], sides: [across, along] };
-                if !cut(&marks, 7, of).contains(&true) {
+                let part = Rectangle { corner: [left, top], sides: [across, along] };
+                if !cut(&marks, 7, part).contains(&true) {
                     most = most.max(along * across);
                 }
             }

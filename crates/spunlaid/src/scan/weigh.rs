@@ -92,7 +92,7 @@ pub(super) fn beside(picture: &Picture, light: Light, correction: Correction<'_>
     let densities = |shading: Option<&Shading>| -> Vec<f64> {
         let row = |(row, logs): (usize, &[f64])| -> Vec<f64> {
             match shading {
-                Some(shading) => logs.iter().zip(shading.row(row)).map(|(log, of)| of - log).collect(),
+                Some(shading) => logs.iter().zip(shading.row(row)).map(|(log, lamp)| lamp - log).collect(),
                 None => logs.iter().map(|log| lamp - log).collect(),
             }
         };
@@ -105,7 +105,7 @@ pub(super) fn beside(picture: &Picture, light: Light, correction: Correction<'_>
     let mut web = logs.clone();
     let mut last = None;
     for _ in 0..ROUNDS {
-        let shading = Shading::of(&web, picture.columns);
+        let shading = Shading::fit(&web, picture.columns);
         let found = spots(&densities(Some(&shading)), picture.columns, false)?;
         if last.as_ref() == Some(&found) {
             break;
@@ -156,11 +156,11 @@ fn logs(picture: &Picture, lamp: Option<&Picture>) -> Result<Vec<f64>, Fault> {
     let log = |level: &f64| if level.is_finite() && *level > 0.0 { libm::log(*level) } else { f64::NAN };
     let mut logs: Vec<f64> = picture.values.iter().map(log).collect();
     if let Some(lamp) = lamp {
-        let [found, wanted] = [lamp, picture].map(|of| [of.columns, of.rows]);
+        let [found, wanted] = [lamp, picture].map(|picture| [picture.columns, picture.rows]);
         if found != wanted {
             return Err(Fault::new(
                 format!(
-                    "has {} × {} pixels, and the picture of the lamp without web {} × {}",
+                    "has {} × {} pixels, but the picture of the lamp without web has {} × {}",
                     wanted[0], wanted[1], found[0], found[1]
                 ),
                 "take both with the same camera from the same place",
@@ -197,7 +197,7 @@ fn transmitted(
     let web = || picture.values.iter().zip(&logs).filter(|(_, log)| !log.is_nan()).map(|(level, _)| level);
     let inverse = web().map(|level| level.powi(-2)).sum::<f64>();
     let per_noise = (inverse / web().count() as f64).sqrt() / density;
-    let shading = (!keep_shading && lamp.is_none()).then(|| Shading::of(&logs, picture.columns));
+    let shading = (!keep_shading && lamp.is_none()).then(|| Shading::fit(&logs, picture.columns));
     for (row, logs) in logs.chunks_exact_mut(picture.columns).enumerate() {
         match &shading {
             Some(shading) => logs.iter_mut().zip(shading.row(row)).for_each(|(log, lamp)| *log -= lamp),
@@ -258,8 +258,8 @@ fn unusable(values: &[f64], what: &'static str, advice: &'static str) -> Result<
 
 /// The mean of the values that are there.
 fn mean_of(values: &[f64]) -> f64 {
-    let there = || values.iter().filter(|value| !value.is_nan());
-    there().sum::<f64>() / there().count() as f64
+    let finite = || values.iter().filter(|value| !value.is_nan());
+    finite().sum::<f64>() / finite().count() as f64
 }
 
 /// The map of relative weights, and how many were below zero.

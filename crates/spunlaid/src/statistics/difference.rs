@@ -20,12 +20,12 @@ impl Difference {
     ///
     /// Source: B. L. Welch, Biometrika 34 (1947) 28–35.
     pub fn independent(first: &[f64], second: &[f64]) -> Option<Self> {
-        let of = |values: &[f64]| {
+        let sample = |values: &[f64]| {
             let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-            let (free, estimate) = (finite.len() as f64 - 1.0, Estimate::of(finite));
+            let (free, estimate) = (finite.len() as f64 - 1.0, Estimate::new(finite));
             Some((estimate.mean, estimate.standard_error?.powi(2), free))
         };
-        let (a, b) = (of(first)?, of(second)?);
+        let (a, b) = (sample(first)?, sample(second)?);
         let variance = a.1 + b.1;
         let degrees = variance * variance / (a.1 * a.1 / a.2 + b.1 * b.1 / b.2);
         let degrees = if variance > 0.0 { degrees } else { a.2 + b.2 };
@@ -38,7 +38,7 @@ impl Difference {
     /// None if there are fewer than two pairs.
     pub fn paired(first: &[f64], second: &[f64]) -> Option<Self> {
         let differences = first.iter().zip(second).map(|(a, b)| b - a).filter(|d| d.is_finite());
-        let estimate = Estimate::of(differences.collect());
+        let estimate = Estimate::new(differences.collect());
         let degrees = estimate.values.len() as f64 - 1.0;
         Some(Self { value: estimate.mean, standard_error: estimate.standard_error?, degrees })
     }
@@ -61,8 +61,8 @@ impl Difference {
 /// difference itself is made of that of the logarithms so that it says the same.
 ///
 /// Source: R. A. Fisher, Proceedings of the International Congress of Mathematics, Toronto 2 (1924) 805–813.
-pub fn difference_of_deviations(of: [(f64, f64); 2]) -> Difference {
-    let [(first, _), (second, _)] = of;
+pub fn difference_of_deviations(deviations: [(f64, f64); 2]) -> Difference {
+    let [(first, _), (second, _)] = deviations;
     let variance = |(deviation, error): (f64, f64)| {
         let inverse = 2.0 * (error / deviation).powi(2);
         0.5 * (inverse + inverse * inverse)
@@ -70,7 +70,7 @@ pub fn difference_of_deviations(of: [(f64, f64); 2]) -> Difference {
     let log = libm::log(second / first);
     // The difference over that of the logarithms: a mean of both.
     let mean = if log.abs() > 1e-6 { (second - first) / log } else { 0.5 * (first + second) };
-    let standard_error = mean * of.map(variance).iter().sum::<f64>().sqrt();
+    let standard_error = mean * deviations.map(variance).iter().sum::<f64>().sqrt();
     Difference { value: second - first, standard_error, degrees: f64::INFINITY }
 }
 
@@ -94,14 +94,27 @@ mod tests {
     #[test]
     fn published_sleep_of_student() {
         // As R prints them for these data: t.test(extra ~ group) and with paired values. The table of t has six digits.
-        let of = Difference::independent(&FIRST, &SECOND).unwrap();
-        assert!((of.value / of.standard_error - 1.8608).abs() < 5e-5 && (of.degrees - 17.776).abs() < 5e-4);
-        assert!((of.value + of.half_width() - 3.3654832).abs() < 1e-4, "{}", of.value + of.half_width());
-        assert!(!of.is_beyond_chance());
-        let of = Difference::paired(&FIRST, &SECOND).unwrap();
-        assert!((of.value / of.standard_error - 4.0621).abs() < 5e-5 && of.degrees == 9.0);
-        assert!((of.value - of.half_width() - 0.7001142).abs() < 1e-5, "{}", of.value - of.half_width());
-        assert!(of.is_beyond_chance());
+        let difference = Difference::independent(&FIRST, &SECOND).unwrap();
+        assert!(
+            (difference.value / difference.standard_error - 1.8608).abs() < 5e-5
+                && (difference.degrees - 17.776).abs() < 5e-4
+        );
+        assert!(
+            (difference.value + difference.half_width() - 3.3654832).abs() < 1e-4,
+            "{}",
+            difference.value + difference.half_width()
+        );
+        assert!(!difference.is_beyond_chance());
+        let difference = Difference::paired(&FIRST, &SECOND).unwrap();
+        assert!(
+            (difference.value / difference.standard_error - 4.0621).abs() < 5e-5 && difference.degrees == 9.0
+        );
+        assert!(
+            (difference.value - difference.half_width() - 0.7001142).abs() < 1e-5,
+            "{}",
+            difference.value - difference.half_width()
+        );
+        assert!(difference.is_beyond_chance());
     }
 
     #[test]
@@ -110,8 +123,8 @@ mod tests {
         assert_eq!((same.value, same.half_width(), same.is_beyond_chance()), (0.0, 0.0, false));
         let mut with_gap = SECOND.to_vec();
         with_gap[3] = f64::NAN;
-        let of = Difference::paired(&FIRST, &with_gap).unwrap();
-        assert_eq!(of.degrees, 8.0);
+        let difference = Difference::paired(&FIRST, &with_gap).unwrap();
+        assert_eq!(difference.degrees, 8.0);
         assert_eq!(Difference::independent(&[1.0], &SECOND), None);
         assert_eq!(Difference::paired(&[1.0, 2.0], &[1.0, f64::NAN]), None);
     }

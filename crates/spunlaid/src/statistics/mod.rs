@@ -1,9 +1,11 @@
 //! Statistics over replicates and over time.
 
+mod covariance;
 mod difference;
 mod spectrum;
 mod thinned;
 
+pub use covariance::Covariance;
 pub use difference::{Difference, difference_of_deviations, student_t_95_at};
 pub use spectrum::{Spectrum, Welch, Window};
 pub use thinned::Thinned;
@@ -21,7 +23,7 @@ pub struct Estimate {
 
 impl Estimate {
     /// Mean and standard error `s/√n`, summed in the order given.             theory.md (39)
-    pub fn of(values: Vec<f64>) -> Self {
+    pub fn new(values: Vec<f64>) -> Self {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
         let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();

@@ -151,8 +151,8 @@ impl Welch {
         let samples = if segments == 0 { 0 } else { (segments - 1) * hop + segment };
         self.carried = (0..samples).fold(self.carried, |(sum, squares), t| {
             let first = (t + 1).saturating_sub(segment).div_ceil(hop);
-            let over = first..=(t / hop).min(segments - 1);
-            let weight = over.map(|i| self.weights[t - i * hop]).fold(0.0, |all, w| all + w * w);
+            let segments_here = first..=(t / hop).min(segments - 1);
+            let weight = segments_here.map(|i| self.weights[t - i * hop]).fold(0.0, |all, w| all + w * w);
             (sum + weight, squares + weight * weight)
         });
     }
@@ -170,8 +170,9 @@ impl Welch {
         if segments.is_empty() {
             return;
         }
-        let of = |values: &&[f64]| values.iter().sum::<f64>() / segment as f64;
-        let means: Vec<f64> = segments.iter().map(|values| mean.unwrap_or_else(|| of(values))).collect();
+        let own_mean = |values: &&[f64]| values.iter().sum::<f64>() / segment as f64;
+        let means: Vec<f64> =
+            segments.iter().map(|values| mean.unwrap_or_else(|| own_mean(values))).collect();
         let at = |i: usize, t: usize| {
             segments.get(i).map_or(0.0, |values| (values[t] - means[i]) * self.weights[t])
         };
@@ -230,25 +231,26 @@ mod tests {
     #[test]
     fn analytic_spectrum_of_four_samples() {
         // 1, 2, 4, 5 about 3 at 4 Hz: X₁ = −3 + 3i, X₂ = −2; P₁ = 2 · 18 · ¼/4, P₂ = 4 · ¼/4.
-        let of = spectrum(&[-2.0, -1.0, 1.0, 2.0], 4, Window::Rectangular, 0.0);
-        assert_eq!((of.step, of.segments), (1.0, 1));
-        for (found, wanted) in of.density.iter().zip([2.25, 0.25]) {
-            assert!((found - wanted).abs() < 1e-14, "{:?}", of.density);
+        let spectrum = spectrum(&[-2.0, -1.0, 1.0, 2.0], 4, Window::Rectangular, 0.0);
+        assert_eq!((spectrum.step, spectrum.segments), (1.0, 1));
+        for (found, wanted) in spectrum.density.iter().zip([2.25, 0.25]) {
+            assert!((found - wanted).abs() < 1e-14, "{:?}", spectrum.density);
         }
         // By Parseval's theorem the sum is the variance.
-        assert!((of.density.iter().sum::<f64>() * of.step - 2.5).abs() < 1e-14);
+        assert!((spectrum.density.iter().sum::<f64>() * spectrum.step - 2.5).abs() < 1e-14);
     }
 
     #[test]
     fn analytic_line_of_a_sine_holds_its_variance() {
         for window in Window::ALL {
             let values: Vec<f64> = (0..4096).map(|i| (2.0 * PI * f64::from(i) / 16.0).sin()).collect();
-            let of = spectrum(&values, 256, window, 0.5);
-            assert_eq!(of.segments, 31);
-            let variance = of.density.iter().sum::<f64>() * of.step;
+            let found = spectrum(&values, 256, window, 0.5);
+            assert_eq!(found.segments, 31);
+            let variance = found.density.iter().sum::<f64>() * found.step;
             assert!((variance - 0.5).abs() < 1e-12, "{window:?}: {variance}");
-            let peak = (0..of.density.len()).max_by(|a, b| of.density[*a].total_cmp(&of.density[*b]));
-            assert_eq!(peak.map(|p| of.frequency(p)), Some(0.25));
+            let peak =
+                (0..found.density.len()).max_by(|a, b| found.density[*a].total_cmp(&found.density[*b]));
+            assert_eq!(peak.map(|p| found.frequency(p)), Some(0.25));
         }
     }
 
@@ -282,7 +284,7 @@ mod tests {
     #[test]
     fn analytic_half_overlapping_hann_windows_carry_nearly_all() {
         // Away from the ends w̄ = sin⁴ + cos⁴: mean ¾, mean square 19/32; ¾²/(19/32) = 18/19.
-        let of = spectrum(&vec![0.0; 1 << 16], 64, Window::Hann, 0.5);
-        assert!((of.effective_duration / (0.25 * 65536.0) - 18.0 / 19.0).abs() < 2e-3);
+        let found = spectrum(&vec![0.0; 1 << 16], 64, Window::Hann, 0.5);
+        assert!((found.effective_duration / (0.25 * 65536.0) - 18.0 / 19.0).abs() < 2e-3);
     }
 }

@@ -1,7 +1,7 @@
 //! A case that the tests of this module share.
 
 use crate::air::Air;
-use crate::case::{Case, Run};
+use crate::case::{Case, Neighbours, Run};
 use crate::chain::schemes::Scheme;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::fibre::{Fibre, Root};
@@ -23,6 +23,7 @@ pub(crate) fn table1() -> Case {
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         line: None,
+        neighbours: Neighbours::default(),
         run: Run {
             time_step: 2e-5,
             steps: 1000,

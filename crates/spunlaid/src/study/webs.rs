@@ -5,11 +5,11 @@ use super::pack::Batch;
 use super::{Point, seed_of_point};
 use crate::ensemble::Computing;
 use crate::error::Error;
-use crate::layers::{Flyer, WebSpec, to_lay};
-use crate::web::{Laying, measure, pieces};
+use crate::layers::{Flights, Flyer, WebSpec};
+use crate::web::Laying;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Lays the webs of some batches. The fibres of a point are flown once for all its webs.
+/// Lays the webs of some batches. The fibres of a point are flown once for all its webs, unless all filaments of a web fly in one air.
 ///
 /// * `sides` – of the patches of the study [m]
 /// * `steps` – the number of steps and pieces to do becomes larger by those of each case and each web
@@ -25,7 +25,7 @@ pub(super) fn lay(
     mut take: impl FnMut(Record) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let Computing { threads, isa, stop, fibre_steps, .. } = computing;
-    let follow = |_: &_, _, (done, all): (&AtomicU64, u64), work: &mut (dyn FnMut() + Send)| {
+    let follow = |Flights { done, steps: all, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
         steps.fetch_add(all, Ordering::Relaxed);
         work();
         fibre_steps.fetch_add(done.load(Ordering::Relaxed), Ordering::Relaxed);
@@ -33,13 +33,11 @@ pub(super) fn lay(
     let mut flyer = Flyer::new(threads, stop, &follow);
     for Batch { point, replicates } in batches {
         let Some(spec) = points[*point].experiment.web() else { continue };
-        let layers = spec.layers.iter().map(|layer| flyer.fibres(spec, layer));
-        let layers = layers.collect::<Result<Vec<_>, _>>()?;
         for replicate in replicates.clone() {
-            let web = to_lay(&WebSpec { seed: seed(spec, replicate), ..spec.clone() }, &layers);
-            steps.fetch_add(pieces(&web)?, Ordering::Relaxed);
-            let found = measure(&web, Laying { threads, isa, stop, laid: fibre_steps })?;
-            let landing = Landing::Measured(measured_of_web(sides, &web, &found));
+            let mut flown = flyer.web(&WebSpec { seed: seed(spec, replicate), ..spec.clone() })?;
+            steps.fetch_add(flown.pieces()?, Ordering::Relaxed);
+            let found = flown.measure(Laying { threads, isa, stop, laid: fibre_steps })?;
+            let landing = Landing::Measured(measured_of_web(sides, &flown.web, &found));
             take(Record { point: *point as u64, replicate, landing })?;
         }
     }

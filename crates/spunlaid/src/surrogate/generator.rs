@@ -111,7 +111,7 @@ struct Part {
 
 impl Generator {
     fn new(rate: f64, Size { degree, harmonic }: Size) -> Self {
-        let there = |m: usize, n: usize, k: usize| {
+        let is_used = |m: usize, n: usize, k: usize| {
             m + n <= degree && k <= harmonic && (m + n + k) % 2 == 1 && (k > 0 || n.is_multiple_of(2))
         };
         // Number of each function among those with k of the same parity; m = 1 alone, x₁, comes first.
@@ -121,7 +121,7 @@ impl Generator {
         let mut functions = [Vec::new(), Vec::new()];
         for k in 0..=harmonic {
             for n in 0..=degree {
-                for m in (0..=degree - n).filter(|m| there(*m, n, k)) {
+                for m in (0..=degree - n).filter(|m| is_used(*m, n, k)) {
                     let alike = &mut functions[k % 2];
                     numbers[place(m, n, k)] = alike.len() as u32;
                     alike.push((m, n, k));
@@ -132,7 +132,7 @@ impl Generator {
             let mut part = Part::default();
             for &(m, n, k) in functions {
                 let mut from = |m: usize, n: usize, k: usize, value: f64| {
-                    if there(m, n, k) && value != 0.0 {
+                    if is_used(m, n, k) && value != 0.0 {
                         part.entries.push((numbers[place(m, n, k)], value));
                     }
                 };
@@ -231,12 +231,12 @@ impl Follow<'_> {
         let harmonics =
             self.generator.even.rows.iter().chain(&self.generator.odd.rows).map(|(k, _)| *k).max();
         let exponent = |k: usize, i: usize| -0.5 * self.noise[i] * (k * k) as f64 * length;
-        let of = |k: usize| {
+        let entry = |k: usize| {
             let left = Lanes::from_fn(|i| libm::exp(exponent(k, i)));
             let gain = |x: f64| if x == 0.0 { length } else { length * libm::expm1(x) / x };
             [left, Lanes::from_fn(|i| gain(exponent(k, i)))]
         };
-        (0..=harmonics.unwrap_or(0)).map(of).collect()
+        (0..=harmonics.unwrap_or(0)).map(entry).collect()
     }
 }
 
@@ -259,7 +259,7 @@ impl Task for Follow<'_> {
             }
             to_odd.advance::<S>(&even, &mut odd, &whole);
             to_even.advance::<S>(&odd, &mut even, &half);
-            let squares = |of: &[Lanes]| sum_of_squares::<S>(of);
+            let squares = |values: &[Lanes]| sum_of_squares::<S>(values);
             values.push((squares(&even) - squares(&odd)).store());
         }
         values
@@ -267,9 +267,9 @@ impl Task for Follow<'_> {
 }
 
 #[inline(always)]
-fn sum_of_squares<S: Simd>(of: &[Lanes]) -> Wide<S> {
+fn sum_of_squares<S: Simd>(values: &[Lanes]) -> Wide<S> {
     let mut sum = Wide::<S>::zero();
-    for x in of {
+    for x in values {
         let x = Wide::load(x);
         sum += x * x;
     }
@@ -304,8 +304,8 @@ mod tests {
             let noises = noises(other, at_least);
             let fine = Correlations::with_step(5e-3, other, noises, 12.0, Size { degree: 44, harmonic: 12 });
             for ((i, noise), most) in at_least.iter().enumerate().zip([2e-3, 3e-4, 1e-4, 1e-5]) {
-                let of = Correlations::with_step(5e-3, other, noises, 12.0, Size::for_noise(*noise));
-                let found = difference(&of, &fine)[i];
+                let coarse = Correlations::with_step(5e-3, other, noises, 12.0, Size::for_noise(*noise));
+                let found = difference(&coarse, &fine)[i];
                 assert!(found < most, "{other} {noise}: {found:e}");
             }
         }
@@ -315,10 +315,10 @@ mod tests {
     fn order_two_in_the_step() {
         for other in [1.0, 0.4, 2.5] {
             let noises = noises(other, [0.8, 2.0, 8.0, 40.0]);
-            let of = |step: f64| {
+            let correlations = |step: f64| {
                 Correlations::with_step(step, other, noises, 12.0, Size { degree: 10, harmonic: 6 })
             };
-            let (exact, fine, coarse) = (of(1e-3), of(0.00625), of(0.025));
+            let (exact, fine, coarse) = (correlations(1e-3), correlations(0.00625), correlations(0.025));
             let (fine, coarse) = (difference(&fine, &exact), difference(&coarse, &exact));
             for i in 0..4 {
                 let order = (coarse[i] / fine[i]).ln() / 4.0_f64.ln();

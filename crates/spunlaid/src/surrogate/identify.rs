@@ -30,7 +30,7 @@ pub struct Residual {
 #[non_exhaustive]
 pub enum Unidentified {
     /// A standard deviation or the step of the lag is not positive and finite.
-    #[error("the laid fibre has no spread to identify a surrogate from; lay a longer fibre")]
+    #[error("the laid fibre has no spread, so no surrogate can be fitted to it; lay a longer fibre")]
     NoSpread,
     /// The standard deviations differ too much.
     #[error(
@@ -49,8 +49,8 @@ pub enum Unidentified {
     TooShort,
     /// The autocorrelation stays high, or swings without end.
     #[error(
-        "the autocorrelation of the position does not decay: it is still beyond ±{NOT_DECAYED} near the largest lag of the \
-         fit; a regular pattern or a drift is no lay-down that the surrogate could describe"
+        "the autocorrelation of the position does not decay: it is still beyond ±{NOT_DECAYED} near the largest \
+         lag of the fit; the surrogate cannot describe a regular pattern or a drift"
     )]
     NotDecaying,
     /// The fit wants less noise than there can be.
@@ -94,8 +94,8 @@ pub fn identify(sigmas: [f64; 2], step: f64, correlations: [&[f64]; 2]) -> Resul
         return Err(Unidentified::Ratio { ratio });
     }
     let wanted = [
-        FitTarget::of(sigmas[0], sigmas[1], step, correlations[0])?,
-        FitTarget::of(sigmas[1], sigmas[0], step, correlations[1])?,
+        FitTarget::new(sigmas[0], sigmas[1], step, correlations[0])?,
+        FitTarget::new(sigmas[1], sigmas[0], step, correlations[1])?,
     ];
     if wanted.iter().any(FitTarget::goes_on) {
         return Err(Unidentified::NotDecaying);
@@ -135,12 +135,12 @@ impl Surrogate {
         let own = self.autocorrelation(step, lags)?;
         let sigmas = [self.sigma_md, self.sigma_cd];
         let (mut residual, mut chance, mut single) = (0.0, 0.0, false);
-        for (of, own) in own.iter().enumerate() {
-            let within = |lag: &usize| (LAGS[0]..=LAGS[1]).contains(&(*lag as f64 * step / sigmas[of]));
+        for (axis, own) in own.iter().enumerate() {
+            let within = |lag: &usize| (LAGS[0]..=LAGS[1]).contains(&(*lag as f64 * step / sigmas[axis]));
             let mut squares = [0.0; 3];
             for lag in (0..lags).filter(within) {
-                let values = fibres.iter().map(|fibre| fibre[of][lag]).filter(|c| c.is_finite());
-                let found = Estimate::of(values.collect());
+                let values = fibres.iter().map(|fibre| fibre[axis][lag]).filter(|c| c.is_finite());
+                let found = Estimate::new(values.collect());
                 if !found.mean.is_finite() {
                     continue;
                 }
@@ -175,7 +175,7 @@ struct FitTarget {
 }
 
 impl FitTarget {
-    fn of(own: f64, other: f64, step: f64, correlation: &[f64]) -> Result<Self, Unidentified> {
+    fn new(own: f64, other: f64, step: f64, correlation: &[f64]) -> Result<Self, Unidentified> {
         let lags = correlation.iter().enumerate().map(|(lag, c)| (lag as f64 * step / own, *c));
         let coefficients: Vec<(f64, f64)> =
             lags.filter(|(lag, _)| (LAGS[0]..=LAGS[1]).contains(lag)).collect();
@@ -194,7 +194,7 @@ impl FitTarget {
     fn residuals(&self, noises: [f64; WIDTH], size: Size) -> impl Iterator<Item = [f64; WIDTH]> {
         let reach = self.coefficients.last().map_or(0.0, |(lag, _)| *lag);
         let curves = Correlations::new(self.other, noises.map(|squared| squared * self.own), reach, size);
-        self.coefficients.iter().map(move |(lag, c)| curves.at(*lag).map(|of| of - c))
+        self.coefficients.iter().map(move |(lag, c)| curves.at(*lag).map(|model| model - c))
     }
 }
 
@@ -209,9 +209,9 @@ fn products(
 ) -> [[f64; WIDTH]; WIDTH] {
     let noises = logarithms.map(|x| libm::exp(x) / middle);
     let mut products = [[0.0; WIDTH]; WIDTH];
-    for of in wanted {
-        let weight = 0.5 / of.coefficients.len() as f64;
-        for residuals in of.residuals(noises, size) {
+    for target in wanted {
+        let weight = 0.5 / target.coefficients.len() as f64;
+        for residuals in target.residuals(noises, size) {
             for (row, a) in products.iter_mut().zip(residuals) {
                 for (product, b) in row.iter_mut().zip(residuals) {
                     *product += weight * a * b;

@@ -171,8 +171,8 @@ impl Task for Start<'_> {
         }
         // The angle of two normal numbers is uniform.
         let [x, y] = normals::<S>(&paths.bits());
-        let over = Wide::splat(1.0).over(x.mul_add(x, y * y).sqrt());
-        paths.direction = [(x * over).store(), (y * over).store()];
+        let inverse = Wide::splat(1.0).over(x.mul_add(x, y * y).sqrt());
+        paths.direction = [(x * inverse).store(), (y * inverse).store()];
         for pair in 0..BLOCK / 2 {
             let bits = paths.bits();
             turns::<S>(paths.noise, &bits, &mut paths.turns[2 * pair..]);
@@ -206,7 +206,7 @@ impl<const SETS: usize> Task for Next<'_, SETS> {
                 paths.bits[pair] = paths.bits();
             }
         }
-        let corners: [Corner<S>; SETS] = from_fn(|k| Corner::of(sets[k].step, sets[k].pull));
+        let corners: [Corner<S>; SETS] = from_fn(|k| Corner::new(sets[k].step, sets[k].pull));
         let mut at: [[Wide<S>; 2]; SETS] = [[Wide::zero(); 2]; SETS];
         let mut along = at;
         for k in 0..SETS {
@@ -252,7 +252,7 @@ struct Corner<S: Register> {
 
 impl<S: Register> Corner<S> {
     #[inline(always)]
-    fn of(step: f64, pull: [f64; 2]) -> Self {
+    fn new(step: f64, pull: [f64; 2]) -> Self {
         Self { step: Wide::splat(step), pull: pull.map(Wide::splat) }
     }
 
@@ -287,8 +287,8 @@ impl<S: Register> Corner<S> {
         let (a, b) = (sin.neg_mul_add(b, cos * a), sin.mul_add(a, cos * b));
 
         let dot = p.mul_add(a, q * b);
-        let (factor, over) = (under + dot, one.over(more.mul_add(under, dot + dot)));
-        let (a, b) = (two_p.mul_add(factor, a * less) * over, two_q.mul_add(factor, b * less) * over);
+        let (factor, inverse) = (under + dot, one.over(more.mul_add(under, dot + dot)));
+        let (a, b) = (two_p.mul_add(factor, a * less) * inverse, two_q.mul_add(factor, b * less) * inverse);
         ([self.step.mul_add(a, x), self.step.mul_add(b, y)], [a, b])
     }
 }

@@ -24,7 +24,7 @@ impl Parting {
     }
 
     /// The first separator that occurs in a line.
-    pub(super) fn of(text: &str) -> Self {
+    pub(super) fn first_in(text: &str) -> Self {
         Self::ALL.into_iter().find(|parting| parting.occurs(text)).unwrap_or(Self::Blanks)
     }
 
@@ -33,7 +33,7 @@ impl Parting {
         let mut cells = Vec::new();
         Self::ALL.into_iter().filter(|parting| parting.occurs(text)).find(|parting| {
             parting.split(text, &mut cells);
-            let looks = || cells.iter().map(|cell| Looks::of(&text[cell.clone()], *parting));
+            let looks = || cells.iter().map(|cell| Looks::new(&text[cell.clone()], *parting));
             looks().all(|looks| looks != Looks::Text) && looks().any(|looks| looks == Looks::Number)
         })
     }
@@ -84,7 +84,7 @@ pub(super) enum Looks {
 }
 
 impl Looks {
-    pub(super) fn of(cell: &str, parting: Parting) -> Self {
+    pub(super) fn new(cell: &str, parting: Parting) -> Self {
         match parsed(cell, parting) {
             None => Self::Text,
             Some(number) if number.is_nan() => Self::Missing,

@@ -18,7 +18,7 @@ impl Head {
     /// Splits `u_m_s`, `u [m/s]`, `u (m/s)`, `u/(m/s)` and `u m/s` into name and unit.
     pub fn new(text: &str) -> Self {
         let text = text.trim();
-        let of = |name: &str, unit: Option<&str>| {
+        let head = |name: &str, unit: Option<&str>| {
             let name = excerpt(name.trim().trim_matches(['_', '/', '-', ':']), 40);
             Self { text: text.to_owned(), name, unit: unit.map(|unit| unit.trim().to_owned()) }
         };
@@ -26,16 +26,16 @@ impl Head {
             if let Some((name, rest)) = text.split_once(open)
                 && let Some((unit, _)) = rest.split_once(close)
             {
-                return of(name, Some(unit));
+                return head(name, Some(unit));
             }
         }
         for (at, joint) in text.char_indices().filter(|(_, c)| matches!(c, '_' | ' ' | '/')) {
             let (name, unit) = (&text[..at], &text[at + joint.len_utf8()..]);
             if !name.is_empty() && is_unit(unit) {
-                return of(name, Some(unit));
+                return head(name, Some(unit));
             }
         }
-        of(text, None)
+        head(text, None)
     }
 
     /// Compares the header with names in small letters, with `_` between words. If one of them is the name, the result

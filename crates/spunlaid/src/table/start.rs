@@ -36,7 +36,7 @@ pub(super) fn find(lines: &[Line]) -> Option<Start> {
     };
     let names_in = |line: &str| {
         let by_rows = names(line, parting);
-        let by_itself = names(line, Parting::of(line));
+        let by_itself = names(line, Parting::first_in(line));
         [by_rows, by_itself].into_iter().find(|names| !names.is_empty() && fits(names))
     };
     let start =
@@ -68,7 +68,7 @@ pub(super) fn find(lines: &[Line]) -> Option<Start> {
         return start(row, parting, names, row - 1);
     }
     // The line above is the header all the same. Below a single name a comma is a decimal comma.
-    let names = above.map(|text| names(text, Parting::of(text)));
+    let names = above.map(|text| names(text, Parting::first_in(text)));
     let parting = match &names {
         Some(names) if names.len() == 1 && cells.len() == 2 && parting == Parting::Sign(b',') => {
             Parting::Sign(b';')
@@ -89,9 +89,9 @@ fn numbers<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, 
             (Some((parting, cells)), None) => first = Some((i, *parting, *cells)),
             (None, Some((_, _, cells))) => {
                 // Numbers above the header, as a rate on a line of its own, are not as many as those below it.
-                let parting = Parting::of(text(i));
+                let parting = Parting::first_in(text(i));
                 let header =
-                    parting.cells(text(i)).iter().all(|cell| Looks::of(cell, parting) != Looks::Number);
+                    parting.cells(text(i)).iter().all(|cell| Looks::new(cell, parting) != Looks::Number);
                 let next = rows.get(i + 1).copied().flatten();
                 if header && next.is_some_and(|(_, below)| below != cells) {
                     first = None;
@@ -106,8 +106,8 @@ fn numbers<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, 
 /// The first row of numbers and words: where most lines in a row look alike.
 fn mixed<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, Parting)> {
     let looks = |i: usize| {
-        let parting = Parting::of(text(i));
-        let looks: Vec<Looks> = parting.cells(text(i)).iter().map(|cell| Looks::of(cell, parting)).collect();
+        let parting = Parting::first_in(text(i));
+        let looks: Vec<Looks> = parting.cells(text(i)).iter().map(|cell| Looks::new(cell, parting)).collect();
         (parting, looks)
     };
     let alike = |a: &[Looks], b: &[Looks]| {
@@ -155,8 +155,8 @@ fn names(line: &str, parting: Parting) -> Vec<String> {
 /// Whether a line has names and no numbers.
 fn words(names: &[String], parting: Parting) -> bool {
     !names.is_empty()
-        && names.iter().all(|name| Looks::of(name, parting) != Looks::Number)
-        && names.iter().any(|name| Looks::of(name, parting) == Looks::Text)
+        && names.iter().all(|name| Looks::new(name, parting) != Looks::Number)
+        && names.iter().any(|name| Looks::new(name, parting) == Looks::Text)
 }
 
 /// Whether a line says how values were sampled, like the fourth line of a TOA5 file.

@@ -68,7 +68,7 @@ fn columns_of_text_do_no_harm() {
 
 #[test]
 fn faults_name_line_and_column() {
-    let said = |text: &str| {
+    let message = |text: &str| {
         let mut table = Table::open(text.as_bytes(), FileKind::Table, 0).unwrap();
         loop {
             let read = table.next_row().and_then(|more| {
@@ -85,16 +85,16 @@ fn faults_name_line_and_column() {
         }
     };
     assert_eq!(
-        said("t,u\n0,1\n\n1,x7\n"),
+        message("t,u\n0,1\n\n1,x7\n"),
         "a.csv:4: column u: \"x7\" is not a number; write one, or leave the cell empty where a value is missing"
     );
     // In the first row too, which is not taken for words.
     assert_eq!(
-        said("t,u\n0,x7\n1,2\n"),
+        message("t,u\n0,x7\n1,2\n"),
         "a.csv:2: column u: \"x7\" is not a number; write one, or leave the cell empty where a value is missing"
     );
-    assert!(said("t,u\n0,1\n1\n").starts_with("a.csv:3: this row has 1 cells and needs 2"));
-    assert_eq!(said("t,u\n0,1\n1,\n"), "");
+    assert!(message("t,u\n0,1\n1\n").starts_with("a.csv:3: this row has 1 cells and needs 2"));
+    assert_eq!(message("t,u\n0,1\n1,\n"), "");
 }
 
 #[test]

@@ -34,7 +34,7 @@ impl Powers {
     }
 
     /// The powers of a dimension.
-    pub const fn of(dimension: Dimension) -> Self {
+    pub const fn of_dimension(dimension: Dimension) -> Self {
         match dimension {
             Dimension::Length => Self::new(1.0, 0.0, 0.0),
             Dimension::Velocity => Self::new(1.0, 0.0, -1.0),
@@ -48,7 +48,7 @@ impl Powers {
             Dimension::Acceleration => Self::new(1.0, 0.0, -2.0),
             Dimension::Temperature => Self { kelvin: 1.0, ..Self::new(0.0, 0.0, 0.0) },
             Dimension::Noise => Self::new(-0.5, 0.0, 0.0),
-            Dimension::Ratio => Self::new(0.0, 0.0, 0.0),
+            Dimension::Memory | Dimension::Ratio => Self::new(0.0, 0.0, 0.0),
         }
     }
 
@@ -144,8 +144,11 @@ impl Expression {
     ///
     /// # Errors
     /// If units do not fit or a name is unknown.
-    pub fn value(&self, of: &dyn Fn(&str) -> Option<(f64, Powers)>) -> Result<(f64, Powers), Fault> {
-        self.root.value(of)
+    pub fn value(
+        &self,
+        value_of_key: &dyn Fn(&str) -> Option<(f64, Powers)>,
+    ) -> Result<(f64, Powers), Fault> {
+        self.root.value(value_of_key)
     }
 }
 
@@ -162,18 +165,18 @@ impl Node {
         }
     }
 
-    fn value(&self, of: &dyn Fn(&str) -> Option<(f64, Powers)>) -> Result<(f64, Powers), Fault> {
+    fn value(&self, value_of_key: &dyn Fn(&str) -> Option<(f64, Powers)>) -> Result<(f64, Powers), Fault> {
         Ok(match self {
             Self::Quantity(value, powers) => (*value, *powers),
-            Self::Name(name) => of(name).ok_or_else(|| {
+            Self::Name(name) => value_of_key(name).ok_or_else(|| {
                 unknown_name(name, "write the full name of one, like air.velocity".to_owned())
             })?,
             Self::Negative(inner) => {
-                let (value, powers) = inner.value(of)?;
+                let (value, powers) = inner.value(value_of_key)?;
                 (-value, powers)
             }
             Self::Binary(operator, left, right) => {
-                let ((a, left), (b, right)) = (left.value(of)?, right.value(of)?);
+                let ((a, left), (b, right)) = (left.value(value_of_key)?, right.value(value_of_key)?);
                 match operator {
                     '*' => (a * b, left.plus(right, 1.0)),
                     '/' => (a / b, left.plus(right, -1.0)),
@@ -341,7 +344,7 @@ fn exact(number: &str, symbol: &str) -> Option<Node> {
     let text = format!("{number} {symbol}");
     ALL.into_iter().find_map(|dimension| {
         let value = dimension.parse(&text).ok()?;
-        Some(Node::Quantity(value, Powers::of(dimension)))
+        Some(Node::Quantity(value, Powers::of_dimension(dimension)))
     })
 }
 
@@ -359,20 +362,20 @@ mod tests {
     use super::*;
 
     fn value(text: &str) -> Result<(f64, Powers), Fault> {
-        let of = |name: &str| match name {
-            "air.velocity" => Some((10.0, Powers::of(Dimension::Velocity))),
-            "air.length_scale" => Some((0.05, Powers::of(Dimension::Length))),
-            "air.turbulence_intensity" => Some((0.1, Powers::of(Dimension::Ratio))),
+        let value_of_key = |name: &str| match name {
+            "air.velocity" => Some((10.0, Powers::of_dimension(Dimension::Velocity))),
+            "air.length_scale" => Some((0.05, Powers::of_dimension(Dimension::Length))),
+            "air.turbulence_intensity" => Some((0.1, Powers::of_dimension(Dimension::Ratio))),
             _ => None,
         };
-        Expression::parse(text)?.value(&of)
+        Expression::parse(text)?.value(&value_of_key)
     }
 
     #[test]
     fn taylors_hypothesis() {
         let (hertz, powers) = value("air.velocity / (4 * air.length_scale)").unwrap();
         assert_eq!(hertz, 50.0);
-        assert!(powers.agree(Powers::of(Dimension::Frequency)));
+        assert!(powers.agree(Powers::of_dimension(Dimension::Frequency)));
     }
 
     #[test]
@@ -398,13 +401,13 @@ mod tests {
             assert_eq!(found, expected, "{text}");
             assert!(powers.agree(Powers::default()), "{text} comes out in {powers}");
         }
-        assert_eq!(value("50 µm").unwrap(), (5e-5, Powers::of(Dimension::Length)));
-        assert_eq!(value("1.2 kg/m^3").unwrap(), (1.2, Powers::of(Dimension::Density)));
+        assert_eq!(value("50 µm").unwrap(), (5e-5, Powers::of_dimension(Dimension::Length)));
+        assert_eq!(value("1.2 kg/m^3").unwrap(), (1.2, Powers::of_dimension(Dimension::Density)));
     }
 
     #[test]
     fn rejects_what_is_no_formula() {
-        for (text, said) in [
+        for (text, message) in [
             ("", "cannot be read at \"the end\"; a number, a key or a parenthesis is expected there"),
             ("1 +", "cannot be read at \"the end\"; a number, a key or a parenthesis is expected there"),
             ("(1", "cannot be read at \"the end\"; a closing parenthesis is expected there"),
@@ -419,7 +422,7 @@ mod tests {
                 "uses velocity, which is not a key with a number; write the full name of one, like air.velocity",
             ),
         ] {
-            assert_eq!(value(text).unwrap_err().to_string(), said, "{text}");
+            assert_eq!(value(text).unwrap_err().to_string(), message, "{text}");
         }
         assert_eq!(value(&"(".repeat(2000)), Err(too_long()));
         assert_eq!(value(&"(".repeat(500)), Err(too_long()));

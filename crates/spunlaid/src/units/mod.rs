@@ -41,12 +41,14 @@ pub enum Dimension {
     Temperature,
     /// [m^-½]
     Noise,
+    /// [B]
+    Memory,
     /// A plain number, or a percentage.
     Ratio,
 }
 
 /// Every dimension.
-const ALL: [Dimension; 14] = [
+const ALL: [Dimension; 15] = [
     Dimension::Length,
     Dimension::Velocity,
     Dimension::Time,
@@ -60,6 +62,7 @@ const ALL: [Dimension; 14] = [
     Dimension::Acceleration,
     Dimension::Temperature,
     Dimension::Noise,
+    Dimension::Memory,
     Dimension::Ratio,
 ];
 
@@ -103,6 +106,7 @@ impl Dimension {
             Self::Acceleration => "an acceleration",
             Self::Temperature => "a temperature",
             Self::Noise => "a noise",
+            Self::Memory => "a size of memory",
             Self::Ratio => "a ratio",
         }
     }

@@ -80,6 +80,14 @@ const KINEMATIC_VISCOSITY: &[Unit] =
 const ACCELERATION: &[Unit] = &[unit("m/s²", "m/s2", Ten(0))];
 const TEMPERATURE: &[Unit] = &[unit("K", "K", Ten(0)), unit("°C", "°C", Above(273.15))];
 const NOISE: &[Unit] = &[unit("m^-0.5", "m-0.5", Ten(0)), also("1/√m", "1/√m", Ten(0))];
+const MEMORY: &[Unit] = &[
+    unit("B", "B", Ten(0)),
+    unit("kB", "kB", Ten(3)),
+    unit("MB", "MB", Ten(6)),
+    unit("GB", "GB", Ten(9)),
+    also("MiB", "MiB", Times(1_048_576.0)),
+    also("GiB", "GiB", Times(1_073_741_824.0)),
+];
 const RATIO: &[Unit] = &[unit("", "", Ten(0)), also("%", "%", Ten(-2))];
 
 impl Dimension {
@@ -99,6 +107,7 @@ impl Dimension {
             Self::Acceleration => ACCELERATION,
             Self::Temperature => TEMPERATURE,
             Self::Noise => NOISE,
+            Self::Memory => MEMORY,
             Self::Ratio => RATIO,
         }
     }

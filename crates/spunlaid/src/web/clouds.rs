@@ -151,7 +151,7 @@ impl Clouds {
             r > 0 && (shortest..longest.min(self.from)).contains(&wave)
         };
         let of_tile = |tile: &Vec<f64>| (0..tile.len()).filter(|r| within(*r)).map(|r| tile[r]).sum();
-        let short = Estimate::of(self.tiles.iter().map(of_tile).collect());
+        let short = Estimate::new(self.tiles.iter().map(of_tile).collect());
         let long = self.sheet.parts(shortest.max(self.from), longest);
         let mean = short.mean + long.sum();
         let of_long = long.share(self.sheet.open) * long.sum().powi(2);
@@ -194,7 +194,7 @@ impl Clouds {
     /// Share of the texture that lies along the machine direction: `⟨cos²⟩` of the crests of waves of four to sixteen cells, ½
     /// without orientation.
     pub fn texture_md(&self) -> Estimate {
-        Estimate::of(self.along.clone())
+        Estimate::new(self.along.clone())
     }
 }
 

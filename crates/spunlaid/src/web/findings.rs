@@ -7,6 +7,7 @@ use super::one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
 use super::sensitivity::{Sensitivity, Source, sensitivities};
 use super::uniformity::{Unevenness, unevenness_at};
+use super::waves::Places;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::{Error, Fault};
 use crate::threads::try_each;
@@ -57,6 +58,9 @@ pub struct PatchFindings {
     pub surrogate: Option<(f64, f64)>,
     /// Of straight fibres in all directions of the same mass.
     pub straight_fibres: f64,
+    /// What the same filaments would give in airs of their own, with its standard error: [`PatchFindings::one_fibre`] where they were flown in one air; None if they
+    /// are independent as they are.
+    pub independent: Option<(f64, f64)>,
 }
 
 /// Fibres that are laid alone.
@@ -72,7 +76,19 @@ const LAGS: usize = 257;
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.
 pub fn find(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
-    let found = measure(web, by)?;
+    find_laid(web, None, by)
+}
+
+/// [`find`] of a web that has been laid already, if it is given.
+///
+/// # Errors
+/// As [`find`].
+pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<Findings, Error> {
+    let found = measure_laid(web, laid, by)?;
+    if found.laid.together.is_some() {
+        // What changes the unevenness of independent filaments says little about that of their clouds.
+        return Ok(found);
+    }
     let sides: Vec<usize> = found.patches.iter().map(|patch| side(&web.sheet, patch.map.patch)).collect();
     let of = OneFibre { cell: web.sheet.cell, fibres: TURNED, seed: web.seed };
     let aside = AtomicU64::new(0);
@@ -98,6 +114,14 @@ fn side(sheet: &Sheet, patch: f64) -> usize {
 /// # Errors
 /// As [`find`].
 pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
+    measure_laid(web, None, by)
+}
+
+/// [`measure`] of a web that has been laid already, if it is given.
+///
+/// # Errors
+/// As [`find`].
+pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
     let columns = within(web);
     let sides: Vec<usize> = sheet.patches.iter().map(|patch| side(sheet, *patch)).collect();
@@ -115,7 +139,8 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
         );
         return Err(Fault::new(message, "write web.edges = \"periodic\", or a larger web.width").into());
     }
-    let laid = lay(web, by)?;
+    let laid = laid.map_or_else(|| lay(web, by), Ok)?;
+    let is_shared = laid.together.is_some();
     // The progress is that of the web; what comes after it is short.
     let aside = AtomicU64::new(0);
     let by = Laying { laid: &aside, ..by };
@@ -136,7 +161,8 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
             compared.as_ref().filter(|_| all(of, |layer| layer.compared.as_ref())).map(|found| found[i].cv)
         })
     };
-    let places = web.places(columns.len() as f64 * sheet.cell);
+    // The air displaces neighbours together, so their streaks are chance.
+    let places = if is_shared { Places::Unknown } else { web.places(columns.len() as f64 * sheet.cell) };
     let mut patches = Vec::new();
     let uneven = try_each(by.threads, sides.len(), |i| Ok(unevenness_at(&map, sides[i], &places)))?;
     for (i, map) in uneven.into_iter().enumerate() {
@@ -144,7 +170,8 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
         let flown = the_one(|fibres| matches!(fibres, Fibres::Curves(_)), i);
         let surrogate = the_one(|fibres| matches!(fibres, Fibres::Surrogate(_)), i);
         let (one_fibre, straight_fibres) = (alone[i].cv, alone[i].straight_fibres);
-        patches.push(PatchFindings { map, one_fibre, flown, surrogate, straight_fibres });
+        let independent = is_shared.then_some(one_fibre);
+        patches.push(PatchFindings { map, one_fibre, flown, surrogate, straight_fibres, independent });
     }
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
     let (clouds, autocorrelation) = (Clouds::at(&map, &places), autocorrelation(&map, lags));
@@ -167,7 +194,7 @@ fn within(web: &Web) -> Range<usize> {
         let edge = EDGE * layer.fibres.sigma_cd();
         let [first, last] = match &layer.filaments {
             Filaments::AtRandom { .. } => [0.0, sheet.width],
-            Filaments::Rows(_) => {
+            Filaments::Slot { .. } | Filaments::Rows(_) => {
                 let places = places(web, number, layer);
                 [places.first(), places.last()].map(|place| place.copied().unwrap_or(0.0))
             }
@@ -208,7 +235,7 @@ fn expected(
             let weight = layer.basis_weight(sheet);
             let across = match &layer.filaments {
                 Filaments::AtRandom { .. } => vec![weight; count],
-                Filaments::Rows(_) => {
+                Filaments::Slot { .. } | Filaments::Rows(_) => {
                     let places = places(web, number, layer);
                     let places: Vec<f64> = places.iter().map(|place| place / sheet.cell).collect();
                     let across = found[i].across(&places, (sheet.cells()[0], closed), sides[i]);

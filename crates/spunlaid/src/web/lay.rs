@@ -1,8 +1,10 @@
 //! Lays all filaments of a web.
 
+use super::canvas::too_full;
 use super::curves::Stretches;
 use super::map::Map;
 use super::raster::{Draw, Pens};
+use super::strands::Strand;
 use super::strip::Strip;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::{Error, Fault};
@@ -14,6 +16,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 /// What computes, and how it is watched and stopped.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +38,41 @@ pub struct LaidWeb {
     pub map: Map,
     /// Mass beyond edges that cut it off [kg].
     pub cut: f64,
+    /// What is known of filaments that were flown together and laid as they came down; None of a web of independent filaments.
+    pub together: Option<Together>,
+}
+
+/// Time that a computation took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spent {
+    /// All of it.
+    pub whole: Duration,
+    /// The parts that are shared among threads.
+    pub in_parallel: Duration,
+}
+
+/// What is known of filaments that were flown together, in one air.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Together {
+    /// Single fibres of a window.
+    pub strands: Vec<Strand>,
+    /// Filaments that were lost: they are missing on the web from then on.
+    pub lost: u64,
+    /// Length of time that was flown, of the layer that took the longest [s].
+    pub time: f64,
+    /// What the flights took.
+    pub spent: Spent,
+}
+
+impl Together {
+    /// Adds what is known of another layer.
+    pub(crate) fn add(&mut self, layer: usize, other: Self) {
+        self.strands.extend(other.strands.into_iter().map(|strand| Strand { layer, ..strand }));
+        self.lost += other.lost;
+        self.time = self.time.max(other.time);
+        self.spent.whole += other.spent.whole;
+        self.spent.in_parallel += other.spent.in_parallel;
+    }
 }
 
 /// Filaments that a thread lays before it adds them to the map.
@@ -43,11 +81,12 @@ const TOGETHER: usize = 8 * WIDTH;
 const LONGEST_PIECE: [f64; 2] = [0.06, 0.2];
 /// Points that are drawn at once.
 const BLOCK: usize = PATH_POINTS + 1;
-/// Last word of the keys of the places of filaments, and of the choice of stretches. Paths and winds have others.
+/// Last word of the keys of the places of filaments, of the choice of stretches, and of the depths in a slot. Paths and winds have others.
 const PLACES: u64 = 4;
 const STRETCHES: u64 = 5;
+const DEPTHS: u64 = 6;
 /// Highest number of a cell, by which the quantum is chosen, over the mean one and over that of a single trace.
-const HIGHEST: f64 = 4.0;
+pub(super) const HIGHEST: f64 = 4.0;
 
 /// Curves of up to eight filaments, point by point.
 pub(super) trait Points {
@@ -302,21 +341,37 @@ fn uniform(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0
 }
 
-/// Where the filaments of a layer come down, in order [m].
+/// Where the filaments of a layer come down in cross direction, in order [m].
 pub(super) fn places(web: &Web, number: usize, layer: &Layer) -> Vec<f64> {
-    let mut places: Vec<f64> = match &layer.filaments {
+    inlets(&web.sheet, web.seed, number, &layer.filaments).into_iter().map(|[cd, _]| cd).collect()
+}
+
+/// Where the inlets of the filaments of a layer are in cross and in machine direction, in order across the web [m].
+///
+/// * `seed` – of the web
+/// * `number` – of the layer
+pub(crate) fn inlets(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<[f64; 2]> {
+    let random = |kind| random(seed, (number as u64) << 48 | 1 << 47, kind);
+    let count = filaments.count(sheet);
+    let mut inlets: Vec<[f64; 2]> = match filaments {
         Filaments::AtRandom { .. } => {
-            let mut random = random(web.seed, (number as u64) << 48 | 1 << 47, PLACES);
-            (0..layer.count(&web.sheet)).map(|_| uniform(&mut random) * web.sheet.width).collect()
+            let mut random = random(PLACES);
+            (0..count).map(|_| [uniform(&mut random) * sheet.width, 0.0]).collect()
+        }
+        Filaments::Slot { depth, .. } => {
+            let (mut random, pitch) = (random(DEPTHS), sheet.width / count as f64);
+            let inlet = |i| [(i as f64 + 0.5) * pitch, (uniform(&mut random) - 0.5) * depth];
+            (0..count).map(inlet).collect()
         }
         Filaments::Rows(rows) => {
-            let nozzles =
-                rows.iter().flat_map(|row| (0..row.filaments).map(|i| row.offset + row.pitch * i as f64));
+            let nozzles = rows
+                .iter()
+                .flat_map(|row| (0..row.filaments).map(|i| [row.offset + row.pitch * i as f64, row.md]));
             nozzles.collect()
         }
     };
-    places.sort_by(f64::total_cmp);
-    places
+    inlets.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    inlets
 }
 
 pub(super) fn plans(web: &Web) -> Result<Vec<Plan<'_>>, Fault> {
@@ -377,13 +432,9 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<LaidWeb, Error> {
     })?;
     let (map, cut, is_full) = sum.into_inner().unwrap_or_else(PoisonError::into_inner);
     if is_full {
-        let message = format!(
-            "a cell of {:e} m holds more fibre than can be counted, since the filaments lie in few places",
-            sheet.cell
-        );
-        return Err(Fault::new(message, "choose smaller cells (web.cell)").into());
+        return Err(too_full(sheet.cell).into());
     }
-    Ok(LaidWeb { map, cut: cut as f64 * quantum })
+    Ok(LaidWeb { map, cut: cut as f64 * quantum, together: None })
 }
 
 /// The fault of a layer without filaments or without fibre.

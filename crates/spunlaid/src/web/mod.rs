@@ -6,6 +6,7 @@
 //!
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 
+mod canvas;
 mod clouds;
 mod curves;
 mod findings;
@@ -21,10 +22,12 @@ pub mod uniformity;
 mod waves;
 mod whole_error;
 
+pub(crate) use canvas::Canvas;
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
-pub use findings::{Findings, PatchFindings, find, measure};
-pub use lay::{LaidWeb, Laying, lay, pieces};
+pub use findings::{Findings, PatchFindings, find, find_laid, measure, measure_laid};
+pub(crate) use lay::inlets;
+pub use lay::{LaidWeb, Laying, Spent, Together, lay, pieces};
 pub use map::Map;
 pub use one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
@@ -97,8 +100,41 @@ pub enum Filaments {
         /// Number of filaments per width of the sheet [1/m]; the nearest whole number is laid.
         per_metre: f64,
     },
+    /// At an even pitch over the width of the sheet, in a slot: each at a random place of the slot's depth.
+    Slot {
+        /// Number of filaments per width of the sheet [1/m]; the nearest whole number is laid.
+        per_metre: f64,
+        /// Size of the slot in machine direction [m].
+        depth: f64,
+    },
     /// In rows of nozzles.
     Rows(Vec<Row>),
+}
+
+impl Filaments {
+    /// Number of filaments on a sheet.
+    pub fn count(&self, sheet: &Sheet) -> u64 {
+        match self {
+            Self::AtRandom { per_metre } | Self::Slot { per_metre, .. } => {
+                (per_metre * sheet.width).round() as u64
+            }
+            Self::Rows(rows) => rows.iter().map(|row| row.filaments).sum(),
+        }
+    }
+
+    /// Whether another web of this kind has its filaments at other places in cross direction.
+    pub const fn are_at_random(&self) -> bool {
+        matches!(self, Self::AtRandom { .. })
+    }
+
+    /// Farthest that an inlet is from the middle of the slot in machine direction [m].
+    pub fn reach_md(&self) -> f64 {
+        match self {
+            Self::AtRandom { .. } => 0.0,
+            Self::Slot { depth, .. } => 0.5 * depth,
+            Self::Rows(rows) => rows.iter().map(|row| row.md.abs()).fold(0.0, f64::max),
+        }
+    }
 }
 
 /// A row of nozzles.
@@ -110,6 +146,18 @@ pub struct Row {
     pub pitch: f64,
     /// Number of nozzles.
     pub filaments: u64,
+    /// Place of the row in machine direction, from the middle of the slot [m].
+    pub md: f64,
+}
+
+impl Row {
+    /// A row in the middle of the slot.
+    ///
+    /// * `offset` – place of the first nozzle [m]
+    /// * `pitch` – distance from nozzle to nozzle [m]
+    pub const fn new(offset: f64, pitch: f64, filaments: u64) -> Self {
+        Self { offset, pitch, filaments, md: 0.0 }
+    }
 }
 
 /// The curves that filaments lay.
@@ -129,10 +177,7 @@ impl Layer {
 
     /// Number of filaments on a sheet.
     pub fn count(&self, sheet: &Sheet) -> u64 {
-        match &self.filaments {
-            Filaments::AtRandom { per_metre } => (per_metre * sheet.width).round() as u64,
-            Filaments::Rows(rows) => rows.iter().map(|row| row.filaments).sum(),
-        }
+        self.filaments.count(sheet)
     }
 
     /// Length that each filament lays on a sheet [m].
@@ -155,7 +200,7 @@ impl Web {
     /// * `width` – of the part [m]
     pub fn places(&self, width: f64) -> Places {
         let weight = self.basis_weight();
-        let at_random = |layer: &&Layer| matches!(layer.filaments, Filaments::AtRandom { .. });
+        let at_random = |layer: &&Layer| layer.filaments.are_at_random();
         let layers: Vec<(f64, &Layer)> = (self.layers.iter().filter(at_random))
             .map(|layer| {
                 // Of a web that is wide everywhere, so many filaments lie in this width on average: a Poisson number.

@@ -103,7 +103,7 @@ fn add(
     found: &mut [Sums],
 ) -> Result<(), Error> {
     let pitch = apart as f64 * of.cell;
-    let row = Row { offset: (trace as f64 + 0.5) * of.cell, pitch, filaments: of.fibres };
+    let row = Row::new((trace as f64 + 0.5) * of.cell, pitch, of.fibres);
     let web = Web {
         sheet: Sheet {
             width: pitch * of.fibres as f64,
@@ -150,7 +150,7 @@ impl Alone {
     pub fn of(&self, filaments: &Filaments) -> &Estimate {
         match filaments {
             Filaments::AtRandom { .. } => &self.at_random,
-            Filaments::Rows(_) => &self.at_places,
+            Filaments::Slot { .. } | Filaments::Rows(_) => &self.at_places,
         }
     }
 
@@ -210,8 +210,8 @@ impl Sums {
             (squares - rows * profile.iter().zip(own).map(other).sum::<f64>()) / area
         });
         Alone {
-            at_places: Estimate::of(at_places.collect()),
-            at_random: Estimate::of(self.squares.iter().map(|squares| squares / area).collect()),
+            at_places: Estimate::new(at_places.collect()),
+            at_random: Estimate::new(self.squares.iter().map(|squares| squares / area).collect()),
             profile,
             trace,
         }

@@ -186,7 +186,7 @@ pub fn sensitivities(
                     mean + 0.5 * (m / more.mean - l / less.mean) / (2.0 * libm::log1p(STEP))
                 };
                 let parts = less.values.iter().zip(&more.values).map(part).collect();
-                Some(Estimate { mean, ..Estimate::of(parts) })
+                Some(Estimate { mean, ..Estimate::new(parts) })
             };
             of_both[0].iter().zip(&of_both[1]).map(of_side).collect()
         };

@@ -27,7 +27,7 @@ pub struct Strand {
 }
 
 impl Window {
-    fn holds(&self, point: [f64; 2]) -> bool {
+    pub(crate) fn holds(&self, point: [f64; 2]) -> bool {
         self.nears(point, 0.0)
     }
 

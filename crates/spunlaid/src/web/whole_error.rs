@@ -34,6 +34,10 @@ const CHANCE: f64 = 2.0;
 impl PatchFindings {
     /// The error of the CV of the map, by its causes.
     pub fn whole_error(&self) -> WholeError {
+        if self.independent.is_some() {
+            // Every filament of the sheet has been flown.
+            return WholeError { chance: self.map.standard_error, flight: Some(0.0), model: Some(0.0) };
+        }
         // What is expected of the web is as far off, in parts of itself.
         let per_expected = self.map.cv / self.one_fibre.0;
         let parts = self.flown.map(|(flown, error)| [error, flown - self.one_fibre.0]);

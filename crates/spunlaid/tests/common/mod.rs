@@ -7,7 +7,7 @@ pub mod modes;
 pub mod reference;
 
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::case::{Case, Run};
+use spunlaid::case::{Case, Neighbours, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
@@ -62,7 +62,14 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
         damping: 0.0,
         shapes: None,
     };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), line: None, run }
+    Case {
+        fibre: table1_fibre(),
+        air: table1_air(),
+        drag: paper_drag(),
+        line: None,
+        neighbours: Neighbours::default(),
+        run,
+    }
 }
 
 /// A fibre in a vacuum.

@@ -27,7 +27,7 @@ pub fn web(sides: [f64; 2], cell: f64, sigma: f64, filaments: f64, in_rows: bool
     let fibres =
         Fibres::Surrogate(Surrogate { sigma_md: sigma, sigma_cd: sigma, noise: 1.68 / sigma.sqrt() });
     let [width, length] = sides;
-    let row = Row { offset: 0.0, pitch: 1.0 / filaments, filaments: (filaments * width).round() as u64 };
+    let row = Row::new(0.0, 1.0 / filaments, (filaments * width).round() as u64);
     let layer = Layer {
         // 19 g/m² from whatever number of filaments.
         linear_density: 910.0 * PI * 18e-6 * 18e-6 / 4.0 * 5000.0 / filaments,

@@ -4,11 +4,12 @@ use crate::air::{mesh, samples, values};
 use crate::meshes;
 use crate::meshes::Made;
 use crate::vtk::{ASCII, Data, Legacy, Mesh, Place, Squeeze, Style, legacy, vti, vtr, vts, vtu};
-use spunlaid::field::{Description, Field, FieldWarning, Hint, Local};
+use spunlaid::error::Fault;
+use spunlaid::field::{Description, Field, Hint, Local};
 use spunlaid::vec3::Vec3;
 use std::path::Path;
 
-fn read(bytes: &[u8], name: &str) -> (Field, Vec<FieldWarning>) {
+fn read(bytes: &[u8], name: &str) -> (Field, Vec<Fault>) {
     Field::parse(bytes, name).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -212,7 +213,10 @@ fn analytic_values_of_cells_are_the_mean_at_points() {
         check(&field);
         let [of_cells, flat] = warnings.as_slice() else { panic!("{warnings:?}") };
         assert!(of_cells.to_string().contains("U is given at cells; each point gets the mean"));
-        assert_eq!(flat, &FieldWarning::NotSolid { cells: 1 });
+        assert_eq!(
+            flat.message,
+            "1 cells are points, lines or faces, perhaps of the boundary; they are left out"
+        );
     }
     let data = [("U", 3, vec![1.0, 0.0, 0.0, 3.0, 0.0, 0.0])];
     check(&read(&vti([3, 2, 2], [0.0; 3], [1.0; 3], [&[], &data], ASCII), "a.vti").0);
@@ -239,7 +243,7 @@ fn analytic_epsilon_is_from_omega() {
         ("epsilon", 1, ones(1.0)),
     ];
     let (field, warnings) = read(&vti([2, 2, 2], [0.0; 3], [1.0; 3], [&data, &[]], ASCII), "a.vti");
-    assert_eq!(warnings, [FieldWarning::Negative { array: "k".to_owned(), points: 1 }]);
+    assert_eq!(warnings, [Fault::plain("k is negative at 1 points; zero is used there")]);
     assert_eq!(field.sample(Vec3::default(), &mut Hint::default()).k, 0.0);
 }
 
@@ -369,7 +373,8 @@ fn tables_of_many_programs_are_read() {
     // Rows that lack any number are left out.
     let (field, warnings) =
         read(b"x,y,u,v\n0,0,1,2\n1,0,1,2\n5,5,nan,2\n0,1,3,2\n7,7,,1\n1,1,3,2\n8,8,1,\n", "a.csv");
-    assert_eq!(warnings, [FieldWarning::Dropped { rows: 3, first: 4 }]);
+    let dropped = "3 rows lack a number and are left out; the first is in line 4";
+    assert_eq!(warnings, [Fault::plain(dropped)]);
     assert_eq!(field.describe(), Description::Lattice { points: [2, 2, 1] });
 }
 

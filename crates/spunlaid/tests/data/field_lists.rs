@@ -3,11 +3,14 @@
 use crate::air::{mesh, samples, values};
 use crate::meshes::{Made, noise};
 use crate::vtk::{ASCII, Mesh, Place, Squeeze, Style, vti, vtu};
-use spunlaid::field::{Description, Field, FieldWarning, Hint};
+use spunlaid::error::Fault;
+use spunlaid::field::{Description, Field, Hint};
 use spunlaid::vec3::Vec3;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
+
+const SURFACES: &str = "the list names surfaces too (.vtp: 1), perhaps the boundary; they are left out";
 
 const ZLIB: Style = Style { place: Place::AppendedRaw, squeeze: Squeeze::Zlib, ..ASCII };
 
@@ -75,8 +78,7 @@ fn identical_in_one_file_and_in_a_list_of_files() {
     for name in ["a.pvtu", "b.vtm", "nested.vtm", "walls.vtm"] {
         let (field, warnings) = Field::read(&folder.path().join(name)).unwrap();
         assert_eq!(samples(&field), samples(&whole), "{name}");
-        let surfaces =
-            if name == "walls.vtm" { vec![FieldWarning::Surfaces { parts: 1 }] } else { Vec::new() };
+        let surfaces = if name == "walls.vtm" { vec![Fault::plain(SURFACES)] } else { Vec::new() };
         assert_eq!(warnings, surfaces, "{name}");
     }
 }
@@ -107,7 +109,7 @@ fn lists_of_vtk_itself_are_read() {
     let lists = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/field_fixtures/lists");
     for name in ["blocks.vtm", "parallel.pvtu", "image.pvti", "rectilinear.pvtr", "structured.pvts"] {
         let (field, warnings) = Field::read(&lists.join(name)).unwrap_or_else(|error| panic!("{error}"));
-        let surfaces = warnings.contains(&FieldWarning::Surfaces { parts: 1 });
+        let surfaces = warnings.contains(&Fault::plain(SURFACES));
         assert_eq!(surfaces, name == "blocks.vtm", "{warnings:?}");
         // All hold the same linear field on or around a unit cube, in 32 bits at the least.
         let mut hint = Hint::default();
@@ -175,7 +177,7 @@ fn rejects_lists_with_the_part_that_is_to_blame() {
         ),
         ("absolute.vtm", "which is outside of the list’s own folder; put it into that folder or one below"),
         ("mixed.pvtu", "image.vti: is a VTK file of ImageData; its list names parts of another kind of grid"),
-        ("twice.pvtu", "twice.pvtu:5: names the part \"./a.vtu\", twice; name it once"),
+        ("twice.pvtu", "twice.pvtu:5: names the part \"./a.vtu\", which it has named before; name it once"),
         (
             "surfaces.vtm",
             "surfaces.vtm: is a list that names no file with a volume, only 2 with surfaces (.vtp);",
@@ -197,8 +199,5 @@ fn rejects_lists_with_the_part_that_is_to_blame() {
     // Bytes alone have no folder.
     let error =
         Field::parse(list(&["a.vtu"]).as_bytes(), "a.pvtu").expect_err("this is no field").to_string();
-    assert_eq!(
-        error,
-        "a.pvtu: is a VTK file of PUnstructuredGrid; it lists other files, so name it by its path"
-    );
+    assert_eq!(error, "a.pvtu: is a VTK file that lists other files; name it by its path");
 }

@@ -82,7 +82,7 @@ fn rejects_meshes_with_place_and_way_out() {
         (
             "type=\"UnstructuredGrid\"",
             "type=\"PUnstructuredGrid\"",
-            "a.vtu: is a VTK file of PUnstructuredGrid; it lists other files, so name it by its path",
+            "a.vtu: is a VTK file that lists other files; name it by its path",
         ),
         (
             "header_type",
@@ -118,7 +118,8 @@ fn rejects_grids_with_place_and_way_out() {
         ),
         (
             "0 -5 0 1 0 1",
-            "a.vtu:4: WholeExtent: \"-4\" was found instead of a number of points of one or more; is the file complete, and is it the right one?",
+            "a.vtu:4: WholeExtent: \"-4\" was found instead of a number of points, at least 1; is the file \
+             complete, and is it the right one?",
         ),
         (
             "0 1 0 1",
@@ -133,7 +134,7 @@ fn rejects_grids_with_place_and_way_out() {
     );
     assert_eq!(
         changed(&image, "Origin", "Direction=\"0 1 0 -1 0 0 0 0 1\" Origin"),
-        "a.vtu:4: is an image whose axes are turned; resample it along x, y and z"
+        "a.vtu:4: is an image whose axes are rotated; resample it along x, y and z"
     );
 }
 
@@ -214,7 +215,8 @@ fn rejects_legacy_files_with_place_and_way_out() {
         (
             "ASCII",
             "DATASET STRUCTURED_POINTS\nDIMENSIONS 2 0 2",
-            "a.vtu:5: \"0\" was found instead of a number of points of one or more; is the file complete, and is it the right one?",
+            "a.vtu:5: \"0\" was found instead of a number of points, at least 1; is the file complete, and is it \
+             the right one?",
         ),
         (
             "ASCII",

@@ -232,12 +232,9 @@ fn rejects_with_line_column_and_way_out() {
         (layout(|l| l.columns = vec!["3".into()]), "a.csv: has no column 3; there are time_s and u_m_s"),
         (
             layout(|l| l.columns = vec!["u".into(), "2".into()]),
-            "a.csv: column u_m_s: is asked for twice; name each column once",
+            "a.csv: column u_m_s: is named twice; name each column once",
         ),
-        (
-            layout(|l| l.rate = Some(0.0)),
-            "a.csv: a sampling rate of 0 Hz is not possible; give a rate above zero",
-        ),
+        (layout(|l| l.rate = Some(0.0)), "a.csv: the sampling rate cannot be 0 Hz; give a rate above zero"),
     ] {
         assert_eq!(refused(head, &layout), said);
     }

@@ -6,7 +6,8 @@ use crate::scans::{
 use png::Unit;
 use proptest::prelude::*;
 use spunlaid::error::FileError;
-use spunlaid::scan::{Light, Note, Picture, Settings, analyse, parse, read};
+use spunlaid::scan::{Light, Picture, Settings, analyse, parse, read};
+use spunlaid::units::Dimension;
 use std::path::Path;
 use tiff::encoder::colortype::{Gray32, GrayI16, RGB8};
 use tiff::tags::ResolutionUnit;
@@ -96,15 +97,15 @@ fn rejects_what_is_no_scan() {
         (png8(9, &[7; 900]), "has 9 × 100 pixels; at least 16 are needed either way"),
         (
             npy("<f8", "True", "(24, 24)", &data),
-            "has its columns stored one after the other (Fortran order), which is not read; save numpy.asc",
+            "has its columns stored one after the other (Fortran order), which cannot be read; save numpy.asc",
         ),
         (
             npy("<f8", "False", "(24, 8, 3)", &data),
-            "has the shape (24, 8, 3), which is not read; save a map of two dimensions",
+            "has the shape (24, 8, 3), which cannot be read; save a map of two dimensions",
         ),
         (
             npy("<f2", "False", "(24, 24)", &data),
-            "has numbers of the kind <f2, which is not read; save map.astype(\"float32\")",
+            "has numbers of the kind <f2, which cannot be read; save map.astype(\"float32\")",
         ),
         (npy("<f8", "False", "(24, 25)", &data), "ends where the numbers of the array should follow"),
         (
@@ -113,7 +114,7 @@ fn rejects_what_is_no_scan() {
         ),
         (
             tiff::<GrayI16>(SIDE, &levels(i16::from)),
-            "has signed numbers, half floats or numbers of 8 bytes, which is not read",
+            "has signed numbers, half floats or numbers of 8 bytes, which cannot be read",
         ),
         (
             wide.into_bytes(),
@@ -135,7 +136,7 @@ fn rejects_what_is_no_scan() {
 
 fn refused(file: &[u8], change: impl Fn(&mut Settings)) -> String {
     let light = Light::Transmitted { mean: None, white: None };
-    let mut settings = Settings::of(light);
+    let mut settings = Settings::new(light);
     change(&mut settings);
     let error: FileError = analyse(&parsed(file), &settings).unwrap_err();
     error.to_string()
@@ -163,7 +164,10 @@ fn rejects_pictures_of_no_web_and_settings_that_do_not_fit() {
         ),
         (refused(&scan, white(f64::NAN)), "cannot be read with a level of the lamp = NaN"),
         (refused(&scan, |of| of.noise = Some(0.0)), "cannot be read with a noise = 0"),
-        (refused(&scan, |of| of.noise = Some(80.0)), "than the given noise of the camera, 80, alone would"),
+        (
+            refused(&scan, |of| of.noise = Some(80.0)),
+            "than the noise of the camera alone, 80 as you gave it,",
+        ),
         (
             refused(&scan, |of| of.patches = vec![2e-3, 0.5]),
             "has no patches of 500 mm; they can have sides from a pixel, 1 mm, to the shorter side of the picture, 24 mm",
@@ -172,7 +176,7 @@ fn rejects_pictures_of_no_web_and_settings_that_do_not_fit() {
         (refused(&scan, |of| of.patches = vec![f64::NAN]), "has no patches of NaN m"),
         (
             refused(&scan, |of| of.lamp = Some(parsed(&png8(16, &[9; 320])))),
-            "has 24 × 32 pixels, and the picture of the lamp without web 16 × 20; take both",
+            "has 24 × 32 pixels, but the picture of the lamp without web has 16 × 20; take both",
         ),
         (
             refused(&npy_f64(SIDE, &levels(|x| f64::from(x) - 150.0)), weight),
@@ -195,18 +199,25 @@ fn light() -> Light {
 fn what_was_assumed_is_told() {
     let mut levels = levels(|x| x);
     (levels[5], levels[77], levels[78]) = (0, 255, 255);
-    let transmitted = |white| Settings::of(Light::Transmitted { mean: None, white });
+    let transmitted = |white| Settings::new(Light::Transmitted { mean: None, white });
     let notes = |settings: &Settings| analyse(&parsed(&png8(SIDE, &levels)), settings).unwrap().notes;
-    let told = notes(&transmitted(None));
-    assert_eq!(told[..2], [Note::White { white: 255.0, full_scale: true }, Note::Relative]);
-    assert!(told.contains(&Note::Filled { pixels: 1 }));
-    assert!(told.contains(&Note::Saturated { pixels: 2, share: 2.0 / 768.0 }));
-    assert!(notes(&transmitted(Some(230.0))).contains(&Note::Lighter { pixels: 2, share: 2.0 / 768.0 }));
-    let said: Vec<String> = told.iter().map(ToString::to_string).collect();
-    assert!(said.iter().all(|note| !note.contains("  ") && !note.ends_with('.')), "{said:#?}");
+    let texts = |settings: &Settings| notes(settings).iter().map(ToString::to_string).collect::<Vec<_>>();
+    let found = texts(&transmitted(None));
+    let lamp =
+        "the lamp without web is assumed to have the grey level 255, the largest that the file can hold. ";
+    assert!(found[0].starts_with(lamp), "{}", found[0]);
+    assert!(found[1].starts_with("the mean basis weight is not known, "), "{}", found[1]);
+    for words in
+        ["pixels that are black or have no value: 1; ", "pixels of the largest grey level: 2 (0.26 %); "]
+    {
+        assert!(found.iter().any(|note| note.starts_with(words)), "{words}: {found:#?}");
+    }
+    let lighter = "pixels lighter than the lamp without web: 2 (0.26 %); they count as empty; ";
+    assert!(texts(&transmitted(Some(230.0))).iter().any(|note| note.starts_with(lighter)));
+    assert!(found.iter().all(|note| !note.contains("  ") && !note.ends_with('.')), "{found:#?}");
     let heavy = analyse(
         &parsed(&npy_f64(SIDE, &[1.0, 2.0].repeat(300)[..576])),
-        &Settings::of(Light::Weight { mean: None }),
+        &Settings::new(Light::Weight { mean: None }),
     );
     let note = heavy.unwrap().notes[0].to_string();
     assert_eq!(note, "the values are taken as basis weights in kg/m², with a mean of 1.5 kg/m²");
@@ -225,19 +236,20 @@ fn a_pixel_is_as_large_as_the_file_says() {
         let picture = parse(&file, "a", None).unwrap();
         assert!((picture.pixel / wanted - 1.0).abs() < 1e-4, "{name}: {} {wanted}", picture.pixel);
         let notes = |pixel: Option<f64>| {
-            let found = analyse(&parse(&file, "a", pixel).unwrap(), &Settings::of(light()));
-            found.unwrap().notes[0].clone()
+            let found = analyse(&parse(&file, "a", pixel).unwrap(), &Settings::new(light()));
+            found.unwrap().notes[0].to_string()
         };
-        assert_eq!(notes(None), Note::PixelOfFile { pixel: picture.pixel }, "{name}");
-        assert!(matches!(notes(Some(1.005 * wanted)), Note::White { .. }), "{name}");
-        let other = Note::OtherPixel { given: 0.1e-3, of_file: picture.pixel };
+        let side = Dimension::Length.pretty_to(picture.pixel, 4);
+        let own = notes(None);
+        assert!(own.starts_with(&format!("a pixel is {side} wide, as the file says (")), "{name}: {own}");
+        assert!(notes(Some(1.005 * wanted)).starts_with("the lamp without web is assumed"), "{name}");
+        let other = format!("a pixel is taken to be 100 µm wide, as you said, but the file says {side}");
         assert_eq!(notes(Some(0.1e-3)), other, "{name}");
     }
-    let said = Note::PixelOfFile { pixel: 25.4e-3 / 96.0 }.to_string();
-    assert!(
-        said.starts_with("a pixel is 264.6 µm wide, as the file says (96 dots per inch); many"),
-        "{said}"
-    );
+    let guess = analyse(&parse(&png([3780; 2], Unit::Meter), "a", None).unwrap(), &Settings::new(light()));
+    let note = guess.unwrap().notes[0].to_string();
+    let words = "a pixel is 264.6 µm wide, as the file says (96 dots per inch); many programs write this";
+    assert!(note.starts_with(words), "{note}");
 
     for (name, file, wanted) in [
         ("no resolution", png8(SIDE, &levels), "a: does not say how large its pixels are"),
@@ -300,7 +312,7 @@ proptest! {
         let read = parse(&file, "a", 1e-3).and_then(|picture| {
             assert_eq!(picture.values.len(), picture.columns * picture.rows);
             for light in [Light::Transmitted { mean: None, white: None }, Light::Weight { mean: Some(0.02) }] {
-                let found = analyse(&picture, &Settings { patches: vec![2e-3], ..Settings::of(light) })?;
+                let found = analyse(&picture, &Settings { patches: vec![2e-3], ..Settings::new(light) })?;
                 assert!(found.map.basis_weight() > 0.0 && found.patches[0].unevenness.cv >= 0.0);
                 assert!(found.notes.iter().all(|note| note.to_string().lines().count() == 1));
             }

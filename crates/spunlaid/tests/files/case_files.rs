@@ -3,7 +3,7 @@
 use crate::cases;
 use crate::cases::{bits, changed, read_again};
 use spunlaid::air::Air;
-use spunlaid::case::{Case, Remark, Run};
+use spunlaid::case::{Case, Neighbours, Remark, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::fibre::{Fibre, Root};
@@ -85,6 +85,7 @@ fn table_1_is_read_in_si_units() {
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         line: None,
+        neighbours: Neighbours::default(),
         run: Run {
             time_step: 1e-6,
             steps: 1_000_000,

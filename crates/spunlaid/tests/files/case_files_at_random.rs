@@ -3,7 +3,7 @@
 use crate::cases::{bits, read_again, remarks};
 use proptest::prelude::*;
 use spunlaid::air::{Air, EddyModel, Lateral};
-use spunlaid::case::{Case, Run};
+use spunlaid::case::{Case, Neighbours, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::fibre::{Fibre, Root};
@@ -73,7 +73,7 @@ prop_compose! {
             shapes: leapfrog.then_some(seed % 20_001),
         };
         let drag = Drag { along, across };
-        let mut case = Case { fibre, air, drag, line: None, run };
+        let mut case = Case { fibre, air, drag, line: None, neighbours: Neighbours::default(), run };
         let limit = case.stable_step_limits().iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
         case.run.time_step = share * limit;
         case.air.harmonics = (case.air.cutoff_frequency * case.run.duration()) as usize + more_harmonics;

@@ -123,7 +123,7 @@ fn rows_and_layers_are_read_in_their_order() {
     let spec = parse_web(LAYERS, "layers.toml", &[]).unwrap().spec;
     let [first, second] = &spec.layers[..] else { panic!("two layers") };
     assert_eq!(first.name.as_deref(), Some("first \"beam\""));
-    let row = |offset: f64| Row { offset, pitch: 0.5e-3, filaments: 2100 };
+    let row = |offset: f64| Row::new(offset, 0.5e-3, 2100);
     assert_eq!(first.filaments, Filaments::Rows(vec![row(0.0), row(-0.25e-3)]));
     assert_eq!(second.filaments, Filaments::AtRandom { per_metre: 1200.0 });
     assert!((second.linear_density() / 1.1e-7 - 1.0).abs() < 1e-12, "{}", second.linear_density());

@@ -24,3 +24,4 @@ mod slack;
 mod statics;
 mod turbulence;
 mod vibrations;
+mod widening;

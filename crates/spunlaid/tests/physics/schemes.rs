@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::case::{Case, Run};
+use spunlaid::case::{Case, Neighbours, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{Computing, Job, Keep, fly_together};
@@ -123,7 +123,14 @@ fn table1(scheme: Scheme) -> Case {
         damping: 0.0,
         shapes: None,
     };
-    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), line: None, run }
+    Case {
+        fibre: table1_fibre(),
+        air: table1_air(),
+        drag: paper_drag(),
+        line: None,
+        neighbours: Neighbours::default(),
+        run,
+    }
 }
 
 /// End nodes of eight replicates every millisecond (lateral components), and the rms amplitude.

@@ -101,7 +101,7 @@ fn published_trends_of_the_paper() {
         let r = results(&case);
         let both = |a: &Estimate, b: &Estimate| {
             let all: Vec<f64> = a.values.iter().zip(&b.values).map(|(a, b)| 0.5 * (a + b)).collect();
-            Estimate::of(all)
+            Estimate::new(all)
         };
         let e = |name: &str| r.estimate(name);
         (both(&e("amplitude_y"), &e("amplitude_z")), both(&e("frequency_y"), &e("frequency_z")))

@@ -231,7 +231,7 @@ fn published_students_t() {
     ] {
         assert!((spunlaid::statistics::student_t_95(degrees) / t - 1.0).abs() < 4e-6, "{degrees}");
     }
-    let estimate = Estimate::of(vec![1.0, 2.0]);
+    let estimate = Estimate::new(vec![1.0, 2.0]);
     assert_eq!(estimate.standard_error, Some(0.5));
 }
 

@@ -109,7 +109,7 @@ fn one_fibre_says_how_uneven_the_web_is() {
 #[test]
 fn rows_of_nozzles_have_the_unevenness_that_is_expected_of_them() {
     for (pitch, count) in [(0.25e-3, 2000), (50e-3, 10)] {
-        let rows = Filaments::Rows(vec![Row { offset: 0.1e-3, pitch, filaments: count }]);
+        let rows = Filaments::Rows(vec![Row::new(0.1e-3, pitch, count)]);
         let narrow = Surrogate { sigma_cd: 12e-3, ..SPUNBOND };
         let layer = Layer { filaments: rows, ..layer(Fibres::Surrogate(narrow), 0.0) };
         let sheet = Sheet { patches: [2e-3, 10e-3, 40e-3].to_vec(), ..sheet(0.5, 1.0, 1e-3) };
@@ -129,7 +129,7 @@ fn rows_of_nozzles_have_the_unevenness_that_is_expected_of_them() {
 
 #[test]
 fn a_web_has_the_same_bits_on_all_machines_and_threads() {
-    let rows = Filaments::Rows(vec![Row { offset: 1e-3, pitch: 2e-3, filaments: 50 }]);
+    let rows = Filaments::Rows(vec![Row::new(1e-3, 2e-3, 50)]);
     let one = Layer { filaments: rows, ..layer(Fibres::Surrogate(SPUNBOND), 0.0) };
     let two = layer(Fibres::Surrogate(Surrogate { sigma_cd: 30e-3, ..SPUNBOND }), 700.0);
     let web = Web { sheet: sheet(0.1, 0.2, 0.5e-3), layers: vec![one, two], seed: 5 };
@@ -220,7 +220,7 @@ proptest! {
     ) {
         let edges = if cut { Edges::Cut } else { Edges::Periodic };
         let (width, length) = (columns as f64 * cell, rows as f64 * cell);
-        let filaments = Filaments::Rows(vec![Row { offset, pitch, filaments }]);
+        let filaments = Filaments::Rows(vec![Row::new(offset, pitch, filaments)]);
         let fibres = Fibres::Surrogate(Surrogate { sigma_md: sigma, sigma_cd: 0.7 * sigma, noise });
         let belt_speed = 50.0 * ratio;
         let layer = Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed, filaments, fibres, compared: None };
@@ -285,7 +285,7 @@ fn rosettes() -> (Surrogate, Curves) {
 #[test]
 fn the_error_of_a_surrogates_map_reaches_to_the_flown_curves() {
     let (surrogate, curves) = rosettes();
-    let rows = Filaments::Rows(vec![Row { offset: 0.2e-3, pitch: 0.5e-3, filaments: 400 }]);
+    let rows = Filaments::Rows(vec![Row::new(0.2e-3, 0.5e-3, 400)]);
     let curves = Fibres::Curves(Arc::new(curves));
     let mut layer =
         Layer { filaments: rows, compared: Some(curves.clone()), ..layer(Fibres::Surrogate(surrogate), 0.0) };

@@ -34,7 +34,7 @@ fn web(filaments: Filaments, edges: Edges, [width, length]: [f64; 2]) -> Web {
 }
 
 fn rows(pitch: f64, filaments: u64) -> Filaments {
-    Filaments::Rows(vec![Row { offset: 0.5 * pitch, pitch, filaments }])
+    Filaments::Rows(vec![Row::new(0.5 * pitch, pitch, filaments)])
 }
 
 fn with<T>(run: impl FnOnce(Laying<'_>) -> T) -> T {

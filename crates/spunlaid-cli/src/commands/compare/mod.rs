@@ -67,7 +67,7 @@ pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
     if compare.json {
         say::text(&json);
     } else if !compare.quiet {
-        comparisons.iter().for_each(|of| say::text(&comparison::table(of)));
+        comparisons.iter().for_each(|comparison| say::text(&comparison::table(comparison)));
         say::line(&format!("open {}", folder.join("report.html").display()));
     }
     Ok(())
@@ -105,16 +105,16 @@ fn compared(first: &Run, other: &Run) -> Comparison {
     let differs = OF_TURBULENCE.iter().find(|path| first.at(path) != other.at(path));
     let pairs = differs.is_none().then(|| first.replicates().min(other.replicates()) as usize);
     let measure = |measure: &&'static spunlaid::observe::Measure| {
-        let of = |run: &Run| run.values(measure.group.name, measure.column);
-        let values = [of(first)?, of(other)?];
+        let values_of_run = |run: &Run| run.values(measure.group.name, measure.column);
+        let values = [values_of_run(first)?, values_of_run(other)?];
         let difference = match pairs {
             Some(_) => Difference::paired(&values[0], &values[1]),
             None => Difference::independent(&values[0], &values[1]),
         };
         let finite =
-            |values: &Vec<f64>| Estimate::of(values.iter().copied().filter(|v| v.is_finite()).collect());
+            |values: &Vec<f64>| Estimate::new(values.iter().copied().filter(|v| v.is_finite()).collect());
         let means = [finite(&values[0]), finite(&values[1])];
-        means.iter().all(|of| of.mean.is_finite()).then(|| Compared {
+        means.iter().all(|values_of_run| values_of_run.mean.is_finite()).then(|| Compared {
             label: measure.label.to_owned(),
             column: measure.column.to_owned(),
             unit: measure.unit.shown,

@@ -18,7 +18,7 @@ pub(super) struct Run {
 impl Run {
     pub(super) fn read(folder: &Path, name: String) -> Result<Self, Failure> {
         let summary = summary(folder)?;
-        Ok(Self { curves: Curves { name, of: curves(&folder.join("figures")) }, summary })
+        Ok(Self { curves: Curves { name, rows: curves(&folder.join("figures")) }, summary })
     }
 
     pub(super) fn name(&self) -> &str {
@@ -46,11 +46,11 @@ impl Run {
 /// The curves of the figures, as far as they can be read: a figure that is not there is not compared.
 fn curves(folder: &Path) -> BTreeMap<String, Vec<Row>> {
     let files = fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
-    let of = |path: PathBuf| {
+    let table = |path: PathBuf| {
         let name = path.file_stem()?.to_str()?.to_owned();
         (path.extension()? == "csv").then(|| Some((name, rows(&path)?)))?
     };
-    files.filter_map(of).collect()
+    files.filter_map(table).collect()
 }
 
 /// The rows of a table of numbers beside a figure: series, place, value and, if there is one, the error.

@@ -20,7 +20,7 @@ pub(super) struct Web {
     weight: Option<f64>,
     /// By the side of the patches.
     patches: Vec<Patch>,
-    /// What the flown curves let expect, if there were some.
+    /// The CV expected from the flown curves, if there were some.
     flown: Vec<Patch>,
     /// Cloudiness index and share of the texture along the machine direction.
     clouds: [Option<Number>; 2],
@@ -69,20 +69,20 @@ pub(super) fn read(folders: &[PathBuf], names: &[String]) -> Result<Option<Vec<W
 
 fn web(folder: &std::path::Path, name: &str, summary: &Json) -> Option<Web> {
     let web = summary.get("web")?;
-    let number = |of: &Json, [value, error, ends]: [&str; 3]| {
-        let end = |i: usize| of[ends][i].as_f64();
+    let number = |json: &Json, [value, error, ends]: [&str; 3]| {
+        let end = |i: usize| json[ends][i].as_f64();
         Some(Number {
-            value: of[value].as_f64()?,
-            standard_error: of[error].as_f64(),
+            value: json[value].as_f64()?,
+            standard_error: json[error].as_f64(),
             ends: end(0).zip(end(1)).map(|(low, high)| [low, high]),
-            doubt: of["no_interval"].as_str().map(|doubt| format!("{doubt} ({name})")),
+            doubt: json["no_interval"].as_str().map(|doubt| format!("{doubt} ({name})")),
         })
     };
     let all = web["patches"].as_array()?;
     let patches = |names: [&str; 3]| -> Vec<Patch> {
-        let patch = |of: &Json| {
-            let cv = number(of, names)?.with_all_causes(&of["cv_whole_error"], names[0] == "cv");
-            Some(Patch { side: of["patch_m"].as_f64()?, cv })
+        let patch = |json: &Json| {
+            let cv = number(json, names)?.with_all_causes(&json["cv_whole_error"], names[0] == "cv");
+            Some(Patch { side: json["patch_m"].as_f64()?, cv })
         };
         all.iter().filter_map(patch).collect()
     };
@@ -101,38 +101,42 @@ fn web(folder: &std::path::Path, name: &str, summary: &Json) -> Option<Web> {
 /// If a web has no patches like those of the first.
 pub(super) fn compared(webs: &[Web]) -> Result<(Vec<Comparison>, Vec<Figure>), Failure> {
     let comparisons = webs.iter().skip(1).map(|other| against(&webs[0], other)).collect::<Result<_, _>>()?;
-    let drawn =
-        |of: &Patch| Unevenness { patch: of.side, cv: of.cv.value, standard_error: of.cv.standard_error };
+    let drawn = |patch: &Patch| Unevenness {
+        patch: patch.side,
+        cv: patch.cv.value,
+        standard_error: patch.cv.standard_error,
+    };
     let curves: Vec<_> =
         webs.iter().map(|web| (web.name.clone(), web.patches.iter().map(drawn).collect())).collect();
     Ok((comparisons, vec![overlaid_webs(&curves)]))
 }
 
 fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
-    let of_patch = |of: &Patch, others: &[Patch], [whose, end]: [&str; 2]| {
-        let found = at(others, of.side)?;
-        let side = significant(of.side * 1e3, 3);
-        let values = [of.cv.clone(), found];
+    let of_patch = |patch: &Patch, others: &[Patch], [whose, end]: [&str; 2]| {
+        let found = at(others, patch.side)?;
+        let side = significant(patch.side * 1e3, 3);
+        let values = [patch.cv.clone(), found];
         let (label, column) = (format!("{whose} over patches of {side} mm"), format!("cv_{side}_mm{end}"));
         Some(measure(label, column, ("%", 100.0), values))
     };
-    let of_map = |of: &Patch| of_patch(of, &other.patches, ["CV", ""]);
+    let of_map = |patch: &Patch| of_patch(patch, &other.patches, ["CV", ""]);
     let mut measures: Vec<Compared> = first.patches.iter().filter_map(of_map).collect();
     if measures.is_empty() {
         let sides = |web: &Web| {
-            let sides: Vec<String> = web.patches.iter().map(|of| significant(of.side * 1e3, 3)).collect();
+            let sides: Vec<String> =
+                web.patches.iter().map(|patch| significant(patch.side * 1e3, 3)).collect();
             format!("{} mm", sides.join(", "))
         };
         let message = format!(
-            "cannot be compared: it has no patches of the same size as {}: {} there, {} here",
+            "cannot be compared: it has no patches of the same size as {}, which has {}; this one has {}",
             first.name,
             sides(first),
             sides(other)
         );
-        let fault = Fault::new(message, "name the same with web.patches or --patches");
+        let fault = Fault::new(message, "give both the same sizes with web.patches or --patches");
         return Err(Error::folder(&other.folder, fault).into());
     }
-    let of_flown = |of: &Patch| of_patch(of, &other.flown, ["CV of the flown curves", "_flown"]);
+    let of_flown = |patch: &Patch| of_patch(patch, &other.flown, ["CV of the flown curves", "_flown"]);
     measures.extend(first.flown.iter().filter_map(of_flown));
     let names =
         [("cloudiness index", "cloudiness", ("%", 100.0)), ("texture along MD", "texture_md", ("", 1.0))];
@@ -154,8 +158,9 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
             weight(other),
             weight(first)
         ),
-        errors: "CV of the basis weight over square patches, ± one standard error: from the waves of each piece of web, and, where fibres were \
-                 flown, from their small number and from the difference of the surrogate from them. CV of the flown curves: as they let expect.",
+        errors: "CV of the basis weight over square patches, ± one standard error: from the waves of each piece of \
+            web, and, where fibres were flown, from their small number and from the difference of the surrogate \
+            from them. The CV of the flown curves is the one expected from them.",
         measures,
     })
 }
@@ -167,7 +172,7 @@ fn measure(
     values: [Number; 2],
 ) -> Compared {
     let [a, b] = &values;
-    let doubts: Vec<&str> = values.iter().filter_map(|of| of.doubt.as_deref()).collect();
+    let doubts: Vec<&str> = values.iter().filter_map(|value| value.doubt.as_deref()).collect();
     let doubt = (!doubts.is_empty()).then(|| doubts.join("; "));
     // The ends of both intervals that face each other make that of the difference: Zou and Donner, Statistics in Medicine 27 (2008)
     // 1693–1702. A standard error is from many parts of a web, and a normal distribution serves.
@@ -178,8 +183,11 @@ fn measure(
         standard_error: one.hypot(other),
         degrees: f64::INFINITY,
     });
-    let means =
-        values.map(|of| Estimate { mean: of.value, standard_error: of.standard_error, values: Vec::new() });
+    let means = values.map(|number| Estimate {
+        mean: number.value,
+        standard_error: number.standard_error,
+        values: Vec::new(),
+    });
     Compared { label, column, unit, per_si, means, difference, doubt }
 }
 
@@ -211,7 +219,7 @@ impl Number {
 
 /// The CV at a patch of nearly the same size, moved to that size along the slope to its neighbour.
 fn at(patches: &[Patch], side: f64) -> Option<Number> {
-    let far = |of: &Patch| (side / of.side).ln().abs();
+    let far = |patch: &Patch| (side / patch.side).ln().abs();
     let (i, nearest) = patches.iter().enumerate().min_by(|a, b| far(a.1).total_cmp(&far(b.1)))?;
     if far(nearest) > ALIKE {
         return None;
@@ -222,12 +230,12 @@ fn at(patches: &[Patch], side: f64) -> Option<Number> {
         next.map_or(0.0, |next| (next.cv.value / nearest.cv.value).ln() / (next.side / nearest.side).ln());
     let factor = (slope * (side / nearest.side).ln()).exp();
     let factor = if factor.is_finite() { factor } else { 1.0 };
-    let of = &nearest.cv;
+    let number = &nearest.cv;
     Some(Number {
-        value: of.value * factor,
-        standard_error: of.standard_error.map(|error| error * factor),
-        ends: of.ends.map(|ends| ends.map(|end| end * factor)),
-        doubt: of.doubt.clone(),
+        value: number.value * factor,
+        standard_error: number.standard_error.map(|error| error * factor),
+        ends: number.ends.map(|ends| ends.map(|end| end * factor)),
+        doubt: number.doubt.clone(),
     })
 }
 
@@ -262,7 +270,7 @@ mod tests {
         let difference = compared([b.clone(), a.clone()]).difference.unwrap();
         assert!((difference.half_width() - 5.0).abs() < 1e-6 && difference.is_beyond_chance());
         let doubtful = Number { doubt: Some("below the blur".to_owned()), ..a };
-        let of = compared([doubtful, b]);
-        assert_eq!((of.difference, of.cells()[3].as_str()), (None, "below the blur"));
+        let found = compared([doubtful, b]);
+        assert_eq!((found.difference, found.cells()[3].as_str()), (None, "below the blur"));
     }
 }

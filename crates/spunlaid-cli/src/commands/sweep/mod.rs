@@ -44,7 +44,7 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     written.map_err(|failure| match failure {
         Failure::Error(Error::Interrupted) => {
             let what = if file.study.noun() == "web" { "webs" } else { "fibres" };
-            Failure::Paused { done, of: file.study.most_fibres(), what }
+            Failure::Paused { done, total: file.study.most_fibres(), what }
         }
         other => other,
     })

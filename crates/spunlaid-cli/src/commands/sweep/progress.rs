@@ -35,7 +35,7 @@ pub(super) fn follow<T>(
             let mut before = None;
             while !finished.load(Ordering::Acquire) {
                 std::thread::park_timeout(Duration::from_millis(100));
-                let state = State::of(study, progress, steps, begun, &mut before);
+                let state = State::new(study, progress, steps, begun, &mut before);
                 if bar.is_hidden() {
                     log.show(&state);
                 } else {
@@ -66,14 +66,14 @@ struct State {
 }
 
 impl State {
-    fn of(
+    fn new(
         study: &Study,
         progress: &Progress,
         steps: &AtomicU64,
         begun: Instant,
         before: &mut Option<u64>,
     ) -> Self {
-        let load = |of: &AtomicU64| of.load(Ordering::Relaxed);
+        let load = |counter: &AtomicU64| counter.load(Ordering::Relaxed);
         let (fibres, done) = (load(&progress.fibres), load(&progress.fibres_done));
         // Fibres that were finished before the program began.
         if before.is_none() && fibres > 0 {

@@ -16,15 +16,15 @@ pub(super) fn results(study: &Study, results: &[PointResults]) -> String {
     let shown = shown::quantities(study);
     let shown = || shown.iter().take(if is_of_webs { usize::MAX } else { SHOWN });
     let head = |quantity: &usize| {
-        let of = &study.quantities[*quantity];
-        match of.figure.name {
-            "cv" => of.series.clone(),
-            "cv_flown" => format!("flown {}", of.series),
-            _ => shown::head(of),
+        let quantity_shown = &study.quantities[*quantity];
+        match quantity_shown.figure.name {
+            "cv" => quantity_shown.series.clone(),
+            "cv_flown" => format!("flown {}", quantity_shown.series),
+            _ => shown::head(quantity_shown),
         }
     };
     let mut heads = vec!["point".to_owned()];
-    heads.extend(study.inputs().map(|of| of.key.rsplit('.').next().unwrap_or(of.key).to_owned()));
+    heads.extend(study.inputs().map(|input| input.key.rsplit('.').next().unwrap_or(input.key).to_owned()));
     heads.extend(shown().map(head));
     heads.push("n".to_owned());
     let mut rows = vec![heads];
@@ -38,7 +38,10 @@ pub(super) fn results(study: &Study, results: &[PointResults]) -> String {
     }
     let mut text = String::new();
     if is_of_webs {
-        text.push_str("unevenness, CV in % ± its error by all causes that are known, over patches of this side; flown: as the flown curves let expect\n");
+        text.push_str(
+            "unevenness, CV in % ± its error by all causes that are known, over patches of this side; \
+            flown: expected from the flown curves\n",
+        );
     }
     text.push_str(&aligned(&rows));
     if results.len() > LISTED {

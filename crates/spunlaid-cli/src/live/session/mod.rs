@@ -54,7 +54,7 @@ pub(super) struct Session {
     pages: BTreeSet<Page>,
     folder: PathBuf,
     board: Arc<Board>,
-    told: Instant,
+    statistics_shown: Instant,
 }
 
 impl Session {
@@ -71,7 +71,7 @@ impl Session {
         let read = document.read()?;
         let fibres = Fibres::new(read.case).map_err(|error| complaints(&error))?;
         let lately = Lately::new();
-        let board = Arc::new(Board::new(Frame::of(fibres.seen(), &lately)));
+        let board = Arc::new(Board::new(Frame::new(fibres.snapshot(), &lately)));
         let now = Instant::now();
         let mut clock = Clock::new(now);
         if fibres.case().line.is_some() {
@@ -93,7 +93,7 @@ impl Session {
             pages: BTreeSet::new(),
             folder,
             board,
-            told: now,
+            statistics_shown: now,
         };
         session.show_all();
         Ok(session)
@@ -173,18 +173,18 @@ impl Session {
 
     /// Time on the clock of the pages [s].
     fn now(&self) -> f64 {
-        self.since + self.fibres.seen().time
+        self.since + self.fibres.snapshot().time
     }
 
     /// Flies as many steps as the clock asks for.
     fn tick(&mut self) {
         let step = self.fibres.flight().time_step();
         let Self { fibres, measured, lately, clock, since, .. } = self;
-        if let Err(error) = clock.tick(step, |steps| seen(fibres, steps, *since, lately, measured)) {
+        if let Err(error) = clock.tick(step, |steps| see(fibres, steps, *since, lately, measured)) {
             self.lost(error.to_string());
         }
         self.show_frame();
-        if self.told.elapsed() >= TELLING {
+        if self.statistics_shown.elapsed() >= TELLING {
             self.tell();
         }
     }
@@ -196,7 +196,7 @@ impl Session {
         while left > 0 && begun.elapsed() < LONGEST_STEP {
             let steps = left.min(PIECE);
             left -= steps;
-            if let Err(error) = seen(fibres, steps, *since, lately, measured) {
+            if let Err(error) = see(fibres, steps, *since, lately, measured) {
                 return self.lost(error.to_string());
             }
         }
@@ -218,7 +218,7 @@ impl Session {
 }
 
 /// Flies a number of steps; the recorded instants are kept for frames and statistics.
-fn seen(
+fn see(
     fibres: &mut Fibres,
     steps: u64,
     since: f64,

@@ -59,7 +59,7 @@ fn json(value: &impl Serialize) -> String {
 impl Session {
     pub(super) fn show_frame(&self) {
         let fed = self.fibres.case().line;
-        let mut frame = Frame::of(self.fibres.seen(), &self.lately);
+        let mut frame = Frame::new(self.fibres.snapshot(), &self.lately);
         frame.generation = self.generation;
         frame.stands = self.stands;
         frame.behind = self.clock.is_behind();
@@ -71,9 +71,9 @@ impl Session {
     }
 
     pub(super) fn tell(&mut self) {
-        self.told = Instant::now();
-        let told = self.measured.told(self.generation, self.fibres.flight());
-        self.board.show_text(Topic::Statistics, json(&told));
+        self.statistics_shown = Instant::now();
+        let statistics = self.measured.message(self.generation, self.fibres.flight());
+        self.board.show_text(Topic::Statistics, json(&statistics));
     }
 
     /// Shows settings, state, statistics and a frame.

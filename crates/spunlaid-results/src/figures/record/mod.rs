@@ -12,12 +12,12 @@ use spunlaid_charts::{
 };
 
 /// The figures of a record in the order of the report.
-pub fn record_figures(record: &Record, of: &Analysis) -> Vec<Figure> {
+pub fn record_figures(record: &Record, analysis: &Analysis) -> Vec<Figure> {
     vec![
-        time::history(record, of),
-        time::histogram(record, of),
-        spectrum::density(of),
-        time::autocorrelation(of),
+        time::history(record, analysis),
+        time::histogram(record, analysis),
+        spectrum::density(analysis),
+        time::autocorrelation(analysis),
     ]
 }
 

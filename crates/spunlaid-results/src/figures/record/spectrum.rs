@@ -13,8 +13,8 @@ use spunlaid_charts::{
 const RATIO: f64 = 1.02;
 
 /// The spectrum of each component; flat part and cut-off of the one along the flow.
-pub(super) fn density(of: &Analysis) -> Figure {
-    let along = &of.components[0];
+pub(super) fn density(analysis: &Analysis) -> Figure {
+    let along = &analysis.components[0];
     let (spectrum, flat) = (&along.spectrum, &along.flat);
     let mut chart = Chart::new(
         "spectrum",
@@ -24,7 +24,7 @@ pub(super) fn density(of: &Analysis) -> Figure {
     )
     .when_empty("no fluctuation")
     .stretch(Series::new("taken as flat", ORANGE), flat.from, flat.until);
-    for (i, component) in of.components.iter().enumerate() {
+    for (i, component) in analysis.components.iter().enumerate() {
         let points = thinned(&component.spectrum);
         if i == 0 {
             let per_frequency = spectrum.effective_duration * spectrum.step;
@@ -58,7 +58,7 @@ pub(super) fn density(of: &Analysis) -> Figure {
         significant(100.0 * spectrum.overlap, 2),
         significant(cutoff, 3),
     );
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }
 
 /// Mean frequency, mean density and number of frequencies of each point.

@@ -13,9 +13,9 @@ const CLOSE_UP: f64 = 40.0;
 const CLASSES: usize = 64;
 
 /// The whole record, and a close-up of its middle.
-pub(super) fn history(record: &Record, of: &Analysis) -> Figure {
+pub(super) fn history(record: &Record, analysis: &Analysis) -> Figure {
     let samples = record.samples();
-    let close = ((CLOSE_UP * of.integral_time.value / of.interval) as usize).clamp(16, samples);
+    let close = ((CLOSE_UP * analysis.integral_time.value / analysis.interval) as usize).clamp(16, samples);
     let first = (samples - close) / 2;
     let panel = |name: &str, range: std::ops::Range<usize>, label: &str| {
         let chart = Chart::new(
@@ -26,13 +26,14 @@ pub(super) fn history(record: &Record, of: &Analysis) -> Figure {
         );
         record.components.iter().enumerate().fold(chart, |chart, (i, component)| {
             let values = &component.values[range.clone()];
-            let line = extremes(values, range.start, of.interval);
+            let line = extremes(values, range.start, analysis.interval);
             let series = series(&component.name, i).width(1.0);
             if range.len() == samples {
                 return chart.line(series, &line);
             }
             let all = values.iter().enumerate();
-            let all = all.map(|(k, value)| ((range.start + k) as f64 * of.interval, *value, None)).collect();
+            let all =
+                all.map(|(k, value)| ((range.start + k) as f64 * analysis.interval, *value, None)).collect();
             chart.line(series.named(&format!("{} close-up", component.name)).thinned_from(all), &line)
         })
     };
@@ -40,14 +41,14 @@ pub(super) fn history(record: &Record, of: &Analysis) -> Figure {
     let part = panel("record_part", first..first + close, "Time *t* (s)");
     let whole = whole.stretch(
         Series::new("shown below", GREY),
-        first as f64 * of.interval,
-        (first + close) as f64 * of.interval,
+        first as f64 * analysis.interval,
+        (first + close) as f64 * analysis.interval,
     );
     let caption = format!(
         "The upper panel shows the lowest and the highest sample along the whole record, the lower one {} s from its middle \
          ({} integral times). The upper panel of a steady flow looks the same everywhere.",
-        significant(close as f64 * of.interval, 2),
-        significant(close as f64 * of.interval / of.integral_time.value, 2),
+        significant(close as f64 * analysis.interval, 2),
+        significant(close as f64 * analysis.interval / analysis.integral_time.value, 2),
     );
     let (whole, part) = (whole.sized(640.0, 230.0), part.sized(640.0, 250.0));
     Figure::stacked(&whole.name, &whole.title, &[&whole, &part], caption)
@@ -70,8 +71,8 @@ fn extremes(values: &[f64], first: usize, interval: f64) -> Vec<(f64, f64)> {
 }
 
 /// The distribution of the velocity and the Gaussian.
-pub(super) fn histogram(record: &Record, of: &Analysis) -> Figure {
-    let single = of.components.len() == 1;
+pub(super) fn histogram(record: &Record, analysis: &Analysis) -> Figure {
+    let single = analysis.components.len() == 1;
     let (x, y) = if single {
         ("Velocity (m/s)", "Probability density (s/m)")
     } else {
@@ -84,7 +85,7 @@ pub(super) fn histogram(record: &Record, of: &Analysis) -> Figure {
         Axis::linear(y).zero_based(),
     );
     let mut gaussian = Vec::new();
-    for (i, (component, samples)) in of.components.iter().zip(&record.components).enumerate() {
+    for (i, (component, samples)) in analysis.components.iter().zip(&record.components).enumerate() {
         let (mean, rms) = (component.mean.value, component.rms.value);
         let (place, unit) = if single { (mean, rms) } else { (0.0, 1.0) };
         let reach =
@@ -120,14 +121,14 @@ pub(super) fn histogram(record: &Record, of: &Analysis) -> Figure {
                    the same mean and rms, which the simulated turbulence has. A peak at either end means that the \
                    instrument clips."
         .to_owned();
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }
 
 /// The autocorrelation and the part that is integrated.
-pub(super) fn autocorrelation(of: &Analysis) -> Figure {
-    let along = &of.components[0].autocorrelation;
+pub(super) fn autocorrelation(analysis: &Analysis) -> Figure {
+    let along = &analysis.components[0].autocorrelation;
     let limit = along.limit * 1e3;
-    let shown = 3.0 * limit.max(of.interval * 2e3);
+    let shown = 3.0 * limit.max(analysis.interval * 2e3);
     let mut chart = Chart::new(
         "autocorrelation",
         "Autocorrelation of the fluctuation",
@@ -135,17 +136,17 @@ pub(super) fn autocorrelation(of: &Analysis) -> Figure {
         Axis::linear("Autocorrelation coefficient *ρ*").including(0.0),
     )
     .stretch(Series::new("integrated", GREY), 0.0, limit);
-    for (i, component) in of.components.iter().enumerate() {
+    for (i, component) in analysis.components.iter().enumerate() {
         let coefficients = component.autocorrelation.coefficients.iter().enumerate();
         let line: Vec<_> = coefficients
-            .map(|(k, c)| (k as f64 * of.interval * 1e3, *c))
+            .map(|(k, c)| (k as f64 * analysis.interval * 1e3, *c))
             .take_while(|(lag, _)| *lag <= shown)
             .collect();
         chart = chart.line(series(&component.name, i).width(1.5), &line);
     }
-    let omega = 2.0 * std::f64::consts::PI * of.cutoff_frequency.value * 1e-3;
+    let omega = 2.0 * std::f64::consts::PI * analysis.cutoff_frequency.value * 1e-3;
     let sinc = |lag: f64| if lag == 0.0 { 1.0 } else { (omega * lag).sin() / (omega * lag) };
-    let end = (along.coefficients.len().saturating_sub(1) as f64 * of.interval * 1e3).min(shown);
+    let end = (along.coefficients.len().saturating_sub(1) as f64 * analysis.interval * 1e3).min(shown);
     let flat: Vec<_> = (0..=300).map(|k| f64::from(k) * end / 300.0).map(|lag| (lag, sinc(lag))).collect();
     let zero = [(0.0, 0.0), (end, 0.0)];
     let chart = chart
@@ -156,9 +157,9 @@ pub(super) fn autocorrelation(of: &Analysis) -> Figure {
         "Mean product of two fluctuations one lag apart, over the variance. The integral over the shaded part, {}, is \
          the integral time of {} ms. The dashed line is the autocorrelation of the simulated turbulence with the flat \
          spectrum, sin(*ω*τ)/(*ω*τ); its integral over all lags is a quarter of the period of the cut-off.",
-        of.integral.words(),
-        significant(of.integral_time.value * 1e3, 3),
+        analysis.integral.words(),
+        significant(analysis.integral_time.value * 1e3, 3),
     )
     .replace('*', "");
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }

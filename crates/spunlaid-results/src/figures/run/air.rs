@@ -41,8 +41,8 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
     )
     .band(Series::new("± rms of the fluctuation", GREEN), &band)
     .line(Series::new("mean", GREEN), &mean);
-    let between = |of: fn(&LocalAir) -> f64, scale: f64, unit: &str| {
-        let values = || places.iter().map(|(_, air)| of(air) * scale);
+    let between = |quantity: fn(&LocalAir) -> f64, scale: f64, unit: &str| {
+        let values = || places.iter().map(|(_, air)| quantity(air) * scale);
         let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));
         let least = if most - least <= 1e-9 * most { most } else { least };
         format!("{} {unit}", range(least, most))
@@ -53,7 +53,7 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
         between(|air| air.length_scale, MM, "mm"),
         between(|air| air.cutoff_frequency, 1.0, "Hz"),
     );
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }
 
 /// Columns and rows of a slice.
@@ -64,7 +64,7 @@ struct Plane {
     name: &'static str,
     /// Of the field [m].
     across: (f64, f64),
-    of: fn(&Vec3<f64>) -> f64,
+    coordinate: fn(&Vec3<f64>) -> f64,
     at: fn(f64) -> Vec3<f64>,
 }
 
@@ -78,14 +78,14 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
     // As much of the field as the fibre could reach, and a little more.
     let x = (low.x.max(-0.1 * length), high.x.min(1.1 * length));
     let planes = [
-        Plane { name: "*y*", across: (low.y, high.y), of: |p| p.y, at: |y| Vec3::new(0.0, y, 0.0) },
-        Plane { name: "*z*", across: (low.z, high.z), of: |p| p.z, at: |z| Vec3::new(0.0, 0.0, z) },
+        Plane { name: "*y*", across: (low.y, high.y), coordinate: |p| p.y, at: |y| Vec3::new(0.0, y, 0.0) },
+        Plane { name: "*z*", across: (low.z, high.z), coordinate: |p| p.z, at: |z| Vec3::new(0.0, 0.0, z) },
     ];
     let mut maps = planes.each_ref().map(|Plane { across, at, .. }| {
         let across = (across.0.max(-length), across.1.min(length));
         let mut hint = Hint::default();
         let mut speed = |i: usize, j: usize| {
-            let share = |n: usize, of: usize| (n as f64 + 0.5) / of as f64;
+            let share = |n: usize, count: usize| (n as f64 + 0.5) / count as f64;
             let along = Vec3::new(x.0 + (x.1 - x.0) * share(i, GRID.0), 0.0, 0.0);
             let air =
                 case.air.local(at(across.0 + (across.1 - across.0) * share(j, GRID.1)) + along, &mut hint);
@@ -106,7 +106,7 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
     if fastest > 0.0 {
         maps.iter_mut().for_each(|map| map.range = (0.0, fastest));
     }
-    let charts = maps.into_iter().zip(&planes).map(|(map, Plane { name, of, .. })| {
+    let charts = maps.into_iter().zip(&planes).map(|(map, Plane { name, coordinate, .. })| {
         let chart = Chart::new(
             &format!("air_slice_{}", name.trim_matches('*')),
             "The field and the fibres",
@@ -117,7 +117,7 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
         .map(map);
         results.trajectories.iter().enumerate().fold(chart, |chart, (i, trajectory)| {
             let end = trajectory.shapes.last().map_or(&[][..], |shape| &shape.position);
-            let path: Vec<_> = end.iter().map(|p| (p.x * MM, of(p) * MM)).collect();
+            let path: Vec<_> = end.iter().map(|p| (p.x * MM, coordinate(p) * MM)).collect();
             let name = format!("fibre {}", trajectory.replicate + 1);
             let series = Series::new("fibres at the end", VERMILION).named(&name).width(1.3);
             chart.path(if i == 0 { series } else { series.unlabelled() }, &path)

@@ -33,7 +33,7 @@ fn trace(results: &Results) -> Figure {
     const TITLE: &str = "The laid fibre, as on a light table";
     let laid: &[LaidPoint] = results.trajectories.first().map_or(&[], |trajectory| &trajectory.laid);
     let mut table = Table::new(["md_mm", "cd_mm", "fed_m"]);
-    let Some(window) = Window::of(laid) else {
+    let Some(window) = Window::new(laid) else {
         let mut svg = Svg::new(WIDTH, 120.0, TITLE);
         let style = Text { size: 14.0, colour: GREY, anchor: Anchor::Middle, upright: true };
         svg.text((WIDTH / 2.0, 64.0), "too little has been laid to be shown", style);
@@ -78,13 +78,16 @@ struct Window<'a> {
 
 impl<'a> Window<'a> {
     /// The newest piece, without the end that the next loops will still cover.
-    fn of(laid: &'a [LaidPoint]) -> Option<Self> {
+    fn new(laid: &'a [LaidPoint]) -> Option<Self> {
         let finite = laid.iter().all(|p| p.md.is_finite() && p.cd.is_finite());
         if laid.len() < 3 || !finite {
             return None;
         }
-        let range = |of: fn(&LaidPoint) -> f64, points: &[LaidPoint]| {
-            points.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
+        let range = |coordinate: fn(&LaidPoint) -> f64, points: &[LaidPoint]| {
+            points
+                .iter()
+                .map(coordinate)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
         };
         let all = range(|p| p.md, laid);
         let across = range(|p| p.cd, laid);
@@ -133,9 +136,9 @@ const REACH: f64 = 3.3;
 /// Where the fibre comes down about its straight trace, of all replicates whose laid fibre is kept.
 fn footprint(case: &Case, results: &Results) -> Figure {
     let ratio = case.line.map_or(f64::NAN, |line| line.belt_speed / line.feed_speed);
-    let kept: Vec<Vec<(f64, f64)>> =
+    let laid: Vec<Vec<(f64, f64)>> =
         results.trajectories.iter().map(|trajectory| about_straight_trace(trajectory, ratio)).collect();
-    let points: Vec<(f64, f64)> = kept.iter().flatten().copied().collect();
+    let points: Vec<(f64, f64)> = laid.iter().flatten().copied().collect();
     let [md, cd] = ["sigma_md", "sigma_cd"].map(|name| results.estimate(name).mean * MM);
     let label = |direction| Axis::linear(&format!("{direction} direction (mm)"));
     let chart = Chart::new(
@@ -149,7 +152,7 @@ fn footprint(case: &Case, results: &Results) -> Figure {
     .when_empty("too little has been laid to be shown");
     let half = REACH * md.max(cd);
     if points.is_empty() || !(md > 0.0 && cd > 0.0 && half.is_finite()) {
-        return Figure::of(
+        return Figure::new(
             &chart,
             "Too little was laid after the spin-up to say where the fibre comes down.",
         );
@@ -177,23 +180,24 @@ fn footprint(case: &Case, results: &Results) -> Figure {
         .path(Series::new("1 *σ*", VERMILION).width(1.8), &ellipse(1.0))
         .path(Series::new("2 *σ*", VERMILION).width(1.8).dashed("7 4"), &ellipse(2.0));
     let caption = format!(
-        "Share of the fibre per square centimetre of belt, about the straight trace that a fibre leaves which comes down at one \
-         place; {} of fibre of {}. The ellipses have the half axes σ and 2σ of the table: {} mm and {} mm in machine and \
-         cross direction for σ. Inside lie {} % and {} % of the fibre; of a normal distribution it would be 39.3 % and 86.5 %.",
+        "Share of the fibre per square centimetre of belt, about the straight trace, which a fibre would leave \
+         that came down at one place; {} of fibre from {}. The ellipses have the half axes σ and 2σ of the table: \
+         {} mm and {} mm in machine and cross direction for σ. Inside lie {} % and {} % of the fibre; of a normal \
+         distribution it would be 39.3 % and 86.5 %.",
         format_args!("{} m", significant(points.len() as f64 * case.fibre.rest_length(), 3)),
-        one_of(kept.len(), "replicate"),
+        one_of(laid.len(), "replicate"),
         significant(md, 3),
         significant(cd, 3),
         within(1.0),
         within(2.0)
     );
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }
 
 /// The laid points about the straight trace, in machine and cross direction [mm].
 fn about_straight_trace(trajectory: &Trajectory, ratio: f64) -> Vec<(f64, f64)> {
-    let of = trajectory.laid.iter().map(|p| (p.md + ratio * p.fed, p.cd));
-    let points: Vec<(f64, f64)> = of.filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
+    let positions = trajectory.laid.iter().map(|p| (p.md + ratio * p.fed, p.cd));
+    let points: Vec<(f64, f64)> = positions.filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
     let n = points.len() as f64;
     let (x, y) = points.iter().fold((0.0, 0.0), |(a, b), (x, y)| (a + x / n, b + y / n));
     points.into_iter().map(|(a, b)| ((a - x) * MM, (b - y) * MM)).collect()
@@ -234,12 +238,12 @@ mod tests {
             LaidPoint { fed: s, time: s / 50.0, md: -0.06 * s, cd: 0.02 * (40.0 * s).sin() }
         };
         let laid: Vec<LaidPoint> = (0..5000).map(at).collect();
-        let window = Window::of(&laid).unwrap();
+        let window = Window::new(&laid).unwrap();
         // 40 mm wide, so 120 mm long, and half a width from the end at −1.2 m.
         assert!((window.length - 0.12).abs() < 1e-4, "{}", window.length);
         assert!((window.from + 0.06 * 4999.0 * 0.004 - 0.02).abs() < 1e-3, "{}", window.from);
         assert_eq!(window.points.len(), (0.12_f64 / 0.06 / 0.004).round() as usize + 2);
-        assert!(Window::of(&laid[..2]).is_none());
-        assert!(Window::of(&[LaidPoint { md: f64::NAN, ..LaidPoint::default() }; 9]).is_none());
+        assert!(Window::new(&laid[..2]).is_none());
+        assert!(Window::new(&[LaidPoint { md: f64::NAN, ..LaidPoint::default() }; 9]).is_none());
     }
 }

@@ -23,12 +23,12 @@ pub(super) fn figures(results: &Results) -> Vec<Figure> {
             declared.push(curve.measure.figure);
         }
     }
-    let of = |figure: &'static observe::Figure| {
+    let drawn = |figure: &'static observe::Figure| {
         let curves: Vec<&Curve> =
             results.curves.iter().filter(|curve| curve.measure.figure.name == figure.name).collect();
         one(figure, &curves, results)
     };
-    declared.into_iter().map(of).collect()
+    declared.into_iter().map(drawn).collect()
 }
 
 /// A figure of the curves that are declared for it.
@@ -38,14 +38,14 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
         return rose(declared, curves[0], results.replicates());
     }
     let (along, value) = axes(first, curves.len() == 1);
-    let unit = first.kind.over().map_or(1.0, |(.., unit)| unit.per_si);
+    let unit = first.kind.abscissa().map_or(1.0, |(.., unit)| unit.per_si);
     let mut chart = Chart::new(declared.name, declared.title, along, value)
         .when_empty("no values: too few recorded instants, or nothing to compare with");
     for (i, curve) in curves.iter().enumerate() {
         let places = scaled(curve, unit);
         chart = match first.kind {
             Kind::Profile => profile(chart, i, curve, &places, MARKED),
-            Kind::Way => profile(chart, i, curve, &places, places.len()),
+            Kind::Way | Kind::Neighbour => profile(chart, i, curve, &places, places.len()),
             Kind::Lag => correlation(chart, i, curve, &places),
             Kind::Series => series(chart, i, curve, &places, results.replicates()),
             Kind::Number | Kind::Spectrum | Kind::Direction => {
@@ -57,7 +57,7 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
             chart = with_crossings(chart, i, curve.measure.series, results);
         }
     }
-    Figure::of(&chart, caption(declared, first.kind, &scaled(curves[0], 1.0), results.replicates()))
+    Figure::new(&chart, caption(declared, first.kind, &scaled(curves[0], 1.0), results.replicates()))
 }
 
 /// The axes of a curve: along and up.
@@ -65,15 +65,19 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
 /// * `alone` – whether it is the only curve of its figure
 pub fn axes(first: &Measure, alone: bool) -> (Axis, Axis) {
     let declared = first.figure;
-    let Some((column, over, unit)) = first.kind.over() else {
+    let Some((column, abscissa, unit)) = first.kind.abscissa() else {
         return (Axis::linear(""), Axis::linear(""));
     };
-    let label = with_unit(over, unit.shown);
-    let along = if first.kind == Kind::Spectrum { Axis::logarithmic(&label) } else { Axis::linear(&label) };
+    let label = with_unit(abscissa, unit.shown);
+    let along = match first.kind {
+        Kind::Spectrum | Kind::Neighbour => Axis::logarithmic(&label),
+        _ => Axis::linear(&label),
+    };
     let along = match first.kind {
         Kind::Profile | Kind::Way | Kind::Lag => along.including(0.0),
         Kind::Direction => along.tight(),
         Kind::Series => along.tight().including(0.0),
+        Kind::Neighbour => along,
         Kind::Number | Kind::Spectrum => along.tight(),
     };
     // The numbers beside a figure are in the units of its axes.
@@ -177,7 +181,7 @@ fn series(chart: Chart, i: usize, curve: &Curve, places: &[Place], replicates: u
     };
     let band: Vec<_> = places.chunks(each).map(together).collect();
     let mean: Vec<_> = band.iter().map(|&(time, mean, _)| (time, mean)).collect();
-    let all = |of: fn(&Place) -> f64| places.iter().map(|place| (place.at, of(place), None)).collect();
+    let all = |value: fn(&Place) -> f64| places.iter().map(|place| (place.at, value(place), None)).collect();
     let name = curve.measure.series;
     let several = replicates > 1 || each > 1;
     let label = if several { format!("{name}, mean") } else { name.to_owned() };
@@ -207,7 +211,7 @@ fn with_crossings(chart: Chart, i: usize, series: &str, results: &Results) -> Ch
 }
 
 fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates: usize) -> String {
-    let over = match (kind, replicates) {
+    let note = match (kind, replicates) {
         (Kind::Spectrum, _) => {
             " Dashed: the crossing frequency, half the number of sign changes per second.".to_owned()
         }
@@ -218,7 +222,7 @@ fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates:
             )
         }
         (Kind::Direction, n) => over_replicates(n),
-        (Kind::Profile | Kind::Way, n) => {
+        (Kind::Profile | Kind::Way | Kind::Neighbour, n) => {
             let marked = if kind == Kind::Profile && places.len() > MARKED {
                 format!(" {MARKED} of {} places carry a marker.", places.len())
             } else {
@@ -235,5 +239,5 @@ fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates:
             )
         }
     };
-    format!("{}{over}", declared.caption)
+    format!("{}{note}", declared.caption)
 }

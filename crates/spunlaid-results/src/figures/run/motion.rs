@@ -51,7 +51,7 @@ pub(super) fn end_node_history(case: &Case, results: &Results) -> Figure {
         .to_owned();
     let last = swings(results, SWINGS / 2.0).filter(|part| *part < end / 2.0);
     let Some(last) = last else {
-        return Figure::of(&chart, caption);
+        return Figure::new(&chart, caption);
     };
     caption.push_str(&format!(
         " The upper panel shows the whole run, the lower one its last {} s.",
@@ -94,5 +94,5 @@ pub(super) fn end_node_path(case: &Case, results: &Results) -> Figure {
     if let Some((start, _)) = drawn.first().filter(|(start, _)| *start > flown) {
         caption.push_str(&format!(" Only the last {} s are drawn.", significant(end - start, 2)));
     }
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }

@@ -34,7 +34,7 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
     if !air.records.is_empty() {
         let caption =
             format!("{what}. The turbulence consists of stretches of the record as it was measured; {rms}.");
-        return Figure::of(&chart, caption);
+        return Figure::new(&chart, caption);
     }
     let wanted: Vec<_> = match air.spectrum {
         SpectrumShape::Flat if air.is_uniform() => {
@@ -53,5 +53,5 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
          blurs the lowest point and the edge at the cut-off.",
         significant(cutoff, 3),
     );
-    Figure::of(&chart.line(Series::reference("wanted"), &wanted), caption)
+    Figure::new(&chart.line(Series::reference("wanted"), &wanted), caption)
 }

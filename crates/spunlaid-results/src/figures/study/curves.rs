@@ -21,8 +21,8 @@ pub(super) const BARS: &str = "The bars show one standard error of the mean over
 type Spot = (f64, f64, Option<f64>);
 
 fn series(group: &Group, position: usize) -> Series {
-    let label = &group.of[position].1;
-    match (position, group.of.len()) {
+    let label = &group.members[position].1;
+    match (position, group.members.len()) {
         (_, 3..) => Series::spots(label, COLOURS[position % FAMILY]),
         (_, 1) => Series::spots(label, GREEN).unlabelled(),
         (0, _) => Series::circles(label),
@@ -36,7 +36,7 @@ pub(super) fn one(study: &Study, results: &[PointResults], group: &Group) -> Fig
     let others: Vec<String> = study.factors.iter().skip(1).map(|factor| name_of_key(&factor.key)).collect();
     let with =
         if others.is_empty() { String::new() } else { format!(", {} along with it", others.join(" and ")) };
-    over(study, results, group, 0, &all, &format!("over {}{with}", name_of_key(&study.factors[0].key)))
+    over_factor(study, results, group, 0, &all, &format!("over {}{with}", name_of_key(&study.factors[0].key)))
 }
 
 /// Results over a factor at the points where all others are as in the base case, which is the first point.
@@ -51,10 +51,10 @@ pub(super) fn alone(study: &Study, results: &[PointResults], group: &Group, fact
         "over {} alone, everything else as in the base case",
         name_of_key(&study.factors[factor].key)
     );
-    over(study, results, group, factor, &points, &words)
+    over_factor(study, results, group, factor, &points, &words)
 }
 
-fn over(
+fn over_factor(
     study: &Study,
     results: &[PointResults],
     group: &Group,
@@ -62,18 +62,18 @@ fn over(
     points: &[usize],
     words: &str,
 ) -> Figure {
-    let along = Along::of(study, factor);
+    let along = Along::of_study(study, factor);
     let title = format!("{} {}", group.title, words.split(',').next().unwrap_or(words));
     let name = file_name(group, &study.factors[factor].key);
     let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
-    for (position, (measure, _)) in group.of.iter().enumerate() {
-        let aside = along.aside(position, group.of.len());
+    for (position, (measure, _)) in group.members.iter().enumerate() {
+        let aside = along.aside(position, group.members.len());
         let spots = spots(study, results, group, *measure, (factor, &along, aside), points);
         let series = series(group, position);
         chart = if along.is_joined() { drawn(chart, series, &spots) } else { chart.scatter(series, &spots) };
     }
     let caption = format!("{} {words}, means over the replicates. {BARS}", group.title);
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }
 
 /// Results over one factor, with a curve for each value of another.
@@ -84,21 +84,21 @@ pub(super) fn family(
     along: usize,
     family: usize,
 ) -> Figure {
-    let (of, key) = (&study.factors[family], &*study.factors[along].key);
-    let place = Along::of(study, along);
-    let title = format!("{} over {} and {}", group.title, name_of_key(key), name_of_key(&of.key));
+    let (parameter, key) = (&study.factors[family], &*study.factors[along].key);
+    let place = Along::of_study(study, along);
+    let title = format!("{} over {} and {}", group.title, name_of_key(key), name_of_key(&parameter.key));
     let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
-    let levels = of.levels();
+    let levels = parameter.levels();
     for (index, ((level, colour), dash)) in levels.iter().copied().zip(COLOURS).zip(DASHES).enumerate() {
         let points: Vec<usize> =
             (0..results.len()).filter(|point| study.points[*point].values[family] == level).collect();
-        for (position, (measure, called)) in group.of.iter().enumerate() {
+        for (position, (measure, called)) in group.members.iter().enumerate() {
             let marker = if position == 0 { Marker::Circle } else { Marker::Triangle };
-            let label = of.input().pretty(level);
+            let label = parameter.input().pretty(level);
             let series = Series { marker: Some(marker), dash, ..Series::new(&label, colour) }
                 .named(&format!("{called} at {label}"));
-            let series_count = levels.len() * group.of.len();
-            let aside = place.aside(index * group.of.len() + position, series_count);
+            let series_count = levels.len() * group.members.len();
+            let aside = place.aside(index * group.members.len() + position, series_count);
             let spots = spots(study, results, group, *measure, (along, &place, aside), &points);
             if !place.is_joined() {
                 let series = if position == 0 { series } else { series.unlabelled() };
@@ -112,20 +112,20 @@ pub(super) fn family(
             chart = chart.line(joined, &line).scatter(series.unlabelled(), &spots);
         }
     }
-    let signs = match group.of.as_slice() {
+    let signs = match group.members.as_slice() {
         [(_, first), (_, second)] => {
             format!(" Circles: {}, triangles: {}.", first.replace('*', ""), second.replace('*', ""))
         }
         _ => String::new(),
     };
-    let told = if place.is_joined() { "a colour and a dash" } else { "a colour" };
+    let distinction = if place.is_joined() { "a colour and a dash" } else { "a colour" };
     let caption = format!(
-        "{} over {}, {told} for each value of the {}, means over the replicates.{signs} {BARS}",
+        "{} over {}, {distinction} for each value of the {}, means over the replicates.{signs} {BARS}",
         group.title,
         name_of_key(key),
-        name_of_key(&of.key),
+        name_of_key(&parameter.key),
     );
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }
 
 fn spots(

@@ -25,7 +25,7 @@ const COLOURS: [(f64, f64, f64); 8] = [
 
 /// A map of each result of a group; the first factor is on the vertical axis, the second on the horizontal one.
 pub(super) fn maps(study: &Study, results: &[PointResults], group: &Group) -> Vec<Figure> {
-    group.of.iter().map(|(measure, label)| map(study, results, group, *measure, label)).collect()
+    group.members.iter().map(|(measure, label)| map(study, results, group, *measure, label)).collect()
 }
 
 fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, label: &str) -> Figure {
@@ -43,7 +43,7 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
 
     let called = label.replace('*', "");
     let which =
-        if group.of.len() == 2 { format!("{} in {called}", group.title) } else { group.title.clone() };
+        if group.members.len() == 2 { format!("{} in {called}", group.title) } else { group.title.clone() };
     let names = [0, 1].map(|i| name_of_key(&study.factors[i].key));
     let title = format!("{which} over {} and {}", names[1], names[0]);
     let mut svg = Svg::new(SIZE.0, SIZE.1, &title);
@@ -58,7 +58,7 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
         }
     }
     let text = |anchor| Text { size: 13.0, colour: INK, anchor, upright: true };
-    let [of_up, of_along] = [0, 1].map(|i| Along::of(study, i));
+    let [of_up, of_along] = [0, 1].map(|i| Along::of_study(study, i));
     for j in some(along.len()) {
         let x = left + (j as f64 + 0.5) * w;
         svg.text((x, bottom + 18.0), &significant(of_along.place(along[j]), 3), text(Anchor::Middle));
@@ -77,7 +77,8 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
         spunlaid_charts::svg::plain(&label_of_key(&study.factors[1].key)),
         spunlaid_charts::svg::plain(&label_of_key(&study.factors[0].key)),
     );
-    let axis = if group.of.len() == 2 { format!("_{}", called.replace(' ', "_")) } else { String::new() };
+    let axis =
+        if group.members.len() == 2 { format!("_{}", called.replace(' ', "_")) } else { String::new() };
     let columns = [of_along.axis.column(), of_up.axis.column(), group.axis().column(), "error".to_owned()];
     let mut table = Table::new(columns);
     table.add(

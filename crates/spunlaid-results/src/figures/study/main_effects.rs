@@ -12,7 +12,7 @@ const DRAWN: usize = 300;
 const FINE: usize = 40;
 
 /// Every point over one factor, adjusted for the other factors, with the line of the main effect.
-pub(super) fn of(
+pub(super) fn figure(
     study: &Study,
     results: &[PointResults],
     rankings: &[Ranking],
@@ -20,18 +20,19 @@ pub(super) fn of(
     factor: usize,
 ) -> Figure {
     let varied = &study.factors[factor];
-    let along = Along::of(study, factor);
+    let along = Along::of_study(study, factor);
     let title = format!("{} over {}", group.title, name_of_key(&varied.key));
     let mut chart = Chart::new(&file_name(group, &varied.key), &title, along.axis.clone(), group.axis());
     let (mut is_adjusted, mut left_out) = (false, false);
-    for (position, (measure, label)) in group.of.iter().enumerate() {
+    for (position, (measure, label)) in group.members.iter().enumerate() {
         let series = if position == 0 { Series::circles(label) } else { Series::triangles(label) };
         let ranking = rankings.iter().find(|ranking| ranking.measure == *measure);
-        let spot = |(index, of): (usize, &PointResults)| {
-            let (mean, error) = group.value(of, *measure);
-            let adjusted = ranking.map(|ranking| ranking.adjusted(study, index, factor, of.mean[*measure]));
+        let spot = |(index, point): (usize, &PointResults)| {
+            let (mean, error) = group.value(point, *measure);
+            let adjusted =
+                ranking.map(|ranking| ranking.adjusted(study, index, factor, point.mean[*measure]));
             let value = adjusted.map_or(mean, |value| value * group.unit.per_si);
-            let aside = along.aside(position, group.of.len());
+            let aside = along.aside(position, group.members.len());
             (along.place(study.points[index].values[factor]) + aside, value, error)
         };
         let spots: Vec<_> = results.iter().enumerate().map(spot).collect();
@@ -57,7 +58,7 @@ pub(super) fn of(
     let drawn =
         if left_out { format!(" {DRAWN} of {} points are drawn.", results.len()) } else { String::new() };
     let caption = format!("{} over {}: {how} {BARS}{drawn}", group.title, name_of_key(&varied.key));
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }
 
 /// The line of best fit over the factor's range, the other factors in the middle of theirs.

@@ -51,14 +51,14 @@ pub fn study_figures(study: &Study, results: &[PointResults], rankings: &[Rankin
         }
         _ => {
             for group in groups.iter().filter(|group| group.is_main()) {
-                let of = |factor| main_effects::of(study, results, rankings, group, factor);
-                figures.extend((0..study.factors.len()).map(of));
+                let drawn = |factor| main_effects::figure(study, results, rankings, group, factor);
+                figures.extend((0..study.factors.len()).map(drawn));
             }
         }
     }
     if study.factors.len() > 1 && !rankings.is_empty() {
         let main = groups.iter().filter(|group| group.is_main());
-        let ranks: Vec<Figure> = main.map(|group| ranking::of(study, rankings, group)).collect();
+        let ranks: Vec<Figure> = main.map(|group| ranking::figure(study, rankings, group)).collect();
         figures.splice(0..0, ranks);
     }
     figures

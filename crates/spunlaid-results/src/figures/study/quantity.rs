@@ -16,19 +16,21 @@ pub(super) struct Group {
     pub(super) title: String,
     pub(super) unit: Unit,
     /// Indices into the quantities of the study, and the names of the series.
-    pub(super) of: Vec<(usize, String)>,
+    pub(super) members: Vec<(usize, String)>,
 }
 
 /// All groups, in the order of the declarations. Quantities without a figure are left out.
 pub(super) fn groups(study: &Study) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    for (i, quantity) in study.quantities.iter().enumerate().filter(|(_, of)| !of.figure.name.is_empty()) {
-        let of = (i, quantity.series.clone());
+    for (i, quantity) in
+        study.quantities.iter().enumerate().filter(|(_, quantity)| !quantity.figure.name.is_empty())
+    {
+        let member = (i, quantity.series.clone());
         match groups.iter_mut().find(|group| group.figure.name == quantity.figure.name) {
-            Some(group) => group.of.push(of),
+            Some(group) => group.members.push(member),
             None => {
                 let (figure, unit) = (quantity.figure, quantity.unit);
-                groups.push(Group { figure, title: figure.title.to_owned(), unit, of: vec![of] });
+                groups.push(Group { figure, title: figure.title.to_owned(), unit, members: vec![member] });
             }
         }
     }
@@ -38,10 +40,10 @@ pub(super) fn groups(study: &Study) -> Vec<Group> {
 impl Group {
     /// The same group with one size of patches, the middle one, if it has many series.
     pub(super) fn of_few(mut self) -> Self {
-        if self.of.len() > 2 {
-            let middle = self.of.swap_remove(self.of.len() / 2);
+        if self.members.len() > 2 {
+            let middle = self.members.swap_remove(self.members.len() / 2);
             self.title = format!("{} over {}", self.title, middle.1);
-            self.of = vec![middle];
+            self.members = vec![middle];
         }
         self
     }
@@ -58,14 +60,14 @@ impl Group {
 
     /// Whether it is drawn where there is a figure for each key: the motion across the flow, or the unevenness of a web.
     pub(super) fn is_main(&self) -> bool {
-        let series: Vec<&str> = self.of.iter().map(|(_, series)| &**series).collect();
+        let series: Vec<&str> = self.members.iter().map(|(_, series)| &**series).collect();
         series == ["*y*", "*z*"] || self.figure.name == "cv"
     }
 
     /// Leaves out results that apply to no point, as the work check does with implicit tension. None if no result is left.
     pub(super) fn applying(mut self, results: &[PointResults]) -> Option<Self> {
-        self.of.retain(|(measure, _)| results.iter().any(|point| point.mean[*measure].is_finite()));
-        if self.of.is_empty() { None } else { Some(self) }
+        self.members.retain(|(measure, _)| results.iter().any(|point| point.mean[*measure].is_finite()));
+        if self.members.is_empty() { None } else { Some(self) }
     }
 
     /// Mean and standard error of one of its measures at a point, in the units of the axis.
@@ -82,8 +84,8 @@ pub(super) fn label_of_key(key: &str) -> String {
 
 /// Label of a key without the layer that it is of.
 fn plain_label(key: &str) -> &str {
-    let of_web = || web_key(key).map(|of| of.label);
-    keys::find(key).map(|of| of.label).or_else(of_web).unwrap_or(key)
+    let of_web = || web_key(key).map(|known| known.label);
+    keys::find(key).map(|known| known.label).or_else(of_web).unwrap_or(key)
 }
 
 /// Name of a key within a sentence: `mean velocity`.
@@ -138,7 +140,7 @@ impl Along {
     }
 
     /// The axis of a factor of a study.
-    pub(super) fn of(study: &Study, factor: usize) -> Self {
+    pub(super) fn of_study(study: &Study, factor: usize) -> Self {
         let base = study.points.first().filter(|_| study.design == Design::OneAtATime);
         Self::new(&study.factors[factor], base.map(|point| point.values[factor]))
     }
@@ -153,8 +155,8 @@ impl Along {
     }
 
     /// How far the points of one of several series stand aside, so that those of a word do not hide each other.
-    pub(super) fn aside(&self, series: usize, of: usize) -> f64 {
-        if self.is_joined() { 0.0 } else { 0.5 * ((series as f64 + 0.5) / of as f64 - 0.5) }
+    pub(super) fn aside(&self, series: usize, count: usize) -> f64 {
+        if self.is_joined() { 0.0 } else { 0.5 * ((series as f64 + 0.5) / count as f64 - 0.5) }
     }
 }
 

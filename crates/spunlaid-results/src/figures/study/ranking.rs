@@ -28,9 +28,9 @@ fn change_of(study: &Study, effect: &Effect) -> String {
 }
 
 /// The effects of all factors on a group of results.
-pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
+pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     let of_measure = |measure: usize| rankings.iter().find(|ranking| ranking.measure == measure);
-    let shown: Vec<(&Ranking, Marker, &str, &str)> = (group.of.iter())
+    let shown: Vec<(&Ranking, Marker, &str, &str)> = (group.members.iter())
         .zip([(Marker::Circle, BLUE), (Marker::Triangle, VERMILION)])
         .filter_map(|((measure, label), (marker, colour))| {
             Some((of_measure(*measure)?, marker, colour, label.as_str()))
@@ -77,14 +77,14 @@ pub(super) fn of(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
         svg.text((key + 20.0, 22.5), label, style);
         key += 60.0;
     }
-    for (row, of) in order.iter().enumerate() {
+    for (row, main_effect) in order.iter().enumerate() {
         let y = TOP + ROW * (row as f64 + 0.5);
         let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
-        svg.text((left - 12.0, y - 2.0), &label_of_key(&study.factors[of.factor].key), name);
+        svg.text((left - 12.0, y - 2.0), &label_of_key(&study.factors[main_effect.factor].key), name);
         let style = Text { size: SMALL, colour: GREY, anchor: Anchor::End, upright: true };
-        svg.text((left - 12.0, y + 14.0), &change_of(study, of), style);
+        svg.text((left - 12.0, y + 14.0), &change_of(study, main_effect), style);
         for (index, (ranking, marker, colour, _)) in shown.iter().enumerate() {
-            let Some(effect) = ranking.effects.iter().find(|effect| effect.is_like(of)) else {
+            let Some(effect) = ranking.effects.iter().find(|effect| effect.is_like(main_effect)) else {
                 continue;
             };
             let y = if shown.len() == 1 { y } else { y - 8.0 + 16.0 * index as f64 };

@@ -52,14 +52,14 @@ fn octaves(clouds: &Clouds, cell: f64) -> Figure {
         significant(SEEN[1] * MM, 2),
         crate::numbers::plus_minus(index * PER_CENT, error.map(|error| error * PER_CENT))
     );
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }
 
 /// The power spectrum in both directions.
 fn spectrum(clouds: &Clouds) -> Figure {
     let points = |direction: usize| -> Vec<(f64, f64)> {
-        let of = clouds.spectrum(direction).into_iter();
-        let mut points: Vec<(f64, f64)> = of.map(|(wave, density)| (wave * MM, density * MM)).collect();
+        let spectrum = clouds.spectrum(direction).into_iter();
+        let mut points: Vec<(f64, f64)> = spectrum.map(|(wave, density)| (wave * MM, density * MM)).collect();
         points.reverse();
         points
     };
@@ -71,7 +71,7 @@ fn spectrum(clouds: &Clouds) -> Figure {
     )
     .line(Series::new("machine direction", BLUE).width(1.5), &points(1))
     .line(Series::new("cross direction", VERMILION).width(1.5), &points(0));
-    Figure::of(
+    Figure::new(
         &chart,
         "One-sided power spectral density of the basis weight over its mean, by wave number along each direction and \
          averaged over the other; its integral over wave number (one over the wavelength) is CV² of the cells. Mean over \
@@ -92,7 +92,7 @@ fn autocorrelation(coefficients: &[Vec<f64>; 2], cell: f64) -> Figure {
     )
     .line(Series::new("machine direction", BLUE).width(1.5), &points(1))
     .line(Series::new("cross direction", VERMILION).width(1.5), &points(0));
-    Figure::of(
+    Figure::new(
         &chart,
         "How alike the basis weights of two cells are that lie some distance apart. What stays in machine direction at large \
          distances are streaks.",

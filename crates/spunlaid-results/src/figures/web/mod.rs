@@ -32,29 +32,29 @@ const SHARES: Weights =
     Weights { axis: "Basis weight over its mean (%)", unit: "% of the mean", factor: 100.0 };
 
 /// All figures, in the order of the report.
-pub fn web_figures(web: &Web, of: &Findings) -> Vec<Figure> {
-    let map = &of.laid.map;
+pub fn web_figures(web: &Web, findings: &Findings) -> Vec<Figure> {
+    let map = &findings.laid.map;
     let mut figures = vec![
-        unevenness::over_patches(web, of),
-        unevenness::histogram(&of.within(), GRAMS),
-        profiles(map, GRAMS, STREAKS, of.margins),
+        unevenness::over_patches(web, findings),
+        unevenness::histogram(&findings.within(), GRAMS),
+        profiles(map, GRAMS, STREAKS, findings.margins),
     ];
-    figures.extend(clouds::figures(of.clouds.as_ref(), &of.autocorrelation, map.cell));
-    figures.push(directions(of));
+    figures.extend(clouds::figures(findings.clouds.as_ref(), &findings.autocorrelation, map.cell));
+    figures.push(directions(findings));
     figures
 }
 
 /// All figures of a scanned web, in the order of the report.
-pub fn scan_figures(of: &scan::Findings) -> Vec<Figure> {
-    let map = &of.map;
-    let weights = if of.mean_known { GRAMS } else { SHARES };
+pub fn scan_figures(findings: &scan::Findings) -> Vec<Figure> {
+    let map = &findings.map;
+    let weights = if findings.mean_known { GRAMS } else { SHARES };
     let streaks = "These are streaks, as far as the lamp was even.";
     let mut figures = vec![
-        unevenness::scanned(of),
+        unevenness::scanned(findings),
         unevenness::histogram(map, weights),
         profiles(map, weights, streaks, [0.0; 2]),
     ];
-    figures.extend(clouds::figures(of.clouds.as_ref(), &of.autocorrelation, map.cell));
+    figures.extend(clouds::figures(findings.clouds.as_ref(), &findings.autocorrelation, map.cell));
     figures
 }
 
@@ -123,8 +123,8 @@ fn profiles(map: &Map, weights: Weights, streaks: &str, margins: [f64; 2]) -> Fi
 }
 
 /// Directions of the fibre.
-fn directions(of: &Findings) -> Figure {
-    let found = &of.orientation;
+fn directions(findings: &Findings) -> Figure {
+    let found = &findings.orientation;
     let classes = found.directions.len() as f64;
     let rose = Rose {
         name: "web_directions".to_owned(),

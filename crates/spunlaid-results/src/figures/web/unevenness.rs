@@ -21,8 +21,8 @@ fn empty_chart() -> Chart {
 }
 
 /// Side [mm], CV and its standard error [%].
-fn point(of: &Unevenness) -> (f64, f64, Option<f64>) {
-    (of.patch * MM, of.cv * PER_CENT, of.standard_error.map(|error| error * PER_CENT))
+fn point(unevenness: &Unevenness) -> (f64, f64, Option<f64>) {
+    (unevenness.patch * MM, unevenness.cv * PER_CENT, unevenness.standard_error.map(|error| error * PER_CENT))
 }
 
 /// The coefficient of variation of several webs, by their names, over the size of the patches.
@@ -35,7 +35,7 @@ pub fn overlaid_webs(webs: &[(String, Vec<Unevenness>)]) -> Figure {
             .line(Series::new("", colour).unlabelled().adorning().width(1.0), &line)
             .scatter(Series::spots(name, colour), &spots);
     }
-    Figure::of(
+    Figure::new(
         &chart,
         "Standard deviation of the basis weight of square patches over its mean, for each web. Bars are one standard error, \
          from the waves of each.",
@@ -43,39 +43,43 @@ pub fn overlaid_webs(webs: &[(String, Vec<Unevenness>)]) -> Figure {
 }
 
 /// The coefficient of variation of a scanned web over the size of the patches.
-pub(super) fn scanned(of: &scan::Findings) -> Figure {
-    let found: Vec<_> = of.patches.iter().map(|patch| point(&patch.unevenness)).collect();
+pub(super) fn scanned(findings: &scan::Findings) -> Figure {
+    let found: Vec<_> = findings.patches.iter().map(|patch| point(&patch.unevenness)).collect();
     let line: Vec<(f64, f64)> = found.iter().map(|(patch, cv, _)| (*patch, *cv)).collect();
     let noise: Vec<(f64, f64)> =
-        of.patches.iter().map(|patch| (patch.unevenness.patch * MM, patch.noise * PER_CENT)).collect();
+        findings.patches.iter().map(|patch| (patch.unevenness.patch * MM, patch.noise * PER_CENT)).collect();
     let chart = empty_chart()
         .line(Series::new("noise of the camera", GREY).dashed("6 4"), &noise)
         .line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line)
         .scatter(Series::spots("this scan", BLUE), &found);
-    Figure::of(
+    Figure::new(
         &chart,
-        "Standard deviation of the basis weight of square patches over its mean. Bars are one standard error by chance, that of one \
-         piece of web; there is none where the number cannot be told. Dashed: the CV of the camera’s noise alone, as it was given, or else the most that neighbouring pixels \
-         allow; the finest structure of the web is in it.",
+        "Standard deviation of the basis weight of square patches over its mean. Bars are one standard error by \
+         chance, that of one piece of web; there is none where it cannot be known. Dashed: the CV of the camera’s \
+         noise alone, as it was given, or else the most that neighbouring pixels allow; the finest structure of \
+         the web is in it.",
     )
 }
 
 /// The coefficient of variation over the size of the patches.
-pub(super) fn over_patches(web: &Web, of: &Findings) -> Figure {
-    let map = of.patches.iter().map(|patch| {
+pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
+    let map = findings.patches.iter().map(|patch| {
         let (side, cv, error) = point(&patch.map);
         (side, cv, patch.whole_error().whole().map(|error| error * PER_CENT).or(error))
     });
     let map: Vec<_> = map.collect();
     let curve = |cv: fn(&PatchFindings) -> Option<(f64, f64)>| -> Vec<(f64, f64)> {
         let point = |patch: &PatchFindings| Some((patch.map.patch * MM, cv(patch)?.0 * PER_CENT));
-        of.patches.iter().filter_map(point).collect()
+        findings.patches.iter().filter_map(point).collect()
     };
     let (flown, surrogate) = (curve(|patch| patch.flown), curve(|patch| patch.surrogate));
     let single: Vec<(f64, f64)> =
-        of.patches.iter().map(|patch| (patch.map.patch * MM, patch.one_fibre.0 * PER_CENT)).collect();
-    let straight: Vec<(f64, f64)> =
-        of.patches.iter().map(|patch| (patch.map.patch * MM, patch.straight_fibres * PER_CENT)).collect();
+        findings.patches.iter().map(|patch| (patch.map.patch * MM, patch.one_fibre.0 * PER_CENT)).collect();
+    let straight: Vec<(f64, f64)> = findings
+        .patches
+        .iter()
+        .map(|patch| (patch.map.patch * MM, patch.straight_fibres * PER_CENT))
+        .collect();
     let mut chart =
         empty_chart().line(Series::new("straight fibres at random", GREY).dashed("6 4"), &straight);
     chart = match (flown.is_empty(), surrogate.is_empty()) {
@@ -102,7 +106,7 @@ pub(super) fn over_patches(web: &Web, of: &Findings) -> Figure {
          cost.",
         significant(tenth, 2)
     );
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }
 
 /// Most classes of a histogram.
@@ -148,5 +152,5 @@ pub(super) fn histogram(map: &Map, weights: Weights) -> Figure {
         significant(deviation, 3),
         unit = weights.unit
     );
-    Figure::of(&chart, caption)
+    Figure::new(&chart, caption)
 }

@@ -6,16 +6,16 @@ use spunlaid::record::{Analysis, Interval};
 use spunlaid::units::Dimension;
 
 /// The block; a comment after each value gives its interval and its origin.
-pub fn air_block(file: &str, of: &Analysis) -> String {
-    let along = of.components.first().map_or("u", |c| c.name.as_str());
-    let names: Vec<&str> = of.components.iter().map(|c| c.name.as_str()).collect();
+pub fn air_block(file: &str, analysis: &Analysis) -> String {
+    let along = analysis.components.first().map_or("u", |c| c.name.as_str());
+    let names: Vec<&str> = analysis.components.iter().map(|c| c.name.as_str()).collect();
     let together = if names.len() == 1 { "" } else { " (mean of their energies)" };
     let lines = [
         (
             "velocity",
-            &of.mean_velocity,
+            &analysis.mean_velocity,
             Dimension::Velocity,
-            if of.mean_velocity.low == of.mean_velocity.high {
+            if analysis.mean_velocity.low == analysis.mean_velocity.high {
                 "as given with --mean-velocity".to_owned()
             } else {
                 format!("mean of {along}")
@@ -23,23 +23,23 @@ pub fn air_block(file: &str, of: &Analysis) -> String {
         ),
         (
             "turbulence_intensity",
-            &of.turbulence_intensity,
+            &analysis.turbulence_intensity,
             Dimension::Ratio,
             format!("rms of {}{together} over the mean velocity", names.join(", ")),
         ),
         (
             "length_scale",
-            &of.length_scale,
+            &analysis.length_scale,
             Dimension::Length,
             format!(
                 "mean velocity times integral time {} (autocorrelation of {along}, {}): Taylor's hypothesis",
-                Dimension::Time.pretty_to(of.integral_time.value, 3),
-                of.integral.words()
+                Dimension::Time.pretty_to(analysis.integral_time.value, 3),
+                analysis.integral.words()
             ),
         ),
         (
             "cutoff_frequency",
-            &of.cutoff_frequency,
+            &analysis.cutoff_frequency,
             Dimension::Frequency,
             format!(
                 "variance of {along} over the plateau of its spectrum: here a flat spectrum with this variance and this \
@@ -93,18 +93,18 @@ mod tests {
 
     #[test]
     fn the_block_is_the_air_of_a_case() {
-        let (_, of) = record_sample::autoregression(3, 20_000);
-        let block = air_block("a\nb.csv", &of);
+        let (_, analysis) = record_sample::autoregression(3, 20_000);
+        let block = air_block("a\nb.csv", &analysis);
         let case = format!(
             "version = 1\n[fibre]\nlength = \"1 m\"\ndiameter = \"50 um\"\ndensity = \"950 kg/m3\"\n\
              youngs_modulus = \"2 GPa\"\n{block}[run]\nduration = \"1 s\"\ntime_step = \"1 us\"\n"
         );
         let (case, _) = parse_case(&case, "made.toml", &[]).unwrap_or_else(|e| panic!("{e}\n{block}"));
         for (written, interval) in [
-            (case.air.velocity, of.mean_velocity),
-            (case.air.turbulence_intensity, of.turbulence_intensity),
-            (case.air.length_scale, of.length_scale),
-            (case.air.cutoff_frequency, of.cutoff_frequency),
+            (case.air.velocity, analysis.mean_velocity),
+            (case.air.turbulence_intensity, analysis.turbulence_intensity),
+            (case.air.length_scale, analysis.length_scale),
+            (case.air.cutoff_frequency, analysis.cutoff_frequency),
         ] {
             // Rounded to a hundredth of the interval's half width, or better.
             assert!(

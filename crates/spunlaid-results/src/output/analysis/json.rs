@@ -78,17 +78,17 @@ struct Durations {
 }
 
 /// The file.
-pub fn analysis_json(record: &Record, of: &Analysis) -> String {
-    let spectrum = of.components.first().map(|c| &c.spectrum);
+pub fn analysis_json(record: &Record, analysis: &Analysis) -> String {
+    let spectrum = analysis.components.first().map(|c| &c.spectrum);
     let json = Json {
         schema_version: SCHEMA_VERSION,
         spunlaid_version: env!("CARGO_PKG_VERSION"),
         record: RecordJson {
             file: &record.file,
-            samples: of.samples,
-            rate_hz: 1.0 / of.interval,
-            duration_s: of.duration,
-            components: of.components.iter().map(|c| c.name.as_str()).collect(),
+            samples: analysis.samples,
+            rate_hz: 1.0 / analysis.interval,
+            duration_s: analysis.duration,
+            components: analysis.components.iter().map(|c| c.name.as_str()).collect(),
             filled_samples: record.reading.filled,
             skipped_rows: record.reading.skipped,
             cut_off_rows: record.reading.cut_off,
@@ -98,46 +98,46 @@ pub fn analysis_json(record: &Record, of: &Analysis) -> String {
         },
         method: Method {
             confidence: 0.95,
-            blocks: of.blocks,
-            integral: of.integral.words(),
+            blocks: analysis.blocks,
+            integral: analysis.integral.words(),
             autocorrelation: "unbiased",
             window: spectrum.map_or("", |s| s.window.name()),
             overlap: spectrum.map_or(0.0, |s| s.overlap),
             segment_samples: spectrum.map_or(0, |s| s.segment),
             segments: spectrum.map_or(0, |s| s.segments),
         },
-        mean_velocity_m_s: of.mean_velocity,
-        turbulence_intensity: of.turbulence_intensity,
-        integral_time_s: of.integral_time,
-        length_scale_m: of.length_scale,
-        cutoff_frequency_hz: of.cutoff_frequency,
-        components: of.components.iter().map(component).collect(),
+        mean_velocity_m_s: analysis.mean_velocity,
+        turbulence_intensity: analysis.turbulence_intensity,
+        integral_time_s: analysis.integral_time,
+        length_scale_m: analysis.length_scale,
+        cutoff_frequency_hz: analysis.cutoff_frequency,
+        components: analysis.components.iter().map(component).collect(),
         duration_for_5_percent_s: Durations {
-            turbulence_intensity: of.duration_for(&of.turbulence_intensity, 0.05),
-            integral_time: of.duration_for(&of.integral_time, 0.05),
-            cutoff_frequency: of.duration_for(&of.cutoff_frequency, 0.05),
+            turbulence_intensity: analysis.duration_for(&analysis.turbulence_intensity, 0.05),
+            integral_time: analysis.duration_for(&analysis.integral_time, 0.05),
+            cutoff_frequency: analysis.duration_for(&analysis.cutoff_frequency, 0.05),
         },
-        warnings: of.warnings.iter().map(ToString::to_string).collect(),
+        warnings: analysis.warnings.iter().map(ToString::to_string).collect(),
     };
     json_text(&json)
 }
 
-fn component(of: &Component) -> ComponentJson<'_> {
+fn component(component: &Component) -> ComponentJson<'_> {
     ComponentJson {
-        name: &of.name,
-        mean_m_s: of.mean,
-        rms_m_s: of.rms,
-        skewness: of.skewness,
-        flatness: of.flatness,
-        minimum_m_s: of.range.0,
-        maximum_m_s: of.range.1,
-        integral_time_s: of.integral_time,
-        integral_limit_s: of.autocorrelation.limit,
-        integral_time_of_plateau_s: of.flat.integral_time(),
-        plateau_m2_s2_per_hz: of.flat.density,
-        plateau_until_hz: of.flat.until,
-        cutoff_frequency_hz: of.flat.cutoff,
-        drift_of_mean_m_s: of.mean_trend.change,
-        drift_of_rms_m_s: of.rms_trend.change,
+        name: &component.name,
+        mean_m_s: component.mean,
+        rms_m_s: component.rms,
+        skewness: component.skewness,
+        flatness: component.flatness,
+        minimum_m_s: component.range.0,
+        maximum_m_s: component.range.1,
+        integral_time_s: component.integral_time,
+        integral_limit_s: component.autocorrelation.limit,
+        integral_time_of_plateau_s: component.flat.integral_time(),
+        plateau_m2_s2_per_hz: component.flat.density,
+        plateau_until_hz: component.flat.until,
+        cutoff_frequency_hz: component.flat.cutoff,
+        drift_of_mean_m_s: component.mean_trend.change,
+        drift_of_rms_m_s: component.rms_trend.change,
     }
 }

@@ -13,6 +13,6 @@ pub use table::{ResultRow, result_table, results};
 use spunlaid::record::Interval;
 
 /// Half the width of an interval: the error of the value.
-pub fn half_width(of: &Interval) -> f64 {
-    0.5 * (of.high - of.low)
+pub fn half_width(interval: &Interval) -> f64 {
+    0.5 * (interval.high - interval.low)
 }

@@ -22,50 +22,50 @@ pub struct ResultRow {
     pub meaning: String,
 }
 
-fn row(name: &str, of: &Interval, factor: f64, unit: &'static str, meaning: String) -> ResultRow {
-    let half = half_width(of) * factor;
+fn row(name: &str, interval: &Interval, factor: f64, unit: &'static str, meaning: String) -> ResultRow {
+    let half = half_width(interval) * factor;
     // A value that was given has no interval.
     let end = |end: f64| {
         decimals(half).map_or_else(|| "–".to_owned(), |decimals| to_decimals(end * factor, decimals))
     };
     ResultRow {
         name: name.to_owned(),
-        value: rounded(of.value * factor, Some(half)).0,
-        low: end(of.low),
-        high: end(of.high),
+        value: rounded(interval.value * factor, Some(half)).0,
+        low: end(interval.low),
+        high: end(interval.high),
         unit,
         meaning,
     }
 }
 
 /// The results for the [air] of a case, then those of each component.
-pub fn results(of: &Analysis) -> (Vec<ResultRow>, Vec<(String, Vec<ResultRow>)>) {
-    let along = of.components.first().map_or("u", |c| c.name.as_str());
-    let isotropic = if of.components.len() > 1 {
+pub fn results(analysis: &Analysis) -> (Vec<ResultRow>, Vec<(String, Vec<ResultRow>)>) {
+    let along = analysis.components.first().map_or("u", |c| c.name.as_str());
+    let isotropic = if analysis.components.len() > 1 {
         "square root of the mean of the components’ variances, over the mean velocity"
     } else {
         "rms of the fluctuation over the mean velocity"
     };
     let air = vec![
-        row("Mean velocity", &of.mean_velocity, 1.0, "m/s", format!("mean of {along}")),
-        row("Turbulence intensity", &of.turbulence_intensity, 100.0, "%", isotropic.to_owned()),
+        row("Mean velocity", &analysis.mean_velocity, 1.0, "m/s", format!("mean of {along}")),
+        row("Turbulence intensity", &analysis.turbulence_intensity, 100.0, "%", isotropic.to_owned()),
         row(
             "Integral time",
-            &of.integral_time,
+            &analysis.integral_time,
             1e3,
             "ms",
-            format!("autocorrelation of {along}, integrated {}", of.integral.words()),
+            format!("autocorrelation of {along}, integrated {}", analysis.integral.words()),
         ),
         row(
             "Length scale",
-            &of.length_scale,
+            &analysis.length_scale,
             1e3,
             "mm",
             "integral time × mean velocity: Taylor’s hypothesis".to_owned(),
         ),
         row(
             "Cut-off frequency",
-            &of.cutoff_frequency,
+            &analysis.cutoff_frequency,
             1.0,
             "Hz",
             format!(
@@ -74,10 +74,10 @@ pub fn results(of: &Analysis) -> (Vec<ResultRow>, Vec<(String, Vec<ResultRow>)>)
             ),
         ),
     ];
-    (air, of.components.iter().map(|c| (c.name.clone(), component(of, c))).collect())
+    (air, analysis.components.iter().map(|c| (c.name.clone(), component(analysis, c))).collect())
 }
 
-fn component(of: &Analysis, c: &spunlaid::record::Component) -> Vec<ResultRow> {
+fn component(analysis: &Analysis, c: &spunlaid::record::Component) -> Vec<ResultRow> {
     let time = |s: f64| Dimension::Time.pretty_to(s, 3);
     let hertz = |f: f64| Dimension::Frequency.pretty_to(f, 3);
     vec![
@@ -92,7 +92,7 @@ fn component(of: &Analysis, c: &spunlaid::record::Component) -> Vec<ResultRow> {
             "ms",
             format!(
                 "{}, here {}; by the plateau of the spectrum {}",
-                of.integral.words(),
+                analysis.integral.words(),
                 time(c.autocorrelation.limit),
                 time(c.flat.integral_time())
             ),
@@ -123,16 +123,16 @@ fn component(of: &Analysis, c: &spunlaid::record::Component) -> Vec<ResultRow> {
 }
 
 /// The table for the terminal.
-pub fn result_table(record: &Record, of: &Analysis) -> String {
+pub fn result_table(record: &Record, analysis: &Analysis) -> String {
     let mut text = format!(
         "{}: {} samples of {} at {} over {}, 95 % confidence intervals\n",
         record.file,
-        of.samples,
-        of.components.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", "),
-        Dimension::Frequency.pretty(1.0 / of.interval),
-        Dimension::Time.pretty(of.duration),
+        analysis.samples,
+        analysis.components.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", "),
+        Dimension::Frequency.pretty(1.0 / analysis.interval),
+        Dimension::Time.pretty(analysis.duration),
     );
-    let (air, components) = results(of);
+    let (air, components) = results(analysis);
     let write = |text: &mut String, rows: &[ResultRow]| {
         for r in rows {
             let range = if r.low == r.high { r.low.clone() } else { format!("{} to {}", r.low, r.high) };

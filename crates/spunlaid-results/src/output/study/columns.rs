@@ -44,9 +44,11 @@ pub(super) fn of_replicates(study: &Study) -> Vec<Column> {
 }
 
 /// The columns of a quantity: its mean, its standard error, and its error by all causes if it has others.
-fn quantity_columns(of: &Quantity) -> impl Iterator<Item = String> {
+fn quantity_columns(quantity: &Quantity) -> impl Iterator<Item = String> {
     let ends = ["", "_se", "_whole_error"];
-    ends.into_iter().take(if of.causes.is_empty() { 2 } else { 3 }).map(|end| format!("{}{end}", of.column))
+    ends.into_iter()
+        .take(if quantity.causes.is_empty() { 2 } else { 3 })
+        .map(|end| format!("{}{end}", quantity.column))
 }
 
 fn whole(name: &str) -> Column {

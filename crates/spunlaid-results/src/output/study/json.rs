@@ -70,10 +70,10 @@ fn document(
     results: &[PointResults],
     rankings: &Rankings,
 ) -> std::io::Result<()> {
-    let ranking = |of: &Ranking| {
-        let explained = Some(of.explained).filter(|share| share.is_finite());
-        let effects = of.effects.iter().map(|effect| effect_of(study, effect)).collect();
-        (study.quantities[of.measure].column.clone(), RankingOf { explained, effects })
+    let ranking = |ranking: &Ranking| {
+        let explained = Some(ranking.explained).filter(|share| share.is_finite());
+        let effects = ranking.effects.iter().map(|effect| effect_of(study, effect)).collect();
+        (study.quantities[ranking.measure].column.clone(), RankingOf { explained, effects })
     };
     // By the columns of the results; empty if the factors cannot be ranked.
     let ranking = InOrder(rankings.of_measures.iter().map(ranking).collect());
@@ -81,9 +81,9 @@ fn document(
     let (version, design, common) = (env!("CARGO_PKG_VERSION"), study.design.name(), study.common_phases);
     writeln!(out, "{{\n\"schema_version\": {SCHEMA_VERSION},\n\"spunlaid_version\": \"{version}\",")?;
     write!(out, "\"design\": \"{design}\",\n\"common_phases\": {common},\n\"points\": [")?;
-    for (index, of) in results.iter().enumerate() {
+    for (index, point_results) in results.iter().enumerate() {
         out.write_all(if index == 0 { b"\n" } else { b",\n" })?;
-        serde_json::to_writer(&mut *out, &point(study, index, of))?;
+        serde_json::to_writer(&mut *out, &point(study, index, point_results))?;
     }
     out.write_all(b"\n],\n\"ranking\": ")?;
     serde_json::to_writer(&mut *out, &ranking)?;
@@ -92,21 +92,21 @@ fn document(
     out.write_all(b"\n}\n")
 }
 
-fn point(study: &Study, index: usize, of: &PointResults) -> Point {
+fn point(study: &Study, index: usize, measured: &PointResults) -> Point {
     let inputs = study.inputs().zip(values(study, index));
     let inputs = inputs.map(|(input, value)| (input.column(), plain(value))).collect();
     let result = |i: usize| {
-        let whole_error = of.whole_error(&study.quantities, i);
-        let mean = Mean { mean: of.mean[i], standard_error: of.standard_error(i), whole_error };
+        let whole_error = measured.whole_error(&study.quantities, i);
+        let mean = Mean { mean: measured.mean[i], standard_error: measured.standard_error(i), whole_error };
         (study.quantities[i].column.clone(), mean)
     };
-    let results = (0..study.quantities.len()).filter(|&i| of.mean[i].is_finite()).map(result).collect();
+    let results = (0..study.quantities.len()).filter(|&i| measured.mean[i].is_finite()).map(result).collect();
     Point {
         point: index + 1,
         seed: study.points[index].experiment.seed(),
         inputs: InOrder(inputs),
-        n: of.n,
-        lost: of.lost,
+        n: measured.n,
+        lost: measured.lost,
         results: InOrder(results),
     }
 }

@@ -20,7 +20,7 @@ pub fn quantities(study: &Study) -> Vec<usize> {
     names.iter().filter_map(|name| study.quantity(name)).collect()
 }
 
-/// The unevenness of the maps, that which the flown curves let expect if anything is flown, and what else is in a web.
+/// The unevenness of the maps, the one expected from the flown curves if anything is flown, and what else is in a web.
 fn of_webs(study: &Study) -> Vec<usize> {
     let flies = |point: &spunlaid::study::Point| {
         let web = point.experiment.web();
@@ -29,15 +29,21 @@ fn of_webs(study: &Study) -> Vec<usize> {
     let figures: &[&str] = if study.points.iter().any(flies) { &["cv", "cv_flown"] } else { &["cv"] };
     let of_figure = |figure: &&str| {
         let all = study.quantities.iter().enumerate();
-        all.filter(move |(_, of)| of.figure.name == *figure).map(|(index, _)| index).collect::<Vec<_>>()
+        all.filter(move |(_, quantity)| quantity.figure.name == *figure)
+            .map(|(index, _)| index)
+            .collect::<Vec<_>>()
     };
     let others = ["basis_weight", "md_cd_ratio"].into_iter().filter_map(|name| study.quantity(name));
     figures.iter().flat_map(of_figure).chain(others).collect()
 }
 
 /// The head of a column: `Amplitude in y (mm)`.
-pub fn head(of: &Quantity) -> String {
-    if of.unit.shown.is_empty() { of.label.clone() } else { format!("{} ({})", of.label, of.unit.shown) }
+pub fn head(quantity: &Quantity) -> String {
+    if quantity.unit.shown.is_empty() {
+        quantity.label.clone()
+    } else {
+        format!("{} ({})", quantity.label, quantity.unit.shown)
+    }
 }
 
 /// Mean ± error at a point: by all causes, or else the standard error.
@@ -48,6 +54,6 @@ pub fn cell(study: &Study, results: &PointResults, quantity: usize) -> String {
 }
 
 /// A value ± its error, in the unit of a quantity.
-pub fn in_unit(of: &Quantity, value: f64, error: Option<f64>) -> String {
-    plus_minus(value * of.unit.per_si, error.map(|error| error * of.unit.per_si))
+pub fn in_unit(quantity: &Quantity, value: f64, error: Option<f64>) -> String {
+    plus_minus(value * quantity.unit.per_si, error.map(|error| error * quantity.unit.per_si))
 }

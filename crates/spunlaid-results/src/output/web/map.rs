@@ -117,15 +117,19 @@ fn png(
     encoder.set_color(png::ColorType::Grayscale);
     encoder.set_depth(depth);
     encoder.set_compression(png::Compression::Fast);
-    if let Some(of) = per_metre {
-        encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: of, yppu: of, unit: png::Unit::Meter }));
+    if let Some(density) = per_metre {
+        encoder.set_pixel_dims(Some(png::PixelDimensions {
+            xppu: density,
+            yppu: density,
+            unit: png::Unit::Meter,
+        }));
     }
-    let told = |error: png::EncodingError| error.to_string();
+    let message = |error: png::EncodingError| error.to_string();
     for (key, text) in words {
-        encoder.add_text_chunk((*key).to_owned(), text.clone()).map_err(told)?;
+        encoder.add_text_chunk((*key).to_owned(), text.clone()).map_err(message)?;
     }
-    let mut writer = encoder.write_header().map_err(told)?;
-    writer.write_image_data(levels).map_err(told)?;
-    writer.finish().map_err(told)?;
+    let mut writer = encoder.write_header().map_err(message)?;
+    writer.write_image_data(levels).map_err(message)?;
+    writer.finish().map_err(message)?;
     Ok(bytes)
 }

@@ -27,8 +27,8 @@ pub const ENTRIES: &[&str] = &[
 pub const MOST_CELLS: usize = 20_000_000;
 
 /// Writes the map and the fibres of the window.
-pub fn write(staging: &Staging<'_>, of: &Findings, strands: &[Strand]) -> Result<(), Failure> {
-    map::write(staging, &of.laid.map)?;
+pub fn write(staging: &Staging<'_>, findings: &Findings, strands: &[Strand]) -> Result<(), Failure> {
+    map::write(staging, &findings.laid.map)?;
     strands::write(staging, strands)
 }
 

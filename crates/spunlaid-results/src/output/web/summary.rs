@@ -149,11 +149,11 @@ impl WebSummary {
             let interval = standard_error.map(|error| interval_of_deviation(index, error));
             Cloudiness { from_m: SEEN[0], to_m: SEEN[1], index, standard_error, interval, no_interval: None }
         });
-        let octave = |([from_m, to_m], of): ([f64; 2], Estimate)| Octave {
+        let octave = |([from_m, to_m], estimate): ([f64; 2], Estimate)| Octave {
             from_m,
             to_m,
-            variance: of.mean,
-            standard_error: of.standard_error,
+            variance: estimate.mean,
+            standard_error: estimate.standard_error,
         };
         Self {
             basis_weight_kg_m2: Some(map.basis_weight()),
@@ -165,7 +165,7 @@ impl WebSummary {
             patches,
             orientation_md: None,
             md_cd_ratio: None,
-            texture_md: clouds.map(|clouds| Number::of(&clouds.texture_md())),
+            texture_md: clouds.map(|clouds| Number::new(&clouds.texture_md())),
             cloudiness,
             clouds: clouds.into_iter().flat_map(Clouds::octaves).map(octave).collect(),
             sensitivities: Vec::new(),
@@ -177,15 +177,15 @@ impl WebSummary {
 ///
 /// * `errors` – of the CV by other causes than chance
 /// * `interval` – 95 % confidence interval of the CV of all such webs, or why it cannot be told
-fn patch<'a>(
-    of: &Unevenness,
+fn numbers_of_patch<'a>(
+    unevenness: &Unevenness,
     errors: &[(&'a str, Option<f64>)],
     interval: Result<[f64; 2], String>,
     more: impl Iterator<Item = (&'a str, Option<f64>)>,
 ) -> InOrder<Json> {
+    let Unevenness { patch, cv, standard_error } = *unevenness;
     let known = |(name, number): (&'a str, Option<f64>)| Some((name, number?.into()));
-    let chance =
-        [("patch_m", of.patch.into()), ("cv", of.cv.into()), ("cv_standard_error", of.standard_error.into())];
+    let chance = [("patch_m", patch.into()), ("cv", cv.into()), ("cv_standard_error", standard_error.into())];
     let interval = match interval {
         Ok(ends) => ("cv_interval", ends.to_vec().into()),
         Err(why) => ("no_interval", why.into()),
@@ -196,8 +196,8 @@ fn patch<'a>(
 }
 
 impl Number {
-    fn of(of: &Estimate) -> Self {
-        Self { mean: of.mean, standard_error: of.standard_error }
+    fn new(estimate: &Estimate) -> Self {
+        Self { mean: estimate.mean, standard_error: estimate.standard_error }
     }
 }
 
@@ -205,37 +205,38 @@ impl<'a> Summary<'a> {
     /// Gathers everything.
     pub fn new(
         web: &Web,
-        of: &Findings,
+        findings: &Findings,
         layers: &'a [Layer],
         performance: Performance,
         notes: &'a [String],
     ) -> Self {
-        let patches = of.patches.iter().map(|of| {
-            let (whole, too_small) = (of.whole_error(), || "the map is too small".to_owned());
+        let patches = findings.patches.iter().map(|patch| {
+            let (whole, too_small) = (patch.whole_error(), || "the map is too small".to_owned());
             let errors = [
                 ("cv_flight_error", whole.flight),
                 ("cv_model_error", whole.model),
                 ("cv_whole_error", whole.whole()),
             ];
             let expected = [
-                ("cv_one_fibre", Some(of.one_fibre.0)),
-                ("cv_one_fibre_standard_error", Some(of.one_fibre.1)),
-                ("cv_flown", of.flown.map(|of| of.0)),
-                ("cv_flown_standard_error", of.flown.map(|of| of.1)),
-                ("cv_surrogate", of.surrogate.map(|of| of.0)),
-                ("cv_surrogate_standard_error", of.surrogate.map(|of| of.1)),
-                ("cv_straight_fibres", Some(of.straight_fibres)),
+                ("cv_one_fibre", Some(patch.one_fibre.0)),
+                ("cv_one_fibre_standard_error", Some(patch.one_fibre.1)),
+                ("cv_flown", patch.flown.map(|cv| cv.0)),
+                ("cv_flown_standard_error", patch.flown.map(|cv| cv.1)),
+                ("cv_surrogate", patch.surrogate.map(|cv| cv.0)),
+                ("cv_surrogate_standard_error", patch.surrogate.map(|cv| cv.1)),
+                ("cv_straight_fibres", Some(patch.straight_fibres)),
             ];
-            patch(&of.map, &errors, of.map.interval().ok_or_else(too_small), expected.into_iter())
+            let interval = patch.map.interval().ok_or_else(too_small);
+            numbers_of_patch(&patch.map, &errors, interval, expected.into_iter())
         });
-        let levers = of.sensitivities.iter().flat_map(|sensitivity| {
-            let each = sensitivity.elasticity.iter().zip(&of.patches);
+        let levers = findings.sensitivities.iter().flat_map(|sensitivity| {
+            let each = sensitivity.elasticity.iter().zip(&findings.patches);
             each.map(|(elasticity, patch)| Levers {
                 number: sensitivity.lever.name(),
                 patch_m: patch.map.patch,
                 source: sensitivity.source.name(),
-                elasticity: elasticity.as_ref().map(|of| of.mean),
-                standard_error: elasticity.as_ref().and_then(|of| of.standard_error),
+                elasticity: elasticity.as_ref().map(|estimate| estimate.mean),
+                standard_error: elasticity.as_ref().and_then(|estimate| estimate.standard_error),
             })
         });
         Self {
@@ -244,16 +245,16 @@ impl<'a> Summary<'a> {
             layers,
             web: WebSummary {
                 fibre_length_m: Some(web.fibre_length()),
-                cut_off_kg: Some(of.laid.cut),
+                cut_off_kg: Some(findings.laid.cut),
                 edges: (web.sheet.edges == Edges::Cut).then(|| Margins {
-                    margins_m: of.margins,
-                    basis_weight_between_kg_m2: of.within().basis_weight(),
-                    basis_weight_sheet_kg_m2: of.laid.map.basis_weight(),
+                    margins_m: findings.margins,
+                    basis_weight_between_kg_m2: findings.within().basis_weight(),
+                    basis_weight_sheet_kg_m2: findings.laid.map.basis_weight(),
                 }),
-                orientation_md: Some(Number::of(&of.orientation.cos_squared)),
-                md_cd_ratio: Some(of.orientation.md_cd_ratio()),
+                orientation_md: Some(Number::new(&findings.orientation.cos_squared)),
+                md_cd_ratio: Some(findings.orientation.md_cd_ratio()),
                 sensitivities: levers.collect(),
-                ..WebSummary::of_map(&of.laid.map, of.clouds.as_ref(), patches.collect())
+                ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
             scan: None,
             performance,
@@ -264,28 +265,29 @@ impl<'a> Summary<'a> {
     /// Of a scanned web, which was read from a file.
     pub fn of_scan(
         file: &'a str,
-        of: &scan::Findings,
+        findings: &scan::Findings,
         performance: Performance,
         notes: &'a [String],
     ) -> Self {
-        let patches = of.patches.iter().map(|of| {
-            let declared = OF_SCANNED_PATCHES.iter().map(|declared| (declared.name, (declared.number)(of)));
-            patch(&of.unevenness, &[], of.interval.map_err(|doubt| doubt.to_string()), declared)
+        let patches = findings.patches.iter().map(|patch| {
+            let declared = OF_SCANNED_PATCHES.iter().map(|measure| (measure.name, (measure.number)(patch)));
+            let interval = patch.interval.map_err(|doubt| doubt.to_string());
+            numbers_of_patch(&patch.unevenness, &[], interval, declared)
         });
-        let mut web = WebSummary::of_map(&of.map, of.clouds.as_ref(), patches.collect());
-        if let Some(guess) = of.guess {
+        let mut web = WebSummary::of_map(&findings.map, findings.clouds.as_ref(), patches.collect());
+        if let Some(guess) = findings.guess {
             // Chance is not all that the error of a variance is made of.
             web.clouds.iter_mut().for_each(|octave| octave.standard_error = None);
             if let Some(cloudiness) = &mut web.cloudiness {
                 (cloudiness.standard_error, cloudiness.no_interval) = (None, Some(guess.to_string()));
             }
         }
-        let basis_weight_kg_m2 = web.basis_weight_kg_m2.filter(|_| of.mean_known);
-        let number = |declared: &ScanMeasure<scan::Findings>| {
-            let number = (declared.number)(of);
-            let number =
-                if declared.digits == 0 { number.map(|count| count as u64).into() } else { number.into() };
-            (declared.name.to_owned(), number)
+        let basis_weight_kg_m2 = web.basis_weight_kg_m2.filter(|_| findings.mean_known);
+        let number = |measure: &ScanMeasure<scan::Findings>| {
+            let number = (measure.number)(findings);
+            let is_count = measure.digits == 0;
+            let json = if is_count { number.map(|count| count as u64).into() } else { number.into() };
+            (measure.name.to_owned(), json)
         };
         let scan = std::iter::once(("file".to_owned(), file.into())).chain(OF_SCANS.iter().map(number));
         Self {

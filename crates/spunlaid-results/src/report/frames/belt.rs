@@ -40,16 +40,16 @@ impl NodeChoice<'_> {
     }
 
     /// The chosen nodes of a shape, the newest first, and the strided number of the newest.
-    fn nodes(&self, of: &Trajectory, instant: usize) -> (u64, Vec<Vec3<f64>>) {
-        let Some(shape) = of.shapes.get(instant) else { return (0, Vec::new()) };
+    fn nodes(&self, trajectory: &Trajectory, instant: usize) -> (u64, Vec<Vec3<f64>>) {
+        let Some(shape) = trajectory.shapes.get(instant) else { return (0, Vec::new()) };
         let skipped = self.root(shape.time) % self.stride;
         let nodes = shape.position.iter().skip(skipped as usize).step_by(self.stride as usize);
         (self.root(shape.time) / self.stride, nodes.copied().collect())
     }
 
     /// Number of the oldest node at an instant.
-    fn oldest(&self, of: &Trajectory, instant: usize) -> u64 {
-        let shape = &of.shapes[instant];
+    fn oldest(&self, trajectory: &Trajectory, instant: usize) -> u64 {
+        let shape = &trajectory.shapes[instant];
         (self.root(shape.time) + 1).saturating_sub(shape.position.len() as u64)
     }
 
@@ -85,10 +85,10 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames>
         feed_speed: line.feed_speed,
         shown_mm: shown * 1e3,
         newest: all.first()?.iter().map(|(newest, _)| *newest).collect(),
-        counts: all.iter().map(|of| of.iter().map(|(_, nodes)| nodes.len()).collect()).collect(),
+        counts: all.iter().map(|instants| instants.iter().map(|(_, nodes)| nodes.len()).collect()).collect(),
         laid: trajectories.iter().map(|t| laid(&chosen, t, &times)).collect(),
     };
-    let mut data = Data::of(case, &trajectories, times, points);
+    let mut data = Data::new(case, &trajectories, times, points);
     data.belt = Some(belt);
     let mut remarks = vec![format!(
         "The belt moves at {} m/s and carries the fibre to the right.",
@@ -130,11 +130,13 @@ fn instants(chosen: &NodeChoice<'_>, trajectories: &[&Trajectory], most: usize) 
 }
 
 /// The laid points that can be seen between the first and the last of the times.
-fn laid(chosen: &NodeChoice<'_>, of: &Trajectory, times: &[f64]) -> LaidPoints {
-    let seen = chosen.shown / chosen.line.belt_speed;
-    let from = times.first().map_or(0.0, |time| time - 1.5 * seen);
-    let points =
-        of.laid.iter().filter(|p| p.time >= from && chosen.number(p.fed).is_multiple_of(chosen.stride));
+fn laid(chosen: &NodeChoice<'_>, trajectory: &Trajectory, times: &[f64]) -> LaidPoints {
+    let duration = chosen.shown / chosen.line.belt_speed;
+    let from = times.first().map_or(0.0, |time| time - 1.5 * duration);
+    let points = trajectory
+        .laid
+        .iter()
+        .filter(|p| p.time >= from && chosen.number(p.fed).is_multiple_of(chosen.stride));
     let points: Vec<_> = points.take(LAID).collect();
     let first = points.first().map_or(0, |p| chosen.number(p.fed) / chosen.stride);
     let numbers = points.iter().flat_map(|p| [p.md, p.cd]).map(|v| (v * 1e3) as f32);

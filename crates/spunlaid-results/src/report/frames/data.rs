@@ -53,7 +53,7 @@ pub(super) struct Data {
 
 impl Data {
     /// * `points` – all positions that are drawn, in their order [m]
-    pub(super) fn of<P: Iterator<Item = Vec3<f64>>>(
+    pub(super) fn new<P: Iterator<Item = Vec3<f64>>>(
         case: &Case,
         trajectories: &[&Trajectory],
         times: Vec<f64>,

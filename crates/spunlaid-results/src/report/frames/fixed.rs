@@ -22,11 +22,11 @@ struct Choice {
 
 /// Chooses and packs the shapes of a run of fibres of fixed length.
 pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
-    let seen: Vec<&Trajectory> =
+    let candidates: Vec<&Trajectory> =
         results.trajectories.iter().filter(|f| !f.shapes.is_empty()).take(8).collect();
-    let shapes: &[Shape] = &seen.first()?.shapes;
+    let shapes: &[Shape] = &candidates.first()?.shapes;
     let same = |t: &&&Trajectory| t.shapes.len() == shapes.len();
-    let trajectories: Vec<&Trajectory> = seen.iter().filter(same).copied().collect();
+    let trajectories: Vec<&Trajectory> = candidates.iter().filter(same).copied().collect();
     let nodes = shapes.first()?.position.len();
     let frequency = swing_frequency(results);
     let (choice, remarks) = choose(shapes, nodes, trajectories.len(), frequency);
@@ -36,7 +36,7 @@ pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
         })
     };
     let times = choice.instants.iter().map(|&i| shapes[i].time).collect();
-    let mut data = Data::of(case, &trajectories, times, chosen);
+    let mut data = Data::new(case, &trajectories, times, chosen);
     (data.nodes, data.frequency) = (Some(choice.nodes.len()), frequency);
     data.frames(remarks)
 }

@@ -57,11 +57,6 @@ impl Lattice {
         [TAU / self.extent.y, TAU / self.extent.z]
     }
 
-    /// Points per length along y and z [1/m].
-    pub(super) fn per_length(&self) -> [f64; 2] {
-        [self.points[0] as f64 / self.extent.y, self.points[1] as f64 / self.extent.z]
-    }
-
     /// What the interpolation leaves of the rms of waves: along y, and along z.
     pub(super) fn left(&self, waves: [i64; 2]) -> f64 {
         let each = [0, 1].map(|axis| left(TAU * waves[axis] as f64 / self.points[axis] as f64));

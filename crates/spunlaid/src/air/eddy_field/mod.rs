@@ -9,6 +9,7 @@
 //! lattice    the points across, and the weights of the interpolation
 //! plan       the shape of the turbulence in each generation
 //! synthesis  random modes → two windows of a generation
+//! transform  Fourier transforms of sixteen signals abreast
 //! tape       windows joined to endless samples, made and forgotten block by block
 //! look       the fluctuation at a time and a place
 //! ```
@@ -20,6 +21,7 @@ mod synthesis;
 mod tape;
 #[cfg(test)]
 mod tests;
+mod transform;
 mod way;
 
 pub use lattice::Extent;
@@ -28,6 +30,7 @@ use self::plan::Plan;
 use self::synthesis::Synthesis;
 use self::tape::{BEFORE, NEEDED, Tape};
 use super::{Air, StreamKey};
+use crate::lanes::Isa;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -59,7 +62,13 @@ impl EddyField {
     pub fn new(air: &Air, distance: f64, extent: Extent, cutoff: f64, key: StreamKey) -> Self {
         let plan = Plan::new(air, distance, extent, cutoff);
         let tapes = vec![Tape::default(); plan.generations.len()];
-        Self { synthesis: Arc::new(Synthesis::new(&plan)), plan: Arc::new(plan), key, tapes, made: 0.0..0.0 }
+        Self {
+            synthesis: Arc::new(Synthesis::new(&plan, Isa::detect())),
+            plan: Arc::new(plan),
+            key,
+            tapes,
+            made: 0.0..0.0,
+        }
     }
 
     /// Another field of the same air, with a key of its own.

@@ -38,7 +38,7 @@ pub(super) struct Generation {
 /// The shape of the turbulence at one frequency.                                                    theory.md (81)
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Harmonic {
-    /// Wave number along the flow [1/m].
+    /// Wave number along the flow [1/m]; negative, because the phase of a wave that is carried is `ωc = ωt − (ω/U)x`.
     pub(super) wave_number: f64,
     /// Factor of each component.
     pub(super) scale: [f32; 3],
@@ -133,7 +133,7 @@ impl Shape {
         let energy_wave = ENERGY_WAVE / stage.length_scale;
         let harmonic = |n: usize| {
             let turn = TAU * (n as f64 + 0.5);
-            let wave_number = turn / repeat_time / stage.speed;
+            let wave_number = -turn / repeat_time / stage.speed;
             let left_in_time = left(turn / samples as f64);
             let mut of_modes = vec![0.0_f32; size];
             let mut energy = [0.0; 3];

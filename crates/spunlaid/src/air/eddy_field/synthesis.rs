@@ -8,19 +8,16 @@
 
 use super::lattice::Lattice;
 use super::plan::{Harmonic, Plan, projection};
+use super::transform::{ABREAST, Numbers, Transform, root};
 use crate::air::StreamKey;
+use crate::lanes::Isa;
 use crate::threads::each;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use rustfft::num_complex::Complex32;
-use rustfft::{Fft, FftPlannerScalar};
-use std::f64::consts::PI;
-use std::sync::Arc;
+use std::f64::consts::TAU;
 
 /// Number of different random phases.
 const PHASES: usize = 1024;
-/// Points of a line that are transformed together.
-const TOGETHER: usize = 16;
 /// Marks the keys of fields in space, beside those of winds, paths and places.
 const FIELD: u64 = 1 << 63;
 
@@ -28,30 +25,34 @@ const FIELD: u64 = 1 << 63;
 /// other.
 pub(super) type Line = [Vec<f32>; 2];
 
+/// Complex numbers of points: real parts and imaginary parts.
+type Complexes = [Vec<f32>; 2];
+
 /// The transforms of a plan.
+#[derive(Debug)]
 pub(super) struct Synthesis {
-    along_y: Arc<dyn Fft<f32>>,
-    along_z: Arc<dyn Fft<f32>>,
+    isa: Isa,
+    along_y: Transform,
+    along_z: Transform,
     /// Of each generation.
-    along_label: Vec<Arc<dyn Fft<f32>>>,
+    along_label: Vec<Transform>,
     /// `e^(2πi p/PHASES)`
-    phases: Vec<Complex32>,
+    phases: Vec<[f32; 2]>,
     /// Turns by a whole number of steps of the walk, from `−J` to `J`.
-    turns: Vec<Complex32>,
+    turns: Vec<[f32; 2]>,
 }
 
 impl Synthesis {
-    pub(super) fn new(plan: &Plan) -> Self {
-        // The same operations on every machine, so the same bits.
-        let mut planner = FftPlannerScalar::new();
+    pub(super) fn new(plan: &Plan, isa: Isa) -> Self {
         let [y, z] = plan.lattice.points;
         let steps = plan.generations.len() as i64 - 1;
         Self {
-            along_y: planner.plan_fft_inverse(y),
-            along_z: planner.plan_fft_inverse(z),
-            along_label: plan.generations.iter().map(|g| planner.plan_fft_forward(g.samples)).collect(),
-            phases: (0..PHASES).map(|p| unit(2.0 * PI * p as f64 / PHASES as f64)).collect(),
-            turns: (-steps..=steps).map(|step| unit(plan.turn * step as f64)).collect(),
+            isa,
+            along_y: Transform::new(y),
+            along_z: Transform::new(z),
+            along_label: plan.generations.iter().map(|shape| Transform::new(shape.samples)).collect(),
+            phases: (0..PHASES).map(|p| root(p as f64 / PHASES as f64)).collect(),
+            turns: (-steps..=steps).map(|step| root(plan.turn / TAU * step as f64)).collect(),
         }
     }
 
@@ -67,98 +68,104 @@ impl Synthesis {
         finish: impl Fn(usize, Line) -> T + Sync,
     ) -> Vec<T> {
         let shape = &plan.generations[generation];
-        let planes: Vec<Vec<Complex32>> = each(threads, shape.harmonics.len(), |n| {
+        let planes = each(threads, shape.harmonics.len(), |n| {
             let mut random = Random::new(plan, key, pair, generation, n);
-            self.plane(plan, &shape.harmonics[n], &mut random)
+            self.plane(&plan.lattice, &shape.harmonics[n], &mut random)
         });
         each(threads, plan.lattice.points[0], |y| finish(y, self.line(plan, generation, &planes, y)))
     }
 
-    /// The modes of a harmonic as points `[component][y][z]`.
-    fn plane(&self, plan: &Plan, harmonic: &Harmonic, random: &mut Random) -> Vec<Complex32> {
-        let lattice = &plan.lattice;
+    /// The modes of a harmonic as points, of each component `[y][z]`.
+    fn plane(&self, lattice: &Lattice, harmonic: &Harmonic, random: &mut Random) -> [Complexes; 3] {
         let [points_y, points_z] = lattice.points;
-        let size = points_y * points_z;
-        // `[component][waves along z][waves along y]`
-        let mut modes = vec![Complex32::ZERO; 3 * size];
-        self.fill(lattice, harmonic, random, &mut modes);
-        let mut scratch =
-            vec![
-                Complex32::ZERO;
-                self.along_y.get_inplace_scratch_len().max(self.along_z.get_inplace_scratch_len())
-            ];
-        let most = lattice.most_waves()[1] as usize;
-        let mut points = vec![Complex32::ZERO; 3 * size];
-        for (modes, points) in modes.chunks_exact_mut(size).zip(points.chunks_exact_mut(size)) {
-            for (waves, column) in modes.chunks_exact_mut(points_y).enumerate() {
-                if waves <= most || waves + most >= points_z {
-                    self.along_y.process_with_scratch(column, &mut scratch);
+        let waves_y = 2 * lattice.most_waves()[0] as usize + 1;
+        let mut scratch = Vec::new();
+        self.modes(lattice, harmonic, random).map(|modes| {
+            // `[waves along y][z]`
+            let mut half = [0, 1].map(|_| vec![0.0; waves_y * points_z]);
+            for first in (0..waves_y).step_by(ABREAST) {
+                let count = ABREAST.min(waves_y - first);
+                let mut numbers = load(&modes, points_z, waves_y, first, count);
+                scratch.resize(points_z, Numbers::ZERO);
+                self.along_z.pass(self.isa, &mut numbers, &mut scratch);
+                for (z, number) in numbers.iter().enumerate() {
+                    for wave in 0..count {
+                        half[0][(first + wave) * points_z + z] = number.re[wave];
+                        half[1][(first + wave) * points_z + z] = number.im[wave];
+                    }
                 }
             }
-            for (y, row) in points.chunks_exact_mut(points_z).enumerate() {
-                for (z, point) in row.iter_mut().enumerate() {
-                    *point = modes[z * points_y + y];
+            let mut points = [0, 1].map(|_| vec![0.0; points_y * points_z]);
+            for first in (0..points_z).step_by(ABREAST) {
+                let count = ABREAST.min(points_z - first);
+                let waves = load(&half, waves_y, points_z, first, count);
+                let mut numbers = vec![Numbers::ZERO; points_y];
+                for (wave, number) in waves.iter().enumerate() {
+                    numbers[place(wave as i64 - (waves_y / 2) as i64, points_y)] = *number;
                 }
-                self.along_z.process_with_scratch(row, &mut scratch);
+                scratch.resize(points_y, Numbers::ZERO);
+                self.along_y.pass(self.isa, &mut numbers, &mut scratch);
+                for (y, number) in numbers.iter().enumerate() {
+                    points[0][y * points_z + first..][..count].copy_from_slice(&number.re[..count]);
+                    points[1][y * points_z + first..][..count].copy_from_slice(&number.im[..count]);
+                }
             }
-        }
-        points
+            points
+        })
     }
 
-    /// Fills in the random modes of a harmonic.                                                     theory.md (81)
-    fn fill(&self, lattice: &Lattice, harmonic: &Harmonic, random: &mut Random, modes: &mut [Complex32]) {
-        let [points_y, points_z] = lattice.points;
-        let size = points_y * points_z;
+    /// The random modes of a harmonic, of each component `[waves along z][waves along y]`: along z as the transform wants them,
+    /// along y from the most negative number of waves to the largest.                               theory.md (81)
+    fn modes(&self, lattice: &Lattice, harmonic: &Harmonic, random: &mut Random) -> [Complexes; 3] {
+        let points_z = lattice.points[1];
         let [unit_y, unit_z] = lattice.wave_number_units();
         let [most_y, most_z] = lattice.most_waves();
-        let scale = harmonic.scale;
+        let columns = 2 * most_y as usize + 1;
+        let mut modes = [0, 1, 2].map(|_| [0, 1].map(|_| vec![0.0; points_z * columns]));
         for waves_y in -most_y..=most_y {
             let Some(beside) = lattice.waves_beside(waves_y) else { continue };
             let amplitudes = &harmonic.amplitudes[waves_y.unsigned_abs() as usize * (most_z as usize + 1)..];
-            let y = waves_y.rem_euclid(points_y as i64) as usize;
             for waves_z in -beside..=beside {
-                let z = waves_z.rem_euclid(points_z as i64) as usize;
                 let k = [harmonic.wave_number, waves_y as f64 * unit_y, waves_z as f64 * unit_z];
                 let projection = projection(k, lattice.is_uniform());
                 let amplitude = amplitudes[waves_z.unsigned_abs() as usize];
                 let white = random.next(&self.phases, &self.turns);
-                for i in 0..3 {
-                    let [a, b, c] = projection[i].map(|part| part as f32);
-                    let sum = white[0] * a + white[1] * b + white[2] * c;
-                    modes[i * size + z * points_y + y] = sum * (scale[i] * amplitude);
+                let at = place(waves_z, points_z) * columns + (waves_y + most_y) as usize;
+                for (i, modes) in modes.iter_mut().enumerate() {
+                    let factors = projection[i].map(|part| part as f32);
+                    for (part, modes) in modes.iter_mut().enumerate() {
+                        let [a, b, c] = [0, 1, 2].map(|m| factors[m] * white[m][part]);
+                        modes[at] = (a + b + c) * (harmonic.scale[i] * amplitude);
+                    }
                 }
             }
         }
+        modes
     }
 
     /// The samples along the label of one line of points.
-    fn line(&self, plan: &Plan, generation: usize, planes: &[Vec<Complex32>], y: usize) -> Line {
-        let [points_y, points_z] = plan.lattice.points;
-        let (size, samples) = (points_y * points_z, plan.generations[generation].samples);
-        let transform = &self.along_label[generation];
-        let mut scratch = vec![Complex32::ZERO; transform.get_inplace_scratch_len()];
-        // Half-odd frequencies: one more turn, by half a period in all.
-        let half_turn: Vec<Complex32> = (0..samples).map(|m| unit(-PI * m as f64 / samples as f64)).collect();
+    fn line(&self, plan: &Plan, generation: usize, planes: &[[Complexes; 3]], y: usize) -> Line {
+        let (points_z, samples) = (plan.lattice.points[1], plan.generations[generation].samples);
+        // Half-odd frequencies: half a turn more in the whole time.
+        let half_turn: Vec<[f32; 2]> = (0..samples).map(|m| root(0.5 * m as f64 / samples as f64)).collect();
         let mut windows = [0, 1].map(|_| vec![0.0; 3 * samples * points_z]);
-        let mut waves = vec![Complex32::ZERO; TOGETHER * samples];
+        let (mut numbers, mut scratch) = (vec![Numbers::ZERO; samples], vec![Numbers::ZERO; samples]);
         for component in 0..3 {
-            for start in (0..points_z).step_by(TOGETHER) {
-                let count = TOGETHER.min(points_z - start);
-                let waves = &mut waves[..count * samples];
-                waves.fill(Complex32::ZERO);
-                for (n, plane) in planes.iter().enumerate() {
-                    let points = &plane[component * size + y * points_z + start..][..count];
-                    for (z, point) in points.iter().enumerate() {
-                        waves[z * samples + n] = *point;
-                    }
+            for first in (0..points_z).step_by(ABREAST) {
+                let count = ABREAST.min(points_z - first);
+                numbers.fill(Numbers::ZERO);
+                for (number, plane) in numbers.iter_mut().zip(planes) {
+                    let [re, im] = &plane[component];
+                    let start = y * points_z + first;
+                    number.re[..count].copy_from_slice(&re[start..][..count]);
+                    number.im[..count].copy_from_slice(&im[start..][..count]);
                 }
-                transform.process_with_scratch(waves, &mut scratch);
-                for (m, turn) in half_turn.iter().enumerate() {
-                    let at = (component * samples + m) * points_z + start;
-                    for z in 0..count {
-                        let value = waves[z * samples + m] * turn;
-                        (windows[0][at + z], windows[1][at + z]) = (value.re, value.im);
-                    }
+                self.along_label[generation].pass(self.isa, &mut numbers, &mut scratch);
+                for (m, (number, turn)) in numbers.iter().zip(&half_turn).enumerate() {
+                    let number = number.times(*turn);
+                    let start = (component * samples + m) * points_z + first;
+                    windows[0][start..][..count].copy_from_slice(&number.re[..count]);
+                    windows[1][start..][..count].copy_from_slice(&number.im[..count]);
                 }
             }
         }
@@ -166,11 +173,21 @@ impl Synthesis {
     }
 }
 
-/// `e^(i angle)`
-fn unit(angle: f64) -> Complex32 {
-    Complex32::new(libm::cos(angle) as f32, libm::sin(angle) as f32)
+/// Some columns of a table, each a signal.
+fn load([re, im]: &Complexes, rows: usize, columns: usize, first: usize, count: usize) -> Vec<Numbers> {
+    let row = |row: usize| {
+        let (mut numbers, start) = (Numbers::ZERO, row * columns + first);
+        numbers.re[..count].copy_from_slice(&re[start..][..count]);
+        numbers.im[..count].copy_from_slice(&im[start..][..count]);
+        numbers
+    };
+    (0..rows).map(row).collect()
 }
 
+/// Where a transform of so many points has a number of waves.
+fn place(waves: i64, points: usize) -> usize {
+    if waves < 0 { (points as i64 + waves) as usize } else { waves as usize }
+}
 /// Random phases of the modes of one harmonic in a pair of windows, in their order.
 struct Random {
     stream: ChaCha8Rng,
@@ -201,7 +218,7 @@ impl Random {
 
     /// Three white complex amplitudes of the modulus one at the age of the generation.              theory.md (84)
     #[inline(always)]
-    fn next(&mut self, phases: &[Complex32], turns: &[Complex32]) -> [Complex32; 3] {
+    fn next(&mut self, phases: &[[f32; 2]], turns: &[[f32; 2]]) -> [[f32; 2]; 3] {
         let start = self.stream.next_u32();
         [0, 10, 20].map(|shift| {
             let phase = phases[(start >> shift) as usize % PHASES];
@@ -214,7 +231,8 @@ impl Random {
             }
             // Forward less backward.
             let net = 2 * forward as usize + self.steps - self.generation;
-            phase * turns[net]
+            let turn = turns[net];
+            [phase[0] * turn[0] - phase[1] * turn[1], phase[0] * turn[1] + phase[1] * turn[0]]
         })
     }
 }

@@ -20,8 +20,6 @@ const BLOCKS: usize = 6;
 pub(super) struct Block {
     /// Number of the first sample; sample `m` has the label `m` spacings.
     pub(super) first: i64,
-    /// Number after the last sample.
-    pub(super) end: i64,
     /// For each y: `[sample][z][component]`.
     pub(super) lines: Vec<Box<[f32]>>,
 }
@@ -29,7 +27,8 @@ pub(super) struct Block {
 /// A generation as far as it has been made.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tape {
-    pub(super) blocks: Vec<Arc<Block>>,
+    /// With the number after the last sample of each.
+    blocks: Vec<(i64, Arc<Block>)>,
     /// The pair of windows that comes next; none before the first.
     next: Option<i64>,
     /// What the last window adds to the samples after the blocks, and the last samples of the blocks: for each y
@@ -82,10 +81,10 @@ impl Tape {
         threads: usize,
     ) {
         let windows = Windows::new(plan.generations[generation].samples);
-        self.blocks.retain(|block| block.end > samples.start);
+        self.blocks.retain(|(end, _)| *end > samples.start);
         let first = windows.first_pair(samples.start - REPEATED as i64);
         let goes_on = match self.blocks.first() {
-            Some(block) => block.first <= samples.start,
+            Some((_, block)) => block.first <= samples.start,
             None => self.next.is_some_and(|next| next > first),
         };
         if !goes_on {
@@ -110,7 +109,7 @@ impl Tape {
                 let end = first + each.min(2 * windows.hop - number * each) as i64;
                 let lines = blocks.iter_mut().map(|lines| std::mem::take(&mut lines[number])).collect();
                 if end > samples.start {
-                    self.blocks.push(Arc::new(Block { first: first - REPEATED as i64, end, lines }));
+                    self.blocks.push((end, Arc::new(Block { first: first - REPEATED as i64, lines })));
                 }
             }
             self.rest = Arc::new(left);
@@ -125,7 +124,7 @@ impl Tape {
     #[inline(always)]
     pub(super) fn around(&self, sample: i64) -> Option<&Block> {
         let last = sample + NEEDED as i64 - 1 - BEFORE;
-        self.blocks.iter().find(|block| last < block.end).map(|block| &**block)
+        self.blocks.iter().find(|(end, _)| last < *end).map(|(_, block)| &**block)
     }
 }
 

@@ -114,7 +114,9 @@ impl WayOfEddies {
     /// The passage of the air at a distance `x` [m] from the inlet.
     #[inline(always)]
     pub(super) fn passage(&self, x: f64) -> Passage {
-        let place = (x * self.pieces_per_length).clamp(0.0, PIECES as f64);
+        let place = x * self.pieces_per_length;
+        // A fibre that is lost may be nowhere, which is then at the inlet.
+        let place = if place > 0.0 { place.min(PIECES as f64) } else { 0.0 };
         let piece = (place as usize).min(PIECES - 1);
         let (start, end, share) = (self.passages[piece], self.passages[piece + 1], place - piece as f64);
         Passage {

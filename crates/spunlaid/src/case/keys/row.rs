@@ -102,6 +102,25 @@ macro_rules! of_line {
     };
 }
 
+/// Access to the distances of companions: `of_neighbours!(cd)`.
+macro_rules! of_neighbours {
+    ($field:ident) => {
+        Access {
+            get: |case| {
+                let distances = &case.neighbours.$field;
+                (!distances.is_empty()).then(|| Value::Numbers(distances.clone()))
+            },
+            set: |case, value| {
+                if case.air.lateral == Lateral::Uniform {
+                    return Err(without_shared_air());
+                }
+                case.neighbours.$field = distances(value)?;
+                Ok(())
+            },
+        }
+    };
+}
+
 /// Access to a number of the friction on the belt.
 macro_rules! of_friction {
     ($field:ident) => {

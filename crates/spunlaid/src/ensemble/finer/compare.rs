@@ -54,8 +54,8 @@ impl FinerPlan {
                 return Err(still());
             }
             check.replicates = apart.len();
-            check.path = Some(Estimate::of(apart));
-            check.changes = vec![Change { statistic: &OF_THE_END[0], estimate: Estimate::of(amplitudes) }];
+            check.path = Some(Estimate::new(apart));
+            check.changes = vec![Change { statistic: &OF_THE_END[0], estimate: Estimate::new(amplitudes) }];
             return Ok(check);
         }
         let statistics = if self.fine.line.is_some() { OF_THE_LAID } else { OF_THE_END };
@@ -85,7 +85,7 @@ fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
     let ratio = sum(0) / sum(1);
     let mean = sum(1) / pairs.len() as f64;
     let values: Vec<f64> = pairs.iter().map(|[a, b]| ratio - 1.0 + (a - ratio * b) / mean).collect();
-    (!values.is_empty() && values.iter().all(|value| value.is_finite())).then(|| Estimate::of(values))
+    (!values.is_empty() && values.iter().all(|value| value.is_finite())).then(|| Estimate::new(values))
 }
 
 /// Rms distance of a path from its mean [m].

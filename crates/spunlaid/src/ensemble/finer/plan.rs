@@ -86,7 +86,7 @@ fn cost(case: &Case) -> f64 {
 
 /// Steps of the elements of all flights of a run.
 fn cost_of_run(case: &Case) -> f64 {
-    cost(case) * case.run.replicates.div_ceil(WIDTH as u64) as f64
+    cost(case) * case.flights() as f64
 }
 
 fn too_short() -> String {

@@ -112,9 +112,9 @@ struct Cone<'a> {
 
 impl<'a> Cone<'a> {
     fn new(tip: u32, at: [f64; 3], triangles: &'a [[u32; 3]], nodes: &[Node]) -> Self {
-        let of =
+        let volume_of_triangle =
             |triangle: &[u32; 3]| if triangle.contains(&tip) { 0.0 } else { volume(at, triangle, nodes) };
-        Self { tip, triangles, volumes: triangles.iter().map(of).collect() }
+        Self { tip, triangles, volumes: triangles.iter().map(volume_of_triangle).collect() }
     }
 
     /// Six times the volume of the cell.

@@ -8,8 +8,8 @@ use super::fault;
 use super::node::{self, Node, bounding_box, merge};
 use super::tree::Tree;
 use super::values::Quantities;
-use super::{FieldWarning, Hint, mean, vector};
-use crate::error::{FileError, Position};
+use super::{Hint, mean, vector};
+use crate::error::{Fault, FileError, Position};
 use crate::vec3::Vec3;
 use cells::Cells;
 use cut::Cut;
@@ -55,17 +55,14 @@ impl Mesh {
         points: &[Vec3<f64>],
         cells: &Cells,
         values: Vec<Quantities>,
-    ) -> Result<(Self, Vec<FieldWarning>), FileError> {
+    ) -> Result<(Self, Vec<Fault>), FileError> {
         if let Some((cell, point)) = cells.beyond(points.len()) {
             let fault = fault::no_point(point.into(), points.len());
             return Err(FileError::from(fault).at(Position::Cell(cell as u64 + 1)));
         }
         let mut nodes = node::nodes(points, values)?;
-        let mut warnings = Vec::new();
         let (place_of, merged) = merge(&mut nodes);
-        if merged > 0 {
-            warnings.push(FieldWarning::Merged { points: merged });
-        }
+        let mut warnings = Vec::from_iter(merged);
         let mut cut = Cut::default();
         for cell in 0..cells.len() {
             cut.add(cells, cell, &place_of, &mut nodes);
@@ -75,10 +72,17 @@ impl Mesh {
             }
         }
         if cut.flat > 0 {
-            warnings.push(FieldWarning::Flat { cells: cut.flat });
+            let message = format!("{} cells have no volume and are left out", cut.flat);
+            warnings.push(Fault::plain(message));
         }
         if cut.folded > 0 {
-            warnings.push(FieldWarning::Folded { cells: cut.folded });
+            warnings.push(Fault::new(
+                format!(
+                    "{} cells fold over themselves, and the air within them is only roughly right",
+                    cut.folded
+                ),
+                "check the mesh",
+            ));
         }
         if cut.tetrahedra.is_empty() {
             return Err(fault::no_volume(0).into());
@@ -90,7 +94,8 @@ impl Mesh {
         let surface = surface(&cut.triangles, &nodes);
         let cells = boxes(&cut, &nodes);
         let tetrahedra = neighbours(&cut.tetrahedra, nodes.len());
-        let corners = tetrahedra.iter().flat_map(|of| of.nodes).map(|node| nodes[node as usize].at);
+        let corners =
+            tetrahedra.iter().flat_map(|tetrahedron| tetrahedron.nodes).map(|node| nodes[node as usize].at);
         let bounds = bounding_box(corners);
         Self { nodes, tetrahedra, cells, surface, points, bounds }
     }
@@ -145,9 +150,9 @@ impl Mesh {
 
     /// Starts at the tetrahedron of the hint and moves on through the face that the point lies farthest outside of.
     fn walk(&self, at: [f64; 3], hint: Hint) -> Option<(u32, [f64; 4])> {
-        let mut here = hint.0.checked_sub(1)?;
+        let mut index = hint.0.checked_sub(1)?;
         for _ in 0..LONGEST_WALK {
-            let tetrahedron = self.tetrahedra.get(here as usize)?;
+            let tetrahedron = self.tetrahedra.get(index as usize)?;
             let weights = self.weights(tetrahedron, at);
             let (mut face, mut least) = (0, weights[0]);
             for (i, weight) in weights.into_iter().enumerate().skip(1) {
@@ -156,9 +161,9 @@ impl Mesh {
                 }
             }
             if least >= -EDGE {
-                return Some((here, weights));
+                return Some((index, weights));
             }
-            here = tetrahedron.beyond[face];
+            index = tetrahedron.beyond[face];
         }
         None
     }

@@ -136,8 +136,8 @@ impl Site {
             values.iter_mut().zip(gradient).for_each(|(value, change)| *value += along * change);
         }
         // Next to walls k and ε are so steep that extrapolation would make them negative.
-        for (value, here) in values.iter_mut().zip(self.node.values).skip(3) {
-            *value = value.max(0.5 * here);
+        for (value, nearest) in values.iter_mut().zip(self.node.values).skip(3) {
+            *value = value.max(0.5 * nearest);
         }
         values
     }

@@ -139,12 +139,12 @@ impl Array<'_> {
                 bytes.and_then(|bytes| self.converted(&bytes, *big_endian))
             }
         };
-        let within = numbers.and_then(|numbers: Vec<T>| budget.spend(numbers.len()).map(|()| numbers));
-        within.map_err(|fault| self.fault(fault))
+        let accepted = numbers.and_then(|numbers: Vec<T>| budget.spend(numbers.len()).map(|()| numbers));
+        accepted.map_err(|fault| self.fault(fault))
     }
 
     /// The numbers for `count` points or cells.
-    pub(super) fn of<T: Read>(&self, count: usize, budget: &mut Budget) -> Result<Vec<T>, FileError> {
+    pub(super) fn numbers<T: Read>(&self, count: usize, budget: &mut Budget) -> Result<Vec<T>, FileError> {
         let (numbers, wanted) = (self.all(budget)?, count.saturating_mul(self.components));
         if numbers.len() == wanted {
             return Ok(numbers);
@@ -159,9 +159,9 @@ impl Array<'_> {
 
     fn converted<T: Read>(&self, bytes: &[u8], big_endian: bool) -> Result<Vec<T>, Fault> {
         let size = self.number.size();
-        let over = bytes.len() % size;
-        if over != 0 {
-            return Err(fault::count(over, size, "bytes of its last number"));
+        let rest = bytes.len() % size;
+        if rest != 0 {
+            return Err(fault::count(rest, size, "bytes of its last number"));
         }
         let number = |written: &[u8]| {
             let mut bits = [0; 8];

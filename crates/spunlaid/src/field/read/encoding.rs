@@ -135,7 +135,7 @@ fn expand(
     if found == wanted {
         return Ok(());
     }
-    Err(fault::encoding(&format!("a block holds {found} bytes where {wanted} are announced")))
+    Err(fault::encoding(&format!("a block holds {found} bytes, but its header announces {wanted}")))
 }
 
 /// Reads the numbers of a header one after the other.

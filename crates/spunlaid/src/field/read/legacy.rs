@@ -6,15 +6,15 @@ use super::grid::{Grid, counted, vectors};
 use super::piece::{Assembly, Piece};
 use super::unstructured::{Listed, Polyhedra};
 use crate::error::{Fault, FileError, Position};
+use crate::field::Field;
 use crate::field::fault;
-use crate::field::{Field, FieldWarning};
 use crate::vec3::Vec3;
 
 /// How such files begin.
 pub(super) const START: &[u8] = b"# vtk DataFile Version";
 
 /// Reads a file.
-pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
+pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<Fault>), FileError> {
     let mut scanner = Scanner { bytes, at: 0, binary: false };
     let mut assembly = Assembly::new();
     let piece = scanner.piece(&mut assembly.budget).map_err(|error| error.at(scanner.place()));
@@ -100,7 +100,7 @@ impl<'a> Scanner<'a> {
             let count = self.parse("a number of coordinates")?;
             let number = self.number()?;
             let array = self.array(keyword.to_owned(), number, 1, count)?;
-            array.of(size, budget)
+            array.numbers(size, budget)
         };
         Ok(Grid::Lattice([
             axis("X_COORDINATES", size[0])?,
@@ -113,7 +113,7 @@ impl<'a> Scanner<'a> {
         let count: usize = self.parse("a number of points")?;
         let number = self.number()?;
         let array = self.array("POINTS".to_owned(), number, 3, count)?;
-        Ok(vectors(&array.of(wanted.unwrap_or(count), budget)?))
+        Ok(vectors(&array.numbers(wanted.unwrap_or(count), budget)?))
     }
 
     fn cells(&mut self, with_ends: bool, budget: &mut Budget) -> Result<Listed, FileError> {
@@ -152,12 +152,12 @@ impl<'a> Scanner<'a> {
     /// The arrays at the end of the file.
     fn data(&mut self, piece: &mut Piece<'a>) -> Result<(), FileError> {
         // Whether the arrays are of points or of cells, and how many there are.
-        let mut of = None;
+        let mut target = None;
         while let Some(keyword) = self.peek() {
             self.word()?;
-            match (keyword, of) {
+            match (keyword, target) {
                 ("POINT_DATA" | "CELL_DATA", _) => {
-                    of = Some((keyword == "CELL_DATA", self.parse("a number of points or cells")?));
+                    target = Some((keyword == "CELL_DATA", self.parse("a number of points or cells")?));
                 }
                 ("METADATA", _) => self.metadata(),
                 // Field data of the whole data set are left out.
@@ -284,7 +284,7 @@ impl<'a> Scanner<'a> {
 
     fn size(&mut self) -> Result<[usize; 3], FileError> {
         let mut one = || match self.parse("a number of points along an axis")? {
-            0 => Err(wrong("0", "a number of points of one or more")),
+            0 => Err(wrong("0", "a number of points, at least 1")),
             size => Ok(size),
         };
         Ok([one()?, one()?, one()?])

@@ -6,7 +6,6 @@
 use super::piece::Assembly;
 use super::{ReadField, xml};
 use crate::error::{Fault, FileError, FileKind, Position};
-use crate::field::FieldWarning;
 use crate::field::fault;
 use crate::file;
 use crate::units::excerpt;
@@ -19,7 +18,7 @@ const SURFACE: &str = "vtp";
 
 /// How a list names its parts.
 #[derive(Clone, Copy)]
-pub(super) struct List {
+struct List {
     /// The element and its attribute.
     element: &'static str,
     attribute: &'static str,
@@ -28,7 +27,7 @@ pub(super) struct List {
 }
 
 /// The list that a file of this type is, if it is one.
-pub(super) fn of(kind: &str) -> Option<List> {
+fn list_type(kind: &str) -> Option<List> {
     let pieces = |announced| List { element: "Piece", attribute: "Source", announced: Some(announced) };
     Some(match kind {
         "vtkMultiBlockDataSet" => List { element: "DataSet", attribute: "file", announced: None },
@@ -42,7 +41,12 @@ pub(super) fn of(kind: &str) -> Option<List> {
 
 /// Whether a file is a list, from its first bytes.
 pub(super) fn is_list(bytes: &[u8]) -> bool {
-    xml::kind(bytes).is_some_and(|kind| of(&kind).is_some())
+    xml::kind(bytes).is_some_and(|kind| list_type(&kind).is_some())
+}
+
+/// The fault of a list whose path is not known, so that the files beside it cannot be found.
+pub(super) fn without_path() -> Fault {
+    Fault::format("a VTK file that lists other files", "name it by its path")
 }
 
 /// Reads the field that a list and its parts are.
@@ -63,7 +67,9 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<ReadField, FileError> {
         return Err(FileError::from(no_parts(surfaces)).path(path));
     }
     if surfaces > 0 {
-        assembly.warn(FieldWarning::Surfaces { parts: surfaces });
+        assembly.warn(Fault::plain(format!(
+            "the list names surfaces too (.vtp: {surfaces}), perhaps the boundary; they are left out"
+        )));
     }
     let (field, warnings) = assembly.finish().map_err(|error| error.path(path))?;
     parts.sort_unstable();
@@ -104,7 +110,7 @@ impl Reading<'_> {
             placed(FileError::from(fault).at(Position::Byte(error.valid_up_to() as u64 + 1)))
         })?;
         let document = xml::tree(text).map_err(placed)?;
-        let list = of(document.root_element().attribute("type").unwrap_or_default());
+        let list = list_type(document.root_element().attribute("type").unwrap_or_default());
         let Some(List { element, attribute, announced: own }) = list else {
             return Err(placed(Fault::cut_off("the list of parts").into()));
         };
@@ -152,7 +158,7 @@ impl Reading<'_> {
 const MISSING: &str = "which is not there; copy it to that place beside the list, or write the list again";
 const OUTSIDE: &str = "which is outside of the list’s own folder; put it into that folder or one below, and write its path from there";
 const ITSELF: &str = "which is this list itself or a list that names it; name files with grids";
-const TWICE: &str = "twice; name it once";
+const TWICE: &str = "which it has named before; name it once";
 
 /// The fault of a list that names no part with a volume.
 fn no_parts(surfaces: u64) -> Fault {

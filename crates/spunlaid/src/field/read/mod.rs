@@ -15,7 +15,7 @@ mod tecplot;
 mod unstructured;
 mod xml;
 
-use super::{Field, FieldWarning};
+use super::Field;
 use crate::error::{Fault, FileError, FileKind};
 use crate::file;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub(crate) struct ReadField {
     pub(crate) field: Field,
-    pub(crate) warnings: Vec<FieldWarning>,
+    pub(crate) warnings: Vec<Fault>,
     /// Checksum of the file and of its parts.
     pub(crate) checksum: u32,
     /// The files that a list names, relative to its folder. Empty for a file that is no list.
@@ -51,7 +51,7 @@ impl Field {
     ///
     /// # Errors
     /// When the file cannot be read or holds no field of air. The message says where and why.
-    pub fn read(path: &Path) -> Result<(Self, Vec<FieldWarning>), FileError> {
+    pub fn read(path: &Path) -> Result<(Self, Vec<Fault>), FileError> {
         ReadField::read(path).map(|read| (read.field, read.warnings))
     }
 
@@ -59,9 +59,11 @@ impl Field {
     ///
     /// # Errors
     /// As [`Field::read`].
-    pub fn parse(bytes: &[u8], name: &str) -> Result<(Self, Vec<FieldWarning>), FileError> {
+    pub fn parse(bytes: &[u8], name: &str) -> Result<(Self, Vec<Fault>), FileError> {
         let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let read = if start.trim_ascii_start().starts_with(b"<") {
+        let read = if list::is_list(start) {
+            Err(list::without_path().into())
+        } else if start.trim_ascii_start().starts_with(b"<") {
             xml::read(start)
         } else if start.starts_with(legacy::START) {
             legacy::read(start)

@@ -154,9 +154,9 @@ fn first(
     fits: impl Fn(usize) -> bool,
 ) -> Result<Option<ScaledColumn>, FileError> {
     for name in wanted {
-        for (i, there) in names.iter().enumerate() {
+        for (i, candidate) in names.iter().enumerate() {
             if fits(i)
-                && let Some(factor) = there.is(name, measure)
+                && let Some(factor) = candidate.is(name, measure)
             {
                 return Ok(Some((i, factor?)));
             }

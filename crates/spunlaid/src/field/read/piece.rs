@@ -7,7 +7,7 @@ use super::names::{self, Measure, Name, Velocity};
 use crate::error::{Fault, FileError};
 use crate::field::fault;
 use crate::field::values::C_MU;
-use crate::field::{Cells, Field, FieldWarning, Shape, Values};
+use crate::field::{Cells, Field, Shape, Values};
 use crate::vec3::Vec3;
 
 /// Part of the largest value up to which a negative one is taken for rounding of the solver or of an interpolation [-].
@@ -20,13 +20,22 @@ pub(super) struct Piece<'a> {
     pub(super) cell_data: Vec<Array<'a>>,
 }
 
+/// The values of an array that cannot be negative, in all pieces.
+struct Range {
+    array: String,
+    least: f64,
+    greatest: f64,
+    /// Number of points with negative values.
+    negative: u64,
+}
+
 /// Collects the pieces of a file, or of several, and makes a field of them.
 pub(super) struct Assembly {
     grids: Vec<Grid>,
     values: Vec<Values>,
-    warnings: Vec<FieldWarning>,
-    /// Smallest and largest value of each array that cannot be negative.
-    ranges: Vec<(String, [f64; 2])>,
+    warnings: Vec<Fault>,
+    /// The arrays that cannot be negative.
+    ranges: Vec<Range>,
     /// What the first piece lacks for turbulence.
     lacks: Option<String>,
     /// How much may still be read, for all pieces together.
@@ -60,28 +69,29 @@ impl Assembly {
         Ok(())
     }
 
-    pub(super) fn warn(&mut self, warning: FieldWarning) {
+    pub(super) fn warn(&mut self, warning: Fault) {
         self.warnings.push(warning);
     }
 
     /// The field of all pieces.
-    pub(super) fn finish(self) -> Result<(Field, Vec<FieldWarning>), FileError> {
-        let Self { grids, values, warnings, ranges, lacks, .. } = self;
-        for warning in &warnings {
-            let FieldWarning::Negative { array, points } = warning else { continue };
-            let range = ranges.iter().find(|(name, _)| name == array);
-            if let Some((name, [least, greatest])) = range
-                && *least < -ROUNDING * greatest.max(0.0)
-            {
-                let (points, share) = (*points, -100.0 * ROUNDING);
+    pub(super) fn finish(self) -> Result<(Field, Vec<Fault>), FileError> {
+        let Self { grids, values, mut warnings, ranges, lacks, .. } = self;
+        for Range { array, least, greatest, negative } in ranges {
+            if least < -ROUNDING * greatest.max(0.0) {
+                let share = -100.0 * ROUNDING;
                 let fault = Fault::new(
                     format!(
-                        "is below zero at {points} points, down to {} with a largest value of {}, and it cannot be negative. Only values down to {share} % of the largest are taken for rounding and set to zero",
-                        *least, *greatest
+                        "is below zero at {negative} points, and it cannot be: its smallest value is {least} and its \
+                         largest {greatest}. Only values down to {share} % of the largest count as rounding and are \
+                         set to zero"
                     ),
                     "check that the array is what its name says",
                 );
-                return Err(FileError::from(fault).array(name));
+                return Err(FileError::from(fault).array(&array));
+            }
+            if negative > 0 {
+                let message = format!("{array} is negative at {negative} points; zero is used there");
+                warnings.push(Fault::plain(message));
             }
         }
         let of_turbulence = |wanted| {
@@ -116,8 +126,8 @@ pub(super) fn lacks(names: &[Name], components: &[usize]) -> Option<String> {
 fn joined(
     mut grids: Vec<Grid>,
     values: Vec<Values>,
-    mut warnings: Vec<FieldWarning>,
-) -> Result<(Field, Vec<FieldWarning>), FileError> {
+    mut warnings: Vec<Fault>,
+) -> Result<(Field, Vec<Fault>), FileError> {
     if let ([grid], [values]) = (grids.as_slice(), values.as_slice()) {
         if let Grid::Scattered(points) = grid {
             let (field, more) = Field::points(points, values)?;
@@ -167,10 +177,13 @@ fn joined(
         return Err(if points.is_empty() { fault::empty() } else { fault::no_volume(flat) }.into());
     }
     if flat > 0 {
-        warnings.push(FieldWarning::NotSolid { cells: flat });
+        let message =
+            format!("{flat} cells are points, lines or faces, perhaps of the boundary; they are left out");
+        warnings.push(Fault::plain(message));
     }
     if higher_order > 0 {
-        warnings.push(FieldWarning::HigherOrder { cells: higher_order });
+        let message = format!("{higher_order} cells have curved edges; only their corners are used");
+        warnings.push(Fault::plain(message));
     }
     let (field, more) = Field::mesh(&points, &cells, &all)?;
     warnings.extend(more);
@@ -178,7 +191,7 @@ fn joined(
 }
 
 /// The lattice that pieces of one make together. None if some of them are none, or leave a gap.
-fn lattice(grids: &[Grid], values: &[Values]) -> Result<Option<(Field, Vec<FieldWarning>)>, FileError> {
+fn lattice(grids: &[Grid], values: &[Values]) -> Result<Option<(Field, Vec<Fault>)>, FileError> {
     let Some(axes) = grids.iter().map(Grid::axes).collect::<Option<Vec<_>>>() else {
         return Ok(None);
     };
@@ -225,8 +238,8 @@ fn is_filled(pieces: &[[Vec<f64>; 3]], points: usize) -> bool {
 struct Reader<'a, 'b> {
     piece: &'a Piece<'a>,
     budget: &'b mut Budget,
-    warnings: &'b mut Vec<FieldWarning>,
-    ranges: &'b mut Vec<(String, [f64; 2])>,
+    warnings: &'b mut Vec<Fault>,
+    ranges: &'b mut Vec<Range>,
 }
 
 impl Reader<'_, '_> {
@@ -280,13 +293,8 @@ impl Reader<'_, '_> {
                 continue;
             };
             let mut numbers = self.numbers(of_cells, array, factor)?;
-            let negative = numbers.iter().filter(|value| **value < 0.0).count() as u64;
-            let array = crate::units::excerpt(&names[array].written, 40);
-            self.widen(&array, &numbers);
-            if negative > 0 {
-                numbers.iter_mut().filter(|value| **value < 0.0).for_each(|value| *value = 0.0);
-                self.warn(FieldWarning::Negative { array, points: negative });
-            }
+            self.widen(&crate::units::excerpt(&names[array].written, 40), &numbers);
+            numbers.iter_mut().filter(|value| **value < 0.0).for_each(|value| *value = 0.0);
             return Ok(Some(numbers));
         }
         Ok(None)
@@ -294,29 +302,18 @@ impl Reader<'_, '_> {
 
     /// Widens the range of an array by these values.
     fn widen(&mut self, array: &str, numbers: &[f64]) {
-        let known = self.ranges.iter().position(|(name, _)| name == array);
+        let known = self.ranges.iter().position(|range| range.array == array);
         let at = known.unwrap_or_else(|| {
-            self.ranges.push((array.to_owned(), [f64::INFINITY, f64::NEG_INFINITY]));
+            let (least, greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+            self.ranges.push(Range { array: array.to_owned(), least, greatest, negative: 0 });
             self.ranges.len() - 1
         });
-        let range = &mut self.ranges[at].1;
-        numbers.iter().for_each(|x| *range = [range[0].min(*x), range[1].max(*x)]);
-    }
-
-    /// Adds a warning, once for all pieces.
-    fn warn(&mut self, warning: FieldWarning) {
-        use FieldWarning::{Negative, OfCells};
-        for told in self.warnings.iter_mut() {
-            match (told, &warning) {
-                (Negative { array, points }, Negative { array: same, points: more }) if array == same => {
-                    *points += more;
-                    return;
-                }
-                (OfCells { array }, OfCells { array: same }) if array == same => return,
-                _ => {}
-            }
+        let range = &mut self.ranges[at];
+        for number in numbers {
+            range.least = range.least.min(*number);
+            range.greatest = range.greatest.max(*number);
+            range.negative += u64::from(*number < 0.0);
         }
-        self.warnings.push(warning);
     }
 
     fn arrays(&self, of_cells: bool) -> &[Array<'_>] {
@@ -331,11 +328,21 @@ impl Reader<'_, '_> {
     fn numbers(&mut self, of_cells: bool, array: usize, factor: f64) -> Result<Vec<f64>, FileError> {
         let (points, cells) = self.piece.grid.counts()?;
         let array = if of_cells { &self.piece.cell_data[array] } else { &self.piece.point_data[array] };
-        let mut numbers = array.of(if of_cells { cells } else { points }, self.budget)?;
+        let mut numbers = array.numbers(if of_cells { cells } else { points }, self.budget)?;
         if of_cells {
             numbers = self.piece.grid.to_points(&numbers, array.components, points);
             let name = crate::units::excerpt(&array.name, 40);
-            self.warn(FieldWarning::OfCells { array: name });
+            let warning = Fault::new(
+                format!(
+                    "{name} is given at cells; each point gets the mean of the cells around it, so the air does not \
+                     come to rest at walls"
+                ),
+                "write values at points if you can",
+            );
+            // Once for all pieces.
+            if !self.warnings.contains(&warning) {
+                self.warnings.push(warning);
+            }
         }
         if factor != 1.0 {
             numbers.iter_mut().for_each(|number| *number *= factor);

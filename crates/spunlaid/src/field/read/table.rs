@@ -5,7 +5,7 @@ use super::grid::Grid;
 use super::names::{self, Measure, Name, ScaledColumn};
 use super::piece::{Assembly, Piece, lacks};
 use crate::error::{Fault, FileError, FileKind, Position, listed};
-use crate::field::{Field, FieldWarning};
+use crate::field::Field;
 use crate::table::Table;
 use crate::units::excerpt;
 use crate::vec3::Vec3;
@@ -14,7 +14,7 @@ use crate::vec3::Vec3;
 const EXAMPLE: &str = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s";
 
 /// Reads a table.
-pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
+pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<Fault>), FileError> {
     let mut table = Table::open(bytes, FileKind::Field, 0)?;
     if !table.named() {
         return Err(Fault::no_header(EXAMPLE).into());
@@ -41,7 +41,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError
     // The piece has only the columns that are used.
     field.lacks = lacks(&names, &vec![1; names.len()]);
     if let (rows @ 1.., first) = dropped {
-        warnings.push(FieldWarning::Dropped { rows, first });
+        let message = format!("{rows} rows lack a number and are left out; the first is in line {first}");
+        warnings.push(Fault::plain(message));
     }
     Ok((field, warnings))
 }

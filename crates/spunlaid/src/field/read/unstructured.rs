@@ -90,7 +90,7 @@ impl Listed {
         let number = self.types[place];
         let own = part(&self.connectivity, &self.ends, place)?;
         let corners =
-            |of: &[i64]| of.iter().map(|point| checked(*point, points)).collect::<Result<Vec<u32>, _>>();
+            |cell: &[i64]| cell.iter().map(|point| checked(*point, points)).collect::<Result<Vec<u32>, _>>();
         match kind(number).ok_or_else(|| {
             Fault::new(
                 format!("is of VTK type {number}, which is not supported"),

@@ -5,12 +5,11 @@
 use super::array::{Array, Number, Source};
 use super::encoding::{Budget, Compressor, Packing};
 use super::grid::{Grid, counted, vectors};
-use super::list;
 use super::piece::{Assembly, Piece};
 use super::unstructured::{Listed, Polyhedra};
 use crate::error::{Fault, FileError, Position};
+use crate::field::Field;
 use crate::field::fault;
-use crate::field::{Field, FieldWarning};
 use crate::units::excerpt;
 use roxmltree::{Document, Node};
 use std::borrow::Cow;
@@ -19,7 +18,7 @@ use std::borrow::Cow;
 const GRIDS: [&str; 4] = ["ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid"];
 
 /// Reads a file.
-pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<FieldWarning>), FileError> {
+pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<Fault>), FileError> {
     let mut assembly = Assembly::new();
     let added = add(bytes, None, &mut assembly);
     added.and_then(|()| assembly.finish()).map_err(|error| error.in_text(bytes))
@@ -69,10 +68,7 @@ fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly) -> Result
     let kind = root.attribute("type").unwrap_or_default();
     if !GRIDS.contains(&kind) {
         let found = format!("a VTK file of {}", excerpt(kind, 40));
-        let advice = match list::of(kind) {
-            None => "write an unstructured grid (.vtu), or name the file that holds one",
-            Some(_) => "it lists other files, so name it by its path",
-        };
+        let advice = "write an unstructured grid (.vtu), or name the file that holds one";
         return Err(Fault::format(found, advice).into());
     }
     if announced.is_some_and(|announced| announced != kind) {
@@ -82,7 +78,7 @@ fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly) -> Result
     let Some(grid) = root.children().find(|node| node.has_tag_name(kind)) else {
         return Err(Fault::cut_off("the grid").into());
     };
-    let file = File { format: Format::of(root)?, appended, offsets: offsets(grid) };
+    let file = File { format: Format::new(root)?, appended, offsets: offsets(grid) };
     for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {
         let read = file.piece(kind, grid, piece, &mut assembly.budget);
         assembly.add(read.map_err(|error| error.at(place(piece)))?)?;
@@ -125,7 +121,7 @@ struct Format {
 }
 
 impl Format {
-    fn of(root: Node<'_, '_>) -> Result<Self, FileError> {
+    fn new(root: Node<'_, '_>) -> Result<Self, FileError> {
         let compressor = match root.attribute("compressor") {
             None | Some("") => Compressor::None,
             Some("vtkZLibDataCompressor") => Compressor::Zlib,
@@ -178,7 +174,7 @@ impl<'a> File<'a> {
                 let (_, size) = extent()?;
                 let mut axes = self.arrays(piece, "Coordinates")?.into_iter();
                 let mut axis = |i: usize| match axes.next() {
-                    Some(axis) => axis.of(size[i], budget),
+                    Some(axis) => axis.numbers(size[i], budget),
                     None => Err(Fault::cut_off("the coordinates").into()),
                 };
                 Grid::Lattice([axis(0)?, axis(1)?, axis(2)?])
@@ -202,7 +198,7 @@ impl<'a> File<'a> {
         let spacing = numbers(grid, "Spacing")?.unwrap_or([1.0; 3]);
         let upright = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         if numbers(grid, "Direction")?.is_some_and(|direction: [f64; 9]| direction != upright) {
-            let found = "an image whose axes are turned";
+            let found = "an image whose axes are rotated";
             return Err(Fault::format(found, "resample it along x, y and z").into());
         }
         Ok(Grid::Image { origin, spacing, first, size })
@@ -219,15 +215,15 @@ impl<'a> File<'a> {
         if array.components != 3 {
             return Err(array.fault(fault::count(array.components, 3, "components")));
         }
-        Ok(vectors(&array.of(count, budget)?))
+        Ok(vectors(&array.numbers(count, budget)?))
     }
 
     fn listed(&self, piece: Node<'a, '_>, count: usize, budget: &mut Budget) -> Result<Listed, FileError> {
         let arrays = self.arrays(piece, "Cells")?;
         let find = |name: &str| arrays.iter().find(|array| array.name == name);
         let need = |name: &'static str| find(name).ok_or_else(|| Fault::cut_off(name));
-        let types = need("types")?.of(count, budget)?;
-        let ends = need("offsets")?.of(count, budget)?;
+        let types = need("types")?.numbers(count, budget)?;
+        let ends = need("offsets")?.numbers(count, budget)?;
         let connectivity = need("connectivity")?.all(budget)?;
         let polyhedra = if let (Some(faces), Some(ends)) = (find("faces"), find("faceoffsets")) {
             Polyhedra::Stream { faces: faces.all(budget)?, ends: ends.all(budget)? }
@@ -298,7 +294,7 @@ fn extent(node: Node<'_, '_>) -> Result<([f64; 3], [usize; 3]), FileError> {
     match size.into_iter().find(|size| !(*size >= 1.0 && *size <= 1e15)) {
         None => Ok(([ends[0], ends[2], ends[4]], size.map(|size| size as usize))),
         Some(size) => {
-            let fault = fault::syntax(&format!("{size}"), "a number of points of one or more");
+            let fault = fault::syntax(&format!("{size}"), "a number of points, at least 1");
             Err(FileError::from(fault).array(name))
         }
     }

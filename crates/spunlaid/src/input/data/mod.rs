@@ -3,8 +3,8 @@
 mod profile;
 
 use crate::air::{FromFile, Measured, Profile, RecordLayout, RecordNumbers, SpectrumTable};
-use crate::error::{FileError, FileKind};
-use crate::field::{Field, FieldWarning, ReadField};
+use crate::error::{Fault, FileError, FileKind};
+use crate::field::{Field, ReadField};
 use crate::file;
 use crate::record::{Interval, Layout, Record, Settings, analyse_fluctuation, read_record};
 use std::cell::RefCell;
@@ -22,7 +22,7 @@ pub(super) struct DataFiles {
     spectra: Shelf<SpectrumTable>,
     records: Shelf<Measured>,
     fields: Shelf<Field>,
-    field_warnings: RefCell<BTreeMap<PathBuf, Vec<FieldWarning>>>,
+    field_warnings: RefCell<BTreeMap<PathBuf, Vec<Fault>>>,
 }
 
 /// The content of each file, or the error; the text in the key tells different ways to read it apart.
@@ -46,7 +46,7 @@ impl DataFiles {
     }
 
     /// A CFD field, and warnings about it.
-    pub(super) fn field(&self, path: &Path) -> Result<(FromFile<Field>, Vec<FieldWarning>), FileError> {
+    pub(super) fn field(&self, path: &Path) -> Result<(FromFile<Field>, Vec<Fault>), FileError> {
         let field = once(&self.fields, path, "", || {
             let ReadField { field, warnings, checksum, parts } = ReadField::read(path)?;
             self.field_warnings.borrow_mut().insert(path.to_owned(), warnings);

@@ -1,12 +1,15 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
 use super::read::{BELT_SPEED, Reading, SAME};
-use crate::error::Fault;
-use crate::layers::keys::{WEB, without_numbers};
+use crate::air::Lateral;
+use crate::case::{Note, Remark};
+use crate::error::{Fault, Place};
+use crate::layers::keys::{METHODS, WEB, without_numbers};
 use crate::layers::{LaydownSource, LayerSpec, WebKey, WebSpec, too_small};
 use crate::units::Dimension;
 use crate::web::{Edges, Filaments, Row, Sheet};
 use std::collections::BTreeMap;
+use std::path::Path;
 
 impl Reading<'_> {
     /// Refuses two layers of one name.
@@ -74,6 +77,37 @@ impl Reading<'_> {
         }
     }
 
+    /// Refuses layers that cannot be flown in one air.
+    pub(super) fn check_shared_air(&mut self, prefixes: &[String], layers: &[LayerSpec]) {
+        for (prefix, layer) in prefixes.iter().zip(layers) {
+            let laydown = format!("{prefix}laydown");
+            let fault = match &layer.source {
+                LaydownSource::Case { case, path } if case.air.records.is_empty() => {
+                    if case.air.lateral == Lateral::Uniform {
+                        self.note(vec![uniform_air(path)]);
+                    }
+                    continue;
+                }
+                LaydownSource::Case { path, .. } => Fault::new(
+                    format!(
+                        "flies all filaments in one air, and that of {} follows a recorded wind (air.record), which says nothing of how \
+                         the air differs from place to place across the flow",
+                        path.display()
+                    ),
+                    "give the case the spectrum of the record (air.spectrum) in place of the record",
+                ),
+                // A case that cannot be read has been noted.
+                LaydownSource::Surrogate(_) if !self.has_numbers(prefix) => continue,
+                LaydownSource::Results { .. } | LaydownSource::Surrogate(_) => Fault::new(
+                    format!("flies all filaments of the web, and {laydown} names no case to fly"),
+                    format!("write {laydown}.case, or method = \"surrogate\""),
+                ),
+            };
+            self.written.reject("web.method", fault);
+            return;
+        }
+    }
+
     /// Checks a layer together with the sheet, if both are known.
     ///
     /// * `web` – the web of this layer alone
@@ -85,7 +119,9 @@ impl Reading<'_> {
             return;
         }
         match &layer.filaments {
-            Filaments::AtRandom { per_metre } if (per_metre * sheet.width).round() < 1.0 => {
+            Filaments::AtRandom { per_metre } | Filaments::Slot { per_metre, .. }
+                if (per_metre * sheet.width).round() < 1.0 =>
+            {
                 let least = (0.5 / sheet.width).ceil() as u64;
                 let width = Dimension::Length.pretty(sheet.width);
                 let fault = Fault::new(
@@ -94,7 +130,7 @@ impl Reading<'_> {
                 );
                 self.written.reject(&format!("{prefix}line.filaments_per_metre"), fault);
             }
-            Filaments::AtRandom { .. } => {}
+            Filaments::AtRandom { .. } | Filaments::Slot { .. } => {}
             Filaments::Rows(rows) => {
                 for (number, row) in (1..).zip(rows).filter(|(_, row)| row.filaments > 0) {
                     self.check_row(&format!("{prefix}line.rows.{number}."), row, sheet);
@@ -123,7 +159,7 @@ impl Reading<'_> {
 
     /// Checks a row of nozzles together with the sheet.
     fn check_row(&mut self, before: &str, row: &Row, sheet: &Sheet) {
-        let Row { offset, pitch, filaments } = *row;
+        let Row { offset, pitch, filaments, .. } = *row;
         let (width, beam) = (sheet.width, pitch * filaments as f64);
         let last = offset + pitch * (filaments - 1) as f64;
         if sheet.edges == Edges::Periodic && (beam / width - 1.0).abs() > SAME {
@@ -151,4 +187,11 @@ impl Reading<'_> {
             self.refuse(&format!("{before}offset"), offset, fault);
         }
     }
+}
+
+/// The note about a case whose turbulence is the same across the flow.
+fn uniform_air(case: &Path) -> Note {
+    let what = Remark::EddiesInSpace { case: case.display().to_string() };
+    let value = Some(format!("\"{}\"", METHODS[2]));
+    Note { place: Place::Code, key: "web.method".to_owned(), value, what }
 }

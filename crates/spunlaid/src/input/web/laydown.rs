@@ -3,8 +3,8 @@
 use super::super::data::DataFiles;
 use super::super::{Overrides, file, parse_with};
 use super::read::Reading;
-use crate::case::Case;
 use crate::case::keys::Value;
+use crate::case::{Case, Note};
 use crate::error::{Error, Fault, FileKind, Place};
 use crate::layers::LaydownSource;
 use crate::layers::keys::without_numbers;
@@ -137,6 +137,10 @@ impl Reading<'_> {
             ),
             Some(_) => {
                 self.note(notes);
+                if let Some(what) = case.slows_only() {
+                    let note = Note { place: self.written.whole(), key: key.to_owned(), value: None, what };
+                    self.note(vec![self.written.placed(note)]);
+                }
                 return Ok(Some(Arc::new(case)));
             }
         };

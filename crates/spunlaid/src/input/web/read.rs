@@ -7,7 +7,7 @@ use super::laydown::NUMBERS;
 use crate::case::keys::{Key, LeftOut, Value};
 use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding};
-use crate::layers::keys::{WEB, web_key, without_numbers};
+use crate::layers::keys::{WEB, in_rows, web_key, without_numbers};
 use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
 use crate::web::{Filaments, Row};
 use std::path::{Path, PathBuf};
@@ -57,6 +57,7 @@ pub(super) fn spec(
     reading.note(unusual.clone());
     let Reading { mut written, notes, .. } = reading;
     if written.problems.is_empty() {
+        web.check_air().map_err(|problem| Error::from(vec![written.placed(problem)]))?;
         return Ok((web, sorted(notes)));
     }
     // Unusual values may be why the web cannot be laid.
@@ -214,7 +215,11 @@ impl Reading<'_> {
     ///
     /// * `before` – what comes before the names of the table's keys: `line.`
     fn rows(&mut self, before: &str) -> Vec<Row> {
-        let [at_random, rows] = ["filaments_per_metre", "rows"].map(|name| format!("{before}{name}"));
+        let [at_random, rows, depth] =
+            ["filaments_per_metre", "rows", "depth"].map(|name| format!("{before}{name}"));
+        if self.is_written(&depth) && self.is_written(&rows) {
+            self.written.reject(&depth, in_rows());
+        }
         match (self.is_written(&at_random), self.is_written(&rows)) {
             (true, true) => {
                 let remedy = "filaments come down at random places or in rows; keep one";
@@ -229,7 +234,7 @@ impl Reading<'_> {
         }
         let count = self.written.number(&rows).unwrap_or(0.0) as u64;
         let row = |number| {
-            let row = Row { offset: f64::NAN, pitch: f64::NAN, filaments: 0 };
+            let row = Row::new(f64::NAN, f64::NAN, 0);
             let mut layer = LayerSpec {
                 filaments: Filaments::Rows(vec![row]),
                 ..LayerSpec::unknown(LaydownSource::UNKNOWN)
@@ -237,24 +242,31 @@ impl Reading<'_> {
             as_web(&mut layer, |web| self.fill(web, "line.rows", &format!("{rows}.{number}.")));
             match layer.filaments {
                 Filaments::Rows(rows) => rows.first().copied(),
-                Filaments::AtRandom { .. } => None,
+                Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
             }
         };
         (1..=count).filter_map(row).collect()
     }
 
-    /// Refuses to lay flown curves where there are none.
+    /// Whether a layer gives the numbers of a surrogate.
+    pub(super) fn has_numbers(&self, prefix: &str) -> bool {
+        NUMBERS.iter().any(|(name, _)| self.is_written(&format!("{prefix}{name}")))
+    }
+
+    /// Refuses a method of laying that needs flights where there are none.
     fn check_method(&mut self, prefixes: &[String], web: &WebSpec) {
-        let numbers =
-            |prefix: &&String| NUMBERS.iter().any(|(name, _)| self.is_written(&format!("{prefix}{name}")));
-        if web.method == Method::Dynamics
-            && let Some(prefix) = prefixes.iter().find(numbers)
-        {
-            let fault = Fault::new(
-                format!("lays the curves of flown fibres, and {prefix}laydown gives numbers"),
-                "write method = \"surrogate\", or name a case or results there",
-            );
-            self.written.reject("web.method", fault);
+        match web.method {
+            Method::SharedAir => self.check_shared_air(prefixes, &web.layers),
+            Method::Dynamics => {
+                if let Some(prefix) = prefixes.iter().find(|prefix| self.has_numbers(prefix)) {
+                    let fault = Fault::new(
+                        format!("lays the curves of flown fibres, and {prefix}laydown gives numbers"),
+                        "write method = \"surrogate\", or name a case or results there",
+                    );
+                    self.written.reject("web.method", fault);
+                }
+            }
+            Method::Surrogate => {}
         }
     }
 }

@@ -3,7 +3,7 @@
 //! SAFETY of every block here: the instructions were found on the machine before [`super::super::Isa::run`] picked the
 //! type, and loads and stores go through references.
 
-use super::{Register, Simd};
+use super::{Register, Simd, Singles};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use std::arch::x86_64::*;
 
@@ -39,10 +39,10 @@ const PACKED: [[i32; 8]; 16] = {
 
 /// The numbers of a mask, moved to the start.
 #[inline(always)]
-unsafe fn packed(of: __m256d, mask: usize) -> __m256i {
+unsafe fn packed(numbers: __m256d, mask: usize) -> __m256i {
     unsafe {
         let order = _mm256_loadu_si256(PACKED[mask & 15].as_ptr().cast());
-        _mm256_permutevar8x32_epi32(_mm256_castpd_si256(of), order)
+        _mm256_permutevar8x32_epi32(_mm256_castpd_si256(numbers), order)
     }
 }
 
@@ -69,6 +69,7 @@ pub(super) unsafe fn columns(rows: [&[f64; 4]; 4]) -> [__m256d; 4] {
 
 impl Register for Avx2 {
     const ISA: Isa = Isa::Avx2;
+    type Singles = Avx2Singles;
 
     #[inline(always)]
     fn store(self) -> Lanes {
@@ -212,5 +213,40 @@ impl Simd for Avx2 {
             let high = _mm256_sll_epi64(_mm256_castpd_si256(self.1), count);
             Self(_mm256_castsi256_pd(low), _mm256_castsi256_pd(high))
         }
+    }
+}
+
+/// Twelve numbers in a large and a small register.
+#[derive(Clone, Copy)]
+pub(crate) struct Avx2Singles(__m256, __m128);
+
+impl Singles for Avx2Singles {
+    #[inline(always)]
+    fn zero() -> Self {
+        unsafe { Self(_mm256_setzero_ps(), _mm_setzero_ps()) }
+    }
+
+    #[inline(always)]
+    fn add_weighted(self, row: &[f32; 12], weight: f32) -> Self {
+        unsafe {
+            let large = _mm256_mul_ps(_mm256_loadu_ps(row.as_ptr()), _mm256_set1_ps(weight));
+            let small = _mm_mul_ps(_mm_loadu_ps(row.as_ptr().add(8)), _mm_set1_ps(weight));
+            Self(_mm256_add_ps(self.0, large), _mm_add_ps(self.1, small))
+        }
+    }
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        unsafe { Self(_mm256_add_ps(self.0, other.0), _mm_add_ps(self.1, other.1)) }
+    }
+
+    #[inline(always)]
+    fn store(self) -> [f32; 12] {
+        let mut row = [0.0; 12];
+        unsafe {
+            _mm256_storeu_ps(row.as_mut_ptr(), self.0);
+            _mm_storeu_ps(row.as_mut_ptr().add(8), self.1);
+        }
+        row
     }
 }

@@ -4,7 +4,7 @@
 //! type, and loads and stores go through references.
 
 use super::avx2::columns;
-use super::{Register, Simd};
+use super::{Register, Simd, Singles};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use std::arch::x86_64::*;
 
@@ -14,6 +14,7 @@ pub(crate) struct Avx512(__m512d);
 
 impl Register for Avx512 {
     const ISA: Isa = Isa::Avx512;
+    type Singles = Avx512Singles;
 
     #[inline(always)]
     fn store(self) -> Lanes {
@@ -135,5 +136,39 @@ impl Simd for Avx512 {
     #[inline(always)]
     fn shift_left<const N: u32>(self) -> Self {
         unsafe { Self(_mm512_castsi512_pd(_mm512_slli_epi64::<N>(_mm512_castpd_si512(self.0)))) }
+    }
+}
+
+/// The first twelve numbers of a register.
+const TWELVE: __mmask16 = 0x0fff;
+
+/// Twelve numbers in one register.
+#[derive(Clone, Copy)]
+pub(crate) struct Avx512Singles(__m512);
+
+impl Singles for Avx512Singles {
+    #[inline(always)]
+    fn zero() -> Self {
+        unsafe { Self(_mm512_setzero_ps()) }
+    }
+
+    #[inline(always)]
+    fn add_weighted(self, row: &[f32; 12], weight: f32) -> Self {
+        unsafe {
+            let row = _mm512_maskz_loadu_ps(TWELVE, row.as_ptr());
+            Self(_mm512_add_ps(self.0, _mm512_mul_ps(row, _mm512_set1_ps(weight))))
+        }
+    }
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        unsafe { Self(_mm512_add_ps(self.0, other.0)) }
+    }
+
+    #[inline(always)]
+    fn store(self) -> [f32; 12] {
+        let mut row = [0.0; 12];
+        unsafe { _mm512_mask_storeu_ps(row.as_mut_ptr(), TWELVE, self.0) };
+        row
     }
 }

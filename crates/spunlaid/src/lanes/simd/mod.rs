@@ -57,11 +57,22 @@ pub(crate) trait Simd: Copy {
     fn shift_left<const N: u32>(self) -> Self;
 }
 
+/// Twelve numbers of single precision in registers: four neighbouring points of a field with three components.
+pub(crate) trait Singles: Copy {
+    fn zero() -> Self;
+    /// `self + row · weight`, rounded after the product and after the sum.
+    fn add_weighted(self, row: &[f32; 12], weight: f32) -> Self;
+    fn add(self, other: Self) -> Self;
+    fn store(self) -> [f32; 12];
+}
+
 /// [`Simd`] of exactly the eight lanes of a flight.
 pub(crate) trait Register: Simd {
     /// The instruction set. Work that is seldom done leaves the kernel with it, as a task of its own: what is inlined is
     /// compiled once for every kernel.
     const ISA: Isa;
+    /// Its registers of single precision.
+    type Singles: Singles;
     fn store(self) -> Lanes;
 
     /// Loads a row of four numbers for each lane: the first numbers of all rows, the second, and so on.

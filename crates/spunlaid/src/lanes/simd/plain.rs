@@ -3,7 +3,7 @@
 //! On x86-64 few machines need it, those without AVX2, so its operations are calls there: inlined, they would be a third of the
 //! library's compile time and half of the kernel's code. Elsewhere it is the only one and is inlined.
 
-use super::{Register, Simd};
+use super::{Register, Simd, Singles};
 use crate::lanes::{Isa, Lanes, WIDTH};
 
 /// Plain Rust.
@@ -38,6 +38,7 @@ impl Plain {
 
 impl Register for Plain {
     const ISA: Isa = Isa::Baseline;
+    type Singles = [f32; 12];
 
     #[inline(always)]
     fn store(self) -> Lanes {
@@ -127,5 +128,27 @@ impl Simd for Plain {
     #[inline(always)]
     fn shift_left<const N: u32>(self) -> Self {
         self.bits(|x| x << N)
+    }
+}
+
+impl Singles for [f32; 12] {
+    #[inline(always)]
+    fn zero() -> Self {
+        [0.0; 12]
+    }
+
+    #[inline(always)]
+    fn add_weighted(self, row: &[f32; 12], weight: f32) -> Self {
+        std::array::from_fn(|i| self[i] + row[i] * weight)
+    }
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        std::array::from_fn(|i| self[i] + other[i])
+    }
+
+    #[inline(always)]
+    fn store(self) -> [f32; 12] {
+        self
     }
 }

@@ -81,16 +81,19 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
     if columns.min(rows) < LEAST_SIDE {
         return Err(Fault::new(
             format!("has {columns} × {rows} pixels"),
-            format!("at least {} are needed either way, so scan a larger piece of the web", LEAST_SIDE),
+            format!(
+                "at least {} are needed in each direction, so scan a larger piece of the web",
+                LEAST_SIDE
+            ),
         )
         .into());
     }
     let file = name.to_owned();
-    let told = raw.pixel.filter(|sides| sides.iter().copied().all(is_length));
+    let sides_of_file = raw.pixel.filter(|sides| sides.iter().copied().all(is_length));
     let square = |[width, height]: [f64; 2]| (width / height - 1.0).abs() < SQUARE;
-    let pixel_of_file = told.filter(|sides| square(*sides)).map(|[width, _]| width);
+    let pixel_of_file = sides_of_file.filter(|sides| square(*sides)).map(|[width, _]| width);
     let pixel =
-        match (pixel.or(pixel_of_file), told) {
+        match (pixel.or(pixel_of_file), sides_of_file) {
             (Some(pixel), _) => pixel,
             (None, Some([width, height])) => return Err(Fault::new(
                 format!(
@@ -126,8 +129,8 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
     })
 }
 
-fn is_length(of: f64) -> bool {
-    of.is_finite() && of > 0.0
+fn is_length(side: f64) -> bool {
+    side.is_finite() && side > 0.0
 }
 
 /// The format, by how a file begins.
@@ -168,7 +171,9 @@ fn within_limits(columns: u64, rows: u64) -> Result<[usize; 2], Fault> {
     );
     let sides = [columns, rows].map(|side| usize::try_from(side).ok());
     match sides {
-        [Some(columns), Some(rows)] if columns.checked_mul(rows).is_some_and(|of| of <= MOST_PIXELS) => {
+        [Some(columns), Some(rows)]
+            if columns.checked_mul(rows).is_some_and(|pixels| pixels <= MOST_PIXELS) =>
+        {
             Ok([columns, rows])
         }
         _ => Err(too_many),
@@ -205,5 +210,5 @@ fn broken(message: &impl ToString) -> Fault {
 
 /// The fault of a file that is written in a way that is not read.
 fn unsupported(found: &str, remedy: &'static str) -> Fault {
-    Fault::new(format!("has {found}, which is not read"), remedy)
+    Fault::new(format!("has {found}, which cannot be read"), remedy)
 }

@@ -66,8 +66,8 @@ fn number(kind: &str) -> Result<(Read, usize, Option<f64>), Fault> {
     macro_rules! numbers {
         ($($little:literal $big:literal $type:ty),+) => {
             match kind {
-                $($little => (|bytes| <$type>::from_le_bytes(of(bytes)) as f64, size_of::<$type>()),
-                $big => (|bytes| <$type>::from_be_bytes(of(bytes)) as f64, size_of::<$type>()),)+
+                $($little => (|bytes| <$type>::from_le_bytes(array(bytes)) as f64, size_of::<$type>()),
+                $big => (|bytes| <$type>::from_be_bytes(array(bytes)) as f64, size_of::<$type>()),)+
                 _ => {
                     return Err(unsupported(&format!("numbers of the kind {}", excerpt(kind, 40)), "save map.astype(\"float32\")"));
                 }
@@ -87,7 +87,7 @@ fn number(kind: &str) -> Result<(Read, usize, Option<f64>), Fault> {
 }
 
 /// The bytes of a number; as many as it has are passed.
-fn of<const N: usize>(bytes: &[u8]) -> [u8; N] {
+fn array<const N: usize>(bytes: &[u8]) -> [u8; N] {
     let mut number = [0; N];
     number.copy_from_slice(bytes);
     number

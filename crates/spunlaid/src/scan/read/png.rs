@@ -37,18 +37,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, Fault> {
     }
     let info = reader.info();
     // What this program writes beside a map; the keywords are public for that.
-    let told = |key: &str| {
+    let metadata = |key: &str| {
         let text = &info.uncompressed_latin1_text.iter().find(|text| text.keyword == key)?.text;
         text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0)
     };
-    let per_metre = info.pixel_dims.filter(|of| of.unit == Unit::Meter).map(|of| [of.xppu, of.yppu]);
-    let pixel = told(CELL).map(|cell| [cell; 2]);
+    let per_metre =
+        info.pixel_dims.filter(|density| density.unit == Unit::Meter).map(|of| [of.xppu, of.yppu]);
+    let pixel = metadata(CELL).map(|cell| [cell; 2]);
     Ok(Raw {
         values,
         columns,
         rows,
         full_scale: Some(full_scale),
-        weight_of_black: told(WEIGHT_OF_BLACK).filter(|_| channels == 1),
+        weight_of_black: metadata(WEIGHT_OF_BLACK).filter(|_| channels == 1),
         pixel: pixel.or(per_metre.map(|sides| sides.map(|count| 1.0 / f64::from(count)))),
         colour: channels > 2,
         more: info.is_animated(),

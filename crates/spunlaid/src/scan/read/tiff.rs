@@ -31,15 +31,17 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, Fault> {
     let more = decoder.more_images();
     let pixel = resolution(&mut decoder);
     let (values, full_scale) = match decoder.read_image().map_err(failed)? {
-        DecodingResult::U8(of) => (luminance(of.into_iter().map(f64::from), channels), Some(u8::MAX.into())),
-        DecodingResult::U16(of) => {
-            (luminance(of.into_iter().map(f64::from), channels), Some(u16::MAX.into()))
+        DecodingResult::U8(levels) => {
+            (luminance(levels.into_iter().map(f64::from), channels), Some(u8::MAX.into()))
         }
-        DecodingResult::U32(of) => {
-            (luminance(of.into_iter().map(f64::from), channels), Some(u32::MAX.into()))
+        DecodingResult::U16(levels) => {
+            (luminance(levels.into_iter().map(f64::from), channels), Some(u16::MAX.into()))
         }
-        DecodingResult::F32(of) => (luminance(of.into_iter().map(f64::from), channels), None),
-        DecodingResult::F64(of) => (luminance(of.into_iter(), channels), None),
+        DecodingResult::U32(levels) => {
+            (luminance(levels.into_iter().map(f64::from), channels), Some(u32::MAX.into()))
+        }
+        DecodingResult::F32(levels) => (luminance(levels.into_iter().map(f64::from), channels), None),
+        DecodingResult::F64(levels) => (luminance(levels.into_iter(), channels), None),
         _ => {
             let found = "signed numbers, half floats or numbers of 8 bytes";
             let advice = "save it with 8, 16 or 32 bits without sign, or as floating point of 32 bits";

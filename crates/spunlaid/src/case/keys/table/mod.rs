@@ -5,17 +5,19 @@ mod belt;
 mod drag;
 mod feed;
 mod fibre;
+mod neighbours;
 mod run;
 
 use super::Key;
 
 /// The tables of a case file and their keys.
-const TABLES: [(&str, &[Key]); 6] = [
+const TABLES: [(&str, &[Key]); 7] = [
     ("fibre", fibre::KEYS),
     ("feed", feed::KEYS),
     ("belt", belt::KEYS),
     ("air", air::KEYS),
     ("drag", drag::KEYS),
+    ("neighbours", neighbours::KEYS),
     ("run", run::KEYS),
 ];
 

@@ -1,0 +1,83 @@
+//! The air that the filaments of a beam share: a field of eddies, made block by block as the time goes on.
+
+use super::{Airs, Beam};
+use crate::air::{Air, EddyField, Extent, Flow, Lateral, StreamKey, Widening};
+use crate::field::Hint;
+use crate::vec3::Vec3;
+use crate::web::{Edges, Sheet};
+use std::sync::Arc;
+
+/// Distance in which the filaments of a slot without depth come down, in ways from inlet to belt: eight standard deviations of
+/// a usual filament. One that goes farther meets the eddies of the other side again.
+const REACH: f64 = 0.36;
+/// Steps for which the field is made beyond a block: a flight may look at once after it.
+const BEYOND: f64 = 2.0;
+
+/// The field of a beam. Its owner alone makes it; flights look at clones.
+pub(super) struct SharedField {
+    field: EddyField,
+    time_step: f64,
+    threads: usize,
+}
+
+impl SharedField {
+    /// None if every filament has an air of its own, or the same at every place.
+    pub(super) fn new(beam: &Beam<'_>, sheet: &Sheet, threads: usize) -> Option<Self> {
+        let cutoff = beam.case.air.lateral.cutoff().filter(|_| beam.airs == Airs::Shared)?;
+        let (case, key) = (beam.case, StreamKey { seed: beam.case.run.seed, replicate: 0 });
+        let field = EddyField::new(&case.air, case.way_of_air(), beam.extent_of_air(sheet), cutoff, key);
+        Some(Self { field, time_step: case.run.time_step, threads })
+    }
+
+    /// A good length of the blocks of time [s].
+    pub(super) fn block(&self) -> f64 {
+        self.field.block()
+    }
+
+    /// The field for the times from one to another [s].
+    pub(super) fn during(&mut self, start: f64, end: f64) -> Arc<EddyField> {
+        self.field.make(start..end + BEYOND * self.time_step, self.threads);
+        Arc::new(self.field.clone())
+    }
+}
+
+impl Beam<'_> {
+    /// Most memory that the air of all filaments takes [B].
+    pub(crate) fn memory_of_air(&self, sheet: &Sheet) -> f64 {
+        let (case, extent) = (self.case, self.extent_of_air(sheet));
+        match case.air.lateral {
+            Lateral::Uniform => 0.0,
+            Lateral::VonKarman { cutoff } => EddyField::memory(&case.air, case.way_of_air(), extent, cutoff),
+        }
+    }
+
+    /// After what distances the air repeats itself. Across a web that is wide everywhere it is the width; otherwise no filament meets the air of another
+    /// one again.
+    fn extent_of_air(&self, sheet: &Sheet) -> Extent {
+        let (air, distance) = (&self.case.air, self.case.way_of_air());
+        let least = self.case.extent_of_air().y;
+        let [low, high] = [f64::min as fn(f64, f64) -> f64, f64::max].map(|of| {
+            let places = self.places.iter().map(|place| [place.y, place.z]);
+            places.reduce(|a, b| [of(a[0], b[0]), of(a[1], b[1])]).unwrap_or_default()
+        });
+        let [depth, width] = [high[0] - low[0], high[1] - low[1]];
+        let y = (depth + REACH * distance) * widening(air, distance).sqrt();
+        let z = match sheet.edges {
+            Edges::Periodic => sheet.width,
+            Edges::Cut => width + REACH * distance + least,
+        };
+        Extent { y: y.max(least), z }
+    }
+}
+
+/// How many times as wide the mean flow is at the belt as at the inlet. What comes down in the middle of the way has been moved aside by less.
+fn widening(air: &Air, distance: f64) -> f64 {
+    if matches!(air.flow, Flow::Uniform)
+        || (matches!(air.flow, Flow::Profile(_)) && air.widening == Widening::None)
+    {
+        return 1.0;
+    }
+    let mut hint = Hint::default();
+    let [inlet, belt] = [0.0, distance].map(|x| air.local(Vec3::new(x, 0.0, 0.0), &mut hint).velocity.x);
+    if belt > 0.0 { (inlet / belt).max(1.0) } else { 1.0 }
+}

@@ -1,0 +1,167 @@
+//! A filament of a beam: what it has laid, and where on the sheet.
+
+use crate::error::Error;
+use crate::fibre::Place;
+use crate::flight::LaidPoint;
+use crate::line::Line;
+use crate::web::{Canvas, Edges, Sheet, Strand, Window};
+
+/// How far what has been laid reaches along the belt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reach {
+    /// Farthest that a point lies ahead of where the belt was when it was fed at its start [m].
+    pub(super) ahead: f64,
+    /// Farthest back that a point of the start lies on the belt [m].
+    pub(super) start: f64,
+    /// Length of fibre that each filament has laid at least [m]; filaments that are lost do not count.
+    pub(super) fed: f64,
+    /// Number of filaments that are lost.
+    pub(super) lost: usize,
+}
+
+impl Default for Reach {
+    fn default() -> Self {
+        Self { ahead: f64::NEG_INFINITY, start: f64::INFINITY, fed: 0.0, lost: 0 }
+    }
+}
+
+impl Reach {
+    pub(super) fn with(self, other: Self) -> Self {
+        Self {
+            ahead: self.ahead.max(other.ahead),
+            start: self.start.min(other.start),
+            fed: self.fed.min(other.fed),
+            lost: self.lost + other.lost,
+        }
+    }
+}
+
+/// The stretch of belt that becomes the sheet. Places on the belt are `y − v_b t`: what is laid later lies farther back.
+#[derive(Clone, Debug)]
+pub(super) struct Stretch {
+    belt_ratio: f64,
+    /// Length of fibre that is fed in the start [m].
+    start: f64,
+    length: f64,
+    width: f64,
+    edges: Edges,
+    window: Window,
+    /// Where the sheet begins, at its back [m]; None while filaments lay the fibre of their start.
+    back: Option<f64>,
+}
+
+impl Stretch {
+    /// While nothing has been laid.
+    ///
+    /// * `start` – length of fibre that is fed in the start [m]
+    pub(super) fn before(line: &Line, start: f64, window: Window, sheet: &Sheet) -> Self {
+        let Sheet { width, length, edges, .. } = *sheet;
+        Self { belt_ratio: line.belt_ratio(), start, length, width, edges, window, back: None }
+    }
+
+    /// Finds the place of the sheet as soon as all filaments have laid the fibre of their start.
+    pub(super) fn settle(&mut self, reach: &Reach) {
+        if self.back.is_none() && reach.fed > self.start {
+            self.back = Some(reach.start - self.length);
+        }
+    }
+
+    /// Whether nothing will come down on the sheet any more. A filament is never reckoned farther ahead than any has been so far.
+    pub(super) fn is_laid(&self, reach: &Reach) -> bool {
+        self.back.is_some_and(|back| reach.ahead - self.belt_ratio * reach.fed < back)
+    }
+
+    /// The place of a point on the sheet, in cross and in machine direction [m], if it is known where the sheet is.
+    fn on_sheet(&self, place: Place, point: &LaidPoint) -> Option<[f64; 2]> {
+        Some([place.z + point.cd, place.y + point.md - self.back?])
+    }
+
+    /// A place on the sheet as seen from the corner of the window.
+    fn in_window(&self, [cd, md]: [f64; 2]) -> [f64; 2] {
+        let Window { corner, sides } = self.window;
+        let (across, middle) = (cd - corner[0], 0.5 * sides[0]);
+        let turns = match self.edges {
+            Edges::Periodic => ((across - middle) / self.width).round(),
+            Edges::Cut => 0.0,
+        };
+        [across - turns * self.width, md - corner[1]]
+    }
+}
+
+/// A filament: its place, and what of it has not been drawn.
+#[derive(Debug)]
+pub(super) struct Filament {
+    /// Number across the web.
+    pub(super) number: usize,
+    pub(super) place: Place,
+    /// The last point that was drawn, and those after it.
+    waiting: Vec<LaidPoint>,
+    /// All points, if they are kept.
+    pub(super) kept: Option<Vec<LaidPoint>>,
+    /// Its parts in the window; the last one goes on if `enters`.
+    pub(super) strands: Vec<Strand>,
+    enters: bool,
+    /// Why it is lost.
+    pub(super) lost: Option<Error>,
+}
+
+impl Filament {
+    pub(super) fn new(number: usize, place: Place, kept: bool) -> Self {
+        let kept = kept.then(Vec::new);
+        Self { number, place, waiting: Vec::new(), kept, strands: Vec::new(), enters: false, lost: None }
+    }
+
+    /// Takes points that it has laid, and draws its pieces on the sheet as soon as it is known where that is.
+    pub(super) fn lay(
+        &mut self,
+        points: Vec<LaidPoint>,
+        stretch: &Stretch,
+        (canvas, quanta): (&Canvas, u32),
+        reach: &mut Reach,
+    ) {
+        for point in &points {
+            let md = self.place.y + point.md;
+            reach.ahead = reach.ahead.max(md + stretch.belt_ratio * point.fed);
+            if point.fed < stretch.start {
+                reach.start = reach.start.min(md);
+            }
+        }
+        if let Some(kept) = &mut self.kept {
+            kept.extend(&points);
+        }
+        self.waiting.extend(points);
+        if stretch.back.is_some() {
+            for pair in 1..self.waiting.len() {
+                let ends = [pair - 1, pair].map(|i| stretch.on_sheet(self.place, &self.waiting[i]));
+                if let [Some(from), Some(to)] = ends {
+                    canvas.draw(from, to, quanta);
+                    self.show(from, to, stretch);
+                }
+            }
+        } else {
+            // The points of the start lie before the sheet.
+            let first = self.waiting.iter().position(|point| point.fed >= stretch.start);
+            self.waiting.drain(..first.unwrap_or(self.waiting.len()).saturating_sub(1));
+        }
+        reach.fed = reach.fed.min(self.waiting.last().map_or(0.0, |point| point.fed));
+        if stretch.back.is_some() {
+            self.waiting.drain(..self.waiting.len().saturating_sub(1));
+        }
+    }
+
+    /// Keeps a piece that is in the window.
+    fn show(&mut self, from: [f64; 2], to: [f64; 2], stretch: &Stretch) {
+        let start = stretch.in_window(from);
+        let end = [start[0] + to[0] - from[0], start[1] + to[1] - from[1]];
+        let shown = stretch.window.holds(start) || stretch.window.holds(end);
+        if shown {
+            match self.strands.last_mut().filter(|_| self.enters) {
+                Some(strand) => strand.points.push(end),
+                None => {
+                    self.strands.push(Strand { layer: 0, filament: self.number, points: vec![start, end] })
+                }
+            }
+        }
+        self.enters = shown;
+    }
+}

@@ -1,0 +1,263 @@
+//! A beam: all filaments of a layer, flown together and laid on a sheet as they come down.
+//!
+//! ```text
+//! places → packs of eight neighbours → flights, which advance together by a block of time
+//!        → laid points → the canvas, at once; the curves of a few filaments are kept
+//! ```
+//!
+//! A sheet is not closed to a ring in machine direction, because the air at its two ends is not the same. Instead the filaments lay more
+//! belt than the sheet is long, and the sheet is the part on which every filament lies as it does after its start:
+//!
+//! ```text
+//! belt   |  laid by the start  |······ sheet ······|  some filaments are still to come  |      → the belt moves
+//!                              └ no point of the start lies behind here
+//! ```
+
+mod air;
+mod filament;
+mod pack;
+
+use crate::air::EddyField;
+use crate::case::Case;
+use crate::error::{Error, Fault};
+use crate::fibre::Place;
+use crate::flight::LaidPoint;
+use crate::lanes::Isa;
+use crate::line::Line;
+use crate::threads::try_each;
+use crate::web::{Canvas, LaidWeb, Sheet, Spent, Strand, Together, Window};
+use air::SharedField;
+use filament::{Reach, Stretch};
+use pack::Pack;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Filaments whose whole curves are kept, spread over the beam: some hundred kilobytes each.
+const KEPT: usize = 64;
+/// Most filaments that may be lost, of all.
+const MOST_LOST: f64 = 0.02;
+/// Time by which all flights advance before the next block, unless the air has one [s].
+const BLOCK: f64 = 4e-3;
+/// How far from its place a filament is reckoned to land before it is known, in ways from inlet to belt. Only the display of progress needs it.
+const SPREAD: f64 = 0.2;
+
+/// Whose air a filament flies in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Airs {
+    /// All filaments fly in the same air.
+    Shared,
+    /// Each filament has turbulence of its own.
+    Own,
+}
+
+/// The filaments of a layer.
+#[derive(Clone, Copy, Debug)]
+pub struct Beam<'a> {
+    /// The case of each. The seed of its run is the key of the air.
+    pub case: &'a Case,
+    /// Where they are fed, in order across the web.
+    pub places: &'a [Place],
+    /// Whose air they fly in.
+    pub airs: Airs,
+}
+
+/// What computes, and how it is watched and stopped.
+#[derive(Clone, Copy, Debug)]
+pub struct Flying<'a> {
+    /// Number of threads. What is laid does not depend on it.
+    pub threads: usize,
+    /// Instruction set. What is laid does not depend on it.
+    pub isa: Isa,
+    /// Ends the flights when it is set.
+    pub stop: &'a AtomicBool,
+    /// Grows by the steps of each filament; [`Beam::steps`] says about how many there are.
+    pub steps: &'a AtomicU64,
+}
+
+/// What the filaments of a beam have done besides laying the sheet.
+#[derive(Debug, Default)]
+pub struct Flown {
+    /// All points that some filaments have laid, from the start on, with their numbers across the web.
+    pub kept: Vec<(usize, Vec<LaidPoint>)>,
+    /// The parts of all filaments in a window of the sheet.
+    pub strands: Vec<Strand>,
+    /// The filaments that were lost, by their numbers across the web, each with the reason.
+    pub lost: Vec<(usize, Error)>,
+    /// Time that was flown [s].
+    pub time: f64,
+    /// What it took.
+    pub spent: Spent,
+}
+
+impl Beam<'_> {
+    /// About how many steps all filaments together take for a sheet.
+    pub fn steps(&self, sheet: &Sheet) -> u64 {
+        let Some(line) = self.case.line else { return 0 };
+        let fall = line.distance / line.feed_speed;
+        let stretch = sheet.length + 2.0 * SPREAD * line.distance;
+        let time = self.case.run.spin_up() + fall + stretch / line.belt_speed;
+        (time / self.case.run.time_step) as u64 * self.places.len() as u64
+    }
+
+    /// Flies all filaments and lays them on a sheet.
+    ///
+    /// * `window` – of the sheet, whose single fibres are kept
+    ///
+    /// # Errors
+    /// As of [`Beam::fly`], and if a cell would hold more fibre than can be counted.
+    pub fn lay(&self, sheet: &Sheet, window: Window, by: Flying<'_>) -> Result<(LaidWeb, Flown), Error> {
+        let element = self.element_mass();
+        let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
+        let mut flown = self.fly((sheet, window), (&canvas, canvas.quanta(element)), by)?;
+        let together = Some(flown.together());
+        Ok((LaidWeb { together, ..canvas.finish()? }, flown))
+    }
+
+    /// Mass of an element of a filament [kg].
+    pub(crate) fn element_mass(&self) -> f64 {
+        self.case.fibre.element_mass()
+    }
+
+    /// Mass of all filaments over the area on which they are laid [kg/m²].
+    pub(crate) fn basis_weight(&self, sheet: &Sheet) -> f64 {
+        let fibre = &self.case.fibre;
+        let per_length = self.element_mass() / fibre.rest_length() * self.places.len() as f64;
+        self.case.line.map_or(0.0, |line| per_length / line.belt_ratio() / sheet.width)
+    }
+
+    /// Flies all filaments and lays them on a canvas.
+    ///
+    /// * `window` – of the sheet, whose single fibres are kept
+    /// * `quanta` – of the canvas, for an element of fibre
+    ///
+    /// # Errors
+    /// If the case cannot be flown or its fibre is not laid on a moving belt, if more than 2 % of the filaments are lost, or if it is stopped.
+    pub(crate) fn fly(
+        &self,
+        (sheet, window): (&Sheet, Window),
+        (canvas, quanta): (&Canvas, u32),
+        by: Flying<'_>,
+    ) -> Result<Flown, Error> {
+        let started = Instant::now();
+        let line = self.case.line.filter(|line| line.belt_speed > 0.0);
+        let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
+        let (mut spent, mut making) = (Spent::default(), Duration::ZERO);
+        let mut shared = SharedField::new(self, sheet, by.threads);
+        let block = shared.as_ref().map_or(BLOCK, SharedField::block);
+        let steps = (block / self.case.run.time_step).ceil().max(1.0) as u64;
+        let block = steps as f64 * self.case.run.time_step;
+        let mut in_parallel = |pieces: usize, work: &(dyn Fn(usize) -> Result<Reach, Error> + Sync)| {
+            let begun = Instant::now();
+            let done = try_each(by.threads, pieces, work);
+            spent.in_parallel += begun.elapsed();
+            done
+        };
+        let neighbours = pack::neighbours(self.places);
+        let packs: Vec<Mutex<Option<Pack>>> = neighbours.iter().map(|_| Mutex::new(None)).collect();
+        let locked = |i: usize| packs[i].lock().unwrap_or_else(PoisonError::into_inner);
+        let mut field = air_during(&mut shared, 0.0, block, &mut making);
+        in_parallel(packs.len(), &|i| {
+            *locked(i) = Some(Pack::new(self, &neighbours[i], by.isa, field.as_ref())?);
+            Ok(Reach::default())
+        })?;
+        let spun_up = line.feed_speed * self.case.run.spin_up();
+        let (mut stretch, mut reach) = (Stretch::before(&line, spun_up, window, sheet), Reach::default());
+        let mut time = 0.0;
+        while !stretch.is_laid(&reach) {
+            field = air_during(&mut shared, time, time + block, &mut making);
+            let (now, before) = (&stretch, reach);
+            let reaches = in_parallel(packs.len(), &|i| {
+                if by.stop.load(Ordering::Relaxed) {
+                    return Err(Error::Interrupted);
+                }
+                let mut pack = locked(i);
+                let Some(pack) = pack.as_mut() else { return Ok(before) };
+                let reach = pack.advance(steps, field.as_ref(), now, (canvas, quanta));
+                by.steps.fetch_add(steps * pack.filaments().len() as u64, Ordering::Relaxed);
+                Ok(reach)
+            })?;
+            time += block;
+            reach = reaches.into_iter().fold(Reach { fed: f64::INFINITY, lost: 0, ..before }, Reach::with);
+            if reach.lost as f64 > MOST_LOST * self.places.len() as f64 {
+                break;
+            }
+            stretch.settle(&reach);
+        }
+        let mut flown = Flown { time, ..Flown::default() };
+        for pack in packs {
+            let pack = pack.into_inner().unwrap_or_else(PoisonError::into_inner);
+            pack.into_iter().for_each(|pack| pack.finish(&mut flown));
+        }
+        flown.sort();
+        if reach.lost as f64 > MOST_LOST * self.places.len() as f64 {
+            return Err(too_many_lost(flown, self.places.len()));
+        }
+        spent.in_parallel += making;
+        spent.whole = started.elapsed();
+        Ok(Flown { spent, ..flown })
+    }
+
+    /// Whether the curve of a filament is kept.
+    fn keeps(&self, filament: usize) -> bool {
+        let count = self.places.len();
+        count <= KEPT || filament * KEPT / count != (filament + 1) * KEPT / count
+    }
+
+    /// The replicate of the air of a filament.
+    fn replicate(&self, filament: usize) -> u64 {
+        match self.airs {
+            Airs::Shared => 0,
+            Airs::Own => filament as u64,
+        }
+    }
+}
+
+impl Flown {
+    /// What is to be known of the web; its single fibres are taken.
+    pub(crate) fn together(&mut self) -> Together {
+        let Self { strands, lost, time, spent, .. } = self;
+        Together { strands: std::mem::take(strands), lost: lost.len() as u64, time: *time, spent: *spent }
+    }
+
+    /// Puts what packs have given into the order across the web.
+    fn sort(&mut self) {
+        self.kept.sort_by_key(|(filament, _)| *filament);
+        self.lost.sort_by_key(|(filament, _)| *filament);
+        // A filament comes through the window in the order of its strands.
+        self.strands.sort_by_key(|strand| strand.filament);
+    }
+}
+
+/// The air that all filaments share between two times [s], if they share one.
+///
+/// * `making` – becomes longer by the time that it takes to make it
+fn air_during(
+    shared: &mut Option<SharedField>,
+    start: f64,
+    end: f64,
+    making: &mut Duration,
+) -> Option<Arc<EddyField>> {
+    let begun = Instant::now();
+    let field = shared.as_mut().map(|shared| shared.during(start, end));
+    *making += begun.elapsed();
+    field
+}
+
+/// The error of filaments so many of which are lost that what is left is no web.
+fn too_many_lost(flown: Flown, filaments: usize) -> Error {
+    let count = flown.lost.len();
+    match flown.lost.into_iter().next() {
+        Some((_, reason)) => Error::Flight(Fault::plain(format!(
+            "{count} of {filaments} filaments were lost, which leaves no web to look at. The first: {reason}"
+        ))),
+        None => Error::no_fibre(),
+    }
+}
+
+impl Line {
+    /// Length of belt that passes while a length of fibre is fed, over that length [-].
+    fn belt_ratio(&self) -> f64 {
+        self.belt_speed / self.feed_speed
+    }
+}

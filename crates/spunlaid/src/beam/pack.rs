@@ -1,0 +1,101 @@
+//! Eight neighbours of a beam, in one flight.
+
+use super::filament::{Filament, Reach, Stretch};
+use super::{Beam, Flown};
+use crate::air::EddyField;
+use crate::error::Error;
+use crate::fibre::Place;
+use crate::flight::{AirOf, Flight, Job};
+use crate::lanes::{Isa, WIDTH};
+use crate::web::Canvas;
+use std::sync::Arc;
+
+/// Neighbours across the web that are shared out to packs by their places in the slot.
+const AREA: usize = 8 * WIDTH;
+/// Number of steps between two checks that no fibre is lost.
+const STEPS_UNSEEN: u64 = 256;
+
+/// The filaments of each pack: neighbours read the same part of the air.
+pub(super) fn neighbours(places: &[Place]) -> Vec<Vec<usize>> {
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    for area in order.chunks_mut(AREA) {
+        area.sort_by(|a, b| places[*a].y.total_cmp(&places[*b].y));
+    }
+    order.chunks(WIDTH).map(<[usize]>::to_vec).collect()
+}
+
+/// Up to eight filaments and their flight.
+#[derive(Debug)]
+pub(super) struct Pack {
+    flight: Flight,
+    filaments: Vec<Filament>,
+}
+
+impl Pack {
+    /// * `field` – the air of all filaments, if they share one
+    pub(super) fn new(
+        beam: &Beam<'_>,
+        numbers: &[usize],
+        isa: Isa,
+        field: Option<&Arc<EddyField>>,
+    ) -> Result<Self, Error> {
+        let job = |number: &usize| Job {
+            case: beam.case,
+            replicate: beam.replicate(*number),
+            place: beam.places[*number],
+        };
+        let jobs: Vec<Job<'_>> = numbers.iter().map(job).collect();
+        let filament = |number: &usize| Filament::new(*number, beam.places[*number], beam.keeps(*number));
+        let flight = Flight::in_air(&jobs, isa, AirOf { field, ..AirOf::run(beam.case) })?;
+        Ok(Self { flight, filaments: numbers.iter().map(filament).collect() })
+    }
+
+    pub(super) fn filaments(&self) -> &[Filament] {
+        &self.filaments
+    }
+
+    /// Advances all filaments and lays what has come down.
+    ///
+    /// * `field` – the air of all filaments during these steps, if they share one
+    pub(super) fn advance(
+        &mut self,
+        steps: u64,
+        field: Option<&Arc<EddyField>>,
+        stretch: &Stretch,
+        on: (&Canvas, u32),
+    ) -> Reach {
+        field.iter().for_each(|field| self.flight.give_field(field));
+        let mut left = steps;
+        while left > 0 && self.filaments.iter().any(|filament| filament.lost.is_none()) {
+            let now = left.min(STEPS_UNSEEN);
+            self.flight.advance(now);
+            left -= now;
+            for (lane, reason) in self.flight.all_lost() {
+                self.filaments[lane].lost.get_or_insert(reason);
+            }
+        }
+        let mut reach = Reach { fed: f64::INFINITY, ..Reach::default() };
+        for (lane, filament) in self.filaments.iter_mut().enumerate() {
+            let points = self.flight.take_laid(lane);
+            // What it laid last may be wrong.
+            if filament.lost.is_none() {
+                filament.lay(points, stretch, on, &mut reach);
+            } else {
+                reach.lost += 1;
+            }
+        }
+        reach
+    }
+
+    /// Hands over what its filaments have done.
+    pub(super) fn finish(self, flown: &mut Flown) {
+        for filament in self.filaments {
+            let Filament { number, kept, strands, lost, .. } = filament;
+            flown.strands.extend(strands);
+            match lost {
+                Some(reason) => flown.lost.push((number, reason)),
+                None => flown.kept.extend(kept.map(|points| (number, points))),
+            }
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Webs whose filaments all fly in one air, and lay the sheet as they come down.
+
+use super::flown::Flights;
+use super::{FlownFibres, Flyer, LaydownSource, Method, OfLayer, WebSpec};
+use crate::air::Lateral;
+use crate::beam::{Airs, Beam, Flying};
+use crate::case::Case;
+use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
+use crate::fibre::Place;
+use crate::lanes::Isa;
+use crate::units::Dimension;
+use crate::web::{Canvas, Fibres, LaidWeb, Together, inlets};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicU64;
+
+/// The filaments of a layer before they fly.
+struct LayerBeam<'a> {
+    path: &'a Path,
+    case: Case,
+    places: Vec<Place>,
+}
+
+impl LayerBeam<'_> {
+    fn beam(&self) -> Beam<'_> {
+        Beam { case: &self.case, places: &self.places, airs: Airs::Shared }
+    }
+}
+
+impl Flyer<'_> {
+    /// Flies all filaments of each layer in an air of its own, and lays them. A few curves of each layer are kept, which say what independent filaments
+    /// would give.
+    pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<OfLayer>, LaidWeb), Error> {
+        spec.check_air().map_err(|problem| Error::from(vec![problem]))?;
+        let beams: Vec<LayerBeam<'_>> =
+            (0..spec.layers.len()).map(|number| beam(spec, number)).collect::<Result<_, _>>()?;
+        let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
+        let weight = beams.iter().map(|layer| layer.beam().basis_weight(&spec.sheet)).sum();
+        let canvas = Canvas::new(&spec.sheet, &elements, weight)?;
+        let (mut layers, mut together) = (Vec::new(), Together::default());
+        for (number, (layer, element)) in beams.iter().zip(elements).enumerate() {
+            let (beam, done) = (layer.beam(), AtomicU64::new(0));
+            let by = Flying { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps: &done };
+            let flights = Flights {
+                path: layer.path,
+                fibres: layer.places.len() as u64,
+                done: &done,
+                steps: beam.steps(&spec.sheet),
+                time_step: layer.case.run.time_step,
+            };
+            let mut flown = Err(Error::Interrupted);
+            (self.follow)(flights, &mut || {
+                flown = beam.fly((&spec.sheet, spec.window()), (&canvas, canvas.quanta(element)), by);
+            });
+            let mut flown = flown?;
+            together.add(number, flown.together());
+            let curves = flown.kept.into_iter().map(|(_, points)| points).collect();
+            let flown = Arc::new(FlownFibres::of(layer.path, &layer.case, curves)?);
+            // In machine direction the sheet is not closed.
+            spec.check_spreads([0.0, flown.numbers[1].mean])?;
+            layers.push(OfLayer { fibres: Fibres::Curves(Arc::clone(&flown.curves)), flown: Some(flown) });
+        }
+        Ok((layers, LaidWeb { together: Some(together), ..canvas.finish()? }))
+    }
+}
+
+impl WebSpec {
+    /// Says whether the field of eddies of a web in one air fits into the memory that it may take.
+    pub(crate) fn check_air(&self) -> Result<(), Problem> {
+        if self.method != Method::SharedAir {
+            return Ok(());
+        }
+        let beams = (0..self.layers.len()).filter_map(|number| beam(self, number).ok());
+        let largest = beams
+            .map(|layer| (layer.beam().memory_of_air(&self.sheet), layer.case.air.lateral))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((needed, Lateral::VonKarman { cutoff })) = largest else { return Ok(()) };
+        if needed <= self.memory_limit {
+            return Ok(());
+        }
+        let share = self.memory_limit / needed;
+        let memory = |size: f64| Dimension::Memory.pretty_to(size, 3);
+        let (width, cutoff) = (self.sheet.width * share, cutoff * share.sqrt());
+        let what = Fault::new(
+            format!(
+                "is less than the field of eddies takes, {}, which all filaments share across the whole web",
+                memory(needed)
+            ),
+            format!(
+                "write {} or more if the machine has it; a web.width of about {}, or air.lateral_cutoff = {} in the case, would fit",
+                memory(1.05 * needed),
+                Dimension::Length.pretty_to(width, 2),
+                Dimension::Ratio.pretty_to(cutoff, 2)
+            ),
+        );
+        let value = Some(memory(self.memory_limit));
+        Err(Problem { place: ErrorPlace::Code, key: "web.memory_limit".to_owned(), value, what })
+    }
+}
+
+/// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field in space. The seed of the web and the number of the layer are in the key of the air, so that layers and webs have
+/// airs of their own.
+fn beam(spec: &WebSpec, number: usize) -> Result<LayerBeam<'_>, Error> {
+    let layer = &spec.layers[number];
+    let LaydownSource::Case { path, case } = &layer.source else {
+        let fault = Fault::new("a web in one air flies its filaments", "name their case (laydown.case)");
+        return Err(fault.into());
+    };
+    let mut case = Case::clone(case);
+    if case.air.lateral == Lateral::Uniform {
+        case.air.lateral = Lateral::ALL[1];
+    }
+    case.run.seed = key(case.run.seed, spec.seed, number as u64);
+    let place = |[z, y]: [f64; 2]| Place { y, z };
+    let places = inlets(&spec.sheet, spec.seed, number, &layer.filaments).into_iter().map(place).collect();
+    Ok(LayerBeam { path, case, places })
+}
+
+/// A seed from those of the case and of the web and the number of a layer, each of which changes about half of its bits.
+fn key(case: u64, web: u64, layer: u64) -> u64 {
+    // The finalizer of splitmix64.
+    let mixed = |bits: u64| {
+        let bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        bits ^ (bits >> 31)
+    };
+    [case, web, layer]
+        .into_iter()
+        .fold(0, |sum: u64, part| mixed(sum.wrapping_add(part).wrapping_add(0x9e37_79b9_7f4a_7c15)))
+}

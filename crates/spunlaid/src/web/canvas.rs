@@ -1,0 +1,205 @@
+//! A map on which many threads draw at once.
+
+use super::lay::{HIGHEST, LaidWeb};
+use super::map::Map;
+use super::{Edges, Sheet};
+use crate::error::Fault;
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
+
+/// Basis weight of the thickest ropes that are reckoned with, over the mean: filaments that hang in the same air come down together.
+const ROPE: f64 = 64.0;
+/// Most quanta of a piece.
+const MOST: f64 = 1_048_576.0;
+/// Fewest, so that its parts in several cells are told well enough.
+const FEWEST: f64 = 16.0;
+
+/// The cells of a sheet while straight pieces are drawn on it. The masses are whole numbers of a quantum, so the map does not
+/// depend on the order of the pieces. In machine direction the sheet is a stretch of the belt: what lies before and behind it is not
+/// counted.
+#[derive(Debug)]
+pub(crate) struct Canvas {
+    columns: i64,
+    rows: i64,
+    cell: f64,
+    quantum: f64,
+    edges: Edges,
+    cells: Vec<AtomicU32>,
+    cut: AtomicU64,
+    is_full: AtomicBool,
+}
+
+impl Canvas {
+    /// * `pieces` – mass of a piece [kg] of each layer
+    /// * `basis_weight` – of all layers [kg/m²]
+    ///
+    /// # Errors
+    /// If the cells are too large for the fibre that they would hold.
+    pub(crate) fn new(sheet: &Sheet, pieces: &[f64], basis_weight: f64) -> Result<Self, Fault> {
+        let [columns, rows] = sheet.cells();
+        let heaviest = pieces.iter().copied().fold(0.0, f64::max);
+        let lightest = pieces.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = HIGHEST + ROPE * basis_weight * sheet.cell * sheet.cell / heaviest;
+        let quanta = (2f64.powi(32) / highest).min(MOST).log2().floor().exp2();
+        let quantum = heaviest / quanta;
+        // Written so that a NaN is refused.
+        if !(lightest / quantum >= FEWEST && quantum.is_normal()) {
+            return Err(too_full(sheet.cell));
+        }
+        Ok(Self {
+            columns: columns as i64,
+            rows: rows as i64,
+            cell: sheet.cell,
+            quantum,
+            edges: sheet.edges,
+            cells: (0..columns * rows).map(|_| AtomicU32::new(0)).collect(),
+            cut: AtomicU64::new(0),
+            is_full: AtomicBool::new(false),
+        })
+    }
+
+    /// Quanta of a piece of this mass [kg].
+    pub(crate) fn quanta(&self, piece: f64) -> u32 {
+        (piece / self.quantum).round() as u32
+    }
+
+    /// Draws a straight piece. Each cell gets what lies in it, as the difference of two rounded sums, so that none of the piece is
+    /// lost.
+    ///
+    /// * `from`, `to` – its ends in cross and in machine direction, from the first corner of the sheet [m]
+    pub(crate) fn draw(&self, from: [f64; 2], to: [f64; 2], quanta: u32) {
+        let [from, to] = [from, to].map(|end| end.map(|at| at / self.cell));
+        let mut cell = from.map(|at| at.floor() as i64);
+        let mut step = [0, 0];
+        // Shares of the piece up to the next edge of a cell each way, and from edge to edge.
+        let (mut next, mut apart) = ([f64::INFINITY; 2], [0.0; 2]);
+        for i in 0..2 {
+            let by = to[i] - from[i];
+            let within = from[i] - from[i].floor();
+            if by != 0.0 {
+                step[i] = if by > 0.0 { 1 } else { -1 };
+                next[i] = if by > 0.0 { (1.0 - within) / by } else { -within / by };
+                apart[i] = 1.0 / by.abs();
+            }
+        }
+        let mut drawn = 0;
+        loop {
+            let way = usize::from(next[1] < next[0]);
+            let last = next[way] >= 1.0 || next[way].is_nan();
+            let until = if last { quanta } else { (next[way] * f64::from(quanta)).round() as u32 };
+            self.add(cell, until - drawn);
+            if last {
+                return;
+            }
+            drawn = until;
+            cell[way] += step[way];
+            next[way] += apart[way];
+        }
+    }
+
+    fn add(&self, [column, row]: [i64; 2], quanta: u32) {
+        if quanta == 0 || !(0..self.rows).contains(&row) {
+            return;
+        }
+        let column = match self.edges {
+            Edges::Periodic => column.rem_euclid(self.columns),
+            Edges::Cut => column,
+        };
+        if (0..self.columns).contains(&column) {
+            let cell = &self.cells[(row * self.columns + column) as usize];
+            if cell.fetch_add(quanta, Ordering::Relaxed).checked_add(quanta).is_none() {
+                self.is_full.store(true, Ordering::Relaxed);
+            }
+        } else {
+            self.cut.fetch_add(u64::from(quanta), Ordering::Relaxed);
+        }
+    }
+
+    /// What has been laid.
+    ///
+    /// # Errors
+    /// If a cell holds more than can be counted.
+    pub(crate) fn finish(self) -> Result<LaidWeb, Fault> {
+        if self.is_full.into_inner() {
+            return Err(too_full(self.cell));
+        }
+        let closed = [self.edges == Edges::Periodic, false];
+        let cells = self.cells.into_iter().map(AtomicU32::into_inner).collect();
+        let map = Map {
+            columns: self.columns as usize,
+            rows: self.rows as usize,
+            cell: self.cell,
+            quantum: self.quantum,
+            closed,
+            cells,
+        };
+        Ok(LaidWeb { map, cut: self.cut.into_inner() as f64 * self.quantum, together: None })
+    }
+}
+
+/// The fault of a cell that holds more fibre than can be counted.
+pub(super) fn too_full(cell: f64) -> Fault {
+    let message = format!(
+        "a cell of {cell:e} m holds more fibre than can be counted, since the filaments lie in few places"
+    );
+    Fault::new(message, "choose smaller cells (web.cell)")
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    const CELL: f64 = 1e-3;
+
+    fn canvas(edges: Edges) -> Canvas {
+        let sheet = Sheet { width: 10e-3, length: 20e-3, cell: CELL, patches: Vec::new(), edges };
+        Canvas::new(&sheet, &[1e-9], 1e-3).unwrap()
+    }
+
+    /// A piece across cells leaves in each the part that lies in it.
+    #[test]
+    fn analytic_a_slanting_piece_in_the_cells_that_it_crosses() {
+        let canvas = canvas(Edges::Cut);
+        let quanta = canvas.quanta(1e-9);
+        // From (0.5, 0.5) to (3.5, 2.5) cells: edges at 1/6, 1/2, 5/6 across and at 1/4, 3/4 along.
+        canvas.draw([0.5e-3, 0.5e-3], [3.5e-3, 2.5e-3], quanta);
+        let map = canvas.finish().unwrap().map;
+        let part = |column: usize, row: usize| f64::from(map.row(row)[column]) / f64::from(quanta);
+        let expected = [
+            (0, 0, 1.0 / 6.0),
+            (1, 0, 1.0 / 12.0),
+            (1, 1, 0.25),
+            (2, 1, 0.25),
+            (2, 2, 1.0 / 12.0),
+            (3, 2, 1.0 / 6.0),
+        ];
+        for (column, row, share) in expected {
+            // Two sums rounded to whole quanta, a millionth of the piece each.
+            assert!((part(column, row) - share).abs() < 2e-6, "{column} {row}: {}", part(column, row));
+        }
+        assert_eq!(map.total(), u64::from(quanta));
+    }
+
+    #[test]
+    fn invariant_the_mass_of_pieces_that_leave_the_sheet() {
+        for edges in [Edges::Periodic, Edges::Cut] {
+            let canvas = canvas(edges);
+            let quanta = canvas.quanta(1e-9);
+            // Half of the first is beyond the left edge, half of the second lies before the stretch of belt.
+            canvas.draw([1e-3, 5.5e-3], [-1e-3, 5.5e-3], quanta);
+            canvas.draw([4.5e-3, 1e-3], [4.5e-3, -1e-3], quanta);
+            let laid = canvas.finish().unwrap();
+            let (on, cut) = (laid.map.total(), (laid.cut / laid.map.quantum).round() as u64);
+            let beyond = if edges == Edges::Periodic { [3, 0] } else { [2, 1] };
+            assert_eq!([on, cut], beyond.map(|halves| halves * u64::from(quanta) / 2), "{edges:?}");
+        }
+    }
+
+    #[test]
+    fn rejects_cells_that_cannot_count_the_fibre() {
+        let sheet = Sheet { width: 10.0, length: 10.0, cell: 1.0, patches: Vec::new(), edges: Edges::Cut };
+        assert!(Canvas::new(&sheet, &[1e-12], 1.0).is_err());
+        assert!(Canvas::new(&sheet, &[f64::NAN], 1.0).is_err());
+        assert!(Canvas::new(&sheet, &[], 1.0).is_err());
+    }
+}

@@ -1,0 +1,173 @@
+//! All filaments of a beam, flown together: limits that hold exactly, and nothing that depends on the threads.
+
+use spunlaid::beam::{Airs, Beam, Flown, Flying};
+use spunlaid::case::Case;
+use spunlaid::fibre::Place;
+use spunlaid::flight::LaidPoint;
+use spunlaid::input::read_case;
+use spunlaid::lanes::Isa;
+use spunlaid::web::uniformity::unevenness;
+use spunlaid::web::{
+    Curves, Edges, Fibres, Filaments, Findings, LaidWeb, Layer, Laying, Map, Row, Sheet, Web, Window,
+    measure_laid,
+};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+const CELL: f64 = 1e-3;
+
+/// A short line, so that little has to be flown.
+fn case() -> Case {
+    let set = [("belt.distance", "0.1 m"), ("run.duration", "0.1 s"), ("run.spin_up", "10 ms")];
+    let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap().0
+}
+
+fn sheet(columns: usize, rows: usize) -> Sheet {
+    let [width, length] = [columns, rows].map(|cells| cells as f64 * CELL);
+    Sheet { width, length, cell: CELL, patches: Vec::new(), edges: Edges::Periodic }
+}
+
+/// Filaments at an even pitch over the width.
+fn row(sheet: &Sheet, count: usize) -> Vec<Place> {
+    let pitch = sheet.width / count as f64;
+    (0..count).map(|i| Place { y: 0.0, z: (i as f64 + 0.5) * pitch }).collect()
+}
+
+fn lay_by(sheet: &Sheet, places: &[Place], airs: Airs, isa: Isa, threads: usize) -> (LaidWeb, Flown) {
+    let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
+    let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
+    let case = case();
+    let beam = Beam { case: &case, places, airs };
+    let laid = beam.lay(sheet, window, Flying { threads, isa, stop: &stop, steps: &steps }).unwrap();
+    assert!(steps.into_inner() > 0);
+    laid
+}
+
+fn lay(sheet: &Sheet, places: &[Place], airs: Airs) -> (LaidWeb, Flown) {
+    lay_by(sheet, places, airs, Isa::detect(), 2)
+}
+
+fn cv(map: &Map, side: usize) -> f64 {
+    unevenness(map, side).unwrap().cv
+}
+
+/// In an air that is the same for all, a row at even pitch has no variation across, only bars along the belt.
+#[test]
+fn analytic_filaments_in_the_same_air_lay_the_same_curve() {
+    let sheet = sheet(24, 64);
+    let (laid, _) = lay(&sheet, &row(&sheet, 24), Airs::Shared);
+    let (mut different, mut bars) = (0.0_f64, 0.0_f64);
+    let mean = laid.map.total() as f64 / laid.map.cells.len() as f64;
+    for row in 0..laid.map.rows {
+        let quanta = laid.map.row(row);
+        for cell in quanta {
+            different = different.max((f64::from(*cell) - f64::from(quanta[0])).abs() / mean);
+            bars = bars.max((f64::from(*cell) / mean - 1.0).abs());
+        }
+    }
+    // Places are off by a rounding, which moves some quanta of a million to the next cell.
+    assert!(different < 1e-4, "{different}");
+    assert!(bars > 0.1, "{bars}");
+}
+
+/// N filaments at one place in one air are N times one curve, with the unevenness of one.
+#[test]
+fn analytic_filaments_at_one_place_have_the_unevenness_of_one() {
+    let sheet = sheet(32, 64);
+    let place = Place { y: 0.0, z: 13.3e-3 };
+    let maps = [1, 3, 11].map(|count| lay(&sheet, &vec![place; count], Airs::Shared).0.map);
+    for side in [1, 4, 10] {
+        let one = cv(&maps[0], side);
+        assert!(one > 0.5, "{one}");
+        for map in &maps {
+            // The quanta are a millionth of an element, or up to eight times that.
+            assert!((cv(map, side) / one - 1.0).abs() < 1e-5, "{side}: {} {one}", cv(map, side));
+        }
+    }
+}
+
+/// `CV² = [Σ var(m_k) + Σ cov(m_k, m_l)]/(Σ⟨m⟩)²`: without covariances it is what the curves, each by itself, let expect.
+#[test]
+fn stat_filaments_in_airs_of_their_own_are_independent() {
+    let mut sheet = sheet(32, 2000);
+    sheet.patches = vec![2e-3, 5e-3, 10e-3];
+    let (laid, flown) = lay(&sheet, &row(&sheet, 16), Airs::Own);
+    assert_eq!((flown.kept.len(), flown.lost.len()), (16, 0));
+    let pitch = sheet.width / 16.0;
+    let rows = Filaments::Rows(vec![Row::new(0.5 * pitch, pitch, 16)]);
+    for patch in found(&sheet, laid, &flown, rows).patches {
+        let (cv, (independent, error)) = (patch.map.cv, patch.independent.unwrap());
+        let chance = patch.map.standard_error.unwrap().hypot(error);
+        assert!(chance < 0.05 * cv, "{chance}");
+        assert!((cv - independent).abs() < 3.0 * chance, "{}: {cv} {independent} {chance}", patch.map.patch);
+    }
+}
+
+/// Sixteen filaments in the same air, at the same place, are as uneven as one; independent ones have a sixteenth of its variance.
+#[test]
+fn analytic_the_variance_of_filaments_together_over_that_of_independent_ones() {
+    let mut sheet = sheet(32, 2000);
+    sheet.patches = vec![5e-3];
+    let (laid, flown) = lay(&sheet, &[Place { y: 0.0, z: 16e-3 }; 16], Airs::Shared);
+    let anywhere = Filaments::AtRandom { per_metre: 16.0 / sheet.width };
+    let patch = found(&sheet, laid, &flown, anywhere).patches[0];
+    // Of lengths m in patches, the map has ⟨m²⟩/⟨m⟩² − 1, and independent filaments anywhere have ⟨m²⟩/⟨m⟩² over their number.
+    let ratio = (patch.map.cv.powi(2) + 1.0) / patch.independent.unwrap().0.powi(2);
+    assert!((ratio / 16.0 - 1.0).abs() < 0.05, "{ratio}");
+}
+
+/// What is found of a laid sheet, beside what the kept curves let expect.
+fn found(sheet: &Sheet, laid: LaidWeb, flown: &Flown, filaments: Filaments) -> Findings {
+    let case = case();
+    let (line, spacing) = (case.line.unwrap(), case.fibre.rest_length());
+    let start = line.feed_speed * case.run.spin_up();
+    let curve = |(_, points): &(usize, Vec<LaidPoint>)| -> Vec<[f64; 2]> {
+        points.iter().filter(|point| point.fed >= start).map(|point| [point.md, point.cd]).collect()
+    };
+    let curves =
+        Curves::new(spacing, line.belt_speed / line.feed_speed, flown.kept.iter().map(curve).collect());
+    let layer = Layer {
+        linear_density: case.fibre.element_mass() / spacing,
+        feed_speed: line.feed_speed,
+        belt_speed: line.belt_speed,
+        filaments,
+        fibres: Fibres::Curves(Arc::new(curves.unwrap())),
+        compared: None,
+    };
+    let web = Web { sheet: sheet.clone(), layers: vec![layer], seed: 1 };
+    let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &done };
+    measure_laid(&web, Some(laid), by).unwrap()
+}
+
+#[test]
+fn invariant_the_mass_of_the_sheet_is_that_of_the_fed_fibre() {
+    let sheet = sheet(32, 1000);
+    let places = row(&sheet, 16);
+    let (laid, _) = lay(&sheet, &places, Airs::Own);
+    let case = case();
+    let line = case.line.unwrap();
+    let per_length = case.fibre.element_mass() / case.fibre.rest_length();
+    let wanted = 16.0 * per_length * line.feed_speed / line.belt_speed / sheet.width;
+    // The ends of the sheet cut the curves: of 1 m some millimetres for each of 16 filaments, either way.
+    let found = laid.map.basis_weight();
+    assert!((found / wanted - 1.0).abs() < 0.005, "{found} {wanted}");
+    assert_eq!(laid.cut, 0.0);
+}
+
+#[test]
+fn identical_on_any_threads_and_instruction_sets() {
+    let sheet = sheet(24, 32);
+    let places = row(&sheet, 12);
+    let (one, flown) = lay_by(&sheet, &places, Airs::Own, Isa::detect(), 1);
+    let strands = |laid: &LaidWeb| laid.together.clone().unwrap().strands;
+    assert!(!strands(&one).is_empty());
+    for (isa, threads) in Isa::available().into_iter().zip([2, 3, 1].into_iter().cycle()) {
+        let (other, again) = lay_by(&sheet, &places, Airs::Own, isa, threads);
+        assert_eq!(other.map, one.map, "{} on {threads} threads", isa.name());
+        assert_eq!(strands(&other), strands(&one), "{}", isa.name());
+        assert_eq!(again.kept, flown.kept, "{}", isa.name());
+    }
+}
