@@ -309,7 +309,7 @@ impl Study {
                 let dict = PyDict::new(py);
                 let factor = &study.factors[effect.factor];
                 dict.set_item("measure", &study.quantities[ranking.measure].column)?;
-                dict.set_item("factor", factor.key)?;
+                dict.set_item("factor", &factor.key)?;
                 dict.set_item("from", effect.from)?;
                 dict.set_item("to", effect.to)?;
                 dict.set_item("change", effect.change)?;

@@ -146,7 +146,8 @@ word in their name or meaning.
 
 A quantity is written with its unit, in quotes, as in a case ([keys.md](keys.md)). Each key can also be set for one web,
 `--set line.belt_speed=\"6 m/s\"`; of a file with `[[layer]]`, `--set layer.2.line.filaments_per_metre=4000`, or with the
-layer's name in place of its number. `spunlaid sweep` can vary keys marked *study*; those of a layer where the web has one layer.
+layer's name in place of its number. `spunlaid sweep` can vary keys marked *study*, those of a layer or of a row of nozzles
+by its number: `layer.2.line.filaments_per_metre`, `line.rows.1.pitch`.
 ";
 
 /// The keys as a Markdown document with one table for each table of the file.

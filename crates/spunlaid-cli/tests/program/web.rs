@@ -200,7 +200,8 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
 
 #[test]
 fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
-    let desk = Desk::of(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\""));
+    let desk =
+        Desk::with_case(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\""));
     let web = WEB.replace(
         "filaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"",
         "filaments_per_metre = 500\ndepth = \"10 mm\"\n[web]\nwidth = \"0.2 m\"\nlength = \"40 mm\"\npatches = [\"5 mm\", \"10 mm\"]",

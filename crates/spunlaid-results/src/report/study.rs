@@ -108,7 +108,7 @@ pub fn study_html(input: &StudyReport<'_>) -> String {
 }
 
 fn question(study: &Study) -> String {
-    let names: Vec<String> = study.factors.iter().map(|factor| name_of_key(factor.key)).collect();
+    let names: Vec<String> = study.factors.iter().map(|factor| name_of_key(&factor.key)).collect();
     let what = match study.points.first().map(|point| &point.experiment) {
         Some(Experiment::Web(_)) => "evenness of the web",
         Some(Experiment::Case(case)) if case.line.is_some() => "laid fibre",
@@ -146,7 +146,7 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
         count(fibres, study.noun())
     );
     for link in &study.links {
-        let (name, formula) = (name_of_key(link.key), link.expression.text());
+        let (name, formula) = (name_of_key(&link.key), link.expression.text());
         text += &format!(" The {name} follows from the others: {} = {formula}.", link.key);
     }
     text += &most_even(study, results).unwrap_or_default();
@@ -234,7 +234,7 @@ fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
         let factor = &study.factors[effect.factor];
         let [from, to] = [effect.from, effect.to].map(|value| factor.input().pretty(value));
         RankingRow {
-            name: name_of_key(factor.key),
+            name: name_of_key(&factor.key),
             range: if factor.words.is_empty() {
                 format!("{from} to {to}")
             } else {

@@ -81,7 +81,7 @@ impl Fault {
     /// * `takes` – the table or the top of the file, with a verb: `[air] takes`
     /// * `known` – the names that are known there
     pub(crate) fn unknown(
-        message: &'static str,
+        message: impl Into<Cow<'static, str>>,
         nearest: Option<String>,
         takes: &str,
         known: &[impl ToString],

@@ -33,10 +33,10 @@ fn series(group: &Group, position: usize) -> Series {
 /// Results over the first factor at all points, joined by a line.
 pub(super) fn one(study: &Study, results: &[PointResults], group: &Group) -> Figure {
     let all: Vec<usize> = (0..results.len()).collect();
-    let others: Vec<String> = study.factors.iter().skip(1).map(|factor| name_of_key(factor.key)).collect();
+    let others: Vec<String> = study.factors.iter().skip(1).map(|factor| name_of_key(&factor.key)).collect();
     let with =
         if others.is_empty() { String::new() } else { format!(", {} along with it", others.join(" and ")) };
-    over_factor(study, results, group, 0, &all, &format!("over {}{with}", name_of_key(study.factors[0].key)))
+    over_factor(study, results, group, 0, &all, &format!("over {}{with}", name_of_key(&study.factors[0].key)))
 }
 
 /// Results over a factor at the points where all others are as in the base case, which is the first point.
@@ -47,8 +47,10 @@ pub(super) fn alone(study: &Study, results: &[PointResults], group: &Group, fact
         (0..count).all(|other| other == factor || values[other] == study.points[0].values[other])
     };
     let points: Vec<usize> = (0..results.len()).filter(is_alone).collect();
-    let words =
-        format!("over {} alone, everything else as in the base case", name_of_key(study.factors[factor].key));
+    let words = format!(
+        "over {} alone, everything else as in the base case",
+        name_of_key(&study.factors[factor].key)
+    );
     over_factor(study, results, group, factor, &points, &words)
 }
 
@@ -62,7 +64,7 @@ fn over_factor(
 ) -> Figure {
     let along = Along::of_study(study, factor);
     let title = format!("{} {}", group.title, words.split(',').next().unwrap_or(words));
-    let name = file_name(group, study.factors[factor].key);
+    let name = file_name(group, &study.factors[factor].key);
     let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
     for (position, (measure, _)) in group.members.iter().enumerate() {
         let shift = along.aside(position, group.members.len());
@@ -82,9 +84,9 @@ pub(super) fn family(
     along: usize,
     family: usize,
 ) -> Figure {
-    let (parameter, key) = (&study.factors[family], study.factors[along].key);
+    let (parameter, key) = (&study.factors[family], &*study.factors[along].key);
     let place = Along::of_study(study, along);
-    let title = format!("{} over {} and {}", group.title, name_of_key(key), name_of_key(parameter.key));
+    let title = format!("{} over {} and {}", group.title, name_of_key(key), name_of_key(&parameter.key));
     let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
     let levels = parameter.levels();
     for (index, ((level, colour), dash)) in levels.iter().copied().zip(COLOURS).zip(DASHES).enumerate() {
@@ -121,7 +123,7 @@ pub(super) fn family(
         "{} over {}, {distinction} for each value of the {}, means over the replicates.{signs} {BARS}",
         group.title,
         name_of_key(key),
-        name_of_key(parameter.key),
+        name_of_key(&parameter.key),
     );
     Figure::new(&chart, caption)
 }
