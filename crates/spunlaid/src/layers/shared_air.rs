@@ -14,6 +14,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
 
+/// Smallest lateral cut-off that is worth to be written.
+const FEWEST_WAVES: f64 = 5.0;
+
 /// The filaments of a layer before they fly.
 struct LayerBeam<'a> {
     path: &'a Path,
@@ -92,12 +95,18 @@ impl WebSpec {
                 "is less than the field of eddies takes, {}, which all filaments share across the whole web",
                 memory(needed)
             ),
-            format!(
-                "write {} or more if the machine has it; a web.width of about {}, or air.lateral_cutoff = {} in the case, would fit",
-                memory(1.05 * needed),
-                Dimension::Length.pretty_to(width, 2),
-                Dimension::Ratio.pretty_to(cutoff, 2)
-            ),
+            match cutoff >= FEWEST_WAVES {
+                true => format!(
+                    "write {} or more if the machine has it; a web.width of about {}, or air.lateral_cutoff = {} in the case, would fit",
+                    memory(1.05 * needed),
+                    Dimension::Length.pretty_to(width, 2),
+                    Dimension::Ratio.pretty_to(cutoff, 2)
+                ),
+                false => format!(
+                    "write {} or more if the machine has it, or make the web narrower",
+                    memory(1.05 * needed)
+                ),
+            },
         );
         let value = Some(memory(self.memory_limit));
         Err(Problem { place: ErrorPlace::Code, key: "web.memory_limit".to_owned(), value, what })
