@@ -4,32 +4,16 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyMapping, PyString};
 use spunlaid::case::keys::{self, Kind, Value};
-use spunlaid::input::WEB_KEYS;
+use spunlaid::layers::web_key;
 use spunlaid::units::Dimension;
 use spunlaid::vec3::Vec3;
 use std::path::PathBuf;
 
-/// Keys and values as overrides of a case file, in their order: `{"air.velocity": "20 m/s"}`, or `{"air": {"velocity":
-/// 20.0}}`. Numbers are in SI units; `None` takes a key out.
+/// Keys and values as overrides of the file of a case or of a web, in their order: `{"air.velocity": "20 m/s"}`, or
+/// `{"air": {"velocity": 20.0}}`; of a layer of a web with its number, `layer.2.line.belt_speed`. Numbers are in SI units;
+/// `None` takes a key out.
 pub(crate) fn overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, String)>> {
-    overrides_of(values, |name| keys::find(name).map(|key| key.kind))
-}
-
-/// The same for the file of a web; of a layer with its number, `layer.2.line.belt_speed`.
-pub(crate) fn web_overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, String)>> {
-    overrides_of(values, |name| {
-        let mut keys = WEB_KEYS.iter();
-        keys.find(|key| {
-            name.strip_suffix(key.name).is_some_and(|before| before.is_empty() || before.ends_with('.'))
-        })
-        .map(|key| key.kind)
-    })
-}
-
-fn overrides_of(
-    values: &Bound<'_, PyAny>,
-    kind: impl Fn(&str) -> Option<Kind>,
-) -> PyResult<Vec<(String, String)>> {
+    let kind = |name: &str| keys::find(name).map(|key| key.kind).or_else(|| Some(web_key(name)?.kind));
     let values = values.cast::<PyMapping>().map_err(|_| {
         let found = type_name(values);
         PyTypeError::new_err(format!(

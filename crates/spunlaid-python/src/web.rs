@@ -1,6 +1,6 @@
-//! `lay_web`: lays a web of many filaments, and `LaidWeb`, what is found of it.
+//! `lay_web`: lays a web of many filaments, and `LaidWeb`, its results.
 
-use crate::value::web_overrides;
+use crate::value::overrides;
 use crate::watched::{Watch, guarded, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -39,14 +39,14 @@ pub(crate) fn lay_web(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<LaidWeb> {
-    let changes = web_overrides(changes)?;
-    let overrides = Overrides { values: &changes, word: "web:" };
+    let changes = overrides(changes)?;
+    let set = Overrides { values: &changes, word: "web:" };
     let (name, file) = match path {
         Some(path) => {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            (name, guarded(py, || read_web(&path, overrides))?)
+            (name, guarded(py, || read_web(&path, set))?)
         }
-        None => ("web".to_owned(), guarded(py, || parse_web("", "web", overrides))?),
+        None => ("web".to_owned(), guarded(py, || parse_web("", "web", set))?),
     };
     let threads = self::threads(threads);
     let watch = Watch::default();

@@ -102,3 +102,51 @@ def test_a_study_of_webs(program: Path, tmp_path: Path) -> None:
     subprocess.run(command, check=True, capture_output=True)
     for name in ("results.csv", "results.json", "results.parquet"):
         assert (tmp_path / "here" / name).read_bytes() == (tmp_path / "there" / name).read_bytes(), name
+
+
+LAYERS = """
+version = 1
+[web]
+width = "0.2 m"
+length = "0.2 m"
+[[layer]]
+[layer.fibre]
+diameter = "18 µm"
+density = "910 kg/m³"
+[layer.laydown]
+sigma_md = "9 mm"
+sigma_cd = "8 mm"
+noise = "15 m^-0.5"
+[layer.line]
+feed_speed = "50 m/s"
+belt_speed = "5 m/s"
+filaments_per_metre = 200
+[[layer]]
+name = "M"
+[layer.fibre]
+diameter = "4 µm"
+density = "910 kg/m³"
+[layer.laydown]
+sigma_md = "12 mm"
+sigma_cd = "12 mm"
+noise = "10 m^-0.5"
+[layer.line]
+feed_speed = "50 m/s"
+rows = [{ pitch = "1 mm", filaments = 200 }]
+"""
+
+
+def test_identical_alone_and_in_a_study_of_one_layer(tmp_path: Path) -> None:
+    """A key of a layer varies by its number or its name; numbers are in SI units."""
+    path = tmp_path / "web.toml"
+    path.write_text(LAYERS, encoding="utf-8")
+    common = {"web.cell": 0.002, "web.edges": "cut", "layer.M.laydown.noise": 11.0}
+    for key, values in {
+        "layer.1.laydown.sigma_md": [0.009, 0.012],
+        "layer.M.fibre.diameter": [4e-6, 6e-6],
+        "layer.2.line.rows.1.pitch": [0.001, 0.0008],
+    }.items():
+        found = spunlaid.sweep({"web": path, "vary": {key: values}}, set=common)
+        alone = [spunlaid.web(path, set={**common, key: value}) for value in values]
+        expected = [web.patches["cv"][np.isclose(web.patches["patch_m"], 0.01)][0] for web in alone]
+        assert list(found.mean["cv_10_mm"]) == expected and expected[0] != expected[1], key

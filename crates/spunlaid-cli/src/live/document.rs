@@ -317,7 +317,7 @@ mod tests {
     fn saved_paths_are_read_from_the_present_folder() {
         let text = "[air]\nrecord = [\"a.csv\", \"b/c.csv\"]\nspectrum = \"von-karman\"\n";
         let document = Document::new(text.to_owned(), Some(PathBuf::from("cases/x.toml")));
-        let wanted = "[air]\nrecord = [\"cases/a.csv\", \"cases/b/c.csv\"]\nspectrum = \"von-karman\"\n";
-        assert_eq!(document.to_save(), wanted);
+        let expected = "[air]\nrecord = [\"cases/a.csv\", \"cases/b/c.csv\"]\nspectrum = \"von-karman\"\n";
+        assert_eq!(document.to_save(), expected);
     }
 }

@@ -8,7 +8,7 @@ const WEB: &str = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre
 
 fn desk() -> Desk {
     // So long elements show too little of the autocorrelation to see a surrogate in it.
-    let desk = Desk::of(&FED.replace("element_length = \"4 mm\"", "element_length = \"25 mm\""));
+    let desk = Desk::with_case(&FED.replace("element_length = \"4 mm\"", "element_length = \"25 mm\""));
     fs::write(desk.path("web.toml"), WEB).unwrap();
     desk
 }
@@ -100,10 +100,16 @@ fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
     assert!((number("/layers/1/basis_weight_kg_m2") / 6.4e-4 - 1.0).abs() < 1e-9);
     assert!((number("/web/fibre_length_m") / (0.3 * (100.0 * 10.0 + 80.0 * 8.0)) - 1.0).abs() < 1e-9);
     for patch in 0..3 {
-        let of = |name: &str| number(&format!("/web/patches/{patch}/{name}"));
-        assert!(of("cv") > of("cv_straight_fibres") * 0.5 && of("cv") < 4.0 * of("cv_straight_fibres"));
-        let apart = (of("cv") - of("cv_one_fibre")).abs();
-        assert!(apart < 5.0 * of("cv_standard_error").hypot(of("cv_one_fibre_standard_error")), "{summary}");
+        let value = |name: &str| number(&format!("/web/patches/{patch}/{name}"));
+        assert!(
+            value("cv") > value("cv_straight_fibres") * 0.5
+                && value("cv") < 4.0 * value("cv_straight_fibres")
+        );
+        let apart = (value("cv") - value("cv_one_fibre")).abs();
+        assert!(
+            apart < 5.0 * value("cv_standard_error").hypot(value("cv_one_fibre_standard_error")),
+            "{summary}"
+        );
     }
 
     // The array: a head that says its shape, then as many 32-bit numbers, whose mean is the basis weight.
@@ -113,7 +119,7 @@ fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
     let start = array.len() - 4 * 300 * 200;
     assert!(start.is_multiple_of(64));
     let numbers =
-        array[start..].chunks_exact(4).map(|of| f64::from(f32::from_le_bytes(of.try_into().unwrap())));
+        array[start..].chunks_exact(4).map(|bytes| f64::from(f32::from_le_bytes(bytes.try_into().unwrap())));
     assert!((numbers.sum::<f64>() / 6e4 / weight - 1.0).abs() < 1e-4);
 
     // Results are not replaced unless this is asked for, and asking for the summary alone writes nothing.
@@ -126,7 +132,7 @@ fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
 
 #[test]
 fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() {
-    let desk = Desk::of(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\""));
+    let desk = Desk::with_case(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\""));
     let web = WEB.replace(
         "width = \"1 m\"\nlength = \"1 m\"",
         "width = \"0.4 m\"\nlength = \"0.5 m\"\npatches = [\"5 mm\", \"10 mm\"]",
@@ -143,7 +149,9 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
     let (s, d) = (desk.summary("s"), desk.summary("d"));
     assert_eq!(s["schema_version"], 2);
     for patch in 0..2 {
-        let number = |of: &serde_json::Value, name: &str| of["web"]["patches"][patch][name].as_f64().unwrap();
+        let number = |summary: &serde_json::Value, name: &str| {
+            summary["web"]["patches"][patch][name].as_f64().unwrap()
+        };
         // The same number under the same name, whichever of the two the map was laid from.
         assert_eq!(number(&s, "cv_flown"), number(&d, "cv_flown"));
         assert_eq!(number(&s, "cv_one_fibre"), number(&s, "cv_surrogate"));
@@ -192,7 +200,8 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
 
 #[test]
 fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
-    let desk = Desk::of(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\""));
+    let desk =
+        Desk::with_case(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\""));
     let web = WEB.replace(
         "filaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"",
         "filaments_per_metre = 500\ndepth = \"10 mm\"\n[web]\nwidth = \"0.2 m\"\nlength = \"40 mm\"\npatches = [\"5 mm\", \"10 mm\"]",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -22,10 +23,15 @@ def study_toml(study: Mapping[str, Any]) -> str:
         elif isinstance(value, Mapping) and name in ("vary", "link", "set"):
             tables.append(f"\n[{name}]")
             for key, of in value.items():
-                tables.append(f"{_text(key)} = {_value(of, known.get(key))}")
+                tables.append(f"{_text(key)} = {_value(of, known.get(_plain(key)))}")
         else:
             lines.append(f"{_text(name)} = {_value(value, None)}")
     return "\n".join(lines + tables) + "\n"
+
+
+def _plain(name: Any) -> Any:
+    """The name of a key without its layer and row: `line.rows.pitch` of `layer.2.line.rows.1.pitch`."""
+    return re.sub(r"^layer\.[^.]+\.|(?<=rows\.)\d+\.", "", name) if isinstance(name, str) else name
 
 
 def _text(text: Any) -> str:

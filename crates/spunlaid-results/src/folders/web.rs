@@ -247,8 +247,8 @@ fn about_the_model(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<St
     }
     for (layer, row) in web.layers.iter().zip(layers) {
         let Some(fit) = residual(Some(row)) else { continue };
-        let beyond = (fit.rms.powi(2) - fit.by_chance.unwrap_or(0.0).powi(2)).max(0.0).sqrt();
-        if beyond > POOR_FIT {
+        let excess = (fit.rms.powi(2) - fit.by_chance.unwrap_or(0.0).powi(2)).max(0.0).sqrt();
+        if excess > POOR_FIT {
             notes.push(format!(
                 "no surrogate describes the laid fibre of {} well: its autocorrelation differs by {} (rms) from \
                  that of the best one, and chance would explain {}",

@@ -2,13 +2,14 @@
 
 use super::rendered;
 use super::web::{
-    File, Page, about_light_table, cost, headline, largest_clouds, light_table_data, metres, millimetres,
+    File, WebPage, about_light_table, cost, headline, largest_clouds, light_table_data, metres, millimetres,
     nearest, per_cent,
 };
 use crate::Failure;
 use crate::figures::SEEN;
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::web::Performance;
+use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure, Unit};
 use spunlaid::scan::{Findings, PatchFindings};
 use spunlaid::web::Map;
 use spunlaid_charts::Figure;
@@ -37,7 +38,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
     let (data, pixel) = light_table_data(&with_spots(findings), None)?;
     let nearest_patch = nearest(findings.patches.iter().map(|patch| patch.unevenness.patch));
     let weight = findings.mean_known.then(|| findings.map.basis_weight());
-    let page = Page {
+    let page = WebPage {
         command: "analyse",
         name: input.name,
         headline: headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness)),
@@ -52,7 +53,10 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         data,
         fibres: false,
         verdict: verdict(findings),
-        heads: vec!["Patch", "CV", "95 % interval", "Noise of the camera", "Lost by one more pixel of blur"],
+        heads: ["Patch", "CV", "95 % interval"]
+            .into_iter()
+            .chain(OF_SCANNED_PATCHES.iter().map(|measure| measure.label))
+            .collect(),
         patches: findings.patches.iter().map(row).collect(),
         about_patches: "The interval is that of the web, of which the scan is one piece. The noise of the camera \
             is as it was given, and then taken out of the CV, or the most that it can be. Where one more pixel of \
@@ -75,8 +79,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
 }
 
 fn row(patch: &PatchFindings) -> Vec<String> {
-    let share = |share: f64| format!("{}{THIN}%", significant(100.0 * share, 2));
-    vec![
+    let mut cells = vec![
         millimetres(patch.unevenness.patch),
         per_cent(patch.unevenness.cv, patch.unevenness.standard_error),
         patch.interval.map_or_else(
@@ -85,9 +88,16 @@ fn row(patch: &PatchFindings) -> Vec<String> {
                 format!("{} to {}{THIN}%", significant(100.0 * low, 3), significant(100.0 * high, 3))
             },
         ),
-        share(patch.noise),
-        share(patch.blur),
-    ]
+    ];
+    cells.extend(OF_SCANNED_PATCHES.iter().map(|measure| shown(measure, patch).unwrap_or_default()));
+    cells
+}
+
+/// The value of a declared measure with its unit; none if there is no value.
+fn shown<T>(measure: &ScanMeasure<T>, findings: &T) -> Option<String> {
+    let Unit { shown, per_si } = measure.unit;
+    let number = significant((measure.number)(findings)? * per_si, measure.digits);
+    Some(if shown.is_empty() { number } else { format!("{number}{THIN}{shown}") })
 }
 
 /// The map with the spots that were left out, as dark as they were.
@@ -129,20 +139,12 @@ fn facts(input: &ScanReport<'_>) -> Vec<Vec<String>> {
             format!("{} × {} of {}", findings.map.columns, findings.map.rows, millimetres(findings.map.cell)),
         ),
     ];
-    facts.extend(findings.white.map(|white| ("Grey level of the lamp without web", significant(white, 5))));
-    facts.extend(
-        findings.density.map(|density| ("Mean optical density ln(white/level)", significant(density, 3))),
-    );
-    facts.extend(findings.shading.map(|share| {
-        (
-            "Shading that was taken out, brightest over darkest",
-            format!("{}{THIN}%", significant(100.0 * share, 2)),
-        )
-    }));
-    if findings.aside.cut_off > 0.0 {
-        let area = format!("{}{THIN}mm²", significant(findings.aside.cut_off * 1e6, 3));
-        facts.push(("Cut off beside the web, with the bare lamp", area));
-    }
+    // What is zero has not been found.
+    let is_found = |measure: &&ScanMeasure<Findings>| {
+        !measure.label.is_empty() && (measure.number)(findings) != Some(0.0)
+    };
+    let labelled = OF_SCANS.iter().filter(is_found);
+    facts.extend(labelled.filter_map(|measure| Some((measure.label, shown(measure, findings)?))));
     if let Some(largest) = findings.aside.spots.first() {
         let spots = format!(
             "{}, {}{THIN}mm² in all; the largest {}{THIN}mm², {} from the left and {} from the top of the picture",

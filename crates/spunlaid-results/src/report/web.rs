@@ -54,7 +54,7 @@ pub struct WebReport<'a> {
 /// Content of `assets/web.html`, which escapes everything that is not marked safe.
 #[derive(Template)]
 #[template(path = "web.html")]
-pub(super) struct Page<'a> {
+pub(super) struct WebPage<'a> {
     /// The command that wrote it.
     pub(super) command: &'static str,
     pub(super) name: &'a str,
@@ -115,15 +115,15 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let findings = input.findings;
     let (data, pixel) = light_table_data(&findings.laid.map, Some(fibres(input)))?;
     let is_shared = findings.laid.together.is_some();
-    let flown = !is_shared && findings.patches.iter().any(|patch| patch.flown.is_some());
+    let has_flown = !is_shared && findings.patches.iter().any(|patch| patch.flown.is_some());
     let mut heads = vec!["Patch", "CV of this map", "of its error: chance", "95 % interval by chance"];
-    if flown {
+    if has_flown {
         heads.extend(["few fibres flown", "model"]);
     }
     let sources = sources(findings);
     heads.extend(sources.iter().map(|(head, _)| *head));
     heads.push("Straight fibres");
-    let page = Page {
+    let page = WebPage {
         command: "web",
         name: input.name,
         headline: headline(
@@ -137,10 +137,10 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         fibres: true,
         verdict: verdict(findings),
         heads,
-        patches: patches(findings, flown, &sources),
+        patches: patches(findings, has_flown, &sources),
         about_patches: if is_shared {
             "All filaments were flown in one air. The error is by chance: another piece of the same web, in other gusts, has another CV."
-        } else if flown {
+        } else if has_flown {
             "The error of the map is that of all its causes together: chance (another piece of the same web), the \
              few fibres that were flown, and the model (the CV of the surrogate against that of the flown \
              curves). It does not include what the flight itself leaves out."
@@ -365,7 +365,7 @@ fn sources(findings: &Findings) -> Vec<Column> {
     known
 }
 
-fn patches(findings: &Findings, flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
+fn patches(findings: &Findings, has_flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
     let row = |patch: &PatchFindings| {
         let (map, error) = (whole(patch), patch.whole_error());
         let part = |part: Option<f64>| {
@@ -377,7 +377,7 @@ fn patches(findings: &Findings, flown: bool, sources: &[Column]) -> Vec<Vec<Stri
             part(error.chance),
             interval(patch.map.interval()),
         ];
-        if flown {
+        if has_flown {
             cells.extend([error.flight, error.model].map(part));
         }
         let expected = sources.iter().map(|(_, cv)| cv(patch));

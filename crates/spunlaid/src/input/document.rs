@@ -1,61 +1,256 @@
-//! Reads a case file into its entries. Each entry remembers where it was written.
+//! Reads the file of a case or of a web into its values. Each remembers where it was written.
+//!
+//! A value has the full name of its key, `line.belt_speed`. In a list of tables the number of the entry stands in it,
+//! `layer.2.line.rows.1.pitch`, and the list itself, `layer.2.line.rows`, has its length as value.
 
-use super::entry::{Entry, VERSION, check_version, kind, root};
+use super::entry::{Entry, VERSION, check_version, in_order, kind, root};
 use super::source::{Source, fit};
 use super::written::{WrittenValue, WrittenValues};
 use super::{Overrides, values};
-use crate::case::keys::{self, Key, TAYLOR};
+use crate::case::keys::{CASE, Key, KeyTable, TAYLOR, TableList, Value};
 use crate::error::{Error, Fault, Finding, Place};
+use crate::layers::keys::WEB;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// The value of an override that removes a key, so that its default applies.
-pub(super) const AUTO: &str = "auto";
-
-/// The entries of a case file and of the overrides, and the problems found so far.
-pub(super) struct Document<'a> {
+/// The entries of a file and of the overrides, and the problems found so far.
+pub(super) struct Document<'a, T: 'static> {
+    pub(super) keys: &'static KeyTable<T>,
     name: String,
     source: Source<'a>,
     version: Option<Entry<'a>>,
-    entries: BTreeMap<&'static str, Entry<'a>>,
-    written: WrittenValues,
+    pub(super) entries: BTreeMap<String, (&'static Key<T>, Entry<'a>)>,
+    pub(super) written: WrittenValues,
+    /// Whether the file has a list of tables at its top, whose entries have tables of their own.
+    pub(super) layered: bool,
 }
 
-impl<'a> Document<'a> {
-    /// Reads the values of the file called `name` and of the overrides.
+/// Reads the values of the file called `name` and of the overrides.
+///
+/// # Errors
+/// If the text is not TOML, is a file of another kind, or has a format that is newer than this library.
+pub(super) fn read<'a, T>(
+    keys: &'static KeyTable<T>,
+    text: &'a str,
+    name: &str,
+    overrides: &[Overrides<'a>],
+) -> Result<WrittenValues, Error> {
+    let source = Source::new(text, name);
+    let written = WrittenValues::new(source.whole());
+    let root = root(&source, text)?;
+    for (key, value) in &root {
+        if let Some(what) = other_file(keys, key.get_ref()) {
+            let is_table = value.get_ref().is_table();
+            let key_shown = if is_table { format!("[{}]", key.get_ref()) } else { key.get_ref().to_string() };
+            let place = source.place(key.span().start);
+            return Err(vec![Finding { place, key: key_shown, value: None, what }].into());
+        }
+    }
+    let layered = keys.lists.iter().any(|list| root.contains_key(list.name));
+    let (name, entries) = (name.to_owned(), BTreeMap::new());
+    let mut document = Document { keys, name, source, version: None, entries, written, layered };
+    document.take_table("", "", root, None);
+    for Overrides { values, word } in overrides {
+        values.iter().for_each(|(key, value)| document.take_override(word, key.trim(), value));
+    }
+    // A newer format may mean other things, so this check comes first.
+    document.version.take().map_or(Ok(()), |entry| check_version(&entry))?;
+    for (full, (key, entry)) in std::mem::take(&mut document.entries) {
+        document.read_entry(full, key, entry);
+    }
+    Ok(document.written)
+}
+
+/// What a file is that has this key or table at its top, if it is of another kind.
+fn other_file<T>(keys: &KeyTable<T>, name: &str) -> Option<Fault> {
+    let (other, remedy, command) = match name {
+        "vary" | "design" => ("a study", "read the file as a study", "`spunlaid sweep`"),
+        _ if keys.tables.contains(&name) => return None,
+        _ if WEB.tables.contains(&name) => ("the file of a web", "read it as a web", "`spunlaid web`"),
+        _ if CASE.tables.contains(&name) => {
+            ("a case", "a web names its case, as in [laydown] case = \"spunbond.toml\"", "`spunlaid run`")
+        }
+        _ => return None,
+    };
+    Some(Fault::new(format!("belongs to {other}, not to {}", keys.noun), remedy).option(command))
+}
+
+impl<'a, T> Document<'a, T> {
+    /// Takes what stands in a table: keys, tables and lists. The top of the file is a table without a name.
     ///
-    /// # Errors
-    /// If the text is not TOML, or if its format is newer than this library.
-    pub(super) fn read(
-        text: &'a str,
-        name: &str,
-        overrides: &[Overrides<'a>],
-    ) -> Result<WrittenValues, Error> {
-        let source = Source::new(text, name);
-        let written = WrittenValues::new(source.whole());
-        let mut document =
-            Self { name: name.to_owned(), source, version: None, entries: BTreeMap::new(), written };
-        let root = root(&document.source, text)?;
-        if let Some((key, what)) = root.keys().find_map(|key| Some((key, other_file(key.get_ref())?))) {
-            let (place, key) = (document.place(key.span().start), key.get_ref().to_string());
-            return Err(vec![Finding { place, key, value: None, what }].into());
+    /// * `before` – what comes before its keys in their full names, `layer.2.line.`
+    /// * `list` – the override in which it stands
+    fn take_table(&mut self, before: &str, table: &'static str, keys: DeTable<'a>, list: Option<&Entry<'a>>) {
+        for ((at, name), value) in in_order(keys) {
+            let entry = self.entry(at, value, list);
+            self.take(before, table, &name, entry);
         }
-        document.take_root(root);
-        for Overrides { values, word } in overrides {
-            values.iter().for_each(|(key, value)| document.take_override(word, key.trim(), value));
-        }
-        // A newer format may mean other things, so this check comes first.
-        document.version.take().map_or(Ok(()), |entry| check_version(&entry))?;
-        for key in keys::all() {
-            if let Some(entry) = document.entries.remove(key.name) {
-                document.read_entry(key, entry);
-            }
-        }
-        Ok(document.written)
     }
 
-    fn read_entry(&mut self, key: &'static Key, entry: Entry<'_>) {
+    /// An entry that stands at byte `at` of the file, or in an override; a position in it is not one in the file.
+    fn entry(&self, at: usize, value: Spanned<DeValue<'a>>, list: Option<&Entry<'a>>) -> Entry<'a> {
+        let mut entry = Entry::of_file(&self.source, at, value);
+        if let Some(Entry { place, shown, .. }) = list {
+            (entry.place, entry.shown) = (place.clone(), shown.clone());
+        }
+        entry
+    }
+
+    fn reject(&mut self, key: &str, entry: &Entry<'_>, what: Fault) {
+        self.written.problems.push(entry.problem(key, what));
+    }
+
+    /// Takes what stands in a table by its name: a key, a table or a list. What is unknown is rejected.
+    pub(super) fn take(&mut self, before: &str, table: &'static str, name: &str, entry: Entry<'a>) {
+        let full = format!("{before}{name}");
+        let path = if table.is_empty() { name.to_owned() } else { format!("{table}.{name}") };
+        if full == VERSION {
+            self.version = Some(entry);
+        } else if let Some(list) = self.keys.list(&path) {
+            self.take_list(&full, list, entry);
+        } else if let Some(inner) = self.keys.table_in(table, name) {
+            self.take_inner(&full, inner, entry);
+        } else if let Some(key) = self.keys.find(&path).filter(|key| key.table() == table) {
+            self.entries.insert(full, (key, entry));
+        } else {
+            self.unknown(before, table, name, &entry);
+        }
+    }
+
+    /// Takes a table within another one, or at the top of the file.
+    fn take_inner(&mut self, full: &str, table: &'static str, mut entry: Entry<'a>) {
+        let header = if full == table { format!("[{table}]") } else { format!("[layer.{table}]") };
+        if self.layered && full == table && self.list_of(table).is_some() {
+            let remedy = format!("write [layer.{table}] below the [[layer]] that it belongs to");
+            entry.shown = None;
+            self.reject(&header, &entry, Fault::new("cannot stand beside [[layer]]", remedy));
+            return;
+        }
+        let what = match (&entry.place, std::mem::replace(&mut entry.value, DeValue::Boolean(false))) {
+            (Place::Override(word), _) => {
+                entry.shown = None;
+                Fault::wrong_type("a table", format!("one of its keys, {word} {full}.key=value"))
+            }
+            (_, DeValue::Table(keys)) => return self.take_table(&format!("{full}."), table, keys, None),
+            (_, other) => Fault::wrong_type(kind(&other), format!("a table, {header}")),
+        };
+        self.written.excuse(format!("{full}."));
+        self.reject(full, &entry, what);
+    }
+
+    /// Takes a list of tables in place of the one there was.
+    fn take_list(&mut self, full: &str, list: &'static TableList, mut entry: Entry<'a>) {
+        self.remove(full);
+        let tables = match std::mem::replace(&mut entry.value, DeValue::Boolean(false)) {
+            DeValue::Array(tables) if !tables.is_empty() => Ok(tables),
+            DeValue::Array(_) => Err("an empty list"),
+            other => Err(kind(&other)),
+        };
+        let value = tables.as_ref().ok().map(|tables| Value::Whole(tables.len() as u64));
+        let (place, shown) = (entry.place.clone(), entry.shown.clone());
+        self.written.set(full.to_owned(), WrittenValue { place, shown, value });
+        if let Err(found) = tables {
+            self.reject(full, &entry, Fault::wrong_type(found, list.wanted));
+        }
+        let of_override = Some(&entry).filter(|entry| matches!(entry.place, Place::Override(_)));
+        for (number, table) in (1..).zip(tables.into_iter().flatten()) {
+            let item = self.entry(table.span().start, table, of_override);
+            let full = format!("{full}.{number}");
+            if let DeValue::Table(keys) = item.value {
+                self.take_table(&format!("{full}."), list.name, keys, of_override);
+            } else {
+                self.reject(&full, &item, Fault::wrong_type(kind(&item.value), list.wanted));
+                self.written.excuse(format!("{full}."));
+            }
+        }
+    }
+
+    /// The list at the top of the file in whose entries this table can stand.
+    pub(super) fn list_of(&self, table: &str) -> Option<&'static TableList> {
+        self.keys.lists.iter().find(|list| list.tables.contains(&table))
+    }
+
+    /// Removes a key, or a list with all its entries.
+    pub(super) fn remove(&mut self, full: &str) {
+        self.written.remove(full);
+        let in_list = |name: &str| name.strip_prefix(full).is_some_and(|rest| rest.starts_with('.'));
+        self.entries.retain(|name, _| name != full && !in_list(name));
+    }
+
+    /// Rejects a key or a table that is not known where it stands.
+    fn unknown(&mut self, before: &str, table: &'static str, name: &str, entry: &Entry<'_>) {
+        let keys = self.keys;
+        let word = name.split_once('.').map_or(name, |(word, _)| word);
+        let is_of_table = word != name && keys.table_in(table, word).is_none();
+        let is_table = !keys.tables_in(table).is_empty() && (entry.value.is_table() || is_of_table);
+        let key = if is_table && before.is_empty() {
+            format!("[{}]", fit(word))
+        } else {
+            format!("{before}{name}")
+        };
+        // The part of the name that says which layer it is of.
+        let layer = before.match_indices('.').nth(1).map_or("", |(dot, _)| &before[..=dot]);
+        let layer = if self.layered { layer } else { "" };
+        let mut nearest = None;
+        if is_table {
+            let mut table_meant = keys.nearest_table(table, word);
+            // If the table's name is not similar to a known one, its keys may show which table is meant.
+            if let DeValue::Table(inner) = &entry.value {
+                for (key, _) in inner {
+                    table_meant = table_meant.or_else(|| keys.home_of(key.get_ref()).map(Key::table));
+                }
+            }
+            if let Some(meant) = table_meant {
+                self.written.excuse(format!("{before}{meant}."));
+                nearest = Some(self.header(layer, meant));
+            }
+        } else if let Some(home) = keys.home_of(name) {
+            self.written.excuse(format!("{layer}{}", home.name));
+            let what = Fault::misplaced(home.table(), home.short());
+            self.reject(&key, entry, what);
+            return;
+        } else if let Some(meant) = keys.like(table, name).first() {
+            let full = if meant.table() == table {
+                format!("{before}{}", meant.short())
+            } else {
+                format!("{layer}{}", meant.name)
+            };
+            self.written.excuse(full.clone());
+            nearest = Some(full);
+        }
+        let message = format!("is not a {} of {}", if is_table { "table" } else { "key" }, keys.file);
+        let takes = if table.is_empty() {
+            "the top of the file takes".to_owned()
+        } else {
+            format!("{} takes", self.header(layer, table))
+        };
+        let what = Fault::unknown(message, nearest, &takes, &self.known(table));
+        let value = entry.shown.clone().filter(|_| !is_table);
+        self.written.problems.push(Finding { value, ..entry.problem(&key, what) });
+    }
+
+    /// A table of the file as it is written.
+    fn header(&self, layer: &str, table: &str) -> String {
+        let of_a_layer = !layer.is_empty() && self.list_of(table).is_some();
+        if of_a_layer { format!("[layer.{table}]") } else { self.keys.header(table) }
+    }
+
+    /// What a table or the top of the file takes.
+    fn known(&self, table: &'static str) -> Vec<String> {
+        let keys = self.keys;
+        let version = table.is_empty().then(|| VERSION.to_owned());
+        let names = keys.of_table(table).map(|key| key.short().to_owned());
+        let tables = keys
+            .tables_in(table)
+            .iter()
+            .map(|inner| self.header(if table.is_empty() { "" } else { "layer." }, inner));
+        let in_table = |list: &TableList| Some(list.name.strip_prefix(table)?.strip_prefix('.')?.to_owned());
+        version.into_iter().chain(names).chain(tables).chain(keys.lists.iter().filter_map(in_table)).collect()
+    }
+
+    fn read_entry(&mut self, full: String, key: &'static Key<T>, entry: Entry<'_>) {
         let Entry { place, shown, value, .. } = entry;
         // A unit alone is one of it.
         let value = match value {
@@ -74,118 +269,13 @@ impl<'a> Document<'a> {
             Ok(value) => (Some(value), None),
             Err(fault) => (None, Some(fault)),
         };
-        self.written.set(key.name, WrittenValue { place, shown, value });
+        self.written.set(full.clone(), WrittenValue { place, shown, value });
         if let Some(fault) = fault {
-            self.written.reject(key.name, fault);
+            self.written.reject(&full, fault);
         }
     }
 
-    fn place(&self, byte: usize) -> Place {
-        self.source.place(byte)
-    }
-
-    fn take_root(&mut self, root: DeTable<'a>) {
-        for (key, value) in root {
-            let (at, name) = (key.span().start, key.into_inner());
-            let entry = Entry::of_file(&self.source, at, value);
-            match (table_named(&name), entry.value) {
-                (Some(table), DeValue::Table(keys)) => {
-                    for (key, value) in keys {
-                        let (at, key) = (key.span().start, key.into_inner());
-                        let entry = Entry::of_file(&self.source, at, value);
-                        self.take_entry(table, &key, entry);
-                    }
-                }
-                (Some(table), other) => {
-                    self.written.excuse(format!("{table}."));
-                    let wanted = format!("a table, [{table}]");
-                    let what = Fault::wrong_type(kind(&other), wanted);
-                    self.reject(entry.place, table, entry.shown, what);
-                }
-                (None, DeValue::Table(keys)) => self.reject_table(entry.place, &name, &keys),
-                (None, value) => self.take_entry("", &name, Entry { value, ..entry }),
-            }
-        }
-    }
-
-    /// Takes an override, which replaces the value in the file. The value `auto` removes it.
-    fn take_override(&mut self, word: &str, key: &str, text: &'a str) {
-        if let Some(key) = keys::find(key).filter(|_| text.trim().trim_matches('"') == AUTO) {
-            self.entries.remove(key.name);
-            return;
-        }
-        let entry = Entry::of_override(word, text);
-        match key.split_once('.') {
-            Some((table, key)) => match table_named(table) {
-                Some(table) => self.take_entry(table, key, entry),
-                None => self.reject_table(entry.place, table, &DeTable::new()),
-            },
-            None => match table_named(key) {
-                Some(table) => {
-                    let wanted = format!("one of its keys, {word} {table}.key=value");
-                    let what = Fault::wrong_type("a table", wanted);
-                    self.reject(entry.place, table, None, what);
-                }
-                None => self.take_entry("", key, entry),
-            },
-        }
-    }
-
-    /// Takes an entry of a table or of the top of the file. Unknown keys are rejected.
-    fn take_entry(&mut self, table: &'static str, key: &str, entry: Entry<'a>) {
-        let full = if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") };
-        if full == VERSION {
-            self.version = Some(entry);
-            return;
-        }
-        if let Some(key) = keys::find(&full).filter(|key| key.table() == table) {
-            self.entries.insert(key.name, entry);
-            return;
-        }
-        let what = if let Some(home) = home_of(key) {
-            self.written.excuse(home.name);
-            Fault::misplaced(home.table(), home.short())
-        } else {
-            let nearest = keys::like_in(table, key).first().map(|key| key.name.to_owned());
-            nearest.iter().for_each(|key| self.written.excuse(key));
-            let (takes, known) = if table.is_empty() {
-                (
-                    "the top of the file takes".to_owned(),
-                    std::iter::once(VERSION.to_owned()).chain(tables()).collect(),
-                )
-            } else {
-                let known = keys::of_table(table).map(|key| key.short().to_owned());
-                (format!("[{table}] takes"), known.collect::<Vec<_>>())
-            };
-            Fault::unknown("is not a key of a case file", nearest, &takes, &known)
-        };
-        self.reject(entry.place, &full, entry.shown, what);
-    }
-
-    fn reject_table(&mut self, place: Place, name: &str, keys: &DeTable<'_>) {
-        let mut nearest = keys::nearest_word(name, keys::TABLES.into_iter());
-        // If the table's name is not similar to a known one, its keys may show which table is meant.
-        for (key, _) in keys {
-            nearest = nearest.or_else(|| home_of(key.get_ref()).map(Key::table));
-        }
-        if let Some(table) = nearest {
-            self.written.excuse(format!("{table}."));
-        }
-        let nearest = nearest.map(|table| format!("[{table}]"));
-        self.reject(
-            place,
-            &format!("[{}]", fit(name)),
-            None,
-            Fault::unknown(
-                "is not a table of a case file",
-                nearest,
-                "the tables are",
-                &tables().collect::<Vec<_>>(),
-            ),
-        );
-    }
-
-    /// The path that an entry names. It is relative to the folder of the case file, or to the working directory if
+    /// The path that an entry names. It is relative to the folder of the file, or to the working directory if
     /// the entry is an override.
     fn beside(&self, place: &Place, named: &str) -> PathBuf {
         match (place, Path::new(&self.name).parent()) {
@@ -193,41 +283,4 @@ impl<'a> Document<'a> {
             (_, Some(folder)) => folder.join(named),
         }
     }
-
-    /// Records a problem with something that is not a key.
-    fn reject(&mut self, place: Place, key: &str, value: Option<String>, what: Fault) {
-        self.written.problems.push(Finding { place, key: fit(key), value, what });
-    }
-}
-
-/// What a file is that has this key or table at its top, if it is no case.
-fn other_file(key: &str) -> Option<Fault> {
-    match key {
-        "vary" | "design" => {
-            let fault = Fault::new("belongs to a study, not to a case", "read the file as a study");
-            Some(fault.option("`spunlaid sweep`"))
-        }
-        "web" | "layer" | "laydown" => {
-            let fault = Fault::new("belongs to the file of a web, not to a case", "read it as a web");
-            Some(fault.option("`spunlaid web`"))
-        }
-        _ => None,
-    }
-}
-
-/// The name of the table, if there is such a table.
-pub(super) fn table_named(name: &str) -> Option<&'static str> {
-    keys::TABLES.into_iter().find(|table| *table == name)
-}
-
-/// The tables as they are written: `[fibre]`.
-fn tables() -> impl Iterator<Item = String> {
-    keys::TABLES.into_iter().map(|table| format!("[{table}]"))
-}
-
-/// The key with this short name, if exactly one table has such a key.
-fn home_of(name: &str) -> Option<&'static Key> {
-    let mut homes = keys::all().iter().filter(|key| key.short() == name);
-    let home = homes.next();
-    if homes.next().is_some() { None } else { home }
 }

@@ -9,6 +9,7 @@ mod document;
 mod entry;
 mod file;
 mod open;
+mod overrides;
 mod source;
 mod study;
 mod values;
@@ -24,7 +25,7 @@ pub use study::{
 pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};
 pub use write::write_case;
 
-use crate::case::{Case, Note};
+use crate::case::{Case, Note, keys};
 use crate::error::{Error, FileKind};
 use crate::study::Experiment;
 use std::path::Path;
@@ -93,7 +94,7 @@ pub fn parse_case<'a>(
     name: &str,
     overrides: impl Into<Overrides<'a>>,
 ) -> Result<(Case, Vec<Note>), Error> {
-    parse_with(&data::DataFiles::default(), text, name, overrides.into())
+    parse_with(&data::DataFiles::default(), text, name, &[overrides.into()])
 }
 
 /// [`parse_case`] with a store of files that may have been read before.
@@ -101,9 +102,9 @@ fn parse_with(
     files: &data::DataFiles,
     text: &str,
     name: &str,
-    overrides: Overrides<'_>,
+    overrides: &[Overrides<'_>],
 ) -> Result<(Case, Vec<Note>), Error> {
-    open::open(document::Document::read(text, name, &[overrides])?, files)?.resolve()
+    open::open(document::read(&keys::CASE, text, name, overrides)?, files)?.resolve()
 }
 
 /// Writes what a point of a study repeats, a case or a web, as a file.

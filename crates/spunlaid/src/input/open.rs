@@ -121,7 +121,7 @@ pub(super) fn open(mut written: WrittenValues, files: &DataFiles) -> Result<Open
             }
             (Some(_), _) if key.counted => Ok(()),
             (Some(Value::Text(_)), Kind::Quantity(..)) => by_taylor(&mut case.air),
-            (Some(value), _) => match rival(key.name, &written) {
+            (Some(value), _) => match rival(key.name, |other| written.get(other).is_some()) {
                 Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
                 None => key.apply(&mut case, &value),
             },
@@ -161,7 +161,7 @@ fn default_if_fed(key: &str, text: &'static str) -> &'static str {
 }
 
 /// A written key that says the same as this one in other words, and the way out.
-fn rival(key: &str, written: &WrittenValues) -> Option<(&'static str, &'static str)> {
+pub(super) fn rival(key: &str, is_written: impl Fn(&str) -> bool) -> Option<(&'static str, &'static str)> {
     let (others, remedy): (&[&'static str], _) = match key {
         "fibre.linear_density" => (&["fibre.diameter"], "either gives the other; write one of the two"),
         "air.temperature" => (
@@ -170,7 +170,7 @@ fn rival(key: &str, written: &WrittenValues) -> Option<(&'static str, &'static s
         ),
         _ => return None,
     };
-    Some((others.iter().find(|other| written.get(other).is_some())?, remedy))
+    Some((others.iter().find(|other| is_written(other))?, remedy))
 }
 
 /// Sets the cut-off frequency by Taylor's hypothesis: eddies of length `L` that pass at velocity `U` make `U/(4 L)`.

@@ -1,10 +1,9 @@
 //! Writes a case as a file that reads back to the same bits.
 
 use super::FORMAT_VERSION;
-use crate::case::keys::{self, Key, Kind, Value};
+use crate::case::keys::{self, Key, KeyTable, Kind, Value};
 use crate::case::{Case, whole_parts};
 use crate::units::{Dimension, shortest};
-use std::fmt::Write;
 use std::path::Path;
 
 /// Writes a case as TOML: every key, in SI units.
@@ -14,28 +13,38 @@ use std::path::Path;
 pub fn write_case(case: &Case) -> String {
     let mut text = format!("version = {FORMAT_VERSION}\n");
     for table in keys::TABLES {
-        // Writing to a text cannot fail.
-        let _ = writeln!(text, "\n[{table}]");
-        // Numbers that the flow gives are left out.
-        for key in keys::of_table(table).filter(|key| !key.is_told(case)) {
-            if let Some(value) = key.get(case) {
-                let _ = writeln!(text, "{} = {}", key.short(), written(case, key, value));
-            }
-        }
+        let lines = lines(&keys::CASE, table, case, |key, value| tidy(case, key, value));
+        text += &format!("\n[{table}]\n{}", in_lines(&lines));
     }
     text
 }
 
-/// A value of a case as TOML.
-fn written(case: &Case, key: &Key, value: Value) -> String {
-    match value {
-        Value::Number(value) if key.counted => toml_value(&key.kind, Value::Number(tidy(case, key, value))),
-        value => toml_value(&key.kind, value),
-    }
+/// A line for each key of a table that has a value, without those that the flow gives.
+///
+/// * `tidy` – gives the number to write for one that is counted in elements or steps
+pub(super) fn lines<T>(
+    keys: &KeyTable<T>,
+    table: &str,
+    input: &T,
+    tidy: impl Fn(&Key<T>, f64) -> f64,
+) -> Vec<String> {
+    let line = |key: &Key<T>| {
+        let value = match key.get(input)? {
+            Value::Number(value) if key.counted => Value::Number(tidy(key, value)),
+            value => value,
+        };
+        Some(format!("{} = {}", key.short(), toml_value(&key.kind, value)))
+    };
+    keys.of_table(table).filter(|key| !key.is_told(input)).filter_map(line).collect()
+}
+
+/// Lines as a text.
+pub(super) fn in_lines(lines: &[String]) -> String {
+    lines.iter().map(|line| format!("{line}\n")).collect()
 }
 
 /// A value as TOML, in SI units.
-pub(super) fn toml_value(kind: &Kind, value: Value) -> String {
+fn toml_value(kind: &Kind, value: Value) -> String {
     let lengths = |lengths: &[f64]| {
         let quoted = |x: &f64| format!("\"{}\"", Dimension::Length.exact(*x));
         format!("[{}]", lengths.iter().map(quoted).collect::<Vec<_>>().join(", "))

@@ -273,17 +273,9 @@ fn to_lay(spec: &WebSpec, layers: &[OfLayer]) -> Web {
         layer.compared = of.flown.as_ref().and_then(|flown| match spec.method {
             Method::Surrogate => Some(Fibres::Curves(Arc::clone(&flown.curves))),
             Method::Dynamics | Method::SharedAir => {
-                flown.surrogate(source(named)).ok().map(Fibres::Surrogate)
+                flown.surrogate(named.source.path()).ok().map(Fibres::Surrogate)
             }
         });
     }
     web
-}
-
-/// What a layer's fibres come from, for messages.
-fn source(layer: &LayerSpec) -> &Path {
-    match &layer.source {
-        LaydownSource::Case { path, .. } | LaydownSource::Results { folder: path, .. } => path,
-        LaydownSource::Surrogate(_) => Path::new(""),
-    }
 }

@@ -4,7 +4,7 @@
 
 use super::{LaydownSource, LayerSpec, Method, WebSpec};
 use crate::case::keys::row::{AccessTo, choose, key, named, number, quantity, read_with_case, text, whole};
-use crate::case::keys::{self, Key, Kind, Sign, Value, nearest_word};
+use crate::case::keys::{self, Key, KeyTable, Kind, Sign, TableList, Value};
 use crate::error::Fault;
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
@@ -18,6 +18,28 @@ type Access = AccessTo<WebSpec>;
 
 /// The tables of the file of a web, in order. A file with several layers has the first three in each `[[layer]]`.
 pub const WEB_TABLES: [&str; 5] = ["layer", "fibre", "laydown", "line", "web"];
+
+/// The keys of a web.
+pub static WEB: KeyTable<WebSpec> = KeyTable {
+    rows: WEB_KEYS,
+    tables: &WEB_TABLES,
+    lists: &[
+        TableList {
+            name: "layer",
+            tables: &["fibre", "laydown", "line"],
+            entry: "a layer",
+            wanted: "a list of tables: [[layer]], and below it [layer.fibre], [layer.laydown] and [layer.line]",
+        },
+        TableList {
+            name: "line.rows",
+            tables: &[],
+            entry: "a row of nozzles",
+            wanted: "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
+        },
+    ],
+    noun: "a web",
+    file: "a web file",
+};
 
 /// Most filaments of a row, and per metre.
 const MOST_FILAMENTS: u64 = 10_000_000;
@@ -134,10 +156,12 @@ pub const WEB_KEYS: &[WebKey] = &[
          `[layer.laydown]` and `[layer.line]` in place of the three tables below; their basis weights add up.",
     ),
     positive("fibre.diameter", Dimension::Length, of_layer!(diameter))
+        .told(is_flown)
         .required("18 µm")
         .meaning("Diameter of the round filaments. With `laydown.case` or `laydown.results` it is that of the case.")
         .label("Fibre diameter *d*"),
     positive("fibre.density", Dimension::Density, of_layer!(density))
+        .told(is_flown)
         .required("910 kg/m³")
         .meaning("Density of the polymer. With `laydown.case` or `laydown.results` it is that of the case.")
         .label("Fibre density"),
@@ -178,14 +202,17 @@ pub const WEB_KEYS: &[WebKey] = &[
         .label("Noise of the direction *A*")
         .usual(0.1, 1e4),
     positive("line.feed_speed", Dimension::Velocity, of_layer!(feed_speed))
+        .told(is_flown)
         .required("50 m/s")
         .meaning(
             "Speed at which each filament is fed: the spinning speed. With `laydown.case` or `laydown.results` it is that of the case.",
         )
         .label("Feed speed"),
     positive("line.belt_speed", Dimension::Velocity, of_layer!(belt_speed))
+        .told(is_flown)
         .required("3 m/s")
-        .meaning("Speed of the belt, the same for all layers. With `laydown.case` or `laydown.results` it is that of the case.")
+        .meaning("Speed of the belt. It is written once, in any of the layers, because all lie on one belt. With `laydown.case` or \
+             `laydown.results` it is that of the case.")
         .label("Belt speed"),
     key("line.filaments_per_metre", Kind::Whole(1, MOST_FILAMENTS), Access {
         get: |web| match layer(web)?.filaments {
@@ -237,27 +264,29 @@ pub const WEB_KEYS: &[WebKey] = &[
     .usual(1e-4, 1.0),
     quantity("line.rows.offset", Dimension::Length, Sign::Any, of_row!(offset, number))
         .value("0 mm")
-        .fixed()
         .meaning(
             "In place of `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }, …]`, the rows of \
              nozzles of the beam. The offset is the place of a row's first nozzle, from the edge of the web.",
         )
+        .label("Place of the first nozzle")
         .usual(1e-6, 30.0),
     positive("line.rows.pitch", Dimension::Length, of_row!(pitch, number))
         .required("0.2 mm")
-        .fixed()
         .meaning("Distance from nozzle to nozzle in a row. With periodic edges, pitch times filaments is the width of the web.")
+        .label("Distance of the nozzles")
         .usual(1e-6, 1.0),
     key("line.rows.filaments", Kind::Whole(1, MOST_FILAMENTS), of_row!(filaments, whole))
         .required("5000")
-        .meaning("Number of nozzles in a row."),
+        .varies()
+        .meaning("Number of nozzles in a row.")
+        .label("Nozzles of a row"),
     quantity("line.rows.md", Dimension::Length, Sign::Any, of_row!(md, number))
         .value("0 mm")
-        .fixed()
         .meaning(
             "Place of the row in machine direction at the inlet, from the middle of the slot. It changes a web in one air \
              (`web.method = \"shared-air\"`).",
         )
+        .label("Place of the row in machine direction")
         .usual(1e-5, 1.0),
     positive("web.width", Dimension::Length, of_sheet!(sheet.width))
         .required("1 m")
@@ -356,6 +385,11 @@ pub(crate) fn in_rows() -> Fault {
 /// Where the numbers of a surrogate come from if they are left out.
 const IDENTIFIED: &str = "identified in what the fibres of the case have laid";
 
+/// Whether the case of flown fibres gives the value.
+fn is_flown(web: &WebSpec) -> bool {
+    layer(web).is_some_and(|layer| layer.source.case().is_some())
+}
+
 fn layer(web: &WebSpec) -> Option<&LayerSpec> {
     web.layers.first()
 }
@@ -373,40 +407,87 @@ pub(crate) fn diameter(linear_density: f64, density: f64) -> f64 {
     (4.0 * linear_density / (std::f64::consts::PI * density)).sqrt()
 }
 
-/// The key with this full name.
-pub fn find(name: &str) -> Option<&'static WebKey> {
-    WEB_KEYS.iter().find(|key| key.name == name)
-}
-
-/// The keys of a table.
-pub(crate) fn of_table(table: &str) -> impl Iterator<Item = &'static WebKey> {
-    WEB_KEYS.iter().filter(move |key| key.table() == table)
-}
-
-/// The full name of the key that is most similar to one written in `table`, if any is: one of the same table comes first.
-pub(crate) fn nearest(table: &str, name: &str) -> Option<&'static WebKey> {
-    let of = |keys: Vec<&'static WebKey>| {
-        let short = nearest_word(name, keys.iter().map(|key| key.short()))?;
-        keys.into_iter().find(|key| key.short() == short)
-    };
-    of(of_table(table).collect()).or_else(|| of(WEB_KEYS.iter().collect()))
-}
-
 /// The key of a full name, `layer.2.line.rows.1.pitch`.
-pub(crate) fn of_full(full: &str) -> Option<&'static WebKey> {
-    let words: Vec<&str> = full.split('.').filter(|word| word.parse::<u64>().is_err()).collect();
-    find(&words.join(".")).or_else(|| find(&words.get(1..)?.join(".")))
+pub fn web_key(full: &str) -> Option<&'static WebKey> {
+    let name = without_numbers(full);
+    let in_layer = || name.strip_prefix("layer.");
+    let in_named_layer = || in_layer()?.split_once('.').map(|(_, rest)| rest);
+    WEB.find(&name).or_else(|| WEB.find(in_layer()?)).or_else(|| WEB.find(in_named_layer()?))
+}
+
+/// The full name of a key that a user has named, with the number of its layer in place of the layer's name.
+///
+/// # Errors
+/// What to write if the name does not say of which layer or row it is, or names one that is not there.
+pub(crate) fn full_name(web: &WebSpec, name: &str) -> Result<String, String> {
+    let layers = web.layers.len();
+    let named =
+        |of: &LayerSpec| name.strip_prefix("layer.")?.strip_prefix(of.name.as_deref()?)?.strip_prefix('.');
+    let by_name = (1..).zip(&web.layers).find_map(|(number, of)| Some((number, named(of)?)));
+    let full = by_name.map_or_else(|| name.to_owned(), |(number, rest)| format!("layer.{number}.{rest}"));
+    let table = WEB.find(name).map_or("", WebKey::table);
+    if table == "line.rows" {
+        return Err(format!("write the number of the row, as in {}", name.replace("rows", "rows.1")));
+    }
+    if layers > 1 && WEB.lists.iter().any(|list| list.tables.contains(&table)) {
+        return Err(format!("write layer.1.{name}, or the layer's name in place of 1"));
+    }
+    if web_key(&full).is_some() && layer_and_row(web, &full).is_none() {
+        let layers = if layers == 1 { "1 layer".to_owned() } else { format!("{layers} layers") };
+        return Err(format!("there is no such layer or row; the web has {layers}"));
+    }
+    Ok(full)
+}
+
+/// The value of a key by its full name, `layer.2.line.rows.1.pitch`.
+pub(crate) fn value(web: &WebSpec, full: &str) -> Option<Value> {
+    web_key(full)?.get(&layer_and_row(web, full)?)
+}
+
+/// The web with nothing but the layer and the row that a full name gives by their numbers; None if one is not there.
+fn layer_and_row(web: &WebSpec, full: &str) -> Option<WebSpec> {
+    let mut numbers = full.split('.').filter_map(|word| word.parse::<usize>().ok());
+    let layer = if full.starts_with("layer.") { numbers.next()? } else { 1 };
+    let mut alone = web.alone(layer.checked_sub(1)?);
+    let Filaments::Rows(rows) = &mut alone.layers.first_mut()?.filaments else {
+        return numbers.next().is_none().then_some(alone);
+    };
+    if let Some(row) = numbers.next() {
+        *rows = vec![*rows.get(row.checked_sub(1)?)?];
+    }
+    Some(alone)
+}
+
+/// The layer and the row of a full name in words, ` of layer 2, row 1`; nothing without them.
+pub fn place_in_web(full: &str) -> String {
+    let words: Vec<&str> = full.split('.').collect();
+    let number = |list: &str| words.iter().position(|word| *word == list).and_then(|at| words.get(at + 1));
+    let places = [("layer", number("layer")), ("row", number("rows"))];
+    let places: Vec<String> =
+        places.into_iter().filter_map(|(what, number)| Some(format!("{what} {}", number?))).collect();
+    if places.is_empty() { String::new() } else { format!(" of {}", places.join(", ")) }
+}
+
+/// A full name without the numbers of layers and rows.
+pub(crate) fn without_numbers(full: &str) -> String {
+    let words: Vec<&str> =
+        full.split('.').filter(|word| !word.is_empty() && word.parse::<u64>().is_err()).collect();
+    words.join(".")
 }
 
 impl WebKey {
-    /// Outside of these a value, unless it is zero, is most likely a slip, in SI units: as for the same key of a case, where
-    /// there is one.
-    pub fn usual_range(&self) -> Option<(f64, f64)> {
-        let of_case = match self.name {
+    /// The key of a case that means the same, if there is one.
+    pub fn of_case(&self) -> Option<&'static Key> {
+        keys::find(match self.name {
             "line.feed_speed" => "feed.speed",
             "line.belt_speed" => "belt.speed",
             name => name,
-        };
-        keys::find(of_case).map_or(self.usual, |key| key.usual)
+        })
+    }
+
+    /// Outside of these a value, unless it is zero, is most likely a slip, in SI units: as for the same key of a case, where
+    /// there is one.
+    pub fn usual_range(&self) -> Option<(f64, f64)> {
+        self.of_case().map_or(self.usual, |key| key.usual)
     }
 }

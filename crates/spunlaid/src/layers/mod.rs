@@ -10,7 +10,7 @@ mod laid;
 mod shared_air;
 
 pub use flown::{Flights, FlownFibres, FlownWeb, Flyer, Follow, OfLayer};
-pub use keys::{WEB_KEYS, WEB_TABLES, WebKey};
+pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey, place_in_web, web_key};
 pub use laid::{LAID, read as read_laid};
 
 use crate::case::Case;
@@ -19,7 +19,7 @@ use crate::surrogate::Surrogate;
 use crate::units::Dimension;
 use crate::web::{Edges, Fibres, Filaments, Layer, Sheet, Web, Window};
 use std::f64::consts::PI;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Fewest standard deviations of a filament's place that a closed side of the web is long.
@@ -94,6 +94,10 @@ pub enum LaydownSource {
 }
 
 impl LaydownSource {
+    /// Numbers of a surrogate that are not known yet.
+    pub(crate) const UNKNOWN: Self =
+        Self::Surrogate(Surrogate { sigma_md: f64::NAN, sigma_cd: f64::NAN, noise: f64::NAN });
+
     /// The case of the flown fibres, if there is one.
     pub fn case(&self) -> Option<&Case> {
         match self {
@@ -101,9 +105,25 @@ impl LaydownSource {
             Self::Surrogate(_) => None,
         }
     }
+
+    /// The path of the case or of the results, for messages.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Case { path, .. } | Self::Results { folder: path, .. } => path,
+            Self::Surrogate(_) => Path::new(""),
+        }
+    }
 }
 
 impl LayerSpec {
+    /// A layer whose keys are set one after another.
+    pub(crate) fn unknown(source: LaydownSource) -> Self {
+        let nan = f64::NAN;
+        let (diameter, density, feed_speed, belt_speed) = (nan, nan, nan, nan);
+        let filaments = Filaments::AtRandom { per_metre: nan };
+        Self { name: None, diameter, density, source, feed_speed, belt_speed, filaments }
+    }
+
     /// Mass per length of a filament [kg/m].
     pub fn linear_density(&self) -> f64 {
         0.25 * PI * self.diameter * self.diameter * self.density
@@ -123,6 +143,13 @@ impl LayerSpec {
 }
 
 impl WebSpec {
+    /// A web without layers, whose keys are set one after another.
+    pub(crate) const fn unknown() -> Self {
+        let nan = f64::NAN;
+        let sheet = Sheet { width: nan, length: nan, cell: nan, patches: Vec::new(), edges: Edges::Periodic };
+        Self { sheet, layers: Vec::new(), seed: 0, method: Method::Surrogate, window: nan, memory_limit: nan }
+    }
+
     /// The web of one of its layers alone.
     pub fn alone(&self, layer: usize) -> Self {
         Self { layers: self.layers.get(layer).cloned().into_iter().collect(), ..self.clone() }

@@ -19,12 +19,14 @@ mod neighbours;
 mod residence;
 mod root_tension;
 mod sample;
+mod scan;
 mod spectrum;
 mod strain;
 mod web;
 
 pub use laydown::{LAYDOWN, SURROGATE};
 pub use sample::Sample;
+pub use scan::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure};
 pub use web::{Deviation, OF_PATCHES, OF_WEBS, PatchMeasure, WebMeasure};
 
 use crate::case::Case;

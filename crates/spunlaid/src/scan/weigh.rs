@@ -1,6 +1,6 @@
 //! From a picture to a map of basis weight.
 
-use super::findings::Doubt;
+use super::doubt::Doubt;
 use super::picture::Picture;
 use super::shading::Shading;
 use super::spots::{Spots, spots};

@@ -9,7 +9,7 @@ use rand_chacha::rand_core::Rng;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Factor {
     /// Full key, `air.velocity`.
-    pub key: &'static str,
+    pub key: String,
     /// Physical dimension of its values.
     pub dimension: Dimension,
     /// Whether it takes whole numbers only.
@@ -219,7 +219,7 @@ impl Factor {
 
     /// Its key with dimension and words.
     pub fn input(&self) -> Input<'_> {
-        Input { key: self.key, dimension: self.dimension, words: &self.words }
+        Input { key: &self.key, dimension: self.dimension, words: &self.words }
     }
 
     /// Its values without repetitions, in the order of the file.
@@ -283,7 +283,7 @@ mod tests {
 
     fn factor(levels: Levels) -> Factor {
         Factor {
-            key: "air.velocity",
+            key: "air.velocity".to_owned(),
             dimension: Dimension::Velocity,
             whole: false,
             words: Vec::new(),

@@ -62,18 +62,25 @@ pub struct Study {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Full key, `air.cutoff_frequency`.
-    pub key: &'static str,
+    pub key: String,
     /// Physical dimension of its values.
     pub dimension: Dimension,
     /// The formula.
     pub expression: Expression,
 }
 
+impl Link {
+    /// Its key with its dimension.
+    pub fn input(&self) -> Input<'_> {
+        Input { key: &self.key, dimension: self.dimension, words: &[] }
+    }
+}
+
 /// A key of the case that differs between points: a factor, or the target of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Input<'a> {
-    /// Full key, `air.velocity`.
-    pub key: &'static str,
+    /// Full key, `air.velocity`; of a layer of a web with its number, `layer.2.line.filaments_per_metre`.
+    pub key: &'a str,
     /// Physical dimension of its values.
     pub dimension: Dimension,
     /// The words of a key that takes words; its values are then indices into them. Empty for numbers.
@@ -174,8 +181,7 @@ impl Study {
 
     /// The keys of the points' values, in the same order.
     pub fn inputs(&self) -> impl Iterator<Item = Input<'_>> {
-        let linked = |link: &Link| Input { key: link.key, dimension: link.dimension, words: &[] };
-        self.factors.iter().map(Factor::input).chain(self.links.iter().map(linked))
+        self.factors.iter().map(Factor::input).chain(self.links.iter().map(Link::input))
     }
 
     /// Largest number of replicates of all points.

@@ -52,7 +52,7 @@ fn rejects_overrides_by_their_name() {
         (
             "line.belt_sped",
             "3 m/s",
-            "override line.belt_sped = \"3 m/s\" is unknown in the file of a web; did you mean line.belt_speed?",
+            "override line.belt_sped = \"3 m/s\" is not a key of a web file; did you mean line.belt_speed?",
         ),
         (
             "belt_speed",
@@ -61,9 +61,9 @@ fn rejects_overrides_by_their_name() {
         ),
         ("line", "fast", "override line is a table; write one of its keys, override line.key=value"),
         (
-            "layer.1.line.belt_speed",
+            "layer.2.line.belt_speed",
             "3 m/s",
-            "override layer.1.line.belt_speed = \"3 m/s\" is of a layer that the file does not have; it has no [[layer]], so \
+            "override layer.2.line.belt_speed = \"3 m/s\" is of a layer that the file does not have; it has no [[layer]], so \
              write the key without layer",
         ),
         (
@@ -75,21 +75,22 @@ fn rejects_overrides_by_their_name() {
         (
             "line.rows.1.pitch",
             "1 mm",
-            "override line.rows.1.pitch = \"1 mm\" is of a row of nozzles that is not there: line.rows has 0; write the \
-             whole list of rows",
+            "override line.rows.1.pitch = \"1 mm\" is of a row of nozzles that the file does not have; write a list of \
+             rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
         ),
     ] {
         assert_eq!(refusal(&known, key, value), message);
     }
     let layers = "[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n[[layer]]\nname = \"S 1.2\"\n[layer.line]\nbelt_speed = \"3 m/s\"\n";
-    let of = |key: &str| refusal(layers, key, "-1 m/s").lines().map(ToOwned::to_owned).collect::<Vec<_>>();
+    let refusals =
+        |key: &str| refusal(layers, key, "-1 m/s").lines().map(ToOwned::to_owned).collect::<Vec<_>>();
     let told = |said: &[String], part: &str| said.iter().any(|line| line.contains(part));
     for key in ["layer.1.line.belt_speed", "layer.S 1.2.line.belt_speed"] {
-        let said = of(key);
+        let said = refusals(key);
         assert!(told(&said, "override layer.1.line.belt_speed = \"-1 m/s\" is not positive"), "{said:?}");
     }
-    let said = of("line.belt_speed");
+    let said = refusals("line.belt_speed");
     assert!(told(&said, "does not say of which layer; write layer.1.line.belt_speed"), "{said:?}");
-    let said = of("layer.3.line.belt_speed");
+    let said = refusals("layer.3.line.belt_speed");
     assert!(told(&said, "is of a layer that the file does not have; it has one, layer.1"), "{said:?}");
 }

@@ -246,8 +246,8 @@ fn a_profile_in_other_units_is_told() {
     fs::write(&path, text.replace("tables/diffuser.csv", "air.csv")).unwrap();
     let said = |table: &str| {
         fs::write(folder.path().join("air.csv"), table).unwrap();
-        let of = read_case(&path, &[]).map(|(_, notes)| notes.iter().map(ToString::to_string).collect());
-        all_of(of)
+        let texts = read_case(&path, &[]).map(|(_, notes)| notes.iter().map(ToString::to_string).collect());
+        all_of(texts)
     };
     let heads =
         |velocity: &str| format!("x_m,{velocity},turbulence_intensity,length_scale_m,cutoff_frequency_hz\n");

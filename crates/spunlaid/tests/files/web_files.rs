@@ -59,10 +59,10 @@ fn assert_reads_back(file: &WebFile) {
 #[test]
 fn every_row_of_the_table_of_keys_is_whole() {
     let mut names: Vec<&str> = WEB_KEYS.iter().map(|key| key.name).collect();
-    let of =
+    let keys_of_table =
         |table: &'static str| WEB_KEYS.iter().filter(move |key| key.name.starts_with(&format!("{table}.")));
     assert!(
-        WEB_TABLES.into_iter().flat_map(of).map(|key| key.name).eq(names.iter().copied()),
+        WEB_TABLES.into_iter().flat_map(keys_of_table).map(|key| key.name).eq(names.iter().copied()),
         "in the tables' order"
     );
     names.sort_unstable();

@@ -13,4 +13,5 @@ mod ensembles;
 mod finer_checks;
 mod paper;
 mod studies;
+mod web_keys;
 mod web_studies;

@@ -2,9 +2,11 @@
 
 use spunlaid::error::Error;
 use spunlaid::input::{
-    LaydownSource, Overrides, StudyChanges, StudyFile, parse_changed_study, parse_web, write_experiment,
+    LaydownSource, Overrides, StudyChanges, StudyFile, WebFile, parse_changed_study, parse_web,
+    write_experiment,
 };
 use spunlaid::study::Point;
+use spunlaid::web::Filaments;
 use std::path::Path;
 
 const WEB: &str = r#"
@@ -35,6 +37,20 @@ fn study_of(web: &str, study: &str, set: &[(String, String)]) -> Result<StudyFil
         Ok((web.to_owned(), cases.display().to_string()))
     })
 }
+
+/// A study of a web whose cases are beside those of the bad webs.
+pub fn study_beside_cases(web: &str, study: &str, set: &[(String, String)]) -> Result<StudyFile, Error> {
+    parse_changed_study(study, "study.toml", &changes(set), |_, _| {
+        Ok((web.to_owned(), BESIDE_CASES.to_owned()))
+    })
+}
+
+/// A web beside these cases.
+pub fn web_beside_cases(web: &str, set: &[(String, String)]) -> Result<WebFile, Error> {
+    parse_web(web, BESIDE_CASES, set)
+}
+
+const BESIDE_CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/bad_webs/web.toml");
 
 /// The only layer of a point's web.
 fn layer(point: &Point) -> &spunlaid::input::LayerSpec {
@@ -91,6 +107,76 @@ fn keys_of_the_case_that_is_flown_vary_too() {
     assert_eq!(belts, [3.0, 2.0, 4.0]);
 }
 
+/// A web of two layers, in which the belt speed is written once.
+const LAYERS: &str = r#"
+[web]
+width = "250 mm"
+length = "250 mm"
+[[layer]]
+name = "S1"
+[layer.laydown]
+case = "fed.case"
+[layer.line]
+filaments_per_metre = 5000
+[[layer]]
+name = "M"
+[layer.fibre]
+diameter = "4 µm"
+density = "910 kg/m³"
+[layer.laydown]
+sigma_md = "9 mm"
+sigma_cd = "8 mm"
+noise = "15 m^-0.5"
+[layer.line]
+feed_speed = "50 m/s"
+filaments_per_metre = 200
+"#;
+
+#[test]
+fn keys_of_one_layer_vary_by_its_number_and_by_its_name() {
+    let study = |layer: &str| {
+        let text = format!(
+            "web = 'web.toml'\ndesign = 'grid'\n[vary]\nlayer.{layer}.line.filaments_per_metre = [100, 300]\n[link]\n\
+             belt.speed = 'feed.speed / 10'\n'layer.{layer}.laydown.sigma_md' = '1000 * layer.2.fibre.diameter'\n"
+        );
+        study_beside_cases(LAYERS, &text, &[]).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let (by_number, by_name) = (study("2"), study("M"));
+    assert_eq!(by_number.study.identity(), by_name.study.identity());
+    assert_eq!(by_number.text, by_name.text);
+    assert_eq!(by_number.study.factors[0].key, "layer.2.line.filaments_per_metre");
+    for (point, wanted) in by_number.study.points.iter().zip([100.0, 300.0]) {
+        let [first, second] = &point.experiment.web().unwrap().layers[..] else { panic!("two layers") };
+        assert_eq!(first.filaments, Filaments::AtRandom { per_metre: 5000.0 });
+        assert_eq!(second.filaments, Filaments::AtRandom { per_metre: wanted });
+        let LaydownSource::Surrogate(surrogate) = second.source else { panic!("numbers") };
+        assert_eq!(surrogate.sigma_md, 1000.0 * 4e-6);
+        // The belt is that of the case of the first layer.
+        assert_eq!((first.belt_speed, second.belt_speed), (5.0, 5.0));
+    }
+    // The study as it was run gives the same points.
+    let again = study_beside_cases(&by_number.base_text, &by_number.text, &[]).unwrap();
+    assert_eq!(again.study.identity(), by_number.study.identity());
+}
+
+#[test]
+fn rejects_what_cannot_vary_of_a_layer() {
+    for (line, wanted) in [
+        (
+            "line.filaments_per_metre = [100]",
+            "write layer.1.line.filaments_per_metre, or the layer's name in place of 1",
+        ),
+        ("layer.3.line.filaments_per_metre = [100]", "there is no such layer or row; the web has 2 layers"),
+        ("layer.M.line.filament_per_metre = [100]", "did you mean line.filaments_per_metre?"),
+        ("layer.M.line.belt_speed = ['4 m/s']", "leave it out here, and set belt.speed in"),
+        ("run.replicates = [4]", "the flights of all points have the same; write it under [set]"),
+    ] {
+        let text = format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n{line}\n");
+        let said = study_beside_cases(LAYERS, &text, &[]).unwrap_err().to_string();
+        assert!(said.contains(wanted), "{line}\n{said}\n{wanted}");
+    }
+}
+
 #[test]
 fn rejects_what_cannot_vary() {
     let vary = |line: &str| format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n{line}\n");
@@ -104,6 +190,12 @@ fn rejects_what_cannot_vary() {
             vary("'air.velocity' = ['4 m/s']"),
             "it is a key of a case, and this web flies none; write laydown.case in its file",
         ),
+        (
+            vary("'line.belt_speed' = ['4 m/s']\n[set]\nrun.replicates = 4"),
+            "study.toml: [set] run.replicates = 4 cannot be set by a study; it is a key of a case, and this web flies none",
+        ),
+        (vary("layer.2.line.belt_speed = ['4 m/s']"), "there is no such layer or row; the web has 1 layer"),
+        (vary("line.rows.pitch = ['4 mm']"), "write the number of the row, as in line.rows.1.pitch"),
         (
             vary("'line.belt_speed' = ['4 m/s', '60 m/s']"),
             "study.toml: point 2 (line.belt_speed = 60 m/s): line.belt_speed",

@@ -10,7 +10,7 @@ use spunlaid_charts::{
 
 const COLOURS: [&str; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 
-/// Dashes of the lines, so that curves can be told apart without their colours.
+/// Dashes of the lines, so that curves can be distinguished without their colours.
 const DASHES: [Option<&str>; FAMILY] =
     [None, Some("8 4"), Some("2 3"), Some("8 3 2 3"), Some("14 4"), Some("8 3 2 3 2 3")];
 
@@ -33,10 +33,10 @@ fn series(group: &Group, position: usize) -> Series {
 /// Results over the first factor at all points, joined by a line.
 pub(super) fn one(study: &Study, results: &[PointResults], group: &Group) -> Figure {
     let all: Vec<usize> = (0..results.len()).collect();
-    let others: Vec<String> = study.factors.iter().skip(1).map(|factor| name_of_key(factor.key)).collect();
+    let others: Vec<String> = study.factors.iter().skip(1).map(|factor| name_of_key(&factor.key)).collect();
     let with =
         if others.is_empty() { String::new() } else { format!(", {} along with it", others.join(" and ")) };
-    over_factor(study, results, group, 0, &all, &format!("over {}{with}", name_of_key(study.factors[0].key)))
+    over_factor(study, results, group, 0, &all, &format!("over {}{with}", name_of_key(&study.factors[0].key)))
 }
 
 /// Results over a factor at the points where all others are as in the base case, which is the first point.
@@ -47,8 +47,10 @@ pub(super) fn alone(study: &Study, results: &[PointResults], group: &Group, fact
         (0..count).all(|other| other == factor || values[other] == study.points[0].values[other])
     };
     let points: Vec<usize> = (0..results.len()).filter(is_alone).collect();
-    let words =
-        format!("over {} alone, everything else as in the base case", name_of_key(study.factors[factor].key));
+    let words = format!(
+        "over {} alone, everything else as in the base case",
+        name_of_key(&study.factors[factor].key)
+    );
     over_factor(study, results, group, factor, &points, &words)
 }
 
@@ -62,11 +64,11 @@ fn over_factor(
 ) -> Figure {
     let along = Along::of_study(study, factor);
     let title = format!("{} {}", group.title, words.split(',').next().unwrap_or(words));
-    let name = file_name(group, study.factors[factor].key);
+    let name = file_name(group, &study.factors[factor].key);
     let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
     for (position, (measure, _)) in group.members.iter().enumerate() {
-        let aside = along.aside(position, group.members.len());
-        let spots = spots(study, results, group, *measure, (factor, &along, aside), points);
+        let shift = along.aside(position, group.members.len());
+        let spots = spots(study, results, group, *measure, (factor, &along, shift), points);
         let series = series(group, position);
         chart = if along.is_joined() { drawn(chart, series, &spots) } else { chart.scatter(series, &spots) };
     }
@@ -82,9 +84,9 @@ pub(super) fn family(
     along: usize,
     family: usize,
 ) -> Figure {
-    let (parameter, key) = (&study.factors[family], study.factors[along].key);
+    let (parameter, key) = (&study.factors[family], &*study.factors[along].key);
     let place = Along::of_study(study, along);
-    let title = format!("{} over {} and {}", group.title, name_of_key(key), name_of_key(parameter.key));
+    let title = format!("{} over {} and {}", group.title, name_of_key(key), name_of_key(&parameter.key));
     let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
     let levels = parameter.levels();
     for (index, ((level, colour), dash)) in levels.iter().copied().zip(COLOURS).zip(DASHES).enumerate() {
@@ -96,8 +98,8 @@ pub(super) fn family(
             let series = Series { marker: Some(marker), dash, ..Series::new(&label, colour) }
                 .named(&format!("{called} at {label}"));
             let series_count = levels.len() * group.members.len();
-            let aside = place.aside(index * group.members.len() + position, series_count);
-            let spots = spots(study, results, group, *measure, (along, &place, aside), &points);
+            let shift = place.aside(index * group.members.len() + position, series_count);
+            let spots = spots(study, results, group, *measure, (along, &place, shift), &points);
             if !place.is_joined() {
                 let series = if position == 0 { series } else { series.unlabelled() };
                 chart = chart.scatter(series, &spots);
@@ -121,7 +123,7 @@ pub(super) fn family(
         "{} over {}, {distinction} for each value of the {}, means over the replicates.{signs} {BARS}",
         group.title,
         name_of_key(key),
-        name_of_key(parameter.key),
+        name_of_key(&parameter.key),
     );
     Figure::new(&chart, caption)
 }

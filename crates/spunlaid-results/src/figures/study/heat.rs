@@ -44,7 +44,7 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     let called = label.replace('*', "");
     let which =
         if group.members.len() == 2 { format!("{} in {called}", group.title) } else { group.title.clone() };
-    let names = [0, 1].map(|i| name_of_key(study.factors[i].key));
+    let names = [0, 1].map(|i| name_of_key(&study.factors[i].key));
     let title = format!("{which} over {} and {}", names[1], names[0]);
     let mut svg = Svg::new(SIZE.0, SIZE.1, &title);
     let (left, top, right, bottom) = PLOT;
@@ -74,8 +74,8 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     let caption = format!(
         "{which}, mean over the replicates, over {} (horizontal) and {} (vertical). The values and their standard \
          errors are in results.csv.",
-        spunlaid_charts::svg::plain(label_of_key(study.factors[1].key)),
-        spunlaid_charts::svg::plain(label_of_key(study.factors[0].key)),
+        spunlaid_charts::svg::plain(&label_of_key(&study.factors[1].key)),
+        spunlaid_charts::svg::plain(&label_of_key(&study.factors[0].key)),
     );
     let axis =
         if group.members.len() == 2 { format!("_{}", called.replace(' ', "_")) } else { String::new() };

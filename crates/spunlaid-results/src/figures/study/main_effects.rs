@@ -21,8 +21,8 @@ pub(super) fn figure(
 ) -> Figure {
     let varied = &study.factors[factor];
     let along = Along::of_study(study, factor);
-    let title = format!("{} over {}", group.title, name_of_key(varied.key));
-    let mut chart = Chart::new(&file_name(group, varied.key), &title, along.axis.clone(), group.axis());
+    let title = format!("{} over {}", group.title, name_of_key(&varied.key));
+    let mut chart = Chart::new(&file_name(group, &varied.key), &title, along.axis.clone(), group.axis());
     let (mut is_adjusted, mut left_out) = (false, false);
     for (position, (measure, label)) in group.members.iter().enumerate() {
         let series = if position == 0 { Series::circles(label) } else { Series::triangles(label) };
@@ -32,8 +32,8 @@ pub(super) fn figure(
             let adjusted =
                 ranking.map(|ranking| ranking.adjusted(study, index, factor, point.mean[*measure]));
             let value = adjusted.map_or(mean, |value| value * group.unit.per_si);
-            let aside = along.aside(position, group.members.len());
-            (along.place(study.points[index].values[factor]) + aside, value, error)
+            let shift = along.aside(position, group.members.len());
+            (along.place(study.points[index].values[factor]) + shift, value, error)
         };
         let spots: Vec<_> = results.iter().enumerate().map(spot).collect();
         is_adjusted |= ranking.is_some();
@@ -57,7 +57,7 @@ pub(super) fn figure(
     };
     let drawn =
         if left_out { format!(" {DRAWN} of {} points are drawn.", results.len()) } else { String::new() };
-    let caption = format!("{} over {}: {how} {BARS}{drawn}", group.title, name_of_key(varied.key));
+    let caption = format!("{} over {}: {how} {BARS}{drawn}", group.title, name_of_key(&varied.key));
     Figure::new(&chart, caption)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::figures::with_unit;
 use spunlaid::case::keys;
-use spunlaid::layers::WEB_KEYS;
+use spunlaid::layers::{place_in_web, web_key};
 use spunlaid::observe::{self, Unit};
 use spunlaid::study;
 use spunlaid::study::{Design, Factor, PointResults, Study};
@@ -78,14 +78,19 @@ impl Group {
 }
 
 /// Label of a key with its letter: `Mean velocity *U*`.
-pub(super) fn label_of_key(key: &str) -> &str {
-    let of_web = || WEB_KEYS.iter().find(|key_of_web| key_of_web.name == key).map(|of| of.label);
+pub(super) fn label_of_key(key: &str) -> String {
+    plain_label(key).to_owned() + &place_in_web(key)
+}
+
+/// Label of a key without the layer that it is of.
+fn plain_label(key: &str) -> &str {
+    let of_web = || web_key(key).map(|known| known.label);
     keys::find(key).map(|known| known.label).or_else(of_web).unwrap_or(key)
 }
 
 /// Name of a key within a sentence: `mean velocity`.
 pub fn name_of_key(key: &str) -> String {
-    let label = spunlaid_charts::svg::plain(label_of_key(key));
+    let label = spunlaid_charts::svg::plain(plain_label(key));
     // The letter at the end is left out.
     let words = match label.rsplit_once(' ') {
         Some((words, letter)) if letter.chars().count() <= 2 => words,
@@ -95,7 +100,8 @@ pub fn name_of_key(key: &str) -> String {
     if words.starts_with("Young") {
         return words;
     }
-    words.chars().enumerate().map(|(i, c)| if i == 0 { c.to_ascii_lowercase() } else { c }).collect()
+    let small = |(i, c): (usize, char)| if i == 0 { c.to_ascii_lowercase() } else { c };
+    words.chars().enumerate().map(small).collect::<String>() + &place_in_web(key)
 }
 
 /// The axis of a factor.
@@ -118,12 +124,12 @@ impl Along {
         }
         if !words.is_empty() {
             let names = words.iter().map(|word| factor.input().pretty(*word));
-            let axis = Axis::of_words(label_of_key(factor.key), names);
+            let axis = Axis::of_words(&label_of_key(&factor.key), names);
             return Self { axis, scale: 1.0, unit: "", words };
         }
         let (least, greatest) = factor.ends();
         let (scale, unit) = handy(factor.dimension, greatest.abs().max(least.abs()));
-        let label = with_unit(label_of_key(factor.key), unit);
+        let label = with_unit(&label_of_key(&factor.key), unit);
         let wide = least > 0.0 && greatest / least >= 30.0;
         let axis = if factor.spacing() == study::Spacing::Logarithmic || wide {
             Axis::logarithmic(&label)

@@ -42,7 +42,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
         [effect.change - half, effect.change + half].map(|end| end * group.unit.per_si)
     };
     let with_words = study.factors.iter().any(|factor| !factor.words.is_empty());
-    // With words, the change is told below each factor.
+    // With words, the change is given below each factor.
     let change = if with_words { "" } else { " from the least to the greatest value" };
     let label = with_unit(&format!("Change of {}{change}", group.figure.words), group.unit.shown);
     let all = shown.iter().flat_map(|shown| shown.0.effects.iter().flat_map(ends)).chain([0.0]);
@@ -52,7 +52,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
     let title = format!("Effects on the {}", group.figure.words);
     let mut svg = Svg::new(WIDTH, height, &title);
     let names = order.iter().flat_map(|effect| {
-        let name = width(label_of_key(study.factors[effect.factor].key), SIZE);
+        let name = width(&label_of_key(&study.factors[effect.factor].key), SIZE);
         [name, width(&change_of(study, effect), SMALL)]
     });
     let left = names.fold(120.0, f64::max).min(280.0) + 24.0;
@@ -80,7 +80,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
     for (row, main_effect) in order.iter().enumerate() {
         let y = TOP + ROW * (row as f64 + 0.5);
         let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
-        svg.text((left - 12.0, y - 2.0), label_of_key(study.factors[main_effect.factor].key), name);
+        svg.text((left - 12.0, y - 2.0), &label_of_key(&study.factors[main_effect.factor].key), name);
         let style = Text { size: SMALL, colour: GREY, anchor: Anchor::End, upright: true };
         svg.text((left - 12.0, y + 14.0), &change_of(study, main_effect), style);
         for (index, (ranking, marker, colour, _)) in shown.iter().enumerate() {

@@ -19,7 +19,7 @@ fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
             let spacing = if key == "fibre.diameter" { Spacing::Logarithmic } else { Spacing::Linear };
             let steps = (!design.draws()).then_some(steps as u64);
             let levels = Levels::Range { from: 1e-3, to: 1e-1, steps, spacing };
-            Factor { key, dimension, whole: false, words: Vec::new(), levels }
+            Factor { key: key.to_owned(), dimension, whole: false, words: Vec::new(), levels }
         })
         .collect();
     let rows = design.rows(&factors, &vec![1e-3; factors.len()], 1);

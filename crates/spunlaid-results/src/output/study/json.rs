@@ -33,15 +33,15 @@ struct Mean {
 }
 
 #[derive(Serialize)]
-struct RankingOf {
+struct RankingOf<'a> {
     /// Share of the variation between points that straight lines explain.
     explained: Option<f64>,
-    effects: Vec<EffectOf>,
+    effects: Vec<EffectOf<'a>>,
 }
 
 #[derive(Serialize)]
-struct EffectOf {
-    factor: &'static str,
+struct EffectOf<'a> {
+    factor: &'a str,
     from: Json,
     to: Json,
     change: f64,
@@ -111,11 +111,11 @@ fn point(study: &Study, index: usize, measured: &PointResults) -> Point {
     }
 }
 
-fn effect_of(study: &Study, effect: &Effect) -> EffectOf {
+fn effect_of<'a>(study: &'a Study, effect: &Effect) -> EffectOf<'a> {
     let factor = &study.factors[effect.factor];
     let end = |value: f64| factor.input().word(value).map_or_else(|| value.into(), Json::from);
     EffectOf {
-        factor: factor.key,
+        factor: &factor.key,
         from: end(effect.from),
         to: end(effect.to),
         change: effect.change,

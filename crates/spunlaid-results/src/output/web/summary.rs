@@ -1,9 +1,13 @@
 //! `summary.json`: all results of a web.
 
 use crate::figures::SEEN;
+use crate::output::summary::InOrder;
 use serde::Serialize;
+use serde_json::Value as Json;
+use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure};
 use spunlaid::scan;
 use spunlaid::statistics::{Estimate, interval_of_deviation};
+use spunlaid::web::uniformity::Unevenness;
 use spunlaid::web::{Clouds, Edges, Findings, Map, Web};
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
@@ -18,31 +22,9 @@ pub struct Summary<'a> {
     layers: &'a [Layer],
     web: WebSummary,
     #[serde(skip_serializing_if = "Option::is_none")]
-    scan: Option<Scan<'a>>,
+    scan: Option<InOrder<Json>>,
     performance: Performance,
     notes: &'a [String],
-}
-
-/// How a scan was read.
-#[derive(Clone, Copy, Debug, Serialize)]
-struct Scan<'a> {
-    file: &'a str,
-    /// Grey level of the lamp without web.
-    white: Option<f64>,
-    mean_density: Option<f64>,
-    /// How much brighter the lamp was at its brightest than at its darkest place, before this was taken out.
-    shading: Option<f64>,
-    filled_pixels: usize,
-    saturated_pixels: usize,
-    lighter_pixels: usize,
-    /// Area beside the rectangle that was cut out, because the bare lamp is seen there.
-    cut_off_m2: f64,
-    /// Grey level of the bare lamp there, over that of its picture if there is one.
-    bare_lamp: Option<f64>,
-    /// Dark spots that were left out.
-    dark_spots: usize,
-    /// Their area.
-    dark_spots_m2: f64,
 }
 
 /// What a layer was laid from.
@@ -122,66 +104,16 @@ struct WebSummary {
     /// Where edges cut fibre off: the strips that all but the map leaves out.
     #[serde(skip_serializing_if = "Option::is_none")]
     edges: Option<Margins>,
-    patches: Vec<Patch>,
+    patches: Vec<InOrder<Json>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    orientation_md: Option<Number>,
+    orientation_md: Option<NumberWithError>,
     #[serde(skip_serializing_if = "Option::is_none")]
     md_cd_ratio: Option<f64>,
     /// Share of the texture along the machine direction, ½ without orientation.
-    texture_md: Option<Number>,
+    texture_md: Option<NumberWithError>,
     cloudiness: Option<Cloudiness>,
     clouds: Vec<Octave>,
     sensitivities: Vec<Levers>,
-}
-
-#[derive(Debug, Default, Serialize)]
-struct Patch {
-    patch_m: f64,
-    cv: f64,
-    /// By chance alone.
-    cv_standard_error: Option<f64>,
-    /// Of the same filaments in airs of their own; none if they are independent as they are.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_independent: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_independent_standard_error: Option<f64>,
-    /// By the few fibres that were flown.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_flight_error: Option<f64>,
-    /// By the surrogate in place of the flown curves.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_model_error: Option<f64>,
-    /// By all causes; none if one is not known.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_whole_error: Option<f64>,
-    /// 95 % confidence interval of the CV of all such webs.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_interval: Option<[f64; 2]>,
-    /// Why the true CV cannot be told.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    no_interval: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_one_fibre: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_one_fibre_standard_error: Option<f64>,
-    /// The one expected from the flown curves.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_flown: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_flown_standard_error: Option<f64>,
-    /// The one expected from paths of the surrogate.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_surrogate: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_surrogate_standard_error: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_straight_fibres: Option<f64>,
-    /// Of the noise of the camera alone, at most or as given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cv_noise: Option<f64>,
-    /// Share by which one more pixel of blur lowers the CV.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    blur_of_a_pixel: Option<f64>,
 }
 
 /// What the edges of a web take.
@@ -195,7 +127,7 @@ struct Margins {
 }
 
 #[derive(Debug, Serialize)]
-struct Number {
+struct NumberWithError {
     mean: f64,
     standard_error: Option<f64>,
 }
@@ -208,7 +140,7 @@ struct Cloudiness {
     standard_error: Option<f64>,
     /// 95 % confidence interval for all such webs; null if the map is too small to say.
     interval: Option<[f64; 2]>,
-    /// Why the true index cannot be told.
+    /// Why the true index cannot be known.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_interval: Option<String>,
 }
@@ -236,7 +168,7 @@ struct Levers {
 
 impl WebSummary {
     /// What any map says.
-    fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<Patch>) -> Self {
+    fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<InOrder<Json>>) -> Self {
         let cloudiness = clouds.map(|clouds| {
             let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
             let interval = standard_error.map(|error| interval_of_deviation(index, error));
@@ -259,7 +191,7 @@ impl WebSummary {
             patches,
             orientation_md: None,
             md_cd_ratio: None,
-            texture_md: clouds.map(|clouds| Number::new(&clouds.texture_md())),
+            texture_md: clouds.map(|clouds| NumberWithError::new(&clouds.texture_md())),
             cloudiness,
             clouds: clouds.into_iter().flat_map(Clouds::octaves).map(octave).collect(),
             sensitivities: Vec::new(),
@@ -267,7 +199,29 @@ impl WebSummary {
     }
 }
 
-impl Number {
+/// The numbers of the patches of one size. Those that are not known are left out.
+///
+/// * `errors` – of the CV by other causes than chance
+/// * `interval` – 95 % confidence interval of the CV of all such webs, or why it cannot be told
+fn numbers_of_patch<'a>(
+    unevenness: &Unevenness,
+    errors: &[(&'a str, Option<f64>)],
+    interval: Result<[f64; 2], String>,
+    more: impl Iterator<Item = (&'a str, Option<f64>)>,
+) -> InOrder<Json> {
+    let Unevenness { patch, cv, standard_error } = *unevenness;
+    let known = |(name, number): (&'a str, Option<f64>)| Some((name, number?.into()));
+    let chance = [("patch_m", patch.into()), ("cv", cv.into()), ("cv_standard_error", standard_error.into())];
+    let interval = match interval {
+        Ok(ends) => ("cv_interval", ends.to_vec().into()),
+        Err(why) => ("no_interval", why.into()),
+    };
+    let errors = errors.iter().copied().filter_map(known);
+    let all = chance.into_iter().chain(errors).chain([interval]).chain(more.filter_map(known));
+    InOrder(all.map(|(name, value): (&str, Json)| (name.to_owned(), value)).collect())
+}
+
+impl NumberWithError {
     fn new(estimate: &Estimate) -> Self {
         Self { mean: estimate.mean, standard_error: estimate.standard_error }
     }
@@ -282,25 +236,26 @@ impl<'a> Summary<'a> {
         performance: Performance,
         notes: &'a [String],
     ) -> Self {
-        let patches = findings.patches.iter().map(|patch| Patch {
-            patch_m: patch.map.patch,
-            cv: patch.map.cv,
-            cv_standard_error: patch.map.standard_error,
-            cv_independent: patch.independent.map(|of| of.0),
-            cv_independent_standard_error: patch.independent.map(|of| of.1),
-            cv_interval: patch.map.interval(),
-            no_interval: patch.map.interval().is_none().then(|| "the map is too small".to_owned()),
-            cv_one_fibre: Some(patch.one_fibre.0),
-            cv_one_fibre_standard_error: Some(patch.one_fibre.1),
-            cv_flight_error: patch.whole_error().flight,
-            cv_model_error: patch.whole_error().model,
-            cv_whole_error: patch.whole_error().whole(),
-            cv_flown: patch.flown.map(|cv| cv.0),
-            cv_flown_standard_error: patch.flown.map(|cv| cv.1),
-            cv_surrogate: patch.surrogate.map(|cv| cv.0),
-            cv_surrogate_standard_error: patch.surrogate.map(|cv| cv.1),
-            cv_straight_fibres: Some(patch.straight_fibres),
-            ..Patch::default()
+        let patches = findings.patches.iter().map(|patch| {
+            let (whole, too_small) = (patch.whole_error(), || "the map is too small".to_owned());
+            let errors = [
+                ("cv_flight_error", whole.flight),
+                ("cv_model_error", whole.model),
+                ("cv_whole_error", whole.whole()),
+            ];
+            let expected = [
+                ("cv_independent", patch.independent.map(|cv| cv.0)),
+                ("cv_independent_standard_error", patch.independent.map(|cv| cv.1)),
+                ("cv_one_fibre", Some(patch.one_fibre.0)),
+                ("cv_one_fibre_standard_error", Some(patch.one_fibre.1)),
+                ("cv_flown", patch.flown.map(|cv| cv.0)),
+                ("cv_flown_standard_error", patch.flown.map(|cv| cv.1)),
+                ("cv_surrogate", patch.surrogate.map(|cv| cv.0)),
+                ("cv_surrogate_standard_error", patch.surrogate.map(|cv| cv.1)),
+                ("cv_straight_fibres", Some(patch.straight_fibres)),
+            ];
+            let interval = patch.map.interval().ok_or_else(too_small);
+            numbers_of_patch(&patch.map, &errors, interval, expected.into_iter())
         });
         let levers = findings.sensitivities.iter().flat_map(|sensitivity| {
             let each = sensitivity.elasticity.iter().zip(&findings.patches);
@@ -325,7 +280,7 @@ impl<'a> Summary<'a> {
                     basis_weight_between_kg_m2: findings.within().basis_weight(),
                     basis_weight_sheet_kg_m2: findings.laid.map.basis_weight(),
                 }),
-                orientation_md: Some(Number::new(&findings.orientation.cos_squared)),
+                orientation_md: Some(NumberWithError::new(&findings.orientation.cos_squared)),
                 md_cd_ratio: Some(findings.orientation.md_cd_ratio()),
                 sensitivities: levers.collect(),
                 ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
@@ -343,15 +298,10 @@ impl<'a> Summary<'a> {
         performance: Performance,
         notes: &'a [String],
     ) -> Self {
-        let patches = findings.patches.iter().map(|patch| Patch {
-            patch_m: patch.unevenness.patch,
-            cv: patch.unevenness.cv,
-            cv_standard_error: patch.unevenness.standard_error,
-            cv_interval: patch.interval.ok(),
-            no_interval: patch.interval.err().map(|doubt| doubt.to_string()),
-            cv_noise: Some(patch.noise),
-            blur_of_a_pixel: Some(patch.blur),
-            ..Patch::default()
+        let patches = findings.patches.iter().map(|patch| {
+            let declared = OF_SCANNED_PATCHES.iter().map(|measure| (measure.name, (measure.number)(patch)));
+            let interval = patch.interval.map_err(|doubt| doubt.to_string());
+            numbers_of_patch(&patch.unevenness, &[], interval, declared)
         });
         let mut web = WebSummary::of_map(&findings.map, findings.clouds.as_ref(), patches.collect());
         if let Some(guess) = findings.guess {
@@ -362,24 +312,19 @@ impl<'a> Summary<'a> {
             }
         }
         let basis_weight_kg_m2 = web.basis_weight_kg_m2.filter(|_| findings.mean_known);
+        let number = |measure: &ScanMeasure<scan::Findings>| {
+            let number = (measure.number)(findings);
+            let is_count = measure.digits == 0;
+            let json = if is_count { number.map(|count| count as u64).into() } else { number.into() };
+            (measure.name.to_owned(), json)
+        };
+        let scan = std::iter::once(("file".to_owned(), file.into())).chain(OF_SCANS.iter().map(number));
         Self {
             schema_version: SCHEMA_VERSION,
             spunlaid_version: env!("CARGO_PKG_VERSION"),
             layers: &[],
             web: WebSummary { basis_weight_kg_m2, ..web },
-            scan: Some(Scan {
-                file,
-                white: findings.white,
-                mean_density: findings.density,
-                shading: findings.shading,
-                filled_pixels: findings.pixels.filled,
-                saturated_pixels: findings.pixels.saturated,
-                lighter_pixels: findings.pixels.lighter,
-                cut_off_m2: findings.aside.cut_off,
-                bare_lamp: findings.aside.bare,
-                dark_spots: findings.aside.spots.len(),
-                dark_spots_m2: findings.aside.masked,
-            }),
+            scan: Some(InOrder(scan.collect())),
             performance,
             notes,
         }

@@ -7,13 +7,16 @@
 //!
 //! To add a key, add a row to its file in `table`; then write the code that uses its value.
 
+mod key_table;
 mod nearest;
 #[macro_use]
 pub(crate) mod row;
 mod table;
 mod value;
 
-pub(crate) use nearest::{like_in, nearest_word};
+pub use key_table::KeyTable;
+pub(crate) use key_table::TableList;
+pub(crate) use nearest::nearest_word;
 pub use value::{Content, FileKind, Kind, Sign, Value};
 
 use super::Case;
@@ -22,6 +25,10 @@ use crate::units::Dimension;
 
 /// The tables of a case file, in order.
 pub const TABLES: [&str; table::NAMES.len()] = table::NAMES;
+
+/// The keys of a case.
+pub static CASE: KeyTable =
+    KeyTable { rows: &table::KEYS, tables: &TABLES, lists: &[], noun: "a case", file: "a case file" };
 
 /// The text that a case file may give as cut-off frequency: Taylor's hypothesis.
 pub(crate) const TAYLOR: &str = "taylor";
@@ -86,7 +93,7 @@ pub fn all() -> &'static [Key] {
 
 /// The key with this full name, `air.velocity`.
 pub fn find(name: &str) -> Option<&'static Key> {
-    all().iter().find(|key| key.name == name)
+    CASE.find(name)
 }
 
 /// The key with this full name.
@@ -117,7 +124,7 @@ pub fn nearest(name: &str) -> Option<&'static Key> {
 /// The keys similar to a misspelt name, the most similar first.
 pub fn like(name: &str) -> Vec<&'static Key> {
     let (table, key) = name.split_once('.').unwrap_or(("", name));
-    like_in(table, key)
+    CASE.like(table, key)
 }
 
 /// A finding about the value of a key, in SI units. The place where the value was written is not known here.
@@ -129,7 +136,7 @@ pub(crate) fn finding<W>(key: &str, value: f64, what: W) -> Finding<W> {
 
 /// The keys of a table.
 pub fn of_table(table: &str) -> impl Iterator<Item = &'static Key> {
-    all().iter().filter(move |key| key.table() == table)
+    CASE.of_table(table)
 }
 
 impl<T> Key<T> {

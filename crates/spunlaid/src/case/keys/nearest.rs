@@ -1,14 +1,5 @@
 //! Suggestions for misspelt keys and words.
 
-use super::{Key, all};
-
-/// The keys of any table that are similar to one written in `table`, the most similar first.
-pub(crate) fn like_in(table: &str, key: &str) -> Vec<&'static Key> {
-    // Of equally similar keys, prefer the one of the same table.
-    let bonus = |home: &str| if home == table { 0.05 } else { 0.0 };
-    by_similarity(key, all().iter().map(|known| (known, known.short(), bonus(known.table()))))
-}
-
 /// The most similar word, if any is similar.
 pub(crate) fn nearest_word<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     by_similarity(word, known.map(|known| (known, known, 0.0))).first().copied()
@@ -17,7 +8,7 @@ pub(crate) fn nearest_word<'a>(word: &str, known: impl Iterator<Item = &'a str>)
 /// The candidates that are similar to the word, the most similar first.
 ///
 /// * `known` – candidate, its spelling, and a number that is added to its similarity
-fn by_similarity<'a, T>(word: &str, known: impl Iterator<Item = (T, &'a str, f64)>) -> Vec<T> {
+pub(super) fn by_similarity<'a, T>(word: &str, known: impl Iterator<Item = (T, &'a str, f64)>) -> Vec<T> {
     // So long a word is not a typing error, and comparing it would take long.
     if word.len() > 60 {
         return Vec::new();

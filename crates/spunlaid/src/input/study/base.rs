@@ -2,7 +2,7 @@
 
 use super::super::Overrides;
 use super::super::data::DataFiles;
-use super::super::document::Document;
+use super::super::document;
 use super::super::open::{self, Open};
 use super::super::written::{WrittenValue, WrittenValues};
 use super::plan::Plan;
@@ -24,18 +24,19 @@ impl CaseBase {
     /// * `set` – keys that are the same at all points
     pub(super) fn new(text: String, name: &str, set: &[Overrides<'_>]) -> Result<Self, Error> {
         let files = DataFiles::default();
-        let open = open::open(Document::read(&text, name, set)?, &files)?;
+        let open = open::open(document::read(&keys::CASE, &text, name, set)?, &files)?;
         Ok(Self { text, open, files })
     }
 }
 
 impl Base for CaseBase {
     fn varied(&self, name: &str) -> Result<VariedKey, String> {
-        keys::find(name).filter(|key| key.varies).map(VariedKey::from).ok_or_else(|| advice(name))
+        let key = keys::find(name).filter(|key| key.varies).ok_or_else(|| advice(name))?;
+        Ok(VariedKey::new(name.to_owned(), &key.kind))
     }
 
-    fn value(&self, key: VariedKey) -> f64 {
-        let value = keys::find(key.name).and_then(|found| {
+    fn value(&self, key: &VariedKey) -> f64 {
+        let value = keys::find(&key.name).and_then(|found| {
             if key.words().is_empty() {
                 self.open.number(found)
             } else {
@@ -61,14 +62,15 @@ impl Base for CaseBase {
         seed: Option<u64>,
     ) -> MadeExperiment {
         let (mut written, mut faults) = (self.open.written.clone(), Vec::new());
-        for &(key, value) in values {
-            let shown = Some(key.pretty(value));
-            match value_of(key, value) {
+        for (key, value) in values {
+            let shown = Some(key.pretty(*value));
+            match value_of(key, *value) {
                 Ok(value) => {
-                    written.set(key.name, WrittenValue { place: at.clone(), shown, value: Some(value) });
+                    written
+                        .set(key.name.clone(), WrittenValue { place: at.clone(), shown, value: Some(value) });
                 }
                 Err(what) => {
-                    faults.push(Problem { place: at.clone(), key: key.name.to_owned(), value: shown, what });
+                    faults.push(Problem { place: at.clone(), key: key.name.clone(), value: shown, what });
                 }
             }
         }
@@ -126,7 +128,7 @@ impl CaseBase {
 }
 
 /// A number as the value of a key: a quantity, a whole number, or the place of a word among the words of the key.
-fn value_of(key: VariedKey, value: f64) -> Result<Value, Fault> {
+fn value_of(key: &VariedKey, value: f64) -> Result<Value, Fault> {
     if let Some(word) = key.kind.words().get(value as usize) {
         return Ok((*word).into());
     }
@@ -140,6 +142,9 @@ fn value_of(key: VariedKey, value: f64) -> Result<Value, Fault> {
     }
 }
 
+/// Advice for a key whose values a study cannot vary.
+pub(super) const TAKE_A_NUMBER: &str = "take a key whose value is a number or one of a few words";
+
 /// Advice for a name that a study cannot vary.
 pub(super) fn advice(name: &str) -> String {
     match name {
@@ -148,7 +153,7 @@ pub(super) fn advice(name: &str) -> String {
         _ => {}
     }
     if keys::find(name).is_some() {
-        return "take a key whose value is a number or one of a few words".to_owned();
+        return TAKE_A_NUMBER.to_owned();
     }
     match keys::nearest(name) {
         Some(key) if key.varies => format!("did you mean {}?", key.name),

@@ -91,7 +91,7 @@ impl Reader<'_> {
                 self.reject(&entry, "", Fault::duplicate(&key));
                 continue;
             }
-            if let Some(levels) = self.levels(varied, entry, design) {
+            if let Some(levels) = self.levels(&varied, entry, design) {
                 factors.push(varied.factor(levels));
             }
         }
@@ -122,13 +122,13 @@ impl Reader<'_> {
                     format!("has {found} values, but \"{}\" has {wanted}", first.key),
                     "paired lists must have the same length",
                 );
-                self.reject_whole(factor.key, fault);
+                self.reject_whole(&factor.key, fault);
             }
         }
         if design == Design::OneAtATime {
             for (factor, base) in factors.iter().zip(base) {
                 if base.is_nan() {
-                    self.reject_whole(factor.key, not_written("vary it around this value"));
+                    self.reject_whole(&factor.key, not_written("vary it around this value"));
                 }
             }
         }

@@ -14,14 +14,14 @@ const MOST_VALUES: u64 = 10_000_000;
 
 impl<'a> Reader<'a> {
     /// The values of a factor; `None` if they cannot be read, after noting the problems.
-    pub(super) fn levels(&mut self, varied: VariedKey, entry: Entry<'a>, design: Design) -> Option<Levels> {
+    pub(super) fn levels(&mut self, varied: &VariedKey, entry: Entry<'a>, design: Design) -> Option<Levels> {
         match entry.value {
             DeValue::Array(list) => {
                 let mut values = Vec::with_capacity(list.len());
                 let mut sound = !list.is_empty();
                 for value in list {
                     let entry = self.entry(value.span().start, value);
-                    let value = self.value(varied, varied.name, &entry);
+                    let value = self.value(varied, &varied.name, &entry);
                     sound &= value.is_some();
                     values.extend(value);
                 }
@@ -33,7 +33,7 @@ impl<'a> Reader<'a> {
                             "has no values",
                             "list some, as in [\"5 m/s\", \"10 m/s\"], or write { from, to, steps }",
                         );
-                        self.reject(&entry, varied.name, fault);
+                        self.reject(&entry, &varied.name, fault);
                     }
                     return None;
                 }
@@ -43,19 +43,19 @@ impl<'a> Reader<'a> {
                 let words = varied.words();
                 let words: Vec<String> = words.iter().take(2).map(|word| format!("\"{word}\"")).collect();
                 let remedy = format!("list them, as in [{}]", words.join(", "));
-                self.reject(&entry, varied.name, Fault::new("takes words, which have no range", remedy));
+                self.reject(&entry, &varied.name, Fault::new("takes words, which have no range", remedy));
                 None
             }
             DeValue::Table(_) => self.range(varied, entry, design),
             _ => {
                 let wanted = "a list of values, or { from, to, steps }; a formula belongs in [link]";
-                self.wrong_type(&entry, varied.name, wanted);
+                self.wrong_type(&entry, &varied.name, wanted);
                 None
             }
         }
     }
 
-    fn value(&mut self, varied: VariedKey, key: &str, entry: &Entry<'_>) -> Option<f64> {
+    fn value(&mut self, varied: &VariedKey, key: &str, entry: &Entry<'_>) -> Option<f64> {
         let words = varied.words();
         let read = match &entry.value {
             DeValue::String(word) if !words.is_empty() => words
@@ -81,7 +81,7 @@ impl<'a> Reader<'a> {
         read.map_err(|fault| self.reject(entry, key, fault)).ok()
     }
 
-    fn range(&mut self, varied: VariedKey, entry: Entry<'a>, design: Design) -> Option<Levels> {
+    fn range(&mut self, varied: &VariedKey, entry: Entry<'a>, design: Design) -> Option<Levels> {
         const KEYS: [&str; 4] = ["from", "to", "steps", "spacing"];
         let mut whole = entry;
         let DeValue::Table(table) = std::mem::replace(&mut whole.value, DeValue::Boolean(true)) else {
@@ -161,7 +161,7 @@ impl<'a> Reader<'a> {
         };
         match fault {
             Some(fault) => {
-                self.reject(&whole, varied.name, fault);
+                self.reject(&whole, &varied.name, fault);
                 None
             }
             None => Some(Levels::Range { from, to, steps, spacing }),

@@ -52,7 +52,7 @@ impl Reader<'_> {
                 );
                 continue;
             };
-            match read(base, linked, text) {
+            match read(base, &linked, text) {
                 Ok(link) => {
                     links.push(link);
                     entries.push(entry);
@@ -60,7 +60,7 @@ impl Reader<'_> {
                 Err(fault) => self.reject(&entry, &key, fault),
             }
         }
-        let keys = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
+        let keys = factors.iter().map(|factor| &*factor.key).chain(links.iter().map(|link| &*link.key));
         let keys: Vec<&str> = keys.collect();
         for (link, entry) in links.iter().zip(&entries) {
             if let Some(name) = unwritten(link, &keys, base) {
@@ -70,14 +70,14 @@ impl Reader<'_> {
             }
         }
         if let Err((link, fault)) = order(&links) {
-            self.reject(&entries[link], links[link].key, fault);
+            self.reject(&entries[link], &links[link].key, fault);
         }
         links
     }
 }
 
 /// Reads the formula of a key.
-pub(super) fn read(base: &dyn Base, key: VariedKey, text: &str) -> Result<Link, Fault> {
+pub(super) fn read(base: &dyn Base, key: &VariedKey, text: &str) -> Result<Link, Fault> {
     let text = text.trim();
     let text = text.strip_prefix('=').unwrap_or(text).trim();
     let named = READY_MADE.iter().find(|(name, of, _)| *name == text && *of == key.name);
@@ -96,7 +96,7 @@ pub(super) fn read(base: &dyn Base, key: VariedKey, text: &str) -> Result<Link, 
         let message = format!("gives a value in {found}, but {name} in {wanted} is needed");
         return Err(Fault::new(message, "check the formula"));
     }
-    Ok(Link { key: key.name, dimension: key.dimension(), expression })
+    Ok(Link { key: key.name.clone(), dimension: key.dimension(), expression })
 }
 
 /// An order in which every link comes after the links it depends on.
@@ -105,7 +105,7 @@ pub(super) fn read(base: &dyn Base, key: VariedKey, text: &str) -> Result<Link, 
 /// Index of a link that depends on itself, and the keys of the circle.
 pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, Fault)> {
     let mut order: Vec<usize> = Vec::new();
-    let of_key: BTreeMap<&str, usize> = links.iter().enumerate().map(|(i, link)| (link.key, i)).collect();
+    let of_key: BTreeMap<&str, usize> = links.iter().enumerate().map(|(i, link)| (&*link.key, i)).collect();
     while order.len() < links.len() {
         let waits_for = |i: usize| {
             let names = links[i].expression.names();
@@ -129,7 +129,7 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, Fault)> {
                     way.push(next);
                 };
                 let circle = way.iter().skip_while(|i| **i != last).chain([&last]);
-                let circle: Vec<&str> = circle.map(|i| links[*i].key).collect();
+                let circle: Vec<&str> = circle.map(|i| &*links[*i].key).collect();
                 let message = format!("depends on itself: {}", circle.join(" ← "));
                 return Err((last, Fault::new(message, "remove one of these links")));
             }
@@ -141,7 +141,7 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, Fault)> {
 /// The first key in a link's formula that has no value: neither varied nor linked nor written in the case.
 pub(super) fn unwritten<'a>(link: &'a Link, set: &[&str], base: &dyn Base) -> Option<&'a str> {
     let has_value =
-        |name: &str| set.contains(&name) || base.numeric(name).is_ok_and(|key| !base.value(key).is_nan());
+        |name: &str| set.contains(&name) || base.numeric(name).is_ok_and(|key| !base.value(&key).is_nan());
     link.expression.names().into_iter().find(|name| !has_value(name))
 }
 
@@ -163,7 +163,7 @@ pub(super) fn values(
             Some((value, Powers::of_dimension(base.numeric(name).ok()?.dimension())))
         };
         let value = links[i].expression.value(&of).map_or(f64::NAN, |(value, _)| value);
-        let whole = base.numeric(links[i].key).is_ok_and(VariedKey::is_whole);
+        let whole = base.numeric(&links[i].key).is_ok_and(|key| key.is_whole());
         values[i] = Some(if whole { value.round() } else { value });
     }
     values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()

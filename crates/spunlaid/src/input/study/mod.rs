@@ -16,7 +16,7 @@ pub use differences::differences;
 pub use points::StudyNote;
 
 use super::{Overrides, file};
-use crate::case::keys::{Key, Kind, Value};
+use crate::case::keys::{Kind, Value};
 use crate::case::{Note, Remark};
 use crate::error::{Error, FileKind, Finding, Place, Position};
 use crate::study::{Experiment, Factor, Levels, Quantity, Replicates, Study};
@@ -170,7 +170,7 @@ trait Base {
     }
 
     /// The value of a key before anything varies: a number, or the place of a word. NaN if it has none.
-    fn value(&self, key: VariedKey) -> f64;
+    fn value(&self, key: &VariedKey) -> f64;
 
     /// The master seed, and the number of replicates, if the study does not say them.
     fn seed_and_replicates(&self) -> (u64, u64);
@@ -205,28 +205,33 @@ trait Base {
 type MadeExperiment = Result<(Experiment, Vec<Note>), Error>;
 
 /// What a study needs to know of a key that it varies, of a case or of a web.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 struct VariedKey {
-    name: &'static str,
+    /// Its full name, `layer.2.line.filaments_per_metre`.
+    name: String,
     kind: &'static Kind,
 }
 
 impl VariedKey {
-    fn is_whole(self) -> bool {
+    const fn new(name: String, kind: &'static Kind) -> Self {
+        Self { name, kind }
+    }
+
+    fn is_whole(&self) -> bool {
         matches!(self.kind, Kind::Whole(..))
     }
 
-    fn words(self) -> Vec<&'static str> {
+    fn words(&self) -> Vec<&'static str> {
         self.kind.words()
     }
 
     /// Physical dimension of its values.
-    fn dimension(self) -> Dimension {
+    fn dimension(&self) -> Dimension {
         self.kind.dimension().unwrap_or(Dimension::Ratio)
     }
 
     /// A value in the form of a study file, without rounding.
-    fn exact(self, value: f64) -> String {
+    fn exact(&self, value: f64) -> String {
         match self.words().get(value as usize) {
             Some(word) => format!("\"{word}\""),
             None if self.is_whole() => format!("{value:.0}"),
@@ -235,7 +240,7 @@ impl VariedKey {
     }
 
     /// A value for people, as a case would show it.
-    fn pretty(self, value: f64) -> String {
+    fn pretty(&self, value: f64) -> String {
         match self.words().get(value as usize) {
             Some(word) => format!("\"{word}\""),
             None if self.is_whole() => format!("{value:.0}"),
@@ -244,19 +249,8 @@ impl VariedKey {
     }
 
     fn factor(self, levels: Levels) -> Factor {
-        Factor {
-            key: self.name,
-            dimension: self.dimension(),
-            whole: self.is_whole(),
-            words: self.words(),
-            levels,
-        }
-    }
-}
-
-impl<T> From<&'static Key<T>> for VariedKey {
-    fn from(key: &'static Key<T>) -> Self {
-        Self { name: key.name, kind: &key.kind }
+        let (dimension, whole, words) = (self.dimension(), self.is_whole(), self.words());
+        Factor { key: self.name, dimension, whole, words, levels }
     }
 }
 

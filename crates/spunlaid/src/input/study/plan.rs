@@ -1,10 +1,9 @@
 //! The plan of a study: its file, checked as far as it can be before its points are made.
 
-use super::super::document::AUTO;
-use super::super::entry::Entry;
-use super::super::values::integer;
+use super::super::Overrides;
+use super::super::entry::{Entry, VERSION, check_version};
+use super::super::overrides::AUTO;
 use super::super::write::quoted;
-use super::super::{FORMAT_VERSION, Overrides};
 use super::reader::{self, Reader, not_varied, set_twice};
 use super::replicates::MOST_REPLICATES;
 use super::{Base, StudyChanges, base, links};
@@ -44,7 +43,9 @@ impl Plan {
 impl<'a> Reader<'a> {
     /// The name of the case or web to vary; `None` if it is missing or the file is newer, after noting the problem.
     pub(super) fn base(&mut self) -> Option<(String, FileKind)> {
-        if !self.version() {
+        // A newer format may mean other things, so nothing else is said then.
+        if let Some(Err(problem)) = self.entries.remove(VERSION).map(|entry| check_version(&entry)) {
+            self.problems = vec![*problem];
             return None;
         }
         let (case, web) = (self.entries.remove("case"), self.entries.remove("web"));
@@ -67,27 +68,6 @@ impl<'a> Reader<'a> {
             self.wrong_type(&entry, key, wanted);
         }
         name
-    }
-
-    /// Checks the version; false if the file is newer, after noting the problem.
-    fn version(&mut self) -> bool {
-        if let Some(version) = self.entries.remove("version") {
-            let known = FORMAT_VERSION;
-            let number = match &version.value {
-                DeValue::Integer(number) => integer(number),
-                _ => None,
-            };
-            match number {
-                Some(number) if (1..=u64::from(known)).contains(&number) => {}
-                Some(number) if number > u64::from(known) => {
-                    self.problems.clear();
-                    self.reject(&version, "version", Fault::newer_version(known));
-                    return false;
-                }
-                _ => self.reject(&version, "version", Fault::out_of_range(1, u64::from(known))),
-            }
-        }
-        true
     }
 
     /// The keys that are the same at all points, with their values as text: those of the file, and then those asked for
@@ -131,9 +111,11 @@ impl<'a> Reader<'a> {
     }
 
     /// Refuses keys that are both set and varied or linked.
-    fn check_once(&mut self, set: &[(String, String)], factors: &[Factor], links: &[Link]) {
-        let varied = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
-        for key in varied.filter(|key| set.iter().any(|(set, _)| set == key)) {
+    fn check_once(&mut self, base: &dyn Base, set: &[(String, String)], factors: &[Factor], links: &[Link]) {
+        let full = |name: &str| base.varied(name).map_or_else(|_| name.to_owned(), |key| key.name);
+        let set: Vec<String> = set.iter().map(|(name, _)| full(name)).collect();
+        let varied = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
+        for key in varied.filter(|key| set.contains(key)) {
             self.reject_whole(key, set_twice());
         }
     }
@@ -160,7 +142,7 @@ impl<'a> Reader<'a> {
         }
         let factors = self.factors(design, base);
         let links = self.links(&factors, base);
-        self.check_once(set, &factors, &links);
+        self.check_once(base, set, &factors, &links);
         if !self.problems.is_empty() {
             return None;
         }
@@ -188,5 +170,5 @@ impl<'a> Reader<'a> {
 
 /// The value of a factor before anything varies; NaN if it has none.
 pub(super) fn of_base(base: &dyn Base, factor: &Factor) -> f64 {
-    base.varied(factor.key).map_or(f64::NAN, |key| base.value(key))
+    base.varied(&factor.key).map_or(f64::NAN, |key| base.value(&key))
 }

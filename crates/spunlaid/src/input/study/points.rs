@@ -71,11 +71,11 @@ impl Resolver<'_> {
         let Plan { factors, links, order, seed, common_phases, .. } = self.plan;
         let known = |name: &str| match factors.iter().position(|factor| factor.key == name) {
             Some(i) => values.get(i).copied(),
-            None => Some(self.base.value(self.base.numeric(name).ok()?)),
+            None => Some(self.base.value(&self.base.numeric(name).ok()?)),
         };
         let linked = links::values(self.base, links, order, &known);
         values.extend(linked);
-        let names = factors.iter().map(|factor| factor.key).chain(links.iter().map(|link| link.key));
+        let names = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
         let keys = names.filter_map(|name| self.base.varied(name).ok());
         let set: Vec<(VariedKey, f64)> = keys.zip(values.iter().copied()).collect();
         let shown = |(key, value): &(VariedKey, f64)| format!("{} = {}", key.name, key.pretty(*value));

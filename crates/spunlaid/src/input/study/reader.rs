@@ -1,12 +1,12 @@
 //! The entries of a study file, each with its place, and the problems found in them.
 
-use super::super::document::table_named;
 use super::super::entry::{Entry, in_order, kind, root};
 use super::super::source::Source;
 use super::super::values::integer;
-use crate::case::keys::nearest_word;
+use crate::case::keys::{TABLES, nearest_word};
 use crate::error::{Error, Fault, Finding, Problem};
 use crate::layers::WEB_TABLES;
+use crate::layers::keys::without_numbers;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -45,7 +45,7 @@ impl<'a> Reader<'a> {
         let root = root(&source, text)?;
         // A study names its web; a web has tables.
         let is_of_web = |key: &str, value: &DeValue<'_>| {
-            WEB_TABLES.contains(&key) && table_named(key).is_none() && value.is_table()
+            WEB_TABLES.contains(&key) && !TABLES.contains(&key) && value.is_table()
         };
         if let Some((key, _)) = root.iter().find(|(key, value)| is_of_web(key.get_ref(), value.get_ref())) {
             let (place, key) = (source.place(key.span().start), format!("[{}]", key.get_ref()));
@@ -64,7 +64,7 @@ impl<'a> Reader<'a> {
             if KEYS.contains(&name.as_ref()) {
                 reader.entries.insert(name.into_owned(), entry);
             } else {
-                if table_named(&name).is_some() {
+                if TABLES.contains(&name.as_ref()) {
                     tables.push((entry, name.into_owned()));
                     continue;
                 }
@@ -159,22 +159,28 @@ impl<'a> Reader<'a> {
     /// The entries of a table in the order of the file; `air.velocity = …` and `"air.velocity" = …` are equal.
     pub(super) fn flat(&mut self, table: DeTable<'a>) -> Vec<(String, Entry<'a>)> {
         let mut flat = Vec::new();
-        for ((at, key), value) in in_order(table) {
-            let entry = self.entry(at, value);
-            match entry.value {
-                DeValue::Table(inner)
-                    if table_named(&key).is_some() || WEB_TABLES.contains(&key.as_str()) =>
-                {
-                    for ((at, inner_key), value) in in_order(inner) {
-                        flat.push((format!("{key}.{inner_key}"), self.entry(at, value)));
-                    }
-                }
-                value => flat.push((key, Entry { value, ..entry })),
-            }
-        }
+        self.gather("", table, &mut flat);
         flat.sort_by_key(|(_, entry)| entry.at);
         flat
     }
+
+    fn gather(&mut self, before: &str, table: DeTable<'a>, flat: &mut Vec<(String, Entry<'a>)>) {
+        for ((at, key), value) in in_order(table) {
+            let (full, entry) = (format!("{before}{key}"), self.entry(at, value));
+            let is_table = full == "layer" || before == "layer." || is_table(&full);
+            match entry.value {
+                DeValue::Table(inner) if is_table => self.gather(&format!("{full}."), inner, flat),
+                value => flat.push((full, Entry { value, ..entry })),
+            }
+        }
+    }
+}
+
+/// Whether this is the full name of a table of a case or a web, which may be one of a layer: `air`, `layer.2.line`.
+fn is_table(full: &str) -> bool {
+    let in_layer = full.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
+    let name = without_numbers(in_layer.map_or(full, |(_, rest)| rest));
+    TABLES.contains(&&*name) || WEB_TABLES.contains(&&*name) || name == "line.rows"
 }
 
 /// A required key is missing.

@@ -1,13 +1,19 @@
 //! The web that a study varies, with the cases that it flies.
 
-use super::super::Overrides;
 use super::super::web::{WebFile, parse_web_of_case, write_web};
+use super::super::{Overrides, document};
+use super::base::TAKE_A_NUMBER;
 use super::plan::Plan;
+use super::reader::not_varied;
 use super::{Base, MadeExperiment, VariedKey, level};
-use crate::case::keys::{self, nearest_word};
-use crate::error::{Error, Place};
-use crate::layers::{LaydownSource, WEB_KEYS, WebSpec, keys as web_keys};
+use crate::case::keys::{self, Value, nearest_word};
+use crate::error::{Error, Place, Problem};
+use crate::layers::keys::{WEB, full_name, value, web_key, without_numbers};
+use crate::layers::{LaydownSource, WEB_KEYS, WebSpec};
 use crate::study::{Experiment, Point, Quantity, Study};
+
+/// Why a key of a case has no meaning for a web.
+const FLIES_NONE: &str = "it is a key of a case, and this web flies none; write laydown.case in its file";
 
 /// The web of a study before its keys vary.
 pub(super) struct WebBase {
@@ -16,7 +22,9 @@ pub(super) struct WebBase {
     path: String,
     /// What is the same at all points, and the word for it in messages: of the study file, and asked for from outside.
     set: [(Sides, String); 2],
-    file: WebFile,
+    /// Whether it flies a case.
+    flies: bool,
+    spec: WebSpec,
 }
 
 /// Keys and values of a web, and those of its cases.
@@ -27,103 +35,120 @@ struct Sides {
 }
 
 impl Sides {
-    fn new(all: impl IntoIterator<Item = (String, String)>) -> Self {
-        let is_of_case = |(key, _): &(String, String)| {
-            of_web(key).is_none() && keys::find(key).is_some_and(|key| key.varies)
-        };
-        let (of_case, of_web) = all.into_iter().partition(is_of_case);
+    fn new(all: impl IntoIterator<Item = (String, String)>, flies: bool) -> Self {
+        let (of_case, of_web) = all.into_iter().partition(|(key, _)| is_of_case(key.trim(), flies));
         Self { of_web, of_case }
     }
 }
 
-/// The key of a web with this name, if its values can vary.
-fn of_web(name: &str) -> Option<VariedKey> {
-    web_keys::find(name).filter(|key| key.varies).map(VariedKey::from)
+/// Whether a key is one of the cases. Both have some: where a case is flown, it says them.
+fn is_of_case(name: &str, flies: bool) -> bool {
+    keys::find(name).is_some() && (flies || WEB.find(name).is_none())
 }
 
 impl WebBase {
     /// * `path` – of the file
     /// * `set` – keys that are the same at all points: those of the study file, and those that replace them
     pub(super) fn new(text: String, path: String, set: [Overrides<'_>; 2]) -> Result<Self, Error> {
-        let set = set.map(|Overrides { values, word }| (Sides::new(values.to_vec()), word.to_owned()));
-        let file = parse(&text, &path, &set, &Sides::default())?;
-        Ok(Self { text, path, set, file })
+        let of_web = set.map(|set| Sides::new(set.values.to_vec(), false).of_web);
+        let of_web = [0, 1].map(|i| Overrides { values: &of_web[i], word: set[i].word });
+        let written = document::read(&WEB, &text, &path, &of_web)?;
+        let flies = written.all().any(|(full, _)| full.ends_with("laydown.case"));
+        let set = set.map(|Overrides { values, word }| (Sides::new(values.to_vec(), flies), word.to_owned()));
+        let no_case = |(sides, word): &(Sides, String)| -> Vec<Problem> {
+            let problem = |(key, value): &(String, String)| Problem {
+                place: Place::Override(word.clone()),
+                key: key.clone(),
+                value: Some(value.clone()),
+                what: not_varied(FLIES_NONE),
+            };
+            sides.of_case.iter().filter(|_| !flies).map(problem).collect()
+        };
+        let problems: Vec<Problem> = set.iter().flat_map(no_case).collect();
+        if !problems.is_empty() {
+            return Err(problems.into());
+        }
+        let WebFile { spec, .. } = parse(&text, &path, &set, &Sides::default())?;
+        Ok(Self { text, path, set, flies, spec })
     }
 
-    fn spec(&self) -> &WebSpec {
-        &self.file.spec
-    }
-
-    /// Whether it flies a case.
-    fn flies(&self) -> bool {
-        self.spec().layers.iter().any(|layer| matches!(layer.source, LaydownSource::Case { .. }))
+    /// The case that it flies, the first of several.
+    fn case_value(&self, name: &str) -> Option<Value> {
+        let case = self.spec.layers.iter().find_map(|layer| match &layer.source {
+            LaydownSource::Case { case, .. } => Some(&**case),
+            _ => None,
+        });
+        keys::find(name)?.get(case?)
     }
 }
 
 /// Reads a web with these values.
 fn parse(text: &str, path: &str, set: &[(Sides, String); 2], point: &Sides) -> Result<WebFile, Error> {
-    let all =
-        |side: fn(&Sides) -> &[(String, String)]| [side(&set[0].0), side(&set[1].0), side(point)].concat();
-    let (web, case) = (all(|sides| &sides.of_web), all(|sides| &sides.of_case));
-    let word = if set[1].0.of_web.is_empty() && set[1].0.of_case.is_empty() { &set[0].1 } else { &set[1].1 };
-    parse_web_of_case(text, path, Overrides { values: &web, word }, Overrides { values: &case, word }, &[])
+    let [file, outside] = set;
+    let all = [(&file.0, &*file.1), (&outside.0, &*outside.1), (point, "point")];
+    let of_web = all.map(|(sides, word)| Overrides { values: &sides.of_web, word });
+    let of_case = all.map(|(sides, word)| Overrides { values: &sides.of_case, word });
+    parse_web_of_case(text, path, &of_web, &of_case, &[])
 }
 
 impl Base for WebBase {
     fn varied(&self, name: &str) -> Result<VariedKey, String> {
-        let advice = match (of_web(name), keys::find(name).filter(|key| key.varies)) {
-            (Some(key), _) if self.spec().layers.len() == 1 || key.name.starts_with("web.") => {
-                return Ok(key);
+        if let Some(key) = keys::find(name).filter(|_| is_of_case(name, self.flies)) {
+            return match (self.flies, key.varies) {
+                (false, _) => Err(FLIES_NONE.to_owned()),
+                (true, false) => {
+                    Err("the flights of all points have the same; write it under [set]".to_owned())
+                }
+                (true, true) => Ok(VariedKey::new(name.to_owned(), &key.kind)),
+            };
+        }
+        let full = full_name(&self.spec, name)?;
+        match web_key(&full) {
+            Some(key) if key.varies => Ok(VariedKey::new(full, &key.kind)),
+            Some(_) => Err(TAKE_A_NUMBER.to_owned()),
+            None => {
+                let of_layer = without_numbers(&full);
+                let plain = of_layer.strip_prefix("layer.").unwrap_or(&of_layer);
+                Err(match nearest_word(plain, WEB_KEYS.iter().map(|key| key.name)) {
+                    Some(near) => format!("did you mean {near}?"),
+                    None => format!("{TAKE_A_NUMBER}, of the web or of its case"),
+                })
             }
-            (Some(_), _) => "the web has several layers; vary keys of its table [web], or of its cases",
-            (None, Some(key)) if self.flies() => return Ok(key.into()),
-            (None, Some(_)) => {
-                "it is a key of a case, and this web flies none; write laydown.case in its file"
-            }
-            (None, None) => match nearest_word(name, WEB_KEYS.iter().map(|key| key.name)) {
-                Some(near) if near != name => return Err(format!("did you mean {near}?")),
-                _ => "take a key whose value is a number or one of a few words, of the web or of its case",
-            },
-        };
-        Err(advice.to_owned())
+        }
     }
 
-    fn value(&self, key: VariedKey) -> f64 {
-        let of_case = || {
-            let case = self.spec().layers.iter().find_map(|layer| match &layer.source {
-                LaydownSource::Case { case, .. } => Some(&**case),
-                _ => None,
-            });
-            level(key.kind, &keys::find(key.name)?.get(case?)?)
+    fn value(&self, key: &VariedKey) -> f64 {
+        let found = if is_of_case(&key.name, self.flies) {
+            self.case_value(&key.name)
+        } else {
+            value(&self.spec, &key.name)
         };
-        let Some(found) = web_keys::find(key.name) else { return of_case().unwrap_or(f64::NAN) };
-        let of_spec = found.get(self.spec()).and_then(|value| level(key.kind, &value));
-        of_spec.unwrap_or(f64::NAN)
+        found.and_then(|value| level(key.kind, &value)).unwrap_or(f64::NAN)
     }
 
     fn seed_and_replicates(&self) -> (u64, u64) {
-        (self.spec().seed, 1)
+        (self.spec.seed, 1)
     }
 
     fn quantities(&self) -> Vec<Quantity> {
-        let experiment = Experiment::Web(self.spec().clone());
+        let experiment = Experiment::Web(self.spec.clone());
         Study::quantities_of(&[Point { values: Vec::new(), experiment }])
     }
 
     fn point(&self, values: &[(VariedKey, f64)], _: &Place, _: &Plan, seed: Option<u64>) -> MadeExperiment {
-        let value = |(key, value): &(VariedKey, f64)| (key.name.to_owned(), key.exact(*value));
+        let value = |(key, value): &(VariedKey, f64)| (key.name.clone(), key.exact(*value));
         let seed = seed.map(|seed| ("web.seed".to_owned(), seed.to_string()));
-        let point = Sides::new(values.iter().map(value).chain(seed));
+        let point = Sides::new(values.iter().map(value).chain(seed), self.flies);
         let WebFile { spec, notes, .. } = parse(&self.text, &self.path, &self.set, &point)?;
         Ok((Experiment::Web(spec), notes))
     }
 
     fn set_beside(&self, set: Vec<(String, String)>) -> Vec<(String, String)> {
         // What is set is in the web already, but for its case.
-        Sides::new(set).of_case
+        Sides::new(set, self.flies).of_case
     }
 
     fn text(&self) -> String {
-        write_web(self.spec())
+        write_web(&self.spec)
     }
 }

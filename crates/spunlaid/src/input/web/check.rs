@@ -1,11 +1,11 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
-use super::read::{Reading, SAME};
+use super::read::{BELT_SPEED, Reading, SAME};
 use crate::air::Lateral;
 use crate::case::{Note, Remark};
 use crate::error::{Fault, Place};
-use crate::layers::keys::METHODS;
-use crate::layers::{LaydownSource, LayerSpec, too_small};
+use crate::layers::keys::{METHODS, WEB, without_numbers};
+use crate::layers::{LaydownSource, LayerSpec, WebKey, WebSpec, too_small};
 use crate::units::Dimension;
 use crate::web::{Edges, Filaments, Row, Sheet};
 use std::collections::BTreeMap;
@@ -31,27 +31,55 @@ impl Reading<'_> {
         }
     }
 
-    /// Refuses layers on belts of different speeds.
-    pub(super) fn check_belts(&mut self, prefixes: &[String], layers: &[Option<LayerSpec>]) {
-        let Some(first) = layers.first().and_then(|layer| Some(layer.as_ref()?.belt_speed)) else { return };
-        for (prefix, layer) in prefixes.iter().zip(layers).skip(1) {
-            let belt = layer.as_ref().map_or(first, |layer| layer.belt_speed);
-            if (belt / first - 1.0).abs() > SAME {
-                let key = format!("{prefix}line.belt_speed");
-                let [belt, first] = [belt, first].map(|speed| Dimension::Velocity.pretty(speed));
-                let fault = Fault::new(
-                    format!("differs from the belt speed of layer 1, {first}"),
-                    "all layers lie on one belt",
+    /// Gives every layer the speed of the belt, which is written in one layer or is that of a flown case.
+    pub(super) fn settle_belt(&mut self, prefixes: &[String], layers: &mut [LayerSpec]) {
+        let keys: Vec<String> = prefixes.iter().map(|prefix| format!("{prefix}{BELT_SPEED}")).collect();
+        // Flown fibres come first, because they would lie otherwise on another belt.
+        let known = (0..layers.len()).filter(|&layer| !layers[layer].belt_speed.is_nan());
+        let Some(first) = known.min_by_key(|&layer| layers[layer].source.case().is_none()) else {
+            let is_there = |key: &String| self.is_written(key) || self.written.is_excused(key);
+            if let Some(key) = keys.first().filter(|_| !keys.iter().any(is_there)) {
+                let table = without_numbers(key.trim_end_matches(".belt_speed"));
+                self.written.reject(key, Fault::missing(&table, "belt_speed = \"3 m/s\""));
+            }
+            return;
+        };
+        let LayerSpec { belt_speed: belt, source, .. } = layers[first].clone();
+        for ((layer, prefix), key) in layers.iter_mut().zip(prefixes).zip(&keys) {
+            let is_written = self.is_written(key);
+            if layer.belt_speed.is_nan() && !is_written {
+                layer.belt_speed = belt;
+            }
+            let [own, feed, first_belt] =
+                [layer.belt_speed, layer.feed_speed, belt].map(|speed| Dimension::Velocity.pretty(speed));
+            if (layer.belt_speed / belt - 1.0).abs() > SAME {
+                let whose =
+                    if is_written { String::new() } else { format!("has belt.speed = {own}, which ") };
+                let message = format!(
+                    "{whose}differs from the belt speed of layer {}, {first_belt}, and all layers lie on one belt",
+                    first + 1
                 );
-                self.refuse(&key, belt, fault);
+                let remedy = match source.case() {
+                    _ if !is_written => "give all cases the same belt.speed".to_owned(),
+                    Some(_) => {
+                        format!("leave it out here, and set belt.speed in {}", source.path().display())
+                    }
+                    None => "write it in one layer and leave it out of the others".to_owned(),
+                };
+                let ways = ["case", "results"].map(|way| format!("{prefix}laydown.{way}"));
+                let way = ways.iter().find(|way| self.is_written(way)).filter(|_| !is_written);
+                self.written.reject(way.unwrap_or(key), Fault::new(message, remedy));
+            }
+            if layer.belt_speed > layer.feed_speed {
+                let message = format!("is more than line.feed_speed = {feed}, which would tear the fibre");
+                self.refuse(key, own, Fault::new(message, "slow the belt, or feed faster"));
             }
         }
     }
 
     /// Refuses layers that cannot be flown in one air.
-    pub(super) fn check_shared_air(&mut self, prefixes: &[String], layers: &[Option<LayerSpec>]) {
+    pub(super) fn check_shared_air(&mut self, prefixes: &[String], layers: &[LayerSpec]) {
         for (prefix, layer) in prefixes.iter().zip(layers) {
-            let Some(layer) = layer else { continue };
             let laydown = format!("{prefix}laydown");
             let fault = match &layer.source {
                 LaydownSource::Case { case, path } if case.air.records.is_empty() => {
@@ -68,6 +96,8 @@ impl Reading<'_> {
                     ),
                     "give the case the spectrum of the record (air.spectrum) in place of the record",
                 ),
+                // A case that cannot be read has been noted.
+                LaydownSource::Surrogate(_) if !self.has_numbers(prefix) => continue,
                 LaydownSource::Results { .. } | LaydownSource::Surrogate(_) => Fault::new(
                     format!("flies all filaments of the web, and {laydown} names no case to fly"),
                     format!("write {laydown}.case, or method = \"surrogate\""),
@@ -78,8 +108,16 @@ impl Reading<'_> {
         }
     }
 
-    /// Checks a layer together with the sheet.
-    pub(super) fn check_layer(&mut self, prefix: &str, layer: &LayerSpec, sheet: &Sheet) {
+    /// Checks a layer together with the sheet, if both are known.
+    ///
+    /// * `web` – the web of this layer alone
+    pub(super) fn check_layer(&mut self, prefix: &str, web: &WebSpec) {
+        let (sheet, Some(layer)) = (&web.sheet, web.layers.first()) else { return };
+        let is_known =
+            |key: &WebKey| key.get(web).and_then(|value| value.number()).is_none_or(|value| !value.is_nan());
+        if !WEB.rows.iter().all(is_known) {
+            return;
+        }
         match &layer.filaments {
             Filaments::AtRandom { per_metre } | Filaments::Slot { per_metre, .. }
                 if (per_metre * sheet.width).round() < 1.0 =>
@@ -94,7 +132,7 @@ impl Reading<'_> {
             }
             Filaments::AtRandom { .. } | Filaments::Slot { .. } => {}
             Filaments::Rows(rows) => {
-                for (number, row) in (1..).zip(rows) {
+                for (number, row) in (1..).zip(rows).filter(|(_, row)| row.filaments > 0) {
                     self.check_row(&format!("{prefix}line.rows.{number}."), row, sheet);
                 }
             }

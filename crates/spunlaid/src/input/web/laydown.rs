@@ -1,17 +1,18 @@
 //! What tells how the filaments of a layer lie.
 
-use super::super::{Overrides, parse_case, read_case};
-use super::read::{Reading, table_of};
+use super::super::data::DataFiles;
+use super::super::{Overrides, file, parse_with};
+use super::read::Reading;
 use crate::case::keys::Value;
 use crate::case::{Case, Note};
-use crate::error::{Error, Fault, Place};
+use crate::error::{Error, Fault, FileKind, Place};
 use crate::layers::LaydownSource;
-use crate::surrogate::Surrogate;
+use crate::layers::keys::without_numbers;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The three numbers of the surrogate, with a line for each.
-const NUMBERS: [(&str, &str); 3] = [
+pub(super) const NUMBERS: [(&str, &str); 3] = [
     ("laydown.sigma_md", "sigma_md = \"18.4 mm\""),
     ("laydown.sigma_cd", "sigma_cd = \"18.3 mm\""),
     ("laydown.noise", "noise = \"12.4 m^-0.5\""),
@@ -28,7 +29,7 @@ impl Reading<'_> {
     /// # Errors
     /// A case that cannot be read for another reason than what is in it.
     pub(super) fn laydown(&mut self, prefix: &str) -> Result<Option<LaydownSource>, Error> {
-        let is_written = |name: &&&str| self.written.get(&format!("{prefix}{name}")).is_some();
+        let is_written = |name: &&&str| self.is_written(&format!("{prefix}{name}"));
         let numbers = NUMBERS.iter().map(|(name, _)| name).find(is_written);
         let ways: Vec<&'static str> =
             [&CASE, &RESULTS].into_iter().chain(numbers).filter(is_written).copied().collect();
@@ -45,7 +46,7 @@ impl Reading<'_> {
             }
             [CASE] => self.case(&format!("{prefix}{CASE}")),
             [RESULTS] => self.results(&format!("{prefix}{RESULTS}")),
-            [_] => Ok(self.surrogate(prefix).map(LaydownSource::Surrogate)),
+            [_] => Ok(Some(self.numbers(prefix))),
             [other, ref more @ ..] => {
                 let remedy = "keep one of a case, results, and the numbers sigma_md, sigma_cd and noise";
                 for way in more {
@@ -56,11 +57,16 @@ impl Reading<'_> {
         }
     }
 
-    fn surrogate(&mut self, prefix: &str) -> Option<Surrogate> {
-        let [sigma_md, sigma_cd, noise] = NUMBERS.map(|(name, line)| {
-            self.number_or(&format!("{prefix}{name}"), table_of(prefix, name), Err(line))
-        });
-        Some(Surrogate { sigma_md: sigma_md?, sigma_cd: sigma_cd?, noise: noise? })
+    /// The numbers of a surrogate, which are still to be set. Those that are missing are noted.
+    fn numbers(&mut self, prefix: &str) -> LaydownSource {
+        for (name, line) in NUMBERS {
+            let full = format!("{prefix}{name}");
+            if !self.is_written(&full) && !self.written.is_excused(&full) {
+                let table = without_numbers(&format!("{prefix}laydown"));
+                self.written.reject(&full, Fault::missing(&table, line));
+            }
+        }
+        LaydownSource::UNKNOWN
     }
 
     fn case(&mut self, key: &str) -> Result<Option<LaydownSource>, Error> {
@@ -81,7 +87,7 @@ impl Reading<'_> {
             self.written.reject(key, fault);
             return Ok(None);
         }
-        let case = self.fed_case(key, &folder.join(CASE_OF_RESULTS), (&[]).into())?;
+        let case = self.fed_case(key, &folder.join(CASE_OF_RESULTS), &[])?;
         Ok(case.map(|case| LaydownSource::Results { folder, case }))
     }
 
@@ -100,12 +106,14 @@ impl Reading<'_> {
         &mut self,
         key: &str,
         path: &Path,
-        changes: Overrides<'_>,
+        changes: &[Overrides<'_>],
     ) -> Result<Option<Arc<Case>>, Error> {
-        let read = match self.cases.iter().find(|(of, _)| of == path) {
-            Some((_, text)) => parse_case(text, &path.display().to_string(), changes),
-            None => read_case(path, changes),
+        let text = match self.cases.iter().find(|(of, _)| of == path) {
+            Some((_, text)) => Ok(text.clone()),
+            None => file::read(path, FileKind::Case),
         };
+        let name = path.display().to_string();
+        let read = text.and_then(|text| parse_with(&DataFiles::default(), &text, &name, changes));
         let (case, notes) = match read {
             Ok(read) => read,
             Err(Error::File(error)) => {

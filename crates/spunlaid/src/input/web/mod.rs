@@ -1,19 +1,18 @@
 //! Files of webs: reads a file to what is to be laid, and writes it back.
 
 mod check;
-mod document;
 mod laydown;
-mod overrides;
 mod read;
 mod sheet;
 mod write;
 
 pub use write::write_web;
 
-use super::{Overrides, file};
+use super::{Overrides, document, file};
 use crate::case::Note;
 use crate::error::{Error, FileKind};
 use crate::layers::WebSpec;
+use crate::layers::keys::WEB;
 use std::path::{Path, PathBuf};
 
 /// The file of a web, read.
@@ -44,7 +43,7 @@ pub fn read_web<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<
 /// # Errors
 /// As [`read_web`].
 pub fn parse_web<'a>(text: &str, name: &str, overrides: impl Into<Overrides<'a>>) -> Result<WebFile, Error> {
-    parse_web_of_case(text, name, overrides.into(), (&[]).into(), &[])
+    parse_web_of_case(text, name, &[overrides.into()], &[], &[])
 }
 
 /// [`parse_web`] with the texts of the cases that it names, each with its path. They need not be files.
@@ -52,18 +51,18 @@ pub fn parse_web<'a>(text: &str, name: &str, overrides: impl Into<Overrides<'a>>
 /// # Errors
 /// As [`read_web`].
 pub fn parse_web_and_cases(text: &str, name: &str, cases: &[(PathBuf, String)]) -> Result<WebFile, Error> {
-    parse_web_of_case(text, name, (&[]).into(), (&[]).into(), cases)
+    parse_web_of_case(text, name, &[], &[], cases)
 }
 
 /// [`parse_web`], with changes to the cases that it flies.
 pub(super) fn parse_web_of_case(
     text: &str,
     name: &str,
-    overrides: Overrides<'_>,
-    of_case: Overrides<'_>,
+    overrides: &[Overrides<'_>],
+    of_case: &[Overrides<'_>],
     cases: &[(PathBuf, String)],
 ) -> Result<WebFile, Error> {
-    let written = document::read(text, name, overrides)?;
+    let written = document::read(&WEB, text, name, overrides)?;
     let (spec, notes) = read::spec(written, name, (of_case, cases))?;
     let text = write_web(&spec);
     Ok(WebFile { spec, notes, text })

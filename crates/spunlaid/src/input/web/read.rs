@@ -1,19 +1,19 @@
-//! Makes the web from the written values, with the defaults.
+//! Makes the web from the written values, from what the flown cases give, and from the defaults.
 
 use super::super::Overrides;
+use super::super::open::rival;
 use super::super::written::{WrittenValue, WrittenValues, sorted};
-use super::document::WebDocument;
-use crate::case::keys::{LeftOut, Value};
+use super::laydown::NUMBERS;
+use crate::case::keys::{Key, LeftOut, Value};
 use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding};
-use crate::layers::keys::{self, ALL_METHODS, METHODS, diameter, in_rows};
+use crate::layers::keys::{WEB, in_rows, web_key, without_numbers};
 use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
-use crate::units::Dimension;
 use crate::web::{Filaments, Row};
 use std::path::{Path, PathBuf};
 
-/// The limit of memory if the file gives none [B].
-const MEMORY_LIMIT: f64 = 4e9;
+/// The key of the only thing that all layers have in common.
+pub(super) const BELT_SPEED: &str = "line.belt_speed";
 /// Relative difference up to which two written numbers are the same.
 pub(super) const SAME: f64 = 1e-9;
 
@@ -23,7 +23,7 @@ pub(super) struct Reading<'a> {
     /// The folder of the file.
     pub(super) folder: PathBuf,
     /// Changes to the cases that are flown.
-    pub(super) of_case: Overrides<'a>,
+    pub(super) of_case: &'a [Overrides<'a>],
     /// Texts of cases that are no files.
     pub(super) cases: &'a [(PathBuf, String)],
     notes: Vec<Note>,
@@ -34,55 +34,64 @@ pub(super) struct Reading<'a> {
 /// # Errors
 /// Every problem with any key.
 pub(super) fn spec(
-    document: WebDocument,
+    written: WrittenValues,
     name: &str,
-    (of_case, cases): (Overrides<'_>, &[(PathBuf, String)]),
+    (of_case, cases): (&[Overrides<'_>], &[(PathBuf, String)]),
 ) -> Result<(WebSpec, Vec<Note>), Error> {
-    let WebDocument { written, layers: prefixes } = document;
     let folder = Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
     let mut reading = Reading { written, folder, of_case, cases, notes: Vec::new() };
-    let mut layers = Vec::new();
+    let (mut web, prefixes) = (WebSpec::unknown(), reading.prefixes());
     for prefix in &prefixes {
-        layers.push(reading.layer(prefix)?);
+        let layer = reading.layer(prefix)?;
+        web.layers.push(layer);
     }
+    reading.fill(&mut web, "web", "web.");
     reading.check_names(&prefixes);
-    let sheet = reading.sheet();
-    let method = reading.method(&prefixes, &layers);
-    let seed = reading.whole("web.seed").unwrap_or_default();
-    let window = sheet.as_ref().and_then(|sheet| reading.window(sheet));
-    let memory_limit = reading.number_or("web.memory_limit", "web", Ok(MEMORY_LIMIT));
-    reading.check_belts(&prefixes, &layers);
-    if let Some(sheet) = &sheet {
-        for (prefix, layer) in prefixes.iter().zip(&layers) {
-            layer.iter().for_each(|layer| reading.check_layer(prefix, layer, sheet));
-        }
+    reading.complete_sheet(&mut web);
+    reading.check_method(&prefixes, &web);
+    reading.settle_belt(&prefixes, &mut web.layers);
+    for (number, prefix) in prefixes.iter().enumerate() {
+        reading.check_layer(prefix, &web.alone(number));
     }
     let unusual = reading.unusual();
     reading.note(unusual.clone());
     let Reading { mut written, notes, .. } = reading;
-    if !written.problems.is_empty() {
-        // They may be why the web cannot be laid.
-        for note in unusual {
-            if !written.problems.iter().any(|problem| problem.key == note.key) {
-                written.problems.push(note.into());
-            }
+    if written.problems.is_empty() {
+        web.check_air().map_err(|problem| Error::from(vec![written.placed(problem)]))?;
+        return Ok((web, sorted(notes)));
+    }
+    // Unusual values may be why the web cannot be laid.
+    for note in unusual {
+        if !written.problems.iter().any(|problem| problem.key == note.key) {
+            written.problems.push(note.into());
         }
     }
-    match (sheet, layers.into_iter().collect::<Option<Vec<_>>>(), window, memory_limit) {
-        (Some(sheet), Some(layers), Some(window), Some(memory_limit)) if written.problems.is_empty() => {
-            let spec = WebSpec { sheet, layers, seed, method, window, memory_limit };
-            spec.check_air().map_err(|problem| Error::from(vec![written.placed(problem)]))?;
-            Ok((spec, sorted(notes)))
-        }
-        _ => Err(sorted(written.problems).into()),
-    }
+    Err(sorted(written.problems).into())
+}
+
+/// Changes a layer through the keys, which are those of a web.
+fn as_web(layer: &mut LayerSpec, change: impl FnOnce(&mut WebSpec)) {
+    let mut web = WebSpec { layers: vec![layer.clone()], ..WebSpec::unknown() };
+    change(&mut web);
+    web.layers.into_iter().for_each(|changed| *layer = changed);
 }
 
 impl Reading<'_> {
+    /// What comes before the names of each layer's keys: `layer.2.`, or nothing in a file without `[[layer]]`.
+    fn prefixes(&self) -> Vec<String> {
+        match self.written.get("layer") {
+            None => vec![String::new()],
+            Some(_) => {
+                let layers = self.written.number("layer").unwrap_or(0.0) as usize;
+                (1..=layers).map(|number| format!("layer.{number}.")).collect()
+            }
+        }
+    }
+
     /// Warnings about written values that are most likely slips.
     fn unusual(&self) -> Vec<Note> {
         let of = |(full, said): (&str, &WrittenValue)| {
-            let key = keys::of_full(full)?;
+            let key = web_key(full)?;
             let (dimension, usual) = (key.kind.dimension()?, key.usual_range()?);
             let values = match said.value.as_ref()? {
                 Value::Number(value) => std::slice::from_ref(value),
@@ -111,267 +120,159 @@ impl Reading<'_> {
         self.written.problems.push(problem);
     }
 
-    /// The number of a required key; none if there is a problem with it, which is noted.
-    pub(super) fn number(&mut self, prefix: &str, name: &str) -> Option<f64> {
-        self.number_or(&format!("{prefix}{name}"), table_of(prefix, name), Err(&example(name)))
+    /// Whether a key is written, with a value that can be read or not.
+    pub(super) fn is_written(&self, full: &str) -> bool {
+        self.written.get(full).is_some()
     }
 
-    /// The number of a key, or else another one; a line to write in its table if there is none.
-    pub(super) fn number_or(
-        &mut self,
-        full: &str,
-        table: &'static str,
-        otherwise: Result<f64, &str>,
-    ) -> Option<f64> {
-        if self.written.get(full).is_some() {
-            return self.written.number(full);
+    /// Sets the keys of a table: what is written, or else the default. What is missing is noted, unless a flown case gives it.
+    ///
+    /// * `before` – what comes before the names of its keys, `layer.2.line.`
+    fn fill(&mut self, web: &mut WebSpec, table: &str, before: &str) {
+        for key in WEB.of_table(table) {
+            let full = format!("{before}{}", key.short());
+            let is_there = |name: &str| {
+                let (_, short) = name.rsplit_once('.').unwrap_or(("", name));
+                self.is_written(&format!("{before}{short}"))
+            };
+            let set = match (self.written.get(&full).map(|written| written.value.clone()), key.left_out) {
+                (Some(None), _) => Ok(()),
+                (Some(Some(value)), _) => match rival(key.name, is_there) {
+                    Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
+                    None => key.apply(web, &value),
+                },
+                (None, LeftOut::Value(text)) => key.set(web, text).map_err(|problem| problem.what),
+                (None, LeftOut::Required(_)) => {
+                    let is_given = flown(web, key).is_some()
+                        || key.name == BELT_SPEED
+                        || key.name == "fibre.diameter" && is_there("fibre.linear_density");
+                    let table = without_numbers(before);
+                    if is_given { Ok(()) } else { Err(Fault::missing(&table, &key.example())) }
+                }
+                (None, LeftOut::Follows(_)) => Ok(()),
+            };
+            if let Err(fault) = set
+                && (self.is_written(&full) || !self.written.is_excused(&full))
+            {
+                self.written.reject(&full, fault);
+            }
         }
-        if let Err(line) = otherwise
-            && !self.written.is_excused(full)
-        {
-            self.written.reject(full, Fault::missing(table, line));
-        }
-        otherwise.ok()
     }
 
-    /// The whole number of a key, or its default.
-    pub(super) fn whole(&self, full: &str) -> Option<u64> {
-        match self.written.get(full) {
-            Some(said) => match said.value {
-                Some(Value::Whole(number)) => Some(number),
-                _ => None,
-            },
-            None => match keys::find(full)?.left_out {
-                LeftOut::Value(text) => text.parse().ok(),
-                _ => None,
-            },
-        }
-    }
-
-    /// A layer; none if there is a problem with it, which is noted.
-    fn layer(&mut self, prefix: &str) -> Result<Option<LayerSpec>, Error> {
+    /// A layer. Its values are NaN where there is a problem with them, which is noted.
+    fn layer(&mut self, prefix: &str) -> Result<LayerSpec, Error> {
         let source = self.laydown(prefix)?;
-        let by_case = ["case", "results"]
-            .iter()
-            .any(|way| self.written.get(&format!("{prefix}laydown.{way}")).is_some());
+        let by_case =
+            ["case", "results"].iter().any(|way| self.is_written(&format!("{prefix}laydown.{way}")));
         if source.is_none() && (by_case || self.written.is_excused(&format!("{prefix}laydown."))) {
             // The case would give them.
-            for name in ["fibre.diameter", "fibre.density", "line.feed_speed", "line.belt_speed"] {
+            for name in ["fibre.diameter", "fibre.density", "line.feed_speed", BELT_SPEED] {
                 self.written.excuse(format!("{prefix}{name}"));
             }
         }
-        let flown = source.as_ref().and_then(FlownSource::of);
-        let density = self.as_flown(prefix, "fibre.density", flown.as_ref());
-        let diameter = self.diameter(prefix, density, flown.as_ref());
-        let feed_speed = self.as_flown(prefix, "line.feed_speed", flown.as_ref());
-        let belt_speed = self.as_flown(prefix, "line.belt_speed", flown.as_ref());
-        let filaments = self.filaments(prefix);
-        let name = self.written.text(&format!("{prefix}name"));
-        if let (Some(feed), Some(belt)) = (feed_speed, belt_speed)
-            && belt > feed
-        {
-            let value = Dimension::Velocity.pretty(belt);
-            let feed = Dimension::Velocity.pretty(feed);
-            let fault = Fault::new(
-                format!("is more than line.feed_speed = {feed}, which would tear the fibre"),
-                "slow the belt, or feed faster",
-            );
-            self.refuse(&format!("{prefix}line.belt_speed"), value, fault);
+        let numbers = matches!(source, Some(LaydownSource::Surrogate(_)));
+        let mut layer = LayerSpec::unknown(source.unwrap_or(LaydownSource::UNKNOWN));
+        as_web(&mut layer, |web| {
+            self.fill(web, "layer", prefix);
+            for table in ["fibre", "laydown", "line"].iter().filter(|table| **table != "laydown" || numbers) {
+                self.fill(web, table, &format!("{prefix}{table}."));
+            }
+            self.take_flown(web, prefix);
+        });
+        let rows = self.rows(&format!("{prefix}line."));
+        if !rows.is_empty() {
+            layer.filaments = Filaments::Rows(rows);
         }
-        let all = (density, diameter, source, feed_speed, belt_speed, filaments);
-        let (
-            Some(density),
-            Some(diameter),
-            Some(source),
-            Some(feed_speed),
-            Some(belt_speed),
-            Some(filaments),
-        ) = all
-        else {
-            return Ok(None);
-        };
-        Ok(Some(LayerSpec { name, diameter, density, source, feed_speed, belt_speed, filaments }))
+        Ok(layer)
     }
 
-    /// A number that the case of the flown fibres gives if there is one, and that must not be another then.
-    fn as_flown(&mut self, prefix: &str, name: &'static str, flown: Option<&FlownSource>) -> Option<f64> {
-        let there = flown.and_then(|flown| flown.value(name));
-        let (full, line) = (format!("{prefix}{name}"), example(name));
-        let otherwise = there.map(|(_, value)| value).ok_or(&*line);
-        let number = self.number_or(&full, table_of(prefix, name), otherwise)?;
-        self.must_be(&full, number, there, flown)
+    /// Takes the values with which the fibres of a layer are flown, and refuses others.
+    fn take_flown(&mut self, web: &mut WebSpec, prefix: &str) {
+        for key in WEB.rows {
+            let Some((of_case, value)) = flown(web, key) else { continue };
+            let numbers = (key.get(web).and_then(|here| here.number()), value.number());
+            if let (Some(here), Some(there)) = numbers
+                && (here / there - 1.0).abs() > SAME
+            {
+                let linear = format!("{prefix}fibre.linear_density");
+                let by_linear = key.name == "fibre.diameter" && self.is_written(&linear);
+                let full = if by_linear { linear } else { format!("{prefix}{}", key.name) };
+                let path = web.layers.first().map_or(Path::new(""), |layer| layer.source.path()).display();
+                let message = format!(
+                    "differs from {} = {} of {path}, with which the fibres are flown, and they would lie otherwise",
+                    of_case.name,
+                    of_case.kind.pretty(&value)
+                );
+                let remedy = "leave it out here, and set it in the case";
+                self.written.reject(&full, Fault::new(message, remedy));
+            }
+            // The kinds of both keys are the same.
+            drop(key.apply(web, &value));
+        }
     }
 
-    /// The value with which the fibres are flown, if there is one, or else the number of the file.
-    fn must_be(
-        &mut self,
-        key: &str,
-        number: f64,
-        there: Option<(&'static str, f64)>,
-        flown: Option<&FlownSource>,
-    ) -> Option<f64> {
-        let (Some((of_case, value)), Some(flown)) = (there, flown) else { return Some(number) };
-        if (number / value - 1.0).abs() > SAME {
-            let shown = crate::case::keys::find(of_case).and_then(|key| key.dimension());
-            let value = shown.unwrap_or(Dimension::Ratio).pretty(value);
-            let case = &flown.path;
-            let fault = Fault::new(
-                format!(
-                    "differs from {of_case} = {value} of {case}, with which the fibres are flown, and they would lie otherwise"
-                ),
-                "leave it out here, and set it in the case",
-            );
-            self.written.reject(key, fault);
-        }
-        Some(value)
-    }
-
-    /// The diameter, as it is written or from the linear density.
-    fn diameter(&mut self, prefix: &str, density: Option<f64>, flown: Option<&FlownSource>) -> Option<f64> {
-        const NAME: &str = "fibre.diameter";
-        let linear = format!("{prefix}fibre.linear_density");
-        if self.written.get(&linear).is_none() {
-            return self.as_flown(prefix, NAME, flown);
-        }
-        if self.written.get(&format!("{prefix}{NAME}")).is_some() {
-            let remedy = "either gives the other; write one of the two";
-            self.written.reject(&linear, Fault::excludes(NAME, remedy));
-            return None;
-        }
-        let diameter = diameter(self.written.number(&linear)?, density?);
-        self.must_be(&linear, diameter, flown.and_then(|flown| flown.value(NAME)), flown)
-    }
-
-    fn filaments(&mut self, prefix: &str) -> Option<Filaments> {
+    /// The rows of nozzles, and that they are not there together with filaments at random; it is noted if neither is there.
+    ///
+    /// * `before` – what comes before the names of the table's keys: `line.`
+    fn rows(&mut self, before: &str) -> Vec<Row> {
         let [at_random, rows, depth] =
-            ["filaments_per_metre", "rows", "depth"].map(|name| format!("{prefix}line.{name}"));
-        let in_slot = self.written.get(&depth).is_some();
-        if in_slot && self.written.get(&rows).is_some() {
+            ["filaments_per_metre", "rows", "depth"].map(|name| format!("{before}{name}"));
+        if self.is_written(&depth) && self.is_written(&rows) {
             self.written.reject(&depth, in_rows());
-            return None;
         }
-        match (self.written.get(&at_random).is_some(), self.whole(&rows)) {
-            (true, Some(_)) => {
+        match (self.is_written(&at_random), self.is_written(&rows)) {
+            (true, true) => {
                 let remedy = "filaments come down at random places or in rows; keep one";
                 self.written.reject(&at_random, Fault::excludes("line.rows", remedy));
-                None
             }
-            (true, None) => {
-                let per_metre = self.whole(&at_random)? as f64;
-                Some(match in_slot {
-                    true => Filaments::Slot { per_metre, depth: self.written.number(&depth)? },
-                    false => Filaments::AtRandom { per_metre },
-                })
+            (false, false) if !self.written.is_excused(&at_random) => {
+                let add = format!("add filaments_per_metre = 5000 to [{}]", without_numbers(before));
+                let rows = "rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]";
+                self.written.reject(&at_random, Fault::new("is missing", format!("{add}, or {rows}")));
             }
-            (false, Some(count)) => {
-                let rows: Vec<Option<Row>> =
-                    (1..=count).map(|number| self.row(&format!("{rows}.{number}."))).collect();
-                rows.into_iter().collect::<Option<_>>().map(Filaments::Rows)
-            }
-            (false, None) => {
-                if !self.written.is_excused(&at_random) {
-                    let table = table_of(prefix, "line.");
-                    let fault = Fault::new(
-                        "is missing",
-                        format!(
-                            "add filaments_per_metre = 5000 to [{table}], or rows = [{{ offset = \"0 mm\", pitch = \"0.2 mm\", \
-                             filaments = 5000 }}]"
-                        ),
-                    );
-                    self.written.reject(&at_random, fault);
-                }
-                None
-            }
-        }
-    }
-
-    /// A row of nozzles.
-    ///
-    /// * `before` – what comes before the names of its keys: `line.rows.1.`
-    fn row(&mut self, before: &str) -> Option<Row> {
-        const TABLE: &str = "line.rows";
-        let [offset, pitch, filaments, md] =
-            ["offset", "pitch", "filaments", "md"].map(|name| format!("{before}{name}"));
-        let [offset, md] = [offset, md].map(|name| self.number_or(&name, TABLE, Ok(0.0)));
-        let pitch = self.number_or(&pitch, TABLE, Err(&example("line.rows.pitch")));
-        let count = self.number_or(&filaments, TABLE, Err(&example("line.rows.filaments")));
-        let (offset, md, pitch, _) = (offset?, md?, pitch?, count?);
-        Some(Row { offset, pitch, filaments: self.whole(&filaments)?, md })
-    }
-
-    fn method(&mut self, prefixes: &[String], layers: &[Option<LayerSpec>]) -> Method {
-        let written = self.written.text("web.method");
-        let method = ALL_METHODS.into_iter().find(|one| written.as_deref() == Some(METHODS[*one as usize]));
-        match method {
-            Some(Method::Dynamics) => self.check_flown(prefixes, layers),
-            Some(Method::SharedAir) => self.check_shared_air(prefixes, layers),
             _ => {}
         }
-        method.unwrap_or(Method::Surrogate)
+        let count = self.written.number(&rows).unwrap_or(0.0) as u64;
+        let row = |number| {
+            let row = Row::new(f64::NAN, f64::NAN, 0);
+            let mut layer = LayerSpec {
+                filaments: Filaments::Rows(vec![row]),
+                ..LayerSpec::unknown(LaydownSource::UNKNOWN)
+            };
+            as_web(&mut layer, |web| self.fill(web, "line.rows", &format!("{rows}.{number}.")));
+            match layer.filaments {
+                Filaments::Rows(rows) => rows.first().copied(),
+                Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
+            }
+        };
+        (1..=count).filter_map(row).collect()
     }
 
-    /// Refuses the curves of fibres that have not been flown.
-    fn check_flown(&mut self, prefixes: &[String], layers: &[Option<LayerSpec>]) {
-        let numbers = |layer: &Option<LayerSpec>| {
-            layer.as_ref().is_some_and(|layer| matches!(layer.source, LaydownSource::Surrogate(_)))
-        };
-        if let Some((prefix, _)) = prefixes.iter().zip(layers).find(|(_, layer)| numbers(layer)) {
-            let laydown = format!("{prefix}laydown");
-            let fault = Fault::new(
-                format!("lays the curves of flown fibres, and {laydown} gives numbers"),
-                "write method = \"surrogate\", or name a case or results there",
-            );
-            self.written.reject("web.method", fault);
+    /// Whether a layer gives the numbers of a surrogate.
+    pub(super) fn has_numbers(&self, prefix: &str) -> bool {
+        NUMBERS.iter().any(|(name, _)| self.is_written(&format!("{prefix}{name}")))
+    }
+
+    /// Refuses a method of laying that needs flights where there are none.
+    fn check_method(&mut self, prefixes: &[String], web: &WebSpec) {
+        match web.method {
+            Method::SharedAir => self.check_shared_air(prefixes, &web.layers),
+            Method::Dynamics => {
+                if let Some(prefix) = prefixes.iter().find(|prefix| self.has_numbers(prefix)) {
+                    let fault = Fault::new(
+                        format!("lays the curves of flown fibres, and {prefix}laydown gives numbers"),
+                        "write method = \"surrogate\", or name a case or results there",
+                    );
+                    self.written.reject("web.method", fault);
+                }
+            }
+            Method::Surrogate => {}
         }
     }
 }
 
-/// A line that would be valid for a key.
-fn example(name: &str) -> String {
-    keys::find(name).map_or_else(String::new, WebKey::example)
-}
-
-/// The table in which a key of a layer stands, as it is written in the file.
-pub(super) fn table_of(prefix: &str, name: &str) -> &'static str {
-    match (prefix.is_empty(), name.split_once('.').map_or(name, |(table, _)| table)) {
-        (_, "web") => "web",
-        (true, "fibre") => "fibre",
-        (true, "laydown") => "laydown",
-        (true, _) => "line",
-        (false, "fibre") => "layer.fibre",
-        (false, "laydown") => "layer.laydown",
-        (false, _) => "layer.line",
-    }
-}
-
-/// What is known of flown fibres.
-struct FlownSource {
-    /// Path of their case, for messages.
-    path: String,
-    /// Keys of the web and of the case, and the value there.
-    values: [(&'static str, &'static str, f64); 4],
-}
-
-impl FlownSource {
-    fn of(source: &LaydownSource) -> Option<Self> {
-        let path = match source {
-            LaydownSource::Case { path, .. } => path.display(),
-            LaydownSource::Results { folder, .. } => folder.display(),
-            LaydownSource::Surrogate(_) => return None,
-        };
-        let (case, path) = (source.case()?, path.to_string());
-        let line = case.line?;
-        let values = [
-            ("fibre.diameter", "fibre.diameter", case.fibre.diameter),
-            ("fibre.density", "fibre.density", case.fibre.density),
-            ("line.feed_speed", "feed.speed", line.feed_speed),
-            ("line.belt_speed", "belt.speed", line.belt_speed),
-        ];
-        Some(Self { path, values })
-    }
-
-    /// The key of the case and its value, by the key of the web.
-    fn value(&self, name: &str) -> Option<(&'static str, f64)> {
-        self.values.iter().find(|(key, ..)| *key == name).map(|(_, of_case, value)| (*of_case, *value))
-    }
+/// What the case of a layer's flown fibres gives for a key of the web: the key of the case, and its value.
+fn flown(web: &WebSpec, key: &WebKey) -> Option<(&'static Key, Value)> {
+    let of_case = key.of_case()?;
+    Some((of_case, of_case.get(web.layers.first()?.source.case()?)?))
 }

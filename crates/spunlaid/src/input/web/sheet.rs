@@ -1,12 +1,11 @@
 //! The sheet: its size, cells, patches and edges.
 
 use super::read::Reading;
-use crate::case::keys::Value;
 use crate::case::whole_parts;
 use crate::error::Fault;
-use crate::layers::keys::EDGES;
+use crate::layers::WebSpec;
 use crate::units::Dimension;
-use crate::web::{Edges, Sheet};
+use crate::web::Sheet;
 
 /// Sides of the cells and of the patches that are chosen if the file gives none [m].
 const CELLS: [f64; 5] = [0.5e-3, 1e-3, 2e-3, 5e-3, 10e-3];
@@ -20,18 +19,16 @@ const MOST_PATCHES: usize = 100;
 const WINDOW: f64 = 20e-3;
 
 impl Reading<'_> {
-    /// The sheet; none if there is a problem with it, which is noted.
-    pub(super) fn sheet(&mut self) -> Option<Sheet> {
-        let (width, length) = (self.number("", "web.width"), self.number("", "web.length"));
-        let edges = match self.written.text("web.edges") {
-            Some(name) if name == EDGES[1] => Edges::Cut,
-            _ => Edges::Periodic,
-        };
-        let (width, length) = (width?, length?);
-        let cell = match self.written.get("web.cell") {
-            Some(_) => self.written.number("web.cell")?,
-            None => chosen_cell(width, length),
-        };
+    /// Sets what a file leaves out of the sheet, and checks it.
+    pub(super) fn complete_sheet(&mut self, web: &mut WebSpec) {
+        let Sheet { width, length, .. } = web.sheet;
+        if !self.is_written("web.cell") {
+            web.sheet.cell = chosen_cell(width, length);
+        }
+        let cell = web.sheet.cell;
+        if [width, length, cell].iter().any(|size| size.is_nan()) {
+            return;
+        }
         let cells = width / cell * (length / cell);
         if !cells.is_finite() || cells > MOST_CELLS {
             let cell = Dimension::Length.pretty(cell);
@@ -40,26 +37,35 @@ impl Reading<'_> {
                 "make the cells larger, or the web smaller",
             );
             self.refuse("web.cell", cell, fault);
-            return None;
+            return;
         }
         let mut whole = true;
         for (key, size) in [("web.width", width), ("web.length", length)] {
             if !is_whole(size, cell) {
                 whole = false;
-                let fault = not_whole("is", size, cell);
-                self.written.reject(key, fault);
+                self.written.reject(key, not_whole("is", size, cell));
             }
         }
-        let patches = if whole { self.patches(width.min(length), cell) } else { None };
-        Some(Sheet { width, length, cell, patches: patches?, edges })
+        let side = width.min(length);
+        if whole {
+            self.complete_patches(&mut web.sheet.patches, side, cell);
+        }
+        if !self.is_written("web.window") {
+            web.window = WINDOW.min(side);
+        } else if web.window > side {
+            let side = Dimension::Length.pretty(side);
+            let fault =
+                Fault::new(format!("is larger than the web's smaller side, {side}"), "write a smaller one");
+            self.written.reject("web.window", fault);
+        }
     }
 
-    /// The sides of the patches, the smallest first.
-    fn patches(&mut self, side: f64, cell: f64) -> Option<Vec<f64>> {
+    /// Sorts the sides of the patches, or chooses them, and checks them.
+    fn complete_patches(&mut self, patches: &mut Vec<f64>, side: f64, cell: f64) {
         const KEY: &str = "web.patches";
-        let Some(said) = self.written.get(KEY) else {
+        if !self.is_written(KEY) {
             let fits = |patch: &f64| is_whole(*patch, cell) && *patch <= 0.5 * side;
-            let patches: Vec<f64> = PATCHES.into_iter().filter(fits).collect();
+            *patches = PATCHES.into_iter().filter(fits).collect();
             if patches.is_empty() && !self.written.is_excused(KEY) {
                 let [shown, exact] = [4, 12].map(|digits| Dimension::Length.pretty_to(cell, digits));
                 let fault = Fault::new(
@@ -71,21 +77,19 @@ impl Reading<'_> {
                 );
                 self.written.reject(KEY, fault);
             }
-            return Some(patches).filter(|patches| !patches.is_empty());
-        };
-        let Some(Value::Numbers(mut patches)) = said.value.clone() else { return None };
+            return;
+        }
         patches.sort_by(f64::total_cmp);
         patches.dedup();
-        let before = self.written.problems.len();
         if patches.len() > MOST_PATCHES {
             let fault = Fault::new(
                 format!("lists {} patches", patches.len()),
                 format!("at most {MOST_PATCHES} are compared"),
             );
             self.written.reject(KEY, fault);
-            return None;
+            return;
         }
-        for &patch in &patches {
+        for &patch in &*patches {
             if !is_whole(patch, cell) {
                 let shown = Dimension::Length.pretty(patch);
                 let fault = not_whole(&format!("has {shown}, which is"), patch, cell);
@@ -102,23 +106,6 @@ impl Reading<'_> {
                 self.written.reject(KEY, fault);
             }
         }
-        (self.written.problems.len() == before).then_some(patches)
-    }
-
-    /// Side of the window whose single fibres are written out.
-    pub(super) fn window(&mut self, sheet: &Sheet) -> Option<f64> {
-        let side = sheet.width.min(sheet.length);
-        if self.written.get("web.window").is_none() {
-            return Some(WINDOW.min(side));
-        }
-        let window = self.written.number("web.window")?;
-        if window > side {
-            let side = Dimension::Length.pretty(side);
-            let fault =
-                Fault::new(format!("is larger than the web's smaller side, {side}"), "write a smaller one");
-            self.written.reject("web.window", fault);
-        }
-        Some(window)
     }
 }
 

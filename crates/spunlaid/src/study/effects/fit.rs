@@ -97,7 +97,7 @@ impl<'a> Fit<'a> {
                 continue;
             };
             if least == last {
-                return Err(Refusal::OneValue { key: study.factors[factor].key });
+                return Err(Refusal::OneValue { key: study.factors[factor].key.clone() });
             }
             let alone = study.design == Design::OneAtATime;
             if study.factors[factor].words.is_empty() {
@@ -199,7 +199,7 @@ impl<'a> Fit<'a> {
         let nearest = others.max_by(|a, b| correlation(*a).abs().total_cmp(&correlation(*b).abs()));
         let key = |column: usize| match self.terms[column.max(1) - 1] {
             Term::Line(j) | Term::Square(j) | Term::Product(j, _) | Term::Word(j, ..) => {
-                self.study.factors[j].key
+                self.study.factors[j].key.clone()
             }
         };
         match nearest.filter(|k| correlation(*k).abs() > 0.9) {

@@ -21,7 +21,7 @@ pub enum Refusal {
     #[error("{key} has the same value at all points; give it at least two values")]
     OneValue {
         /// Its key.
-        key: &'static str,
+        key: String,
     },
     /// Two factors vary together.
     #[error(
@@ -30,9 +30,9 @@ pub enum Refusal {
     )]
     Together {
         /// Key of the one.
-        first: &'static str,
+        first: String,
         /// Key of the other.
-        second: &'static str,
+        second: String,
         /// Correlation of their values.
         correlation: f64,
     },
@@ -40,7 +40,7 @@ pub enum Refusal {
     #[error("{key} follows from the other keys at all points, so its effect cannot be told from theirs")]
     Dependent {
         /// Key of one of them.
-        key: &'static str,
+        key: String,
     },
     /// A point has no result.
     #[error("point {point} has no fibre that was completed")]

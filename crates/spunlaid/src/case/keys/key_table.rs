@@ -1,0 +1,84 @@
+//! The keys of a kind of input, and how its file is divided into tables.
+
+use super::nearest::by_similarity;
+use super::{Key, nearest_word};
+use crate::case::Case;
+
+/// The keys of a kind of input: those of a case, or those of a web.
+#[derive(Debug)]
+pub struct KeyTable<T: 'static = Case> {
+    /// A row for each key, in the order of the file.
+    pub rows: &'static [Key<T>],
+    /// The tables at the top of its file, in order, and the lists of tables.
+    pub tables: &'static [&'static str],
+    /// Its lists of tables.
+    pub(crate) lists: &'static [TableList],
+    /// The input in words, `a case`.
+    pub(crate) noun: &'static str,
+    /// Its file in words, `a case file`.
+    pub(crate) file: &'static str,
+}
+
+/// A list of tables in a file, like `[[layer]]`. An entry has a number in the full name of its keys, `layer.2.line.belt_speed`.
+#[derive(Debug)]
+pub(crate) struct TableList {
+    /// Its name with the table in which it stands, `line.rows`.
+    pub(crate) name: &'static str,
+    /// The tables that stand in each of its entries.
+    pub(crate) tables: &'static [&'static str],
+    /// What an entry is, `a layer`.
+    pub(crate) entry: &'static str,
+    /// What to write, in words.
+    pub(crate) wanted: &'static str,
+}
+
+impl<T> KeyTable<T> {
+    /// The key with this full name, `air.velocity`.
+    pub fn find(&self, name: &str) -> Option<&'static Key<T>> {
+        self.rows.iter().find(|key| key.name == name)
+    }
+
+    /// The keys of a table.
+    pub fn of_table(&self, table: &str) -> impl Iterator<Item = &'static Key<T>> {
+        self.rows.iter().filter(move |key| key.table() == table)
+    }
+
+    /// The key with this short name, if exactly one table has such a key.
+    pub(crate) fn home_of(&self, name: &str) -> Option<&'static Key<T>> {
+        let mut homes = self.rows.iter().filter(|key| key.short() == name);
+        let home = homes.next();
+        if homes.next().is_some() { None } else { home }
+    }
+
+    /// The keys of any table that are similar to one written in `table`, the most similar first.
+    pub(crate) fn like(&self, table: &str, key: &str) -> Vec<&'static Key<T>> {
+        // Of equally similar keys, prefer the one of the same table.
+        let bonus = |home: &str| if home == table { 0.05 } else { 0.0 };
+        by_similarity(key, self.rows.iter().map(|known| (known, known.short(), bonus(known.table()))))
+    }
+
+    /// The list with this name.
+    pub(crate) fn list(&self, name: &str) -> Option<&'static TableList> {
+        self.lists.iter().find(|list| list.name == name)
+    }
+
+    /// The tables that stand in a table, or at the top of the file.
+    pub(crate) fn tables_in(&self, table: &str) -> &'static [&'static str] {
+        if table.is_empty() { self.tables } else { self.list(table).map_or(&[], |list| list.tables) }
+    }
+
+    /// The table that stands in another one, or at the top of the file.
+    pub(crate) fn table_in(&self, table: &str, name: &str) -> Option<&'static str> {
+        self.tables_in(table).iter().copied().find(|one| *one == name && self.list(one).is_none())
+    }
+
+    /// The table that is most similar to a misspelt one.
+    pub(crate) fn nearest_table(&self, table: &str, name: &str) -> Option<&'static str> {
+        nearest_word(name, self.tables_in(table).iter().copied())
+    }
+
+    /// A table or list of the file as it is written, `[air]` or `[[layer]]`.
+    pub(crate) fn header(&self, table: &str) -> String {
+        if self.list(table).is_some() { format!("[[{table}]]") } else { format!("[{table}]") }
+    }
+}

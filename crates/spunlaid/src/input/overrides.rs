@@ -1,0 +1,85 @@
+//! Overrides: each finds the layer, table and row of its key.
+
+use super::document::Document;
+use super::entry::Entry;
+use super::source::fit;
+use crate::case::keys::TableList;
+use crate::error::Fault;
+
+/// The value of an override that removes a key, so that its default applies.
+pub(super) const AUTO: &str = "auto";
+
+/// Where the key of an override stands: what comes before it in its full name, its table, and its name there.
+type Target<'k> = (String, &'static str, &'k str);
+
+impl<'a, T> Document<'a, T> {
+    /// Takes an override, which replaces the value in the file. The value `auto` removes it.
+    pub(super) fn take_override(&mut self, word: &str, key: &str, text: &'a str) {
+        let entry = Entry::of_override(word, text);
+        match self.target(key) {
+            Ok((before, table, name)) => {
+                let path = format!("{table}.{name}");
+                let is_known = self.keys.find(&path).is_some() || self.keys.list(&path).is_some();
+                if is_known && text.trim().trim_matches('"') == AUTO {
+                    self.remove(&format!("{before}{name}"));
+                } else {
+                    self.take(&before, table, name, entry);
+                }
+            }
+            Err(what) => self.written.problems.push(entry.problem(key, what)),
+        }
+    }
+
+    /// Where a key stands.
+    ///
+    /// # Errors
+    /// If it is of an entry of a list that is not there, or does not say of which.
+    fn target<'k>(&self, key: &'k str) -> Result<Target<'k>, Fault> {
+        let (mut before, mut table, mut rest) = (String::new(), "", key);
+        while let Some((name, after)) = rest.split_once('.') {
+            let path = if table.is_empty() { name.to_owned() } else { format!("{table}.{name}") };
+            if let Some(list) = self.keys.list(&path) {
+                let (number, after) = self.numbered(&format!("{before}{name}"), list, after)?;
+                // A file without a list at its top has one entry of it all the same.
+                if self.layered || !before.is_empty() {
+                    before += &format!("{name}.{number}.");
+                    table = list.name;
+                }
+                rest = after;
+            } else if let Some(inner) = self.keys.table_in(table, name) {
+                if self.layered && table.is_empty() && self.list_of(inner).is_some() {
+                    let remedy = format!("write layer.1.{}, or the layer's name in place of 1", fit(key));
+                    return Err(Fault::new("does not say of which layer", remedy));
+                }
+                before += &format!("{name}.");
+                (table, rest) = (inner, after);
+            } else {
+                break;
+            }
+        }
+        Ok((before, table, rest))
+    }
+
+    /// The number of an entry of a list, which an override gives by its number or its name, and the rest of its key.
+    fn numbered<'k>(&self, full: &str, list: &TableList, key: &'k str) -> Result<(u64, &'k str), Fault> {
+        let count = self.written.number(full).map_or(0, |count| count as u64);
+        let after = |name: &str| key.strip_prefix(name)?.strip_prefix('.');
+        let is_alone = count == 0 && !list.tables.is_empty() && !self.layered;
+        let by_number = (1..=count.max(u64::from(is_alone)))
+            .find_map(|number| Some((number, after(&number.to_string())?)));
+        let by_name = || {
+            let name = |number| self.entries.get(&format!("{full}.{number}.name"))?.1.value.as_str();
+            (1..=count).find_map(|number| Some((number, after(name(number)?)?)))
+        };
+        by_number.or_else(by_name).ok_or_else(|| {
+            let there = match (count, list.tables) {
+                (0, []) => format!("write {}", list.wanted),
+                (0, _) => "it has no [[layer]], so write the key without layer".to_owned(),
+                (1, _) => format!("it has one, {full}.1"),
+                (_, []) => format!("it has {full}.1 to {full}.{count}"),
+                _ => format!("it has {full}.1 to {full}.{count}, which may also be called by their names"),
+            };
+            Fault::new(format!("is of {} that the file does not have", list.entry), there)
+        })
+    }
+}

@@ -1,0 +1,211 @@
+//! Every key of a web that can vary, varied in a study, gives what single webs give, in every measure.
+
+use crate::web_studies::{study_beside_cases, web_beside_cases};
+use spunlaid::ensemble::Computing;
+use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
+use spunlaid::lanes::Isa;
+use spunlaid::layers::{Flights, Flyer, web_key};
+use spunlaid::observe::{OF_PATCHES, OF_WEBS};
+use spunlaid::study::{Batch, fly_bundle};
+use spunlaid::units::Dimension;
+use spunlaid::web::Laying;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+/// Webs that together have every key.
+const WEBS: [(&str, &str); 3] = [
+    (
+        "rows",
+        r#"
+[fibre]
+linear_density = "2 dtex"
+density = "910 kg/m³"
+[laydown]
+sigma_md = "9 mm"
+sigma_cd = "8 mm"
+noise = "15 m^-0.5"
+[line]
+feed_speed = "50 m/s"
+belt_speed = "5 m/s"
+rows = [{ offset = "10 mm", pitch = "5 mm", filaments = 30 }, { offset = "20 mm", pitch = "5 mm", filaments = 34 }]
+[web]
+width = "200 mm"
+length = "200 mm"
+cell = "5 mm"
+edges = "cut"
+seed = 3
+"#,
+    ),
+    (
+        "layers",
+        r#"
+[web]
+width = "200 mm"
+length = "200 mm"
+cell = "5 mm"
+[[layer]]
+name = "S1"
+[layer.fibre]
+diameter = "18 µm"
+density = "910 kg/m³"
+[layer.laydown]
+sigma_md = "9 mm"
+sigma_cd = "8 mm"
+noise = "15 m^-0.5"
+[layer.line]
+feed_speed = "50 m/s"
+belt_speed = "5 m/s"
+filaments_per_metre = 200
+[[layer]]
+name = "M"
+[layer.fibre]
+diameter = "4 µm"
+density = "910 kg/m³"
+[layer.laydown]
+sigma_md = "12 mm"
+sigma_cd = "12 mm"
+noise = "10 m^-0.5"
+[layer.line]
+feed_speed = "60 m/s"
+filaments_per_metre = 300
+"#,
+    ),
+    (
+        "flown",
+        r#"
+[laydown]
+case = "short.case"
+[line]
+filaments_per_metre = 100
+[web]
+width = "600 mm"
+length = "600 mm"
+cell = "5 mm"
+"#,
+    ),
+];
+
+/// The full names of a key in a web: one for each layer and each row that has a value.
+fn full_names(web: &WebSpec, key: &WebKey) -> Vec<String> {
+    let layered = web.layers.len() > 1;
+    let table = key.table();
+    if table == "web" {
+        return vec![key.name.to_owned()];
+    }
+    let prefixes =
+        (1..=web.layers.len()).map(|n| if layered { format!("layer.{n}.") } else { String::new() });
+    let in_layers: Vec<String> = prefixes.map(|prefix| format!("{prefix}{}", key.name)).collect();
+    if table != "line.rows" {
+        return in_layers;
+    }
+    let numbered = |name: &String| [1, 2].map(|row| name.replace("rows.", &format!("rows.{row}.")));
+    in_layers.iter().flat_map(numbered).collect()
+}
+
+/// Pairs of values of a key as they are written: of each word with the first, or of a number that is there and its double.
+fn pairs(key: &WebKey, web: &WebSpec) -> Vec<[String; 2]> {
+    let words = key.kind.words();
+    if let [first, others @ ..] = &words[..] {
+        return others.iter().map(|word| [first, word].map(|word| format!("'{word}'"))).collect();
+    }
+    let there = key.get(web).and_then(|value| value.number()).filter(|number| *number != 0.0);
+    let there = there.unwrap_or(if key.name == "fibre.linear_density" { 2e-7 } else { 2.0 });
+    let written = |value: f64| match key.dimension() {
+        Some(Dimension::Ratio) | None => format!("{value:.0}"),
+        Some(dimension) => format!("'{}'", dimension.exact(value)),
+    };
+    vec![[there, 2.0 * there].map(written)]
+}
+
+/// What a web alone gives: its measures by the side of its patches, and those of the whole.
+///
+/// * `known` – what webs have given, by their files
+fn alone(text: &str, key: &str, value: &str, known: &mut BTreeMap<String, Vec<u64>>) -> Vec<u64> {
+    let set = [(key.to_owned(), value.trim_matches('\'').to_owned())];
+    let WebFile { spec, text, .. } = web_beside_cases(text, &set).unwrap();
+    known.entry(text).or_insert_with(|| measured(&spec)).clone()
+}
+
+fn measured(spec: &WebSpec) -> Vec<u64> {
+    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+    let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
+    let mut flown = Flyer::new(1, &stop, &follow).web(spec).unwrap();
+    let found = flown.measure(Laying { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid }).unwrap();
+    let patches = found.patches.iter().flat_map(|patch| OF_PATCHES.iter().map(|of| (of.number)(patch)));
+    patches.chain(OF_WEBS.iter().map(|of| (of.number)(&flown.web, &found))).map(f64::to_bits).collect()
+}
+
+/// What the two points of a study give, or why it is refused.
+///
+/// # Panics
+/// If the points do not differ.
+fn together(text: &str, key: &str, values: &[String; 2]) -> Result<[Vec<u64>; 2], String> {
+    let [a, b] = values;
+    let study = format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n{key} = [{a}, {b}]\n");
+    let study = study_beside_cases(text, &study, &[]).map_err(|error| error.to_string())?.study;
+    assert_ne!(study.points[0].experiment, study.points[1].experiment, "{key} is not set");
+    let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
+    let computing =
+        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
+    let bundle = [0, 1].map(|point| Batch { point, replicates: 0..1 });
+    let records = fly_bundle((&study.points, &study.patch_sides()), &bundle, computing).unwrap();
+    Ok([0, 1].map(|point| {
+        let measured = records[point].landing.measured().unwrap();
+        // A web has nothing of the patches of the other one.
+        let sides = study.patch_sides();
+        let own = &study.points[point].experiment.web().unwrap().sheet.patches;
+        let has = |i: usize| sides.get(i / OF_PATCHES.len()).is_none_or(|side| own.contains(side));
+        (0..measured.len()).filter(|i| has(*i)).map(|i| measured[i].to_bits()).collect()
+    }))
+}
+
+#[test]
+fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
+    let (mut varied, mut wrong): (BTreeSet<String>, _) = (BTreeSet::new(), Vec::new());
+    for (name, text) in WEBS {
+        let (web, mut known) = (web_beside_cases(text, &[]).unwrap().spec, BTreeMap::new());
+        // A flight takes long, so a flown web varies only what the others cannot.
+        let done: BTreeSet<&str> = varied.iter().filter_map(|full| Some(web_key(full)?.name)).collect();
+        let is_needed = |key: &&WebKey| key.varies && !(name == "flown" && done.contains(key.name));
+        for key in WEB_KEYS.iter().filter(is_needed) {
+            for full in full_names(&web, key) {
+                assert_eq!(web_key(&full).unwrap().name, key.name);
+                for values in pairs(key, &web) {
+                    let Ok(points) = together(text, &full, &values) else { continue };
+                    let single = [0, 1].map(|i: usize| alone(text, &full, &values[i], &mut known));
+                    if points != single {
+                        wrong.push(format!("{name}: {full} = {values:?}"));
+                    }
+                    varied.insert(full.clone());
+                }
+            }
+        }
+    }
+    for key in WEB_KEYS.iter().filter(|key| key.varies) {
+        if !varied.iter().any(|full| web_key(full).unwrap().name == key.name) {
+            wrong.push(format!("no web of this test varies {}; add one", key.name));
+        }
+    }
+    for full in
+        ["layer.2.fibre.diameter", "layer.2.line.filaments_per_metre", "line.rows.2.offset", "web.method"]
+    {
+        assert!(varied.contains(full), "{full}: {varied:?}");
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// What is set in the flown case is set in a study of its web, and the belt is that of the case.
+#[test]
+fn keys_of_a_flown_case_are_set_in_a_study() {
+    let (_, text) = WEBS[2];
+    let study = "web = 'web.toml'\ndesign = 'grid'\n[set]\nrun.replicates = 3\nrun.seed = 9\n[vary]\n\
+                 fibre.diameter = ['18 µm', '20 µm']\n[link]\nbelt.speed = 'feed.speed / 10'\n";
+    let points = study_beside_cases(text, study, &[]).unwrap().study.points;
+    for (point, diameter) in points.iter().zip([18e-6, 20e-6]) {
+        let layer = &point.experiment.web().unwrap().layers[0];
+        let LaydownSource::Case { case, .. } = &layer.source else { panic!("no case") };
+        assert_eq!((case.run.replicates, case.run.seed), (3, 9));
+        assert_eq!((case.fibre.diameter, layer.diameter), (diameter, diameter));
+        assert_eq!((layer.belt_speed, case.line.unwrap().belt_speed), (5.0, 5.0));
+    }
+}
