@@ -89,7 +89,7 @@ fn every_key_of_a_web_speaks_up_far_outside_of_what_is_usual() {
     let known = fs::read_to_string("../../cases/web_known.toml").unwrap();
     let rows = known.replace(
         "filaments_per_metre = 5000",
-        "rows = [{ offset = \"OFFSET\", pitch = \"PITCH\", filaments = 5000 }]",
+        "rows = [{ offset = \"OFFSET\", pitch = \"PITCH\", filaments = 5000, md = \"MD\" }]",
     );
     for key in WEB_KEYS {
         let Some(dimension) = key.kind.dimension() else { continue };
@@ -97,12 +97,13 @@ fn every_key_of_a_web_speaks_up_far_outside_of_what_is_usual() {
         for far in [1000.0 * greatest, 1e-3 * least] {
             let value = dimension.exact(far);
             let of_row = key.name.strip_prefix("line.rows.");
-            let (offset, pitch) = match of_row {
-                Some("offset") => (value.as_str(), "0.2 mm"),
-                Some(_) => ("0 mm", value.as_str()),
-                None => ("0 mm", "0.2 mm"),
+            let (offset, pitch, md) = match of_row {
+                Some("offset") => (value.as_str(), "0.2 mm", "0 mm"),
+                Some("md") => ("0 mm", "0.2 mm", value.as_str()),
+                Some(_) => ("0 mm", value.as_str(), "0 mm"),
+                None => ("0 mm", "0.2 mm", "0 mm"),
             };
-            let rows = rows.replace("OFFSET", offset).replace("PITCH", pitch);
+            let rows = rows.replace("OFFSET", offset).replace("PITCH", pitch).replace("MD", md);
             let said = if of_row.is_some() {
                 parse_web(&rows, "rows.toml", &[])
             } else {
