@@ -182,10 +182,10 @@ fn insert<'a>(into: &mut GroupSummary<'a>, group: &'static str, number: &'a Numb
 }
 
 fn summary_of(number: &Number) -> NumberSummary<'_> {
-    let over = |value_if| (number.measure.over_replicates == value_if).then(|| number.value());
+    let value_if = |aggregate| (number.measure.over_replicates == aggregate).then(|| number.value());
     NumberSummary {
-        median: over(Aggregate::Median),
-        largest: over(Aggregate::Largest),
+        median: value_if(Aggregate::Median),
+        largest: value_if(Aggregate::Largest),
         ..of_mean(&number.estimate)
     }
 }
