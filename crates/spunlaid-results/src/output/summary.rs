@@ -71,7 +71,7 @@ struct FinerSummary<'a> {
 }
 
 impl<'a> FinerSummary<'a> {
-    fn of(check: &'a FinerCheck) -> Self {
+    fn new(check: &'a FinerCheck) -> Self {
         Self {
             duration_s: check.duration,
             share_of_run: check.share_of_run,
@@ -157,8 +157,8 @@ impl<'a> Summary<'a> {
             lost_fibres: results.lost.iter().map(lost_summary).collect(),
             measures,
             neighbours: NeighboursSummary::of(results),
-            step_check: checks.step.as_ref().ok().map(FinerSummary::of),
-            mesh_check: checks.mesh.as_ref().ok().map(FinerSummary::of),
+            step_check: checks.step.as_ref().ok().map(FinerSummary::new),
+            mesh_check: checks.mesh.as_ref().ok().map(FinerSummary::new),
             performance,
             notes,
         }
