@@ -58,8 +58,8 @@ pub(crate) fn reduced<'py>(py: Python<'py>, run: &RunResults) -> PyResult<Bound<
         trajectories.append((trajectory.replicate, shapes, points(py, &trajectory.laid)))?;
     }
     state.set_item("trajectories", trajectories)?;
-    let laid = run.laid.iter().map(|curves| points(py, curves)).collect::<Vec<_>>();
-    state.set_item("laid", laid)?;
+    let curves = run.laid.iter().map(|curve| points(py, curve)).collect::<Vec<_>>();
+    state.set_item("laid", curves)?;
     if let Some(samples) = &run.samples {
         let columns: Vec<_> = samples.columns.iter().map(|column| column.clone_ref(py)).collect();
         state.set_item("samples", (samples.times.clone_ref(py), columns))?;

@@ -291,7 +291,7 @@ mod tests {
         let Err(wrong) = document().with_text(CASE.replace("50 mm", "0.1 mm")).read() else {
             panic!("it is read");
         };
-        assert!(wrong[0].text.contains(" MB of memory, and a page flies up to 256 MB"), "{}", wrong[0].text);
+        assert!(wrong[0].text.contains(" MB of memory, and a page can use 256 MB"), "{}", wrong[0].text);
     }
 
     #[test]

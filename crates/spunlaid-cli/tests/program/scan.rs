@@ -258,7 +258,7 @@ fn rejects_webs_that_cannot_be_compared() {
         ("compare run laid", "laid: does not hold the results of a run: summary.json is not that of a run"),
         (
             "compare laid other",
-            "error: other: cannot be compared: it has no patches of the same size as laid: 2, 4, 10 mm there, 3 mm here; name the same",
+            "error: other: cannot be compared: it has no patches of the same size as laid, which has 2, 4, 10 mm; this one has 3 mm; give both the same sizes",
         ),
     ] {
         let said = refusal(&mut desk.spunlaid(arguments), 1);

@@ -238,8 +238,11 @@ mod tests {
         let advice_for_spread = |mean| of_the_mesh(&check(Refined::Elements, "spread", mean, 1e-3));
         assert!(
             advice_for_spread(0.05).contains("\"12.5 mm\"")
-                && advice_for_spread(3e-3).contains("not known from one halving")
+                && advice_for_spread(3e-3).contains("One halving does not show")
         );
-        assert!(of_the_mesh(&check(Refined::Elements, "chord_over_arc", 0.3, 1e-3)).contains("not known"));
+        assert!(
+            of_the_mesh(&check(Refined::Elements, "chord_over_arc", 0.3, 1e-3))
+                .contains("One halving does not show")
+        );
     }
 }

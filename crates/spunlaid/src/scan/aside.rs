@@ -4,7 +4,7 @@ use super::picture::Picture;
 use super::spots::{Spots, region};
 use crate::statistics::median;
 
-/// What of a picture is no web.
+/// The parts of a picture that are not web.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Aside {
     /// Area beside the rectangle that was cut out, because the bare lamp is seen there [m²].

@@ -48,9 +48,9 @@ pub struct Findings {
     pub shading: Option<f64>,
     /// Pixels that needed care.
     pub pixels: Pixels,
-    /// What of the lamp is a guess, if anything: then nothing that depends on it has an interval.
+    /// What is only a guess about the lamp, if anything: then nothing that depends on it has an interval.
     pub guess: Option<Doubt>,
-    /// What of the picture is no web and was left out.
+    /// The parts of the picture that are not web and were left out.
     pub aside: Aside,
     /// How uneven it is, patch by patch.
     pub patches: Vec<PatchFindings>,
@@ -67,7 +67,7 @@ pub struct Findings {
 pub struct PatchFindings {
     /// The unevenness, without the noise of the camera if that is known. It has no standard error where [`interval`](Self::interval) has none.
     pub unevenness: Unevenness,
-    /// The 95 % confidence interval of the CV of the web, of which this is a piece, or why none can be told.
+    /// The 95 % confidence interval of the CV of the web, of which this is a piece, or why none can be given.
     pub interval: Result<[f64; 2], Doubt>,
     /// CV of the noise of the camera over such patches: as given and taken out, or at most.
     pub noise: f64,

@@ -15,7 +15,7 @@ pub struct Picture {
     pub rows: usize,
     /// Side of a pixel [m].
     pub pixel: f64,
-    /// Side of a pixel as the file tells it, if it does [m].
+    /// Side of a pixel as the file states it, if it does [m].
     pub pixel_of_file: Option<f64>,
     /// The largest grey level that the file can hold, 255 or 65535; none for other numbers.
     pub full_scale: Option<f64>,
@@ -49,7 +49,7 @@ pub(super) struct Rectangle {
 }
 
 impl Picture {
-    /// Whether its values are grey levels of the light that came through, as far as the file tells; otherwise they are basis
+    /// Whether its values are grey levels of the light that came through, as far as the file states it; otherwise they are basis
     /// weights.
     pub const fn holds_light(&self) -> bool {
         matches!(self.format, Format::Png | Format::Tiff) && self.weight_of_black.is_none()

@@ -1,4 +1,4 @@
-//! What of a picture is no web: the bare lamp beside it, dust and blots.
+//! Finds the parts of a picture that are not web: the bare lamp beside it, dust and blots.
 
 use super::picture::{Picture, Rectangle, cut};
 use crate::error::Fault;

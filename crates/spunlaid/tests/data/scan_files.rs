@@ -94,7 +94,7 @@ fn rejects_what_is_no_scan() {
         (bomb, "has 65536 × 65536 pixels; at most 67108864 are read, so cut out a part of the picture"),
         (npy("<f8", "False", "(1000000, 1000000)", &data), "has 1000000 × 1000000 pixels"),
         (npy("<f8", "False", "(18446744073709551615, 3)", &data), "has 3 × 18446744073709551615 pixels"),
-        (png8(9, &[7; 900]), "has 9 × 100 pixels; at least 16 are needed either way"),
+        (png8(9, &[7; 900]), "has 9 × 100 pixels; at least 16 are needed in each direction"),
         (
             npy("<f8", "True", "(24, 24)", &data),
             "has its columns stored one after the other (Fortran order), which cannot be read; save numpy.asc",

@@ -89,7 +89,7 @@ fn every_key_of_a_web_speaks_up_far_outside_of_what_is_usual() {
     let known = fs::read_to_string("../../cases/web_known.toml").unwrap();
     let rows = known.replace(
         "filaments_per_metre = 5000",
-        "rows = [{ offset = \"OFFSET\", pitch = \"PITCH\", filaments = 5000 }]",
+        "rows = [{ offset = \"OFFSET\", pitch = \"PITCH\", filaments = 5000, md = \"MD\" }]",
     );
     for key in WEB_KEYS {
         let Some(dimension) = key.kind.dimension() else { continue };
@@ -97,12 +97,13 @@ fn every_key_of_a_web_speaks_up_far_outside_of_what_is_usual() {
         for far in [1000.0 * greatest, 1e-3 * least] {
             let value = dimension.exact(far);
             let of_row = key.name.strip_prefix("line.rows.");
-            let (offset, pitch) = match of_row {
-                Some("offset") => (value.as_str(), "0.2 mm"),
-                Some(_) => ("0 mm", value.as_str()),
-                None => ("0 mm", "0.2 mm"),
+            let (offset, pitch, md) = match of_row {
+                Some("offset") => (value.as_str(), "0.2 mm", "0 mm"),
+                Some("md") => ("0 mm", "0.2 mm", value.as_str()),
+                Some(_) => ("0 mm", value.as_str(), "0 mm"),
+                None => ("0 mm", "0.2 mm", "0 mm"),
             };
-            let rows = rows.replace("OFFSET", offset).replace("PITCH", pitch);
+            let rows = rows.replace("OFFSET", offset).replace("PITCH", pitch).replace("MD", md);
             let said = if of_row.is_some() {
                 parse_web(&rows, "rows.toml", &[])
             } else {
@@ -277,11 +278,14 @@ fn rejects_turbulence_that_cannot_be() {
     };
     let none = read(&|_, [u, k, _]| [u, k, 0.0]).unwrap_err();
     assert!(
-        none.contains("epsilon") && none.contains("zero at all of the 45 points where k is not"),
+        none.contains("epsilon") && none.contains("zero at all 45 points at which k is above zero"),
         "{none}"
     );
     let negative = read(&|_, [u, k, epsilon]| [u, -k, epsilon]).unwrap_err();
-    assert!(negative.contains("is below zero at 45 points, down to -1.5"), "{negative}");
+    assert!(
+        negative.contains("is below zero at 45 points, and it cannot be: its smallest value is -1.5"),
+        "{negative}"
+    );
     let some = read(&|i, [u, k, epsilon]| [u, if i < 3 { -0.1 * k } else { k }, epsilon]).unwrap_err();
     assert!(some.contains("is below zero at 3 points"), "{some}");
     // What an interpolation leaves is cut off, and counted.

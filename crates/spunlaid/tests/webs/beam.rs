@@ -2,6 +2,7 @@
 
 use spunlaid::beam::{Airs, Beam, Flown, Flying};
 use spunlaid::case::Case;
+use spunlaid::error::Error;
 use spunlaid::fibre::Place;
 use spunlaid::flight::LaidPoint;
 use spunlaid::input::read_case;
@@ -230,4 +231,26 @@ fn stat_a_row_in_one_field_lies_between_one_curve_and_independent_ones() {
     let (row, independent) = unevenness(&row(&sheet, 64));
     assert!(row > 2.0 * independent, "{row} {independent}");
     assert!(row < 0.5 * one, "{row} {one}");
+}
+
+/// A filament that is nowhere any more stops neither its neighbours nor the program.
+#[test]
+fn rejects_a_beam_that_loses_its_filaments() {
+    let sheet = sheet(24, 32);
+    let mut case = case_in("von-karman");
+    (case.air.turbulence_intensity, case.air.from_flow.turbulence_intensity) = (450.0, false);
+    let (stop, steps, places) = (AtomicBool::new(false), AtomicU64::new(0), slot(&sheet, 12));
+    let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
+    let beam = Beam { case: &case, places: &places, airs: Airs::Shared };
+    let by = Flying { threads: 2, isa: Isa::detect(), stop: &stop, steps: &steps };
+    let said = beam.lay(&sheet, window, by).unwrap_err().to_string();
+    assert!(said.contains("of 12 filaments were lost"), "{said}");
+
+    let fixed = Case { line: None, ..case };
+    let beam = Beam { case: &fixed, ..beam };
+    assert!(beam.lay(&sheet, window, by).unwrap_err().to_string().contains("moving belt"));
+    stop.store(true, std::sync::atomic::Ordering::Relaxed);
+    let case = self::case();
+    let beam = Beam { case: &case, ..beam };
+    assert!(matches!(beam.lay(&sheet, window, by), Err(Error::Interrupted)));
 }
