@@ -13,7 +13,7 @@ use std::path::Path;
 const ROOMS: &[&[&str]] = &[
     &["lanes"],
     &["vec3", "fft", "nodes", "error"],
-    &["units"],
+    &["units", "threads"],
     &["company"],
     &["file", "table"],
     &["fibre", "line"],
