@@ -246,7 +246,7 @@ fn rejects_a_beam_that_loses_its_filaments() {
     let said = beam.lay(&sheet, window, by).unwrap_err().to_string();
     assert!(said.contains("of 12 filaments were lost"), "{said}");
 
-    let fixed = Case { line: None, ..case };
+    let fixed = Case { line: None, ..case.clone() };
     let beam = Beam { case: &fixed, ..beam };
     assert!(beam.lay(&sheet, window, by).unwrap_err().to_string().contains("moving belt"));
     stop.store(true, std::sync::atomic::Ordering::Relaxed);
