@@ -5,7 +5,7 @@ use super::way::{Stage, WayOfEddies};
 use crate::air::{Air, Spectrum};
 use std::f64::consts::{SQRT_2, TAU};
 
-/// Wave number of the energy in von Kármán's turbulence, times the length scale. theory.md (81)
+/// Wave number of the energy in von Kármán's turbulence, times the length scale. theory.md (79)
 const ENERGY_WAVE: f64 = 0.746834;
 /// Fewest harmonics, and fewest of the generation with the lowest cut-off frequency.
 const FEWEST: [f64; 2] = [64.0, 10.0];
@@ -20,7 +20,7 @@ pub(super) struct Plan {
     pub(super) generations: Vec<Generation>,
     /// Correlation of each generation with the next, of each component; one where there is none.
     pub(super) correlations: Vec<[f64; 3]>,
-    /// Angle by which the phase of a mode turns from one generation to the next, to either side.      theory.md (84)
+    /// Angle by which the phase of a mode turns from one generation to the next, to either side.      theory.md (82)
     pub(super) turn: f64,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Generation {
     pub(super) harmonics: Vec<Harmonic>,
 }
 
-/// The shape of the turbulence at one frequency.                                                    theory.md (81)
+/// The shape of the turbulence at one frequency.                                                    theory.md (79)
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Harmonic {
     /// Wave number along the flow [1/m]; negative, because the phase of a wave that is carried is `ωc = ωt − (ω/U)x`.
@@ -161,7 +161,7 @@ impl Shape {
         self.generation
     }
 
-    /// Correlation of two shapes with the same random phases, of each component.                    theory.md (83)
+    /// Correlation of two shapes with the same random phases, of each component.                    theory.md (81)
     fn overlap(&self, next: &Self) -> [f64; 3] {
         let [mut common, mut own, mut others] = [[0.0; 3]; 3];
         let shapes = [self, next].map(|shape| &shape.generation);
