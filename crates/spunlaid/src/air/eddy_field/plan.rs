@@ -178,13 +178,12 @@ impl Shape {
                         [0, 1, 2].map(|i| projection[i].map(|p| p * amplitude * f64::from(harmonic.scale[i])))
                     })
                 });
-                for i in 0..3 {
-                    for m in 0..3 {
-                        let [a, b] = [parts[0][i][m], parts[1][i][m]];
-                        common[i] += mode.count * a * b;
-                        own[i] += mode.count * a * a;
-                        others[i] += mode.count * b * b;
-                    }
+                let entries = parts[0].as_flattened().iter().zip(parts[1].as_flattened());
+                for (entry, (a, b)) in entries.enumerate() {
+                    let i = entry / 3;
+                    common[i] += mode.count * a * b;
+                    own[i] += mode.count * a * a;
+                    others[i] += mode.count * b * b;
                 }
             }
         }
