@@ -181,8 +181,8 @@ impl AirInSpace {
             let at = centre + places;
             let fluctuation = EddyField::fluctuations::<S>(fields, t, &at);
             let (mut mean, mut rms) = (Vec3::ZERO, Lanes::ZERO);
-            for lane in 0..WIDTH {
-                let [speed, widening, strength] = means[lane].at(at.x.0[lane]);
+            for (lane, means) in means.iter().enumerate() {
+                let [speed, widening, strength] = means.at(at.x.0[lane]);
                 (mean.x.0[lane], mean.y.0[lane], rms.0[lane]) = (speed, widening * at.y.0[lane], strength);
             }
             let (mut mean, mut rms) = (Vec3::<Wide<S>>::load(&mean), Wide::load(&rms));

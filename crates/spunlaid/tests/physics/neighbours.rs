@@ -111,7 +111,7 @@ fn flown(case: &Case, threads: usize) -> (Results, Vec<(u64, u64)>, u64) {
 }
 
 /// Coherence of a lateral component of von Kármán's turbulence, cut off at `k_max`, at a distance `r` [m]: the cross-spectrum over
-/// the spectrum, by the sum over the lateral wave numbers.                                       theory.md (81)
+/// the spectrum, by the sum over the lateral wave numbers.                                       theory.md (79)
 ///
 /// * `along` – whether the component is that along the line between the two places
 fn coherence(frequency: f64, r: f64, along: bool) -> f64 {

@@ -2,7 +2,7 @@
 //!
 //! `u'(x, y, z, t) = u · G(c, y, z; a)`: air has the label `c`, the time at which it passed the inlet, and the age `a`, the
 //! decay times that have gone by since. `G` is a sum of waves in `c`, `y` and `z` with von Kármán's structure across; its
-//! phases walk as the age grows.                                                        theory.md (80) to (85)
+//! phases walk as the age grows.                                                        theory.md (78) to (83)
 //!
 //! ```text
 //! way        travel time and age along the way; where the generations are

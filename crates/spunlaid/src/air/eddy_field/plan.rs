@@ -5,7 +5,7 @@ use super::way::{Stage, WayOfEddies};
 use crate::air::{Air, Spectrum};
 use std::f64::consts::{SQRT_2, TAU};
 
-/// Wave number of the energy in von Kármán's turbulence, times the length scale. theory.md (81)
+/// Wave number of the energy in von Kármán's turbulence, times the length scale. theory.md (79)
 const ENERGY_WAVE: f64 = 0.746834;
 /// Fewest harmonics, and fewest of the generation with the lowest cut-off frequency.
 const FEWEST: [f64; 2] = [64.0, 10.0];
@@ -20,7 +20,7 @@ pub(super) struct Plan {
     pub(super) generations: Vec<Generation>,
     /// Correlation of each generation with the next, of each component; one where there is none.
     pub(super) correlations: Vec<[f64; 3]>,
-    /// Angle by which the phase of a mode turns from one generation to the next, to either side.      theory.md (84)
+    /// Angle by which the phase of a mode turns from one generation to the next, to either side.      theory.md (82)
     pub(super) turn: f64,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Generation {
     pub(super) harmonics: Vec<Harmonic>,
 }
 
-/// The shape of the turbulence at one frequency.                                                    theory.md (81)
+/// The shape of the turbulence at one frequency.                                                    theory.md (79)
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Harmonic {
     /// Wave number along the flow [1/m]; negative, because the phase of a wave that is carried is `ωc = ωt − (ω/U)x`.
@@ -161,7 +161,7 @@ impl Shape {
         self.generation
     }
 
-    /// Correlation of two shapes with the same random phases, of each component.                    theory.md (83)
+    /// Correlation of two shapes with the same random phases, of each component.                    theory.md (81)
     fn overlap(&self, next: &Self) -> [f64; 3] {
         let [mut common, mut own, mut others] = [[0.0; 3]; 3];
         let shapes = [self, next].map(|shape| &shape.generation);
@@ -178,13 +178,12 @@ impl Shape {
                         [0, 1, 2].map(|i| projection[i].map(|p| p * amplitude * f64::from(harmonic.scale[i])))
                     })
                 });
-                for i in 0..3 {
-                    for m in 0..3 {
-                        let [a, b] = [parts[0][i][m], parts[1][i][m]];
-                        common[i] += mode.count * a * b;
-                        own[i] += mode.count * a * a;
-                        others[i] += mode.count * b * b;
-                    }
+                let entries = parts[0].as_flattened().iter().zip(parts[1].as_flattened());
+                for (entry, (a, b)) in entries.enumerate() {
+                    let i = entry / 3;
+                    common[i] += mode.count * a * b;
+                    own[i] += mode.count * a * a;
+                    others[i] += mode.count * b * b;
                 }
             }
         }

@@ -118,7 +118,7 @@ impl Synthesis {
     }
 
     /// The random modes of a harmonic, of each component `[waves along z][waves along y]`: along z as the transform wants them,
-    /// along y from the most negative number of waves to the largest.                               theory.md (81)
+    /// along y from the most negative number of waves to the largest.                               theory.md (79)
     fn modes(&self, lattice: &Lattice, harmonic: &Harmonic, random: &mut Random) -> [Complexes; 3] {
         let points_z = lattice.points[1];
         let [unit_y, unit_z] = lattice.wave_number_units();
@@ -221,7 +221,7 @@ impl Random {
         }
     }
 
-    /// Three white complex amplitudes of the modulus one at the age of the generation.              theory.md (84)
+    /// Three white complex amplitudes of the modulus one at the age of the generation.              theory.md (82)
     #[inline(always)]
     fn next(&mut self, phases: &[[f32; 2]], turns: &[[f32; 2]]) -> [[f32; 2]; 3] {
         let start = self.stream.next_u32();

@@ -6,7 +6,7 @@ use crate::vec3::Vec3;
 
 /// Pieces of the way. The travel time is then exact to 1e-4 of the shortest period.
 const PIECES: usize = 2048;
-/// Largest age between two generations, in decay times. theory.md (84)
+/// Largest age between two generations, in decay times. theory.md (82)
 const LONGEST_AGE: f64 = 1.0 / 6.0;
 /// Largest change of speed, length scale or cut-off frequency from one generation to the next, as a logarithm.
 const LARGEST_CHANGE: f64 = 0.2;
