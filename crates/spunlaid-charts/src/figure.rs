@@ -49,7 +49,7 @@ pub(crate) fn unbroken(text: impl Into<String>) -> String {
 }
 
 /// A row of a series: as many values as the series has columns, the rest unused.
-type Row = [f64; 3];
+type PointRow = [f64; 3];
 
 /// The points of all named series; charts share the columns that have the same name.
 fn table(charts: &[&Chart]) -> Table {
@@ -79,7 +79,7 @@ fn table(charts: &[&Chart]) -> Table {
     for (name, columns, rows) in named() {
         let places: Vec<_> =
             columns.iter().map(|column| heads.iter().position(|head| head == column)).collect();
-        let value = |row: &Row, head: usize| {
+        let value = |row: &PointRow, head: usize| {
             let place = places.iter().position(|place| *place == Some(head));
             place.map_or(f64::NAN, |place| row[place])
         };
@@ -97,7 +97,7 @@ fn content<'a>(
     chart: &Chart,
     series: &'a Series,
     mark: &'a Mark,
-) -> Option<(Vec<String>, Box<dyn Iterator<Item = Row> + 'a>)> {
+) -> Option<(Vec<String>, Box<dyn Iterator<Item = PointRow> + 'a>)> {
     let (x, y) = (chart.x.column(), chart.y.column());
     let [error, lower, upper] = [ERROR, LOWER, UPPER].map(str::to_owned);
     Some(match (series.full.as_ref(), mark) {

@@ -77,7 +77,7 @@ impl Rose {
                 continue;
             }
             let mut corners = vec![CENTRE];
-            // Arcs of three degrees cannot be told from a circle.
+            // Arcs of three degrees cannot be distinguished from a circle.
             let parts = (width / (TAU / 120.0)).ceil().max(1.0) as usize;
             let angle = |k: usize| width * (i as f64 + k as f64 / parts as f64);
             corners.extend((0..=parts).map(|k| place(at(*value), angle(k))));
@@ -196,9 +196,10 @@ mod tests {
 
     #[test]
     fn rings_are_round_and_few() {
-        for (largest, wanted) in [(1.0, 0.2), (1.3, 0.5), (2.0, 0.5), (11.0, 2.5), (36.0, 10.0), (0.0, 1.0)] {
+        for (largest, expected) in [(1.0, 0.2), (1.3, 0.5), (2.0, 0.5), (11.0, 2.5), (36.0, 10.0), (0.0, 1.0)]
+        {
             let step = ring_step(largest);
-            assert!((step / wanted - 1.0).abs() < 1e-9, "{largest}: {step}");
+            assert!((step / expected - 1.0).abs() < 1e-9, "{largest}: {step}");
         }
     }
 

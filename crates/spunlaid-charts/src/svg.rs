@@ -293,15 +293,15 @@ fn spans(text: &str, size: f64) -> String {
     // How far the baseline has been moved, to be undone by the next piece.
     let mut moved = 0.0;
     for (setting, piece) in pieces(text) {
-        let wanted = match setting {
+        let shift = match setting {
             Setting::Raised => -0.38 * size,
             Setting::Lowered => 0.2 * size,
             _ => 0.0,
         };
         let mut attributes = String::new();
-        if wanted != moved {
-            let _ = write!(attributes, " dy=\"{}\"", number(wanted - moved));
-            moved = wanted;
+        if shift != moved {
+            let _ = write!(attributes, " dy=\"{}\"", number(shift - moved));
+            moved = shift;
         }
         match setting {
             Setting::Italic => attributes.push_str(" font-style=\"italic\""),

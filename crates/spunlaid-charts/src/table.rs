@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn labels_become_columns() {
-        for (label, wanted) in [
+        for (label, expected) in [
             ("Time *t* (s)", "time_s"),
             ("*y*, *z* (mm)", "y_z_mm"),
             ("Energy *E* ((m/s)^{2}/Hz)", "energy_m_s_2_hz"),
@@ -103,7 +103,7 @@ mod tests {
             ("|*U*| (m/s)", "u_m_s"),
             ("", ""),
         ] {
-            assert_eq!(column(label), wanted);
+            assert_eq!(column(label), expected);
         }
     }
 

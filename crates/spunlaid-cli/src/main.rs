@@ -29,7 +29,7 @@ fn main() -> ExitCode {
         Command::Sweep(sweep) => commands::sweep(&sweep),
         Command::Web(web) => commands::web(&web),
         Command::Live(live) => commands::live(&live),
-        Command::Reproduce(asked) => commands::reproduce(&asked),
+        Command::Reproduce(arguments) => commands::reproduce(&arguments),
         Command::Analyse(analyse) => commands::analyse(&analyse),
         Command::Compare(compare) => commands::compare(&compare),
         Command::Check(check) => commands::check(&check),

@@ -24,33 +24,31 @@ pub(crate) fn follow<T>(
         bar.set_style(style.progress_chars("=> "));
     }
     bar.set_message(label.to_owned());
-    follow_on(&bar, done, work)
+    show_while(&bar, Duration::from_millis(50), || bar.set_position(done.load(Ordering::Relaxed)), work)
 }
 
-/// Runs `work` while another thread sets the bar to `done`.
-fn follow_on<T>(bar: &ProgressBar, done: &AtomicU64, work: impl FnOnce() -> T) -> T {
+/// Runs `work` while another thread shows how far it is, again and again. That thread ends also if the work panics; the
+/// program would wait for it for ever otherwise.
+pub(crate) fn show_while<T>(
+    bar: &ProgressBar,
+    interval: Duration,
+    mut show: impl FnMut() + Send,
+    work: impl FnOnce() -> T,
+) -> T {
     let finished = AtomicBool::new(false);
     std::thread::scope(|scope| {
-        let shown = scope.spawn(|| {
+        let display = scope.spawn(|| {
             while !finished.load(Ordering::Acquire) {
-                bar.set_position(done.load(Ordering::Relaxed));
-                std::thread::park_timeout(Duration::from_millis(50));
+                std::thread::park_timeout(interval);
+                show();
             }
         });
-        ended(work, || {
-            finished.store(true, Ordering::Release);
-            shown.thread().unpark();
-            bar.finish_and_clear();
-        })
+        let outcome = catch_unwind(AssertUnwindSafe(work));
+        finished.store(true, Ordering::Release);
+        display.thread().unpark();
+        bar.finish_and_clear();
+        outcome.unwrap_or_else(|panic| resume_unwind(panic))
     })
-}
-
-/// Does `work` and ends the thread that shows a bar, also if the work panics. Otherwise the program would wait for the
-/// thread for ever.
-pub(crate) fn ended<T>(work: impl FnOnce() -> T, end: impl FnOnce()) -> T {
-    let done = catch_unwind(AssertUnwindSafe(work));
-    end();
-    done.unwrap_or_else(|panic| resume_unwind(panic))
 }
 
 #[cfg(test)]
@@ -59,11 +57,9 @@ mod tests {
 
     #[test]
     fn a_panic_in_the_work_ends_the_bar() {
-        let done = AtomicU64::new(0);
-        let bar = || ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
-        let panicked =
-            catch_unwind(AssertUnwindSafe(|| follow_on(&bar(), &done, || panic!("as a test of it"))));
-        assert!(panicked.is_err());
-        assert_eq!(follow_on(&bar(), &done, || 7), 7);
+        let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
+        let shown = |work: fn() -> i32| show_while(&bar, Duration::from_millis(50), || {}, work);
+        assert!(catch_unwind(AssertUnwindSafe(|| shown(|| panic!("as a test of it")))).is_err());
+        assert_eq!(shown(|| 7), 7);
     }
 }

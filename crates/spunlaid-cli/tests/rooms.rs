@@ -8,7 +8,7 @@ mod rooms_of;
 mod desk;
 
 use desk::{Desk, success};
-use rooms_of::{code_and_texts, faults, sources};
+use rooms_of::{circles, code_and_texts, faults, sources};
 use spunlaid::case::keys;
 use spunlaid::input::{WEB_KEYS, WEB_TABLES};
 use std::collections::BTreeSet;
@@ -32,11 +32,14 @@ const CHARTS: &[&[&str]] = &[
 ];
 
 #[test]
-fn rooms_import_only_from_their_left() {
+fn rooms_import_only_from_their_left_and_files_not_from_one_another() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut wrong = faults(&crates.join("spunlaid-cli/src"), PROGRAM, &["main"]);
     wrong.extend(faults(&crates.join("spunlaid-results/src"), RESULTS, &["lib"]));
     wrong.extend(faults(&crates.join("spunlaid-charts/src"), CHARTS, &["lib"]));
+    for name in ["cli", "results", "charts", "python"] {
+        wrong.extend(circles(&crates.join(format!("spunlaid-{name}/src")), &[]));
+    }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 

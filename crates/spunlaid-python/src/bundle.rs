@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 /// A point of a bundle: its index in the study, the text of its case, or of its web with those of the cases that it flies and the
 /// numbers of their layers, a checksum over all of it, and the replicates to make, from the first to before the last.
-pub(crate) type Part = (u64, String, Cases, u32, u64, u64);
+pub(crate) type BundlePart = (u64, String, Cases, u32, u64, u64);
 /// Layers of a web, and the texts of their cases; None for a case.
 type Cases = Option<Vec<(usize, String)>>;
 
@@ -30,7 +30,7 @@ type Cases = Option<Vec<(usize, String)>>;
 const HEAD: usize = 3;
 
 /// What a machine needs to make batches of points.
-pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<Part> {
+pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
     let part = |Batch { point, replicates: Range { start, end } }: &Batch| {
         let experiment = anywhere(&points[*point].experiment);
         let (text, cases) = match &experiment {
@@ -100,7 +100,7 @@ fn checksum(experiment: &Experiment) -> u32 {
 #[pyo3(signature = (parts, sides, threads = 1))]
 pub(crate) fn fly_bundle(
     py: Python<'_>,
-    parts: Vec<Part>,
+    parts: Vec<BundlePart>,
     sides: Vec<f64>,
     threads: usize,
 ) -> PyResult<Bound<'_, PyArray2<f64>>> {

@@ -18,7 +18,7 @@ pub(crate) fn keys(py: Python<'_>, web: bool) -> PyResult<Bound<'_, PyList>> {
     Ok(list)
 }
 
-/// What is told of a key.
+/// The properties of a key.
 fn about<'py, T>(py: Python<'py>, key: &Key<T>) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("name", key.name)?;

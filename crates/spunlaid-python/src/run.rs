@@ -84,7 +84,7 @@ pub(crate) fn fly(
     notes.extend(folder::outside(&results));
     notes.extend(folder::coarse_shapes(&description, &results));
     let is_lost = |replicate| results.lost.iter().any(|fibre| fibre.replicate == replicate);
-    let laid = (0..if description.line.is_some() { run.replicates } else { 0 })
+    let curves = (0..if description.line.is_some() { run.replicates } else { 0 })
         .map(|replicate| if is_lost(replicate) { Vec::new() } else { belt.take(replicate) })
         .collect();
     let samples = if samples { Some(collected.into_numpy(py)?) } else { None };
@@ -96,7 +96,7 @@ pub(crate) fn fly(
         notes,
         performance,
         samples,
-        laid,
+        laid: curves,
     })
 }
 
@@ -241,10 +241,10 @@ impl RunResults {
                 if self.results.lost.iter().any(|fibre| fibre.replicate == replicate) {
                     continue;
                 }
-                let laid = self.laid.get(replicate as usize).map_or(&[][..], Vec::as_slice);
+                let points = self.laid.get(replicate as usize).map_or(&[][..], Vec::as_slice);
                 let recorded = samples.iter().try_for_each(|sample| recorder.sample(replicate, sample));
                 recorded
-                    .and_then(|()| recorder.lay(replicate, laid))
+                    .and_then(|()| recorder.lay(replicate, points))
                     .map_err(|ended| recorder.failure(ended))?;
                 tables.add(replicate)?;
             }

@@ -105,7 +105,7 @@ impl Samples {
             .collect()
     }
 
-    fn column(&self, py: Python<'_>, (name, of): Column) -> PyResult<Py<PyAny>> {
+    fn column(&self, py: Python<'_>, (name, value): Column) -> PyResult<Py<PyAny>> {
         if name == "time_s" {
             return Ok(self.times.clone_ref(py).into_any());
         }
@@ -115,7 +115,8 @@ impl Samples {
         // A number that follows from others.
         let all = self.borrowed(py);
         let [replicates, instants] = all.shape();
-        let values = (0..replicates).flat_map(|replicate| all.samples(replicate)).map(|sample| of(&sample));
+        let values =
+            (0..replicates).flat_map(|replicate| all.samples(replicate)).map(|sample| value(&sample));
         let array = PyArray1::from_vec(py, values.collect()).reshape([replicates, instants])?;
         Ok(locked(array.as_any())?.unbind())
     }

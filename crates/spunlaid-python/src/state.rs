@@ -58,8 +58,8 @@ pub(crate) fn reduced<'py>(py: Python<'py>, run: &RunResults) -> PyResult<Bound<
         trajectories.append((trajectory.replicate, shapes, points(py, &trajectory.laid)))?;
     }
     state.set_item("trajectories", trajectories)?;
-    let laid = run.laid.iter().map(|laid| points(py, laid)).collect::<Vec<_>>();
-    state.set_item("laid", laid)?;
+    let curves = run.laid.iter().map(|curve| points(py, curve)).collect::<Vec<_>>();
+    state.set_item("laid", curves)?;
     if let Some(samples) = &run.samples {
         let columns: Vec<_> = samples.columns.iter().map(|column| column.clone_ref(py)).collect();
         state.set_item("samples", (samples.times.clone_ref(py), columns))?;
@@ -213,9 +213,9 @@ fn measure(name: &str) -> PyResult<&'static Measure> {
         .ok_or_else(|| PyValueError::new_err(format!("this version of spunlaid has no measure {name}")))
 }
 
-fn points<'py>(py: Python<'py>, laid: &[LaidPoint]) -> Bound<'py, PyArray2<f64>> {
-    let flat: Vec<f64> = laid.iter().flat_map(|p| [p.fed, p.time, p.md, p.cd]).collect();
-    let array = numpy::ndarray::Array2::from_shape_vec((laid.len(), 4), flat).unwrap_or_default();
+fn points<'py>(py: Python<'py>, curve: &[LaidPoint]) -> Bound<'py, PyArray2<f64>> {
+    let flat: Vec<f64> = curve.iter().flat_map(|p| [p.fed, p.time, p.md, p.cd]).collect();
+    let array = numpy::ndarray::Array2::from_shape_vec((curve.len(), 4), flat).unwrap_or_default();
     PyArray2::from_owned_array(py, array)
 }
 

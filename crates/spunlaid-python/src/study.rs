@@ -1,6 +1,6 @@
 //! `Study`: a study file, its journal and its results.
 
-use crate::bundle::{Part, parts, records};
+use crate::bundle::{BundlePart, parts, records};
 use crate::case::Case;
 use crate::failure::raised_as;
 use crate::value::overrides;
@@ -110,7 +110,7 @@ impl Study {
             fibre_steps: &watch.done,
             recorder: None,
         };
-        // Progress is told in fibres, as it is on a cluster.
+        // Progress is counted in fibres, as it is on a cluster.
         let shown = Watch::default();
         let stopped = &watch.stop;
         let finished = AtomicBool::new(false);
@@ -124,16 +124,16 @@ impl Study {
                         std::thread::park_timeout(std::time::Duration::from_millis(20));
                     }
                 });
-                let flown = self.with_journal(|journal| {
+                let outcome = self.with_journal(|journal| {
                     let lent = Mutex::new(std::mem::replace(journal, Journal::in_memory(0)));
-                    let flown = run(&self.file.study, &lent, computing, &counters);
+                    let outcome = run(&self.file.study, &lent, computing, &counters);
                     *journal = lent.into_inner().unwrap_or_else(PoisonError::into_inner);
-                    flown
+                    outcome
                 });
                 finished.store(true, Ordering::Release);
                 shown.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
                 shown.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
-                flown
+                outcome
             })
         })
     }
@@ -151,7 +151,7 @@ impl Study {
     }
 
     /// What a machine needs to fly a bundle of this round: its points, and the sides of patches.
-    fn bundle(&self, py: Python<'_>, index: usize) -> PyResult<(Vec<Part>, Vec<f64>)> {
+    fn bundle(&self, py: Python<'_>, index: usize) -> PyResult<(Vec<BundlePart>, Vec<f64>)> {
         guarded(py, || {
             let round = self.round();
             let batches = round.1.as_ref().map_or_else(Vec::new, |bundles| bundles.batches(index));

@@ -96,7 +96,7 @@ pub(crate) fn guarded<T: Send>(
 }
 
 /// Number of threads: as asked, or one for each processor.
-pub(crate) fn threads(asked: Option<usize>) -> usize {
+pub(crate) fn threads(count: Option<usize>) -> usize {
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    asked.unwrap_or_else(all).max(1)
+    count.unwrap_or_else(all).max(1)
 }

@@ -1,4 +1,4 @@
-//! `lay_web`: lays a web of many filaments, and `LaidWeb`, what is found of it.
+//! `lay_web`: lays a web of many filaments, and `LaidWeb`, its results.
 
 use crate::value::overrides;
 use crate::watched::{Watch, guarded, threads, watched};
@@ -64,7 +64,10 @@ pub(crate) fn lay_web(
         let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
         let findings = flown.find(laying)?;
         let wall_s = started.elapsed().as_secs_f64();
-        Ok((flown, findings, Performance { wall_s, threads, instruction_set: laying.isa.name() }))
+        let instruction_set = laying.isa.name();
+        let performance = Performance { wall_s, threads, instruction_set, ..Performance::default() };
+        let performance = performance.with_flights(&findings);
+        Ok((flown, findings, performance))
     })?;
     let notes = [Note::of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();
     Ok(LaidWeb { name, file, flown, findings, notes, performance })
@@ -147,7 +150,7 @@ impl LaidWeb {
         let patches = &self.findings.patches;
         let all = PyDict::new(py);
         type Number = fn(&spunlaid::web::PatchFindings) -> f64;
-        let columns: [(&str, Number); 15] = [
+        let columns: [(&str, Number); 17] = [
             ("patch_m", |patches| patches.map.patch),
             ("cv", |patch| patch.map.cv),
             ("cv_standard_error", |patch| patch.map.standard_error.unwrap_or(f64::NAN)),
@@ -156,6 +159,10 @@ impl LaidWeb {
             ("cv_flight_error", |patch| patch.whole_error().flight.unwrap_or(f64::NAN)),
             ("cv_model_error", |patch| patch.whole_error().model.unwrap_or(f64::NAN)),
             ("cv_whole_error", |patch| patch.whole_error().whole().unwrap_or(f64::NAN)),
+            ("cv_independent", |patch| patch.independent.map_or(f64::NAN, |expected| expected.0)),
+            ("cv_independent_standard_error", |patch| {
+                patch.independent.map_or(f64::NAN, |expected| expected.1)
+            }),
             ("cv_flown", |patch| patch.flown.map_or(f64::NAN, |patch| patch.0)),
             ("cv_flown_standard_error", |patch| patch.flown.map_or(f64::NAN, |patch| patch.1)),
             ("cv_surrogate", |patch| patch.surrogate.map_or(f64::NAN, |patch| patch.0)),

@@ -120,10 +120,10 @@ def test_what_a_killed_client_left_goes_on(study: dict[str, object], alone: Path
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=tmp_path
     ) as cluster:
-        command = [sys.executable, "-c", "import sys; from spunlaid._dask import main; sys.exit(main())"]
+        command = [sys.executable, "-c", "import sys; from spunlaid._cluster import main; sys.exit(main())"]
         command += [str(path), "--scheduler", cluster.scheduler_address, "--out", str(out)]
         # Small bundles, so that there is something to lose.
-        code = "import sys; from spunlaid import _dask; _dask._MOST_FLIGHTS = 1; sys.exit(_dask.main())"
+        code = "import sys; from spunlaid import _cluster, _dask; _dask._MOST_FLIGHTS = 1; sys.exit(_cluster.main())"
         command[2] = code
         client = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
         journal = out / "journal"
@@ -180,7 +180,7 @@ def test_rejects_what_is_no_client(study: dict[str, object]) -> None:
 
 
 def test_the_command_tells_what_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    from spunlaid._dask import main
+    from spunlaid._cluster import main
 
     with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as cluster:
         address = cluster.scheduler_address

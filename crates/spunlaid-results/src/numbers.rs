@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn errors_have_two_digits_and_means_as_many_decimals() {
-        for (mean, error, wanted) in [
+        for (mean, error, expected) in [
             (9.541, 0.438, "9.54 ± 0.44"),
             (17.612, 0.123, "17.61 ± 0.12"),
             (9.541, 0.0996, "9.54 ± 0.10"),
@@ -122,7 +122,7 @@ mod tests {
             (997.54, 1.23e-9, "997.54 ± 1.2 × 10⁻⁹"),
             (3e12, 2.5e11, "3 × 10¹² ± 2.5 × 10¹¹"),
         ] {
-            assert_eq!(plus_minus(mean, Some(error)).replace([HARD, THIN], " "), wanted);
+            assert_eq!(plus_minus(mean, Some(error)).replace([HARD, THIN], " "), expected);
         }
     }
 

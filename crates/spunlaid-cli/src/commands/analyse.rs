@@ -33,29 +33,29 @@ pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
 }
 
 /// The first option given that only a velocity record takes.
-fn of_records(asked: &Analyse) -> Option<&'static str> {
+fn of_records(arguments: &Analyse) -> Option<&'static str> {
     let usual = Settings::default();
     let given = [
-        ("--rate", asked.rate.is_some()),
-        ("--time-unit", asked.time_unit.is_some()),
-        ("--velocity-unit", asked.velocity_unit.is_some()),
-        ("--columns", !asked.columns.is_empty()),
-        ("--time-column", asked.time_column.is_some()),
-        ("--skip", asked.skip != 0),
-        ("--max-gap", asked.max_gap != LONGEST_GAP),
-        ("--mean-velocity", asked.mean_velocity.is_some()),
-        ("--integral", asked.integral != usual.integral),
-        ("--segment", asked.segment.is_some()),
-        ("--window", asked.window != usual.spectrum.window),
-        ("--overlap", asked.overlap != usual.spectrum.overlap),
-        ("--flat-until", asked.flat_until.is_some()),
+        ("--rate", arguments.rate.is_some()),
+        ("--time-unit", arguments.time_unit.is_some()),
+        ("--velocity-unit", arguments.velocity_unit.is_some()),
+        ("--columns", !arguments.columns.is_empty()),
+        ("--time-column", arguments.time_column.is_some()),
+        ("--skip", arguments.skip != 0),
+        ("--max-gap", arguments.max_gap != LONGEST_GAP),
+        ("--mean-velocity", arguments.mean_velocity.is_some()),
+        ("--integral", arguments.integral != usual.integral),
+        ("--segment", arguments.segment.is_some()),
+        ("--window", arguments.window != usual.spectrum.window),
+        ("--overlap", arguments.overlap != usual.spectrum.overlap),
+        ("--flat-until", arguments.flat_until.is_some()),
     ];
     given.into_iter().find_map(|(name, given)| given.then_some(name))
 }
 
 /// The first option given that only a scan or a map takes.
-fn of_scans(asked: &Analyse) -> Option<&'static str> {
-    let scan_options = &asked.scan;
+fn of_scans(arguments: &Analyse) -> Option<&'static str> {
+    let scan_options = &arguments.scan;
     let given = [
         ("--weight", scan_options.weight.is_some()),
         ("--light", scan_options.light.is_some()),
@@ -150,14 +150,8 @@ fn write(
     let figures = record_figures(record, analysis);
     pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
     let air = air_block(&record.file, analysis);
-    let page = analysis_html(&AnalysisReport {
-        name,
-        record,
-        analysis: analysis,
-        figures: &figures,
-        remarks,
-        air: &air,
-    });
+    let page =
+        analysis_html(&AnalysisReport { name, record, analysis, figures: &figures, remarks, air: &air });
     staging.write("report.html", page)?;
     staging.write("spectrum.csv", spectrum_csv(analysis))?;
     staging.write("autocorrelation.csv", autocorrelation_csv(analysis))?;

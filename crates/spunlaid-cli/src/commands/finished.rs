@@ -80,8 +80,8 @@ pub(super) fn continued(run: &Run, until: f64) -> Result<(Case, Vec<String>), Fa
         duration.set(&mut case, until).map_err(|problem| rejected(vec![*problem]))?;
     }
     if case.run.duration() <= before {
-        let flown = Dimension::Time.pretty(before);
-        let reason = format!("it lasts for {flown} already, and {UNTIL} says {asked}");
+        let known = Dimension::Time.pretty(before);
+        let reason = format!("it lasts for {known} already, and {UNTIL} says {asked}");
         return refused(reason, "write a longer time");
     }
     case.check().map_err(rejected)?;

@@ -38,10 +38,10 @@ impl KeyEntry {
     }
 }
 
-pub(crate) fn keys(asked: &Keys) -> Result<(), Failure> {
-    let pattern = asked.pattern.clone().unwrap_or_default();
+pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
+    let pattern = arguments.pattern.clone().unwrap_or_default();
     let word = pattern.trim().to_lowercase();
-    let all: Vec<KeyEntry> = if asked.web {
+    let all: Vec<KeyEntry> = if arguments.web {
         WEB_KEYS.iter().map(|key| KeyEntry::new(key, key.usual_range())).collect()
     } else {
         keys::all().iter().map(|key| KeyEntry::new(key, key.usual)).collect()
@@ -49,7 +49,7 @@ pub(crate) fn keys(asked: &Keys) -> Result<(), Failure> {
     let has = |text: &str| text.to_lowercase().contains(&word);
     let found: Vec<KeyEntry> = all.into_iter().filter(|key| has(key.name) || has(key.meaning)).collect();
     if found.is_empty() {
-        let nearest = if asked.web { Vec::new() } else { keys::like(&word) };
+        let nearest = if arguments.web { Vec::new() } else { keys::like(&word) };
         let nearest: Vec<&str> = nearest.iter().take(MOST_NEAREST).map(|key| key.name).collect();
         let message = format!("no key has \"{}\" in its name or meaning", pattern.escape_debug());
         let remedy = match &nearest[..] {
@@ -58,8 +58,9 @@ pub(crate) fn keys(asked: &Keys) -> Result<(), Failure> {
         };
         return Err(Fault::new(message, remedy).into());
     }
-    if asked.markdown {
-        let (head, tables): (_, &[&str]) = if asked.web { (WEB_HEAD, &WEB_TABLES) } else { (HEAD, &TABLES) };
+    if arguments.markdown {
+        let (head, tables): (_, &[&str]) =
+            if arguments.web { (WEB_HEAD, &WEB_TABLES) } else { (HEAD, &TABLES) };
         say::text(&markdown(&found, head, tables));
     } else {
         let texts: Vec<String> = found.iter().map(reference).collect();
@@ -108,8 +109,8 @@ fn takes(key: &KeyEntry) -> String {
     };
     let allowed = match key.kind.dimension() {
         Some(dimension) if dimension != Dimension::Ratio => {
-            let wanted = UnitAdvice(dimension).to_string();
-            let units = wanted.split_once(": ").map_or("", |(_, units)| units);
+            let advice = UnitAdvice(dimension).to_string();
+            let units = advice.split_once(": ").map_or("", |(_, units)| units);
             format!("{}; in {units}", key.kind.allowed())
         }
         _ => key.kind.allowed(),

@@ -10,7 +10,7 @@ use spunlaid::input::{read_case, starter_case};
 pub(crate) fn live(live: &Live) -> Result<(), Failure> {
     let text = match &live.case {
         Some(path) => {
-            // Its mistakes are told as by all commands.
+            // Its mistakes are reported as by all commands.
             read_case(path, &[])?;
             std::fs::read_to_string(path).map_err(|source| not_served(&source))?
         }

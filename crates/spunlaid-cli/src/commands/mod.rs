@@ -30,8 +30,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// The requested number of threads, or one for each core.
-fn threads(asked: Option<u16>) -> usize {
-    asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
+fn threads(count: Option<u16>) -> usize {
+    count.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
 }
 
 /// The name of a file without its extension.
@@ -40,8 +40,8 @@ fn stem<'a>(file: &'a Path, otherwise: &'a str) -> &'a OsStr {
 }
 
 /// The requested folder, or `results/NAME`.
-fn folder(asked: Option<&PathBuf>, name: impl AsRef<Path>) -> PathBuf {
-    asked.cloned().unwrap_or_else(|| Path::new("results").join(name))
+fn folder(out: Option<&PathBuf>, name: impl AsRef<Path>) -> PathBuf {
+    out.cloned().unwrap_or_else(|| Path::new("results").join(name))
 }
 
 /// `1 fibre`, `2 fibres`.

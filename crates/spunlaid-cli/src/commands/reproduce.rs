@@ -32,23 +32,23 @@ use std::sync::{Mutex, PoisonError};
 /// The figures that can be chosen.
 const FIGURES: [&str; 9] = ["2", "3", "8a", "8b", "9", "10", "11a", "11b", "11c"];
 
-pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
-    let wanted = chosen(&asked.figures)?;
-    let scheme = match asked.scheme {
+pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
+    let wanted = chosen(&arguments.figures)?;
+    let scheme = match arguments.scheme {
         SchemeName::SemiImplicitEuler => Scheme::SemiImplicitEuler,
         SchemeName::Leapfrog => Scheme::Leapfrog,
         SchemeName::ImplicitTension => Scheme::ImplicitTension,
     };
     let mut base = table1(scheme)?;
-    base.run.replicates = asked.replicates;
-    let folder = super::folder(asked.out.as_ref(), "paper");
+    base.run.replicates = arguments.replicates;
+    let folder = super::folder(arguments.out.as_ref(), "paper");
     let stop = stop_on_ctrl_c();
-    let staging = Staging::new(&folder, ENTRIES, asked.force, stop)?;
+    let staging = Staging::new(&folder, ENTRIES, arguments.force, stop)?;
     let flying = Flying::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = Computing {
-        threads: threads(asked.threads),
+        threads: threads(arguments.threads),
         isa: Isa::detect(),
         stop,
         fibre_steps: &fibre_steps,
@@ -56,7 +56,7 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     };
     let label = format!("flying {}", plural(flying.fibres(), "fibre"));
     let flown =
-        progress::follow(&fibre_steps, flying.steps(), &label, asked.quiet, || flying.fly(computing))?;
+        progress::follow(&fibre_steps, flying.steps(), &label, arguments.quiet, || flying.fly(computing))?;
 
     let figures = flown.figures(&base);
     let claims = flown.claims();
@@ -82,7 +82,7 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
     staging.write("case.toml", case_toml)?;
     staging.write("summary.json", summary(&claims))?;
     staging.publish()?;
-    if !asked.quiet {
+    if !arguments.quiet {
         for claim in &claims {
             say::line(&format!("{:<4} {:<13} {}", claim.figure, claim.verdict.name(), claim.claim));
             say::line(&format!("                   {}", claim.evidence));
@@ -93,12 +93,12 @@ pub(crate) fn reproduce(asked: &Reproduce) -> Result<(), Failure> {
 }
 
 /// The requested figures, or all if none are named. `8`, `9` and `11` mean all their parts.
-fn chosen(asked: &[String]) -> Result<Vec<&'static str>, Failure> {
-    if asked.is_empty() {
+fn chosen(names: &[String]) -> Result<Vec<&'static str>, Failure> {
+    if names.is_empty() {
         return Ok(FIGURES.to_vec());
     }
-    let mut wanted = Vec::new();
-    for name in asked {
+    let mut figures = Vec::new();
+    for name in names {
         // 9a and 9b come from the same flights.
         let plain = match name.as_str() {
             "9a" | "9b" => "9",
@@ -111,9 +111,9 @@ fn chosen(asked: &[String]) -> Result<Vec<&'static str>, Failure> {
             let message = format!("--figures {name}: there is no such result figure");
             return Err(Fault::new(message, format!("write some of {}", FIGURES.join(", "))).into());
         }
-        wanted.extend(found);
+        figures.extend(found);
     }
-    Ok(FIGURES.into_iter().filter(|figure| wanted.contains(figure)).collect())
+    Ok(FIGURES.into_iter().filter(|figure| figures.contains(figure)).collect())
 }
 
 /// A varied parameter and the points of its study.
@@ -125,7 +125,7 @@ struct Trend {
 
 /// All flights that are needed.
 struct Flying {
-    wanted: Vec<&'static str>,
+    figures: Vec<&'static str>,
     /// Table 1 with several time steps, for Figures 8a and 8b.
     steps: Vec<Case>,
     trends: Vec<Trend>,
@@ -137,8 +137,8 @@ struct Flying {
 }
 
 impl Flying {
-    fn new(base: &Case, wanted: &[&'static str]) -> Result<Self, Failure> {
-        let wants = |figure| wanted.contains(&figure);
+    fn new(base: &Case, figures: &[&'static str]) -> Result<Self, Failure> {
+        let wants = |figure| figures.contains(&figure);
         // Points that several studies share, such as Table 1, are flown once.
         let mut cases: Vec<Case> = Vec::new();
         let mut place = |case: Case| {
@@ -158,7 +158,7 @@ impl Flying {
             trends.push(Trend { parameter, points: points.collect() });
         }
         let mut choices = Vec::new();
-        if wanted.len() == FIGURES.len() {
+        if figures.len() == FIGURES.len() {
             for (name, case) in choices_of_the_paper()? {
                 choices.push((name, place(case)));
             }
@@ -170,7 +170,7 @@ impl Flying {
             case.run.replicates = base.run.replicates;
         }
         let study = Study::of_cases(cases, Replicates::fixed(base.run.replicates));
-        Ok(Self { wanted: wanted.to_vec(), steps, trends, choices, study, base: base.clone() })
+        Ok(Self { figures: figures.to_vec(), steps, trends, choices, study, base: base.clone() })
     }
 
     fn fibres(&self) -> u64 {
@@ -203,7 +203,7 @@ impl Flying {
             })?;
             steps.push((case.run.time_step, collector.finish()));
         }
-        let wants = |figure| self.wanted.contains(&figure);
+        let wants = |figure| self.figures.contains(&figure);
         let record = if wants("2") { velocity_record(&self.base, computing.isa, 0.5)? } else { Vec::new() };
         let spectrum = if wants("3") { turbulence_spectrum(&self.base, computing)? } else { Vec::new() };
         Ok(PaperResults { flying: self, points, steps, record, spectrum })
@@ -234,7 +234,7 @@ impl PaperResults {
 
     fn figures(&self, base: &Case) -> Vec<Figure> {
         let mut figures = Vec::new();
-        let wants = |figure| self.flying.wanted.contains(&figure);
+        let wants = |figure| self.flying.figures.contains(&figure);
         if wants("2") {
             figures.push(draw::velocity_history(&self.record, base.air.velocity));
         }
@@ -267,7 +267,7 @@ impl PaperResults {
             })
             .collect();
         let mut claims =
-            if self.flying.wanted.contains(&"8b") { claims_of_step_errors(&errors) } else { Vec::new() };
+            if self.flying.figures.contains(&"8b") { claims_of_step_errors(&errors) } else { Vec::new() };
         for trend in &self.flying.trends {
             claims.extend(claims_of_trend(trend.parameter, &self.trend(trend)));
         }

@@ -22,17 +22,18 @@ pub(super) fn is_picture(file: &Path) -> bool {
     matches!(extension.as_str(), "png" | "tif" | "tiff" | "npy")
 }
 
-pub(super) fn scan(asked: &Analyse) -> Result<(), Failure> {
-    let name = stem(&asked.record, "scan").to_string_lossy().into_owned();
-    let folder = super::folder(asked.out.as_ref(), &name);
-    let staging = Staging::new(&folder, ENTRIES, asked.force, stop_on_ctrl_c())?;
+pub(super) fn scan(arguments: &Analyse) -> Result<(), Failure> {
+    let name = stem(&arguments.record, "scan").to_string_lossy().into_owned();
+    let folder = super::folder(arguments.out.as_ref(), &name);
+    let staging = Staging::new(&folder, ENTRIES, arguments.force, stop_on_ctrl_c())?;
     let started = Instant::now();
-    let picture = turned(read(&asked.record, asked.scan.pixel)?, asked);
-    let findings = analyse(&picture, &settings(asked, &picture)?)?;
+    let picture = turned(read(&arguments.record, arguments.scan.pixel)?, arguments);
+    let findings = analyse(&picture, &settings(arguments, &picture)?)?;
     let performance = Performance {
         wall_s: started.elapsed().as_secs_f64(),
         threads: 1,
         instruction_set: Isa::detect().name(),
+        ..Performance::default()
     };
     let notes: Vec<String> = findings.notes.iter().map(ToString::to_string).collect();
     let summary = Summary::of_scan(&picture.file, &findings, performance, &notes).to_json();
@@ -44,9 +45,9 @@ pub(super) fn scan(asked: &Analyse) -> Result<(), Failure> {
     staging.write("report.html", scan_html(&report)?)?;
     staging.write("summary.json", &summary)?;
     staging.publish()?;
-    if asked.json {
+    if arguments.json {
         say::text(&summary);
-    } else if !asked.quiet {
+    } else if !arguments.quiet {
         say::text(&table(&findings));
         notes.iter().for_each(|note| say::remark(false, note));
         say::line(&format!("open {}", folder.join("report.html").display()));
@@ -55,18 +56,19 @@ pub(super) fn scan(asked: &Analyse) -> Result<(), Failure> {
 }
 
 /// The picture with the machine direction downwards.
-fn turned(picture: Picture, asked: &Analyse) -> Picture {
-    if asked.scan.md == Direction::Rows { picture.turned() } else { picture }
+fn turned(picture: Picture, arguments: &Analyse) -> Picture {
+    if arguments.scan.md == Direction::Rows { picture.turned() } else { picture }
 }
 
-fn settings(asked: &Analyse, picture: &Picture) -> Result<Settings, Failure> {
-    let options = &asked.scan;
+fn settings(arguments: &Analyse, picture: &Picture) -> Result<Settings, Failure> {
+    let options = &arguments.scan;
     let usual = if picture.holds_light() { LightName::Transmitted } else { LightName::Weight };
     let light = match options.light.unwrap_or(usual) {
         LightName::Transmitted => Light::Transmitted { mean: options.weight, white: options.white },
         LightName::Weight => Light::Weight { mean: options.weight },
     };
-    let lamp = options.lamp.as_ref().map(|lamp| Ok::<_, Failure>(turned(read(lamp, picture.pixel)?, asked)));
+    let lamp =
+        options.lamp.as_ref().map(|lamp| Ok::<_, Failure>(turned(read(lamp, picture.pixel)?, arguments)));
     Ok(Settings {
         lamp: lamp.transpose()?,
         keep_shading: options.keep_shading,

@@ -41,7 +41,9 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
         wall_s: started.elapsed().as_secs_f64(),
         threads: by.threads,
         instruction_set: by.isa.name(),
-    };
+        ..Performance::default()
+    }
+    .with_flights(&findings);
     let found = folders::web::notes(web, &findings, layers);
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
     let written =
@@ -80,13 +82,17 @@ type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
 /// The table for the terminal.
 fn told(of: &Findings) -> String {
     let per_cent = |cv: f64, error: Option<f64>| plus_minus(100.0 * cv, error.map(|error| 100.0 * error));
-    let all: [Column; 2] = [("surrogate", |patch| patch.surrogate), ("flown curves", |patch| patch.flown)];
+    let is_shared = of.laid.together.is_some();
+    let all: [Column; 2] = match is_shared {
+        true => [("airs of their own", |patch| patch.independent), ("", |_| None)],
+        false => [("surrogate", |patch| patch.surrogate), ("flown curves", |patch| patch.flown)],
+    };
     let mut expected: Vec<Column> =
         all.into_iter().filter(|(_, cv)| of.patches.iter().any(|patch| cv(patch).is_some())).collect();
     if expected.is_empty() {
         expected.push(("single fibres", |patch| Some(patch.one_fibre)));
     }
-    let flown = of.patches.iter().any(|patch| patch.flown.is_some());
+    let flown = !is_shared && of.patches.iter().any(|patch| patch.flown.is_some());
     let mut heads = vec!["patch", "this map", "by chance", "95 % by chance"];
     if flown {
         heads.extend(["few fibres", "model"]);

@@ -72,12 +72,12 @@ impl Batches {
             variance: motions.map(|[amplitude, ..]| amplitude * amplitude),
             frequency: motions.map(|[_, frequency, _]| frequency),
         };
-        let wanted = 1 << self.merged;
+        let count = 1 << self.merged;
         let filling = match self.filling.take() {
             None => Filling { so_far: batch, holds: 1 },
             Some(filling) => filling.with(&batch),
         };
-        if filling.holds < wanted {
+        if filling.holds < count {
             self.filling = Some(filling);
             return;
         }
@@ -223,11 +223,11 @@ mod tests {
         // 8 · 64 pieces are joined four times; rounding only.
         for pieces in [1, 5, 63, 64, 512] {
             let (found, whole) = batches(&mut Chance(1), 0.9, pieces, 20);
-            let wanted = whole.iter().sum::<f64>() / WIDTH as f64;
+            let expected = whole.iter().sum::<f64>() / WIDTH as f64;
             assert_eq!(counted(&found), pieces as u64);
             assert!(
-                (found.amplitude().value / wanted - 1.0).abs() < 1e-12,
-                "{pieces}: {:?}, {wanted}",
+                (found.amplitude().value / expected - 1.0).abs() < 1e-12,
+                "{pieces}: {:?}, {expected}",
                 found.amplitude()
             );
             assert!(found.batches.len() < MOST);

@@ -11,7 +11,7 @@ const PAGES: usize = 16;
 const WAITING: usize = 64;
 
 /// Number of a page.
-pub(super) type Page = u64;
+pub(super) type PageId = u64;
 
 /// A text that all pages see, as JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,8 +62,8 @@ struct Notices {
     texts: [Notice<Arc<str>>; Topic::ALL.len()],
     frame: Notice<Arc<Frame>>,
     /// What waits for each page.
-    pages: BTreeMap<Page, VecDeque<News>>,
-    next_page: Page,
+    pages: BTreeMap<PageId, VecDeque<News>>,
+    next_page: PageId,
 }
 
 /// See the [module](self).
@@ -104,7 +104,7 @@ impl Board {
     }
 
     /// A place for a new page; `None` if too many are open.
-    pub(super) fn open(&self) -> Option<Page> {
+    pub(super) fn open(&self) -> Option<PageId> {
         let mut notices = self.notices();
         let page = notices.next_page;
         if notices.pages.len() == PAGES {
@@ -116,13 +116,13 @@ impl Board {
     }
 
     /// Gives the place of a page back.
-    pub(super) fn close(&self, page: Page) {
+    pub(super) fn close(&self, page: PageId) {
         self.notices().pages.remove(&page);
         self.changed.notify_all();
     }
 
     /// Puts an answer up for a page. A page that does not fetch its answers misses them.
-    pub(super) fn answer(&self, page: Page, text: String) {
+    pub(super) fn answer(&self, page: PageId, text: String) {
         if let Some(waiting) = self.notices().pages.get_mut(&page).filter(|waiting| waiting.len() < WAITING) {
             waiting.push_back(News::Text(text.into()));
         }
@@ -130,7 +130,7 @@ impl Board {
     }
 
     /// Puts something up for a page as soon as there is room; `false` if the page is closed.
-    pub(super) fn post(&self, page: Page, news: News) -> bool {
+    pub(super) fn post(&self, page: PageId, news: News) -> bool {
         let full = |notices: &mut Notices| notices.pages.get(&page).is_some_and(|all| all.len() >= WAITING);
         let notices = self.changed.wait_while(self.notices(), full);
         let mut notices = notices.unwrap_or_else(PoisonError::into_inner);
@@ -141,7 +141,7 @@ impl Board {
     }
 
     /// Waits for something that a page has not had: what waits for it first, then texts, then the frame.
-    pub(super) fn next(&self, page: Page, mark: &mut Bookmark) -> News {
+    pub(super) fn next(&self, page: PageId, mark: &mut Bookmark) -> News {
         let mut notices = self.notices();
         loop {
             let Some(waiting) = notices.pages.get_mut(&page) else { return News::End };
@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn as_many_pages_as_there_are_places() {
         let board = board();
-        let pages: Vec<Page> = (0..PAGES).filter_map(|_| board.open()).collect();
+        let pages: Vec<PageId> = (0..PAGES).filter_map(|_| board.open()).collect();
         assert_eq!((pages.len(), board.open()), (PAGES, None));
         board.close(pages[3]);
         assert!(board.open().is_some_and(|page| !pages.contains(&page)));

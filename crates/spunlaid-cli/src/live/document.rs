@@ -291,7 +291,7 @@ mod tests {
         let Err(wrong) = document().with_text(CASE.replace("50 mm", "0.1 mm")).read() else {
             panic!("it is read");
         };
-        assert!(wrong[0].text.contains(" MB of memory, and a page flies up to 256 MB"), "{}", wrong[0].text);
+        assert!(wrong[0].text.contains(" MB of memory, and a page can use 256 MB"), "{}", wrong[0].text);
     }
 
     #[test]
@@ -317,7 +317,7 @@ mod tests {
     fn saved_paths_are_read_from_the_present_folder() {
         let text = "[air]\nrecord = [\"a.csv\", \"b/c.csv\"]\nspectrum = \"von-karman\"\n";
         let document = Document::new(text.to_owned(), Some(PathBuf::from("cases/x.toml")));
-        let wanted = "[air]\nrecord = [\"cases/a.csv\", \"cases/b/c.csv\"]\nspectrum = \"von-karman\"\n";
-        assert_eq!(document.to_save(), wanted);
+        let expected = "[air]\nrecord = [\"cases/a.csv\", \"cases/b/c.csv\"]\nspectrum = \"von-karman\"\n";
+        assert_eq!(document.to_save(), expected);
     }
 }

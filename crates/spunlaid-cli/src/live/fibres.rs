@@ -182,9 +182,9 @@ mod tests {
         for steps in [1, 7, 300, 2, 90] {
             fibres.fly(steps, |instant| times.push(instant.snapshot.time)).unwrap();
         }
-        let wanted: Vec<f64> = (0..times.len()).map(|i| i as f64 * run.output_interval()).collect();
+        let expected: Vec<f64> = (0..times.len()).map(|i| i as f64 * run.output_interval()).collect();
         assert!(
-            times.len() > 70 && times.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-12),
+            times.len() > 70 && times.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12),
             "{times:?}"
         );
         let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job::new(&case, replicate)).collect();

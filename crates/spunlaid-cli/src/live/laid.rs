@@ -1,7 +1,7 @@
 //! What fed fibres have laid on the belt since the last change.
 
 use super::fibres::Instant;
-use super::number::Number;
+use super::number::ShownNumber;
 use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::lanes::WIDTH;
@@ -51,12 +51,12 @@ impl LaidStatistics {
     }
 
     /// Spreads, correlation lengths and the surrogate. The errors are those over the eight fibres.
-    pub(super) fn numbers(&mut self) -> Vec<Number> {
-        let laid = self.traces.each_ref().map(Trace::finish);
+    pub(super) fn numbers(&mut self) -> Vec<ShownNumber> {
+        let curves = self.traces.each_ref().map(Trace::finish);
         let points = self.traces[0].points();
         // A fit takes longer than all else.
         if points as f64 > (1.0 + FIT_AGAIN) * self.fitted.0 as f64 {
-            let noises = laid.iter().filter_map(|curve| {
+            let noises = curves.iter().filter_map(|curve| {
                 let sigmas = [curve.sigma_md, curve.sigma_cd];
                 let found = identify(sigmas, curve.lag_step, [&curve.correlation_md, &curve.correlation_cd]);
                 Some(found.ok()?.surrogate.noise)
@@ -64,7 +64,7 @@ impl LaidStatistics {
             self.fitted = (points, noises.collect());
         }
         let values_of =
-            |quantity: fn(&laydown::LaidCurve) -> f64| laid.iter().map(quantity).collect::<Vec<f64>>();
+            |quantity: fn(&laydown::LaidCurve) -> f64| curves.iter().map(quantity).collect::<Vec<f64>>();
         let all = [
             ("sigma_md", values_of(|curve| curve.sigma_md)),
             ("sigma_cd", values_of(|curve| curve.sigma_cd)),
@@ -77,15 +77,15 @@ impl LaidStatistics {
             .filter_map(|(name, values)| {
                 let finite: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
                 let estimate = Estimate::new(finite);
-                Number::new(name, estimate.mean, estimate.standard_error)
+                ShownNumber::new(name, estimate.mean, estimate.standard_error)
             })
             .collect()
     }
 
     /// Where the fibres came down; `None` before they have.
     pub(super) fn map(&self) -> Option<Map> {
-        let laid = self.traces.each_ref().map(Trace::finish);
-        let with_points = || laid.iter().filter(|curve| curve.mean[0].is_finite());
+        let curves = self.traces.each_ref().map(Trace::finish);
+        let with_points = || curves.iter().filter(|curve| curve.mean[0].is_finite());
         let cell = with_points().map(|curve| curve.footprint.cell).fold(0.0, f64::max);
         let mut counted = Vec::new();
         for curve in with_points() {
@@ -134,13 +134,13 @@ mod tests {
         let (case, _) =
             parse_case(starter_case_of_fed(), "fed.toml", &[("fibre.element_length".into(), "4 mm".into())])
                 .unwrap();
-        let mut laid = LaidStatistics::new(&case).unwrap();
+        let mut statistics = LaidStatistics::new(&case).unwrap();
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let mut points: Vec<f64> = Vec::new();
         let mut all = 0;
         fibres
             .fly((0.2 / case.run.time_step) as u64, |instant| {
-                laid.see(&instant);
+                statistics.see(&instant);
                 points.extend(instant.laid[2].iter().map(|point| point.cd));
                 all += instant.laid.iter().map(Vec::len).sum::<usize>() as u64;
             })
@@ -148,8 +148,8 @@ mod tests {
         let n = points.len() as f64;
         let mean = points.iter().sum::<f64>() / n;
         let sigma = (points.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
-        assert!((laid.traces[2].finish().sigma_cd / sigma - 1.0).abs() < 1e-9);
-        let map = laid.map().unwrap();
+        assert!((statistics.traces[2].finish().sigma_cd / sigma - 1.0).abs() < 1e-9);
+        let map = statistics.map().unwrap();
         assert_eq!(map.counts.iter().sum::<u64>(), all);
         assert_eq!(map.counts.len() % map.columns, 0);
         assert!(map.corner.iter().all(|corner| *corner < 0.0), "{map:?}");

@@ -1,9 +1,9 @@
-//! What the fibres are found to do while they fly, since the last change.
+//! Statistics of the fibres while they fly, since the last change.
 
 use super::batches::{Batches, Settling};
 use super::fibres::Instant;
 use super::laid::LaidStatistics;
-use super::number::Number;
+use super::number::ShownNumber;
 use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::flight::{EndNodeMotion, Flight};
@@ -48,7 +48,7 @@ struct Swinging {
     spectrum: [Welch; 2],
 }
 
-/// The statistics as they are told to a page.
+/// The statistics as a page gets them.
 #[derive(Debug, Serialize)]
 #[serde(tag = "is", rename = "measured")]
 pub(super) struct StatisticsMessage {
@@ -57,7 +57,7 @@ pub(super) struct StatisticsMessage {
     duration: f64,
     /// Time that is still left out [s].
     settling: f64,
-    numbers: Vec<Number>,
+    numbers: Vec<ShownNumber>,
     curves: Option<Curves>,
     footprint: Option<super::laid::Map>,
 }
@@ -82,7 +82,7 @@ impl Statistics {
             None => spin_up.max(SETTLING),
         };
         let motion = match LaidStatistics::new(case) {
-            Some(laid) => Motion::Fed(Box::new(laid)),
+            Some(statistics) => Motion::Fed(Box::new(statistics)),
             None => Motion::Fixed(Box::new(Swinging::new(case, flight))),
         };
         Self { from: flight.time() + settling, duration: 0.0, batch: None, motion }
@@ -102,7 +102,7 @@ impl Statistics {
         };
         self.duration = now - self.from;
         match &mut self.motion {
-            Motion::Fed(laid) => laid.see(&instant),
+            Motion::Fed(statistics) => statistics.see(&instant),
             Motion::Fixed(swinging) => {
                 swinging.see(&instant);
                 let duration = now - start;
@@ -128,9 +128,9 @@ impl Statistics {
             footprint: None,
         };
         match &mut self.motion {
-            Motion::Fed(laid) => {
-                message.numbers = laid.numbers();
-                message.footprint = laid.map();
+            Motion::Fed(statistics) => {
+                message.numbers = statistics.numbers();
+                message.footprint = statistics.map();
             }
             Motion::Fixed(swinging) => {
                 message.numbers = swinging.numbers();
@@ -180,8 +180,8 @@ impl Swinging {
         self.z.add(motions, |m| [m.amplitude_z, m.frequency_z, m.mean.z]);
     }
 
-    fn numbers(&self) -> Vec<Number> {
-        let number = |name, Settling { value, error }| Number::new(name, value, error);
+    fn numbers(&self) -> Vec<ShownNumber> {
+        let number = |name, Settling { value, error }| ShownNumber::new(name, value, error);
         [
             number("amplitude_y", self.y.amplitude()),
             number("amplitude_z", self.z.amplitude()),

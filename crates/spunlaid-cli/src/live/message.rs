@@ -1,4 +1,4 @@
-//! What a page asks, as JSON. What is told to the pages is written where it is known.
+//! The requests of a page, as JSON. The messages to the pages are written where their content is known.
 
 use serde::{Deserialize, Serialize};
 
@@ -62,7 +62,7 @@ impl Pace {
     }
 }
 
-/// Something that is told to the one page that asked.
+/// An answer to the one page that asked.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub(super) enum Answer {
@@ -112,7 +112,7 @@ mod tests {
     #[test]
     fn every_message_of_the_page_is_understood() {
         let set = |value| Command::Set { key: "air.velocity".to_owned(), value, stamp: 7 };
-        for (text, wanted) in [
+        for (text, expected) in [
             (r#"{"do":"set","key":"air.velocity","value":20,"stamp":7}"#, set(KeyValue::Number(20.0))),
             (
                 r#"{"do":"set","key":"air.velocity","value":"20 m/s","stamp":7}"#,
@@ -131,7 +131,7 @@ mod tests {
                 Command::Save { name: "a".to_owned(), replace: true },
             ),
         ] {
-            assert_eq!(read(text), Ok(wanted), "{text}");
+            assert_eq!(read(text), Ok(expected), "{text}");
         }
     }
 

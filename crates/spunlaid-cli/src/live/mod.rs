@@ -67,7 +67,7 @@ pub(crate) struct Start {
 
 /// Flies a case for pages, until the program is ended.
 ///
-/// * `ready` – is told the address of the page, and what is to be said of the scheme
+/// * `ready` – gets the address of the page, and a remark on the scheme if there is one
 ///
 /// # Errors
 /// The case cannot be flown, or the server cannot start.
@@ -84,10 +84,10 @@ pub(crate) fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Resu
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, start.port)).map_err(not_served)?;
     let guard = Guard::new(listener.local_addr().map_err(not_served)?.port())?;
 
-    let (asks, asked) = mpsc::sync_channel(WAITING);
-    let server = Server { guard, asks, board: session.board() };
+    let (sender, requests) = mpsc::sync_channel(WAITING);
+    let server = Server { guard, requests: sender, board: session.board() };
     let address = server.guard.address();
-    let flight = thread::Builder::new().name("flight".to_owned()).spawn(move || session.fly(&asked));
+    let flight = thread::Builder::new().name("flight".to_owned()).spawn(move || session.fly(&requests));
     let flight = flight.map_err(not_served)?;
     let serving = thread::Builder::new().name("server".to_owned()).spawn(move || server.serve(&listener));
     serving.map_err(not_served)?;
@@ -98,8 +98,8 @@ pub(crate) fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Resu
 
 /// The case with the scheme and the step that keep up with the clock, and what is to be said of it.
 fn at_real_time(document: Document) -> Result<(Document, Option<String>), Vec<Complaint>> {
-    let asked = document.read()?.case.run;
-    if asked.scheme == Scheme::ImplicitTension {
+    let run = document.read()?.case.run;
+    if run.scheme == Scheme::ImplicitTension {
         return Ok((document, None));
     }
     let mut other = document.clone();
@@ -117,11 +117,11 @@ fn at_real_time(document: Document) -> Result<(Document, Option<String>), Vec<Co
         return Ok((document, None));
     };
     let step = read.case.run.time_step;
-    let [asked_step, step] = [asked.time_step, step].map(|step| Dimension::Time.pretty_to(step, 3));
+    let [asked_step, step] = [run.time_step, step].map(|step| Dimension::Time.pretty_to(step, 3));
     let note = format!(
         "the case asks for run.scheme = \"{}\" and steps of {asked_step}; to keep up with the clock, the fibres fly with \
          \"{}\" and {step}",
-        asked.scheme.name(),
+        run.scheme.name(),
         Scheme::ImplicitTension.name()
     );
     Ok((other, Some(note)))

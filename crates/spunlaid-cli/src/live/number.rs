@@ -5,7 +5,7 @@ use spunlaid::observe::{DECLARED, Measure};
 
 /// A number with its standard error, in the unit in which it is shown.
 #[derive(Debug, Serialize)]
-pub(super) struct Number {
+pub(super) struct ShownNumber {
     pub(super) name: &'static str,
     label: &'static str,
     meaning: &'static str,
@@ -14,7 +14,7 @@ pub(super) struct Number {
     pub(super) error: Option<f64>,
 }
 
-impl Number {
+impl ShownNumber {
     /// * `value`, `error` – in SI units
     pub(super) fn new(name: &str, value: f64, error: Option<f64>) -> Option<Self> {
         let Measure { name, label, meaning, unit, .. } = *measure(name)?;

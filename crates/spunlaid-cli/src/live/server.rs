@@ -1,7 +1,7 @@
 //! The server: hands out the page, and carries messages and frames between pages and the flight. Each connection has a thread of
 //! its own, so that one that is slow or silent keeps nobody waiting.
 
-use super::board::{Board, Bookmark, News, Page};
+use super::board::{Board, Bookmark, News, PageId};
 use super::guard::Guard;
 use super::http::{self, Request, Response};
 use super::message::{self, Answer, Command, LARGEST};
@@ -29,7 +29,7 @@ const PAUSE: Duration = Duration::from_millis(50);
 /// What all connections share.
 pub(super) struct Server {
     pub(super) guard: Guard,
-    pub(super) asks: SyncSender<PageRequest>,
+    pub(super) requests: SyncSender<PageRequest>,
     pub(super) board: Arc<Board>,
 }
 
@@ -38,7 +38,7 @@ enum Reaction {
     Answer(Response),
     /// A page has been opened; the key confirms it.
     Talk {
-        page: Page,
+        page: PageId,
         key: String,
     },
 }
@@ -117,7 +117,7 @@ impl Server {
     }
 
     /// Talks with a page until one of both has had enough: this thread reads, another one writes.
-    fn talk(&self, stream: &mut TcpStream, rest: Vec<u8>, page: Page, key: &str) -> io::Result<()> {
+    fn talk(&self, stream: &mut TcpStream, rest: Vec<u8>, page: PageId, key: &str) -> io::Result<()> {
         let head = format!(
             "HTTP/1.1 101 Switching Protocols\r\nconnection: Upgrade\r\nupgrade: websocket\r\nsec-websocket-accept: {key}\r\n"
         );
@@ -142,12 +142,12 @@ impl Server {
     }
 
     /// Hands on what a page asks. If many pages ask much, they wait.
-    fn ask(&self, from: Page, asked: Command) -> io::Result<()> {
-        self.asks.send(PageRequest { from, asked }).map_err(|_| ErrorKind::BrokenPipe.into())
+    fn ask(&self, page: PageId, command: Command) -> io::Result<()> {
+        self.requests.send(PageRequest { page, command }).map_err(|_| ErrorKind::BrokenPipe.into())
     }
 
     /// Reads the messages of a page, until it leaves.
-    fn read(&self, stream: &TcpStream, rest: Vec<u8>, page: Page) -> tungstenite::Result<()> {
+    fn read(&self, stream: &TcpStream, rest: Vec<u8>, page: PageId) -> tungstenite::Result<()> {
         let config = WebSocketConfig::default()
             .read_buffer_size(PIECE)
             .max_message_size(Some(LARGEST))
@@ -157,8 +157,8 @@ impl Server {
         loop {
             let answer = match socket.read()? {
                 Message::Text(text) => match message::read(&text) {
-                    Ok(asked) => {
-                        self.ask(page, asked)?;
+                    Ok(command) => {
+                        self.ask(page, command)?;
                         continue;
                     }
                     Err(answer) => answer,
@@ -178,7 +178,7 @@ impl Server {
 /// of the writer.
 struct Inward<'a> {
     stream: &'a TcpStream,
-    page: Page,
+    page: PageId,
     board: &'a Board,
 }
 
@@ -200,7 +200,7 @@ impl Write for Inward<'_> {
 }
 
 /// Writes what there is for a page, until it leaves.
-fn write(stream: &mut TcpStream, page: Page, board: &Board) -> tungstenite::Result<()> {
+fn write(stream: &mut TcpStream, page: PageId, board: &Board) -> tungstenite::Result<()> {
     let (mut mark, mut had) = (Bookmark::default(), Default::default());
     let mut bytes = Vec::new();
     loop {

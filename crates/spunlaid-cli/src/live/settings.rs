@@ -1,4 +1,4 @@
-//! What a page can change, out of the table of keys.
+//! The settings that a page can change, from the table of keys.
 
 use serde::Serialize;
 use spunlaid::case::Case;

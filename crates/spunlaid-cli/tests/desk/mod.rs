@@ -88,7 +88,7 @@ impl Desk {
     }
 
     /// The same with another case.
-    pub fn of(case: &str) -> Self {
+    pub fn with_case(case: &str) -> Self {
         let desk = Self::new();
         fs::write(desk.path("brief.toml"), case).unwrap();
         desk
@@ -169,8 +169,8 @@ pub fn assert_identical(desk: &Desk, one: &str, other: &str) {
     let shapes = desk.entries(&format!("{one}/shape"));
     assert_eq!(shapes, desk.entries(&format!("{other}/shape")));
     for name in shapes {
-        let of = |folder: &str| desk.read(&format!("{folder}/shape/{name}"));
-        assert!(of(one) == of(other), "{name}");
+        let content = |folder: &str| desk.read(&format!("{folder}/shape/{name}"));
+        assert!(content(one) == content(other), "{name}");
     }
     let [a, b] = [one, other].map(|folder| {
         let mut summary = desk.summary(folder);

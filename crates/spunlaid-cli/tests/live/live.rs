@@ -68,7 +68,7 @@ fn only_what_is_saved_by_a_plain_name_is_written() {
     let save = |name: &str, replace: bool| json!({ "do": "save", "name": name, "replace": replace });
     for name in ["../a", "/tmp/a", "a/b", "", ".hidden", "..", "a\u{0}b"] {
         assert!(
-            page.refused(&save(name, true))["text"].as_str().unwrap().contains("no plain name"),
+            page.refused(&save(name, true))["text"].as_str().unwrap().contains("is not a plain name"),
             "{name}"
         );
     }

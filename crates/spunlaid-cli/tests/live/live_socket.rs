@@ -16,7 +16,7 @@ impl Chance {
         ((self.0 >> 33) as usize) % end.max(1)
     }
 
-    fn of<'a>(&mut self, all: &[&'a str]) -> &'a str {
+    fn one_of<'a>(&mut self, all: &[&'a str]) -> &'a str {
         all[self.below(all.len())]
     }
 
@@ -59,7 +59,7 @@ impl Chance {
             "\\u0000",
         ];
         let mut text = match self.below(12) {
-            0 => format!(r#"{{"do":"set","key":"{}","value":{},"stamp":{}}}"#, self.of(KEYS), self.of(VALUES), self.of(&["1", "-1", "1e9"])),
+            0 => format!(r#"{{"do":"set","key":"{}","value":{},"stamp":{}}}"#, self.one_of(KEYS), self.one_of(VALUES), self.one_of(&["1", "-1", "1e9"])),
             1 => {
                 let mut case = case.as_bytes().to_vec();
                 for _ in 0..1 + self.below(4) {
@@ -68,11 +68,11 @@ impl Chance {
                 }
                 json!({ "do": "case", "text": String::from_utf8_lossy(&case) }).to_string()
             }
-            2 => format!(r#"{{"do":"pace","pace":"{}"}}"#, self.of(&["real", "tenth", "free", "", "REAL"])),
-            3 => format!(r#"{{"do":"{}"}}"#, self.of(&["pause", "go", "step", "reset", "forget", "look", "save", "case"])),
-            4 => json!({ "do": "save", "name": self.of(&["../x", "", "a/b", "/etc/x", "\u{0}", "a:b"]), "replace": self.below(2) == 1 }).to_string(),
-            5 => self.of(&["[[[[[[[[", "{\"do\":", "\"", "0", "{}", "{\"do\":{\"do\":1}}"]).repeat(1 + self.below(200)),
-            6 => format!(r#"{{"do":"look","visible":{}}}"#, self.of(VALUES)),
+            2 => format!(r#"{{"do":"pace","pace":"{}"}}"#, self.one_of(&["real", "tenth", "free", "", "REAL"])),
+            3 => format!(r#"{{"do":"{}"}}"#, self.one_of(&["pause", "go", "step", "reset", "forget", "look", "save", "case"])),
+            4 => json!({ "do": "save", "name": self.one_of(&["../x", "", "a/b", "/etc/x", "\u{0}", "a:b"]), "replace": self.below(2) == 1 }).to_string(),
+            5 => self.one_of(&["[[[[[[[[", "{\"do\":", "\"", "0", "{}", "{\"do\":{\"do\":1}}"]).repeat(1 + self.below(200)),
+            6 => format!(r#"{{"do":"look","visible":{}}}"#, self.one_of(VALUES)),
             7 => return Message::binary((0..self.below(300)).map(|_| self.below(256) as u8).collect::<Vec<u8>>()),
             8 => return Message::Ping(vec![0; self.below(126)].into()),
             _ => (0..self.below(80)).filter_map(|_| char::from_u32(self.below(0x500) as u32)).collect(),

@@ -57,8 +57,8 @@ fn memory_is_flat() {
     let (few, many, often) = (three(1000, 2), three(10_000, 2), three(1000, 20));
     // A peak wanders by 3 MiB with the pictures that happen to be drawn side by side, and a look may miss the last
     // moments of a short run. So the largest peak of the small study counts, and the smallest of the large ones.
-    let largest = |of: fn(&Peak) -> u64| few.iter().map(of).max().unwrap_or(0);
-    let smallest = |peaks: &[Peak], of: fn(&Peak) -> u64| peaks.iter().map(of).min().unwrap_or(0);
+    let largest = |quantity: fn(&Peak) -> u64| few.iter().map(quantity).max().unwrap_or(0);
+    let smallest = |peaks: &[Peak], quantity: fn(&Peak) -> u64| peaks.iter().map(quantity).min().unwrap_or(0);
     // A point is a case, its values and its results: less than 1.5 KiB.
     let (before, after) = (largest(|peak| peak.whole), smallest(&many, |peak| peak.whole));
     assert!(after < before + 9000 * 3 / 2, "{before} KiB for 1,000 points, {after} KiB for 10,000");

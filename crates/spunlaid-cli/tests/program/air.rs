@@ -100,8 +100,8 @@ fn the_parts_of_a_list_stay_with_the_results() {
     // The notes of the summary name the case, so the tables are compared.
     let identical = || {
         for table in ["end_node.parquet", "energy.parquet"] {
-            let of = |folder: &str| desk.read(&format!("{folder}/{table}"));
-            assert!(of("moved/first") == of("again"), "{table}");
+            let content = |folder: &str| desk.read(&format!("{folder}/{table}"));
+            assert!(content("moved/first") == content("again"), "{table}");
         }
     };
     success(&mut desk.spunlaid("run moved/first/case.toml --out again"));

@@ -39,12 +39,15 @@ fn runs_in_the_same_turbulence_are_compared_pair_by_pair() {
     let d: Vec<f64> = a.iter().zip(&b).map(|(a, b)| b - a).collect();
     let mean = d.iter().sum::<f64>() / 8.0;
     let error = (d.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 56.0).sqrt();
-    let of = &one["measures"]["amplitude_y_m"];
+    let amplitude = &one["measures"]["amplitude_y_m"];
     let close = |found: &Value, wanted: f64| (found.as_f64().unwrap() / wanted - 1.0).abs() < 1e-9;
-    assert!(close(&of["difference"], mean) && close(&of["standard_error"], error), "{of}");
+    assert!(
+        close(&amplitude["difference"], mean) && close(&amplitude["standard_error"], error),
+        "{amplitude}"
+    );
     // Student's t for seven degrees of freedom.
-    assert!(close(&of["half_width"], 2.36462 * error), "{of}");
-    assert_eq!(of["beyond_chance"].as_bool(), Some(mean.abs() > 2.36462 * error));
+    assert!(close(&amplitude["half_width"], 2.36462 * error), "{amplitude}");
+    assert_eq!(amplitude["beyond_chance"].as_bool(), Some(mean.abs() > 2.36462 * error));
     // The curves of both stand in one picture.
     let numbers = String::from_utf8(desk.read("c/figures/motion_spectrum.csv")).unwrap();
     assert!(numbers.contains("\"a, y\",") && numbers.contains("\"b, z\","), "{numbers}");
@@ -66,15 +69,15 @@ fn runs_in_different_turbulence_are_compared_by_welch() {
     let reason = |i: usize| comparisons[i]["reason"].as_str().unwrap();
     assert!(reason(0).contains("because run.seed differs"), "{}", reason(0));
     assert!(reason(1).contains("because air.length_scale_m differs"), "{}", reason(1));
-    let of = &comparisons[0]["measures"]["amplitude_y_m"];
+    let amplitude = &comparisons[0]["measures"]["amplitude_y_m"];
     let square = |name: &str| {
         let summary = desk.summary(name);
         summary["end_node"]["amplitude_y_m"]["standard_error"].as_f64().unwrap().powi(2)
     };
     let wanted = (square("a") + square("b")).sqrt();
-    assert!((of["standard_error"].as_f64().unwrap() / wanted - 1.0).abs() < 1e-9, "{of}");
+    assert!((amplitude["standard_error"].as_f64().unwrap() / wanted - 1.0).abs() < 1e-9, "{amplitude}");
     // Seven to fourteen degrees of freedom.
-    let t = of["half_width"].as_f64().unwrap() / wanted;
+    let t = amplitude["half_width"].as_f64().unwrap() / wanted;
     assert!((2.1447..=2.3647).contains(&t), "{t}");
     // Without --out, --json writes no files.
     assert!(!desk.path("results").exists());

@@ -31,7 +31,7 @@ seed = 7
 "#;
 
 fn desk() -> Desk {
-    let desk = Desk::of(GUST);
+    let desk = Desk::with_case(GUST);
     let velocity = |i: u32| if (400..420).contains(&i) { 1e5 } else { 10.0 + f64::from(i * i % 101) * 0.01 };
     let rows = (0..2000).map(|i| format!("{},{}\n", f64::from(i) * 1e-3, velocity(i)));
     fs::write(desk.path("gust.csv"), format!("time_s,u_m_s\n{}", rows.collect::<String>())).unwrap();

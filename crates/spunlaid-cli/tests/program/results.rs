@@ -20,8 +20,8 @@ fn table(desk: &Desk, name: &str) -> (Vec<String>, Vec<Vec<f64>>) {
     (columns.iter().map(|column| column.name().to_owned()).collect(), rows.collect())
 }
 
-fn keys(of: &Value) -> Vec<&str> {
-    of.as_object().unwrap().keys().map(String::as_str).collect()
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
 #[test]
@@ -145,7 +145,7 @@ fn the_summary_has_the_fields_that_are_promised() {
     assert_eq!(keys(performance), sorted(fields));
     assert_eq!(performance["element_steps"], 3 * 4 * 500);
     let case = &summary["case"];
-    assert_eq!(keys(case), sorted("fibre feed belt air drag run"));
+    assert_eq!(keys(case), sorted("fibre feed belt air drag neighbours run"));
     assert_eq!(case["fibre"]["diameter_m"], 50e-6);
     assert_eq!(case["fibre"]["element_length_m"], 0.05);
     assert_eq!(case["air"]["velocity_m_s"], 10.0);
@@ -234,8 +234,8 @@ fn identical_from_the_resolved_case() {
         // What the case as written was remarked upon may be resolved by then.
         assert_eq!(desk.read(&format!("{name}/case.toml")), desk.read(&format!("{name}_again/case.toml")));
         for table in ["end_node.parquet", "energy.parquet"] {
-            let of = |folder: &str| desk.read(&format!("{folder}/{table}"));
-            assert!(of(name) == of(&format!("{name}_again")), "{name}: {table}");
+            let content = |folder: &str| desk.read(&format!("{folder}/{table}"));
+            assert!(content(name) == content(&format!("{name}_again")), "{name}: {table}");
         }
         if changes.is_empty() {
             assert_identical(&desk, name, &format!("{name}_again"));
@@ -343,7 +343,7 @@ fn as_many_shapes_are_kept_as_the_case_says() {
 
 #[test]
 fn a_fed_fibre_leaves_what_it_laid() {
-    let desk = Desk::of(FED);
+    let desk = Desk::with_case(FED);
     success(&mut desk.spunlaid("run brief.toml --out r"));
     assert_eq!(desk.entries("r"), entries_of_fed());
     let help = success(&mut desk.spunlaid("run --help"));
@@ -351,13 +351,13 @@ fn a_fed_fibre_leaves_what_it_laid() {
 
     let (columns, rows) = table(&desk, "r/laid.parquet");
     assert_eq!(columns, ["replicate", "s_m", "time_s", "md_m", "cd_m"]);
-    let of = |replicate: f64| rows.iter().filter(move |row| row[0] == replicate);
+    let rows_of = |replicate: f64| rows.iter().filter(move |row| row[0] == replicate);
     assert!(rows.is_sorted_by(|a, b| a[0] <= b[0]), "replicate after replicate");
     for replicate in [1.0, 2.0, 3.0] {
         // 2 m are fed, less what is in the air and what still moves on the belt.
-        let count = of(replicate).count();
+        let count = rows_of(replicate).count();
         assert!((250..500).contains(&count), "{count}");
-        for (i, row) in of(replicate).enumerate() {
+        for (i, row) in rows_of(replicate).enumerate() {
             let fed = i as f64 * 0.004;
             assert!((row[1] - fed).abs() < 1e-12, "{row:?}");
             // It cannot land before it could have come down in air of 45 m/s, nor long after it was fed.
@@ -400,7 +400,7 @@ fn a_fed_fibre_leaves_what_it_laid() {
 
 #[test]
 fn identical_laid_fibres_whatever_the_threads_and_from_the_resolved_case() {
-    let desk = Desk::of(FED);
+    let desk = Desk::with_case(FED);
     for threads in [1, 2] {
         success(
             &mut desk
@@ -414,7 +414,7 @@ fn identical_laid_fibres_whatever_the_threads_and_from_the_resolved_case() {
 
 #[test]
 fn lines_of_a_fed_fibre_have_as_many_points_as_it_has_nodes() {
-    let desk = Desk::of(FED);
+    let desk = Desk::with_case(FED);
     success(&mut desk.spunlaid("run brief.toml --out r"));
     let text = |name: &str| String::from_utf8(desk.read(name)).unwrap();
     let array = |text: &str, from: &str| -> Vec<f64> {
@@ -447,4 +447,34 @@ fn sorted(words: &str) -> Vec<String> {
     let mut words: Vec<String> = words.split_whitespace().map(ToOwned::to_owned).collect();
     words.sort();
     words
+}
+
+/// Companions in the same air: their correlations in the summary, the figure and its numbers, and the report.
+#[test]
+fn neighbours_are_in_the_summary_the_figures_and_the_report() {
+    let desk = Desk::new();
+    let set = "--set air.lateral=von-karman --set air.lateral_cutoff=6";
+    let beside = "--set neighbours.cd=['5mm','1mm'] --set neighbours.md=['2mm']";
+    let said = success(&mut desk.spunlaid(&format!("run brief.toml {set} {beside} --out r")));
+    assert!(said.contains("correlation with neighbours in cross direction\n  y at 1 mm  "), "{said}");
+    let summary = desk.summary("r");
+    assert_eq!(summary["case"]["neighbours"], json!({"cd_m": [0.001, 0.005], "md_m": [0.002]}));
+    let neighbours = &summary["neighbours"];
+    let [near, far] = neighbours["cd"].as_array().unwrap().as_slice() else { panic!("{neighbours}") };
+    let names = ["correlation_y", "correlation_y_se", "correlation_z", "correlation_z_se", "distance_m"];
+    assert_eq!((keys(near), keys(far)), (names.to_vec(), names.to_vec()));
+    assert_eq!((&near["distance_m"], &far["distance_m"]), (&json!(0.001), &json!(0.005)));
+    let correlation = |of: &Value| of["correlation_y"].as_f64().unwrap();
+    assert!(correlation(near) > 0.8 && correlation(far) < correlation(near), "{neighbours}");
+    assert_eq!(neighbours["md"][0]["distance_m"], json!(0.002));
+    let numbers = String::from_utf8(desk.read("r/figures/neighbours_cd.csv")).unwrap();
+    assert!(
+        numbers.starts_with("series,distance_mm,correlation_with_neighbours_in_cross_direction,error\ny,1,"),
+        "{numbers}"
+    );
+    let report = String::from_utf8(desk.read("r/report.html")).unwrap();
+    assert!(report.contains("Neighbours in the same air"));
+    // Without companions there is nothing to tell.
+    success(&mut desk.spunlaid("run brief.toml --out alone"));
+    assert!(desk.summary("alone").get("neighbours").is_none());
 }

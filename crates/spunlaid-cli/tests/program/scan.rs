@@ -54,8 +54,8 @@ fn scan(desk: &Desk, name: &str, columns: usize, weights: &[f64]) {
     encoder.write_header().unwrap().write_image_data(&bytes).unwrap();
 }
 
-fn number(of: &Value) -> f64 {
-    of.as_f64().unwrap()
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     assert!((number(&found["basis_weight_kg_m2"]) / 18e-3 - 1.0).abs() < 1e-12);
     assert_eq!((&found["cells"], &found["cell_m"]), (&web["cells"], &web["cell_m"]));
     for i in 0..3 {
-        let [a, b] = [&web, &found].map(|of| &of["patches"][i]);
+        let [a, b] = [&web, &found].map(|summary| &summary["patches"][i]);
         assert_eq!(a["patch_m"], b["patch_m"]);
         // The laid web is closed to a ring; the scan is cut out of it, and its mean is known from itself only.
         let (one, other) = (number(&a["cv"]), number(&b["cv"]));
@@ -126,19 +126,19 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     assert!(said.contains("CV over patches of 10 mm") && said.contains("  0 of "), "{said}");
     assert_eq!(desk.entries("both"), names(&["comparison.json", "figures", "report.html"]));
     let both: Value = serde_json::from_slice(&desk.read("both/comparison.json")).unwrap();
-    let of = &both["comparisons"][0]["measures"]["cv_10_mm"];
-    let [a, b] = [&web, &found].map(|of| &of["patches"][2]);
+    let measure = &both["comparisons"][0]["measures"]["cv_10_mm"];
+    let [a, b] = [&web, &found].map(|summary| &summary["patches"][2]);
     // The scan's end that faces the laid web.
     let end = usize::from(number(&a["cv"]) > number(&b["cv"]));
-    let towards = |of: &Value, end: usize| number(&of["cv_interval"][end]) - number(&of["cv"]);
+    let towards = |patch: &Value, end: usize| number(&patch["cv_interval"][end]) - number(&patch["cv"]);
     let half_width = towards(a, 1 - end).hypot(towards(b, end));
-    assert!((number(&of["half_width"]) / half_width - 1.0).abs() < 1e-4, "{of}");
+    assert!((number(&measure["half_width"]) / half_width - 1.0).abs() < 1e-4, "{measure}");
     // Nothing is said about a number that is not to be had, and the reason stands there.
-    let of = &both["comparisons"][0]["measures"]["cv_2_mm"];
-    assert_eq!(of["no_verdict"], "below the blur of the scan (scan)");
+    let measure = &both["comparisons"][0]["measures"]["cv_2_mm"];
+    assert_eq!(measure["no_verdict"], "below the blur of the scan (scan)");
     assert!(
-        of["beyond_chance"].is_null() && said.contains("below the blur of the scan (scan)"),
-        "{of} {said}"
+        measure["beyond_chance"].is_null() && said.contains("below the blur of the scan (scan)"),
+        "{measure} {said}"
     );
     // The lamp is not known.
     let command = command.replace(" --white 60000 --keep-shading", "");
@@ -182,8 +182,8 @@ fn a_map_is_read_as_basis_weights() {
     fs::write(desk.path("gauge.csv"), rows.map(|row| row.join(";") + "\n").collect::<String>()).unwrap();
     success(&mut desk.spunlaid("analyse gauge.csv --pixel 0.5mm --weight 18g/m² --patches 4mm --out gauge"));
     let gauge = desk.summary("gauge")["web"].take();
-    let [a, b] =
-        [&gauge["patches"][0], &found["patches"][3]].map(|of| (number(&of["patch_m"]), number(&of["cv"])));
+    let [a, b] = [&gauge["patches"][0], &found["patches"][3]]
+        .map(|patch| (number(&patch["patch_m"]), number(&patch["cv"])));
     assert!(a.0 == 0.004 && b.0 == 0.005 && a.1 > b.1 && a.1 < 1.3 * b.1, "{a:?} {b:?}");
 }
 
@@ -220,7 +220,7 @@ fn rejects_scans_with_the_option_that_helps() {
         ),
         (
             "analyse scan.png --pixel 1mm --noise 60000",
-            "alone would; give the noise of a single pixel, from two pictures of the same place (--noise)\n",
+            "would make it vary; give the noise of a single pixel, from two pictures of the same place (--noise)\n",
         ),
         (
             "analyse scan.png --pixel 1mm --lamp other.png",
@@ -258,7 +258,7 @@ fn rejects_webs_that_cannot_be_compared() {
         ("compare run laid", "laid: does not hold the results of a run: summary.json is not that of a run"),
         (
             "compare laid other",
-            "error: other: cannot be compared: it has no patches of the same size as laid: 2, 4, 10 mm there, 3 mm here; name the same",
+            "error: other: cannot be compared: it has no patches of the same size as laid, which has 2, 4, 10 mm; this one has 3 mm; give both the same sizes",
         ),
     ] {
         let said = refusal(&mut desk.spunlaid(arguments), 1);

@@ -186,7 +186,7 @@ fn a_standard_output_that_is_full_is_told() {
 
 #[test]
 fn a_fed_fibre_that_is_killed_or_cannot_be_written_leaves_nothing() {
-    let desk = Desk::of(FED);
+    let desk = Desk::with_case(FED);
     let long = ["run.duration=600 s", "run.output_interval=0.1 s", "air.cutoff_frequency=10 Hz"];
     let mut command = desk.with("run brief.toml --out r", &long);
     assert_eq!(end(flying(&desk, &mut command, ""), "KILL").status.code(), None);

@@ -422,7 +422,7 @@ fn json_holds_what_the_table_holds() {
         let inputs = &point["inputs"];
         for (head, cell) in rows[0].iter().zip(row) {
             let value = match head.strip_suffix("_se") {
-                Some(of) => &point["results"][of]["standard_error"],
+                Some(name) => &point["results"][name]["standard_error"],
                 None if inputs.get(head).is_some() => &inputs[head],
                 None if point.get(head).is_some() => &point[head],
                 None => &point["results"][head]["mean"],

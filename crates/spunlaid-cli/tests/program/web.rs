@@ -8,7 +8,7 @@ const WEB: &str = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre
 
 fn desk() -> Desk {
     // So long elements show too little of the autocorrelation to see a surrogate in it.
-    let desk = Desk::of(&FED.replace("element_length = \"4 mm\"", "element_length = \"25 mm\""));
+    let desk = Desk::with_case(&FED.replace("element_length = \"4 mm\"", "element_length = \"25 mm\""));
     fs::write(desk.path("web.toml"), WEB).unwrap();
     desk
 }
@@ -100,10 +100,16 @@ fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
     assert!((number("/layers/1/basis_weight_kg_m2") / 6.4e-4 - 1.0).abs() < 1e-9);
     assert!((number("/web/fibre_length_m") / (0.3 * (100.0 * 10.0 + 80.0 * 8.0)) - 1.0).abs() < 1e-9);
     for patch in 0..3 {
-        let of = |name: &str| number(&format!("/web/patches/{patch}/{name}"));
-        assert!(of("cv") > of("cv_straight_fibres") * 0.5 && of("cv") < 4.0 * of("cv_straight_fibres"));
-        let apart = (of("cv") - of("cv_one_fibre")).abs();
-        assert!(apart < 5.0 * of("cv_standard_error").hypot(of("cv_one_fibre_standard_error")), "{summary}");
+        let value = |name: &str| number(&format!("/web/patches/{patch}/{name}"));
+        assert!(
+            value("cv") > value("cv_straight_fibres") * 0.5
+                && value("cv") < 4.0 * value("cv_straight_fibres")
+        );
+        let apart = (value("cv") - value("cv_one_fibre")).abs();
+        assert!(
+            apart < 5.0 * value("cv_standard_error").hypot(value("cv_one_fibre_standard_error")),
+            "{summary}"
+        );
     }
 
     // The array: a head that says its shape, then as many 32-bit numbers, whose mean is the basis weight.
@@ -113,7 +119,7 @@ fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
     let start = array.len() - 4 * 300 * 200;
     assert!(start.is_multiple_of(64));
     let numbers =
-        array[start..].chunks_exact(4).map(|of| f64::from(f32::from_le_bytes(of.try_into().unwrap())));
+        array[start..].chunks_exact(4).map(|bytes| f64::from(f32::from_le_bytes(bytes.try_into().unwrap())));
     assert!((numbers.sum::<f64>() / 6e4 / weight - 1.0).abs() < 1e-4);
 
     // Results are not replaced unless this is asked for, and asking for the summary alone writes nothing.
@@ -126,7 +132,7 @@ fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
 
 #[test]
 fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() {
-    let desk = Desk::of(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\""));
+    let desk = Desk::with_case(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\""));
     let web = WEB.replace(
         "width = \"1 m\"\nlength = \"1 m\"",
         "width = \"0.4 m\"\nlength = \"0.5 m\"\npatches = [\"5 mm\", \"10 mm\"]",
@@ -143,7 +149,9 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
     let (s, d) = (desk.summary("s"), desk.summary("d"));
     assert_eq!(s["schema_version"], 2);
     for patch in 0..2 {
-        let number = |of: &serde_json::Value, name: &str| of["web"]["patches"][patch][name].as_f64().unwrap();
+        let number = |summary: &serde_json::Value, name: &str| {
+            summary["web"]["patches"][patch][name].as_f64().unwrap()
+        };
         // The same number under the same name, whichever of the two the map was laid from.
         assert_eq!(number(&s, "cv_flown"), number(&d, "cv_flown"));
         assert_eq!(number(&s, "cv_one_fibre"), number(&s, "cv_surrogate"));
@@ -161,7 +169,7 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
     assert!(residual("fit_residual_by_chance") > 0.0);
     let page = String::from_utf8(desk.read("s/report.html")).unwrap();
     for words in
-        ["by the few fibres that were flown", "CV expected, from the flown curves", "Residual of the fit"]
+        ["the small number of flown fibres", "CV expected, from the flown curves", "Residual of the fit"]
     {
         assert!(page.contains(words), "{words}");
     }
@@ -188,4 +196,47 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
     assert_eq!(&found["cv_5_mm"]["against"]["standard_error"], whole, "{found}");
     assert_eq!(found["cv_5_mm_flown"]["run"]["mean"], d["web"]["patches"][0]["cv_flown"], "{found}");
     assert!(errors("old").get("cv_5_mm_flown").is_none());
+}
+
+#[test]
+fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
+    let desk =
+        Desk::with_case(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\""));
+    let web = WEB.replace(
+        "filaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"",
+        "filaments_per_metre = 500\ndepth = \"10 mm\"\n[web]\nwidth = \"0.2 m\"\nlength = \"40 mm\"\npatches = [\"5 mm\", \"10 mm\"]",
+    );
+    fs::write(desk.path("web.toml"), format!("{web}method = \"shared-air\"\n")).unwrap();
+    let table = desk::success(&mut desk.spunlaid("web web.toml --out w"));
+    assert!(table.contains("airs of their own") && !table.contains("few fibres"), "{table}");
+    let summary = desk.summary("w");
+    assert_eq!(summary["layers"][0]["lateral_cutoff"], 15.0, "{summary}");
+    assert_eq!(summary["web"]["lost_filaments"], 0);
+    for patch in summary["web"]["patches"].as_array().unwrap() {
+        let number = |name: &str| patch[name].as_f64().unwrap();
+        assert!(number("cv") > number("cv_independent"), "{summary}");
+        assert_eq!(number("cv_independent"), number("cv_one_fibre"));
+    }
+    let [flights, parallel] =
+        ["flights_s", "flights_in_parallel_s"].map(|name| summary["performance"][name].as_f64().unwrap());
+    assert!(0.0 < parallel && parallel <= flights, "{flights} {parallel}");
+    let page = String::from_utf8(desk.read("w/report.html")).unwrap();
+    assert!(page.contains("In airs of their own the same filaments would give"), "no headline sentence");
+    assert!(page.contains("the same filaments in airs of their own"), "no curve of them");
+    let lines = String::from_utf8(desk.read("w/fibres.vtp")).unwrap_or_default();
+    assert!(lines.contains("NumberOfLines") && !lines.contains("NumberOfLines=\"0\""), "single fibres");
+
+    // The same file again, and the same web with independent filaments, whose report says what they leave out.
+    desk::success(&mut desk.spunlaid("web web.toml --out again --threads 1 --quiet"));
+    for file in ["map.npy", "fibres.vtp", "figures/web_cv.csv"] {
+        let [one, other] = ["w", "again"].map(|folder| desk.read(&format!("{folder}/{file}")));
+        assert!(one == other, "{file}");
+    }
+    desk::success(
+        &mut desk
+            .spunlaid("web web.toml --set web.method=dynamics --set web.length=\"0.2 m\" --out d --quiet"),
+    );
+    let page = String::from_utf8(desk.read("d/report.html")).unwrap();
+    assert!(page.contains("lower bound") && page.contains("shared-air"), "nothing of a lower bound");
+    assert!(desk.summary("d")["web"]["patches"][0].get("cv_independent").is_none());
 }

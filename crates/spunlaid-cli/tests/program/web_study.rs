@@ -30,7 +30,7 @@ const STUDY: &str = "web = 'web.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n
                      'line.belt_speed' = ['4 m/s', '8 m/s']\n'laydown.noise' = ['10 m^-0.5', '20 m^-0.5']\n";
 
 fn desk() -> Desk {
-    let desk = Desk::of(BRIEF);
+    let desk = Desk::with_case(BRIEF);
     fs::write(desk.path("web.toml"), WEB).unwrap();
     fs::write(desk.path("study.toml"), STUDY).unwrap();
     desk

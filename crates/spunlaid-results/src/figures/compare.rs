@@ -18,7 +18,7 @@ const DASHES: [Option<&str>; 4] = [None, Some("8 4"), Some("2 3"), Some("8 3 2 3
 
 /// A point of a curve, in the units of the axes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct CurvePoint {
     /// Name of the run or web.
     pub series: String,
     /// Place on the abscissa.
@@ -35,7 +35,7 @@ pub struct Curves {
     /// Name of the run.
     pub name: String,
     /// The rows of each curve, by the curve’s name.
-    pub rows: BTreeMap<String, Vec<Row>>,
+    pub rows: BTreeMap<String, Vec<CurvePoint>>,
 }
 
 /// A figure for each declared curve that all runs have.
@@ -64,7 +64,7 @@ fn overlaid(runs: &[Curves], measures: &[&Measure]) -> Figure {
         let rows = run.rows.get(figure.name).map_or(&[][..], Vec::as_slice);
         let mut names: Vec<&str> = Vec::new();
         // Largest values over time belong to single fibres, and lines across at a frequency are no curves.
-        let is_curve = |row: &&Row| row.value.is_finite() && !row.series.ends_with(" largest");
+        let is_curve = |row: &&CurvePoint| row.value.is_finite() && !row.series.ends_with(" largest");
         for row in rows.iter().filter(is_curve) {
             if !names.contains(&row.series.as_str()) {
                 names.push(&row.series);

@@ -15,7 +15,7 @@ mod study;
 mod tests;
 mod web;
 
-pub use compare::{Curves, MOST as MOST_COMPARED, Row, overlaid_figures};
+pub use compare::{CurvePoint, Curves, MOST as MOST_COMPARED, overlaid_figures};
 pub use record::record_figures;
 pub use run::{run_figures, swing_frequency};
 pub use spunlaid::web::uniformity::Unevenness;

@@ -57,8 +57,8 @@ fn the_numbers_of_the_amplitude_are_those_of_the_results() {
         for place in results.curve(name) {
             let error = place.standard_error;
             assert!(error.is_some());
-            let wanted = [Some(place.at * 1e3), Some(place.mean * 1e3), error.map(|error| error * 1e3)];
-            assert_eq!(row(axis), wanted);
+            let expected = [Some(place.at * 1e3), Some(place.mean * 1e3), error.map(|error| error * 1e3)];
+            assert_eq!(row(axis), expected);
         }
     }
     assert_eq!(lines.next(), None);
@@ -75,10 +75,10 @@ fn the_numbers_of_the_energies_are_not_thinned() {
         let rows = text.lines().filter_map(|line| line.strip_prefix(series)?.strip_prefix(','));
         rows.map(|row| row.split(',').nth(1).unwrap().parse().unwrap_or(f64::NAN)).collect()
     };
-    let wanted: Vec<f64> = results.curve("work_error_over_time").iter().map(|place| place.mean).collect();
+    let expected: Vec<f64> = results.curve("work_error_over_time").iter().map(|place| place.mean).collect();
     let read = values("work check mean");
     assert_eq!(read.len(), 1001);
-    assert!(read.iter().zip(&wanted).all(|(a, b)| a == b || b.is_nan() && a.is_nan()), "{read:?}");
+    assert!(read.iter().zip(&expected).all(|(a, b)| a == b || b.is_nan() && a.is_nan()), "{read:?}");
     assert_eq!(values("full balance largest").len(), 1001);
 }
 
@@ -138,7 +138,7 @@ fn shades_the_spin_up() {
 fn draws_every_figure_of_a_fed_fibre() {
     let case = sample::fed_case(200, 3);
     let figures = run_figures(&case, &sample::fed_results(&case, 8), &sample::turbulence());
-    let wanted = [
+    let expected = [
         "laid_trace",
         "footprint",
         "correlation",
@@ -148,7 +148,7 @@ fn draws_every_figure_of_a_fed_fibre() {
         "energy_errors",
         "turbulence_spectrum",
     ];
-    assert_eq!(names(&figures), wanted);
+    assert_eq!(names(&figures), expected);
     check(&figures);
     for (name, words) in [("laid_trace", "true proportions"), ("footprint", "39.3\u{a0}%")] {
         let figure = figures.iter().find(|figure| figure.name == name).unwrap();

@@ -180,7 +180,7 @@ pub fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
     // A frequency from a crossing or two is no frequency.
     let is_known = frequency * (case.run.duration() - case.run.spin_up()) > 2.0;
     (is_known && each < PER_PERIOD).then(|| {
-        let wanted = (case.run.duration() * frequency * PER_PERIOD).ceil() + 1.0;
+        let count = (case.run.duration() * frequency * PER_PERIOD).ceil() + 1.0;
         let longest = 1.0 / (frequency * PER_PERIOD);
         let finer = if case.run.output_interval() > longest {
             // Rounded down to one digit.
@@ -192,7 +192,7 @@ pub fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
         };
         format!(
             "the shapes for ParaView are {} ms apart, {} in a period of the free end ({} Hz): too few to follow it; write \
-             run.shapes = {wanted}{finer}",
+             run.shapes = {count}{finer}",
             significant(interval * 1e3, 3),
             significant(each, 2),
             significant(frequency, 3)

@@ -97,10 +97,10 @@ impl<'a> StudyFolder<'a> {
             Some(_) => {
                 let points = file.study.points.len();
                 let found = journal.go_on(points, MOST_REPLICATES, file.study.quantities.len())?;
-                let (stored, wanted) = (journal.most_held(), file.study.replicates.at_most);
-                if stored > wanted {
+                let (stored, most) = (journal.most_held(), file.study.replicates.at_most);
+                if stored > most {
                     let fault = Fault::new(
-                        format!("holds {stored} replicates of a point, more than the {wanted} of this study"),
+                        format!("holds {stored} replicates of a point, more than the {most} of this study"),
                         format!("ask for {stored} or more, name another folder, or start again"),
                     );
                     let options = format!("--replicates {stored}, --out, --force");

@@ -77,8 +77,8 @@ fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
     // The curves too.
     assert_eq!(of_case.flown.unwrap().curves, of_results.flown.unwrap().curves);
     spec.method = Method::Dynamics;
-    let laid = flyer.fibres(&spec, &spec.layers[0]).unwrap().fibres;
-    assert!(matches!(laid, Fibres::Curves(_)), "{laid:?}");
+    let fibres = flyer.fibres(&spec, &spec.layers[0]).unwrap().fibres;
+    assert!(matches!(fibres, Fibres::Curves(_)), "{fibres:?}");
 }
 
 #[test]

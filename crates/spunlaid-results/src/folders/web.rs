@@ -10,7 +10,7 @@ use crate::report::{WebReport, web_html};
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::layers::OfLayer;
 use spunlaid::surrogate::Residual;
-use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, Web, strands};
+use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, Together, Web, strands};
 use std::borrow::Cow;
 
 /// Everything of a web that goes into the files.
@@ -100,6 +100,7 @@ fn rows(spec: &WebSpec, web: &Web, layers: &[OfLayer]) -> Vec<Layer> {
             noise_per_sqrt_m: surrogate.map(|drawn| drawn.noise),
             fit_residual: fit.map(|fit| fit.rms),
             fit_residual_by_chance: fit.and_then(|fit| fit.by_chance),
+            lateral_cutoff: spec.lateral_cutoff(i),
         }
     };
     spec.layers.iter().zip(&web.layers).enumerate().map(row).collect()
@@ -112,7 +113,10 @@ fn residual(layer: Option<&OfLayer>) -> Option<Residual> {
 
 /// What a reader must know of what was found.
 pub fn notes(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<String> {
-    let mut notes = about_the_model(web, findings, layers);
+    let mut notes = match &findings.laid.together {
+        Some(together) => about_lost_filaments(web, together),
+        None => about_the_model(web, findings, layers),
+    };
     let map = &findings.laid.map;
     if findings.laid.cut > 0.0 {
         let whole = map.total() as f64 * map.quantum + findings.laid.cut;
@@ -146,6 +150,17 @@ pub fn notes(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<String> 
         );
     }
     notes
+}
+
+/// How many filaments of a web in one air were lost.
+fn about_lost_filaments(web: &Web, together: &Together) -> Vec<String> {
+    let all: u64 = web.layers.iter().map(|layer| layer.count(&web.sheet)).sum();
+    match together.lost {
+        0 => Vec::new(),
+        lost => vec![format!(
+            "{lost} of {all} filaments were lost in flight, and each is missing from then on: the web is lighter by that, and a little more uneven"
+        )],
+    }
 }
 
 /// A flown CV with a larger relative error checks no surrogate within 5 %.
@@ -232,8 +247,8 @@ fn about_the_model(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<St
     }
     for (layer, row) in web.layers.iter().zip(layers) {
         let Some(fit) = residual(Some(row)) else { continue };
-        let beyond = (fit.rms.powi(2) - fit.by_chance.unwrap_or(0.0).powi(2)).max(0.0).sqrt();
-        if beyond > POOR_FIT {
+        let excess = (fit.rms.powi(2) - fit.by_chance.unwrap_or(0.0).powi(2)).max(0.0).sqrt();
+        if excess > POOR_FIT {
             notes.push(format!(
                 "no surrogate describes the laid fibre of {} well: its autocorrelation differs by {} (rms) from \
                  that of the best one, and chance would explain {}",

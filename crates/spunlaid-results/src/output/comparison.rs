@@ -49,11 +49,11 @@ pub struct Compared {
 struct Document<'a> {
     schema_version: u32,
     spunlaid_version: &'static str,
-    comparisons: Vec<One<'a>>,
+    comparisons: Vec<PairSummary<'a>>,
 }
 
 #[derive(Serialize)]
-struct One<'a> {
+struct PairSummary<'a> {
     run: &'a str,
     against: &'a str,
     paired: bool,
@@ -106,7 +106,7 @@ pub fn json(comparisons: &[Comparison]) -> String {
         (compared.column.clone(), numbers)
     };
     let one = |comparison: &'_ Comparison| InOrder(comparison.measures.iter().map(numbers).collect());
-    let comparisons = comparisons.iter().map(|comparison| One {
+    let comparisons = comparisons.iter().map(|comparison| PairSummary {
         run: &comparison.run,
         against: &comparison.against,
         paired: comparison.pairs.is_some(),

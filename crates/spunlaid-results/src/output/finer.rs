@@ -160,7 +160,7 @@ fn scatter(measures: &[&str], results: &Results) -> Option<f64> {
 fn of_the_mesh(check: &FinerCheck) -> String {
     let shares = |sure: f64| {
         let factor = check.error_over_change().unwrap_or(1.0);
-        // The texture of a laid fibre is that of its elements, and is told as such.
+        // The texture of a laid fibre is that of its elements, and is reported as such.
         let counted = check.changes.iter().filter(|change| change.statistic.name != "chord_over_arc");
         counted
             .map(|Change { estimate, .. }| {
@@ -235,8 +235,14 @@ mod tests {
         );
         assert!(advice(0.011, 0.002).contains("below 3 %"));
         assert!(advice(0.01, 0.02).contains("too short to show"));
-        let laid = |mean| of_the_mesh(&check(Refined::Elements, "spread", mean, 1e-3));
-        assert!(laid(0.05).contains("\"12.5 mm\"") && laid(3e-3).contains("not known from one halving"));
-        assert!(of_the_mesh(&check(Refined::Elements, "chord_over_arc", 0.3, 1e-3)).contains("not known"));
+        let advice_for_spread = |mean| of_the_mesh(&check(Refined::Elements, "spread", mean, 1e-3));
+        assert!(
+            advice_for_spread(0.05).contains("\"12.5 mm\"")
+                && advice_for_spread(3e-3).contains("One halving does not show")
+        );
+        assert!(
+            of_the_mesh(&check(Refined::Elements, "chord_over_arc", 0.3, 1e-3))
+                .contains("One halving does not show")
+        );
     }
 }

@@ -39,11 +39,11 @@ pub fn write(staging: &Staging<'_>, case: &Case, trajectories: &[Trajectory]) ->
 
 /// Writes what fed fibres have laid, a line for each kept replicate, in the coordinates of the belt.
 pub fn write_laid(staging: &Staging<'_>, trajectories: &[Trajectory]) -> Result<(), Failure> {
-    let laid: Vec<Line> = trajectories.iter().filter(|t| !t.laid.is_empty()).map(laid_line).collect();
-    if laid.is_empty() {
+    let lines: Vec<Line> = trajectories.iter().filter(|t| !t.laid.is_empty()).map(laid_line).collect();
+    if lines.is_empty() {
         Ok(())
     } else {
-        staging.write("laid.vtp", poly_data("replicate", &["fed_m", "time_s"], &laid))
+        staging.write("laid.vtp", poly_data("replicate", &["fed_m", "time_s"], &lines))
     }
 }
 

@@ -208,7 +208,7 @@ mod tests {
         assert!(matches!(error, Some(Error::Interrupted)), "{error:?}");
         let message = spill.failure().unwrap().to_string();
         assert!(message.starts_with("r/laid.parquet: cannot be written: "), "{message}");
-        // It is told once.
+        // It is reported once.
         assert!(spill.failure().is_none());
     }
 }

@@ -71,7 +71,7 @@ struct FinerSummary<'a> {
 }
 
 impl<'a> FinerSummary<'a> {
-    fn of(check: &'a FinerCheck) -> Self {
+    fn new(check: &'a FinerCheck) -> Self {
         Self {
             duration_s: check.duration,
             share_of_run: check.share_of_run,
@@ -157,8 +157,8 @@ impl<'a> Summary<'a> {
             lost_fibres: results.lost.iter().map(lost_summary).collect(),
             measures,
             neighbours: NeighboursSummary::of(results),
-            step_check: checks.step.as_ref().ok().map(FinerSummary::of),
-            mesh_check: checks.mesh.as_ref().ok().map(FinerSummary::of),
+            step_check: checks.step.as_ref().ok().map(FinerSummary::new),
+            mesh_check: checks.mesh.as_ref().ok().map(FinerSummary::new),
             performance,
             notes,
         }
@@ -182,10 +182,10 @@ fn insert<'a>(into: &mut GroupSummary<'a>, group: &'static str, number: &'a Numb
 }
 
 fn summary_of(number: &Number) -> NumberSummary<'_> {
-    let over = |value_if| (number.measure.over_replicates == value_if).then(|| number.value());
+    let value_if = |aggregate| (number.measure.over_replicates == aggregate).then(|| number.value());
     NumberSummary {
-        median: over(Aggregate::Median),
-        largest: over(Aggregate::Largest),
+        median: value_if(Aggregate::Median),
+        largest: value_if(Aggregate::Largest),
         ..of_mean(&number.estimate)
     }
 }

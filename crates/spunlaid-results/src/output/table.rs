@@ -2,7 +2,8 @@
 
 use crate::numbers::{number, rounded};
 use spunlaid::ensemble::{Number, Results};
-use spunlaid::observe::{Aggregate, Group};
+use spunlaid::observe::{Aggregate, Group, Kind, Measure};
+use spunlaid::units::Dimension;
 use std::fmt::Write;
 
 /// The results of a run, with a heading for each group of measures and a row for each result.
@@ -19,6 +20,25 @@ pub fn results(results: &Results) -> String {
         }
         let row = format!("  {:<widest$}  {}", measure.label, value(one));
         let _ = writeln!(text, "{} {}{}", row, measure.unit.shown, remark(measure.over_replicates, n));
+    }
+    text + &neighbours(results)
+}
+
+/// The correlations with companions: a heading for each direction in which they are, and a row for each distance.
+fn neighbours(results: &Results) -> String {
+    let (mut text, mut heading) = (String::new(), "");
+    for curve in results.curves.iter().filter(|curve| curve.measure.kind == Kind::Neighbour) {
+        let Measure { figure, series, .. } = curve.measure;
+        if heading != figure.title {
+            let _ = writeln!(text, "{}", figure.title.to_lowercase());
+            heading = figure.title;
+        }
+        for place in &curve.places {
+            let (distance, series) = (Dimension::Length.pretty(place.at), series.trim_matches('*'));
+            let (mean, error) = rounded(place.mean, place.standard_error);
+            let error = error.map_or_else(String::new, |error| format!(" ± {error}"));
+            let _ = writeln!(text, "  {series} at {distance}  {mean}{error}");
+        }
     }
     text
 }

@@ -29,7 +29,7 @@ pub struct AnalysisReport<'a> {
 /// Values of the template `assets/analysis.html`. It escapes everything that is not marked as safe.
 #[derive(Template)]
 #[template(path = "analysis.html")]
-struct Page<'a> {
+struct AnalysisPage<'a> {
     name: &'a str,
     headline: String,
     summary: String,
@@ -48,7 +48,7 @@ struct Page<'a> {
 pub fn analysis_html(input: &AnalysisReport<'_>) -> String {
     let analysis = input.analysis;
     let (air_rows, components) = results(analysis);
-    let page = Page {
+    let page = AnalysisPage {
         name: input.name,
         headline: headline(analysis),
         summary: summary(input.record, analysis),

@@ -19,21 +19,21 @@ pub struct ComparisonReport<'a> {
 /// Content of `assets/comparison.html`, which escapes everything that is not marked safe.
 #[derive(Template)]
 #[template(path = "comparison.html")]
-struct Page<'a> {
+struct ComparisonPage<'a> {
     title: String,
-    tables: Vec<Table<'a>>,
+    tables: Vec<PairTable<'a>>,
     figures: &'a [Figure],
     version: &'a str,
 }
 
-struct Table<'a> {
+struct PairTable<'a> {
     comparison: &'a Comparison,
-    rows: Vec<Row<'a>>,
+    rows: Vec<MeasureRow<'a>>,
     beyond: usize,
     all: usize,
 }
 
-struct Row<'a> {
+struct MeasureRow<'a> {
     name: &'a str,
     unit: &'static str,
     cells: [String; 4],
@@ -41,8 +41,8 @@ struct Row<'a> {
     faint: bool,
 }
 
-fn row(compared: &Compared) -> Row<'_> {
-    Row {
+fn row(compared: &Compared) -> MeasureRow<'_> {
+    MeasureRow {
         name: &compared.label,
         unit: compared.unit,
         cells: compared.cells(),
@@ -54,11 +54,11 @@ fn row(compared: &Compared) -> Row<'_> {
 pub fn comparison_html(input: &ComparisonReport<'_>) -> String {
     let tables = input.comparisons.iter().map(|comparison| {
         let (beyond, all) = comparison.beyond_chance();
-        Table { comparison, rows: comparison.measures.iter().map(row).collect(), beyond, all }
+        PairTable { comparison, rows: comparison.measures.iter().map(row).collect(), beyond, all }
     });
     let first = input.comparisons.first().map_or("", |comparison| comparison.against.as_str());
     let others: Vec<&str> = input.comparisons.iter().map(|comparison| comparison.run.as_str()).collect();
-    let page = Page {
+    let page = ComparisonPage {
         title: format!("{} against {first}", others.join(", ")),
         tables: tables.collect(),
         figures: input.figures,

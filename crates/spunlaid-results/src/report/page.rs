@@ -28,7 +28,7 @@ const SCRIPTS: [&str; 7] = [
 /// What `assets/report.html` is filled with; everything is escaped there but what is marked safe.
 #[derive(Template)]
 #[template(path = "report.html")]
-struct Page<'a> {
+struct RunPage<'a> {
     name: &'a str,
     headline: String,
     summary: String,
@@ -93,7 +93,7 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
     let results = input.results;
     let p = &input.performance;
     let replicates = results.replicates();
-    let page = Page {
+    let page = RunPage {
         name: input.name,
         headline: words::headline(input.case, results),
         summary: words::case(input.case),

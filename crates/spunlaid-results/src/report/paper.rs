@@ -24,9 +24,9 @@ pub struct PaperReport<'a> {
 
 #[derive(Template)]
 #[template(path = "paper.html")]
-struct Page<'a> {
+struct PaperPage<'a> {
     headline: String,
-    claims: Vec<Row<'a>>,
+    claims: Vec<ClaimRow<'a>>,
     figures: &'a [Figure],
     choices: &'a [(String, Vec<String>)],
     how: &'a str,
@@ -34,7 +34,7 @@ struct Page<'a> {
     version: &'a str,
 }
 
-struct Row<'a> {
+struct ClaimRow<'a> {
     claim: &'a Claim,
     class: &'static str,
     verdict: &'static str,
@@ -47,7 +47,7 @@ pub fn paper_html(input: &PaperReport<'_>) -> String {
         0 => "The paper’s figures, drawn anew".to_owned(),
         all => format!("{count} of the paper’s {all} claims hold"),
     };
-    let rows = input.claims.iter().map(|claim| Row {
+    let rows = input.claims.iter().map(|claim| ClaimRow {
         claim,
         class: match claim.verdict {
             Verdict::Holds => "holds",
@@ -56,7 +56,7 @@ pub fn paper_html(input: &PaperReport<'_>) -> String {
         },
         verdict: claim.verdict.name(),
     });
-    let page = Page {
+    let page = PaperPage {
         headline,
         claims: rows.collect(),
         figures: input.figures,

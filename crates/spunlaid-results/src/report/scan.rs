@@ -2,7 +2,7 @@
 
 use super::rendered;
 use super::web::{
-    File, Page, about_light_table, cost, headline, largest_clouds, light_table_data, metres, millimetres,
+    File, WebPage, about_light_table, cost, headline, largest_clouds, light_table_data, metres, millimetres,
     nearest, per_cent,
 };
 use crate::Failure;
@@ -38,7 +38,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
     let (data, pixel) = light_table_data(&with_spots(findings), None)?;
     let nearest_patch = nearest(findings.patches.iter().map(|patch| patch.unevenness.patch));
     let weight = findings.mean_known.then(|| findings.map.basis_weight());
-    let page = Page {
+    let page = WebPage {
         command: "analyse",
         name: input.name,
         headline: headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness)),

@@ -40,7 +40,7 @@ pub struct StudyReport<'a> {
 /// Content of `assets/study.html`, which escapes everything that is not marked safe.
 #[derive(Template)]
 #[template(path = "study.html")]
-struct Page<'a> {
+struct StudyPage<'a> {
     name: &'a str,
     question: String,
     summary: String,
@@ -52,7 +52,7 @@ struct Page<'a> {
     explained: Vec<String>,
     figures: &'a [Figure],
     heads: Vec<String>,
-    rows: Vec<Row>,
+    rows: Vec<PointRow>,
     unlisted: usize,
     study_toml: &'a str,
     base_toml: &'a str,
@@ -61,7 +61,7 @@ struct Page<'a> {
     version: &'a str,
 }
 
-struct Row {
+struct PointRow {
     number: usize,
     cells: Vec<String>,
 }
@@ -69,10 +69,10 @@ struct Row {
 struct RankingRow {
     name: String,
     range: String,
-    cells: Vec<Cell>,
+    cells: Vec<EffectCell>,
 }
 
-struct Cell {
+struct EffectCell {
     text: String,
     /// Whether the interval contains zero.
     faint: bool,
@@ -82,7 +82,7 @@ struct Cell {
 pub fn study_html(input: &StudyReport<'_>) -> String {
     let study = input.study;
     let shown = if study.factors.len() > 1 { input.rankings } else { &[] };
-    let page = Page {
+    let page = StudyPage {
         name: input.name,
         question: question(study),
         summary: summary(study, input.results),
@@ -216,12 +216,12 @@ fn heads(study: &Study) -> Vec<String> {
     inputs.chain(shown).chain(["n".to_owned()]).collect()
 }
 
-fn rows(study: &Study, results: &[PointResults]) -> Vec<Row> {
+fn rows(study: &Study, results: &[PointResults]) -> Vec<PointRow> {
     let row = |(index, point): (usize, &PointResults)| {
         let values = study.points[index].values.iter().zip(study.inputs());
         let inputs = values.map(|(value, input)| input.pretty(*value));
         let results = shown::quantities(study).into_iter().map(|i| shown::cell(study, point, i));
-        Row { number: index + 1, cells: inputs.chain(results).chain([point.n.to_string()]).collect() }
+        PointRow { number: index + 1, cells: inputs.chain(results).chain([point.n.to_string()]).collect() }
     };
     results.iter().enumerate().take(LISTED).map(row).collect()
 }
@@ -251,14 +251,14 @@ fn ranking_of(rankings: &[Ranking], quantity: usize) -> Option<&Ranking> {
     rankings.iter().find(|ranking| ranking.measure == quantity)
 }
 
-fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, head: &Effect) -> Cell {
+fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, head: &Effect) -> EffectCell {
     let ranking = ranking_of(rankings, quantity);
     let effect = ranking.and_then(|ranking| ranking.effects.iter().find(|effect| effect.is_like(head)));
     effect.map_or_else(
-        || Cell { text: "–".to_owned(), faint: true },
+        || EffectCell { text: "–".to_owned(), faint: true },
         |effect| {
             let faint = effect.half_width.is_none_or(|half| half.is_nan() || half >= effect.change.abs());
-            Cell {
+            EffectCell {
                 text: shown::in_unit(&study.quantities[quantity], effect.change, effect.half_width),
                 faint,
             }

@@ -8,11 +8,11 @@ use spunlaid::observe::Aggregate;
 /// Results under a heading.
 pub(super) struct Group {
     pub(super) title: String,
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<ResultRow>,
 }
 
 /// A result with its unit.
-pub(super) struct Row {
+pub(super) struct ResultRow {
     pub(super) name: String,
     pub(super) value: String,
     pub(super) unit: &'static str,
@@ -37,7 +37,7 @@ pub(super) fn groups(results: &Results) -> Vec<Group> {
     results.numbers.chunk_by(same).map(group).collect()
 }
 
-fn row(one: &Number) -> Row {
+fn row(one: &Number) -> ResultRow {
     let (measure, factor) = (one.measure, one.measure.unit.per_si);
     let (value, note) = match measure.over_replicates {
         Aggregate::Mean => (estimate_text(&one.estimate, factor), ""),
@@ -46,7 +46,7 @@ fn row(one: &Number) -> Row {
     };
     let n = one.estimate.values.iter().filter(|value| value.is_finite()).count();
     let note = if n > 1 { note } else { "" };
-    Row {
+    ResultRow {
         name: unbroken(measure.label),
         value,
         unit: measure.unit.shown,

@@ -133,11 +133,11 @@ fn holds_the_shapes() {
     };
     let (origin, step) = (list("origin_mm"), list("step_mm"));
     let end = results.trajectories[1].shapes[49].position[4];
-    for (k, wanted) in [end.x, end.y, end.z].into_iter().enumerate() {
+    for (k, expected) in [end.x, end.y, end.z].into_iter().enumerate() {
         let at = bytes.len() - 6 + 2 * k;
         let level = f64::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]));
         // To half a level, and the rounding of the written numbers.
-        assert!((origin[k] + level * step[k] - wanted * 1e3).abs() <= 0.5 * step[k] + 1e-6);
+        assert!((origin[k] + level * step[k] - expected * 1e3).abs() <= 0.5 * step[k] + 1e-6);
     }
     assert_eq!(list("times").len(), 50);
 }
@@ -193,10 +193,10 @@ fn nodes_of_a_fed_fibre_keep_their_numbers() {
     // The newest node of the last instant of the second replicate was fed two elements ago and is numbered so.
     assert_eq!(newest[last], (times[last] * 50.0 / 0.005).round() + 2.0);
     // What was laid last goes on where the oldest node is, one element further down the belt.
-    let laid = decode(&belt["laid"][1]["points"]);
+    let points = decode(&belt["laid"][1]["points"]);
     let oldest = newest[last] - counts[1][last] + 1.0;
     let index = oldest - 1.0 - belt["laid"][1]["first"].as_f64().expect("a number");
-    let number = |i: usize| f32::from_le_bytes(laid[4 * i..4 * i + 4].try_into().expect("four bytes"));
+    let number = |i: usize| f32::from_le_bytes(points[4 * i..4 * i + 4].try_into().expect("four bytes"));
     let level = |k: usize| {
         let at = bytes.len() - 6 + 2 * k;
         origin[k] + step[k] * f64::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]))

@@ -54,7 +54,7 @@ pub struct WebReport<'a> {
 /// Content of `assets/web.html`, which escapes everything that is not marked safe.
 #[derive(Template)]
 #[template(path = "web.html")]
-pub(super) struct Page<'a> {
+pub(super) struct WebPage<'a> {
     /// The command that wrote it.
     pub(super) command: &'static str,
     pub(super) name: &'a str,
@@ -114,30 +114,33 @@ pub(super) struct Fibres {
 pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let findings = input.findings;
     let (data, pixel) = light_table_data(&findings.laid.map, Some(fibres(input)))?;
-    let flown = findings.patches.iter().any(|patch| patch.flown.is_some());
+    let is_shared = findings.laid.together.is_some();
+    let has_flown = !is_shared && findings.patches.iter().any(|patch| patch.flown.is_some());
     let mut heads = vec!["Patch", "CV of this map", "of its error: chance", "95 % interval by chance"];
-    if flown {
+    if has_flown {
         heads.extend(["few fibres flown", "model"]);
     }
     let sources = sources(findings);
     heads.extend(sources.iter().map(|(head, _)| *head));
     heads.push("Straight fibres");
-    let page = Page {
+    let page = WebPage {
         command: "web",
         name: input.name,
         headline: headline(
             Some(findings.within().basis_weight()),
             headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
         ),
-        summary: [summary(input.web), about_the_error(findings)].join(" "),
+        summary: [summary(input.web), about_the_air(findings), about_the_error(findings)].join(" "),
         notes: input.notes,
         caption: caption(input, pixel),
         data,
         fibres: true,
         verdict: verdict(findings),
         heads,
-        patches: patches(findings, flown, &sources),
-        about_patches: if flown {
+        patches: patches(findings, has_flown, &sources),
+        about_patches: if is_shared {
+            "All filaments were flown in one air. The error is by chance: another piece of the same web, in other gusts, has another CV."
+        } else if has_flown {
             "The error of the map is that of all its causes together: chance (another piece of the same web), the \
              few fibres that were flown, and the model (the CV of the surrogate against that of the flown \
              curves). It does not include what the flight itself leaves out."
@@ -300,9 +303,30 @@ fn whole(patch: &PatchFindings) -> Unevenness {
     Unevenness { standard_error: patch.whole_error().whole().or(patch.map.standard_error), ..patch.map }
 }
 
+/// What the filaments of a web without independent filaments have in common, and what those with airs of their own leave out, in
+/// a sentence or two.
+fn about_the_air(findings: &Findings) -> String {
+    let patch = headline_patch(findings).map(|i| &findings.patches[i]);
+    match (&findings.laid.together, patch.and_then(|patch| Some((patch, patch.independent?.0)))) {
+        (Some(_), Some((patch, independent))) => format!(
+            "In airs of their own the same filaments would give {}, {} times less: here neighbours hang in the same gusts, which carry them \
+             aside together and lay them in ropes and clouds.",
+            per_cent(independent, None),
+            significant(patch.map.cv / independent, 2)
+        ),
+        (Some(_), None) => "All filaments were flown in one air.".to_owned(),
+        (None, _) => "Its filaments are independent of each other, so this is a lower bound: in a line neighbours hang in the same gusts. Write \
+                      web.method = \"shared-air\" and name a case (laydown.case) to fly them together."
+            .to_owned(),
+    }
+}
+
 /// What the error in the headline is made of, and what the flown curves say, in sentences.
 fn about_the_error(findings: &Findings) -> String {
     let Some(patch) = headline_patch(findings).map(|i| &findings.patches[i]) else { return String::new() };
+    if patch.independent.is_some() {
+        return "The error is by chance: every filament of the sheet was flown.".to_owned();
+    }
     let error = patch.whole_error();
     let part = |part: Option<f64>| match part {
         Some(part) => format!("{}{THIN}%", significant(part * PER_CENT, 2)),
@@ -326,6 +350,9 @@ type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
 
 /// The expected CVs that are known.
 fn sources(findings: &Findings) -> Vec<Column> {
+    if findings.laid.together.is_some() {
+        return vec![("CV of the same filaments in airs of their own", |patch| patch.independent)];
+    }
     let all: [Column; 2] = [
         ("CV expected, from the surrogate", |patch| patch.surrogate),
         ("CV expected, from the flown curves", |patch| patch.flown),
@@ -338,7 +365,7 @@ fn sources(findings: &Findings) -> Vec<Column> {
     known
 }
 
-fn patches(findings: &Findings, flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
+fn patches(findings: &Findings, has_flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
     let row = |patch: &PatchFindings| {
         let (map, error) = (whole(patch), patch.whole_error());
         let part = |part: Option<f64>| {
@@ -350,7 +377,7 @@ fn patches(findings: &Findings, flown: bool, sources: &[Column]) -> Vec<Vec<Stri
             part(error.chance),
             interval(patch.map.interval()),
         ];
-        if flown {
+        if has_flown {
             cells.extend([error.flight, error.model].map(part));
         }
         let expected = sources.iter().map(|(_, cv)| cv(patch));
@@ -423,15 +450,20 @@ fn verdict(findings: &Findings) -> Vec<String> {
     let Some(i) = headline_patch(findings) else { return sentences };
     let patch = &findings.patches[i];
     // The flown curves are believed where there are some.
-    let ratio = patch.flown.unwrap_or(patch.one_fibre).0 / patch.straight_fibres;
-    let why = if ratio > 1.05 {
+    let is_shared = patch.independent.is_some();
+    let cv = if is_shared { patch.map.cv } else { patch.flown.unwrap_or(patch.one_fibre).0 };
+    let ratio = cv / patch.straight_fibres;
+    let why = if is_shared {
+        "filaments that come down together make clouds"
+    } else if ratio > 1.05 {
         "each fibre comes back to its own place again and again, which makes clouds"
     } else {
         "nozzles at an even pitch make up for the unevenness of the loops"
     };
     sentences.push(format!(
-        "Over patches of {} the expected CV is {} times that of straight fibres of the same mass at random: {why}.",
+        "Over patches of {} the {}CV is {} times that of straight fibres of the same mass at random: {why}.",
         millimetres(patch.map.patch),
+        if is_shared { "" } else { "expected " },
         significant(ratio, 3)
     ));
     let known = findings

@@ -12,6 +12,7 @@ use crate::fibre::Place;
 use crate::field::Hint;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::vec3::Vec3;
+use std::array::from_fn;
 use std::sync::Arc;
 
 /// Pieces of the way in each of which the mean flow is linear.
@@ -171,17 +172,18 @@ impl AirInSpace {
         }
         let per_step = self.elements.per_step();
         let half = Wide::<S>::splat(0.5);
+        let fields: [&EddyField; WIDTH] = from_fn(|lane| &*self.fields.of(lane).field);
+        let means: [&MeanAlong; WIDTH] = from_fn(|lane| self.means.of(lane));
+        let places =
+            Vec3::new(Lanes::ZERO, self.places.lanes(|place| place.y), self.places.lanes(|place| place.z));
         for (j, (ends, element)) in position.windows(2).zip(self.elements.each()).enumerate() {
             let centre = ((Vec3::load(&ends[0]) + Vec3::load(&ends[1])) * half).store();
-            let (mut mean, mut fluctuation, mut rms) = (Vec3::ZERO, Vec3::ZERO, Lanes::ZERO);
+            let at = centre + places;
+            let fluctuation = EddyField::fluctuations::<S>(fields, t, &at);
+            let (mut mean, mut rms) = (Vec3::ZERO, Lanes::ZERO);
             for lane in 0..WIDTH {
-                let (place, at) = (self.places.of(lane), centre.lane(lane));
-                let (y, z) = (at.y + place.y, at.z + place.z);
-                let [u, v, w] = self.fields.of(lane).field.fluctuation::<S>(t, [at.x, y, z]);
-                fluctuation.set_lane(lane, Vec3::new(u, v, w));
-                let [speed, widening, strength] = self.means.of(lane).at(at.x);
-                mean.set_lane(lane, Vec3::new(speed, widening * y, 0.0));
-                rms.0[lane] = strength;
+                let [speed, widening, strength] = means[lane].at(at.x.0[lane]);
+                (mean.x.0[lane], mean.y.0[lane], rms.0[lane]) = (speed, widening * at.y.0[lane], strength);
             }
             let (mut mean, mut rms) = (Vec3::<Wide<S>>::load(&mean), Wide::load(&rms));
             if let Some(surroundings) = &self.surroundings {

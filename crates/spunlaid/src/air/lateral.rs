@@ -1,5 +1,7 @@
 //! How the air differs across its way: its turbulence from one filament to the next, and its mean flow where it slows.
 
+use super::Air;
+
 /// How the turbulence differs across the flow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Lateral {
@@ -56,5 +58,13 @@ impl Widening {
             Self::None => "none",
             Self::MachineDirection => "md",
         }
+    }
+}
+
+impl Air {
+    /// `k_max L_T` of the field of eddies in space [-]. None if the turbulence is the same across the flow, and in still air,
+    /// which has no turbulence.
+    pub fn field_cutoff(&self) -> Option<f64> {
+        self.lateral.cutoff().filter(|_| self.velocity != 0.0)
     }
 }

@@ -5,13 +5,14 @@ use crate::air::{Air, EddyField, Extent, Flow, Lateral, StreamKey, Widening};
 use crate::field::Hint;
 use crate::vec3::Vec3;
 use crate::web::{Edges, Sheet};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Distance in which the filaments of a slot without depth come down, in ways from inlet to belt: eight standard deviations of
 /// a usual filament. One that goes farther meets the eddies of the other side again.
 const REACH: f64 = 0.36;
-/// Steps for which the field is made beyond a block: a flight may look at once after it.
-const BEYOND: f64 = 2.0;
+/// Steps for which the field is made before and after those that are flown.
+const MARGIN: f64 = 1.0;
 
 /// The field of a beam. Its owner alone makes it; flights look at clones.
 pub(super) struct SharedField {
@@ -34,9 +35,10 @@ impl SharedField {
         self.field.block()
     }
 
-    /// The field for the times from one to another [s].
-    pub(super) fn during(&mut self, start: f64, end: f64) -> Arc<EddyField> {
-        self.field.make(start..end + BEYOND * self.time_step, self.threads);
+    /// The field for some steps, and for those next to them: a flight that found its time outside would make a field for itself.
+    pub(super) fn during(&mut self, steps: Range<u64>) -> Arc<EddyField> {
+        let [start, end] = [steps.start as f64 - MARGIN, steps.end as f64 + MARGIN];
+        self.field.make(start * self.time_step..end * self.time_step, self.threads);
         Arc::new(self.field.clone())
     }
 }

@@ -29,6 +29,7 @@ use crate::web::{Canvas, LaidWeb, Sheet, Spent, Strand, Together, Window};
 use air::SharedField;
 use filament::{Reach, Stretch};
 use pack::Pack;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -146,7 +147,6 @@ impl Beam<'_> {
         let mut shared = SharedField::new(self, sheet, by.threads);
         let block = shared.as_ref().map_or(BLOCK, SharedField::block);
         let steps = (block / self.case.run.time_step).ceil().max(1.0) as u64;
-        let block = steps as f64 * self.case.run.time_step;
         let mut in_parallel = |pieces: usize, work: &(dyn Fn(usize) -> Result<Reach, Error> + Sync)| {
             let begun = Instant::now();
             let done = try_each(by.threads, pieces, work);
@@ -156,16 +156,16 @@ impl Beam<'_> {
         let neighbours = pack::neighbours(self.places);
         let packs: Vec<Mutex<Option<Pack>>> = neighbours.iter().map(|_| Mutex::new(None)).collect();
         let locked = |i: usize| packs[i].lock().unwrap_or_else(PoisonError::into_inner);
-        let mut field = air_during(&mut shared, 0.0, block, &mut making);
+        let mut field = air_during(&mut shared, 0..steps, &mut making);
         in_parallel(packs.len(), &|i| {
             *locked(i) = Some(Pack::new(self, &neighbours[i], by.isa, field.as_ref())?);
             Ok(Reach::default())
         })?;
         let spun_up = line.feed_speed * self.case.run.spin_up();
         let (mut stretch, mut reach) = (Stretch::before(&line, spun_up, window, sheet), Reach::default());
-        let mut time = 0.0;
+        let mut done = 0;
         while !stretch.is_laid(&reach) {
-            field = air_during(&mut shared, time, time + block, &mut making);
+            field = air_during(&mut shared, done..done + steps, &mut making);
             let (now, before) = (&stretch, reach);
             let reaches = in_parallel(packs.len(), &|i| {
                 if by.stop.load(Ordering::Relaxed) {
@@ -177,14 +177,14 @@ impl Beam<'_> {
                 by.steps.fetch_add(steps * pack.filaments().len() as u64, Ordering::Relaxed);
                 Ok(reach)
             })?;
-            time += block;
+            done += steps;
             reach = reaches.into_iter().fold(Reach { fed: f64::INFINITY, lost: 0, ..before }, Reach::with);
             if reach.lost as f64 > MOST_LOST * self.places.len() as f64 {
                 break;
             }
             stretch.settle(&reach);
         }
-        let mut flown = Flown { time, ..Flown::default() };
+        let mut flown = Flown { time: done as f64 * self.case.run.time_step, ..Flown::default() };
         for pack in packs {
             let pack = pack.into_inner().unwrap_or_else(PoisonError::into_inner);
             pack.into_iter().for_each(|pack| pack.finish(&mut flown));
@@ -229,17 +229,16 @@ impl Flown {
     }
 }
 
-/// The air that all filaments share between two times [s], if they share one.
+/// The air that all filaments share during some steps, if they share one.
 ///
 /// * `making` – becomes longer by the time that it takes to make it
 fn air_during(
     shared: &mut Option<SharedField>,
-    start: f64,
-    end: f64,
+    steps: Range<u64>,
     making: &mut Duration,
 ) -> Option<Arc<EddyField>> {
     let begun = Instant::now();
-    let field = shared.as_mut().map(|shared| shared.during(start, end));
+    let field = shared.as_mut().map(|shared| shared.during(steps));
     *making += begun.elapsed();
     field
 }

@@ -219,12 +219,18 @@ impl Check<'_> {
             );
             Fault::new(message, remedy)
         };
-        let (air, largest) =
-            (&case.air, memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.instants));
+        let (air, largest) = (
+            &case.air,
+            memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.field).max(memory.instants),
+        );
         let chosen = case.default_harmonics();
         if largest == memory.chain {
             let fault = fault("the chain", "choose a longer one");
             self.blame("fibre.element_length", case.fibre.rest_length(), fault);
+        } else if largest == memory.field {
+            let remedy = "choose a lower one, nearer neighbours, or longer eddies (air.length_scale)";
+            let fault = fault("fields of eddies in space", remedy);
+            self.blame("air.lateral_cutoff", air.lateral.cutoff().unwrap_or_default(), fault);
         } else if largest == memory.turbulence {
             let fault = fault("the turbulence", "choose a longer one, or shorten run.duration");
             self.blame("air.length_scale", air.length_scale, fault);

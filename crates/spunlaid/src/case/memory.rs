@@ -1,7 +1,7 @@
 //! How much memory a run needs.
 
 use super::Case;
-use crate::air::{EddyModel, Wind};
+use crate::air::{EddyField, EddyModel, Wind};
 
 /// Most memory a flight of eight fibres may take [bytes].
 pub const FLIGHT_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
@@ -28,6 +28,8 @@ pub struct FlightMemory {
     pub turbulence: f64,
     /// What making the turbulence takes besides.
     pub synthesis: f64,
+    /// The fields of eddies in space: one for each replicate.
+    pub field: f64,
     /// What observers keep of the recorded instants.
     pub instants: f64,
 }
@@ -35,7 +37,7 @@ pub struct FlightMemory {
 impl FlightMemory {
     /// All together [bytes].
     pub fn total(&self) -> f64 {
-        self.chain + self.turbulence + self.synthesis + self.instants
+        self.chain + self.turbulence + self.synthesis + self.field + self.instants
     }
 }
 
@@ -58,11 +60,18 @@ impl Case {
         } else {
             0.0
         };
+        let (turbulence, synthesis, field) = match air.field_cutoff() {
+            None => (turbulence, synthesis, 0.0),
+            Some(cutoff) => {
+                let one = EddyField::memory(air, self.way_of_air(), self.extent_of_air(), cutoff);
+                (0.0, 0.0, one * self.replicates_of_a_flight() as f64)
+            }
+        };
         let number_of_instants = (self.run.steps / self.run.output_steps.max(1) + 1) as f64;
         let surroundings = if air.is_uniform() { 0.0 } else { elements * SURROUNDINGS };
         let chain = (elements + 1.0) * VECTORS_PER_NODE * VECTOR + surroundings;
         let kept = |(bytes, most): (f64, f64)| bytes * number_of_instants.min(most);
         let instants = kept(QUANTILES) + kept(SPECTRA);
-        FlightMemory { chain, turbulence, synthesis, instants }
+        FlightMemory { chain, turbulence, synthesis, field, instants }
     }
 }

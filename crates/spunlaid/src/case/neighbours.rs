@@ -35,6 +35,11 @@ impl Case {
         self.run.replicates * (companions + companions.div_ceil(WIDTH - 1).max(1)) as u64
     }
 
+    /// Number of replicates that share a flight at most.
+    pub(super) fn replicates_of_a_flight(&self) -> u64 {
+        if self.neighbours.is_empty() { self.run.replicates.min(WIDTH as u64) } else { 1 }
+    }
+
     /// Number of flights of a run.
     pub fn flights(&self) -> u64 {
         match self.neighbours.places().count().div_ceil(WIDTH - 1) as u64 {

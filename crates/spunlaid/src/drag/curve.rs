@@ -1,4 +1,4 @@
-//! Drag laws that are no power of the velocity, as tables for the kernel.
+//! Tables for the kernel of the drag laws that are not a power of the velocity.
 
 use super::boundary_layer::BoundaryLayer;
 use super::normal::{Form, NormalLaw};

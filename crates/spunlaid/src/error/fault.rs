@@ -1,6 +1,5 @@
 //! What is wrong with a value or a file, and what to do about it.
 
-use super::Problem;
 use super::words::{all_of, did_you_mean, one_of};
 use std::borrow::Cow;
 use std::fmt;
@@ -127,14 +126,5 @@ impl Fault {
         let size = if value.abs() < 1.0 { "small" } else { "large" };
         let message = format!("makes {what} too {size} for a floating-point number");
         Self::new(message, "check the values that it follows from")
-    }
-}
-
-/// The fault of a key that names a file which cannot be used.
-impl From<Box<Problem>> for Fault {
-    fn from(problem: Box<Problem>) -> Self {
-        // Options of the program are for a file that is named on the command line.
-        let Problem { place, what: Self { message, remedy, .. }, .. } = *problem;
-        Self::new(format!("cannot be used: {place}{message}"), remedy)
     }
 }

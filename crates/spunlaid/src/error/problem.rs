@@ -219,6 +219,15 @@ impl From<Fault> for Box<Problem> {
     }
 }
 
+/// The fault of a key that names a file which cannot be used.
+impl From<Box<Problem>> for Fault {
+    fn from(problem: Box<Problem>) -> Self {
+        // Options of the program are for a file that is named on the command line.
+        let Problem { place, what: Self { message, remedy, .. }, .. } = *problem;
+        Self::new(format!("cannot be used: {place}{message}"), remedy)
+    }
+}
+
 impl<W: fmt::Debug + fmt::Display> std::error::Error for Finding<W> {}
 
 impl<W: fmt::Display> fmt::Display for Finding<W> {

@@ -65,7 +65,7 @@ impl Common {
             way: stations.map(|stations| Way::of(air, &stations, looks())),
             wind: Sampling::of(air, eddies.count()),
             eddies,
-            lateral_cutoff: air.lateral.cutoff().map(Bits::from),
+            lateral_cutoff: air.field_cutoff().map(Bits::from),
             every: (line.is_none() && !air.is_uniform()).then(looks),
         }
     }

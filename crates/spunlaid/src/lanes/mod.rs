@@ -11,12 +11,13 @@ mod abreast;
 mod functions;
 mod isa;
 mod simd;
+mod task;
 mod wide;
 
 pub(crate) use functions::{bend_ratio, cos_sin_turn, exp2, indices, log2, power};
 pub use isa::Isa;
-pub(crate) use isa::Task;
 pub(crate) use simd::{Plain, Register, Simd, Singles};
+pub(crate) use task::Task;
 pub(crate) use wide::Wide;
 
 use std::array::from_fn;

@@ -14,6 +14,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
 
+/// Smallest lateral cut-off that is worth to be written.
+const FEWEST_WAVES: f64 = 5.0;
+
 /// The filaments of a layer before they fly.
 struct LayerBeam<'a> {
     path: &'a Path,
@@ -31,7 +34,9 @@ impl Flyer<'_> {
     /// Flies all filaments of each layer in an air of its own, and lays them. A few curves of each layer are kept, which say what independent filaments
     /// would give.
     pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<OfLayer>, LaidWeb), Error> {
-        spec.check_air().map_err(|problem| Error::from(vec![problem]))?;
+        if let Some(problem) = spec.air_beyond_memory() {
+            return Err(vec![problem].into());
+        }
         let beams: Vec<LayerBeam<'_>> =
             (0..spec.layers.len()).map(|number| beam(spec, number)).collect::<Result<_, _>>()?;
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
@@ -65,18 +70,24 @@ impl Flyer<'_> {
 }
 
 impl WebSpec {
-    /// Says whether the field of eddies of a web in one air fits into the memory that it may take.
-    pub(crate) fn check_air(&self) -> Result<(), Problem> {
+    /// Largest lateral wave number of the air that all filaments of a layer share, times its length scale; None of filaments in airs of their own.
+    pub fn lateral_cutoff(&self, layer: usize) -> Option<f64> {
+        let case = self.layers.get(layer)?.source.case().filter(|_| self.method == Method::SharedAir)?;
+        Some(case.air.lateral.cutoff().unwrap_or(Lateral::USUAL_CUTOFF))
+    }
+
+    /// The problem of a web in one air whose field of eddies does not fit into the memory that it may take.
+    pub(crate) fn air_beyond_memory(&self) -> Option<Problem> {
         if self.method != Method::SharedAir {
-            return Ok(());
+            return None;
         }
         let beams = (0..self.layers.len()).filter_map(|number| beam(self, number).ok());
         let largest = beams
             .map(|layer| (layer.beam().memory_of_air(&self.sheet), layer.case.air.lateral))
             .max_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((needed, Lateral::VonKarman { cutoff })) = largest else { return Ok(()) };
+        let (needed, cutoff) = largest.and_then(|(needed, lateral)| Some((needed, lateral.cutoff()?)))?;
         if needed <= self.memory_limit {
-            return Ok(());
+            return None;
         }
         let share = self.memory_limit / needed;
         let memory = |size: f64| Dimension::Memory.pretty_to(size, 3);
@@ -86,15 +97,21 @@ impl WebSpec {
                 "is less than the field of eddies takes, {}, which all filaments share across the whole web",
                 memory(needed)
             ),
-            format!(
-                "write {} or more if the machine has it; a web.width of about {}, or air.lateral_cutoff = {} in the case, would fit",
-                memory(1.05 * needed),
-                Dimension::Length.pretty_to(width, 2),
-                Dimension::Ratio.pretty_to(cutoff, 2)
-            ),
+            match cutoff >= FEWEST_WAVES {
+                true => format!(
+                    "write {} or more if the machine has it; a web.width of about {}, or air.lateral_cutoff = {} in the case, would fit",
+                    memory(1.05 * needed),
+                    Dimension::Length.pretty_to(width, 2),
+                    Dimension::Ratio.pretty_to(cutoff, 2)
+                ),
+                false => format!(
+                    "write {} or more if the machine has it, or make the web narrower",
+                    memory(1.05 * needed)
+                ),
+            },
         );
         let value = Some(memory(self.memory_limit));
-        Err(Problem { place: ErrorPlace::Code, key: "web.memory_limit".to_owned(), value, what })
+        Some(Problem { place: ErrorPlace::Code, key: "web.memory_limit".to_owned(), value, what })
     }
 }
 

@@ -67,6 +67,20 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
     },
     PatchMeasure {
         measure: Measure {
+            name: "cv_#_mm_independent",
+            column: "cv_#_mm_independent",
+            label: "CV in airs of their own, # mm",
+            meaning: "coefficient of variation that the filaments of a web in one air would give in airs of their own",
+            figure: &INDEPENDENT,
+            series: "# mm",
+            ..SHARE
+        },
+        number: |patch| patch.independent.map_or(f64::NAN, |(cv, _)| cv),
+        error: Some(Deviation::OfOne("_mm_independent_error")),
+        causes: &[],
+    },
+    PatchMeasure {
+        measure: Measure {
             name: "cv_#_mm_flown",
             column: "cv_#_mm_flown",
             label: "CV from the flown curves, # mm",
@@ -128,6 +142,18 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
             ..SHARE
         },
         number: |patch| patch.whole_error().model.unwrap_or(f64::NAN),
+        error: None,
+        causes: &[],
+    },
+    PatchMeasure {
+        measure: Measure {
+            name: "cv_#_mm_independent_error",
+            column: "cv_#_mm_independent_error",
+            label: "Error of the CV in airs of their own, # mm",
+            meaning: "standard error of the coefficient of variation of the same filaments in airs of their own",
+            ..SHARE
+        },
+        number: |patch| patch.independent.map_or(f64::NAN, |(_, error)| error),
         error: None,
         causes: &[],
     },
@@ -235,6 +261,8 @@ const fn figure(name: &'static str, title: &'static str, words: &'static str) ->
 
 const CV: Figure = figure("cv", "Unevenness of the web, CV", "CV of the web");
 const ONE_FIBRE: Figure = figure("cv_one_fibre", "CV expected from single fibres", "expected CV");
+const INDEPENDENT: Figure =
+    figure("cv_independent", "CV of the same filaments in airs of their own", "CV in airs of their own");
 const FLOWN: Figure = figure("cv_flown", "CV expected from the flown curves", "CV of the flown curves");
 const STRAIGHT: Figure = figure("cv_straight_fibres", "CV of straight fibres", "CV of straight fibres");
 

@@ -40,7 +40,7 @@ pub(super) struct Roles {
 /// * `named` – whether the file names its columns
 pub(super) fn roles(heads: &[Head], named: bool, layout: &Layout) -> Result<Roles, FileError> {
     if let Some(rate) = layout.rate.filter(|rate| !(rate.is_finite() && *rate > 0.0)) {
-        return Err(super::analysis::rate_fault(rate).into());
+        return Err(super::limits::rate_fault(rate).into());
     }
     let time = find_time(heads, named, layout)?;
     let mut chosen = if layout.columns.is_empty() {

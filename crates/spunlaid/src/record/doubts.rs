@@ -1,14 +1,10 @@
 //! What makes a record or its results doubtful.
 
+use super::analysis::BLOCKS;
 use super::{Analysis, Component, Interval, Record, Trend};
 use crate::error::Fault;
 use crate::statistics::median;
 use crate::units::{Dimension, shortest};
-
-/// Fewest and most blocks of a record.
-pub(super) const BLOCKS: (usize, usize) = (8, 64);
-/// Length of a block in integral times.
-pub(super) const BLOCK_TIMES: f64 = 40.0;
 
 /// Standard deviations from the median beyond which a sample may be an outlier.
 const OUTLIER: f64 = 12.0;

@@ -37,19 +37,22 @@
 
 mod analysis;
 mod columns;
+mod compute;
 mod correlation;
 mod doubts;
 mod flat;
 mod interval;
 mod jackknife;
+mod limits;
 mod moments;
 mod parquet;
 mod rows;
 mod text;
 mod trend;
 
-pub(crate) use analysis::analyse_fluctuation;
-pub use analysis::{Analysis, Component, Settings, SpectrumSettings, analyse};
+pub use analysis::{Analysis, Component, Settings, SpectrumSettings};
+pub use compute::analyse;
+pub(crate) use compute::analyse_fluctuation;
 pub use correlation::{Autocorrelation, IntegralRule};
 pub use flat::FlatPart;
 pub use interval::Interval;

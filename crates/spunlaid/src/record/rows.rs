@@ -162,8 +162,8 @@ impl Rows {
             Clock::Even(interval) => interval,
             Clock::Watched { known: Some((a, b)), .. } if b.1 > a.1 => (b.0 - a.0) / (b.1 - a.1) as f64,
             Clock::Watched { .. } => {
-                let least = super::analysis::LEAST_SAMPLES;
-                return Err(super::analysis::too_few_samples(end - first, least).into());
+                let least = super::limits::LEAST_SAMPLES;
+                return Err(super::limits::too_few_samples(end - first, least).into());
             }
         };
         self.reading.cut_off = rows - (end - first);

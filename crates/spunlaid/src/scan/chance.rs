@@ -23,7 +23,7 @@ const FEWEST: usize = 4;
 const LONGEST: usize = 3;
 /// So many neighbours either way tell the expected strength of a wave.
 const NEAR: usize = 2;
-/// A sum of waves of unequal strength, which is told by the waves of one piece only, is known as well as from this share of its
+/// A sum of waves of unequal strength, which is known from the waves of one piece only, is known as well as from this share of its
 /// degrees: found on simulated webs, docs/validation.md.
 const UNEQUAL: f64 = 0.7;
 /// A patch counts if at least this share of its cells is web.

@@ -43,7 +43,10 @@
 //! # }
 //! ```
 
+mod analyse;
+mod aside;
 mod chance;
+mod doubt;
 mod findings;
 mod note;
 mod optics;
@@ -53,7 +56,10 @@ mod shading;
 mod spots;
 mod weigh;
 
-pub use findings::{Aside, Doubt, Findings, PatchFindings, Settings, Spot, analyse};
+pub use analyse::analyse;
+pub use aside::{Aside, Spot};
+pub use doubt::Doubt;
+pub use findings::{Findings, PatchFindings, Settings};
 pub use picture::{Format, Picture};
 pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, parse, read};
 pub use weigh::{Light, Pixels};

@@ -1,6 +1,8 @@
 //! What a reader of the results must know about the picture.
 
-use super::findings::{Aside, Doubt, PatchFindings, Settings};
+use super::aside::Aside;
+use super::doubt::Doubt;
+use super::findings::{PatchFindings, Settings};
 use super::picture::Picture;
 use super::weigh::{Light, Weighed};
 use crate::error::Fault;

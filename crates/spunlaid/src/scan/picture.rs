@@ -1,7 +1,5 @@
 //! A picture or a map, as it was read.
 
-use super::spots::{Rectangle, cut};
-
 /// Values on a lattice of square pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
@@ -17,7 +15,7 @@ pub struct Picture {
     pub rows: usize,
     /// Side of a pixel [m].
     pub pixel: f64,
-    /// Side of a pixel as the file tells it, if it does [m].
+    /// Side of a pixel as the file states it, if it does [m].
     pub pixel_of_file: Option<f64>,
     /// The largest grey level that the file can hold, 255 or 65535; none for other numbers.
     pub full_scale: Option<f64>,
@@ -43,8 +41,15 @@ pub enum Format {
     Table,
 }
 
+/// A rectangle of pixels: the first column and row, columns and rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Rectangle {
+    pub(super) corner: [usize; 2],
+    pub(super) sides: [usize; 2],
+}
+
 impl Picture {
-    /// Whether its values are grey levels of the light that came through, as far as the file tells; otherwise they are basis
+    /// Whether its values are grey levels of the light that came through, as far as the file states it; otherwise they are basis
     /// weights.
     pub const fn holds_light(&self) -> bool {
         matches!(self.format, Format::Png | Format::Tiff) && self.weight_of_black.is_none()
@@ -78,4 +83,15 @@ impl Picture {
     pub(super) fn shorter(&self) -> f64 {
         self.columns.min(self.rows) as f64 * self.pixel
     }
+}
+
+/// The values of a part of a lattice.
+pub(super) fn cut<T: Copy>(values: &[T], columns: usize, part: Rectangle) -> Vec<T> {
+    let ([left, top], [across, along]) = (part.corner, part.sides);
+    values
+        .chunks_exact(columns)
+        .skip(top)
+        .take(along)
+        .flat_map(|row| row[left..left + across].to_vec())
+        .collect()
 }

@@ -1,15 +1,8 @@
-//! What of a picture is no web: the bare lamp beside it, dust and blots.
+//! Finds the parts of a picture that are not web: the bare lamp beside it, dust and blots.
 
-use super::picture::Picture;
+use super::picture::{Picture, Rectangle, cut};
 use crate::error::Fault;
 use crate::statistics::quantile;
-
-/// A rectangle of pixels: the first column and row, columns and rows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Rectangle {
-    pub(super) corner: [usize; 2],
-    pub(super) sides: [usize; 2],
-}
 
 /// What was found beside the web and on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -215,17 +208,6 @@ pub(super) fn region(
         }
     }
     region
-}
-
-/// The values of a part of a lattice.
-pub(super) fn cut<T: Copy>(values: &[T], columns: usize, part: Rectangle) -> Vec<T> {
-    let ([left, top], [across, along]) = (part.corner, part.sides);
-    values
-        .chunks_exact(columns)
-        .skip(top)
-        .take(along)
-        .flat_map(|row| row[left..left + across].to_vec())
-        .collect()
 }
 
 /// Widens what is marked, to both sides.

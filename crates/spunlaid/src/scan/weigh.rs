@@ -1,6 +1,6 @@
-//! From a picture to a map of basis weight.
+//! Turns a picture into a map of basis weight.
 
-use super::findings::Doubt;
+use super::doubt::Doubt;
 use super::picture::Picture;
 use super::shading::Shading;
 use super::spots::{Spots, spots};
@@ -56,7 +56,7 @@ pub(super) struct Weighed {
 }
 
 impl Weighed {
-    /// What of the lamp is a guess, if anything.
+    /// What is only a guess about the lamp, if anything.
     pub(super) fn guess(&self, light: Light) -> Option<Doubt> {
         let is_white = matches!(light, Light::Transmitted { white: None, .. }) && self.white.is_some();
         let shading = self.shading.is_some().then_some(Doubt::Shading);
@@ -78,10 +78,10 @@ pub(super) struct Correction<'a> {
     pub(super) keep_shading: bool,
 }
 
-/// Most rounds in which shading and spots are told apart.
+/// Most rounds in which shading and spots are separated.
 const ROUNDS: usize = 4;
 
-/// What of a picture in transmitted light is no web.
+/// The parts of a picture in transmitted light that are not web.
 pub(super) fn beside(picture: &Picture, light: Light, correction: Correction<'_>) -> Result<Spots, Fault> {
     let logs = logs(picture, correction.lamp)?;
     let (lamp, given) = match light {

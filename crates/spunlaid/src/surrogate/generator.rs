@@ -96,13 +96,13 @@ impl Correlations {
 /// H between the functions with even and with odd k.
 struct Generator {
     /// Rates of change of the even functions from the odd ones, and the reverse.
-    even: Part,
-    odd: Part,
+    even: SparseMatrix,
+    odd: SparseMatrix,
 }
 
 /// A sparse matrix, row by row.
 #[derive(Default)]
-struct Part {
+struct SparseMatrix {
     /// Harmonic of each row, and the end of its entries.
     rows: Vec<(usize, usize)>,
     /// Column and value.
@@ -129,7 +129,7 @@ impl Generator {
             }
         }
         let part = |functions: &[(usize, usize, usize)]| {
-            let mut part = Part::default();
+            let mut part = SparseMatrix::default();
             for &(m, n, k) in functions {
                 let mut from = |m: usize, n: usize, k: usize, value: f64| {
                     if is_used(m, n, k) && value != 0.0 {
@@ -184,7 +184,7 @@ impl Generator {
     }
 }
 
-impl Part {
+impl SparseMatrix {
     fn times(&self, from: &[f64]) -> Vec<f64> {
         let mut start = 0;
         let row = |&(_, end): &(usize, usize)| {

@@ -20,14 +20,14 @@ fn rounded(x: f64) -> f64 {
 
 /// Values at points, among them one that nobody asks for.
 pub fn values(points: &[[f64; 3]]) -> Vec<Data> {
-    let of =
+    let values =
         |value: fn([f64; 3]) -> f64| points.iter().map(|point| rounded(value(*point))).collect::<Vec<_>>();
     let velocity = points.iter().flat_map(|[x, y, z]| [1.0 + x * y, y - z, x * z].map(rounded)).collect();
     vec![
-        ("p", 1, of(|[x, ..]| x)),
+        ("p", 1, values(|[x, ..]| x)),
         ("U", 3, velocity),
-        ("k", 1, of(|[x, y, _]| 1.0 + x * y)),
-        ("epsilon", 1, of(|[.., z]| 2.0 + z)),
+        ("k", 1, values(|[x, y, _]| 1.0 + x * y)),
+        ("epsilon", 1, values(|[.., z]| 2.0 + z)),
     ]
 }
 

@@ -33,7 +33,7 @@ pub fn papers_starter() -> &'static str {
             Some("scheme") => "# scheme = \"semi-implicit-euler\"".to_owned(),
             _ => line.to_owned(),
         };
-        starter_case().lines().map(|of| line(of) + "\n").collect()
+        starter_case().lines().map(|old| line(old) + "\n").collect()
     });
     &TEXT
 }

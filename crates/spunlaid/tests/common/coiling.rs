@@ -218,7 +218,7 @@ impl Thread {
             }
         } else {
             let s = length * (PIECES - piece) as f64 / PIECES as f64;
-            Place::of(s, above(unknowns, piece - 1))
+            Place::new(s, above(unknowns, piece - 1))
         };
         let step = -length / steps as f64;
         let mut places = vec![start];
@@ -264,7 +264,7 @@ impl Place {
     }
 
     /// The place of a state.
-    fn of(s: f64, state: &[f64]) -> Self {
+    fn new(s: f64, state: &[f64]) -> Self {
         let vector = |i: usize| V::new(state[i], state[i + 1], state[i + 2]);
         Self { s, position: vector(0), tangent: vector(3), moment: vector(6), force: vector(9) }
     }

@@ -153,13 +153,13 @@ pub struct Circle {
 /// The circle whose squared distances from the points, `|p − c|² − R²`, are smallest in the mean square.
 pub fn circle_through(points: &[LaidPoint]) -> Circle {
     let count = points.len() as f64;
-    let mean = |of: &dyn Fn(&LaidPoint) -> f64| points.iter().map(of).sum::<f64>() / count;
+    let mean = |quantity: &dyn Fn(&LaidPoint) -> f64| points.iter().map(quantity).sum::<f64>() / count;
     let (my, mz) = (mean(&|p| p.md), mean(&|p| p.cd));
     let centred = |p: &LaidPoint| (p.md - my, p.cd - mz);
-    let sum = |of: &dyn Fn(f64, f64) -> f64| {
+    let sum = |product: &dyn Fn(f64, f64) -> f64| {
         mean(&|p| {
             let (y, z) = centred(p);
-            of(y, z)
+            product(y, z)
         })
     };
     let (yy, zz, yz) = (sum(&|y, _| y * y), sum(&|_, z| z * z), sum(&|y, z| y * z));

@@ -101,7 +101,7 @@ pub fn made(block: &Block, kind: Made) -> (Vec<[f64; 3]>, Vec<Cell>) {
     let mut points = block.points.clone();
     let mut cells = Vec::new();
     for (number, c) in block.hexahedra().into_iter().enumerate() {
-        let of = |corners: &[usize]| corners.iter().map(|i| c[*i]).collect::<Vec<_>>();
+        let chosen = |corners: &[usize]| corners.iter().map(|i| c[*i]).collect::<Vec<_>>();
         let kind = match (kind, number % 4) {
             (Made::Mixed, 0) => Made::Hexahedra,
             (Made::Mixed, 1) => Made::Pyramids,
@@ -111,10 +111,10 @@ pub fn made(block: &Block, kind: Made) -> (Vec<[f64; 3]>, Vec<Cell>) {
         };
         match kind {
             Made::Hexahedra | Made::Mixed => cells.push((12, c.to_vec(), vec![])),
-            Made::Voxels => cells.push((11, of(&[0, 1, 3, 2, 4, 5, 7, 6]), vec![])),
+            Made::Voxels => cells.push((11, chosen(&[0, 1, 3, 2, 4, 5, 7, 6]), vec![])),
             Made::Wedges => {
-                cells.push((13, of(&[0, 1, 2, 4, 5, 6]), vec![]));
-                cells.push((13, of(&[0, 2, 3, 4, 6, 7]), vec![]));
+                cells.push((13, chosen(&[0, 1, 2, 4, 5, 6]), vec![]));
+                cells.push((13, chosen(&[0, 2, 3, 4, 6, 7]), vec![]));
             }
             Made::Pyramids => {
                 let centre = [0, 1, 2].map(|axis| c.iter().map(|i| points[*i][axis]).sum::<f64>() / 8.0);
@@ -126,7 +126,7 @@ pub fn made(block: &Block, kind: Made) -> (Vec<[f64; 3]>, Vec<Cell>) {
             Made::Tetrahedra => {
                 // Six along the diagonal, one for each order of the axes.
                 for [a, b] in [[1, 2], [2, 3], [3, 7], [7, 4], [4, 5], [5, 1]] {
-                    cells.push((10, of(&[0, a, b, 6]), vec![]));
+                    cells.push((10, chosen(&[0, a, b, 6]), vec![]));
                 }
             }
             Made::Polyhedra => {

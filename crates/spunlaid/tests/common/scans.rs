@@ -50,9 +50,9 @@ pub fn web(sides: [f64; 2], cell: f64, sigma: f64, filaments: f64, in_rows: bool
 }
 
 /// A piece that is cut out of a web, as a scan is.
-pub fn piece(of: &Map, [left, top]: [usize; 2], [columns, rows]: [usize; 2]) -> Map {
-    let cells = (top..top + rows).flat_map(|row| of.row(row)[left..left + columns].to_vec()).collect();
-    Map { columns, rows, closed: [false; 2], cells, ..of.clone() }
+pub fn piece(map: &Map, [left, top]: [usize; 2], [columns, rows]: [usize; 2]) -> Map {
+    let cells = (top..top + rows).flat_map(|row| map.row(row)[left..left + columns].to_vec()).collect();
+    Map { columns, rows, closed: [false; 2], cells, ..map.clone() }
 }
 
 /// Light that comes through each cell, of a lamp of strength one.
@@ -105,7 +105,7 @@ pub fn exposed(
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut uniform = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
     let light = blurred(light, columns);
-    let place = |of: usize, side: usize| 2.0 * of as f64 / side as f64 - 1.0;
+    let place = |pixel: usize, side: usize| 2.0 * pixel as f64 / side as f64 - 1.0;
     let level = |(i, light): (usize, &f64)| {
         let electrons = 8000.0 * light * lamp(place(i % columns, columns), place(i / columns, rows));
         // The sum of twelve is near enough to a normal number.
@@ -148,12 +148,12 @@ pub fn beside(kind: &str, [columns, rows]: [usize; 2]) -> Vec<bool> {
 
 /// The light with what is no web: bare lamp at the edges, or spots that let an eighth of the light through.
 pub fn spoiled(kind: &str, light: &[f64], aside: &[bool]) -> Vec<f64> {
-    let of = |(light, is): (&f64, &bool)| match (is, kind) {
+    let level = |(light, is): (&f64, &bool)| match (is, kind) {
         (false, _) => *light,
         (true, "edges") => 1.0,
         (true, _) => light / 8.0,
     };
-    light.iter().zip(aside).map(of).collect()
+    light.iter().zip(aside).map(level).collect()
 }
 
 /// A grey PNG of 8 bits.

@@ -61,7 +61,7 @@ pub struct Mesh {
 }
 
 fn bytes_of(numbers: &[f64], kind: &str, big_endian: bool) -> Vec<u8> {
-    let of = |x: f64| -> Vec<u8> {
+    let number = |x: f64| -> Vec<u8> {
         let mut bytes = match kind {
             "Float32" => (x as f32).to_le_bytes().to_vec(),
             "Float64" => x.to_le_bytes().to_vec(),
@@ -80,7 +80,7 @@ fn bytes_of(numbers: &[f64], kind: &str, big_endian: bool) -> Vec<u8> {
         }
         bytes
     };
-    numbers.iter().flat_map(|x| of(*x)).collect()
+    numbers.iter().flat_map(|x| number(*x)).collect()
 }
 
 /// An XML file in the making.
@@ -317,8 +317,8 @@ impl Legacy {
     }
 
     /// Arrays as vectors, scalars and fields in turn.
-    pub fn data(&mut self, of: &str, count: usize, data: &[Data]) -> &mut Self {
-        self.line(&format!("{of} {count}"));
+    pub fn data(&mut self, keyword: &str, count: usize, data: &[Data]) -> &mut Self {
+        self.line(&format!("{keyword} {count}"));
         for (i, (name, components, numbers)) in data.iter().enumerate() {
             match (components, i % 2) {
                 (3, 0) => self.line(&format!("VECTORS {name} double")),

@@ -82,8 +82,8 @@ fn warns_of_a_mesh_in_other_units_and_takes_a_unit_alone() {
     let told =
         "makes the field 1200 m long, while the fibre is 1 m long; check that this is the unit of the mesh";
     assert_eq!(with(&notes, &["air.field_unit", told]).len(), 1, "{notes:?}");
-    let of = |unit| read(&folder, "millimetres.csv", &[("air.field_unit", unit)]).unwrap();
-    let (one, alone) = (of("1 mm"), of("mm"));
+    let with_unit = |unit| read(&folder, "millimetres.csv", &[("air.field_unit", unit)]).unwrap();
+    let (one, alone) = (with_unit("1 mm"), with_unit("mm"));
     assert!(with(&one.1, &["makes the field"]).is_empty(), "{:?}", one.1);
     assert_eq!(write_case(&one.0), write_case(&alone.0));
     // And too small, by a factor of a thousand.

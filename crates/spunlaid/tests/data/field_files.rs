@@ -142,7 +142,7 @@ fn identical_in_pieces() {
 fn plane(image: bool, pieces: &[[usize; 2]]) -> String {
     // Steps whose multiples are rounded.
     let at = |i: usize| 0.3 + 0.1 * i as f64;
-    let of = |[from, to]: [usize; 2]| {
+    let part = |[from, to]: [usize; 2]| {
         let axes = [(from..=to).map(at).collect(), vec![0.0, 0.7, 1.4], vec![0.0]];
         let points: Vec<[f64; 3]> =
             axes[1].iter().flat_map(|y| axes[0].iter().map(move |x| [*x, *y, 0.0])).collect();
@@ -157,11 +157,11 @@ fn plane(image: bool, pieces: &[[usize; 2]]) -> String {
         let extent = format!("Piece Extent=\"{from} {to} 0 2 0 0\"");
         text.replace(&format!("Piece Extent=\"0 {} 0 2 0 0\"", to - from), &extent)
     };
-    let whole = of([0, 4]);
+    let whole = part([0, 4]);
     let (head, rest) = whole.split_once("<Piece").unwrap();
     let (_, tail) = rest.split_once("</Piece>").unwrap();
     let body = |columns: &[usize; 2]| {
-        let text = of(*columns);
+        let text = part(*columns);
         let (_, rest) = text.split_once("<Piece").unwrap();
         format!("<Piece{}</Piece>", rest.split_once("</Piece>").unwrap().0)
     };

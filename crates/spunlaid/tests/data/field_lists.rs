@@ -86,16 +86,16 @@ fn identical_in_one_file_and_in_a_list_of_files() {
 #[test]
 fn identical_image_in_one_file_and_in_a_list() {
     // Three points along x, in two files of two columns each.
-    let of = |columns: &[f64], origin: f64| {
+    let image = |columns: &[f64], origin: f64| {
         let points: Vec<[f64; 3]> = (0..4)
             .flat_map(|i| columns.iter().map(move |x| [*x, f64::from(i % 2), f64::from(i / 2)]))
             .collect();
         vti([columns.len(), 2, 2], [origin, 0.0, 0.0], [0.5, 1.0, 1.0], [&values(&points), &[]], ASCII)
     };
     let folder = folder(&[
-        ("whole.vti", &of(&[0.0, 0.5, 1.0], 0.0)),
-        ("left.vti", &of(&[0.0, 0.5], 0.0)),
-        ("right.vti", &of(&[0.5, 1.0], 0.5)),
+        ("whole.vti", &image(&[0.0, 0.5, 1.0], 0.0)),
+        ("left.vti", &image(&[0.0, 0.5], 0.0)),
+        ("right.vti", &image(&[0.5, 1.0], 0.5)),
         ("list.pvti", pieces("ImageData", &["right.vti", "left.vti"]).as_bytes()),
     ]);
     let read = |name: &str| Field::read(&folder.path().join(name)).unwrap().0;

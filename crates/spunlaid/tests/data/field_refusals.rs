@@ -141,9 +141,9 @@ fn rejects_grids_with_place_and_way_out() {
 #[test]
 fn rejects_bytes_that_cannot_be_decoded() {
     let mesh = mesh(Made::Hexahedra, 0.0);
-    let of =
+    let squeezed =
         |squeeze| vtu(std::slice::from_ref(&mesh), Style { place: Place::AppendedRaw, squeeze, ..ASCII });
-    let plain = of(Squeeze::None);
+    let plain = squeezed(Squeeze::None);
     assert_eq!(
         refused(&plain[..plain.len() - 200]),
         "a.vtu:18: offsets: ends where an array should follow; is the file cut off?"
@@ -154,7 +154,7 @@ fn rejects_bytes_that_cannot_be_decoded() {
     // The first array is not needed, so its fault does not matter.
     assert!(Field::parse(&promising, "a.vtu").is_ok());
     for squeeze in [Squeeze::Zlib, Squeeze::Lz4] {
-        let mut bytes = of(squeeze);
+        let mut bytes = squeezed(squeeze);
         // The size of the blocks of the array of velocities, after that of the pressure.
         let text = String::from_utf8_lossy(&bytes).into_owned();
         let offset = text.split("Name=\"U\"").nth(1).unwrap().split("offset=\"").nth(1).unwrap();

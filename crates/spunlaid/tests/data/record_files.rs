@@ -298,7 +298,7 @@ const PLAIN: Repetition = Repetition::REQUIRED;
 #[test]
 fn a_million_samples_come_back_from_parquet() {
     let samples = 1_000_000;
-    let of = |i: usize| 10.0 + ((i * i) % 9973) as f64 * 1e-3;
+    let value = |i: usize| 10.0 + ((i * i) % 9973) as f64 * 1e-3;
     let columns: [Column<'_>; 3] = [
         ("time_s", Physical::DOUBLE, PLAIN),
         ("u_m_s", Physical::DOUBLE, PLAIN),
@@ -311,8 +311,8 @@ fn a_million_samples_come_back_from_parquet() {
                 for half in [0..samples / 2, samples / 2..samples] {
                     let mut group = writer.next_row_group().unwrap();
                     let time: Vec<f64> = half.clone().map(|i| i as f64 * 5e-5).collect();
-                    let u: Vec<f64> = half.clone().map(of).collect();
-                    let v: Vec<f32> = half.map(|i| of(i) as f32).collect();
+                    let u: Vec<f64> = half.clone().map(value).collect();
+                    let v: Vec<f32> = half.map(|i| value(i) as f32).collect();
                     column::<DoubleType>(&mut group, &time, None);
                     column::<DoubleType>(&mut group, &u, None);
                     column::<FloatType>(&mut group, &v, None);
@@ -325,8 +325,8 @@ fn a_million_samples_come_back_from_parquet() {
         assert_eq!(record.samples(), samples);
         assert!((record.interval - 5e-5).abs() < 1e-15);
         for i in [0, 1, samples / 2 - 1, samples / 2, samples - 1] {
-            assert_eq!(record.components[0].values[i], of(i));
-            assert_eq!(record.components[1].values[i], f64::from(of(i) as f32));
+            assert_eq!(record.components[0].values[i], value(i));
+            assert_eq!(record.components[1].values[i], f64::from(value(i) as f32));
         }
     }
 }

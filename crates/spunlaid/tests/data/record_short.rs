@@ -28,7 +28,7 @@ fn exponential(seed: u64, samples: usize) -> Vec<f64> {
 /// Weights of white noise whose moving sum has von Kármán's spectrum `∝ |1 − a e^{−iω}|^{−5/3}`, the variance 1
 /// and the integral time: their sum squared is `2 T_I/Δ`.
 fn von_karman_weights() -> Vec<f64> {
-    let of = |a: f64| -> Vec<f64> {
+    let sample = |a: f64| -> Vec<f64> {
         let mut weight = 1.0;
         let mut next = |k: usize| {
             if k > 0 {
@@ -43,10 +43,10 @@ fn von_karman_weights() -> Vec<f64> {
     let (mut low, mut high) = (0.5, 0.99);
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
-        let sum: f64 = of(middle).iter().sum();
+        let sum: f64 = sample(middle).iter().sum();
         if sum * sum < 2.0 * PER_TIME { low = middle } else { high = middle }
     }
-    of(low)
+    sample(low)
 }
 
 fn von_karman(weights: &[f64], seed: u64, samples: usize) -> Vec<f64> {
@@ -75,8 +75,8 @@ fn coverage(
     result: impl Fn(&Analysis) -> spunlaid::record::Interval,
     known: f64,
 ) -> (f64, f64) {
-    let held = records.iter().filter(|of| result(of).holds(known)).count();
-    let mut values: Vec<f64> = records.iter().map(|of| result(of).value / known).collect();
+    let held = records.iter().filter(|record| result(record).holds(known)).count();
+    let mut values: Vec<f64> = records.iter().map(|record| result(record).value / known).collect();
     values.sort_by(f64::total_cmp);
     (100.0 * held as f64 / records.len() as f64, values[values.len() / 2])
 }
@@ -99,10 +99,10 @@ fn stat_short_records_hold_the_known_values() {
             let records: Vec<Analysis> =
                 (0..SEEDS).map(|seed| analysed(made(1000 + seed, samples))).collect();
             for (name, (held, median)) in [
-                ("turbulence intensity", coverage(&records, |of| of.turbulence_intensity, 0.1)),
-                ("integral time", coverage(&records, |of| of.integral_time, TAU)),
-                ("cut-off", coverage(&records, |of| of.cutoff_frequency, 0.25 / TAU)),
-                ("plateau", coverage(&records, |of| of.components[0].flat.density, 4.0 * TAU)),
+                ("turbulence intensity", coverage(&records, |analysis| analysis.turbulence_intensity, 0.1)),
+                ("integral time", coverage(&records, |analysis| analysis.integral_time, TAU)),
+                ("cut-off", coverage(&records, |analysis| analysis.cutoff_frequency, 0.25 / TAU)),
+                ("plateau", coverage(&records, |analysis| analysis.components[0].flat.density, 4.0 * TAU)),
             ] {
                 println!("{kind}, {times} integral times, {name}: {held:.1} % hold it, median {median:.3}");
                 if !(90.0..=98.0).contains(&held) {
@@ -126,8 +126,8 @@ fn stat_moments_of_a_skewed_record() {
         let made = |seed| exponential(seed, samples).iter().map(|g| (sigma * g).exp()).collect();
         let records: Vec<Analysis> = (0..SEEDS).map(|seed| analysed(vec![made(seed)])).collect();
         for (name, (held, median)) in [
-            ("skewness", coverage(&records, |of| of.components[0].skewness, skewness)),
-            ("flatness", coverage(&records, |of| of.components[0].flatness, flatness)),
+            ("skewness", coverage(&records, |analysis| analysis.components[0].skewness, skewness)),
+            ("flatness", coverage(&records, |analysis| analysis.components[0].flatness, flatness)),
         ] {
             println!("lognormal, {times} integral times, {name}: {held:.1} % hold it, median {median:.3}");
             assert!((90.0..=98.0).contains(&held), "{times} integral times, {name}: {held:.1} %");

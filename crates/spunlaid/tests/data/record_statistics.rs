@@ -16,7 +16,7 @@ fn record(interval: f64, components: Vec<Vec<f64>>) -> Record {
     Record { file: "made".to_owned(), interval, components, ..Record::default() }
 }
 
-fn of(values: Vec<f64>, interval: f64) -> Analysis {
+fn analysed(values: Vec<f64>, interval: f64) -> Analysis {
     analyse(&record(interval, vec![values]), &Settings::default()).unwrap()
 }
 
@@ -69,17 +69,17 @@ fn stat_intervals_hold_the_known_values_nineteen_times_in_twenty() {
     for times in [1000.0, 4000.0] {
         let mut held: Vec<(&str, f64)> = Vec::new();
         for seed in 0..SEEDS {
-            let of = of(in_wind(autoregression(seed, 10.0, times)), TAU / 10.0);
-            let u = &of.components[0];
+            let analysis = analysed(in_wind(autoregression(seed, 10.0, times)), TAU / 10.0);
+            let u = &analysis.components[0];
             let results: [(&str, Interval, f64); 9] = [
-                ("mean velocity", of.mean_velocity, 10.0),
-                ("turbulence intensity", of.turbulence_intensity, 0.1),
+                ("mean velocity", analysis.mean_velocity, 10.0),
+                ("turbulence intensity", analysis.turbulence_intensity, 0.1),
                 ("rms", u.rms, 1.0),
                 ("skewness", u.skewness, 0.0),
                 ("flatness", u.flatness, 3.0),
-                ("integral time", of.integral_time, TAU),
-                ("length scale", of.length_scale, 10.0 * TAU),
-                ("cut-off", of.cutoff_frequency, 0.25 / TAU),
+                ("integral time", analysis.integral_time, TAU),
+                ("length scale", analysis.length_scale, 10.0 * TAU),
+                ("cut-off", analysis.cutoff_frequency, 0.25 / TAU),
                 ("plateau", u.flat.density, 4.0 * TAU),
             ];
             held.resize(results.len(), ("", 0.0));
@@ -105,17 +105,17 @@ fn stat_what_was_synthesised_is_found_again() {
     for seed in 0..3 {
         let components = probe(air(), seed, 1.0 / 900.0, 37_000);
         let made = record(1.0 / 900.0, components);
-        let of = analyse(&made, &Settings::default()).unwrap();
+        let analysis = analyse(&made, &Settings::default()).unwrap();
         // The trapezoidal rule takes x²/36 off the first step of each curvature: (π/4.5)²/12 of sin x/x at worst.
         let rule = 1.0 + 0.5 * (2.0 * PI / 9.0f64).powi(2) / 12.0;
         let widened = |i: Interval| Interval { low: i.low / rule, high: i.high * rule, ..i };
         for (name, interval, known) in [
-            ("mean velocity", of.mean_velocity, 10.0),
-            ("turbulence intensity", of.turbulence_intensity, 0.1),
-            ("integral time", widened(of.integral_time), first_zero),
-            ("length scale", widened(of.length_scale), 10.0 * first_zero),
-            ("cut-off", of.cutoff_frequency, 100.0),
-            ("plateau", of.components[0].flat.density, 0.01),
+            ("mean velocity", analysis.mean_velocity, 10.0),
+            ("turbulence intensity", analysis.turbulence_intensity, 0.1),
+            ("integral time", widened(analysis.integral_time), first_zero),
+            ("length scale", widened(analysis.length_scale), 10.0 * first_zero),
+            ("cut-off", analysis.cutoff_frequency, 100.0),
+            ("plateau", analysis.components[0].flat.density, 0.01),
         ] {
             assert!(interval.holds(known), "seed {seed}, {name}: {interval:?} without {known}");
         }
@@ -123,7 +123,7 @@ fn stat_what_was_synthesised_is_found_again() {
         let settings = Settings { integral: IntegralRule::Fixed(0.1), ..Settings::default() };
         let fixed = analyse(&made, &settings).unwrap();
         assert!(fixed.integral_time.holds(0.0025), "seed {seed}: {:?}", fixed.integral_time);
-        assert!((of.components[0].flat.integral_time() * 400.0 - 1.0).abs() < 0.2);
+        assert!((analysis.components[0].flat.integral_time() * 400.0 - 1.0).abs() < 0.2);
     }
 }
 
@@ -143,8 +143,8 @@ fn stat_spectrum_is_the_same_by_any_window_overlap_and_segment() {
     for window in Window::ALL {
         for (overlap, segment) in [(0.0, None), (0.5, Some(1024)), (0.75, Some(8192))] {
             let spectrum = SpectrumSettings { window, overlap, segment };
-            let of = analyse(&made, &Settings { spectrum, ..Settings::default() }).unwrap();
-            let u = &of.components[0];
+            let analysis = analyse(&made, &Settings { spectrum, ..Settings::default() }).unwrap();
+            let u = &analysis.components[0];
             // Σ P Δf is the variance but for what lies below the first frequency.
             let sum = u.spectrum.density.iter().sum::<f64>() * u.spectrum.step;
             assert!(
@@ -152,9 +152,9 @@ fn stat_spectrum_is_the_same_by_any_window_overlap_and_segment() {
                 "{window:?} {overlap} {segment:?}: {sum}"
             );
             assert!(
-                of.cutoff_frequency.holds(25.0),
+                analysis.cutoff_frequency.holds(25.0),
                 "{window:?} {overlap} {segment:?}: {:?}",
-                of.cutoff_frequency
+                analysis.cutoff_frequency
             );
         }
     }
@@ -163,32 +163,36 @@ fn stat_spectrum_is_the_same_by_any_window_overlap_and_segment() {
 #[test]
 fn stat_noise_without_memory_is_told() {
     let mut next = normal(1);
-    let of = of((0..100_000).map(|_| 5.0 + next()).collect(), 1e-3);
+    let analysis = analysed((0..100_000).map(|_| 5.0 + next()).collect(), 1e-3);
     // Trapezia of a correlation that is 1 at lag 0 and 0 beyond; the first zero may be the second lag.
-    assert!((0.49e-3..0.52e-3).contains(&of.integral_time.value), "{:?}", of.integral_time);
-    assert!(of.cutoff_frequency.holds(500.0), "{:?}", of.cutoff_frequency);
+    assert!((0.49e-3..0.52e-3).contains(&analysis.integral_time.value), "{:?}", analysis.integral_time);
+    assert!(analysis.cutoff_frequency.holds(500.0), "{:?}", analysis.cutoff_frequency);
     for words in
         ["samples are nearly uncorrelated; sample faster", "frequencies are aliased into it; sample faster"]
     {
-        assert!(of.warnings.iter().any(|warning| warning.to_string().contains(words)), "{:?}", of.warnings);
+        assert!(
+            analysis.warnings.iter().any(|warning| warning.to_string().contains(words)),
+            "{:?}",
+            analysis.warnings
+        );
     }
 }
 
 #[test]
 fn analytic_sine() {
     let values = (0..100_000).map(|i| 5.0 + (2.0 * PI * 20.0 * f64::from(i) * 1e-3).sin()).collect();
-    let of = of(values, 1e-3);
-    let u = &of.components[0];
+    let analysis = analysed(values, 1e-3);
+    let u = &analysis.components[0];
     // Whole periods: mean 0, variance ½, flatness 3/2; to a quarter period the integral is 1/ω.
-    assert!((of.mean_velocity.value - 5.0).abs() < 1e-12);
+    assert!((analysis.mean_velocity.value - 5.0).abs() < 1e-12);
     assert!((u.rms.value - 0.5f64.sqrt()).abs() < 1e-12 && (u.flatness.value - 1.5).abs() < 1e-12);
     let trapezium = 1.0 - (2.0 * PI * 20.0 * 1e-3f64).powi(2) / 12.0;
     assert!(
-        (of.integral_time.value * 2.0 * PI * 20.0 / trapezium - 1.0).abs() < 1e-3,
+        (analysis.integral_time.value * 2.0 * PI * 20.0 / trapezium - 1.0).abs() < 1e-3,
         "{:?}",
-        of.integral_time
+        analysis.integral_time
     );
-    let tones: Vec<String> = of.warnings.iter().map(ToString::to_string).collect();
+    let tones: Vec<String> = analysis.warnings.iter().map(ToString::to_string).collect();
     let tone = tones.iter().find(|warning| warning.contains("this is a tone")).unwrap();
     let (share, frequency) =
         tone.split_once(": ").unwrap().1.split_once(" % of the variance is at one frequency, ").unwrap();
@@ -201,23 +205,24 @@ fn stat_components_make_one_turbulence() {
     let slow = in_wind(autoregression(1, 10.0, 4000.0));
     let across =
         |seed, rms: f64| autoregression(seed, 10.0, 4000.0).iter().map(|v| rms * v).collect::<Vec<_>>();
-    let of = analyse(&record(TAU / 10.0, vec![slow, across(2, 0.5), across(3, 0.5)]), &Settings::default())
-        .unwrap();
+    let analysis =
+        analyse(&record(TAU / 10.0, vec![slow, across(2, 0.5), across(3, 0.5)]), &Settings::default())
+            .unwrap();
     // √((1 + ¼ + ¼)/3) of a tenth.
-    assert!(of.turbulence_intensity.holds(0.1 * 0.5f64.sqrt()), "{:?}", of.turbulence_intensity);
-    let warnings = &of.warnings;
+    assert!(analysis.turbulence_intensity.holds(0.1 * 0.5f64.sqrt()), "{:?}", analysis.turbulence_intensity);
+    let warnings = &analysis.warnings;
     assert!(
         warnings.iter().any(|warning| warning.message.contains("turbulence is isotropic")),
         "{warnings:?}"
     );
-    assert_eq!(of.components.len(), 3);
+    assert_eq!(analysis.components.len(), 3);
 }
 
 #[test]
 fn a_steady_record_gives_no_warnings() {
     for seed in 0..20 {
-        let of = of(in_wind(autoregression(seed, 10.0, 4000.0)), TAU / 10.0);
-        assert!(of.warnings.is_empty(), "seed {seed}: {:?}", of.warnings);
+        let analysis = analysed(in_wind(autoregression(seed, 10.0, 4000.0)), TAU / 10.0);
+        assert!(analysis.warnings.is_empty(), "seed {seed}: {:?}", analysis.warnings);
     }
 }
 
@@ -228,7 +233,7 @@ fn faults_of_a_record_are_pointed_out() {
     let made = |change: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
         steady.iter().enumerate().map(|(i, u)| change(i as f64 / samples, *u)).collect()
     };
-    let analysed = |values: Vec<f64>| of(values, TAU / 10.0);
+    let analysed = |values: Vec<f64>| analysed(values, TAU / 10.0);
     let drifting = analysed(made(&|t, u| u + 2.0 * t));
     assert!(drifting.components[0].mean_trend.change.holds(2.0), "{:?}", drifting.components[0].mean_trend);
     let spike = format!("1e4 m/s in data row {} (at ", steady.len() / 2 + 1);
@@ -250,12 +255,12 @@ fn faults_of_a_record_are_pointed_out() {
 #[test]
 fn short_records_have_no_tones() {
     for seed in 0..200 {
-        let of = of(in_wind(autoregression(seed, 8.0, 62.5)), TAU / 8.0);
-        assert_eq!(of.samples, 500);
+        let analysis = analysed(in_wind(autoregression(seed, 8.0, 62.5)), TAU / 8.0);
+        assert_eq!(analysis.samples, 500);
         assert!(
-            !of.warnings.iter().any(|warning| warning.message.contains("this is a tone")),
+            !analysis.warnings.iter().any(|warning| warning.message.contains("this is a tone")),
             "{seed}: {:?}",
-            of.warnings
+            analysis.warnings
         );
     }
 }
@@ -287,8 +292,8 @@ fn rejects_what_says_nothing() {
     assert!(refused(in_wind(noise.clone()), &odd(1 << 40)).ends_with("like 512"));
     // With the mean given, a record of the fluctuation will do.
     let given = Settings { mean_velocity: Some(10.0), ..plain };
-    let of = analyse(&record(1e-3, vec![noise]), &given).unwrap();
-    assert_eq!(of.mean_velocity, Interval::exactly(10.0));
+    let analysis = analyse(&record(1e-3, vec![noise]), &given).unwrap();
+    assert_eq!(analysis.mean_velocity, Interval::exactly(10.0));
 }
 
 #[test]
@@ -312,8 +317,8 @@ fn any_record_can_be_analysed() {
         for integral in [IntegralRule::FirstZero, IntegralRule::EFold] {
             for mean_velocity in [None, Some(1.0)] {
                 let settings = Settings { integral, mean_velocity, ..Settings::default() };
-                if let Ok(of) = analyse(&record(1e-3, vec![values.clone()]), &settings) {
-                    of.warnings.iter().for_each(|w| assert!(!w.to_string().is_empty()));
+                if let Ok(analysis) = analyse(&record(1e-3, vec![values.clone()]), &settings) {
+                    analysis.warnings.iter().for_each(|w| assert!(!w.to_string().is_empty()));
                 }
             }
         }

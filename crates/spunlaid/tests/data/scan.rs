@@ -268,7 +268,8 @@ fn bare_lamp_blots_and_dust_are_found_and_left_out() {
         let [truth, cleaned, spoiled] = [found(&clean, false), found(&spoiled, false), found(&spoiled, true)];
         let area = aside.iter().filter(|is| **is).count() as f64 * PIXEL * PIXEL;
         for i in 0..2 {
-            let [truth, cleaned, spoiled] = [&truth, &cleaned, &spoiled].map(|of| of.patches[i].unevenness);
+            let [truth, cleaned, spoiled] =
+                [&truth, &cleaned, &spoiled].map(|found| found.patches[i].unevenness);
             // The part that is left is most of the same web: it differs by less than chance.
             let error = cleaned.standard_error.expect("an error");
             assert!((cleaned.cv - truth.cv).abs() < error, "{kind}: {cleaned:?} for {truth:?}");

@@ -19,8 +19,8 @@ fn level(i: usize) -> u8 {
     (100 + (i * i + 7 * i) % 97) as u8
 }
 
-fn levels<T>(of: impl Fn(u8) -> T) -> Vec<T> {
-    (0..SIDE * (SIDE + 8)).map(|i| of(level(i))).collect()
+fn levels<T>(change: impl Fn(u8) -> T) -> Vec<T> {
+    (0..SIDE * (SIDE + 8)).map(|i| change(level(i))).collect()
 }
 
 fn parsed(bytes: &[u8]) -> Picture {
@@ -33,7 +33,7 @@ fn every_format_gives_the_same_picture() {
     let rows = numbers.chunks(SIDE).map(|row| row.iter().map(f64::to_string).collect::<Vec<_>>());
     let csv: String = rows.map(|row| row.join(";") + "\n").collect();
     let shape = format!("({}, {SIDE})", SIDE + 8);
-    let bytes = |of: fn(u8) -> Vec<u8>| levels(of).concat();
+    let bytes = |encoded: fn(u8) -> Vec<u8>| levels(encoded).concat();
     let rgb: Vec<u8> = levels(|x| [x, x, x]).concat();
     for (name, file, full_scale) in [
         ("PNG", png8(SIDE, &levels(|x| x)), Some(255.0)),
@@ -94,7 +94,7 @@ fn rejects_what_is_no_scan() {
         (bomb, "has 65536 × 65536 pixels; at most 67108864 are read, so cut out a part of the picture"),
         (npy("<f8", "False", "(1000000, 1000000)", &data), "has 1000000 × 1000000 pixels"),
         (npy("<f8", "False", "(18446744073709551615, 3)", &data), "has 3 × 18446744073709551615 pixels"),
-        (png8(9, &[7; 900]), "has 9 × 100 pixels; at least 16 are needed either way"),
+        (png8(9, &[7; 900]), "has 9 × 100 pixels; at least 16 are needed in each direction"),
         (
             npy("<f8", "True", "(24, 24)", &data),
             "has its columns stored one after the other (Fortran order), which cannot be read; save numpy.asc",
@@ -145,9 +145,10 @@ fn refused(file: &[u8], change: impl Fn(&mut Settings)) -> String {
 #[test]
 fn rejects_pictures_of_no_web_and_settings_that_do_not_fit() {
     let scan = png8(SIDE, &levels(|x| x));
-    let white =
-        |white| move |of: &mut Settings| of.light = Light::Transmitted { mean: None, white: Some(white) };
-    let weight = |of: &mut Settings| of.light = Light::Weight { mean: None };
+    let white = |white| {
+        move |settings: &mut Settings| settings.light = Light::Transmitted { mean: None, white: Some(white) }
+    };
+    let weight = |settings: &mut Settings| settings.light = Light::Weight { mean: None };
     for (said, wanted) in [
         (
             refused(&png8(SIDE, &[200; 24 * 24]), |_| {}),
@@ -163,19 +164,19 @@ fn rejects_pictures_of_no_web_and_settings_that_do_not_fit() {
             "cannot be read with a level of the lamp = -1; give a number above zero",
         ),
         (refused(&scan, white(f64::NAN)), "cannot be read with a level of the lamp = NaN"),
-        (refused(&scan, |of| of.noise = Some(0.0)), "cannot be read with a noise = 0"),
+        (refused(&scan, |settings| settings.noise = Some(0.0)), "cannot be read with a noise = 0"),
         (
-            refused(&scan, |of| of.noise = Some(80.0)),
+            refused(&scan, |settings| settings.noise = Some(80.0)),
             "than the noise of the camera alone, 80 as you gave it,",
         ),
         (
-            refused(&scan, |of| of.patches = vec![2e-3, 0.5]),
+            refused(&scan, |settings| settings.patches = vec![2e-3, 0.5]),
             "has no patches of 500 mm; they can have sides from a pixel, 1 mm, to the shorter side of the picture, 24 mm",
         ),
-        (refused(&scan, |of| of.patches = vec![0.2e-3]), "has no patches of 200 µm"),
-        (refused(&scan, |of| of.patches = vec![f64::NAN]), "has no patches of NaN m"),
+        (refused(&scan, |settings| settings.patches = vec![0.2e-3]), "has no patches of 200 µm"),
+        (refused(&scan, |settings| settings.patches = vec![f64::NAN]), "has no patches of NaN m"),
         (
-            refused(&scan, |of| of.lamp = Some(parsed(&png8(16, &[9; 320])))),
+            refused(&scan, |settings| settings.lamp = Some(parsed(&png8(16, &[9; 320])))),
             "has 24 × 32 pixels, but the picture of the lamp without web has 16 × 20; take both",
         ),
         (
@@ -183,7 +184,7 @@ fn rejects_pictures_of_no_web_and_settings_that_do_not_fit() {
             "that are negative or without a value; at most one in a hundred can be filled from its neighbours; cut out",
         ),
         (
-            refused(&scan, |of| of.light = Light::Weight { mean: Some(-1.0) }),
+            refused(&scan, |settings| settings.light = Light::Weight { mean: Some(-1.0) }),
             "a mean basis weight [kg/m²] = -1",
         ),
     ] {

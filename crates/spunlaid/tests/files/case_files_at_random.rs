@@ -3,7 +3,7 @@
 use crate::cases::{bits, read_again, remarks};
 use proptest::prelude::*;
 use spunlaid::air::{Air, EddyModel, Lateral};
-use spunlaid::case::{Case, Neighbours, Run};
+use spunlaid::case::{Case, FLIGHT_MEMORY_LIMIT, Neighbours, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::fibre::{Fibre, Root};
@@ -73,7 +73,9 @@ prop_compose! {
             shapes: leapfrog.then_some(seed % 20_001),
         };
         let drag = Drag { along, across };
-        let mut case = Case { fibre, air, drag, line: None, neighbours: Neighbours::default(), run };
+        let distances = if lateral == Lateral::Uniform { Vec::new() } else { vec![0.1 * length_scale, length_scale] };
+        let neighbours = Neighbours { cd: distances, md: Vec::new() };
+        let mut case = Case { fibre, air, drag, line: None, neighbours, run };
         let limit = case.stable_step_limits().iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
         case.run.time_step = share * limit;
         case.air.harmonics = (case.air.cutoff_frequency * case.run.duration()) as usize + more_harmonics;
@@ -125,6 +127,10 @@ prop_compose! {
         run.spin_up_steps = (spin_up * run.steps as f64) as u64;
         run.output_steps = 1 + (output * (run.steps - 1) as f64) as u64;
         case.air.harmonics = cycles as usize + more_harmonics;
+        // A field of many generations takes more memory than is allowed.
+        if case.flight_memory().total() > FLIGHT_MEMORY_LIMIT {
+            (case.air.lateral, case.neighbours) = (Lateral::Uniform, Neighbours::default());
+        }
         case
     }
 }

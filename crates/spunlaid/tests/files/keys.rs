@@ -56,8 +56,9 @@ fn identical_after_getting_and_setting() {
     let set = of_record.map(|(key, value)| (format!("air.record_{key}"), value.to_owned()));
     cases.push(("../../cases/record.toml".into(), set.to_vec()));
     let slides = ("belt.contact".to_owned(), "friction".to_owned());
+    let beside = |direction| (format!("neighbours.{direction}"), "['5 mm', '1 mm']".to_owned());
     let shared = ("air.lateral".to_owned(), "von-karman".to_owned());
-    cases.push(("../../cases/spunbond.toml".into(), vec![slides, shared]));
+    cases.push(("../../cases/spunbond.toml".into(), vec![slides, shared, beside("cd"), beside("md")]));
     for (path, set) in cases {
         let (case, _) = read_case(&path, &set).unwrap();
         let mut again = case.clone();

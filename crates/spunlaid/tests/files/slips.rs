@@ -234,8 +234,8 @@ fn a_profile_in_other_units_is_told() {
     fs::write(&path, text.replace("tables/diffuser.csv", "air.csv")).unwrap();
     let said = |table: &str| {
         fs::write(folder.path().join("air.csv"), table).unwrap();
-        let of = read_case(&path, &[]).map(|(_, notes)| notes.iter().map(ToString::to_string).collect());
-        all_of(of)
+        let texts = read_case(&path, &[]).map(|(_, notes)| notes.iter().map(ToString::to_string).collect());
+        all_of(texts)
     };
     let heads =
         |velocity: &str| format!("x_m,{velocity},turbulence_intensity,length_scale_m,cutoff_frequency_hz\n");
@@ -266,11 +266,14 @@ fn rejects_turbulence_that_cannot_be() {
     };
     let none = read(&|_, [u, k, _]| [u, k, 0.0]).unwrap_err();
     assert!(
-        none.contains("epsilon") && none.contains("zero at all of the 45 points where k is not"),
+        none.contains("epsilon") && none.contains("zero at all 45 points at which k is above zero"),
         "{none}"
     );
     let negative = read(&|_, [u, k, epsilon]| [u, -k, epsilon]).unwrap_err();
-    assert!(negative.contains("is below zero at 45 points, down to -1.5"), "{negative}");
+    assert!(
+        negative.contains("is below zero at 45 points, and it cannot be: its smallest value is -1.5"),
+        "{negative}"
+    );
     let some = read(&|i, [u, k, epsilon]| [u, if i < 3 { -0.1 * k } else { k }, epsilon]).unwrap_err();
     assert!(some.contains("is below zero at 3 points"), "{some}");
     // What an interpolation leaves is cut off, and counted.

@@ -59,10 +59,10 @@ fn assert_reads_back(file: &WebFile) {
 #[test]
 fn every_row_of_the_table_of_keys_is_whole() {
     let mut names: Vec<&str> = WEB_KEYS.iter().map(|key| key.name).collect();
-    let of =
+    let keys_of_table =
         |table: &'static str| WEB_KEYS.iter().filter(move |key| key.name.starts_with(&format!("{table}.")));
     assert!(
-        WEB_TABLES.into_iter().flat_map(of).map(|key| key.name).eq(names.iter().copied()),
+        WEB_TABLES.into_iter().flat_map(keys_of_table).map(|key| key.name).eq(names.iter().copied()),
         "in the tables' order"
     );
     names.sort_unstable();
@@ -129,6 +129,41 @@ fn rows_and_layers_are_read_in_their_order() {
     assert!((second.linear_density() / 1.1e-7 - 1.0).abs() < 1e-12, "{}", second.linear_density());
     // Patches come sorted, each once.
     assert_eq!((spec.sheet.patches, spec.sheet.edges), (vec![1e-3, 5e-3], Edges::Cut));
+}
+
+#[test]
+fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
+    let read = |values: &[(&str, &str)]| {
+        let values: Vec<_> = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+        read_web(FLOWN.as_ref(), &values).unwrap()
+    };
+    let in_slot = [
+        ("line.rows", "auto"),
+        ("line.filaments_per_metre", "500"),
+        ("line.depth", "20 mm"),
+        ("web.method", "shared-air"),
+        ("web.memory_limit", "20 GB"),
+    ];
+    let file = read(&in_slot);
+    assert_reads_back(&file);
+    let WebFile { mut spec, notes, .. } = file;
+    assert_eq!(spec.layers[0].filaments, Filaments::Slot { per_metre: 500.0, depth: 20e-3 });
+    assert_eq!((spec.method, spec.memory_limit), (Method::SharedAir, 20e9));
+    assert_eq!(spec.lateral_cutoff(0), Some(15.0));
+    // The case leaves its turbulence the same across the flow, which is told.
+    assert!(notes.iter().any(|note| note.to_string().contains("von-karman")), "{notes:?}");
+    // A study varies the number of filaments and keeps the slot.
+    let key = |name: &str| WEB_KEYS.iter().find(|key| key.name == name).unwrap();
+    key("line.filaments_per_metre").set(&mut spec, 700_u64).unwrap();
+    key("line.depth").set(&mut spec, 0.0).unwrap();
+    assert_eq!(spec.layers[0].filaments, Filaments::Slot { per_metre: 700.0, depth: 0.0 });
+
+    let rows =
+        "[{ pitch = \"1 mm\", filaments = 1000 }, { pitch = \"1 mm\", filaments = 1000, md = \"-5 mm\" }]";
+    let file = read(&[("line.rows", rows)]);
+    assert_reads_back(&file);
+    let Filaments::Rows(rows) = &file.spec.layers[0].filaments else { panic!("rows") };
+    assert_eq!(rows.iter().map(|row| row.md).collect::<Vec<_>>(), [0.0, -5e-3]);
 }
 
 #[test]

@@ -19,6 +19,7 @@ mod forces;
 mod friction;
 mod laydown;
 mod laydown_statistics;
+mod neighbours;
 mod schemes;
 mod slack;
 mod statics;

@@ -1,7 +1,7 @@
 //! Reads which rooms of a crate, the modules at its root, import which others.
 #![allow(clippy::expect_used)]
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -64,47 +64,66 @@ pub fn code_and_texts(source: &str) -> (String, Vec<String>) {
     (code, texts)
 }
 
-/// First names of the paths that follow `prefix` in the code: `prefix::a::…` and `prefix::{a::…, b}`.
-fn named_after(code: &str, prefix: &str) -> BTreeSet<String> {
-    let identifier = |text: &str| -> String {
-        text.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
-    };
-    let mut names = BTreeSet::new();
-    for (at, _) in code.match_indices(prefix) {
-        let before = code[..at].chars().next_back();
-        if before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == ':') {
-            continue;
-        }
-        let rest = code[at + prefix.len()..].trim_start();
-        let Some(group) = rest.strip_prefix('{') else {
-            names.insert(identifier(rest));
-            continue;
-        };
-        let mut depth = 0;
-        let mut start = true;
-        for (i, c) in group.char_indices() {
-            match c {
-                '{' => depth += 1,
-                '}' if depth == 0 => break,
-                '}' => depth -= 1,
-                ',' if depth == 0 => start = true,
-                c if start && !c.is_whitespace() => {
-                    names.insert(identifier(&group[i..]));
-                    start = false;
+/// A path of two names or more in the code of a file.
+struct NamePath {
+    /// Its names: `super`, `super`, `air`, `Air`.
+    names: Vec<String>,
+    /// Whether it stands in a `use`.
+    is_use: bool,
+}
+
+/// The paths of a code, with the groups in braces written out.
+fn paths(code: &str) -> Vec<NamePath> {
+    let (mut found, mut path, mut groups) = (Vec::new(), Vec::new(), Vec::<Vec<String>>::new());
+    let (mut is_use, mut goes_on, mut is_alias) = (false, false, false);
+    let mut rest = code;
+    while let Some(first) = rest.chars().next() {
+        let length = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+        let (token, after) = rest.split_at(match length {
+            0 if rest.starts_with("::") => 2,
+            0 => first.len_utf8(),
+            length => length,
+        });
+        rest = after;
+        if token == "::" {
+            goes_on = !path.is_empty();
+        } else if (length > 0 || token == "*") && goes_on {
+            path.push(token.to_owned());
+            goes_on = false;
+        } else if token == "{" && goes_on {
+            groups.push(std::mem::take(&mut path));
+            goes_on = false;
+        } else if !token.trim().is_empty() {
+            if path.len() > 1 {
+                found.push(NamePath { names: std::mem::take(&mut path), is_use });
+            }
+            path.clear();
+            match token {
+                "use" => is_use = true,
+                ";" => is_use = false,
+                "{" => groups.push(Vec::new()),
+                "}" => drop(groups.pop()),
+                _ if length > 0 && token != "as" && !is_alias => {
+                    path = groups.last().cloned().unwrap_or_default();
+                    path.push(token.to_owned());
                 }
                 _ => {}
             }
+            is_alias = token == "as";
         }
     }
-    names
+    found
 }
 
 /// Rooms that a file imports from, its own left out.
 fn imports(rooms: Rooms<'_>, source: &str, room: &str, depth: usize) -> BTreeSet<String> {
-    let code = code_only(source);
     // `super` as often as the file is deep leaves the room, as `crate` does.
-    let mut found = named_after(&code, "crate::");
-    found.extend(named_after(&code, &"super::".repeat(depth)));
+    let outside = |path: NamePath| {
+        let above = path.names.iter().take_while(|name| *name == "super").count();
+        let entered = if path.names[0] == "crate" { Some(1) } else { (above == depth).then_some(above) };
+        entered.and_then(|at| path.names.get(at).cloned())
+    };
+    let mut found: BTreeSet<String> = paths(&code_only(source)).into_iter().filter_map(outside).collect();
     found.retain(|name| rank(rooms, name).is_some() && name != room);
     found
 }
@@ -145,6 +164,81 @@ pub fn faults(root: &Path, rooms: Rooms<'_>, entrances: &[&str]) -> Vec<String> 
     wrong
 }
 
+type Module = Vec<String>;
+
+/// The files of a crate as modules, with the paths that each names.
+struct Files(BTreeMap<Module, Vec<NamePath>>);
+
+impl Files {
+    fn read(root: &Path) -> Self {
+        let module = |path: &Path| -> Module {
+            let inside = path.strip_prefix(root).expect("below the root").with_extension("");
+            let names = inside.iter().map(|name| name.to_string_lossy().into_owned());
+            names.filter(|name| !["mod", "lib", "main"].contains(&name.as_str())).collect()
+        };
+        let named = |path: &Path| {
+            let source = fs::read_to_string(path).expect("a readable source");
+            paths(&code_only(source.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default()))
+        };
+        Self(sources(root).iter().map(|path| (module(path), named(path))).collect())
+    }
+
+    /// A path that a module names, from the root of the crate. `None` if it leads out of the crate.
+    fn absolute(&self, module: &Module, names: &[String]) -> Option<Module> {
+        let above = names.iter().take_while(|name| *name == "super").count();
+        let child = [&module[..], &names[..1]].concat();
+        let start = match names[0].as_str() {
+            "crate" => return Some(names[1..].to_vec()),
+            "super" => &module[..module.len().checked_sub(above)?],
+            "self" => return Some([module, &names[1..]].concat()),
+            _ if self.0.contains_key(&child) => &module[..],
+            _ => return None,
+        };
+        Some([start, &names[above..]].concat())
+    }
+
+    /// The file that has what a path from the root leads to. What a module only passes on is in another file.
+    fn file(&self, path: &[String], steps: usize) -> Option<Module> {
+        let module =
+            (0..=path.len()).rev().map(|end| path[..end].to_vec()).find(|m| self.0.contains_key(m))?;
+        let Some(name) = path.get(module.len()) else { return Some(module) };
+        let passed_on = self.0[&module].iter().filter(|named| named.is_use);
+        let other = passed_on.filter(|named| named.names.last() == Some(name));
+        let other = other.filter_map(|named| self.absolute(&module, &named.names)).next();
+        match other.filter(|_| steps > 0) {
+            Some(start) => self.file(&[&start, &path[module.len() + 1..]].concat(), steps - 1),
+            None => Some(module),
+        }
+    }
+
+    /// The files that a file imports from, those that hold it left out: a file may use what the module around it defines.
+    fn imports(&self, module: &Module) -> BTreeSet<Module> {
+        let named = self.0[module].iter().filter_map(|path| self.absolute(module, &path.names));
+        named.filter_map(|path| self.file(&path, 8)).filter(|file| !module.starts_with(file)).collect()
+    }
+}
+
+/// Imports between the files below `root` that lead back to where they start, a line each. `unchecked` are rooms that are left out.
+pub fn circles(root: &Path, unchecked: &[&str]) -> Vec<String> {
+    let files = Files::read(root);
+    let imports: BTreeMap<_, _> = files.0.keys().map(|module| (module, files.imports(module))).collect();
+    let leads_to = |start: &Module, end: &Module| {
+        let (mut reached, mut open) = (BTreeSet::new(), vec![start]);
+        while let Some(module) = open.pop() {
+            open.extend(imports[module].iter().filter(|next| reached.insert(*next)));
+        }
+        reached.contains(end)
+    };
+    let checked = imports
+        .iter()
+        .filter(|(module, _)| !module.first().is_some_and(|room| unchecked.contains(&room.as_str())));
+    let all = checked.flat_map(|(module, others)| others.iter().map(move |other| (*module, other)));
+    let wrong = all.filter(|(module, other)| leads_to(other, module));
+    wrong
+        .map(|(module, other)| format!("{} and {} import each other", module.join("/"), other.join("/")))
+        .collect()
+}
+
 #[test]
 fn rooms_are_found_however_they_are_imported() {
     const ROOMS: Rooms<'_> = &[&["fibre", "chain", "air", "vec3", "case", "input"]];
@@ -156,4 +250,29 @@ fn rooms_are_found_however_they_are_imported() {
     assert_eq!(found("// crate::case\n/// [`crate::case`]\nconst A: &str = \"crate::case\";", 1), [""; 0]);
     assert_eq!(found("let q = '\"'; crate::input::read();", 1), ["input"]);
     assert_eq!(found("use crate::fibre::Fibre; use thecrate::case;", 1), [""; 0]);
+}
+
+#[test]
+fn circles_are_found_through_what_a_module_passes_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, source: &str| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        fs::write(path, source).expect("a file");
+    };
+    write("lib.rs", "mod a; mod b;");
+    write("a/mod.rs", "mod one;\nmod two;\npub use one::{One, first as start};\npub struct Own;");
+    write("a/one.rs", "use super::Own;\nuse super::{super::b, two::Two};");
+    write("a/two.rs", "fn two() -> super::One { super::start() }");
+    write("b.rs", "// crate::a\nconst A: &str = \"crate::a::One\";");
+    assert_eq!(
+        circles(folder.path(), &[]),
+        ["a/one and a/two import each other", "a/two and a/one import each other"]
+    );
+    assert_eq!(circles(folder.path(), &["a"]), [""; 0]);
+    write(
+        "a/two.rs",
+        "fn two() -> crate::b::B {}\n#[cfg(test)]\nmod tests {\n    use super::super::one::One;\n}",
+    );
+    assert_eq!(circles(folder.path(), &[]), [""; 0]);
 }

@@ -2,6 +2,7 @@
 
 use spunlaid::beam::{Airs, Beam, Flown, Flying};
 use spunlaid::case::Case;
+use spunlaid::error::Error;
 use spunlaid::fibre::Place;
 use spunlaid::flight::LaidPoint;
 use spunlaid::input::read_case;
@@ -19,7 +20,17 @@ const CELL: f64 = 1e-3;
 
 /// A short line, so that little has to be flown.
 fn case() -> Case {
-    let set = [("belt.distance", "0.1 m"), ("run.duration", "0.1 s"), ("run.spin_up", "10 ms")];
+    case_in("uniform")
+}
+
+/// The same in air whose turbulence is the same across the flow or not.
+fn case_in(lateral: &str) -> Case {
+    let set = [
+        ("belt.distance", "0.1 m"),
+        ("run.duration", "0.1 s"),
+        ("run.spin_up", "10 ms"),
+        ("air.lateral", lateral),
+    ];
     let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
     read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap().0
 }
@@ -35,18 +46,23 @@ fn row(sheet: &Sheet, count: usize) -> Vec<Place> {
     (0..count).map(|i| Place { y: 0.0, z: (i as f64 + 0.5) * pitch }).collect()
 }
 
-fn lay_by(sheet: &Sheet, places: &[Place], airs: Airs, isa: Isa, threads: usize) -> (LaidWeb, Flown) {
+fn lay_by(
+    (case, sheet): (&Case, &Sheet),
+    places: &[Place],
+    airs: Airs,
+    isa: Isa,
+    threads: usize,
+) -> (LaidWeb, Flown) {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
-    let case = case();
-    let beam = Beam { case: &case, places, airs };
+    let beam = Beam { case, places, airs };
     let laid = beam.lay(sheet, window, Flying { threads, isa, stop: &stop, steps: &steps }).unwrap();
     assert!(steps.into_inner() > 0);
     laid
 }
 
 fn lay(sheet: &Sheet, places: &[Place], airs: Airs) -> (LaidWeb, Flown) {
-    lay_by(sheet, places, airs, Isa::detect(), 2)
+    lay_by((&case(), sheet), places, airs, Isa::detect(), 2)
 }
 
 fn cv(map: &Map, side: usize) -> f64 {
@@ -157,17 +173,84 @@ fn invariant_the_mass_of_the_sheet_is_that_of_the_fed_fibre() {
     assert_eq!(laid.cut, 0.0);
 }
 
+/// Filaments in a slot, in a field of eddies.
+fn slot(sheet: &Sheet, count: usize) -> Vec<Place> {
+    row(sheet, count).iter().enumerate().map(|(i, at)| Place { y: (i % 5) as f64 * 3e-3, ..*at }).collect()
+}
+
 #[test]
 fn identical_on_any_threads_and_instruction_sets() {
     let sheet = sheet(24, 32);
-    let places = row(&sheet, 12);
-    let (one, flown) = lay_by(&sheet, &places, Airs::Own, Isa::detect(), 1);
-    let strands = |laid: &LaidWeb| laid.together.clone().unwrap().strands;
-    assert!(!strands(&one).is_empty());
-    for (isa, threads) in Isa::available().into_iter().zip([2, 3, 1].into_iter().cycle()) {
-        let (other, again) = lay_by(&sheet, &places, Airs::Own, isa, threads);
-        assert_eq!(other.map, one.map, "{} on {threads} threads", isa.name());
-        assert_eq!(strands(&other), strands(&one), "{}", isa.name());
-        assert_eq!(again.kept, flown.kept, "{}", isa.name());
+    for (lateral, airs) in [("uniform", Airs::Own), ("von-karman", Airs::Shared)] {
+        let (case, places) = (case_in(lateral), slot(&sheet, 12));
+        let lay = |isa, threads| lay_by((&case, &sheet), &places, airs, isa, threads);
+        let (one, flown) = lay(Isa::detect(), 1);
+        let strands = |laid: &LaidWeb| laid.together.clone().unwrap().strands;
+        assert!(!strands(&one).is_empty());
+        for (isa, threads) in Isa::available().into_iter().zip([2, 3, 1].into_iter().cycle()) {
+            let (other, again) = lay(isa, threads);
+            assert_eq!(other.map, one.map, "{lateral}: {} on {threads} threads", isa.name());
+            assert_eq!(strands(&other), strands(&one), "{lateral}: {}", isa.name());
+            assert_eq!(again.kept, flown.kept, "{lateral}: {}", isa.name());
+        }
     }
+}
+
+/// The curves of filaments in one field: what they lay does not depend on which of them share a flight.
+#[test]
+fn identical_a_filament_whatever_flies_beside_it() {
+    let sheet = sheet(24, 32);
+    let (case, places) = (case_in("von-karman"), slot(&sheet, 12));
+    let lay = |places: &[Place]| lay_by((&case, &sheet), places, Airs::Shared, Isa::detect(), 2).1.kept;
+    let (all, some) = (lay(&places), lay(&places[2..7]));
+    for (number, points) in &some {
+        let beside = &all.iter().find(|(other, _)| *other == number + 2).unwrap().1;
+        let both = points.len().min(beside.len());
+        assert!(both > 100);
+        assert_eq!(points[..both], beside[..both], "{number}");
+    }
+}
+
+/// Neighbours in one field come down together: N of them at one place are one curve N times, at places far apart they are
+/// independent, and between the two the web is in between.
+#[test]
+fn stat_a_row_in_one_field_lies_between_one_curve_and_independent_ones() {
+    let mut sheet = sheet(64, 400);
+    sheet.patches = vec![10e-3];
+    let case = case_in("von-karman");
+    let unevenness = |places: &[Place]| {
+        let (laid, flown) = lay_by((&case, &sheet), places, Airs::Shared, Isa::detect(), 2);
+        let pitch = sheet.width / places.len() as f64;
+        let rows = Filaments::Rows(vec![Row::new(0.5 * pitch, pitch, places.len() as u64)]);
+        let patch = found(&sheet, laid, &flown, rows).patches[0];
+        (patch.map.cv, patch.independent.unwrap().0)
+    };
+    let place = Place { y: 0.0, z: 30e-3 };
+    let ((one, _), (three, _)) = (unevenness(&[place]), unevenness(&[place; 3]));
+    assert!((three / one - 1.0).abs() < 1e-5, "{three} {one}");
+    let (row, independent) = unevenness(&row(&sheet, 64));
+    assert!(row > 2.0 * independent, "{row} {independent}");
+    assert!(row < 0.5 * one, "{row} {one}");
+}
+
+/// A filament that is nowhere any more stops neither its neighbours nor the program.
+#[test]
+fn rejects_a_beam_that_loses_its_filaments() {
+    let sheet = sheet(24, 32);
+    let mut case = case_in("von-karman");
+    (case.air.turbulence_intensity, case.air.from_flow.turbulence_intensity) = (450.0, false);
+    let (stop, steps, places) = (AtomicBool::new(false), AtomicU64::new(0), slot(&sheet, 12));
+    let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
+    let beam = Beam { case: &case, places: &places, airs: Airs::Shared };
+    let by = Flying { threads: 2, isa: Isa::detect(), stop: &stop, steps: &steps };
+    let said = beam.lay(&sheet, window, by).unwrap_err().to_string();
+    assert!(said.contains("of 12 filaments were lost"), "{said}");
+
+    let fixed = Case { line: None, ..case.clone() };
+    let beam = Beam { case: &fixed, ..beam };
+    assert!(beam.lay(&sheet, window, by).unwrap_err().to_string().contains("moving belt"));
+    stop.store(true, std::sync::atomic::Ordering::Relaxed);
+    let case = self::case();
+    let beam = Beam { case: &case, ..beam };
+    assert!(matches!(beam.lay(&sheet, window, by), Err(Error::Interrupted)));
 }

@@ -3,7 +3,7 @@
 use super::super::finished::summary;
 use crate::failure::Failure;
 use serde_json::Value as Json;
-use spunlaid_results::figures::{Curves, Row};
+use spunlaid_results::figures::{CurvePoint, Curves};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -44,7 +44,7 @@ impl Run {
 }
 
 /// The curves of the figures, as far as they can be read: a figure that is not there is not compared.
-fn curves(folder: &Path) -> BTreeMap<String, Vec<Row>> {
+fn curves(folder: &Path) -> BTreeMap<String, Vec<CurvePoint>> {
     let files = fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
     let table = |path: PathBuf| {
         let name = path.file_stem()?.to_str()?.to_owned();
@@ -54,12 +54,12 @@ fn curves(folder: &Path) -> BTreeMap<String, Vec<Row>> {
 }
 
 /// The rows of a table of numbers beside a figure: series, place, value and, if there is one, the error.
-fn rows(path: &Path) -> Option<Vec<Row>> {
+fn rows(path: &Path) -> Option<Vec<CurvePoint>> {
     let mut reader = csv::Reader::from_path(path).ok()?;
     let error = reader.headers().ok()?.iter().position(|head| head == "error");
     let row = |record: csv::StringRecord| {
         let number = |column: usize| record.get(column)?.parse::<f64>().ok();
-        Some(Row {
+        Some(CurvePoint {
             series: record.get(0)?.to_owned(),
             at: number(1)?,
             value: number(2).unwrap_or(f64::NAN),

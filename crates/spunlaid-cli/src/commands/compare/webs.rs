@@ -23,15 +23,15 @@ pub(super) struct Web {
     /// The CV expected from the flown curves, if there were some.
     flown: Vec<Patch>,
     /// Cloudiness index and share of the texture along the machine direction.
-    clouds: [Option<Number>; 2],
+    clouds: [Option<WebNumber>; 2],
 }
 
 /// A number of a web.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Number {
+pub(super) struct WebNumber {
     value: f64,
     standard_error: Option<f64>,
-    /// Ends of its 95 % interval, if they are told.
+    /// Ends of its 95 % interval, if they are known.
     ends: Option<[f64; 2]>,
     /// Why it is not to be had.
     doubt: Option<String>,
@@ -41,7 +41,7 @@ pub(super) struct Number {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Patch {
     side: f64,
-    cv: Number,
+    cv: WebNumber,
 }
 
 /// Patches whose sides differ by no more than this share are compared.
@@ -71,7 +71,7 @@ fn web(folder: &std::path::Path, name: &str, summary: &Json) -> Option<Web> {
     let web = summary.get("web")?;
     let number = |json: &Json, [value, error, ends]: [&str; 3]| {
         let end = |i: usize| json[ends][i].as_f64();
-        Some(Number {
+        Some(WebNumber {
             value: json[value].as_f64()?,
             standard_error: json[error].as_f64(),
             ends: end(0).zip(end(1)).map(|(low, high)| [low, high]),
@@ -169,7 +169,7 @@ fn measure(
     label: String,
     column: String,
     (unit, per_si): (&'static str, f64),
-    values: [Number; 2],
+    values: [WebNumber; 2],
 ) -> Compared {
     let [a, b] = &values;
     let doubts: Vec<&str> = values.iter().filter_map(|value| value.doubt.as_deref()).collect();
@@ -191,7 +191,7 @@ fn measure(
     Compared { label, column, unit, per_si, means, difference, doubt }
 }
 
-impl Number {
+impl WebNumber {
     /// With the error by all causes in place of that by chance alone, if it is known: what is not chance makes the interval
     /// wider on both sides.
     ///
@@ -218,7 +218,7 @@ impl Number {
 }
 
 /// The CV at a patch of nearly the same size, moved to that size along the slope to its neighbour.
-fn at(patches: &[Patch], side: f64) -> Option<Number> {
+fn at(patches: &[Patch], side: f64) -> Option<WebNumber> {
     let far = |patch: &Patch| (side / patch.side).ln().abs();
     let (i, nearest) = patches.iter().enumerate().min_by(|a, b| far(a.1).total_cmp(&far(b.1)))?;
     if far(nearest) > ALIKE {
@@ -231,7 +231,7 @@ fn at(patches: &[Patch], side: f64) -> Option<Number> {
     let factor = (slope * (side / nearest.side).ln()).exp();
     let factor = if factor.is_finite() { factor } else { 1.0 };
     let number = &nearest.cv;
-    Some(Number {
+    Some(WebNumber {
         value: number.value * factor,
         standard_error: number.standard_error.map(|error| error * factor),
         ends: number.ends.map(|ends| ends.map(|end| end * factor)),
@@ -243,8 +243,8 @@ fn at(patches: &[Patch], side: f64) -> Option<Number> {
 mod tests {
     use super::*;
 
-    const fn number(value: f64, ends: Option<[f64; 2]>) -> Number {
-        Number { value, standard_error: Some(0.01), ends, doubt: None }
+    const fn number(value: f64, ends: Option<[f64; 2]>) -> WebNumber {
+        WebNumber { value, standard_error: Some(0.01), ends, doubt: None }
     }
 
     #[test]
@@ -269,7 +269,7 @@ mod tests {
         // The other way round as well.
         let difference = compared([b.clone(), a.clone()]).difference.unwrap();
         assert!((difference.half_width() - 5.0).abs() < 1e-6 && difference.is_beyond_chance());
-        let doubtful = Number { doubt: Some("below the blur".to_owned()), ..a };
+        let doubtful = WebNumber { doubt: Some("below the blur".to_owned()), ..a };
         let found = compared([doubtful, b]);
         assert_eq!((found.difference, found.cells()[3].as_str()), (None, "below the blur"));
     }

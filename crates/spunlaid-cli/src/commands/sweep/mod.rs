@@ -36,11 +36,11 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
 
     let journal = Mutex::new(journal);
     let before = fibres(&journal, &file.study);
-    let flown = fly(sweep, &file.study, &journal);
+    let outcome = fly(sweep, &file.study, &journal);
     let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
     let done = (0..file.study.points.len()).map(|point| journal.held(point)).sum();
     let written =
-        flown.map_err(Failure::from).and_then(|()| write(sweep, &file, &folder, &mut journal, before));
+        outcome.map_err(Failure::from).and_then(|()| write(sweep, &file, &folder, &mut journal, before));
     written.map_err(|failure| match failure {
         Failure::Error(Error::Interrupted) => {
             let what = if file.study.noun() == "web" { "webs" } else { "fibres" };
@@ -133,7 +133,7 @@ fn write(
     let study = &file.study;
     let name = stem(&sweep.study, "study").to_string_lossy();
     let StudyResults { results, refusal } = folder.write(&name, file, journal)?;
-    let flown: u64 = results.iter().map(|point| point.n + point.lost).sum();
+    let fibres: u64 = results.iter().map(|point| point.n + point.lost).sum();
     if sweep.json {
         let path = folder.path().join("results.json");
         say::text(&fs::read_to_string(&path).map_err(Error::unwritable(&path))?);
@@ -142,21 +142,21 @@ fn write(
         if let Some(refusal) = &refusal {
             say::line(&format!("the keys are not ranked: {refusal}"));
         }
-        if before == flown {
+        if before == fibres {
             let noun = study.noun();
             let done = if noun == "web" { "laid" } else { "flown" };
             say::line(&format!(
                 "the study was already complete: no {noun} was {done}, and the files were written again"
             ));
         }
-        say::line(&format!("{} at {}", plural(flown, study.noun()), plural(results.len() as u64, "point")));
+        say::line(&format!("{} at {}", plural(fibres, study.noun()), plural(results.len() as u64, "point")));
         say::line(&format!("open {}", folder.path().join("report.html").display()));
     }
-    lost(study, journal, flown)
+    lost(study, journal, fibres)
 }
 
 /// The error that lists the lost fibres, if any.
-fn lost(study: &Study, journal: &mut Journal, flown: u64) -> Result<(), Failure> {
+fn lost(study: &Study, journal: &mut Journal, fibres: u64) -> Result<(), Failure> {
     let (mut lost, mut first) = (0, String::new());
     for (index, point) in study.points.iter().enumerate() {
         for record in journal.records(index, u64::MAX)? {
@@ -177,7 +177,7 @@ fn lost(study: &Study, journal: &mut Journal, flown: u64) -> Result<(), Failure>
     if lost == 0 {
         return Ok(());
     }
-    let lost = format!("{}; all others are in the results{first}", lost_of(lost, flown));
+    let lost = format!("{}; all others are in the results{first}", lost_of(lost, fibres));
     Err(Failure::FibresLost { lost })
 }
 

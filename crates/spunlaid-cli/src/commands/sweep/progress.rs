@@ -1,10 +1,10 @@
 //! Progress of a study: a bar on a terminal, or a line from time to time in a log file.
 
-use crate::progress::ended;
+use crate::progress::show_while;
 use crate::say;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use spunlaid::study::{Progress, Study};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// A line is written to a log file after this time, or after this fraction of the work but not before the last time.
@@ -27,30 +27,20 @@ pub(super) fn follow<T>(
     if let Ok(style) = ProgressStyle::with_template("[{bar:24}] {percent:>3} %  {msg}") {
         bar.set_style(style.progress_chars("=> "));
     }
-    let finished = AtomicBool::new(false);
-    std::thread::scope(|scope| {
-        let shown = scope.spawn(|| {
-            let mut log = Log { last: Instant::now(), share: 0.0 };
-            let begun = Instant::now();
-            let mut before = None;
-            while !finished.load(Ordering::Acquire) {
-                std::thread::park_timeout(Duration::from_millis(100));
-                let state = State::new(study, progress, steps, begun, &mut before);
-                if bar.is_hidden() {
-                    log.show(&state);
-                } else {
-                    bar.set_length(state.steps.max(1));
-                    bar.set_position(state.steps_done);
-                    bar.set_message(state.words());
-                }
-            }
-        });
-        ended(work, || {
-            finished.store(true, Ordering::Release);
-            shown.thread().unpark();
-            bar.finish_and_clear();
-        })
-    })
+    let mut log = Log { last: Instant::now(), share: 0.0 };
+    let begun = Instant::now();
+    let mut before = None;
+    let show = || {
+        let state = State::new(study, progress, steps, begun, &mut before);
+        if bar.is_hidden() {
+            log.show(&state);
+        } else {
+            bar.set_length(state.steps.max(1));
+            bar.set_position(state.steps_done);
+            bar.set_message(state.words());
+        }
+    };
+    show_while(&bar, Duration::from_millis(100), show, work)
 }
 
 struct State {

@@ -3,7 +3,7 @@
 mod obey;
 mod show;
 
-use super::board::{Board, Page};
+use super::board::{Board, PageId};
 use super::clock::Clock;
 use super::document::{Document, complaints};
 use super::fibres::Fibres;
@@ -30,8 +30,8 @@ const MOST_HEARD: usize = 256;
 /// A message of a page.
 #[derive(Debug)]
 pub(super) struct PageRequest {
-    pub(super) from: Page,
-    pub(super) asked: Command,
+    pub(super) page: PageId,
+    pub(super) command: Command,
 }
 
 /// A flight that pages look at.
@@ -51,14 +51,14 @@ pub(super) struct Session {
     since: f64,
     trouble: Option<String>,
     /// The pages that can be seen.
-    pages: BTreeSet<Page>,
+    pages: BTreeSet<PageId>,
     folder: PathBuf,
     board: Arc<Board>,
     statistics_shown: Instant,
 }
 
 impl Session {
-    /// * `remark` – what is to be said of the scheme
+    /// * `remark` – what the user must know of the scheme
     /// * `folder` – where cases are saved
     ///
     /// # Errors
@@ -105,17 +105,17 @@ impl Session {
     }
 
     /// Flies until there is nobody any more who could ask.
-    pub(super) fn fly(mut self, asks: &mpsc::Receiver<PageRequest>) {
+    pub(super) fn fly(mut self, requests: &mpsc::Receiver<PageRequest>) {
         loop {
             if self.is_idle() {
-                let Ok(ask) = asks.recv() else { return };
-                self.hear(ask, asks);
+                let Ok(request) = requests.recv() else { return };
+                self.hear(request, requests);
                 self.clock.begin(Instant::now());
                 self.show_frame();
                 continue;
             }
-            match asks.try_recv() {
-                Ok(ask) => self.hear(ask, asks),
+            match requests.try_recv() {
+                Ok(request) => self.hear(request, requests),
                 Err(mpsc::TryRecvError::Empty) => {}
                 Err(mpsc::TryRecvError::Disconnected) => return,
             }
@@ -132,38 +132,38 @@ impl Session {
     }
 
     /// Hears a message, and all that have come after it.
-    fn hear(&mut self, first: PageRequest, asks: &mpsc::Receiver<PageRequest>) {
+    fn hear(&mut self, first: PageRequest, requests: &mpsc::Receiver<PageRequest>) {
         let mut heard = vec![first];
         while heard.len() < MOST_HEARD
-            && let Ok(ask) = asks.try_recv()
+            && let Ok(request) = requests.try_recv()
         {
-            heard.push(ask);
+            heard.push(request);
         }
         let mut changed = false;
         for i in 0..heard.len() {
-            let PageRequest { from, asked } = &heard[i];
+            let PageRequest { page, command } = &heard[i];
             // Of several values of one key that came at once, only the last counts; each gets its answer.
-            let replaced = matches!(asked, Command::Set { key, .. }
-                if heard[i + 1..].iter().any(|later| matches!(&later.asked, Command::Set { key: other, .. } if other == key)));
-            let answer = match asked {
+            let replaced = matches!(command, Command::Set { key, .. }
+                if heard[i + 1..].iter().any(|later| matches!(&later.command, Command::Set { key: other, .. } if other == key)));
+            let answer = match command {
                 Command::Set { stamp, .. } if replaced => {
                     Some(Answer::Applied { stamp: *stamp, generation: self.generation + 1 })
                 }
                 Command::Look { visible } => {
                     if *visible {
-                        self.pages.insert(*from)
+                        self.pages.insert(*page)
                     } else {
-                        self.pages.remove(from)
+                        self.pages.remove(page)
                     };
                     None
                 }
-                asked => {
+                command => {
                     changed = true;
-                    self.obey(asked).unwrap_or_else(Some)
+                    self.obey(command).unwrap_or_else(Some)
                 }
             };
             if let Some(answer) = answer {
-                self.board.answer(*from, answer.json());
+                self.board.answer(*page, answer.json());
             }
         }
         if changed {

@@ -1,4 +1,4 @@
-//! What pages ask is done, or refused with the reason.
+//! Does what pages ask, or refuses it and says why.
 
 use super::Session;
 use crate::live::document::{Document, complaints};
@@ -14,8 +14,8 @@ impl Session {
     ///
     /// # Errors
     /// The answer that refuses it.
-    pub(super) fn obey(&mut self, asked: &Command) -> Result<Option<Answer>, Answer> {
-        match asked {
+    pub(super) fn obey(&mut self, command: &Command) -> Result<Option<Answer>, Answer> {
+        match command {
             Command::Set { key, value, stamp } => {
                 let document = self.with(key, value)?;
                 self.become_of(document)?;

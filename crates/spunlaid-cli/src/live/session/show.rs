@@ -13,7 +13,7 @@ use spunlaid::lanes::WIDTH;
 use spunlaid::units::Dimension;
 use std::time::Instant;
 
-/// The state of the flight, as it is told to pages.
+/// The state of the flight, as pages get it.
 #[derive(Serialize)]
 #[serde(tag = "is", rename = "state")]
 struct State<'a> {
@@ -47,7 +47,7 @@ struct Belt {
 
 #[derive(Serialize)]
 #[serde(tag = "is", rename = "settings")]
-struct Offered {
+struct SettingsMessage {
     settings: Vec<Setting>,
 }
 
@@ -79,7 +79,7 @@ impl Session {
     /// Shows settings, state, statistics and a frame.
     pub(super) fn show_all(&mut self) {
         let case = self.fibres.case();
-        let offered = json(&Offered { settings: settings(case) });
+        let offered = json(&SettingsMessage { settings: settings(case) });
         if !self.board.shows(Topic::Settings, &offered) {
             self.board.show_text(Topic::Settings, offered);
         }

@@ -31,9 +31,9 @@ const LIGHT: &str = "#fdfaf0";
 fn trace(results: &Results) -> Figure {
     const NAME: &str = "laid_trace";
     const TITLE: &str = "The laid fibre, as on a light table";
-    let laid: &[LaidPoint] = results.trajectories.first().map_or(&[], |trajectory| &trajectory.laid);
+    let points: &[LaidPoint] = results.trajectories.first().map_or(&[], |trajectory| &trajectory.laid);
     let mut table = Table::new(["md_mm", "cd_mm", "fed_m"]);
-    let Some(window) = Window::new(laid) else {
+    let Some(window) = Window::new(points) else {
         let mut svg = Svg::new(WIDTH, 120.0, TITLE);
         let style = Text { size: 14.0, colour: GREY, anchor: Anchor::Middle, upright: true };
         svg.text((WIDTH / 2.0, 64.0), "too little has been laid to be shown", style);
@@ -136,9 +136,9 @@ const REACH: f64 = 3.3;
 /// Where the fibre comes down about its straight trace, of all replicates whose laid fibre is kept.
 fn footprint(case: &Case, results: &Results) -> Figure {
     let ratio = case.line.map_or(f64::NAN, |line| line.belt_speed / line.feed_speed);
-    let laid: Vec<Vec<(f64, f64)>> =
+    let curves: Vec<Vec<(f64, f64)>> =
         results.trajectories.iter().map(|trajectory| about_straight_trace(trajectory, ratio)).collect();
-    let points: Vec<(f64, f64)> = laid.iter().flatten().copied().collect();
+    let points: Vec<(f64, f64)> = curves.iter().flatten().copied().collect();
     let [md, cd] = ["sigma_md", "sigma_cd"].map(|name| results.estimate(name).mean * MM);
     let label = |direction| Axis::linear(&format!("{direction} direction (mm)"));
     let chart = Chart::new(
@@ -185,7 +185,7 @@ fn footprint(case: &Case, results: &Results) -> Figure {
          {} mm and {} mm in machine and cross direction for σ. Inside lie {} % and {} % of the fibre; of a normal \
          distribution it would be 39.3 % and 86.5 %.",
         format_args!("{} m", significant(points.len() as f64 * case.fibre.rest_length(), 3)),
-        one_of(laid.len(), "replicate"),
+        one_of(curves.len(), "replicate"),
         significant(md, 3),
         significant(cd, 3),
         within(1.0),
@@ -237,13 +237,13 @@ mod tests {
             let s = f64::from(i) * 0.004;
             LaidPoint { fed: s, time: s / 50.0, md: -0.06 * s, cd: 0.02 * (40.0 * s).sin() }
         };
-        let laid: Vec<LaidPoint> = (0..5000).map(at).collect();
-        let window = Window::new(&laid).unwrap();
+        let points: Vec<LaidPoint> = (0..5000).map(at).collect();
+        let window = Window::new(&points).unwrap();
         // 40 mm wide, so 120 mm long, and half a width from the end at −1.2 m.
         assert!((window.length - 0.12).abs() < 1e-4, "{}", window.length);
         assert!((window.from + 0.06 * 4999.0 * 0.004 - 0.02).abs() < 1e-3, "{}", window.from);
         assert_eq!(window.points.len(), (0.12_f64 / 0.06 / 0.004).round() as usize + 2);
-        assert!(Window::new(&laid[..2]).is_none());
+        assert!(Window::new(&points[..2]).is_none());
         assert!(Window::new(&[LaidPoint { md: f64::NAN, ..LaidPoint::default() }; 9]).is_none());
     }
 }

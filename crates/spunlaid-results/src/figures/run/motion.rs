@@ -9,7 +9,7 @@ use spunlaid_charts::{
     palette::{GREEN, GREY, INK, ORANGE},
 };
 
-/// Most swings that can be told apart in a history.
+/// Most swings that can be distinguished in a history.
 const SWINGS: f64 = 60.0;
 /// Most swings of a path.
 const PATH: f64 = 40.0;

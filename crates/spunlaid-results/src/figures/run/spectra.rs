@@ -36,7 +36,7 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
             format!("{what}. The turbulence consists of stretches of the record as it was measured; {rms}.");
         return Figure::new(&chart, caption);
     }
-    let wanted: Vec<_> = match air.spectrum {
+    let model: Vec<_> = match air.spectrum {
         SpectrumShape::Flat if air.is_uniform() => {
             let level = air.rms().powi(2) / cutoff;
             vec![(0.0, level), (cutoff, level), (cutoff, 0.0), (2.0 * cutoff, 0.0)]
@@ -53,5 +53,5 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
          blurs the lowest point and the edge at the cut-off.",
         significant(cutoff, 3),
     );
-    Figure::new(&chart.line(Series::reference("wanted"), &wanted), caption)
+    Figure::new(&chart.line(Series::reference("wanted"), &model), caption)
 }

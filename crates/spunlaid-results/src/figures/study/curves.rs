@@ -10,7 +10,7 @@ use spunlaid_charts::{
 
 const COLOURS: [&str; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 
-/// Dashes of the lines, so that curves can be told apart without their colours.
+/// Dashes of the lines, so that curves can be distinguished without their colours.
 const DASHES: [Option<&str>; FAMILY] =
     [None, Some("8 4"), Some("2 3"), Some("8 3 2 3"), Some("14 4"), Some("8 3 2 3 2 3")];
 
@@ -67,8 +67,8 @@ fn over_factor(
     let name = file_name(group, &study.factors[factor].key);
     let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
     for (position, (measure, _)) in group.members.iter().enumerate() {
-        let aside = along.aside(position, group.members.len());
-        let spots = spots(study, results, group, *measure, (factor, &along, aside), points);
+        let shift = along.aside(position, group.members.len());
+        let spots = spots(study, results, group, *measure, (factor, &along, shift), points);
         let series = series(group, position);
         chart = if along.is_joined() { drawn(chart, series, &spots) } else { chart.scatter(series, &spots) };
     }
@@ -98,8 +98,8 @@ pub(super) fn family(
             let series = Series { marker: Some(marker), dash, ..Series::new(&label, colour) }
                 .named(&format!("{called} at {label}"));
             let series_count = levels.len() * group.members.len();
-            let aside = place.aside(index * group.members.len() + position, series_count);
-            let spots = spots(study, results, group, *measure, (along, &place, aside), &points);
+            let shift = place.aside(index * group.members.len() + position, series_count);
+            let spots = spots(study, results, group, *measure, (along, &place, shift), &points);
             if !place.is_joined() {
                 let series = if position == 0 { series } else { series.unlabelled() };
                 chart = chart.scatter(series, &spots);

@@ -32,8 +32,8 @@ pub(super) fn figure(
             let adjusted =
                 ranking.map(|ranking| ranking.adjusted(study, index, factor, point.mean[*measure]));
             let value = adjusted.map_or(mean, |value| value * group.unit.per_si);
-            let aside = along.aside(position, group.members.len());
-            (along.place(study.points[index].values[factor]) + aside, value, error)
+            let shift = along.aside(position, group.members.len());
+            (along.place(study.points[index].values[factor]) + shift, value, error)
         };
         let spots: Vec<_> = results.iter().enumerate().map(spot).collect();
         is_adjusted |= ranking.is_some();

@@ -42,7 +42,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
         [effect.change - half, effect.change + half].map(|end| end * group.unit.per_si)
     };
     let with_words = study.factors.iter().any(|factor| !factor.words.is_empty());
-    // With words, the change is told below each factor.
+    // With words, the change is given below each factor.
     let change = if with_words { "" } else { " from the least to the greatest value" };
     let label = with_unit(&format!("Change of {}{change}", group.figure.words), group.unit.shown);
     let all = shown.iter().flat_map(|shown| shown.0.effects.iter().flat_map(ends)).chain([0.0]);

@@ -16,7 +16,7 @@ use spunlaid_charts::{
 const MM: f64 = 1e3;
 const PER_CENT: f64 = 100.0;
 
-/// How the basis weights of a map are told.
+/// How the basis weights of a map are shown.
 #[derive(Clone, Copy, Debug)]
 struct Weights {
     /// Heading of an axis.

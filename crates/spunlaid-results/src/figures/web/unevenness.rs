@@ -5,7 +5,7 @@ use super::{MM, PER_CENT, Weights};
 use crate::numbers::significant;
 use spunlaid::scan;
 use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Edges, Filaments, Findings, Map, PatchFindings, Web, straight_fibres};
+use spunlaid::web::{Edges, Findings, Map, PatchFindings, Web, straight_fibres};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{BLUE, GREEN, GREY, VERMILION},
@@ -68,6 +68,7 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
         (side, cv, patch.whole_error().whole().map(|error| error * PER_CENT).or(error))
     });
     let map: Vec<_> = map.collect();
+    let line: Vec<(f64, f64)> = map.iter().map(|(patch, cv, _)| (*patch, *cv)).collect();
     let curve = |cv: fn(&PatchFindings) -> Option<(f64, f64)>| -> Vec<(f64, f64)> {
         let point = |patch: &PatchFindings| Some((patch.map.patch * MM, cv(patch)?.0 * PER_CENT));
         findings.patches.iter().filter_map(point).collect()
@@ -82,15 +83,22 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
         .collect();
     let mut chart =
         empty_chart().line(Series::new("straight fibres at random", GREY).dashed("6 4"), &straight);
+    let is_shared = findings.laid.together.is_some();
     chart = match (flown.is_empty(), surrogate.is_empty()) {
+        _ if is_shared => chart
+            .line(Series::new("the same filaments in airs of their own", VERMILION).width(1.8), &single)
+            .line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line),
         (false, false) => chart
             .line(Series::new("expected, from the surrogate", VERMILION).width(1.8), &surrogate)
             .line(Series::new("expected, from the flown curves", GREEN).width(1.8), &flown),
         _ => chart.line(Series::new("expected, from single fibres", VERMILION).width(1.8), &single),
     };
     let chart = chart.scatter(Series::spots("this map", BLUE), &map);
-    let rows = web.layers.iter().any(|layer| matches!(layer.filaments, Filaments::Rows(_)));
+    let rows = web.layers.iter().any(|layer| !layer.filaments.are_at_random());
     let places = if rows { "in their rows" } else { "at random places" };
+    if is_shared {
+        return Figure::new(&chart, shared_air(places));
+    }
     let cut = if web.sheet.edges == Edges::Cut {
         "cut off at the edges in cross direction, and the strips at the edges, where the web is thinner, are left out"
     } else {
@@ -107,6 +115,16 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
         significant(tenth, 2)
     );
     Figure::new(&chart, caption)
+}
+
+/// What is told below the figure of a web in one air.
+fn shared_air(places: &str) -> String {
+    format!(
+        "Standard deviation of the basis weight of square patches over its mean, on a stretch of belt on which every filament lies as it \
+         does after its start. Bars are one standard error by chance, from the waves of the map. The curve below is what the same filaments {places} would \
+         give if each had an air of its own: the sum of their own variances, without what neighbours do together. Straight fibres are those of the \
+         same mass in all directions at random."
+    )
 }
 
 /// Most classes of a histogram.

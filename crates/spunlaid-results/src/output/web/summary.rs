@@ -52,10 +52,13 @@ pub struct Layer {
     pub fit_residual: Option<f64>,
     /// What chance alone would leave of it.
     pub fit_residual_by_chance: Option<f64>,
+    /// Largest lateral wave number of the air that all filaments share, times its length scale; none of filaments in airs of their own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lateral_cutoff: Option<f64>,
 }
 
 /// The speed of the work. This is the only part that differs when it is repeated.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Performance {
     /// Wall-clock time [s].
     pub wall_s: f64,
@@ -63,6 +66,25 @@ pub struct Performance {
     pub threads: usize,
     /// Name of the instruction set.
     pub instruction_set: &'static str,
+    /// Time that the flights of filaments in one air took [s].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flights_s: Option<f64>,
+    /// The part of it that is shared among the threads [s].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flights_in_parallel_s: Option<f64>,
+}
+
+impl Performance {
+    /// With the times of flights in one air, if there were some.
+    #[must_use]
+    pub fn with_flights(self, findings: &Findings) -> Self {
+        let spent = findings.laid.together.as_ref().map(|together| together.spent);
+        Self {
+            flights_s: spent.map(|spent| spent.whole.as_secs_f64()),
+            flights_in_parallel_s: spent.map(|spent| spent.in_parallel.as_secs_f64()),
+            ..self
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -76,16 +98,19 @@ struct WebSummary {
     fibre_length_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cut_off_kg: Option<f64>,
+    /// Filaments in one air that were lost in flight.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lost_filaments: Option<u64>,
     /// Where edges cut fibre off: the strips that all but the map leaves out.
     #[serde(skip_serializing_if = "Option::is_none")]
     edges: Option<Margins>,
     patches: Vec<InOrder<Json>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    orientation_md: Option<Number>,
+    orientation_md: Option<NumberWithError>,
     #[serde(skip_serializing_if = "Option::is_none")]
     md_cd_ratio: Option<f64>,
     /// Share of the texture along the machine direction, ½ without orientation.
-    texture_md: Option<Number>,
+    texture_md: Option<NumberWithError>,
     cloudiness: Option<Cloudiness>,
     clouds: Vec<Octave>,
     sensitivities: Vec<Levers>,
@@ -102,7 +127,7 @@ struct Margins {
 }
 
 #[derive(Debug, Serialize)]
-struct Number {
+struct NumberWithError {
     mean: f64,
     standard_error: Option<f64>,
 }
@@ -115,7 +140,7 @@ struct Cloudiness {
     standard_error: Option<f64>,
     /// 95 % confidence interval for all such webs; null if the map is too small to say.
     interval: Option<[f64; 2]>,
-    /// Why the true index cannot be told.
+    /// Why the true index cannot be known.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_interval: Option<String>,
 }
@@ -161,11 +186,12 @@ impl WebSummary {
             cell_m: map.cell,
             fibre_length_m: None,
             cut_off_kg: None,
+            lost_filaments: None,
             edges: None,
             patches,
             orientation_md: None,
             md_cd_ratio: None,
-            texture_md: clouds.map(|clouds| Number::new(&clouds.texture_md())),
+            texture_md: clouds.map(|clouds| NumberWithError::new(&clouds.texture_md())),
             cloudiness,
             clouds: clouds.into_iter().flat_map(Clouds::octaves).map(octave).collect(),
             sensitivities: Vec::new(),
@@ -195,7 +221,7 @@ fn numbers_of_patch<'a>(
     InOrder(all.map(|(name, value): (&str, Json)| (name.to_owned(), value)).collect())
 }
 
-impl Number {
+impl NumberWithError {
     fn new(estimate: &Estimate) -> Self {
         Self { mean: estimate.mean, standard_error: estimate.standard_error }
     }
@@ -218,6 +244,8 @@ impl<'a> Summary<'a> {
                 ("cv_whole_error", whole.whole()),
             ];
             let expected = [
+                ("cv_independent", patch.independent.map(|cv| cv.0)),
+                ("cv_independent_standard_error", patch.independent.map(|cv| cv.1)),
                 ("cv_one_fibre", Some(patch.one_fibre.0)),
                 ("cv_one_fibre_standard_error", Some(patch.one_fibre.1)),
                 ("cv_flown", patch.flown.map(|cv| cv.0)),
@@ -246,12 +274,13 @@ impl<'a> Summary<'a> {
             web: WebSummary {
                 fibre_length_m: Some(web.fibre_length()),
                 cut_off_kg: Some(findings.laid.cut),
+                lost_filaments: findings.laid.together.as_ref().map(|together| together.lost),
                 edges: (web.sheet.edges == Edges::Cut).then(|| Margins {
                     margins_m: findings.margins,
                     basis_weight_between_kg_m2: findings.within().basis_weight(),
                     basis_weight_sheet_kg_m2: findings.laid.map.basis_weight(),
                 }),
-                orientation_md: Some(Number::new(&findings.orientation.cos_squared)),
+                orientation_md: Some(NumberWithError::new(&findings.orientation.cos_squared)),
                 md_cd_ratio: Some(findings.orientation.md_cd_ratio()),
                 sensitivities: levers.collect(),
                 ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())

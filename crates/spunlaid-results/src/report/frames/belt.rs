@@ -66,8 +66,8 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames>
     let longest = shapes.iter().map(|shape| shape.position.len()).max()?;
     let first_root = shapes.first()?.position.len().checked_sub(1)? as u64;
     let nodes = shapes.iter().flat_map(|shape| &shape.position).map(|p| p.z.abs());
-    let aside = nodes.filter(|z| z.is_finite()).fold(0.0, f64::max);
-    let shown = (WIDTHS * aside).clamp(SHOWN.0 * line.distance, SHOWN.1 * line.distance);
+    let deflection = nodes.filter(|z| z.is_finite()).fold(0.0, f64::max);
+    let shown = (WIDTHS * deflection).clamp(SHOWN.0 * line.distance, SHOWN.1 * line.distance);
     let chosen = NodeChoice { case, line, stride: longest.div_ceil(NODES) as u64, first_root, shown };
     let nodes = longest / chosen.stride as usize + 1;
     let replicates = (POSITIONS / (nodes * INSTANTS)).clamp(1, REPLICATES);
@@ -124,8 +124,8 @@ fn instants(chosen: &NodeChoice<'_>, trajectories: &[&Trajectory], most: usize) 
     // Some belt has been covered before the picture begins, if there is time for it.
     let covered = chosen.shown / chosen.line.belt_speed;
     let shapes = &trajectories[0].shapes;
-    let wanted = (start..end).find(|&i| shapes[i].time >= shapes[start].time + covered).unwrap_or(start);
-    let start = wanted.min(start + (end - start) / 3);
+    let middle = (start..end).find(|&i| shapes[i].time >= shapes[start].time + covered).unwrap_or(start);
+    let start = middle.min(start + (end - start) / 3);
     start.max((end + 1).saturating_sub(most))..end + 1
 }
 

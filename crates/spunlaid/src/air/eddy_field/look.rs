@@ -1,110 +1,133 @@
-//! Looks at a field: cubic B-splines in label, y and z, and between two generations.
+//! Looks at fields: cubic B-splines in label, y and z, and between two generations.
+//!
+//! Eight places are looked at together: where they lie and all weights are computed side by side, and then the points around
+//! each are summed up.
 
 use super::EddyField;
 use super::lattice::weights;
 use super::tape::{BEFORE, NEEDED, REPEATED};
-use crate::lanes::{Register, Singles};
+use crate::lanes::{Lanes, Register, Singles, WIDTH};
+use crate::vec3::Vec3;
+use std::array::from_fn;
 
-/// The points around a place across, and their weights.
-struct Across {
-    /// Of the lines.
-    y: [usize; NEEDED],
-    /// Of the first point of each line.
-    z: usize,
-    /// Along y and z.
-    weights: [[f32; NEEDED]; 2],
+/// A number of each place.
+type Each<T> = [T; WIDTH];
+
+/// Where places lie along an axis: the numbers of the first of four points around them, and the weights of these.
+struct Around {
+    first: Each<i64>,
+    weights: [Each<f32>; NEEDED],
 }
 
-/// Sums over label and y of what lies around a place: for each of four samples, of three components at four points.
-type Sums<S> = [<S as Register>::Singles; NEEDED];
-
 impl EddyField {
-    /// Fluctuation of a field of rms one, x, y and z [-].
+    /// Fluctuations of fields of rms one, x, y and z [-].
     ///
-    /// * `time` – for which the field has been made [s]
-    /// * `at` – place: distance from the inlet, and y and z [m]
+    /// * `fields` – of each place
+    /// * `time` – for which they have been made [s]
+    /// * `at` – places: distance from the inlet, and y and z [m]
     #[inline(always)]
-    pub(crate) fn fluctuation<S: Register>(&self, time: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let plan = &*self.plan;
-        let across = self.across(y, z);
-        let passage = plan.way.passage(x);
-        let label = time - passage.travel;
-        let last = self.tapes.len() - 1;
-        let nothing = [S::Singles::zero(); NEEDED];
-        if !plan.way.is_carried() || last == 0 {
-            let generation = (passage.generation as usize).min(last);
-            return total::<S>(self.add::<S>(nothing, generation, label, &across, 1.0), across.weights[1]);
+    pub(crate) fn fluctuations<S: Register>(fields: Each<&Self>, time: f64, at: &Vec3<Lanes>) -> Vec3<Lanes> {
+        let passages = from_fn::<_, WIDTH, _>(|lane| fields[lane].plan.way.passage(at.x.0[lane]));
+        let last = fields.map(|field| field.tapes.len() - 1);
+        // The second generation is the first one again where there is only one, or where eddies are not carried.
+        let fading = fields.map(|field| if field.plan.way.is_carried() { 1.0 } else { 0.0 });
+        let young: Each<usize> = from_fn(|lane| {
+            (passages[lane].generation as usize).min(last[lane].saturating_sub(fading[lane] as usize))
+        });
+        let old: Each<usize> = from_fn(|lane| (young[lane] + fading[lane] as usize).min(last[lane]));
+        let share: Each<f64> =
+            from_fn(|lane| fading[lane] * (passages[lane].generation - young[lane] as f64).clamp(0.0, 1.0));
+
+        let across_y =
+            around_ring(&at.y, fields.map(|f| (f.plan.lattice.extent.y, f.plan.lattice.points[0])));
+        let across_z =
+            around_ring(&at.z, fields.map(|f| (f.plan.lattice.extent.z, f.plan.lattice.points[1])));
+        let mut sums = [[S::Singles::zero(); NEEDED]; WIDTH];
+        for (generations, parts) in [(young, share.map(|share| 1.0 - share)), (old, share)] {
+            let along = around(from_fn(|lane| {
+                (time - passages[lane].travel) * fields[lane].plan.samples_per_time(generations[lane])
+            }));
+            let of_label: [Each<f32>; NEEDED] =
+                along.weights.map(|weights| from_fn(|lane| weights[lane] * parts[lane] as f32));
+            let of_both: [[Each<f32>; NEEDED]; NEEDED] = across_y
+                .weights
+                .map(|of_y| of_label.map(|of_label| from_fn(|lane| of_y[lane] * of_label[lane])));
+            for (lane, sums) in sums.iter_mut().enumerate() {
+                let place = (along.first[lane], across_y.first[lane] as usize, across_z.first[lane] as usize);
+                fields[lane].add::<S>(sums, generations[lane], place, |y, m| of_both[y][m][lane]);
+            }
         }
-        let generation = (passage.generation as usize).min(last - 1);
-        let share = (passage.generation - generation as f64).clamp(0.0, 1.0);
-        let sums = self.add::<S>(nothing, generation, label, &across, (1.0 - share) as f32);
-        let sums = self.add::<S>(sums, generation + 1, label, &across, share as f32);
-        let value = total::<S>(sums, across.weights[1]);
-        let both = 2.0 * share * (1.0 - share);
-        let correlations = &plan.correlations[generation];
-        [0, 1, 2].map(|i| value[i] / (1.0 - both * (1.0 - correlations[i])).sqrt())
+        // Four points of three components.
+        let sums = sums.map(|[a, b, c, d]| a.add(b).add(c.add(d)).store());
+        let value = |component: usize| {
+            let of_z = &across_z.weights;
+            let sum: Each<f32> = from_fn(|lane| {
+                let part = |point: usize| of_z[point][lane] * sums[lane][3 * point + component];
+                (part(0) + part(1)) + (part(2) + part(3))
+            });
+            let correlation: Each<f64> =
+                from_fn(|lane| fields[lane].plan.correlations[young[lane]][component]);
+            Lanes(from_fn(|lane| {
+                let both = 2.0 * share[lane] * (1.0 - share[lane]);
+                f64::from(sum[lane]) / (1.0 - both * (1.0 - correlation[lane])).sqrt()
+            }))
+        };
+        Vec3::new(value(0), value(1), value(2))
     }
 
-    #[inline(always)]
-    fn across(&self, y: f64, z: f64) -> Across {
-        let ([points_y, points_z], extent) = (self.plan.lattice.points, self.plan.lattice.extent);
-        let (y, of_y) = around(y / extent.y, points_y);
-        let (z, of_z) = around(z / extent.z, points_z);
-        let mut lines = [y; NEEDED];
-        for i in 1..NEEDED {
-            lines[i] = if lines[i - 1] + 1 == points_y { 0 } else { lines[i - 1] + 1 };
-        }
-        Across { y: lines, z, weights: [of_y, of_z] }
-    }
-
-    /// Adds what lies around a place in a generation.
+    /// Adds what lies around a place in a generation, for each of four samples.
+    ///
+    /// * `place` – numbers of the first sample, of the first line and of its first point
+    /// * `weight` – of a line and a sample
     #[inline(always)]
     fn add<S: Register>(
         &self,
-        mut sums: Sums<S>,
+        sums: &mut [S::Singles; NEEDED],
         generation: usize,
-        label: f64,
-        across: &Across,
-        share: f32,
-    ) -> Sums<S> {
-        let samples = label * self.plan.samples_per_time(generation);
-        let floor = samples.floor();
-        let of_label = weights((samples - floor) as f32).map(|weight| share * weight);
-        let Some(block) = self.tapes[generation].around(floor as i64) else { return sums };
-        let row = 3 * (self.plan.lattice.points[1] + REPEATED);
-        let start = (floor as i64 - BEFORE - block.first) as usize * row + 3 * across.z;
-        for (y, of_y) in across.y.into_iter().zip(across.weights[0]) {
+        (sample, first_line, point): (i64, usize, usize),
+        weight: impl Fn(usize, usize) -> f32,
+    ) {
+        let Some(block) = self.tapes[generation].around(sample) else { return };
+        let [lines, points] = self.plan.lattice.points;
+        let row = 3 * (points + REPEATED);
+        let start = (sample - block.first) as usize * row + 3 * point;
+        let mut line = first_line;
+        for y in 0..NEEDED {
             // All rows of a line at once, so that its end is looked at once.
-            let Some(rows) = block.lines[y].get(start..start + (NEEDED - 1) * row + 3 * NEEDED) else {
-                break;
+            let Some(rows) = block.lines[line].get(start..start + (NEEDED - 1) * row + 3 * NEEDED) else {
+                return;
             };
             for (m, sum) in sums.iter_mut().enumerate() {
                 if let Some(points) = rows[m * row..].first_chunk() {
-                    *sum = sum.add_weighted(points, of_y * of_label[m]);
+                    *sum = sum.add_weighted(points, weight(y, m));
                 }
             }
+            line = if line + 1 == lines { 0 } else { line + 1 };
         }
-        sums
     }
 }
 
-/// The number of the first of four points around a place, and their weights.
-///
-/// * `turns` – place over the extent [-]
+/// The points around places among evenly spaced ones.
 #[inline(always)]
-fn around(turns: f64, points: usize) -> (usize, [f32; NEEDED]) {
-    let place = (turns - turns.floor()) * points as f64;
-    // Rounding may put a place behind the last point.
-    let before = (place as usize).min(points - 1);
-    (if before == 0 { points - 1 } else { before - 1 }, weights((place - before as f64) as f32))
+fn around(places: Each<f64>) -> Around {
+    let floors = places.map(f64::floor);
+    let shares: Each<f32> = from_fn(|lane| (places[lane] - floors[lane]) as f32);
+    Around { first: floors.map(|floor| floor as i64 - BEFORE), weights: weights(shares) }
 }
 
-/// The sum over the samples and the points.
+/// The points around places on rings.
+///
+/// * `rings` – extent [m] and number of points of each
 #[inline(always)]
-fn total<S: Register>(sums: Sums<S>, of_z: [f32; NEEDED]) -> [f64; 3] {
-    let all = sums[0].add(sums[1]).add(sums[2].add(sums[3])).store();
-    [0, 1, 2].map(|i| {
-        let parts = [0, 1, 2, 3].map(|point| of_z[point] * all[3 * point + i]);
-        f64::from((parts[0] + parts[1]) + (parts[2] + parts[3]))
-    })
+fn around_ring(at: &Lanes, rings: Each<(f64, usize)>) -> Around {
+    let turns: Each<f64> = from_fn(|lane| at.0[lane] / rings[lane].0);
+    let places = from_fn(|lane| (turns[lane] - turns[lane].floor()) * rings[lane].1 as f64);
+    let Around { first, weights } = around(places);
+    // Rounding may put a place on the point after the last, which is the first.
+    let first = from_fn(|lane| {
+        let points = rings[lane].1 as i64;
+        let first = if first[lane] < 0 { first[lane] + points } else { first[lane] };
+        if first >= points { first - points } else { first }
+    });
+    Around { first, weights }
 }

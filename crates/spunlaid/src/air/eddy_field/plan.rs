@@ -18,7 +18,7 @@ pub(super) struct Plan {
     /// Time after which the harmonics repeat with the opposite sign [s].
     pub(super) repeat_time: f64,
     pub(super) generations: Vec<Generation>,
-    /// Correlation of each generation with the next, of each component.
+    /// Correlation of each generation with the next, of each component; one where there is none.
     pub(super) correlations: Vec<[f64; 3]>,
     /// Angle by which the phase of a mode turns from one generation to the next, to either side.      theory.md (84)
     pub(super) turn: f64,
@@ -60,8 +60,10 @@ impl Plan {
         // The interpolated pattern remembers longer than the walk by 1 + 0.34 Δ; longer steps make up for it.
         let ageing = way.ageing * (1.0 + way.ageing / 3.0 + 0.18 * way.ageing * way.ageing);
         let walk = if way.is_carried() { libm::exp(-ageing) } else { 0.0 };
-        let correlations =
-            shapes.windows(2).map(|pair| pair[0].overlap(&pair[1]).map(|part| part * walk)).collect();
+        let next = |j: usize| shapes.get(j + 1).filter(|_| way.is_carried());
+        let correlation =
+            |j: usize| next(j).map_or([1.0; 3], |next| shapes[j].overlap(next).map(|part| part * walk));
+        let correlations = (0..shapes.len()).map(correlation).collect();
         let generations = shapes.into_iter().map(Shape::into_generation).collect();
         Self { way, lattice, repeat_time, generations, correlations, turn: libm::acos(walk) }
     }

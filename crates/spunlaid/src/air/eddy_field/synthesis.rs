@@ -36,6 +36,8 @@ pub(super) struct Synthesis {
     along_z: Transform,
     /// Of each generation.
     along_label: Vec<Transform>,
+    /// Of each sample of each generation: half a turn more in the whole time makes the frequencies half-odd.
+    half_turns: Vec<Vec<[f32; 2]>>,
     /// `e^(2πi p/PHASES)`
     phases: Vec<[f32; 2]>,
     /// Turns by a whole number of steps of the walk, from `−J` to `J`.
@@ -51,6 +53,7 @@ impl Synthesis {
             along_y: Transform::new(y),
             along_z: Transform::new(z),
             along_label: plan.generations.iter().map(|shape| Transform::new(shape.samples)).collect(),
+            half_turns: plan.generations.iter().map(|shape| half_turns(shape.samples)).collect(),
             phases: (0..PHASES).map(|p| root(p as f64 / PHASES as f64)).collect(),
             turns: (-steps..=steps).map(|step| root(plan.turn / TAU * step as f64)).collect(),
         }
@@ -146,8 +149,6 @@ impl Synthesis {
     /// The samples along the label of one line of points.
     fn line(&self, plan: &Plan, generation: usize, planes: &[[Complexes; 3]], y: usize) -> Line {
         let (points_z, samples) = (plan.lattice.points[1], plan.generations[generation].samples);
-        // Half-odd frequencies: half a turn more in the whole time.
-        let half_turn: Vec<[f32; 2]> = (0..samples).map(|m| root(0.5 * m as f64 / samples as f64)).collect();
         let mut windows = [0, 1].map(|_| vec![0.0; 3 * samples * points_z]);
         let (mut numbers, mut scratch) = (vec![Numbers::ZERO; samples], vec![Numbers::ZERO; samples]);
         for component in 0..3 {
@@ -161,7 +162,7 @@ impl Synthesis {
                     number.im[..count].copy_from_slice(&im[start..][..count]);
                 }
                 self.along_label[generation].pass(self.isa, &mut numbers, &mut scratch);
-                for (m, (number, turn)) in numbers.iter().zip(&half_turn).enumerate() {
+                for (m, (number, turn)) in numbers.iter().zip(&self.half_turns[generation]).enumerate() {
                     let number = number.times(*turn);
                     let start = (component * samples + m) * points_z + first;
                     windows[0][start..][..count].copy_from_slice(&number.re[..count]);
@@ -182,6 +183,10 @@ fn load([re, im]: &Complexes, rows: usize, columns: usize, first: usize, count: 
         numbers
     };
     (0..rows).map(row).collect()
+}
+
+fn half_turns(samples: usize) -> Vec<[f32; 2]> {
+    (0..samples).map(|m| root(0.5 * m as f64 / samples as f64)).collect()
 }
 
 /// Where a transform of so many points has a number of waves.

@@ -120,10 +120,10 @@ impl Tape {
 
     /// The block in which all samples around a place lie.
     ///
-    /// * `sample` – the one before the place
+    /// * `first` – the first of them
     #[inline(always)]
-    pub(super) fn around(&self, sample: i64) -> Option<&Block> {
-        let last = sample + NEEDED as i64 - 1 - BEFORE;
+    pub(super) fn around(&self, first: i64) -> Option<&Block> {
+        let last = first + NEEDED as i64 - 1;
         self.blocks.iter().find(|(end, _)| last < *end).map(|(_, block)| &**block)
     }
 }

@@ -2,7 +2,8 @@
 
 use super::{EddyField, Extent};
 use crate::air::{Air, EddyModel, SpectrumShape, StreamKey};
-use crate::lanes::{Isa, Plain, Register, Task};
+use crate::lanes::{Isa, Plain, Register, Task, WIDTH};
+use crate::vec3::Vec3;
 use std::f64::consts::TAU;
 
 const SPEED: f64 = 25.0;
@@ -22,7 +23,14 @@ fn frozen(spectrum: SpectrumShape, cutoff_frequency: f64) -> EddyField {
 }
 
 fn at(field: &EddyField, time: f64, place: [f64; 3]) -> [f64; 3] {
-    field.fluctuation::<Plain>(time, place)
+    look::<Plain>(field, time, place)
+}
+
+#[inline(always)]
+fn look<S: Register>(field: &EddyField, time: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let Vec3 { x, y, z } =
+        EddyField::fluctuations::<S>([field; WIDTH], time, &Vec3::splat(Vec3::new(x, y, z)));
+    [x.0[5], y.0[5], z.0[5]]
 }
 
 /// Places and times that fill a block evenly: number `i` of them.
@@ -279,7 +287,7 @@ fn invariant_the_variance_is_one_at_every_phase_of_the_interpolation() {
     let [step_y, step_z] =
         [EXTENT.y / field.plan.lattice.points[0] as f64, EXTENT.z / field.plan.lattice.points[1] as f64];
     let mut sums = [[0.0; 8]; 3];
-    for number in 0..6 {
+    for number in 0..4 {
         let from = f64::from(number) * block;
         field.make(from..from + block, 2);
         for i in 0..60_000 {
@@ -292,7 +300,7 @@ fn invariant_the_variance_is_one_at_every_phase_of_the_interpolation() {
                 ((z / step_z).floor() + half(2)) * step_z,
             ];
             let value = at(&field, time, place);
-            (0..3).for_each(|k| sums[k][phase] += value[k] * value[k] / 45_000.0);
+            (0..3).for_each(|k| sums[k][phase] += value[k] * value[k] / 30_000.0);
         }
     }
     for (k, of) in sums.iter().enumerate() {
@@ -354,7 +362,7 @@ impl Task for Looks<'_> {
         (0..500)
             .map(|i| {
                 let (time, place) = spread(i, 3.0 * block, block, 0.5);
-                self.0.fluctuation::<S>(time, place)
+                look::<S>(self.0, time, place)
             })
             .collect()
     }
@@ -373,9 +381,7 @@ fn reproducible_a_field_has_the_same_bits_however_it_is_made_and_looked_at() {
     let new = |key| EddyField::new(&air(5e-3, SpectrumShape::Flat, CUTOFF), 0.5, EXTENT, 6.0, key);
     let expected = Isa::Baseline.run(Looks(&made(new(KEY), 1, &[0.0, 4.0])));
     for isa in Isa::available() {
-        for (threads, steps) in
-            [(2, &[3.0, 4.0][..]), (1, &[0.0, 1.0, 2.5, 4.0]), (3, &[0.0, 40.0]), (2, &[3.0, 90.0])]
-        {
+        for (threads, steps) in [(2, &[3.0, 4.0][..]), (3, &[0.0, 1.0, 2.5, 4.0])] {
             // The same key again after another one.
             let field = new(StreamKey { seed: 2, replicate: 1 }).with_key(KEY);
             let field = made(field, threads, steps);

@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 /// A type of number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Number {
+pub(super) enum NumberType {
     I8,
     U8,
     I16,
@@ -20,7 +20,7 @@ pub(super) enum Number {
     F64,
 }
 
-impl Number {
+impl NumberType {
     /// The type with this name in VTK's XML files.
     pub(super) fn of_xml(name: &str) -> Option<Self> {
         Some(match name {
@@ -84,7 +84,7 @@ pub(super) enum Source<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct Array<'a> {
     pub(super) name: String,
-    pub(super) number: Number,
+    pub(super) number: NumberType,
     /// Numbers for each point or cell.
     pub(super) components: usize,
     pub(super) source: Source<'a>,
@@ -171,13 +171,13 @@ impl Array<'_> {
             }
             let bits = u64::from_le_bytes(bits);
             match self.number {
-                Number::F32 => T::of_float(f32::from_bits(bits as u32).into()),
-                Number::F64 => T::of_float(f64::from_bits(bits)),
-                Number::I8 => T::of_signed((bits as i8).into()),
-                Number::I16 => T::of_signed((bits as i16).into()),
-                Number::I32 => T::of_signed((bits as i32).into()),
-                Number::I64 => T::of_signed(bits as i64),
-                Number::U8 | Number::U16 | Number::U32 | Number::U64 => T::of_unsigned(bits),
+                NumberType::F32 => T::of_float(f32::from_bits(bits as u32).into()),
+                NumberType::F64 => T::of_float(f64::from_bits(bits)),
+                NumberType::I8 => T::of_signed((bits as i8).into()),
+                NumberType::I16 => T::of_signed((bits as i16).into()),
+                NumberType::I32 => T::of_signed((bits as i32).into()),
+                NumberType::I64 => T::of_signed(bits as i64),
+                NumberType::U8 | NumberType::U16 | NumberType::U32 | NumberType::U64 => T::of_unsigned(bits),
             }
         };
         Ok(bytes.chunks_exact(size).map(number).collect())

@@ -1,6 +1,6 @@
 //! VTK's legacy files, as text or in big-endian binary.
 
-use super::array::{Array, Number, Source};
+use super::array::{Array, NumberType, Source};
 use super::encoding::Budget;
 use super::grid::{Grid, counted, vectors};
 use super::piece::{Assembly, Piece};
@@ -132,7 +132,7 @@ impl<'a> Scanner<'a> {
             // The first number is where the first cell begins.
             listed.ends = listed.ends.into_iter().skip(1).collect();
         } else {
-            let array = self.array("CELLS".to_owned(), Number::I32, 1, size)?;
+            let array = self.array("CELLS".to_owned(), NumberType::I32, 1, size)?;
             let entries = array.all(budget)?;
             let mut rest = entries.as_slice();
             while let Some((&length, after)) = rest.split_first() {
@@ -145,7 +145,7 @@ impl<'a> Scanner<'a> {
         }
         self.next_keyword("CELL_TYPES")?;
         let count: usize = self.parse("a number of cells")?;
-        listed.types = self.array("CELL_TYPES".to_owned(), Number::I32, 1, count)?.all(budget)?;
+        listed.types = self.array("CELL_TYPES".to_owned(), NumberType::I32, 1, count)?.all(budget)?;
         Ok(listed)
     }
 
@@ -204,12 +204,12 @@ impl<'a> Scanner<'a> {
             // Colours: bytes in binary files, text otherwise.
             "COLOR_SCALARS" => {
                 let components = self.parse("a number of components")?;
-                self.array(name, Number::U8, components, count)?;
+                self.array(name, NumberType::U8, components, count)?;
                 Ok(Vec::new())
             }
             "LOOKUP_TABLE" => {
                 let size = self.parse("a number of colours")?;
-                self.array(name, Number::U8, 4, size)?;
+                self.array(name, NumberType::U8, 4, size)?;
                 Ok(Vec::new())
             }
             other => Err(wrong(other, "SCALARS, VECTORS or FIELD")),
@@ -236,7 +236,8 @@ impl<'a> Scanner<'a> {
                     }
                 }
                 word => {
-                    let number = Number::of_legacy(word).ok_or_else(|| wrong(word, "a type of number"))?;
+                    let number =
+                        NumberType::of_legacy(word).ok_or_else(|| wrong(word, "a type of number"))?;
                     arrays.push(self.array(name, number, components, tuples)?);
                 }
             }
@@ -254,7 +255,7 @@ impl<'a> Scanner<'a> {
     fn array(
         &mut self,
         name: String,
-        number: Number,
+        number: NumberType,
         components: usize,
         count: usize,
     ) -> Result<Array<'a>, FileError> {
@@ -290,9 +291,9 @@ impl<'a> Scanner<'a> {
         Ok([one()?, one()?, one()?])
     }
 
-    fn number(&mut self) -> Result<Number, FileError> {
+    fn number(&mut self) -> Result<NumberType, FileError> {
         let word = self.word()?;
-        Number::of_legacy(word).ok_or_else(|| wrong(word, "a type of number"))
+        NumberType::of_legacy(word).ok_or_else(|| wrong(word, "a type of number"))
     }
 
     fn parse<T: std::str::FromStr>(&mut self, wanted: &'static str) -> Result<T, FileError> {

@@ -1,6 +1,6 @@
 //! Tables of points, one row for each point.
 
-use super::array::{Array, Number, Source};
+use super::array::{Array, NumberType, Source};
 use super::grid::Grid;
 use super::names::{self, Measure, Name, ScaledColumn};
 use super::piece::{Assembly, Piece, lacks};
@@ -96,7 +96,7 @@ fn piece<'a>(
     let values = used.iter().zip(columns).filter(|(used, _)| is_value(**used));
     let arrays = values.map(|(used, numbers)| Array {
         name: names[*used].written.clone(),
-        number: Number::F64,
+        number: NumberType::F64,
         components: 1,
         source: Source::Numbers(numbers),
         place: Position::Whole,

@@ -2,7 +2,7 @@
 //!
 //! Such a file is a small XML tree, often followed by appended bytes. Arrays are decoded only when they are needed.
 
-use super::array::{Array, Number, Source};
+use super::array::{Array, NumberType, Source};
 use super::encoding::{Budget, Compressor, Packing};
 use super::grid::{Grid, counted, vectors};
 use super::piece::{Assembly, Piece};
@@ -250,7 +250,7 @@ impl<'a> File<'a> {
     fn array(&self, node: Node<'a, '_>) -> Result<Array<'a>, FileError> {
         let name = node.attribute("Name").unwrap_or_default().to_owned();
         let written = node.attribute("type").unwrap_or_default();
-        let Some(number_type) = Number::of_xml(written) else {
+        let Some(number_type) = NumberType::of_xml(written) else {
             let fault = fault::syntax(written, "a type of number");
             return Err(FileError::from(fault).array(&name));
         };

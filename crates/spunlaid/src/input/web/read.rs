@@ -57,7 +57,9 @@ pub(super) fn spec(
     reading.note(unusual.clone());
     let Reading { mut written, notes, .. } = reading;
     if written.problems.is_empty() {
-        web.check_air().map_err(|problem| Error::from(vec![written.placed(problem)]))?;
+        if let Some(problem) = web.air_beyond_memory() {
+            return Err(vec![written.placed(problem)].into());
+        }
         return Ok((web, sorted(notes)));
     }
     // Unusual values may be why the web cannot be laid.

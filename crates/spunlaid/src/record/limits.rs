@@ -1,0 +1,20 @@
+//! What a record must have, whichever way it comes.
+
+use crate::error::Fault;
+use crate::units::shortest;
+
+/// Least number of samples.
+pub(super) const LEAST_SAMPLES: usize = 64;
+
+/// The fault of a record that has too few samples.
+pub(super) fn too_few_samples(found: usize, least: usize) -> Fault {
+    Fault::new(
+        format!("has {found} samples"),
+        format!("at least {least} are needed for statistics of turbulence"),
+    )
+}
+
+/// The fault of a sampling rate [Hz] that is not above zero.
+pub(super) fn rate_fault(rate: f64) -> Fault {
+    Fault::new(format!("the sampling rate cannot be {} Hz", shortest(rate)), "give a rate above zero")
+}

@@ -1,0 +1,64 @@
+//! The part of a picture that is not web.
+
+use super::picture::Picture;
+use super::spots::{Spots, region};
+use crate::statistics::median;
+
+/// The parts of a picture that are not web.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Aside {
+    /// Area beside the rectangle that was cut out, because the bare lamp is seen there [m²].
+    pub cut_off: f64,
+    /// First column and row of the rectangle [pixels].
+    pub corner: [usize; 2],
+    /// Median grey level of the bare lamp, over its picture if there is one; none if it is not seen.
+    pub bare: Option<f64>,
+    /// Dark spots on the web, the largest first. They count for no patch, and are filled in along their row in the map.
+    pub spots: Vec<Spot>,
+    /// Their area [m²].
+    pub masked: f64,
+    /// Their pixels, row by row of the web; empty without any.
+    pub mask: Vec<bool>,
+}
+
+/// A dark spot on the web.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// Area [m²].
+    pub area: f64,
+    /// Its middle, from the left and the upper edge of the picture [m].
+    pub place: [f64; 2],
+}
+
+impl Aside {
+    pub(super) fn new(picture: &Picture, lamp: Option<&Picture>, found: &Spots) -> Self {
+        let (pixel, area) = (picture.pixel, picture.pixel * picture.pixel);
+        let ([left, top], [columns, rows]) = (found.web.corner, found.web.sides);
+        let masked = &found.dark;
+        let level = |at: usize| picture.values[at] / lamp.map_or(1.0, |lamp| lamp.values[at]);
+        let bare = (0..found.bare.len()).filter(|at| found.bare[*at]).map(level);
+        let mut visited = vec![false; masked.len()];
+        let mut spots = Vec::new();
+        for first in 0..masked.len() {
+            if masked[first] && !visited[first] {
+                let region = region(&mut visited, found.web.sides, first, |at| masked[at]);
+                let count = region.len() as f64;
+                let mean = |place: &dyn Fn(usize) -> usize| {
+                    (region.iter().map(|at| place(*at) as f64).sum::<f64>() / count + 0.5) * pixel
+                };
+                let place = [mean(&|at| left + at % columns), mean(&|at| top + at / columns)];
+                spots.push(Spot { area: count * area, place });
+            }
+        }
+        spots.sort_by(|a, b| b.area.total_cmp(&a.area));
+        let pixels = masked.iter().filter(|is| **is).count();
+        Self {
+            cut_off: (picture.values.len() - columns * rows) as f64 * area,
+            corner: found.web.corner,
+            bare: (!found.bare.is_empty()).then(|| median(&bare.collect::<Vec<_>>())),
+            spots,
+            masked: pixels as f64 * area,
+            mask: masked.clone(),
+        }
+    }
+}

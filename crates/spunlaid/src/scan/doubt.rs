@@ -1,0 +1,27 @@
+//! Why a number of the web has no interval.
+
+use std::fmt;
+
+/// Why the true CV over patches of a size cannot be known from a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Doubt {
+    /// The level of the lamp without web is a guess: all CVs may be wrong by the same factor.
+    White,
+    /// The shading of the lamp is a guess: a polynomial took it out, with what the web varies as smoothly.
+    Shading,
+    /// The blur of the camera has lowered the CV.
+    Blur,
+    /// The sheet holds too few such patches.
+    Few,
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::White => "the level of the lamp is a guess",
+            Self::Shading => "the shading of the lamp is a guess",
+            Self::Blur => "below the blur of the scan",
+            Self::Few => "the sheet holds too few such patches",
+        })
+    }
+}
