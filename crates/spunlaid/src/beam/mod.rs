@@ -106,7 +106,8 @@ impl Beam<'_> {
     /// * `window` – of the sheet, whose single fibres are kept
     ///
     /// # Errors
-    /// As of [`Beam::fly`], and if a cell would hold more fibre than can be counted.
+    /// A filament that is not fed, one whose flight cannot be made, too many lost ones, an interruption, and a cell that would hold
+    /// more fibre than can be counted.
     pub fn lay(&self, sheet: &Sheet, window: Window, by: Flying<'_>) -> Result<(LaidWeb, Flown), Error> {
         let element = self.element_mass();
         let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
