@@ -233,8 +233,8 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
         assert!(one == other, "{file}");
     }
     desk::success(
-        &mut desk
-            .spunlaid("web web.toml --set web.method=dynamics --set web.length=\"0.2 m\" --out d --quiet"),
+        desk.spunlaid("web web.toml --set web.method=dynamics --out d --quiet")
+            .args(["--set", "web.length=0.2 m"]),
     );
     let page = String::from_utf8(desk.read("d/report.html")).unwrap();
     assert!(page.contains("lower bound") && page.contains("shared-air"), "nothing of a lower bound");
