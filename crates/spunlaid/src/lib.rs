@@ -75,6 +75,8 @@ pub mod field;
 pub mod air;
 pub mod drag;
 
+pub mod spinline;
+
 pub mod chain;
 
 pub mod energy;

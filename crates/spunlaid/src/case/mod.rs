@@ -24,6 +24,7 @@ use crate::drag::Drag;
 use crate::fibre::Fibre;
 use crate::field::Hint;
 use crate::line::Line;
+use crate::spinline::Spinline;
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 
@@ -39,6 +40,8 @@ pub struct Case {
     /// Feed and belt of a fed fibre; `None` for a fibre of fixed length. The length of a fed fibre stands for the
     /// distance to the belt.
     pub line: Option<Line>,
+    /// The spinline that gives diameter, density and feed speed; `None` where the case gives them itself.
+    pub spinline: Option<Spinline>,
     /// Fibres that fly beside each replicate in the same air.
     pub neighbours: Neighbours,
     /// Time, integration and ensemble.

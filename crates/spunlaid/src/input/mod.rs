@@ -11,6 +11,7 @@ mod file;
 mod open;
 mod overrides;
 mod source;
+mod spinline;
 mod study;
 mod values;
 mod web;
@@ -23,6 +24,7 @@ pub use study::{
     read_changed_study, read_study,
 };
 pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};
+pub use spinline::{Change, Influence, SpinFile, parse_spinline, read_spinline, write_spinline};
 pub use write::write_case;
 
 use crate::case::{Case, Note, keys};

@@ -201,6 +201,7 @@ fn blank() -> Case {
         air: Air::uniform(nan, nan, nan, nan),
         drag: Drag { along: FrictionLaw::ALL[0], across: NormalLaw::ALL[0] },
         line: None,
+        spinline: None,
         neighbours: Neighbours::default(),
         run: Run {
             time_step: nan,

@@ -1,0 +1,158 @@
+//! The spinline: from the hole of the spinneret to the solid filament.
+//!
+//! What a process engineer knows, [`Spinline`], gives what a fibre in flight has to know: its diameter, its speed and roughly its
+//! modulus. One filament in steady state, with values averaged over its cross-section.               theory.md (84) to (99)
+//!
+//! ```text
+//! Spinline (what is known) → Thread (balances at a place) → shot (one tension at the die) → shooting (the tension that meets the
+//!   end) → Solution; curtain: row after row, each in the air that the one before has warmed and dragged
+//! ```
+
+mod material;
+mod solution;
+mod surroundings;
+
+pub use material::{Crystals, Material, Polymer};
+pub(crate) use material::ZERO_CELSIUS;
+pub use solution::{Freezing, FreezingCause, Solution, Station};
+pub use surroundings::{AirState, AirTable, Surroundings};
+
+use crate::air::FromFile;
+use crate::drag::FrictionLaw;
+use crate::error::Fault;
+
+/// What is known of a spinline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spinline {
+    /// The polymer whose constants stand in `material`, unless a case gives them.
+    pub polymer: PolymerSource,
+    /// The constants of the polymer.
+    pub material: Material,
+    /// Viscosity of the melt.
+    pub melt: Melt,
+    /// Temperature of the melt in the hole [K].
+    pub die_temperature: f64,
+    /// Diameter of the hole [m].
+    pub hole_diameter: f64,
+    /// Diameter of the thread at the die over that of the hole [-].
+    pub die_swell: f64,
+    /// Mass flow of a hole `W` [kg/s].
+    pub throughput: f64,
+    /// Length of the line, from the die to the end [m].
+    pub length: f64,
+    /// The air along the line.
+    pub air: Surroundings,
+    /// What is known at the end of the line.
+    pub end: End,
+    /// How the melt resists stretching.
+    pub law: Law,
+    /// Whether the polymer crystallises on its way.
+    pub crystallisation: bool,
+    /// Emissivity of the thread `ε` [-]; zero leaves radiation out.
+    pub emissivity: f64,
+    /// Whether the work of stretching heats the thread.
+    pub dissipation: bool,
+    /// Factor on the Nusselt number [-].
+    pub nusselt_factor: f64,
+    /// Stress at which the thread breaks [Pa]; infinite if it is not known.
+    pub break_stress: f64,
+    /// The rows of holes, if they share the air that crosses them.
+    pub curtain: Option<Curtain>,
+}
+
+/// Where the constants of a polymer come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PolymerSource {
+    /// A polymer whose constants the program has.
+    Known(Polymer),
+    /// A file.
+    File(FromFile<Material>),
+}
+
+/// What gives the viscosity of the melt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Melt {
+    /// The constant of the material.
+    Viscosity,
+    /// The melt flow rate [g/10 min].
+    FlowRate(f64),
+}
+
+/// What is known at the end of the line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// The tension [N]; zero for a free end.
+    Tension(f64),
+    /// The speed of a godet [m/s].
+    TakeUp(f64),
+}
+
+/// How the melt resists stretching.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Law {
+    /// `N_1 = 3ηv'`.
+    Newtonian,
+    /// Giesekus, one mode.
+    Giesekus,
+    /// Phan-Thien–Tanner, linear.
+    Ptt,
+    /// Phan-Thien–Tanner, exponential.
+    PttExponential,
+}
+
+/// The rows of holes that one stream of air crosses, the quenched side first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curtain {
+    /// Number of rows.
+    pub rows: u64,
+    /// Filaments per width in each row [1/m].
+    pub filaments_per_metre: f64,
+}
+
+impl Law {
+    /// Every law.
+    pub const ALL: [Self; 4] = [Self::Newtonian, Self::Giesekus, Self::Ptt, Self::PttExponential];
+
+    /// Name in the case file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Newtonian => "newtonian",
+            Self::Giesekus => "giesekus",
+            Self::Ptt => "ptt",
+            Self::PttExponential => "ptt-exponential",
+        }
+    }
+}
+
+impl Spinline {
+    /// The steady state, one filament alone in the air.
+    ///
+    /// * `friction` – law of the friction between thread and air
+    ///
+    /// # Errors
+    /// If there is none that a line could run in, with the reason and what to do.
+    pub fn solve(&self, friction: FrictionLaw) -> Result<Solution, Failure> {
+        let _ = friction;
+        todo!()
+    }
+
+    /// The steady state of each row of the curtain, the quenched side first: each in the air that the row before has warmed and
+    /// dragged. One row, if there is no curtain.
+    ///
+    /// # Errors
+    /// As [`Spinline::solve`].
+    pub fn solve_rows(&self, friction: FrictionLaw) -> Result<Vec<Solution>, Failure> {
+        Ok(vec![self.solve(friction)?])
+    }
+}
+
+/// Why a spinline cannot be solved: the key to blame, and what to do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// Full name of the key, `spinline.throughput`.
+    pub key: &'static str,
+    /// Its value in SI units, if it is a number.
+    pub value: Option<f64>,
+    /// What is wrong.
+    pub fault: Fault,
+}

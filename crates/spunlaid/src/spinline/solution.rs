@@ -1,0 +1,115 @@
+//! What a solved spinline says.
+
+/// A solved spinline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// The thread from the die to the end, at rising distances: evenly spaced, and the freezing point.
+    pub stations: Vec<Station>,
+    /// Speed of the hole's melt `v_0` at the die [m/s].
+    pub die_speed: f64,
+    /// Speed at the end [m/s].
+    pub final_speed: f64,
+    /// Diameter of the cold filament [m].
+    pub final_diameter: f64,
+    /// Mass per length of the cold filament [kg/m].
+    pub linear_density: f64,
+    /// Where the thread becomes solid.
+    pub freezing: Freezing,
+    /// Tension at the die `F_0` [N].
+    pub force_at_die: f64,
+    /// Tension at the end [N].
+    pub force_at_end: f64,
+    /// Largest strain rate `v'` [1/s].
+    pub largest_strain_rate: f64,
+    /// Its distance from the die [m].
+    pub largest_strain_rate_at: f64,
+    /// Birefringence `Δn` of the solid filament by the stress-optical law [-].
+    pub birefringence: f64,
+    /// Young's modulus to expect [Pa]; it can be wrong by a factor of two.
+    pub modulus_estimate: f64,
+    /// By how much the balance of momentum over the whole line fails, over the largest tension [-].
+    pub momentum_residual: f64,
+    /// By how much the balance of energy over the whole line fails, over the heat given to the air [-].
+    pub energy_residual: f64,
+    /// Whether a second steady state was found, with a larger force at the die.
+    pub has_second: bool,
+}
+
+/// The thread at a distance from the die.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Station {
+    /// Distance from the die `z` [m].
+    pub distance: f64,
+    /// Speed of the thread `v` [m/s].
+    pub speed: f64,
+    /// Its diameter `d` [m].
+    pub diameter: f64,
+    /// Its temperature `T` [K].
+    pub temperature: f64,
+    /// Its total tension `F` [N].
+    pub tension: f64,
+    /// Stress `N_1 = τ_zz − τ_rr` [Pa].
+    pub stress: f64,
+    /// Transformed share `θ` [-].
+    pub transformed: f64,
+    /// Strain rate `v'` [1/s].
+    pub strain_rate: f64,
+    /// Velocity of the air along the thread `u` [m/s].
+    pub air_velocity: f64,
+    /// Velocity of the air across the thread `v_c` [m/s].
+    pub air_cross_velocity: f64,
+    /// Temperature of the air `T_a` [K].
+    pub air_temperature: f64,
+    /// Heat that the air takes from the thread [W/m].
+    pub heat: f64,
+    /// Friction of the air on the thread `f_t`, downwards [N/m].
+    pub friction: f64,
+}
+
+/// The point at which the thread becomes solid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Freezing {
+    /// Distance from the die [m].
+    pub distance: f64,
+    /// Temperature [K].
+    pub temperature: f64,
+    /// Diameter there [m].
+    pub diameter: f64,
+    /// Stress there [Pa].
+    pub stress: f64,
+    /// How fast the thread cools there [K/s].
+    pub cooling_rate: f64,
+    /// What makes it solid.
+    pub by: FreezingCause,
+}
+
+/// What makes the thread solid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FreezingCause {
+    /// It is as cold as the freezing temperature.
+    Temperature,
+    /// Enough of it has crystallised.
+    Crystallisation,
+}
+
+impl FreezingCause {
+    /// Its name in results.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Temperature => "temperature",
+            Self::Crystallisation => "crystallisation",
+        }
+    }
+}
+
+impl Solution {
+    /// The final speed over the speed at the die [-].
+    pub fn draw_ratio(&self) -> f64 {
+        self.final_speed / self.die_speed
+    }
+
+    /// The thread at the end of the line.
+    pub fn end(&self) -> Station {
+        self.stations.last().copied().unwrap_or_default()
+    }
+}
