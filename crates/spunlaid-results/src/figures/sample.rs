@@ -27,6 +27,7 @@ pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         line: None,
+        spinline: None,
         neighbours: Neighbours::default(),
         run: Run {
             time_step: 1e-3,

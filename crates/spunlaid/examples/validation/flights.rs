@@ -35,6 +35,7 @@ fn case(h: f64, replicates: u64) -> Case {
         air: table1_air(),
         drag: paper_drag(),
         line: None,
+        spinline: None,
         neighbours: Neighbours::default(),
         run,
     }

@@ -8,12 +8,20 @@
 //!   end) → Solution; curtain: row after row, each in the air that the one before has warmed and dragged
 //! ```
 
+mod curtain;
+mod integration;
 mod material;
+mod shooting;
+mod shot;
 mod solution;
+mod steady;
 mod surroundings;
+#[cfg(test)]
+mod tests;
+mod thread;
 
-pub use material::{Crystals, Material, Polymer};
 pub(crate) use material::ZERO_CELSIUS;
+pub use material::{Crystals, Material, Polymer};
 pub use solution::{Freezing, FreezingCause, Solution, Station};
 pub use surroundings::{AirState, AirTable, Surroundings};
 
@@ -132,8 +140,7 @@ impl Spinline {
     /// # Errors
     /// If there is none that a line could run in, with the reason and what to do.
     pub fn solve(&self, friction: FrictionLaw) -> Result<Solution, Failure> {
-        let _ = friction;
-        todo!()
+        steady::solve(self, friction, &self.air)
     }
 
     /// The steady state of each row of the curtain, the quenched side first: each in the air that the row before has warmed and
@@ -142,7 +149,7 @@ impl Spinline {
     /// # Errors
     /// As [`Spinline::solve`].
     pub fn solve_rows(&self, friction: FrictionLaw) -> Result<Vec<Solution>, Failure> {
-        Ok(vec![self.solve(friction)?])
+        curtain::solve(self, friction)
     }
 }
 
@@ -155,4 +162,10 @@ pub struct Failure {
     pub value: Option<f64>,
     /// What is wrong.
     pub fault: Fault,
+}
+
+impl Failure {
+    fn new(key: &'static str, value: Option<f64>, fault: Fault) -> Self {
+        Self { key, value, fault }
+    }
 }

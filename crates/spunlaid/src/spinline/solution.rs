@@ -60,8 +60,8 @@ pub struct Station {
     pub air_cross_velocity: f64,
     /// Temperature of the air `T_a` [K].
     pub air_temperature: f64,
-    /// Heat that the air takes from the thread [W/m].
-    pub heat: f64,
+    /// Heat that goes into the air by convection [W/m].
+    pub convection: f64,
     /// Friction of the air on the thread `f_t`, downwards [N/m].
     pub friction: f64,
 }

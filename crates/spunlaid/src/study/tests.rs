@@ -23,6 +23,7 @@ pub(crate) fn table1() -> Case {
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         line: None,
+        spinline: None,
         neighbours: Neighbours::default(),
         run: Run {
             time_step: 2e-5,

@@ -122,6 +122,7 @@ impl Thread {
             air,
             drag: super::paper_drag(),
             line: Some(line),
+            spinline: None,
             neighbours: Neighbours::default(),
             run,
         };

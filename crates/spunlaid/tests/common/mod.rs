@@ -67,6 +67,7 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
         air: table1_air(),
         drag: paper_drag(),
         line: None,
+        spinline: None,
         neighbours: Neighbours::default(),
         run,
     }

@@ -85,6 +85,7 @@ fn table_1_is_read_in_si_units() {
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         line: None,
+        spinline: None,
         neighbours: Neighbours::default(),
         run: Run {
             time_step: 1e-6,

@@ -128,6 +128,7 @@ fn table1(scheme: Scheme) -> Case {
         air: table1_air(),
         drag: paper_drag(),
         line: None,
+        spinline: None,
         neighbours: Neighbours::default(),
         run,
     }

@@ -1,0 +1,38 @@
+//! Rows of filaments that one stream of air crosses: each row meets the air that the one before has warmed and dragged.
+
+use super::{AirTable, Curtain, Failure, Solution, Spinline, Surroundings, steady};
+use crate::air::density_at;
+use crate::drag::FrictionLaw;
+
+/// Heat capacity of air `c_pa` [J/(kg K)].
+const HEAT_CAPACITY_OF_AIR: f64 = 1006.0;
+
+/// The steady state of each row, the quenched side first.
+pub(super) fn solve(line: &Spinline, friction: FrictionLaw) -> Result<Vec<Solution>, Failure> {
+    let first = steady::solve(line, friction, &line.air)?;
+    let Some(curtain) = line.curtain else { return Ok(vec![first]) };
+    let mut rows = vec![first];
+    for _ in 1..curtain.rows {
+        let Some(before) = rows.last() else { break };
+        let air = Surroundings::Computed(behind(before, curtain));
+        rows.push(steady::solve(line, friction, &air)?);
+    }
+    Ok(rows)
+}
+
+/// The air behind a row of filaments.                                                               theory.md (99)
+///
+/// `T_a + m q/(ρ_a v_c c_pa)` and `u − m f_t/(ρ_a v_c)`; where no air crosses the row it stays as it is. Radiation does not warm
+/// the air.
+fn behind(row: &Solution, curtain: Curtain) -> AirTable {
+    let mut air = AirTable::default();
+    for station in &row.stations {
+        let crossing = density_at(station.air_temperature) * station.air_cross_velocity;
+        let share = if crossing > 0.0 { curtain.filaments_per_metre / crossing } else { 0.0 };
+        air.distance.push(station.distance);
+        air.velocity.push(station.air_velocity - share * station.friction);
+        air.cross_velocity.push(station.air_cross_velocity);
+        air.temperature.push(station.air_temperature + share * station.convection / HEAT_CAPACITY_OF_AIR);
+    }
+    air
+}

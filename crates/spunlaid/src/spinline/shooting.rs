@@ -1,0 +1,150 @@
+//! Finds the tension at the die with which the thread meets what is known at the end of the line.
+
+use super::shot::{Outcome, Shot, shoot};
+use super::thread::{LN_SPEED, TENSION, Thread};
+use super::End;
+
+/// The tensions between which the one at the die is sought [N].
+const TENSIONS: [f64; 2] = [1e-8, 1e3];
+/// From one tension to the next, `ln F_0` rises by this.
+const STRIDE: f64 = 0.4;
+/// How closely `ln F_0` is found.
+const CLOSE: f64 = 1e-12;
+
+/// Why no tension meets the end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Miss {
+    /// The thread is faster, or more tense, at the end than it should be, under the smallest tension too.
+    TooMuch,
+    /// It is slack under every tension.
+    Slack,
+    /// Between a slack thread and one that is too fast, none reaches the end.
+    NoThread,
+    /// The melt is too elastic.
+    ElasticWave,
+}
+
+/// The shot that meets the end.
+pub(super) struct Hit {
+    pub(super) tension: f64,
+    pub(super) shot: Shot,
+    /// Whether a larger tension meets it too.
+    pub(super) has_second: bool,
+}
+
+struct Shooting<'t, 'a> {
+    thread: &'t Thread<'a>,
+}
+
+impl Shooting<'_, '_> {
+    fn shot(&self, x: f64) -> Option<Shot> {
+        Some(shoot(self.thread, self.thread.at_die(libm::exp(x))?))
+    }
+
+    /// By how much the thread misses the end under the tension `exp(x)`: negative if it should be pulled more.
+    fn miss(&self, x: f64) -> (f64, Outcome) {
+        let Some(shot) = self.shot(x) else { return (f64::NEG_INFINITY, Outcome::Slack) };
+        let miss = match (shot.outcome, self.thread.line.end) {
+            (Outcome::Slack, _) => f64::NEG_INFINITY,
+            (Outcome::RunsAway | Outcome::ElasticWave, _) => f64::INFINITY,
+            (Outcome::Complete, End::Tension(tension)) => shot.end[TENSION] - tension,
+            (Outcome::Complete, End::TakeUp(speed)) => shot.end[LN_SPEED] - libm::log(speed),
+        };
+        (miss, shot.outcome)
+    }
+
+    /// The first place above `from` at which the miss changes from negative to positive, as two places and their misses.
+    fn bracket(&self, from: f64, to: f64, stride: f64) -> Option<[(f64, f64); 2]> {
+        let mut before = (from, self.miss(from).0);
+        while before.0 < to {
+            let x = before.0 + stride;
+            let next = (x, self.miss(x).0);
+            if before.1 < 0.0 && next.1 >= 0.0 {
+                return Some([before, next]);
+            }
+            before = next;
+        }
+        None
+    }
+
+    /// Halves the interval until the thread reaches the end from both of its ends.
+    fn narrow(&self, [mut low, mut high]: [(f64, f64); 2]) -> Result<[(f64, f64); 2], Miss> {
+        let mut reason = Miss::NoThread;
+        while !(low.1.is_finite() && high.1.is_finite()) {
+            let x = 0.5 * (low.0 + high.0);
+            if high.0 - low.0 < 1e-13 * x.abs().max(1.0) {
+                return Err(reason);
+            }
+            let (miss, outcome) = self.miss(x);
+            if outcome == Outcome::ElasticWave {
+                reason = Miss::ElasticWave;
+            }
+            *(if miss < 0.0 { &mut low } else { &mut high }) = (x, miss);
+        }
+        Ok([low, high])
+    }
+}
+
+/// Finds the smallest tension at the die that meets the end.
+///
+/// * `looks_on` – whether to look for a second one
+pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
+    let shooting = Shooting { thread };
+    let [least, most] = TENSIONS.map(libm::log);
+    if shooting.miss(least).0 >= 0.0 {
+        return Err(Miss::TooMuch);
+    }
+    let bracket = shooting.bracket(least, most, STRIDE).ok_or(Miss::Slack)?;
+    let x = brent(|x| shooting.miss(x).0, shooting.narrow(bracket)?);
+    let shot = shooting.shot(x).filter(|shot| shot.outcome == Outcome::Complete).ok_or(Miss::NoThread)?;
+    let has_second = looks_on && shooting.bracket(x + 1e-3, x + 2.0, 0.1).is_some();
+    Ok(Hit { tension: libm::exp(x), shot, has_second })
+}
+
+/// The root between two places with misses of different signs. R. P. Brent: Algorithms for Minimization without Derivatives, 1973.
+fn brent(mut miss: impl FnMut(f64) -> f64, [(mut a, mut at_a), (mut b, mut at_b)]: [(f64, f64); 2]) -> f64 {
+    let (mut c, mut at_c) = (a, at_a);
+    let (mut step, mut step_before) = (b - a, b - a);
+    for _ in 0..100 {
+        if (at_b > 0.0) == (at_c > 0.0) {
+            (c, at_c) = (a, at_a);
+            (step, step_before) = (b - a, b - a);
+        }
+        if at_c.abs() < at_b.abs() {
+            (a, b, c) = (b, c, b);
+            (at_a, at_b, at_c) = (at_b, at_c, at_b);
+        }
+        let half = 0.5 * (c - b);
+        if half.abs() <= 0.5 * CLOSE || at_b == 0.0 {
+            break;
+        }
+        if step_before.abs() >= CLOSE && at_a.abs() > at_b.abs() {
+            // By a parabola through three places, or by a straight line through two.
+            let s = at_b / at_a;
+            let (mut p, mut q) = if a == c {
+                (2.0 * half * s, 1.0 - s)
+            } else {
+                let (q, r) = (at_a / at_c, at_b / at_c);
+                (s * (2.0 * half * q * (q - r) - (b - a) * (r - 1.0)), (q - 1.0) * (r - 1.0) * (s - 1.0))
+            };
+            if p > 0.0 {
+                q = -q;
+            }
+            p = p.abs();
+            if 2.0 * p < (3.0 * half * q - (CLOSE * q).abs()).min((step_before * q).abs()) {
+                (step_before, step) = (step, p / q);
+            } else {
+                (step, step_before) = (half, half);
+            }
+        } else {
+            (step, step_before) = (half, half);
+        }
+        (a, at_a) = (b, at_b);
+        b += if step.abs() > 0.5 * CLOSE { step } else { (0.5 * CLOSE).copysign(half) };
+        at_b = miss(b);
+        if !at_b.is_finite() {
+            at_b = at_b.signum() * f64::MAX;
+        }
+    }
+    b
+}
