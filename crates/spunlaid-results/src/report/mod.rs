@@ -10,6 +10,7 @@ mod frames;
 mod page;
 mod paper;
 mod scan;
+mod spinline;
 mod study;
 mod table;
 #[cfg(test)]
@@ -21,6 +22,7 @@ pub use analysis::{AnalysisReport, analysis_html};
 pub use comparison::{ComparisonReport, comparison_html};
 pub use paper::{PaperReport, paper_html};
 pub use scan::{ScanReport, scan_html};
+pub use spinline::{SpinReport, spinline_html};
 pub use study::{StudyReport, study_html};
 pub use web::{WebReport, web_html};
 

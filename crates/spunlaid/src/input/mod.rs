@@ -19,12 +19,12 @@ mod write;
 mod written;
 
 pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
+pub use spinline::{Change, Influence, SpinFile, parse_spinline, read_spinline, write_spinline};
 pub use study::{
     MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
     read_changed_study, read_study,
 };
 pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};
-pub use spinline::{Change, Influence, SpinFile, parse_spinline, read_spinline, write_spinline};
 pub use write::write_case;
 
 use crate::case::{Case, Note, keys};

@@ -87,7 +87,7 @@ pub enum Polymer {
 }
 
 /// 0 °C [K].
-pub(crate) const ZERO_CELSIUS: f64 = 273.15;
+pub const ZERO_CELSIUS: f64 = 273.15;
 
 /// What is chosen for the effect of crystals and orientation where no measurement is known.
 const CHOSEN: Crystals = Crystals {
@@ -301,7 +301,8 @@ impl Material {
         const LOAD: f64 = 2.16 * 9.80665;
         let pressure = LOAD / (PI * PISTON * PISTON / 4.0);
         let per_pressure = PI * DIE_RADIUS * DIE_RADIUS * DIE_RADIUS * DIE_RADIUS / (8.0 * DIE_LENGTH);
-        per_pressure * pressure * self.melt_density(self.viscosity_temperature) * 600.0 / (1e-3 * melt_flow_rate)
+        per_pressure * pressure * self.melt_density(self.viscosity_temperature) * 600.0
+            / (1e-3 * melt_flow_rate)
     }
 }
 
@@ -326,7 +327,8 @@ impl Crystals {
         let bell = libm::exp(-4.0 * std::f64::consts::LN_2 * square((temperature - self.peak) / self.width));
         let end = -libm::expm1(-square(below_melting / END));
         let least = 1.0 / self.enhancement_limit;
-        let enhancement = (1.0 + least) / (libm::exp(-self.orientation_enhancement * square(orientation)) + least);
+        let enhancement =
+            (1.0 + least) / (libm::exp(-self.orientation_enhancement * square(orientation)) + least);
         self.rate * bell * end * enhancement
     }
 }

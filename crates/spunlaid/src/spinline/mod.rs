@@ -20,8 +20,7 @@ mod surroundings;
 mod tests;
 mod thread;
 
-pub(crate) use material::ZERO_CELSIUS;
-pub use material::{Crystals, Material, Polymer};
+pub use material::{Crystals, Material, Polymer, ZERO_CELSIUS};
 pub use solution::{Freezing, FreezingCause, Solution, Station};
 pub use surroundings::{AirState, AirTable, Surroundings};
 
