@@ -21,7 +21,7 @@ mod web;
 pub use compare::{CurvePoint, Curves, MOST as MOST_COMPARED, overlaid_figures};
 pub use record::record_figures;
 pub use run::{run_figures, swing_frequency};
-pub use spinline::spinline_figures;
+pub use spinline::{SPINLINE, spinline_figures};
 pub use spunlaid::web::uniformity::Unevenness;
 pub use study::{name_of_key, study_figures};
 pub use web::{SEEN, overlaid_webs, scan_figures, web_figures};

@@ -1,16 +1,13 @@
 //! The folder of a spinline.
 
 use crate::Failure;
-use crate::figures::spinline_figures;
+use crate::figures::{SPINLINE, spinline_figures};
 use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, Summary, write_stations};
 use crate::output::{beside, pictures};
 use crate::report::{SpinReport, spinline_html};
 use spunlaid::input::{SpinFile, write_spinline};
 use spunlaid_charts::Figure;
-
-/// Beginning of the names of the figures.
-pub const PREFIX: &str = "spinline";
 
 /// Everything of a spinline that goes into the files.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +37,7 @@ impl SpinFolder<'_> {
         let copied = beside::copy_of_spinline(spinline, &staging.place(beside::CASE_FILES).0)?;
         let spinline = beside::relocated_spinline(spinline, &copied);
         let toml = write_spinline(&SpinFile { spinline, ..self.file.clone() });
-        write_stations(staging, &self.results.rows)?;
+        write_stations(staging, &[(1, &self.results.rows)])?;
         let figures = self.figures();
         pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
         staging.write("report.html", self.page(&toml, &figures))?;
@@ -54,15 +51,14 @@ impl SpinFolder<'_> {
     }
 
     fn figures(&self) -> Vec<Figure> {
-        spinline_figures(PREFIX, &self.results.rows, &self.results.influences)
+        spinline_figures(SPINLINE, &self.results.rows, &self.results.influences)
     }
 
     fn page(&self, toml: &str, figures: &[Figure]) -> String {
         spinline_html(&SpinReport {
             name: self.name,
             file: self.file,
-            rows: &self.results.rows,
-            influences: &self.results.influences,
+            results: self.results,
             figures,
             notes: self.notes,
             toml,

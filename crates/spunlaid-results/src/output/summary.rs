@@ -128,7 +128,7 @@ pub struct Performance {
 }
 
 /// An object whose entries keep their order.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct InOrder<T>(pub Vec<(String, T)>);
 
 impl<T: Serialize> Serialize for InOrder<T> {

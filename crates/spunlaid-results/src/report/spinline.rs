@@ -3,10 +3,13 @@
 use super::rendered;
 use super::words::length;
 use crate::numbers::{THIN, number_to, significant};
-use crate::output::spinline::{MEASURES, MODEL_ERROR, influence, numerical_error};
+use crate::output::spinline::{MEASURES, MODEL_ERROR, SpinMeasure, SpinResults, influence, numerical_error};
+use crate::output::web::Layer;
 use askama::Template;
-use spunlaid::input::{Influence, SpinFile};
+use spunlaid::case::Case;
+use spunlaid::input::SpinFile;
 use spunlaid::spinline::{End, FreezingCause, Law, PolymerSource, Solution, ZERO_CELSIUS};
+use spunlaid::web::Web;
 use spunlaid_charts::Figure;
 
 /// Influences that are told in a sentence each.
@@ -19,10 +22,8 @@ pub struct SpinReport<'a> {
     pub name: &'a str,
     /// The spinline.
     pub file: &'a SpinFile,
-    /// The solution of each row of the curtain, the quenched side first.
-    pub rows: &'a [Solution],
-    /// What decides the diameter, the largest first.
-    pub influences: &'a [Influence],
+    /// Its solution.
+    pub results: &'a SpinResults,
     /// The figures.
     pub figures: &'a [Figure],
     /// Notes for the reader.
@@ -47,13 +48,13 @@ struct SpinPage<'a> {
 
 /// Content of `assets/spinline_section.html`.
 pub(super) struct SpinSection<'a> {
-    pub(super) id: String,
-    pub(super) title: String,
-    pub(super) sentences: Vec<String>,
+    id: String,
+    title: String,
+    sentences: Vec<String>,
     rows: Vec<Row>,
     errors: String,
     influences: Vec<String>,
-    pub(super) figures: &'a [Figure],
+    figures: &'a [Figure],
 }
 
 /// A measure of the table.
@@ -70,11 +71,11 @@ impl<'a> SpinSection<'a> {
         id: &str,
         title: &str,
         sentences: Vec<String>,
-        (rows, influences): (&[Solution], &[Influence]),
+        SpinResults { rows, influences }: &SpinResults,
         figures: &'a [Figure],
     ) -> Self {
         let of_row = |solution: &Solution| {
-            let row = |measure: &'static crate::output::spinline::SpinMeasure| Row {
+            let row = |measure: &'static SpinMeasure| Row {
                 name: measure.label,
                 value: measure.shown(solution),
                 unit: measure.unit.shown,
@@ -98,16 +99,10 @@ impl<'a> SpinSection<'a> {
 pub fn spinline_html(input: &SpinReport<'_>) -> String {
     let page = SpinPage {
         name: input.name,
-        headline: input.rows.first().map_or_else(String::new, headline),
-        summary: summary(input.file, input.rows),
+        headline: input.results.rows.first().map_or_else(String::new, headline),
+        summary: summary(input.file, &input.results.rows),
         notes: input.notes,
-        spinline: SpinSection::new(
-            "results",
-            "Results",
-            Vec::new(),
-            (input.rows, input.influences),
-            input.figures,
-        ),
+        spinline: SpinSection::new("results", "Results", Vec::new(), input.results, input.figures),
         methods: methods(input.file),
         toml: input.toml,
         version: env!("CARGO_PKG_VERSION"),
@@ -155,8 +150,84 @@ fn celsius(temperature: f64) -> String {
     format!("{}{THIN}°C", significant(temperature - ZERO_CELSIUS, 4))
 }
 
+/// The spinline from which a fibre in flight is fed.
+pub(super) fn of_fibre<'a>(case: &Case, results: &SpinResults, figures: &'a [Figure]) -> SpinSection<'a> {
+    let gives = match results.rows.first() {
+        Some(solution) if solution.modulus_estimate == case.fibre.youngs_modulus => {
+            "diameter, density and speed, and an estimate of its Young’s modulus"
+        }
+        _ => "diameter, density and speed",
+    };
+    let sentences = results.rows.first().map(|solution| {
+        format!("{} {} This gives the fibre that flies its {gives}.", headline(solution), freezing(solution))
+    });
+    SpinSection::new("spinline", "Spinline", sentences.into_iter().collect(), results, figures)
+}
+
+/// A spinline from which filaments of a web come.
+#[derive(Clone, Debug)]
+pub struct LayerSpinline {
+    /// The layers of these filaments, from 0.
+    pub layers: Vec<usize>,
+    /// Mass flow of a hole [kg/s].
+    pub throughput: f64,
+    /// Its solution.
+    pub results: SpinResults,
+    /// Its figures.
+    pub figures: Vec<Figure>,
+}
+
+/// The spinlines of a web, a section for each.
+pub(super) fn of_web<'a>(
+    web: &Web,
+    layers: &[Layer],
+    spinlines: &'a [LayerSpinline],
+) -> Vec<SpinSection<'a>> {
+    let section = |(number, spinline): (usize, &'a LayerSpinline)| {
+        let own = |layer: &usize| {
+            let row = layers.get(*layer)?;
+            Some(way(row, row.filaments as f64 / web.sheet.width, spinline, layers.len() > 1))
+        };
+        let about = spinline.results.rows.first().map(freezing);
+        let sentences = spinline.layers.iter().filter_map(own).chain(about).collect();
+        let (id, title) = match number {
+            0 => ("spinline".to_owned(), "From the die to the web"),
+            _ => (format!("spinline-{}", number + 1), "Another spinline"),
+        };
+        SpinSection::new(&id, title, sentences, &spinline.results, &spinline.figures)
+    };
+    spinlines.iter().enumerate().map(section).collect()
+}
+
+/// The way from the die to the web, with its basis weight from the holes, in a sentence.
+///
+/// * `holes` – filaments per metre of width [1/m]
+fn way(layer: &Layer, holes: f64, spinline: &LayerSpinline, is_named: bool) -> String {
+    let Some(solution) = spinline.results.rows.first() else { return String::new() };
+    let from_holes = holes * spinline.throughput / layer.belt_speed_m_s;
+    let apart = (from_holes / layer.basis_weight_kg_m2 - 1.0).abs();
+    let verdict = if apart < 0.005 {
+        "the same".to_owned()
+    } else {
+        format!("{}{THIN}% apart", significant(100.0 * apart, 2))
+    };
+    let grams = |weight: f64| format!("{}{THIN}g/m²", significant(weight * 1e3, 3));
+    format!(
+        "Die → diffuser → belt → web{}: {} holes per metre with {}{THIN}g/min each; filaments of {}{THIN}µm that enter at {}{THIN}m/s; a belt of \
+         {}{THIN}m/s. Holes × throughput / belt speed is {}, and the web has {}: {verdict}.",
+        if is_named { format!(", layer {}", layer.name) } else { String::new() },
+        significant(holes, 4),
+        significant(spinline.throughput * 6e4, 3),
+        significant(solution.final_diameter * 1e6, 3),
+        significant(solution.final_speed, 3),
+        significant(layer.belt_speed_m_s, 3),
+        grams(from_holes),
+        grams(layer.basis_weight_kg_m2)
+    )
+}
+
 /// Where and by what the thread freezes, in a sentence.
-pub(super) fn freezing(solution: &Solution) -> String {
+fn freezing(solution: &Solution) -> String {
     let point = solution.freezing;
     format!(
         "The thread is drawn {}-fold and freezes {} below the die, at {}, {}, under a stress of {}{THIN}MPa and while it cools by {}{THIN}K/s.",

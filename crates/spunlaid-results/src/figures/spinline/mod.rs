@@ -10,6 +10,9 @@ use spunlaid::input::Influence;
 use spunlaid::spinline::Solution;
 use spunlaid_charts::Figure;
 
+/// Beginning of the names of the figures where there is one spinline.
+pub const SPINLINE: &str = "spinline";
+
 /// Millimetres per metre.
 const MM: f64 = 1e3;
 /// Micrometres per metre.

@@ -27,29 +27,33 @@ pub const COLUMNS: &[StationColumn] = &[
     ("air_temperature_c", |station| station.air_temperature - ZERO_CELSIUS),
 ];
 
-/// Writes the stations of all rows, one row of the curtain after the other. The first column of a curtain is the number of its
-/// row, from 1.
-pub fn write(staging: &Staging<'_>, rows: &[Solution]) -> Result<(), Failure> {
-    write_as(staging, STATIONS, rows)
-}
-
-/// The same under another name.
-pub fn write_as(staging: &Staging<'_>, name: &str, rows: &[Solution]) -> Result<(), Failure> {
-    let place = staging.place(name);
+/// Writes the stations of all threads, one thread after the other. If there are several, the columns before those of
+/// [`COLUMNS`] tell them apart: `layer` where the layers of a web have different spinlines, and `row` of a curtain.
+///
+/// * `spinlines` – the number of the layer, from 1, and the solution of each row
+pub fn write(staging: &Staging<'_>, spinlines: &[(usize, &[Solution])]) -> Result<(), Failure> {
+    let place = staging.place(STATIONS);
     let folder = place.0.parent().map_or(Ok(()), fs::create_dir_all);
     folder.map_err(Failure::unwritable(&place.1))?;
-    let row = (rows.len() > 1).then(|| Column { name: "row".to_owned(), holds: Holds::Whole });
-    let first = usize::from(row.is_some());
-    let numbers = COLUMNS.iter().map(|(name, _)| Column { name: (*name).to_owned(), holds: Holds::Number });
-    let columns: Vec<Column> = row.into_iter().chain(numbers).collect();
-    let stations: usize = rows.iter().map(|row| row.stations.len()).sum();
-    let mut table = Parquet::create(place, &columns, stations)?;
-    for (number, solution) in rows.iter().enumerate() {
-        if first == 1 {
-            table.extend_whole(0, solution.stations.iter().map(|_| number as i64 + 1));
+    let layer = (spinlines.len() > 1).then_some("layer");
+    let row = spinlines.iter().any(|(_, rows)| rows.len() > 1).then_some("row");
+    let whole = layer.into_iter().chain(row).map(|name| (name, Holds::Whole));
+    let numbers = COLUMNS.iter().map(|(name, _)| (*name, Holds::Number));
+    let column = |(name, holds): (&str, Holds)| Column { name: name.to_owned(), holds };
+    let columns: Vec<Column> = whole.chain(numbers).map(column).collect();
+    let first = columns.len() - COLUMNS.len();
+    let threads = spinlines.iter().flat_map(|(layer, rows)| {
+        rows.iter().enumerate().map(move |(row, solution)| ([*layer, row + 1], &solution.stations))
+    });
+    let most = threads.clone().map(|(_, stations)| stations.len()).sum();
+    let mut table = Parquet::create(place, &columns, most)?;
+    for ([of_layer, of_row], stations) in threads {
+        let whole = layer.map(|_| of_layer).into_iter().chain(row.map(|_| of_row));
+        for (column, number) in whole.enumerate() {
+            table.extend_whole(column, stations.iter().map(|_| number as i64));
         }
         for (column, (_, value)) in COLUMNS.iter().enumerate() {
-            table.extend(first + column, solution.stations.iter().map(value));
+            table.extend(first + column, stations.iter().map(value));
         }
     }
     table.finish().map(drop)

@@ -37,7 +37,7 @@ impl<'a> Summary<'a> {
 }
 
 /// The measures of a spinline. Those of a curtain are of its first row.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 #[serde(transparent)]
 pub struct SpinSummary(InOrder<Json>);
 
