@@ -8,6 +8,7 @@ mod data;
 mod document;
 mod entry;
 mod file;
+mod influence;
 mod open;
 mod overrides;
 mod source;
@@ -19,12 +20,13 @@ mod write;
 mod written;
 
 pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
+pub use influence::{Change, Influence};
+pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
 pub use study::{
     MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
     read_changed_study, read_study,
 };
 pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};
-pub use spinline::{Change, Influence, SpinFile, parse_spinline, read_spinline, write_spinline};
 pub use write::write_case;
 
 use crate::case::{Case, Note, keys};

@@ -21,15 +21,8 @@ const WEIGHTS: [[f64; 6]; 7] = [
     [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
 ];
 /// The result of order 5 less that of order 4.
-const ERROR: [f64; 7] = [
-    71.0 / 57600.0,
-    0.0,
-    -71.0 / 16695.0,
-    71.0 / 1920.0,
-    -17253.0 / 339_200.0,
-    22.0 / 525.0,
-    -1.0 / 40.0,
-];
+const ERROR: [f64; 7] =
+    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
 /// For values between the ends of a step. E. Hairer, S. P. Nørsett, G. Wanner: Solving Ordinary Differential Equations I.
 const DENSE: [f64; 7] = [
     -12_715_105_075.0 / 11_282_082_432.0,
@@ -103,7 +96,14 @@ impl<'t, 'a> Stepper<'t, 'a> {
         };
         // An error of ln v is a share of v.
         let larger = |i: usize| from[i].abs().max(to[i].abs());
-        let sizes = [1.0, larger(TEMPERATURE), self.tension, larger(PROGRESS).max(0.01), larger(ALONG), larger(ACROSS)];
+        let sizes = [
+            1.0,
+            larger(TEMPERATURE),
+            self.tension,
+            larger(PROGRESS).max(0.01),
+            larger(ALONG),
+            larger(ACROSS),
+        ];
         let error = sizes.iter().enumerate().map(|(i, size)| {
             let share = sum(&ERROR, i) / (TOLERANCE * size);
             share * share

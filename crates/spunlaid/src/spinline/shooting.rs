@@ -1,8 +1,8 @@
 //! Finds the tension at the die with which the thread meets what is known at the end of the line.
 
+use super::End;
 use super::shot::{Outcome, Shot, shoot};
 use super::thread::{LN_SPEED, TENSION, Thread};
-use super::End;
 
 /// The tensions between which the one at the die is sought [N].
 const TENSIONS: [f64; 2] = [1e-8, 1e3];

@@ -51,7 +51,8 @@ pub(super) fn shoot(thread: &Thread<'_>, die: State) -> Shot {
             }
             // A remnant that is much shorter than a step would cost as much as one.
             let left = end - s;
-            let length = if wanted >= left { left } else { wanted.min(0.5 * left).max(wanted.min(left) * 0.6) };
+            let length =
+                if wanted >= left { left } else { wanted.min(0.5 * left).max(wanted.min(left) * 0.6) };
             let mut step = stepper.step(s, length, &state);
             wanted = step.next_length();
             if !(step.error <= 1.0) {

@@ -73,8 +73,7 @@ fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
     let (line, shot) = (thread.line, &hit.shot);
     let Some((by, at, cooling_rate)) = shot.freezing else {
         let celsius = |kelvin: f64| format!("{:.0} °C", kelvin - ZERO_CELSIUS);
-        let (reached, solid) =
-            (celsius(shot.end[TEMPERATURE]), celsius(line.material.freezing_temperature));
+        let (reached, solid) = (celsius(shot.end[TEMPERATURE]), celsius(line.material.freezing_temperature));
         let message = format!(
             "is too short: the polymer is still at {reached} at the end of the spinline and freezes at {solid}"
         );
@@ -96,7 +95,11 @@ fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
         let place = Dimension::Length.pretty(broken.distance);
         let message = format!("is exceeded: {strongest} at {place} from the die");
         let remedy = "a hotter die, less drawing air or a higher melt flow rate lowers the stress";
-        return Err(Failure::new("spinline.break_stress", Some(line.break_stress), Fault::new(message, remedy)));
+        return Err(Failure::new(
+            "spinline.break_stress",
+            Some(line.break_stress),
+            Fault::new(message, remedy),
+        ));
     }
     let (largest_strain_rate, largest_strain_rate_at) = largest_strain_rate(thread, shot);
     let material = &line.material;
@@ -160,9 +163,7 @@ fn largest_strain_rate(thread: &Thread<'_>, shot: &Shot) -> (f64, f64) {
     let mut best = (f64::NEG_INFINITY, 0.0);
     for step in shot.steps.iter().filter(|step| step.phase == Phase::Melt) {
         let s = |i: usize| step.start + step.length * i as f64 / LOOKS as f64;
-        let Some(highest) =
-            (0..=LOOKS).max_by(|a, b| rate(step, s(*a)).total_cmp(&rate(step, s(*b))))
-        else {
+        let Some(highest) = (0..=LOOKS).max_by(|a, b| rate(step, s(*a)).total_cmp(&rate(step, s(*b)))) else {
             continue;
         };
         let (mut low, mut high) = (s(highest.saturating_sub(1)), s((highest + 1).min(LOOKS)));

@@ -41,7 +41,9 @@ const GAS_CONSTANT: f64 = 8.314_462_618;
 pub(super) enum Phase {
     Melt,
     /// Solid, with the orientation `f` of the freezing point [-].
-    Solid { orientation: f64 },
+    Solid {
+        orientation: f64,
+    },
 }
 
 /// A thread in its surroundings.
@@ -179,7 +181,14 @@ impl<'a> Thread<'a> {
     }
 
     /// Heat that the air takes from the thread, by convection and by radiation [W/m].               theory.md (88), (89)
-    fn heat(&self, diameter: f64, faster: f64, cross: f64, temperature: f64, air_temperature: f64) -> [f64; 2] {
+    fn heat(
+        &self,
+        diameter: f64,
+        faster: f64,
+        cross: f64,
+        temperature: f64,
+        air_temperature: f64,
+    ) -> [f64; 2] {
         let film = 0.5 * (temperature + air_temperature);
         let speeds = faster * faster + 64.0 * cross * cross;
         let nusselt = self.line.nusselt_factor
@@ -254,10 +263,8 @@ impl<'a> Thread<'a> {
                 (elastic * (along + 2.0 * across) - 0.5 * surface) / v - mass_flow - denser * heating;
             is_elastic_wave = stiffness <= 0.0;
             strain_rate = force / stiffness;
-            conformation = [
-                (2.0 * strain_rate * along - relax_along) / v,
-                (-strain_rate * across - relax_across) / v,
-            ];
+            conformation =
+                [(2.0 * strain_rate * along - relax_along) / v, (-strain_rate * across - relax_across) / v];
         } else if is_melt {
             strain_rate = stretched / (3.0 * self.viscosity_at(temperature, transformed) * area);
         }
