@@ -84,7 +84,11 @@ pub const LENGTH_CONSTANT: f64 = 0.43;
 pub const TIME_CONSTANT: f64 = 0.30;
 
 impl PlacedField {
-    /// The air at a place of the fibre's frame [m]. The origin is the root.
+    /// The velocity at a place of the fibre's frame [m/s]. The origin is the root.
+    pub(crate) fn velocity(&self, at: Vec3<f64>, hint: &mut Hint) -> Vec3<f64> {
+        self.at(at, hint).velocity
+    }
+
     /// `k` [m²/s²] and `ε` [m²/s³] at a place of the fibre, as the field has them.
     pub(crate) fn turbulence(&self, at: Vec3<f64>, hint: &mut Hint) -> (f64, f64) {
         let local = self.at(at, hint);

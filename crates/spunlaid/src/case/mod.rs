@@ -7,6 +7,7 @@ mod neighbours;
 mod note;
 mod remarks;
 mod step;
+mod unset;
 mod usual;
 
 pub(crate) use check::too_many_steps;
@@ -24,7 +25,7 @@ use crate::drag::Drag;
 use crate::fibre::Fibre;
 use crate::field::Hint;
 use crate::line::Line;
-use crate::spinline::Spinline;
+use crate::spinline::{Solution, Spinline};
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 
@@ -113,6 +114,19 @@ pub struct StepLimit {
 }
 
 impl Case {
+    /// Takes diameter, density and feed speed from a solved spinline, and the modulus where the case leaves it out.
+    pub fn take_filament(&mut self, filament: &Solution) {
+        let Some(spinline) = &self.spinline else { return };
+        self.fibre.diameter = filament.final_diameter;
+        self.fibre.density = spinline.material.solid_density;
+        if spinline.gives_modulus {
+            self.fibre.youngs_modulus = filament.modulus_estimate;
+        }
+        if let Some(line) = &mut self.line {
+            line.feed_speed = filament.final_speed;
+        }
+    }
+
     /// The limits on the time step of an undamped flight with this mesh and the case's scheme.
     pub fn step_limits(&self) -> Vec<StepLimit> {
         let axial = StepLimit { cause: "axial waves", limit: self.fibre.axial_step_limit() };

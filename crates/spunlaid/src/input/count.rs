@@ -18,6 +18,7 @@ impl Open {
     /// # Errors
     /// Every reason why the case cannot be run.
     pub(super) fn resolve(mut self) -> Result<(Case, Vec<Note>), Error> {
+        self.spin()?;
         let fibre = &self.case.fibre;
         self.case.air.settle(fibre.direction * fibre.length);
         self.count_elements();

@@ -244,7 +244,7 @@ impl<'a, T> Document<'a, T> {
         let names = keys.of_table(table).map(|key| key.short().to_owned());
         let tables = keys
             .tables_in(table)
-            .iter()
+            .into_iter()
             .map(|inner| self.header(if table.is_empty() { "" } else { "layer." }, inner));
         let in_table = |list: &TableList| Some(list.name.strip_prefix(table)?.strip_prefix('.')?.to_owned());
         version.into_iter().chain(names).chain(tables).chain(keys.lists.iter().filter_map(in_table)).collect()

@@ -8,6 +8,7 @@ mod data;
 mod document;
 mod entry;
 mod file;
+mod influence;
 mod open;
 mod overrides;
 mod source;
@@ -19,7 +20,12 @@ mod write;
 mod written;
 
 pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
+<<<<<<< HEAD
 pub use spinline::{Change, Influence, SpinFile, parse_spinline, read_spinline, write_spinline};
+=======
+pub use influence::{Change, Influence};
+pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
+>>>>>>> core
 pub use study::{
     MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
     read_changed_study, read_study,

@@ -4,13 +4,11 @@ use super::data::DataFiles;
 use super::written::{WrittenValue, WrittenValues, sorted};
 use crate::air::{Air, EddyModel, Flow, PlacedField, RecordLayout, SpectrumShape};
 use crate::case::keys::{self, Content, FileKind, Key, Kind, LeftOut, Value};
-use crate::case::{Case, Neighbours, Note, Remark, Run};
+use crate::case::{Case, Note, Remark};
 use crate::chain::schemes::Scheme;
-use crate::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::error::{Error, Fault, FileError};
-use crate::fibre::{Fibre, Root};
 use crate::line::Line;
-use crate::vec3::Vec3;
+use crate::spinline::Spinline;
 use std::path::PathBuf;
 
 /// A case in which every independent key is set. Keys that are counted in whole elements, steps and harmonics are
@@ -27,9 +25,21 @@ pub(super) struct Open {
 ///
 /// # Errors
 /// Every problem with any key.
-pub(super) fn open(mut written: WrittenValues, files: &DataFiles) -> Result<Open, Error> {
-    let (mut case, mut notes) = (blank(), Vec::new());
-    let fed = written.has_table("feed") || written.has_table("belt");
+pub(super) fn open(written: WrittenValues, files: &DataFiles) -> Result<Open, Error> {
+    open_part(written, files, |_| true)
+}
+
+/// [`open`] for a part of the keys.
+pub(super) fn open_part(
+    mut written: WrittenValues,
+    files: &DataFiles,
+    is_wanted: impl Fn(&Key) -> bool,
+) -> Result<Open, Error> {
+    let (mut case, mut notes) = (Case::unset(), Vec::new());
+    let fed = ["feed", "belt", "spinline"].iter().any(|table| written.has_table(table));
+    if written.has_table("spinline") {
+        case.spinline = Some(Spinline::UNKNOWN);
+    }
     if fed {
         case.line = Some(Line::UNKNOWN);
     }
@@ -43,7 +53,7 @@ pub(super) fn open(mut written: WrittenValues, files: &DataFiles) -> Result<Open
         _ if key.name == "air.cutoff_frequency" => 3,
         _ => 2,
     };
-    let mut in_order: Vec<&Key> = keys::all().iter().collect();
+    let mut in_order: Vec<&Key> = keys::all().iter().filter(|key| is_wanted(key)).collect();
     in_order.sort_by_key(rank);
     for key in in_order {
         let Some(WrittenValue { place, shown, value }) = written.get(key.name).cloned() else {
@@ -52,11 +62,18 @@ pub(super) fn open(mut written: WrittenValues, files: &DataFiles) -> Result<Open
                 LeftOut::Value(text) if !key.counted => {
                     drop(key.set(&mut case, if fed { default_if_fed(key.name, text) } else { text }));
                 }
+                LeftOut::Follows(_) if key.is_told(&case) => {}
                 LeftOut::Follows(_) if fed && REQUIRED_IF_FED.iter().any(|(name, _)| *name == key.name) => {
                     let (_, line) =
                         REQUIRED_IF_FED.iter().find(|(name, _)| *name == key.name).unwrap_or(&("", ""));
                     let table = key.table();
-                    let other = if table == "feed" { "belt" } else { "feed" };
+                    let other = if table == "feed" {
+                        "belt"
+                    } else if written.has_table("feed") {
+                        "feed"
+                    } else {
+                        "spinline"
+                    };
                     let fault = if written.has_table(table) {
                         Fault::missing(table, line)
                     } else {
@@ -163,6 +180,9 @@ fn default_if_fed(key: &str, text: &'static str) -> &'static str {
 /// A written key that says the same as this one in other words, and the way out.
 pub(super) fn rival(key: &str, is_written: impl Fn(&str) -> bool) -> Option<(&'static str, &'static str)> {
     let (others, remedy): (&[&'static str], _) = match key {
+        "spinline.material.viscosity" => {
+            (&["spinline.melt_flow_rate"], "the melt flow rate gives the viscosity; write one of the two")
+        }
         "fibre.linear_density" => (&["fibre.diameter"], "either gives the other; write one of the two"),
         "air.temperature" => (
             &["air.density", "air.kinematic_viscosity"],
@@ -184,45 +204,12 @@ fn by_taylor(air: &mut Air) -> Result<(), Fault> {
     Ok(())
 }
 
-/// An empty case, whose keys are set one after another.
-fn blank() -> Case {
-    let nan = f64::NAN;
-    Case {
-        fibre: Fibre {
-            length: nan,
-            diameter: nan,
-            density: nan,
-            youngs_modulus: nan,
-            bending_viscosity_time: 0.0,
-            elements: 0,
-            root: Root::Pinned,
-            direction: Vec3::new(1.0, 0.0, 0.0),
-        },
-        air: Air::uniform(nan, nan, nan, nan),
-        drag: Drag { along: FrictionLaw::ALL[0], across: NormalLaw::ALL[0] },
-        line: None,
-        spinline: None,
-        neighbours: Neighbours::default(),
-        run: Run {
-            time_step: nan,
-            steps: 0,
-            spin_up_steps: 0,
-            output_steps: 0,
-            replicates: 1,
-            seed: 0,
-            scheme: Scheme::SemiImplicitEuler,
-            gravity: nan,
-            damping: nan,
-            shapes: None,
-        },
-    }
-}
-
 /// Keys that may be missing only because a file cannot be used.
 const fn missed_with(kind: FileKind) -> &'static str {
     match kind {
         FileKind::Spectrum => "air.cutoff_frequency",
         FileKind::Profile | FileKind::Field | FileKind::Records => "air.",
+        FileKind::SpinlineAir | FileKind::Polymer => "spinline.",
     }
 }
 
@@ -249,6 +236,8 @@ fn load(
     let content = match kind {
         FileKind::Profile => Content::Profile(files.profile(&path)?),
         FileKind::Spectrum => Content::Spectrum(files.spectrum(&path)?),
+        FileKind::SpinlineAir => Content::SpinlineAir(files.spinline_air(&path)?),
+        FileKind::Polymer => Content::Polymer(files.polymer(&path)?),
         FileKind::Records => {
             let records: Result<_, _> = paths.iter().map(|path| files.record(path, layout)).collect();
             Content::Records(records?)

@@ -33,11 +33,8 @@ pub(super) fn read(of: &Kind, value: &DeValue<'_>, beside: impl Fn(&str) -> Path
                 list.iter().map(|one| number(Dimension::Length, one.get_ref())).collect();
             Value::Numbers(lengths?)
         }
-        (Kind::File(FileKind::Spectrum), DeValue::String(text))
-            if !text.is_empty() && !text.contains('.') =>
-        {
-            Value::Text(text.to_string())
-        }
+        (Kind::Switch, DeValue::Boolean(switch)) => Value::Text(switch.to_string()),
+        (Kind::File(file), DeValue::String(text)) if file.is_word(text) => Value::Text(text.to_string()),
         (Kind::File(FileKind::Records), DeValue::Array(list)) if !list.is_empty() => {
             let paths = list.iter().map(|one| one.get_ref().as_str().map(&beside));
             Value::Paths(paths.collect::<Option<_>>().ok_or_else(|| wrong(kind(value)))?)

@@ -54,6 +54,7 @@ fn toml_value(kind: &Kind, value: Value) -> String {
         (Kind::Quantity(dimension, _), Value::Number(value)) => format!("\"{}\"", dimension.exact(value)),
         (_, Value::Number(value)) => float(value),
         (_, Value::Whole(value)) => value.to_string(),
+        (Kind::Switch, Value::Text(word)) => word,
         (_, Value::Text(name)) => quoted(&name),
         (_, Value::Numbers(values)) => lengths(&values),
         (Kind::Point, Value::Vector(v)) => lengths(&[v.x, v.y, v.z]),

@@ -14,7 +14,7 @@ pub(super) fn solve(line: &Spinline, friction: FrictionLaw) -> Result<Vec<Soluti
     let mut rows = vec![first];
     for _ in 1..curtain.rows {
         let Some(before) = rows.last() else { break };
-        let air = Surroundings::Computed(behind(before, curtain));
+        let air = Surroundings::Behind(behind(before, curtain));
         rows.push(steady::solve(line, friction, &air)?);
     }
     Ok(rows)

@@ -73,6 +73,15 @@ pub struct Crystals {
     pub freezing_share: f64,
 }
 
+/// The constants of a polymer as a file gives them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PolymerFile {
+    /// The constants.
+    pub material: Material,
+    /// Where they come from, in the words of the file.
+    pub source: String,
+}
+
 /// A polymer whose constants the program has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Polymer {
@@ -267,6 +276,28 @@ impl Polymer {
 }
 
 impl Material {
+    /// Constants of which nothing is known yet.
+    pub const UNKNOWN: Self = Self {
+        specific_volume: f64::NAN,
+        specific_volume_slope: f64::NAN,
+        heat_capacity: f64::NAN,
+        heat_capacity_slope: f64::NAN,
+        viscosity: f64::NAN,
+        viscosity_temperature: f64::NAN,
+        activation_energy: f64::NAN,
+        freezing_temperature: f64::NAN,
+        solid_density: f64::NAN,
+        surface_tension: 0.0,
+        modulus: f64::NAN,
+        mobility: 0.2,
+        extensibility: 0.1,
+        stress_optical_coefficient: f64::NAN,
+        full_birefringence: f64::NAN,
+        unoriented_modulus: f64::NAN,
+        oriented_modulus: f64::NAN,
+        crystals: CHOSEN,
+    };
+
     /// Density `ρ = 1/(a_0 + a_1 T)` of the melt [kg/m³].                                          theory.md (84)
     ///
     /// * `temperature` – [K]

@@ -20,7 +20,12 @@ mod surroundings;
 mod tests;
 mod thread;
 
+<<<<<<< HEAD
 pub use material::{Crystals, Material, Polymer, ZERO_CELSIUS};
+=======
+pub(crate) use material::ZERO_CELSIUS;
+pub use material::{Crystals, Material, Polymer, PolymerFile};
+>>>>>>> core
 pub use solution::{Freezing, FreezingCause, Solution, Station};
 pub use surroundings::{AirState, AirTable, Surroundings};
 
@@ -35,6 +40,8 @@ pub struct Spinline {
     pub polymer: PolymerSource,
     /// The constants of the polymer.
     pub material: Material,
+    /// Where constants that differ from those of the polymer come from, in the user's words.
+    pub source: Option<String>,
     /// Viscosity of the melt.
     pub melt: Melt,
     /// Temperature of the melt in the hole [K].
@@ -65,6 +72,8 @@ pub struct Spinline {
     pub break_stress: f64,
     /// The rows of holes, if they share the air that crosses them.
     pub curtain: Option<Curtain>,
+    /// Whether Young's modulus of the flown fibre is the estimate; a case that writes the modulus does not want it.
+    pub gives_modulus: bool,
 }
 
 /// Where the constants of a polymer come from.
@@ -73,7 +82,7 @@ pub enum PolymerSource {
     /// A polymer whose constants the program has.
     Known(Polymer),
     /// A file.
-    File(FromFile<Material>),
+    File(FromFile<PolymerFile>),
 }
 
 /// What gives the viscosity of the melt.
@@ -132,6 +141,33 @@ impl Law {
 }
 
 impl Spinline {
+    /// A spinline of which nothing is known yet.
+    pub const UNKNOWN: Self = Self {
+        polymer: PolymerSource::Known(Polymer::Pp),
+        material: Material::UNKNOWN,
+        source: None,
+        melt: Melt::Viscosity,
+        die_temperature: f64::NAN,
+        hole_diameter: f64::NAN,
+        die_swell: 1.0,
+        throughput: f64::NAN,
+        length: f64::NAN,
+        air: Surroundings::Uniform(AirState {
+            velocity: 0.0,
+            cross_velocity: 0.0,
+            temperature: 20.0 + ZERO_CELSIUS,
+        }),
+        end: End::Tension(0.0),
+        law: Law::Newtonian,
+        crystallisation: false,
+        emissivity: 0.0,
+        dissipation: false,
+        nusselt_factor: 1.0,
+        break_stress: f64::INFINITY,
+        curtain: None,
+        gives_modulus: true,
+    };
+
     /// The steady state, one filament alone in the air.
     ///
     /// * `friction` – law of the friction between thread and air

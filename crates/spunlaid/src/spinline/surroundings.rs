@@ -9,8 +9,15 @@ pub enum Surroundings {
     Uniform(AirState),
     /// Values at distances from the die, from a table.
     Table(FromFile<AirTable>),
-    /// Values at distances from the die that were computed, as along a CFD field or behind a row of filaments.
-    Computed(AirTable),
+    /// The velocity of the case's CFD field upstream of the inlet.
+    Field {
+        /// Temperature of the air [K].
+        temperature: f64,
+        /// The air along the line, as it was found in the field.
+        table: AirTable,
+    },
+    /// The air behind a row of filaments.
+    Behind(AirTable),
 }
 
 /// The air at a place of the spinline.
@@ -73,7 +80,7 @@ impl Surroundings {
         match self {
             Self::Uniform(_) => None,
             Self::Table(table) => Some(table),
-            Self::Computed(table) => Some(table),
+            Self::Field { table, .. } | Self::Behind(table) => Some(table),
         }
     }
 
@@ -82,7 +89,7 @@ impl Surroundings {
         match self {
             Self::Uniform(state) => *state,
             Self::Table(table) => table.at(distance, hint),
-            Self::Computed(table) => table.at(distance, hint),
+            Self::Field { table, .. } | Self::Behind(table) => table.at(distance, hint),
         }
     }
 

@@ -16,18 +16,10 @@ fn pp() -> Spinline {
         melt: Melt::FlowRate(35.0),
         die_temperature: 503.15,
         hole_diameter: 0.6e-3,
-        die_swell: 1.0,
         throughput: 0.5e-3 / 60.0,
         length: 1.6,
-        air: Surroundings::Computed(table),
-        end: End::Tension(0.0),
-        law: Law::Newtonian,
-        crystallisation: false,
-        emissivity: 0.0,
-        dissipation: false,
-        nusselt_factor: 1.0,
-        break_stress: f64::INFINITY,
-        curtain: None,
+        air: Surroundings::Behind(table),
+        ..Spinline::UNKNOWN
     }
 }
 
@@ -56,7 +48,7 @@ fn scratch() {
     let mut d = pp();
     d.crystallisation = true;
     d.material = Polymer::Pp.material(true);
-    if let Surroundings::Computed(t) = &mut d.air {
+    if let Surroundings::Behind(t) = &mut d.air {
         t.velocity[3] = 100.0;
     }
     let s = d.solve(FrictionLaw::Matsui { factor: 0.9 }).unwrap();

@@ -39,6 +39,30 @@ pub enum Dimension {
     Acceleration,
     /// [K]
     Temperature,
+    /// [Pa s]
+    DynamicViscosity,
+    /// [kg/s]
+    MassFlow,
+    /// [N]
+    Force,
+    /// [N/m]
+    SurfaceTension,
+    /// [1/Pa]
+    InversePressure,
+    /// [m³/kg]
+    SpecificVolume,
+    /// [m³/(kg K)]
+    SpecificVolumeSlope,
+    /// [J/kg]
+    SpecificEnergy,
+    /// [J/(kg K)]
+    HeatCapacity,
+    /// [J/(kg K²)]
+    HeatCapacitySlope,
+    /// [J/mol]
+    MolarEnergy,
+    /// [K]
+    TemperatureDifference,
     /// [m^-½]
     Noise,
     /// [B]
@@ -48,7 +72,7 @@ pub enum Dimension {
 }
 
 /// Every dimension.
-const ALL: [Dimension; 15] = [
+const ALL: [Dimension; 27] = [
     Dimension::Length,
     Dimension::Velocity,
     Dimension::Time,
@@ -61,6 +85,18 @@ const ALL: [Dimension; 15] = [
     Dimension::KinematicViscosity,
     Dimension::Acceleration,
     Dimension::Temperature,
+    Dimension::DynamicViscosity,
+    Dimension::MassFlow,
+    Dimension::Force,
+    Dimension::SurfaceTension,
+    Dimension::InversePressure,
+    Dimension::SpecificVolume,
+    Dimension::SpecificVolumeSlope,
+    Dimension::SpecificEnergy,
+    Dimension::HeatCapacity,
+    Dimension::HeatCapacitySlope,
+    Dimension::MolarEnergy,
+    Dimension::TemperatureDifference,
     Dimension::Noise,
     Dimension::Memory,
     Dimension::Ratio,
@@ -105,6 +141,18 @@ impl Dimension {
             Self::KinematicViscosity => "a kinematic viscosity",
             Self::Acceleration => "an acceleration",
             Self::Temperature => "a temperature",
+            Self::DynamicViscosity => "a viscosity",
+            Self::MassFlow => "a mass flow",
+            Self::Force => "a force",
+            Self::SurfaceTension => "a surface tension",
+            Self::InversePressure => "an inverse pressure",
+            Self::SpecificVolume => "a specific volume",
+            Self::SpecificVolumeSlope => "a specific volume per kelvin",
+            Self::SpecificEnergy => "an energy per mass",
+            Self::HeatCapacity => "a heat capacity",
+            Self::HeatCapacitySlope => "a heat capacity per kelvin",
+            Self::MolarEnergy => "an energy per mole",
+            Self::TemperatureDifference => "a temperature difference",
             Self::Noise => "a noise",
             Self::Memory => "a size of memory",
             Self::Ratio => "a ratio",
@@ -120,7 +168,10 @@ impl Dimension {
     pub fn suffix(self) -> String {
         match self.si_unit() {
             "" => String::new(),
-            unit => format!("_{}", plain_spelling(unit).replace('/', "_").to_lowercase()),
+            unit => format!(
+                "_{}",
+                plain_spelling(unit).replace(['(', ')'], "").replace(['/', ' '], "_").to_lowercase()
+            ),
         }
     }
 

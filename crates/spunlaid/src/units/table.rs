@@ -79,6 +79,36 @@ const KINEMATIC_VISCOSITY: &[Unit] =
     &[unit("m²/s", "m2/s", Ten(0)), also("mm²/s", "mm2/s", Ten(-6)), also("cSt", "cSt", Ten(-6))];
 const ACCELERATION: &[Unit] = &[unit("m/s²", "m/s2", Ten(0))];
 const TEMPERATURE: &[Unit] = &[unit("K", "K", Ten(0)), unit("°C", "°C", Above(273.15))];
+const DYNAMIC_VISCOSITY: &[Unit] =
+    &[unit("Pa s", "Pa s", Ten(0)), also("Pa·s", "Pa·s", Ten(0)), also("mPa s", "mPa s", Ten(-3))];
+const MASS_FLOW: &[Unit] = &[
+    unit("kg/s", "kg/s", Ten(0)),
+    also("g/s", "g/s", Ten(-3)),
+    also("kg/h", "kg/h", Over(3600.0)),
+    also("g/min", "g/min", Over(60_000.0)),
+];
+const FORCE: &[Unit] = &[
+    unit("N", "N", Ten(0)),
+    unit("mN", "mN", Ten(-3)),
+    unit("µN", "uN", Ten(-6)),
+    also("cN", "cN", Ten(-2)),
+];
+const SURFACE_TENSION: &[Unit] = &[unit("N/m", "N/m", Ten(0)), unit("mN/m", "mN/m", Ten(-3))];
+const INVERSE_PRESSURE: &[Unit] = &[unit("1/Pa", "1/Pa", Ten(0)), also("Pa⁻¹", "Pa-1", Ten(0))];
+const SPECIFIC_VOLUME: &[Unit] = &[unit("m³/kg", "m3/kg", Ten(0)), also("cm³/g", "cm3/g", Ten(-3))];
+const SPECIFIC_VOLUME_SLOPE: &[Unit] =
+    &[unit("m³/(kg K)", "m3/(kg K)", Ten(0)), also("cm³/(g K)", "cm3/(g K)", Ten(-3))];
+const SPECIFIC_ENERGY: &[Unit] =
+    &[unit("J/kg", "J/kg", Ten(0)), unit("kJ/kg", "kJ/kg", Ten(3)), also("J/g", "J/g", Ten(3))];
+const HEAT_CAPACITY: &[Unit] = &[
+    unit("J/(kg K)", "J/(kg K)", Ten(0)),
+    also("kJ/(kg K)", "kJ/(kg K)", Ten(3)),
+    also("J/(g K)", "J/(g K)", Ten(3)),
+];
+const HEAT_CAPACITY_SLOPE: &[Unit] =
+    &[unit("J/(kg K²)", "J/(kg K2)", Ten(0)), also("J/(g K²)", "J/(g K2)", Ten(3))];
+const MOLAR_ENERGY: &[Unit] = &[unit("J/mol", "J/mol", Ten(0)), unit("kJ/mol", "kJ/mol", Ten(3))];
+const TEMPERATURE_DIFFERENCE: &[Unit] = &[unit("K", "K", Ten(0))];
 const NOISE: &[Unit] = &[unit("m^-0.5", "m-0.5", Ten(0)), also("1/√m", "1/√m", Ten(0))];
 const MEMORY: &[Unit] = &[
     unit("B", "B", Ten(0)),
@@ -106,6 +136,18 @@ impl Dimension {
             Self::KinematicViscosity => KINEMATIC_VISCOSITY,
             Self::Acceleration => ACCELERATION,
             Self::Temperature => TEMPERATURE,
+            Self::DynamicViscosity => DYNAMIC_VISCOSITY,
+            Self::MassFlow => MASS_FLOW,
+            Self::Force => FORCE,
+            Self::SurfaceTension => SURFACE_TENSION,
+            Self::InversePressure => INVERSE_PRESSURE,
+            Self::SpecificVolume => SPECIFIC_VOLUME,
+            Self::SpecificVolumeSlope => SPECIFIC_VOLUME_SLOPE,
+            Self::SpecificEnergy => SPECIFIC_ENERGY,
+            Self::HeatCapacity => HEAT_CAPACITY,
+            Self::HeatCapacitySlope => HEAT_CAPACITY_SLOPE,
+            Self::MolarEnergy => MOLAR_ENERGY,
+            Self::TemperatureDifference => TEMPERATURE_DIFFERENCE,
             Self::Noise => NOISE,
             Self::Memory => MEMORY,
             Self::Ratio => RATIO,

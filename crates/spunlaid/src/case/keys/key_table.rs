@@ -62,23 +62,32 @@ impl<T> KeyTable<T> {
         self.lists.iter().find(|list| list.name == name)
     }
 
-    /// The tables that stand in a table, or at the top of the file.
-    pub(crate) fn tables_in(&self, table: &str) -> &'static [&'static str] {
-        if table.is_empty() { self.tables } else { self.list(table).map_or(&[], |list| list.tables) }
+    /// The tables that stand in a table, or at the top of the file: `spinline.material` stands in `spinline`.
+    pub(crate) fn tables_in(&self, table: &str) -> Vec<&'static str> {
+        match self.list(table) {
+            Some(list) => list.tables.to_vec(),
+            None => self.tables.iter().copied().filter(|inner| parent(inner) == table).collect(),
+        }
     }
 
     /// The table that stands in another one, or at the top of the file.
     pub(crate) fn table_in(&self, table: &str, name: &str) -> Option<&'static str> {
-        self.tables_in(table).iter().copied().find(|one| *one == name && self.list(one).is_none())
+        let is_named = |inner: &&str| inner.rsplit('.').next() == Some(name);
+        self.tables_in(table).into_iter().find(|one| is_named(one) && self.list(one).is_none())
     }
 
     /// The table that is most similar to a misspelt one.
     pub(crate) fn nearest_table(&self, table: &str, name: &str) -> Option<&'static str> {
-        nearest_word(name, self.tables_in(table).iter().copied())
+        nearest_word(name, self.tables_in(table).into_iter())
     }
 
     /// A table or list of the file as it is written, `[air]` or `[[layer]]`.
     pub(crate) fn header(&self, table: &str) -> String {
         if self.list(table).is_some() { format!("[[{table}]]") } else { format!("[{table}]") }
     }
+}
+
+/// The table in which a table stands; empty for one at the top of the file.
+fn parent(table: &str) -> &str {
+    table.rsplit_once('.').map_or("", |(parent, _)| parent)
 }

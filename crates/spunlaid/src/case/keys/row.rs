@@ -1,6 +1,6 @@
 //! How a row of the table of keys is written.
 
-use super::value::{FileKind, Kind, Sign, Value};
+use super::value::{FileKind, Kind, SWITCH, Sign, Value};
 use super::{Key, LeftOut};
 use crate::air::{Flow, PlacedField};
 use crate::case::Case;
@@ -279,6 +279,14 @@ pub(crate) fn text(value: &Value) -> Result<String, Fault> {
     }
 }
 
+pub(super) fn switch(value: &Value) -> Result<bool, Fault> {
+    match value {
+        Value::Text(text) if text == SWITCH[1] => Ok(true),
+        Value::Text(text) if text == SWITCH[0] => Ok(false),
+        _ => Err(unfit(value, "true or false")),
+    }
+}
+
 pub(super) fn vector(value: &Value) -> Result<Vec3<f64>, Fault> {
     match value {
         Value::Vector(vector) => Ok(*vector),
@@ -329,4 +337,15 @@ pub(super) fn placed_mut(case: &mut Case) -> Result<&mut PlacedField, Fault> {
 pub(super) fn line(case: &mut Case) -> Result<&mut Line, Fault> {
     let remedy = "leave it out, or feed the fibre on to a belt";
     case.line.as_mut().ok_or_else(|| Fault::needs("feed.speed", remedy))
+}
+
+/// Refuses a value that the spinline of the case gives.
+pub(super) fn without_spinline(case: &Case) -> Result<(), Fault> {
+    if case.spinline.is_none() {
+        return Ok(());
+    }
+    Err(Fault::excludes(
+        "[spinline]",
+        "the spinline gives this number; leave it out, or leave out [spinline]",
+    ))
 }

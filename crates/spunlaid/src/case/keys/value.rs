@@ -3,6 +3,7 @@
 use crate::air::{FromFile, Measured, Profile, SpectrumTable};
 use crate::error::{Fault, one_of};
 use crate::field::Field;
+use crate::spinline::{AirTable, Polymer, PolymerFile};
 use crate::units::{Dimension, UnitAdvice, shortest};
 use crate::vec3::Vec3;
 use std::path::{Path, PathBuf};
@@ -39,6 +40,10 @@ pub enum Content {
     Spectrum(FromFile<SpectrumTable>),
     /// Velocity records.
     Records(Vec<FromFile<Measured>>),
+    /// The air along a spinline.
+    SpinlineAir(FromFile<AirTable>),
+    /// The constants of a polymer.
+    Polymer(FromFile<PolymerFile>),
 }
 
 impl Content {
@@ -48,6 +53,8 @@ impl Content {
             Self::Profile(file) => vec![file.path()],
             Self::Field(file) => vec![file.path()],
             Self::Spectrum(file) => vec![file.path()],
+            Self::SpinlineAir(file) => vec![file.path()],
+            Self::Polymer(file) => vec![file.path()],
             Self::Records(files) => files.iter().map(FromFile::path).collect(),
         }
     }
@@ -60,6 +67,8 @@ impl Content {
             Self::Profile(file) => vec![file.checksum()],
             Self::Field(file) => vec![file.checksum()],
             Self::Spectrum(file) => vec![file.checksum()],
+            Self::SpinlineAir(file) => vec![file.checksum()],
+            Self::Polymer(file) => vec![file.checksum()],
             Self::Records(files) => files.iter().map(FromFile::checksum).collect(),
         }
     }
@@ -108,6 +117,11 @@ impl From<Content> for Value {
 }
 
 impl Value {
+    /// The value of a switch.
+    pub(super) fn from_switch(is_on: bool) -> Self {
+        Self::Text(SWITCH[usize::from(is_on)].to_owned())
+    }
+
     /// Its kind in words, with an article.
     pub(super) const fn what(&self) -> &'static str {
         match self {
@@ -168,6 +182,26 @@ pub enum FileKind {
     Spectrum,
     /// One velocity record or several.
     Records,
+    /// The air along a spinline.
+    SpinlineAir,
+    /// The constants of a polymer. The key also takes the name of a polymer.
+    Polymer,
+}
+
+impl FileKind {
+    /// The words that a key takes in place of a file, and an example of a file.
+    fn words(self) -> (Vec<&'static str>, &'static str) {
+        match self {
+            Self::Spectrum => (SPECTRA.to_vec(), "spectrum.csv"),
+            Self::Polymer => (Polymer::ALL.map(Polymer::name).to_vec(), "polymer.toml"),
+            Self::Profile | Self::Field | Self::Records | Self::SpinlineAir => (Vec::new(), ""),
+        }
+    }
+
+    /// Whether a text is a word and not the name of a file.
+    pub fn is_word(self, text: &str) -> bool {
+        !text.is_empty() && !text.contains('.') && !self.words().0.is_empty()
+    }
 }
 
 /// Which values a key takes.
@@ -177,6 +211,8 @@ pub enum Kind {
     Quantity(Dimension, Sign),
     /// A whole number between a smallest and a largest one.
     Whole(u64, u64),
+    /// Yes or no: `true` or `false`.
+    Switch,
     /// One of several names.
     Choice(fn() -> Vec<&'static str>),
     /// Any text, with an example.
@@ -190,6 +226,9 @@ pub enum Kind {
     /// The path of a file.
     File(FileKind),
 }
+
+/// The words of a switch that is off, and of one that is on.
+pub(super) const SWITCH: [&str; 2] = ["false", "true"];
 
 /// The names of the built-in shapes of spectra.
 pub(super) const SPECTRA: [&str; 2] = ["flat", "von-karman"];
@@ -237,7 +276,7 @@ impl Kind {
             (Self::Direction | Self::Point, Value::Vector(v)) if not_finite(v) => Some(Fault::not_finite()),
             (Self::Direction, Value::Vector(v)) => ((v.norm() - 1.0).abs() > 1e-12)
                 .then(|| Fault::new("is not a unit vector", "divide it by its length")),
-            (Self::Choice(_) | Self::File(FileKind::Spectrum), Value::Text(text)) => {
+            (Self::Choice(_) | Self::Switch | Self::File(_), Value::Text(text)) => {
                 let names = self.names();
                 if names.contains(&text.as_str()) {
                     return None;
@@ -258,15 +297,20 @@ impl Kind {
     pub fn words(&self) -> Vec<&'static str> {
         match self {
             Self::Choice(names) => names(),
-            Self::File(FileKind::Spectrum) => SPECTRA.to_vec(),
+            Self::Switch => SWITCH.to_vec(),
+            Self::File(kind) => kind.words().0,
             _ => Vec::new(),
         }
     }
 
     /// The words that the key takes, with an example of a file if it also takes one.
     pub fn names(&self) -> Vec<&'static str> {
-        let file = matches!(self, Self::File(FileKind::Spectrum)).then_some("spectrum.csv");
-        self.words().into_iter().chain(file).collect()
+        let words = self.words();
+        let file = match self {
+            Self::File(kind) if !words.is_empty() => Some(kind.words().1),
+            _ => None,
+        };
+        words.into_iter().chain(file).collect()
     }
 
     /// In words, what to write.
@@ -274,6 +318,7 @@ impl Kind {
         match self {
             Self::Quantity(dimension, _) => UnitAdvice(*dimension).to_string(),
             Self::Whole(..) => "a whole number without quotes, like 10".to_owned(),
+            Self::Switch => "true or false, without quotes".to_owned(),
             Self::Choice(_) => one_of(&self.names()),
             Self::Text(example) => format!("a text like \"{example}\""),
             Self::Direction => "three plain numbers, like [1.0, 0.0, 0.0]".to_owned(),
@@ -304,8 +349,9 @@ impl Kind {
             Self::Whole(0, _) => "a whole number".to_owned(),
             Self::Whole(least, most) if most > 1 << 50 => format!("a whole number from {least} up"),
             Self::Whole(least, most) => format!("a whole number from {least} to {most}"),
+            Self::Switch => "true or false".to_owned(),
             Self::Choice(_) | Self::Text(_) => self.wanted(),
-            Self::File(FileKind::Spectrum) => {
+            Self::File(kind) if !kind.words().0.is_empty() => {
                 let names = self.words().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
                 format!("{} or the path of a file", names.join(", "))
             }
@@ -347,7 +393,8 @@ impl Kind {
                 Ok(Value::Numbers(lengths?))
             }
             Self::Choice(_) | Self::Text(_) => Ok(Value::Text(text.to_owned())),
-            Self::File(FileKind::Spectrum) if !text.contains('.') => Ok(Value::Text(text.to_owned())),
+            Self::Switch => Ok(Value::Text(text.trim().to_owned())),
+            Self::File(kind) if kind.is_word(text) => Ok(Value::Text(text.to_owned())),
             Self::File(_) => Ok(Value::Paths(vec![PathBuf::from(text)])),
         }
     }
@@ -358,6 +405,7 @@ impl Kind {
             (Self::Quantity(dimension, _), Value::Number(value)) => dimension.pretty(*value),
             (_, Value::Number(value)) => shortest(*value),
             (_, Value::Whole(value)) => value.to_string(),
+            (Self::Switch, Value::Text(text)) => text.clone(),
             (_, Value::Text(text)) => format!("\"{}\"", crate::units::excerpt(text, 60)),
             (_, Value::Numbers(values)) => {
                 let shown =

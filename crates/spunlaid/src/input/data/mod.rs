@@ -1,5 +1,6 @@
 //! Reads the data files that a case names, each of them once for all points of a study.
 
+mod polymer;
 mod profile;
 
 use crate::air::{FromFile, Measured, Profile, RecordLayout, RecordNumbers, SpectrumTable};
@@ -7,6 +8,7 @@ use crate::error::{Fault, FileError, FileKind};
 use crate::field::{Field, ReadField};
 use crate::file;
 use crate::record::{Interval, Layout, Record, Settings, analyse_fluctuation, read_record};
+use crate::spinline::{AirTable, PolymerFile};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -22,6 +24,8 @@ pub(super) struct DataFiles {
     spectra: Shelf<SpectrumTable>,
     records: Shelf<Measured>,
     fields: Shelf<Field>,
+    spinline_airs: Shelf<AirTable>,
+    polymers: Shelf<PolymerFile>,
     field_warnings: RefCell<BTreeMap<PathBuf, Vec<Fault>>>,
 }
 
@@ -42,6 +46,23 @@ impl DataFiles {
         once(&self.spectra, path, "", || {
             let bytes = file::read(path, FileKind::Table, LARGEST_TABLE)?;
             Ok(from_file(path, crc32fast::hash(&bytes), profile::spectrum(&bytes)?))
+        })
+    }
+
+    /// The air along a spinline.
+    pub(super) fn spinline_air(&self, path: &Path) -> Result<FromFile<AirTable>, FileError> {
+        once(&self.spinline_airs, path, "", || {
+            let bytes = file::read(path, FileKind::Table, LARGEST_TABLE)?;
+            Ok(from_file(path, crc32fast::hash(&bytes), profile::spinline_air(&bytes)?))
+        })
+    }
+
+    /// The constants of a polymer.
+    pub(super) fn polymer(&self, path: &Path) -> Result<FromFile<PolymerFile>, FileError> {
+        once(&self.polymers, path, "", || {
+            let bytes = file::read(path, FileKind::Case, LARGEST_TABLE)?;
+            let polymer = polymer::read(&String::from_utf8_lossy(&bytes), &path.display().to_string())?;
+            Ok(from_file(path, crc32fast::hash(&bytes), polymer))
         })
     }
 

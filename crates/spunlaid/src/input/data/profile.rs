@@ -2,6 +2,7 @@
 
 use crate::air::{Profile, SpectrumTable};
 use crate::error::{Fault, FileError, FileKind, listed};
+use crate::spinline::{AirTable, ZERO_CELSIUS};
 use crate::table::{Head, Table};
 use crate::units::{Dimension, excerpt, shortest};
 
@@ -76,6 +77,51 @@ pub(super) fn profile(text: &[u8]) -> Result<Profile, FileError> {
     Ok(Profile { x, velocity, turbulence_intensity, length_scale, cutoff_frequency })
 }
 
+/// Reads the air along a spinline: `z_mm, velocity_m_s, cross_velocity_m_s, temperature_c`.
+pub(super) fn spinline_air(text: &[u8]) -> Result<AirTable, FileError> {
+    let column = |what, names, dimension, example, sign| ColumnRule {
+        what,
+        names,
+        dimension,
+        example,
+        required: true,
+        sign,
+    };
+    let wanted = [
+        column(
+            "of distances from the die",
+            &["z", "distance", "x"],
+            Dimension::Length,
+            "z_mm",
+            Sign::NotNegative,
+        ),
+        column(
+            "of velocities along the thread",
+            &["velocity", "u", "speed"],
+            Dimension::Velocity,
+            "velocity_m_s",
+            Sign::Any,
+        ),
+        column(
+            "of velocities across the thread",
+            &["cross_velocity", "quench_velocity", "v_c"],
+            Dimension::Velocity,
+            "cross_velocity_m_s",
+            Sign::NotNegative,
+        ),
+        column(
+            "of temperatures",
+            &["temperature", "air_temperature"],
+            Dimension::Temperature,
+            "temperature_c",
+            Sign::Any,
+        ),
+    ];
+    let [distance, velocity, cross_velocity, temperature] =
+        read(text, &wanted, "z_mm,velocity_m_s,cross_velocity_m_s,temperature_c")?;
+    Ok(AirTable { distance, velocity, cross_velocity, temperature })
+}
+
 /// Reads a spectrum: `frequency_hz, energy`.
 pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
     let wanted = [
@@ -121,9 +167,9 @@ fn read<const N: usize>(
     let mut values: [Vec<f64>; N] = std::array::from_fn(|_| Vec::new());
     while table.next_row()? {
         for (i, (column, wanted)) in columns.iter().zip(wanted).enumerate() {
-            let Some((index, factor)) = *column else { continue };
+            let Some((index, unit)) = *column else { continue };
             let value = match table.number(index) {
-                Ok(number) => number * factor,
+                Ok(number) => number * unit.factor + unit.zero,
                 Err(_) if !table.is_number(index) => f64::NAN,
                 Err(error) => return Err(error),
             };
@@ -163,8 +209,15 @@ fn read<const N: usize>(
     Ok(values)
 }
 
-/// Index of the column and the factor from its unit to SI.
-fn find(heads: &[Head], wanted: &ColumnRule) -> Result<Option<(usize, f64)>, FileError> {
+/// How the numbers of a column become SI units: times the factor, plus the zero of the scale.
+#[derive(Clone, Copy)]
+struct ColumnUnit {
+    factor: f64,
+    zero: f64,
+}
+
+/// Index of the column, and its unit.
+fn find(heads: &[Head], wanted: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>, FileError> {
     let named = heads.iter().enumerate();
     let matching: Vec<(usize, Option<&str>)> =
         named.filter_map(|(i, head)| Some((i, head.named(wanted.names)?))).collect();
@@ -192,8 +245,17 @@ fn find(heads: &[Head], wanted: &ColumnRule) -> Result<Option<(usize, f64)>, Fil
     };
     // The unit of an energy does not matter.
     if wanted.names.contains(&"energy") || unit.is_none() && wanted.dimension == Dimension::Ratio {
-        return Ok(Some((index, 1.0)));
+        return Ok(Some((index, ColumnUnit { factor: 1.0, zero: 0.0 })));
+    }
+    if wanted.dimension == Dimension::Temperature
+        && let Some(unit) = unit.map(|unit| unit.trim_matches(['[', ']', '(', ')', ' ']))
+    {
+        let celsius = ["c", "C", "°C", "degc", "degC", "deg_c", "celsius"].contains(&unit);
+        if celsius || unit.eq_ignore_ascii_case("k") {
+            let zero = if celsius { ZERO_CELSIUS } else { 0.0 };
+            return Ok(Some((index, ColumnUnit { factor: 1.0, zero })));
+        }
     }
     let head = Head { unit: unit.map(str::to_owned), ..heads[index].clone() };
-    Ok(Some((index, head.factor(wanted.dimension, wanted.example)?)))
+    Ok(Some((index, ColumnUnit { factor: head.factor(wanted.dimension, wanted.example)?, zero: 0.0 })))
 }

@@ -1,13 +1,21 @@
 //! The feed.
 
 use super::super::Key;
-use super::super::row::{Access, line, number, quantity};
+use super::super::row::{Access, line, number, quantity, without_spinline};
 use super::super::value::Sign::Positive;
 use super::super::value::Value;
 use crate::units::Dimension;
 
 pub(super) const KEYS: &[Key] = &[
-    quantity("feed.speed", Dimension::Velocity, Positive, of_line!(feed_speed))
+    quantity("feed.speed", Dimension::Velocity, Positive, Access {
+        get: |case| Some(Value::Number(case.line?.feed_speed)),
+        set: |case, value| {
+            without_spinline(case)?;
+            line(case)?.feed_speed = number(value)?;
+            Ok(())
+        },
+    })
+        .told(|case| case.spinline.is_some())
         .follows("a fibre of fixed length")
         // From coiling threads to the fastest spinning.
     .usual(1e-3, 200.0)

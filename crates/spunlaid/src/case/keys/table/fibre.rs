@@ -1,7 +1,7 @@
 //! The fibre.
 
 use super::super::Key;
-use super::super::row::{Access, choose, key, named, number, quantity, vector};
+use super::super::row::{Access, choose, key, named, number, quantity, vector, without_spinline};
 use super::super::value::Sign::{NotNegative, Positive};
 use super::super::value::{Kind, Value};
 use crate::case::whole_parts;
@@ -9,6 +9,20 @@ use crate::error::Fault;
 use crate::fibre::Root;
 use crate::units::Dimension;
 use std::f64::consts::PI;
+
+/// Access to a number of the fibre that a spinline gives.
+macro_rules! from_spinline {
+    ($field:ident) => {
+        Access {
+            get: |case| Some(Value::Number(case.fibre.$field)),
+            set: |case, value| {
+                without_spinline(case)?;
+                case.fibre.$field = number(value)?;
+                Ok(())
+            },
+        }
+    };
+}
 
 pub(super) const KEYS: &[Key] = &[
     quantity("fibre.length", Dimension::Length, Positive, Access {
@@ -28,7 +42,8 @@ pub(super) const KEYS: &[Key] = &[
     .meaning("Length of the fibre, from its root to its free end. A fibre that is fed on to a belt has none.")
         .label("Fibre length *L*")
         .slider(0.1, 2.0),
-    quantity("fibre.diameter", Dimension::Length, Positive, number!(fibre.diameter))
+    quantity("fibre.diameter", Dimension::Length, Positive, from_spinline!(diameter))
+        .told(|case| case.spinline.is_some())
         .required("50 µm")
         // From nanofibres to thick threads.
     .usual(1e-7, 2e-3)
@@ -36,7 +51,8 @@ pub(super) const KEYS: &[Key] = &[
         .label("Fibre diameter *d*")
         .slider(5e-6, 2e-4)
         .in_flight(),
-    quantity("fibre.density", Dimension::Density, Positive, number!(fibre.density))
+    quantity("fibre.density", Dimension::Density, Positive, from_spinline!(density))
+        .told(|case| case.spinline.is_some())
         .required("950 kg/m³")
         // From foams to the heaviest metals.
     .usual(100.0, 25_000.0)
@@ -47,6 +63,7 @@ pub(super) const KEYS: &[Key] = &[
     quantity("fibre.linear_density", Dimension::LinearDensity, Positive, Access {
         get: |_| None,
         set: |case, value| {
+            without_spinline(case)?;
             case.fibre.diameter = (4.0 * number(value)? / (PI * case.fibre.density)).sqrt();
             Ok(())
         },
@@ -56,7 +73,17 @@ pub(super) const KEYS: &[Key] = &[
     .meaning("Mass per length of the fibre, which may be written instead of `fibre.diameter`; the diameter follows with the density.")
     .label("Linear density")
     .slider(1e-8, 2e-5),
-    quantity("fibre.youngs_modulus", Dimension::Pressure, Positive, number!(fibre.youngs_modulus))
+    quantity("fibre.youngs_modulus", Dimension::Pressure, Positive, Access {
+        get: |case| Some(Value::Number(case.fibre.youngs_modulus)),
+        set: |case, value| {
+            case.fibre.youngs_modulus = number(value)?;
+            if let Some(line) = &mut case.spinline {
+                line.gives_modulus = false;
+            }
+            Ok(())
+        },
+    })
+        .told(|case| case.spinline.as_ref().is_some_and(|line| line.gives_modulus))
         .required("2 GPa")
         // From rubber to the stiffest carbon fibres.
     .usual(1e7, 9e11)

@@ -7,11 +7,14 @@ mod feed;
 mod fibre;
 mod neighbours;
 mod run;
+mod spinline;
 
 use super::Key;
 
 /// The tables of a case file and their keys.
-const TABLES: [(&str, &[Key]); 7] = [
+const TABLES: [(&str, &[Key]); 9] = [
+    ("spinline", spinline::KEYS),
+    ("spinline.material", spinline::MATERIAL),
     ("fibre", fibre::KEYS),
     ("feed", feed::KEYS),
     ("belt", belt::KEYS),

@@ -1,0 +1,44 @@
+//! A case of which nothing is known yet.
+
+use super::{Case, Neighbours, Run};
+use crate::air::Air;
+use crate::chain::schemes::Scheme;
+use crate::drag::{Drag, FrictionLaw, NormalLaw};
+use crate::fibre::{Fibre, Root};
+use crate::vec3::Vec3;
+
+impl Case {
+    /// A case of which nothing is known yet; its keys are set one after another.
+    pub(crate) fn unset() -> Self {
+        let nan = f64::NAN;
+        Self {
+            fibre: Fibre {
+                length: nan,
+                diameter: nan,
+                density: nan,
+                youngs_modulus: nan,
+                bending_viscosity_time: 0.0,
+                elements: 0,
+                root: Root::Pinned,
+                direction: Vec3::new(1.0, 0.0, 0.0),
+            },
+            air: Air::uniform(nan, nan, nan, nan),
+            drag: Drag { along: FrictionLaw::ALL[0], across: NormalLaw::ALL[0] },
+            line: None,
+            spinline: None,
+            neighbours: Neighbours::default(),
+            run: Run {
+                time_step: nan,
+                steps: 0,
+                spin_up_steps: 0,
+                output_steps: 0,
+                replicates: 1,
+                seed: 0,
+                scheme: Scheme::SemiImplicitEuler,
+                gravity: nan,
+                damping: nan,
+                shapes: None,
+            },
+        }
+    }
+}

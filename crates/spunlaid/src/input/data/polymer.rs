@@ -1,0 +1,62 @@
+//! Reads the file of a polymer: the table `[spinline.material]` with every constant, as in a case.
+
+use crate::case::Case;
+use crate::case::keys::{self, Key};
+use crate::error::{Fault, FileError, Finding, Place, Position};
+use crate::input::document;
+use crate::spinline::{Material, Polymer, PolymerFile, PolymerSource, Spinline};
+
+/// The table of the constants.
+const TABLE: &str = "spinline.material";
+
+/// Reads the constants. Messages call the file `name`.
+pub(super) fn read(text: &str, name: &str) -> Result<PolymerFile, FileError> {
+    let problem = |key: &str, what: Fault| {
+        let place = Place::in_file(name, Position::Whole);
+        Box::new(Finding { place, key: key.to_owned(), value: None, what })
+    };
+    let written = document::read(&keys::CASE, text, name, &[]).map_err(|error| {
+        let first = error.problems().first().cloned();
+        first.map_or_else(|| problem("", Fault::plain(error.to_string())), Box::new)
+    })?;
+    if let Some(first) = written.problems.first() {
+        return Err(Box::new(first.clone()));
+    }
+    let mut case = Case { spinline: Some(Spinline::UNKNOWN), ..Case::unset() };
+    for (key, said) in written.all() {
+        let constant = keys::find(key).filter(|key| key.table() == TABLE);
+        let (Some(constant), Some(value)) = (constant, &said.value) else {
+            let what = Fault::new(
+                "does not belong in the file of a polymer",
+                format!("it takes the table [{TABLE}] only"),
+            );
+            return Err(Box::new(Finding { place: said.place.clone(), ..*problem(key, what) }));
+        };
+        constant.apply(&mut case, value).map_err(|what| problem(key, what))?;
+    }
+    let line = case.spinline.clone().unwrap_or(Spinline::UNKNOWN);
+    // What every polymer has: the constants of one that does not crystallise.
+    let polymer = Polymer::Pla;
+    let usual = Spinline {
+        material: Material { crystals: Material::UNKNOWN.crystals, ..polymer.material(false) },
+        polymer: PolymerSource::Known(polymer),
+        ..Spinline::UNKNOWN
+    };
+    let usual = Case { spinline: Some(usual), ..Case::unset() };
+    let is_missing = |key: &&Key| key.get(&usual).is_some() && key.get(&case).is_none();
+    if let Some(key) = keys::of_table(TABLE).find(is_missing) {
+        let what = Fault::new(
+            "is missing",
+            format!("the file of a polymer needs every constant; add {}", key.example()),
+        );
+        return Err(problem(key.name, what));
+    }
+    let Some(source) = line.source else {
+        let what = Fault::new(
+            "is missing",
+            "say where the constants come from: source = \"data sheet of the grade\"",
+        );
+        return Err(problem("spinline.material.source", what));
+    };
+    Ok(PolymerFile { material: line.material, source })
+}

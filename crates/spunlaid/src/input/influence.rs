@@ -1,0 +1,131 @@
+//! What decides the diameter of a filament: every number of a spinline is changed a little.
+
+use super::spinline::SpinFile;
+use crate::air::FromFile;
+use crate::case::Case;
+use crate::case::keys::{self, Key, Value};
+use crate::error::Error;
+use crate::spinline::{AirTable, Failure, Solution, Surroundings};
+use crate::units::Dimension;
+use std::sync::Arc;
+
+/// The change of a number, either way.
+const STEP: f64 = 0.02;
+/// The change of a temperature, either way [K].
+const KELVIN: f64 = 2.0;
+/// Influences below this are left out.
+const LEAST: f64 = 5e-4;
+
+/// What a change of a number does to the filament.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Influence {
+    /// Full name of the key, `spinline.throughput`; for a column of a table, `spinline.profile`.
+    pub key: &'static str,
+    /// What is changed, with its symbol: `Throughput of a hole`.
+    pub label: &'static str,
+    /// How it is changed.
+    pub change: Change,
+    /// What the change does to the final diameter: `d ln d/d ln x` [-], or its relative change [-] for 10 K.
+    pub diameter: f64,
+    /// The same of the final speed.
+    pub speed: f64,
+}
+
+/// How a number is changed to see its influence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// By a share of its value.
+    Relative,
+    /// By 10 K.
+    TenKelvin,
+}
+
+/// A number of the air's table: its label, how it changes, and its column.
+type Column = (&'static str, Change, fn(&mut AirTable) -> &mut Vec<f64>);
+
+const COLUMNS: [Column; 3] = [
+    ("Air velocity along the thread *u*", Change::Relative, |table| &mut table.velocity),
+    ("Quench velocity *v*_{c}", Change::Relative, |table| &mut table.cross_velocity),
+    ("Air temperature *T*_{a}", Change::TenKelvin, |table| &mut table.temperature),
+];
+
+impl SpinFile {
+    /// What decides the diameter: the influence of each number on the filament of the first row, the largest first. The factor
+    /// of the friction law is among them. Numbers without influence are left out.
+    ///
+    /// A number whose change leaves no steady state is left out too.
+    ///
+    /// # Errors
+    /// As [`SpinFile::solve`].
+    pub fn influences(&self) -> Result<Vec<Influence>, Error> {
+        self.solve()?;
+        let carrier = self.carrier();
+        let mut found = Vec::new();
+        let tables = ["spinline", "spinline.material", "drag"];
+        for key in tables.into_iter().flat_map(keys::of_table) {
+            let (Some(dimension), Some(Value::Number(value))) = (key.dimension(), key.get(&carrier)) else {
+                continue;
+            };
+            let change =
+                if dimension == Dimension::Temperature { Change::TenKelvin } else { Change::Relative };
+            if value != 0.0 && is_physical(key) {
+                let changed = |sign: f64| {
+                    let mut case = carrier.clone();
+                    key.set(&mut case, change.apply(value, sign)).ok()?;
+                    solve(&case).ok()
+                };
+                found.extend(change.influence(key.name, key.label, changed));
+            }
+        }
+        if let Some(table) = self.spinline.air.table() {
+            for (label, change, column) in COLUMNS {
+                let changed = |sign: f64| {
+                    let (mut table, mut case) = (table.clone(), carrier.clone());
+                    column(&mut table).iter_mut().for_each(|value| *value = change.apply(*value, sign));
+                    case.spinline.as_mut()?.air =
+                        Surroundings::Table(FromFile::new(Default::default(), 0, Arc::new(table)));
+                    solve(&case).ok()
+                };
+                found.extend(change.influence("spinline.profile", label, changed));
+            }
+        }
+        found.sort_by(|a, b| b.diameter.abs().total_cmp(&a.diameter.abs()));
+        Ok(found)
+    }
+}
+
+/// Whether a key is a number of the line: a limit or the size of the curtain is none.
+fn is_physical(key: &Key) -> bool {
+    !["spinline.break_stress", "spinline.filaments_per_metre_and_row"].contains(&key.name)
+}
+
+fn solve(case: &Case) -> Result<Option<Solution>, Failure> {
+    case.spinline.as_ref().map(|line| line.solve(case.drag.along)).transpose()
+}
+
+impl Change {
+    fn apply(self, value: f64, sign: f64) -> f64 {
+        match self {
+            Self::Relative => value * (1.0 + sign * STEP),
+            Self::TenKelvin => value + sign * KELVIN,
+        }
+    }
+
+    /// The influence of a number, from the filaments with a larger and with a smaller one.
+    fn influence(
+        self,
+        key: &'static str,
+        label: &'static str,
+        changed: impl Fn(f64) -> Option<Option<Solution>>,
+    ) -> Option<Influence> {
+        let (more, less) = (changed(1.0)??, changed(-1.0)??);
+        let scale = match self {
+            Self::Relative => libm::log((1.0 + STEP) / (1.0 - STEP)),
+            Self::TenKelvin => 2.0 * KELVIN / 10.0,
+        };
+        let of = |number: fn(&Solution) -> f64| libm::log(number(&more) / number(&less)) / scale;
+        let diameter = of(|filament| filament.final_diameter);
+        let speed = of(|filament| filament.final_speed);
+        (diameter.abs() >= LEAST).then_some(Influence { key, label, change: self, diameter, speed })
+    }
+}
