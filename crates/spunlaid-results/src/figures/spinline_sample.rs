@@ -2,9 +2,7 @@
 
 use spunlaid::drag::FrictionLaw;
 use spunlaid::input::{Change, Influence};
-use spunlaid::spinline::{
-    AirTable, Curtain, End, Law, Melt, Polymer, PolymerSource, Solution, Spinline, Surroundings,
-};
+use spunlaid::spinline::{AirTable, Curtain, Melt, Polymer, Solution, Spinline, Surroundings};
 
 /// Friction between thread and air.
 pub const FRICTION: FrictionLaw = FrictionLaw::Matsui { factor: 0.37 };
@@ -18,23 +16,14 @@ pub fn spinline() -> Spinline {
         temperature: vec![293.15; 4],
     };
     Spinline {
-        polymer: PolymerSource::Known(Polymer::Pp),
         material: Polymer::Pp.material(false),
         melt: Melt::FlowRate(35.0),
         die_temperature: 503.15,
         hole_diameter: 0.6e-3,
-        die_swell: 1.0,
         throughput: 0.5e-3 / 60.0,
         length: 1.6,
-        air: Surroundings::Computed(table),
-        end: End::Tension(0.0),
-        law: Law::Newtonian,
-        crystallisation: false,
-        emissivity: 0.0,
-        dissipation: false,
-        nusselt_factor: 1.0,
-        break_stress: f64::INFINITY,
-        curtain: None,
+        air: Surroundings::Behind(table),
+        ..Spinline::UNKNOWN
     }
 }
 
@@ -55,9 +44,9 @@ pub fn rows(spinline: &Spinline) -> Vec<Solution> {
 
 /// Influences of both kinds.
 pub fn influences() -> Vec<Influence> {
-    let one = |key, label: &str, change, diameter: f64| Influence {
+    let one = |key, label: &'static str, change, diameter: f64| Influence {
         key,
-        label: label.to_owned(),
+        label,
         change,
         diameter,
         speed: -2.0 * diameter,

@@ -35,8 +35,9 @@ impl SpinFolder<'_> {
     pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
         let spinline = &self.file.spinline;
         let copied = beside::copy_of_spinline(spinline, &staging.place(beside::CASE_FILES).0)?;
-        let spinline = beside::relocated_spinline(spinline, &copied);
-        let toml = write_spinline(&SpinFile { spinline, ..self.file.clone() });
+        let mut relocated = self.file.clone();
+        relocated.spinline = beside::relocated_spinline(spinline, &copied);
+        let toml = write_spinline(&relocated);
         write_stations(staging, &[(1, &self.results.rows)])?;
         let figures = self.figures();
         pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;

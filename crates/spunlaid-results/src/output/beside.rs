@@ -90,7 +90,7 @@ fn files_of_spinline(spinline: &Spinline) -> Vec<FileWithParts<'_>> {
     };
     let air = match &spinline.air {
         Surroundings::Table(table) => Some((table.path(), table.parts())),
-        Surroundings::Uniform(_) | Surroundings::Computed(_) => None,
+        Surroundings::Uniform(_) | Surroundings::Field { .. } | Surroundings::Behind(_) => None,
     };
     polymer.into_iter().chain(air).collect()
 }

@@ -3,12 +3,14 @@
 use super::rendered;
 use super::words::length;
 use crate::numbers::{THIN, number_to, significant};
-use crate::output::spinline::{MEASURES, MODEL_ERROR, SpinMeasure, SpinResults, influence, numerical_error};
+use crate::output::spinline::{
+    MEASURES, MODEL_ERROR, SpinMeasure, SpinResults, freezing, influence, numerical_error,
+};
 use crate::output::web::Layer;
 use askama::Template;
 use spunlaid::case::Case;
 use spunlaid::input::SpinFile;
-use spunlaid::spinline::{End, FreezingCause, Law, PolymerSource, Solution, ZERO_CELSIUS};
+use spunlaid::spinline::{End, Law, PolymerSource, Solution, ZERO_CELSIUS};
 use spunlaid::web::Web;
 use spunlaid_charts::Figure;
 
@@ -48,21 +50,21 @@ struct SpinPage<'a> {
 
 /// Content of `assets/spinline_section.html`.
 pub(super) struct SpinSection<'a> {
-    id: String,
-    title: String,
-    sentences: Vec<String>,
-    rows: Vec<Row>,
-    errors: String,
-    influences: Vec<String>,
-    figures: &'a [Figure],
+    pub(super) id: String,
+    pub(super) title: String,
+    pub(super) sentences: Vec<String>,
+    pub(super) rows: Vec<Row>,
+    pub(super) errors: String,
+    pub(super) influences: Vec<String>,
+    pub(super) figures: &'a [Figure],
 }
 
 /// A measure of the table.
-struct Row {
-    name: &'static str,
-    value: String,
-    unit: &'static str,
-    meaning: &'static str,
+pub(super) struct Row {
+    pub(super) name: &'static str,
+    pub(super) value: String,
+    pub(super) unit: &'static str,
+    pub(super) meaning: &'static str,
 }
 
 impl<'a> SpinSection<'a> {
@@ -223,23 +225,6 @@ fn way(layer: &Layer, holes: f64, spinline: &LayerSpinline, is_named: bool) -> S
         significant(layer.belt_speed_m_s, 3),
         grams(from_holes),
         grams(layer.basis_weight_kg_m2)
-    )
-}
-
-/// Where and by what the thread freezes, in a sentence.
-fn freezing(solution: &Solution) -> String {
-    let point = solution.freezing;
-    format!(
-        "The thread is drawn {}-fold and freezes {} below the die, at {}, {}, under a stress of {}{THIN}MPa and while it cools by {}{THIN}K/s.",
-        significant(solution.draw_ratio(), 3),
-        length(point.distance),
-        celsius(point.temperature),
-        match point.by {
-            FreezingCause::Temperature => "by its temperature",
-            FreezingCause::Crystallisation => "by crystallisation",
-        },
-        significant(point.stress * 1e-6, 3),
-        significant(point.cooling_rate, 2)
     )
 }
 

@@ -20,12 +20,8 @@ mod write;
 mod written;
 
 pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
-<<<<<<< HEAD
-pub use spinline::{Change, Influence, SpinFile, parse_spinline, read_spinline, write_spinline};
-=======
 pub use influence::{Change, Influence};
-pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
->>>>>>> core
+pub use spinline::{SpinFile, holds_spinline_alone, parse_spinline, read_spinline, write_spinline};
 pub use study::{
     MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
     read_changed_study, read_study,

@@ -9,7 +9,7 @@ use crate::air::Flow;
 use crate::case::keys::{self, Key};
 use crate::case::{Case, Note};
 use crate::drag::Drag;
-use crate::error::{Error, Fault, FileKind, Problem};
+use crate::error::{Error, Fault, FileKind, Place, Problem};
 use crate::field::Hint;
 use crate::spinline::{AirTable, End, Failure, Melt, Solution, Spinline, Surroundings};
 use crate::units::Dimension;
@@ -65,6 +65,15 @@ pub fn parse_spinline<'a>(
     Ok(SpinFile { spinline, drag: case.drag, notes, written })
 }
 
+/// Whether a file describes a spinline and no fibre that flies. False if it cannot be read.
+pub fn holds_spinline_alone(path: &Path) -> bool {
+    let Ok(text) = file::read(path, FileKind::Case) else { return false };
+    let alone = |written: WrittenValues| {
+        written.has_table("spinline") && !["fibre", "air"].into_iter().any(|table| written.has_table(table))
+    };
+    document::read(&keys::CASE, &text, "", &[]).is_ok_and(alone)
+}
+
 /// Writes a spinline as a file that reads back to the same bits.
 pub fn write_spinline(file: &SpinFile) -> String {
     let case = file.carrier();
@@ -77,6 +86,12 @@ pub fn write_spinline(file: &SpinFile) -> String {
 }
 
 impl SpinFile {
+    /// The spinline from which a case is fed; `None` if it has none.
+    pub fn of_case(case: &Case) -> Option<Self> {
+        let (spinline, written) = (case.spinline.clone()?, WrittenValues::new(Place::Code));
+        Some(Self { spinline, drag: case.drag, notes: Vec::new(), written })
+    }
+
     /// The steady state of each row of the curtain, the quenched side first; one if there is no curtain.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use spunlaid_charts::{
     Axis, Figure, Scale, Table,
     palette::{BLUE, GREY, GRID, INK, VERMILION},
     signed,
-    svg::{Anchor, Stroke, Svg, Text, width},
+    svg::{Anchor, Stroke, Svg, Text, plain, width},
 };
 
 const WIDTH: f64 = 720.0;
@@ -127,7 +127,7 @@ fn table(influences: &[Influence]) -> Table {
     for Influence { label, change, diameter, speed, .. } in influences {
         let nan = f64::NAN;
         table.add(
-            label,
+            &plain(label),
             [match change {
                 Change::Relative => [*diameter, *speed, nan, nan],
                 Change::TenKelvin => [nan, nan, 100.0 * diameter, 100.0 * speed],

@@ -74,11 +74,11 @@ fn with_rows(
     shown.iter().enumerate().fold(chart, |chart, (i, row)| {
         let keyed = |series: Series, is_keyed: bool| if is_keyed { series } else { series.unlabelled() };
         let line = Series::new(&row.label(what), row.colour).width(2.0);
-        let freezing = Series::new("it freezes here", row.colour).named(&row.label("freezing point"));
+        let freezing = Series::new("freezing point", row.colour).named(&row.label("freezing point"));
         let frozen = row.solution.freezing.distance * MM;
         chart
-            .line(keyed(line, labelled || shown.len() > 1), &row.points(quantity, until))
-            .vertical(keyed(freezing.dashed("5 4").width(1.2), i == 0), frozen)
+            .line(keyed(line, labelled), &row.points(quantity, until))
+            .vertical(keyed(freezing.dashed("5 4").width(1.2), labelled && i == 0), frozen)
     })
 }
 
@@ -136,8 +136,8 @@ fn temperature(prefix: &str, shown: &[Shown<'_>]) -> Figure {
 fn tension(prefix: &str, shown: &[Shown<'_>]) -> Figure {
     let title = "Tension and stress of the thread";
     let tension = chart(prefix, "tension", title, Axis::linear("Tension *F* (mN)").zero_based());
-    let tension = with_rows(tension, shown, "thread", |station| station.tension * 1e3, f64::INFINITY, false);
-    let stress = chart(prefix, "stress", title, Axis::logarithmic("Stress *N*_{1} (MPa)").decades(5));
+    let tension = with_rows(tension, shown, "thread", |station| station.tension * 1e3, f64::INFINITY, true);
+    let stress = chart(prefix, "stress", title, Axis::linear("Stress *N*_{1} (MPa)").zero_based());
     let stress = with_rows(stress, shown, "thread", |station| station.stress * 1e-6, f64::INFINITY, false);
     let caption = format!(
         "Above, the force in the thread; below, the stress in its cross-section. The stress at the freezing point orients the \
@@ -156,7 +156,7 @@ fn strain_rate(prefix: &str, shown: &[Shown<'_>], until: f64) -> Figure {
     let title = "Strain rate of the thread";
     let up = Axis::linear("Strain rate d*v*/d*z* (1/s)").zero_based().in_column("strain_rate_per_s");
     let chart = chart(prefix, "strain_rate", title, up);
-    let chart = with_rows(chart, shown, "thread", |station| station.strain_rate, until, false);
+    let chart = with_rows(chart, shown, "thread", |station| station.strain_rate, until, true);
     let caption = format!(
         "How fast the thread is stretched, up to a little below the freezing point. {}",
         about_freezing(shown)
@@ -168,7 +168,7 @@ fn transformed(prefix: &str, shown: &[Shown<'_>]) -> Figure {
     let title = "Transformed share of the polymer";
     let up = Axis::linear("Transformed share *θ* (–)").zero_based().in_column("transformed");
     let chart = chart(prefix, "transformed", title, up);
-    let chart = with_rows(chart, shown, "thread", |station| station.transformed, f64::INFINITY, false);
+    let chart = with_rows(chart, shown, "thread", |station| station.transformed, f64::INFINITY, true);
     let caption = format!(
         "The share of the crystals that could form which has formed; 1 is the crystallinity that the polymer reaches. {}",
         about_freezing(shown)

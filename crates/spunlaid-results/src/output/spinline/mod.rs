@@ -10,7 +10,7 @@ pub use measures::{MEASURES, SpinMeasure};
 pub use stations::{COLUMNS, STATIONS, write as write_stations};
 pub use summary::{SpinSummary, Summary};
 pub use table::text;
-pub use words::{MODEL_ERROR, influence, numerical_error, remarks};
+pub use words::{MODEL_ERROR, freezing, influence, numerical_error, remarks};
 
 use super::beside::CASE_FILES;
 use spunlaid::case::Case;
@@ -42,8 +42,7 @@ impl SpinResults {
 
     /// The spinline from which a case is fed, solved again, which takes milliseconds; `None` if the case has none.
     pub fn of_case(case: &Case) -> Option<Self> {
-        let spinline = case.spinline.clone()?;
         // The case could be read, so its spinline can be solved.
-        Self::new(&SpinFile { spinline, drag: case.drag, notes: Vec::new() }).ok()
+        Self::new(&SpinFile::of_case(case)?).ok()
     }
 }

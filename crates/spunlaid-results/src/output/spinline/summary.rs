@@ -10,6 +10,7 @@ use serde_json::Value as Json;
 use spunlaid::case::Case;
 use spunlaid::input::{Change, Influence};
 use spunlaid::spinline::Solution;
+use spunlaid_charts::svg::plain;
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
@@ -97,7 +98,7 @@ fn of_influence(influence: &Influence) -> Json {
         Change::Relative => "relative",
         Change::TenKelvin => "10 K",
     };
-    let texts = [("key", *key), ("label", label.as_str()), ("change", change)];
+    let texts = [("key", *key), ("label", &plain(label)), ("change", change)];
     let texts = texts.map(|(name, text)| (name.to_owned(), Json::from(text)));
     let numbers = [("diameter", *diameter), ("speed", *speed)];
     object(texts.into_iter().chain(numbers.map(|(name, number)| (name.to_owned(), number.into()))).collect())

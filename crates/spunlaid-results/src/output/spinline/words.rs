@@ -2,7 +2,9 @@
 
 use crate::numbers::{number_to, significant};
 use spunlaid::input::{Change, Influence};
-use spunlaid::spinline::Solution;
+use spunlaid::spinline::{FreezingCause, Solution};
+use spunlaid::units::Dimension;
+use spunlaid_charts::svg::plain;
 
 /// What is known of the error of the model.
 pub const MODEL_ERROR: &str = "How far the model is from a real line is not known: no diameter that it gives has been compared with a measured one. \
@@ -21,6 +23,23 @@ pub fn numerical_error(rows: &[Solution]) -> String {
     )
 }
 
+/// Where and by what the thread freezes, in a sentence.
+pub fn freezing(solution: &Solution) -> String {
+    let point = solution.freezing;
+    format!(
+        "The thread is drawn {}-fold and freezes {} below the die, at {}, {}, under a stress of {} MPa and while it cools by {} K/s.",
+        significant(solution.draw_ratio(), 3),
+        Dimension::Length.pretty_to(point.distance, 3),
+        Dimension::Temperature.pretty_to(point.temperature, 4),
+        match point.by {
+            FreezingCause::Temperature => "by its temperature",
+            FreezingCause::Crystallisation => "by crystallisation",
+        },
+        significant(point.stress * 1e-6, 3),
+        significant(point.cooling_rate, 2)
+    )
+}
+
 /// What a number does to the diameter, in a sentence: `Throughput: 1 % more makes the filament 0.43 % thicker.`
 pub fn influence(influence: &Influence) -> String {
     let (change, percent) = match influence.change {
@@ -28,7 +47,8 @@ pub fn influence(influence: &Influence) -> String {
         Change::TenKelvin => ("10 K more make", 100.0 * influence.diameter),
     };
     let way = if percent < 0.0 { "finer" } else { "thicker" };
-    format!("{}: {change} the filament {} % {way}.", influence.label, significant(percent.abs(), 2))
+    let label = plain(influence.label);
+    format!("{label}: {change} the filament {} % {way}.", significant(percent.abs(), 2))
 }
 
 /// What a reader must know of the solution.
