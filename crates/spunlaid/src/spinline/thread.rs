@@ -54,8 +54,10 @@ pub(super) struct Thread<'a> {
     pub(super) air: &'a Surroundings,
     /// Acceleration of gravity [m/s²].
     pub(super) gravity: f64,
+    /// `k Nu` [W/(m K)], if it does not follow from the air; exact solutions have a constant one.
+    pub(super) heat_transfer: Option<f64>,
     /// Viscosity at the reference temperature `η_r` [Pa s].
-    viscosity: f64,
+    pub(super) viscosity: f64,
 }
 
 /// The rates of a state, and what they are made of.
@@ -70,7 +72,7 @@ pub(super) struct Rates {
 
 impl<'a> Thread<'a> {
     pub(super) fn new(line: &'a Spinline, friction: FrictionLaw, air: &'a Surroundings) -> Self {
-        Self { line, friction, air, gravity: GRAVITY, viscosity: line.viscosity() }
+        Self { line, friction, air, gravity: GRAVITY, heat_transfer: None, viscosity: line.viscosity() }
     }
 
     fn material(&self) -> &Material {
@@ -201,7 +203,8 @@ impl<'a> Thread<'a> {
             * self.line.emissivity
             * STEFAN_BOLTZMANN
             * (fourth(temperature) - fourth(air_temperature));
-        [PI * conductivity_at(film) * nusselt * (temperature - air_temperature), radiation]
+        let transfer = self.heat_transfer.unwrap_or_else(|| conductivity_at(film) * nusselt);
+        [PI * transfer * (temperature - air_temperature), radiation]
     }
 
     /// How the state changes with the distance.                                         theory.md (84) to (95)
