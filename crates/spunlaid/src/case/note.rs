@@ -57,6 +57,19 @@ pub enum Remark {
         /// Longest stable step [s].
         limit: f64,
     },
+    /// The tension at the end of a spinline was found by flights.
+    #[error(
+        "was found by flights: the mean tension at the root, {}, with a feed speed of {} that changed by {} in the last round",
+        Dimension::Force.pretty(*tension), Dimension::Velocity.pretty(*speed), Dimension::Ratio.pretty_to(*change, 2)
+    )]
+    TensionFlown {
+        /// Mean tension at the root [N].
+        tension: f64,
+        /// Feed speed [m/s].
+        speed: f64,
+        /// Relative change of the speed in the last round [-].
+        change: f64,
+    },
     /// A standard error is judged from few replicates.
     #[error(
         "is too few to trust a standard error, so the study often stops before its results are as exact as asked; write 6 \
@@ -337,7 +350,7 @@ impl Note {
     }
 
     pub(crate) const fn is_of_results(&self) -> bool {
-        !matches!(self.what, Remark::StepChosen { .. })
+        !matches!(self.what, Remark::StepChosen { .. } | Remark::TensionFlown { .. })
     }
 }
 

@@ -17,7 +17,12 @@ impl Open {
     ///
     /// # Errors
     /// Every reason why the case cannot be run.
-    pub(super) fn resolve(mut self) -> Result<(Case, Vec<Note>), Error> {
+    pub(super) fn resolve(self) -> Result<(Case, Vec<Note>), Error> {
+        if self.waits_for_flights() { self.resolve_with_flights() } else { self.resolve_at_once() }
+    }
+
+    /// [`Open::resolve`] with the tension at the end of the spinline as it is known.
+    pub(super) fn resolve_at_once(mut self) -> Result<(Case, Vec<Note>), Error> {
         self.spin()?;
         let fibre = &self.case.fibre;
         self.case.air.settle(fibre.direction * fibre.length);

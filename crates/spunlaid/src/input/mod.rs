@@ -8,6 +8,7 @@ mod data;
 mod document;
 mod entry;
 mod file;
+mod flown;
 mod influence;
 mod open;
 mod overrides;

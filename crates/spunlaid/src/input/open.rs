@@ -3,7 +3,7 @@
 use super::data::DataFiles;
 use super::written::{WrittenValue, WrittenValues, sorted};
 use crate::air::{Air, EddyModel, Flow, PlacedField, RecordLayout, SpectrumShape};
-use crate::case::keys::{self, Content, FileKind, Key, Kind, LeftOut, Value};
+use crate::case::keys::{self, Content, FileKind, Key, Kind, LeftOut, TAYLOR, Value};
 use crate::case::{Case, Note, Remark};
 use crate::chain::schemes::Scheme;
 use crate::error::{Error, Fault, FileError};
@@ -13,6 +13,7 @@ use std::path::PathBuf;
 
 /// A case in which every independent key is set. Keys that are counted in whole elements, steps and harmonics are
 /// still open.
+#[derive(Clone)]
 pub(super) struct Open {
     /// The values that the case was made from.
     pub(super) written: WrittenValues,
@@ -137,7 +138,7 @@ pub(super) fn open_part(
                 }
             }
             (Some(_), _) if key.counted => Ok(()),
-            (Some(Value::Text(_)), Kind::Quantity(..)) => by_taylor(&mut case.air),
+            (Some(Value::Text(word)), Kind::Quantity(..)) if word == TAYLOR => by_taylor(&mut case.air),
             (Some(value), _) => match rival(key.name, |other| written.get(other).is_some()) {
                 Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
                 None => key.apply(&mut case, &value),

@@ -4,7 +4,7 @@
 use super::data::DataFiles;
 use super::open::{Open, open_part};
 use super::written::{WrittenValues, sorted};
-use super::{FORMAT_VERSION, Overrides, document, file, write};
+use super::{FORMAT_VERSION, Overrides, document, file, parse_with, write};
 use crate::air::Flow;
 use crate::case::keys::{self, Key};
 use crate::case::{Case, Note};
@@ -51,14 +51,19 @@ pub fn parse_spinline<'a>(
     name: &str,
     overrides: impl Into<Overrides<'a>>,
 ) -> Result<SpinFile, Error> {
-    let mut written = document::read(&keys::CASE, text, name, &[overrides.into()])?;
+    let (files, overrides) = (DataFiles::default(), [overrides.into()]);
+    let mut written = document::read(&keys::CASE, text, name, &overrides)?;
     if !written.has_table("spinline") {
         let remedy = "describe the line in a table [spinline]; `cases/spinline.toml` is an example";
         written.reject("[spinline]", Fault::new("is missing", remedy));
     }
     let has_field = written.text("spinline.field").is_some_and(|word| word == "true");
     let wanted = |key: &Key| TABLES.contains(&key.table()) || has_field && key.name.starts_with("air.field");
-    let mut open = open_part(written, &DataFiles::default(), wanted)?;
+    let mut open = open_part(written, &files, wanted)?;
+    if open.waits_for_flights() {
+        // Only a whole case has a fibre that can fly.
+        (open.case, open.notes) = parse_with(&files, text, name, &overrides)?;
+    }
     open.complete_spinline()?;
     let Open { written, case, notes } = open;
     let spinline = case.spinline.unwrap_or(Spinline::UNKNOWN);

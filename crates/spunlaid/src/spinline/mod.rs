@@ -94,6 +94,8 @@ pub enum Melt {
 pub enum End {
     /// The tension [N]; zero for a free end.
     Tension(f64),
+    /// The mean tension at the root of the flown fibre, as far as flights have told it [N].
+    Flown(f64),
     /// The speed of a godet [m/s].
     TakeUp(f64),
 }

@@ -47,7 +47,7 @@ impl Shooting<'_, '_> {
         let miss = match (shot.outcome, self.thread.line.end) {
             (Outcome::Slack, _) => f64::NEG_INFINITY,
             (Outcome::RunsAway | Outcome::ElasticWave, _) => f64::INFINITY,
-            (Outcome::Complete, End::Tension(tension)) => shot.end[TENSION] - tension,
+            (Outcome::Complete, End::Tension(tension) | End::Flown(tension)) => shot.end[TENSION] - tension,
             (Outcome::Complete, End::TakeUp(speed)) => shot.end[LN_SPEED] - libm::log(speed),
         };
         (miss, shot.outcome)

@@ -75,7 +75,7 @@ prop_compose! {
         let drag = Drag { along, across };
         let distances = if lateral == Lateral::Uniform { Vec::new() } else { vec![0.1 * length_scale, length_scale] };
         let neighbours = Neighbours { cd: distances, md: Vec::new() };
-        let mut case = Case { fibre, air, drag, line: None, neighbours, run };
+        let mut case = Case { fibre, air, drag, line: None, spinline: None, neighbours, run };
         let limit = case.stable_step_limits().iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
         case.run.time_step = share * limit;
         case.air.harmonics = (case.air.cutoff_frequency * case.run.duration()) as usize + more_harmonics;

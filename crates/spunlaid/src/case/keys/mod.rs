@@ -33,6 +33,9 @@ pub static CASE: KeyTable =
 /// The text that a case file may give as cut-off frequency: Taylor's hypothesis.
 pub(crate) const TAYLOR: &str = "taylor";
 
+/// The text that a case file may give as tension at the end of the spinline: that of the flown fibre.
+pub(crate) const FLOWN: &str = "flown";
+
 /// What applies if a case leaves a key out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LeftOut {

@@ -1,11 +1,11 @@
 //! The spinline and the constants of its polymer.
 
-use super::super::Key;
 use super::super::row::{
     Access, change, choose, file, key, named, number, quantity, read_with_case, switch, text, whole,
 };
 use super::super::value::Sign::{Any, NotNegative, Positive};
 use super::super::value::{Content, FileKind, Kind, Value};
+use super::super::{FLOWN, Key};
 use crate::case::Case;
 use crate::error::Fault;
 use crate::spinline::{Curtain, End, Law, Melt, Polymer, PolymerSource, Spinline, Surroundings};
@@ -227,13 +227,13 @@ pub(super) const KEYS: &[Key] = &[
     choose("spinline.end", || END.to_vec(), Access {
         get: |case| {
             Some(match case.spinline.as_ref()?.end {
-                End::Tension(_) => END[0].into(),
+                End::Tension(_) | End::Flown(_) => END[0].into(),
                 End::TakeUp(_) => END[1].into(),
             })
         },
         set: |case, value| {
             change(&mut spinline(case)?.end, value, &[End::Tension(0.0), End::TakeUp(f64::NAN)], |end| match end {
-                End::Tension(_) => END[0],
+                End::Tension(_) | End::Flown(_) => END[0],
                 End::TakeUp(_) => END[1],
             })
         },
@@ -247,14 +247,14 @@ pub(super) const KEYS: &[Key] = &[
     quantity("spinline.take_up_speed", Dimension::Velocity, Positive, Access {
         get: |case| match case.spinline.as_ref()?.end {
             End::TakeUp(speed) => known(speed),
-            End::Tension(_) => None,
+            End::Tension(_) | End::Flown(_) => None,
         },
         set: |case, value| match &mut spinline(case)?.end {
             End::TakeUp(speed) => {
                 *speed = number(value)?;
                 Ok(())
             }
-            End::Tension(_) => Err(Fault::needs("spinline.end = \"take-up\"", "leave it out, or write this line too")),
+            End::Tension(_) | End::Flown(_) => Err(Fault::needs("spinline.end = \"take-up\"", "leave it out, or write this line too")),
         },
     })
     .follows("a free end")
@@ -264,20 +264,27 @@ pub(super) const KEYS: &[Key] = &[
     .slider(1.0, 100.0),
     quantity("spinline.end_tension", Dimension::Force, Any, Access {
         get: |case| match case.spinline.as_ref()?.end {
-            End::Tension(tension) => Some(Value::Number(tension)),
+            End::Tension(tension) | End::Flown(tension) => Some(Value::Number(tension)),
             End::TakeUp(_) => None,
         },
-        set: |case, value| match &mut spinline(case)?.end {
-            End::Tension(tension) => {
-                *tension = number(value)?;
-                Ok(())
+        set: |case, value| {
+            let line = spinline(case)?;
+            if let End::TakeUp(_) = line.end {
+                return Err(Fault::excludes("spinline.end = \"take-up\"", "the speed is given; leave it out"));
             }
-            End::TakeUp(_) => Err(Fault::excludes("spinline.end = \"take-up\"", "the speed is given; leave it out")),
+            line.end = match value {
+                Value::Text(word) if word == FLOWN => End::Flown(0.0),
+                value => End::Tension(number(value)?),
+            };
+            Ok(())
         },
     })
     .value("0 N")
     .usual(1e-9, 1.0)
-    .meaning("Tension at a free end: the pull of the fibre that flies on below the line.")
+    .meaning(
+        "Tension at a free end: the pull of the fibre that flies on below the line. With \"flown\" some fibres fly, their mean tension at \
+         the root is fed back, and they fly again until the speed stands within 0.1 %; the result says which tension it was.",
+    )
     .label("Tension at the end"),
     choose("spinline.law", || Law::ALL.map(Law::name).to_vec(), Access {
         get: |case| Some(case.spinline.as_ref()?.law.name().into()),
