@@ -233,5 +233,5 @@ fn points_of(array: &PyReadonlyArray2<'_, f64>) -> Vec<LaidPoint> {
 /// The case with the full paths of its files, so that they are found from any folder.
 pub(crate) fn absolute(case: &spunlaid::case::Case) -> spunlaid::case::Case {
     let place = |file: &std::path::Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
-    spunlaid::case::Case { air: case.air.with_files_at(place), ..case.clone() }
+    case.with_files_at(place)
 }

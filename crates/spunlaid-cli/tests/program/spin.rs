@@ -29,7 +29,8 @@ fn desk() -> Desk {
 
 /// A case that is fed from the same spinline.
 fn fed() -> String {
-    FED.replace("diameter = \"18 µm\"\ndensity = \"910 kg/m³\"\n", "").replace("[feed]\nspeed = \"50 m/s\"\n", LINE)
+    FED.replace("diameter = \"18 µm\"\ndensity = \"910 kg/m³\"\n", "")
+        .replace("[feed]\nspeed = \"50 m/s\"\n", LINE)
 }
 
 /// Number of rows and names of the columns of a table.
@@ -131,8 +132,7 @@ fn the_table_of_the_thread_has_a_row_for_each_station() {
     // The first row meets the same air as a filament alone, and the table is its.
     assert_eq!(measured[0]["final_diameter_m"], spinline["final_diameter_m"]);
     assert_eq!(measured[0]["final_diameter_m"], desk.summary("one")["spinline"]["final_diameter_m"]);
-    let diameters: Vec<f64> =
-        measured.iter().map(|row| row["final_diameter_m"].as_f64().unwrap()).collect();
+    let diameters: Vec<f64> = measured.iter().map(|row| row["final_diameter_m"].as_f64().unwrap()).collect();
     assert!(diameters[0] != diameters[1] && diameters[1] != diameters[2], "{diameters:?}");
     assert!(desk.entries("three/figures").contains("spinline_rows.svg"));
 }
@@ -180,7 +180,12 @@ fn rejects_spinlines_without_a_steady_state_and_writes_nothing() {
 fn check_reads_a_spinline_alone() {
     let desk = desk();
     let said = success(&mut desk.spunlaid("check line.toml"));
-    for part in ["# the spinline with every default", "[spinline.material]", "Diameter, cold", "# ready: spunlaid spin line.toml"] {
+    for part in [
+        "# the spinline with every default",
+        "[spinline.material]",
+        "Diameter, cold",
+        "# ready: spunlaid spin line.toml",
+    ] {
         assert!(said.contains(part), "{part}\n{said}");
     }
     // What it prints is a file that gives the same spinline.
@@ -196,7 +201,10 @@ fn check_tells_throughput_and_line_density_of_every_fed_fibre() {
     let desk = Desk::with_case(FED);
     let said = success(&mut desk.spunlaid("check brief.toml"));
     // π/4 (18 µm)² × 910 kg/m³, times 50 m/s.
-    assert!(said.contains("filaments of 18 µm, 2.32 dtex, fed at 50 m/s: 0.695 g/min from each hole"), "{said}");
+    assert!(
+        said.contains("filaments of 18 µm, 2.32 dtex, fed at 50 m/s: 0.695 g/min from each hole"),
+        "{said}"
+    );
     let told: serde_json::Value =
         serde_json::from_str(&success(&mut desk.spunlaid("check brief.toml --json"))).unwrap();
     assert!((told["throughput_kg_s"].as_f64().unwrap() / 1.157_828e-5 - 1.0).abs() < 1e-5, "{told}");
@@ -220,7 +228,12 @@ fn a_run_that_begins_at_the_die_shows_its_spinline() {
     assert!(desk.read("r/spinline.parquet") == desk.read("s/spinline.parquet"));
     assert!(desk.entries("r/figures").contains("spinline_temperature.svg"));
     let page = String::from_utf8(desk.read("r/report.html")).unwrap();
-    for part in ["id=\"spinline\"", "id=\"figure-spinline_influences\"", "freezes", "no diameter that it gives has been compared"] {
+    for part in [
+        "id=\"spinline\"",
+        "id=\"figure-spinline_influences\"",
+        "freezes",
+        "no diameter that it gives has been compared",
+    ] {
         assert!(page.contains(part), "{part}");
     }
     // A case without one has no trace of it.

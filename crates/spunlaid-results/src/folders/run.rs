@@ -98,8 +98,8 @@ impl Run<'_> {
     /// # Errors
     /// If a file cannot be written, or the computation is interrupted.
     pub fn write(&self, staging: &Staging<'_>, computing: Computing<'_>) -> Result<(), Failure> {
-        let copied = beside::copy([self.case], &staging.place(beside::CASE_FILES).0)?;
-        let case_toml = write_case(&beside::relocated(self.case, &copied));
+        let copied = beside::copy(self.case.files(), &staging.place(beside::CASE_FILES).0)?;
+        let case_toml = write_case(&self.case.with_files_at(beside::place(&copied)));
         let figures = self.figures(computing)?;
         let spinline = self.spinline();
         if let Some((results, _)) = &spinline {

@@ -34,9 +34,9 @@ impl SpinFolder<'_> {
     /// If a file cannot be written.
     pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
         let spinline = &self.file.spinline;
-        let copied = beside::copy_of_spinline(spinline, &staging.place(beside::CASE_FILES).0)?;
+        let copied = beside::copy(spinline.files(), &staging.place(beside::CASE_FILES).0)?;
         let mut relocated = self.file.clone();
-        relocated.spinline = beside::relocated_spinline(spinline, &copied);
+        relocated.spinline = spinline.with_files_at(beside::place(&copied));
         let toml = write_spinline(&relocated);
         write_stations(staging, &[(1, &self.results.rows)])?;
         let figures = self.figures();

@@ -8,7 +8,7 @@ use crate::output::folder::Staging;
 use crate::output::leftovers;
 use crate::output::{self};
 use crate::report::{StudyReport, study_html};
-use spunlaid::case::MOST_REPLICATES;
+use spunlaid::case::{Case, MOST_REPLICATES};
 use spunlaid::error::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
 use spunlaid::study::{Header, Journal, JournalState, PointResults, rankings};
@@ -196,7 +196,7 @@ impl<'a> StudyFolder<'a> {
 /// Copies the files that the case names, and returns the text of the case or web with the paths of the copies.
 fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure> {
     let cases = file.study.points.iter().filter_map(|point| point.experiment.case());
-    let copied = beside::copy(cases, &staging.place(CASE_FILES).0)?;
+    let copied = beside::copy(cases.flat_map(Case::files), &staging.place(CASE_FILES).0)?;
     let folder = file.base_path.parent().unwrap_or(Path::new(""));
     Ok(copied.iter().fold(file.base_text.clone(), |text, (from, to)| {
         let written = from.strip_prefix(folder).unwrap_or(from);

@@ -1,6 +1,6 @@
 //! `comparison.json` and its table: what differs between two runs, and whether it is beyond chance.
 
-use super::summary::InOrder;
+use super::in_order::InOrder;
 use crate::numbers::{decimals, plus_minus, to_decimals};
 use serde::Serialize;
 use spunlaid::statistics::{Difference, Estimate};

@@ -5,6 +5,7 @@ pub mod beside;
 pub mod comparison;
 pub mod finer;
 pub mod folder;
+pub mod in_order;
 pub mod leftovers;
 mod neighbours;
 pub mod paraview;

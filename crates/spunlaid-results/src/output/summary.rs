@@ -1,8 +1,9 @@
 //! `summary.json`: all results of a run.
 
+use super::in_order::InOrder;
 use super::neighbours::NeighboursSummary;
 use super::spinline::SpinSummary;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Content, Key, Value};
@@ -125,16 +126,6 @@ pub struct Performance {
     pub ns_per_element_step: f64,
     /// Name of the instruction set.
     pub instruction_set: &'static str,
-}
-
-/// An object whose entries keep their order.
-#[derive(Clone, Debug)]
-pub struct InOrder<T>(pub Vec<(String, T)>);
-
-impl<T: Serialize> Serialize for InOrder<T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
-    }
 }
 
 impl<'a> Summary<'a> {

@@ -261,6 +261,10 @@ fn methods(file: &SpinFile) -> Vec<(&'static str, String)> {
     };
     let end = match spinline.end {
         End::Tension(tension) => format!("a tension of {}{THIN}mN", number_to(tension * 1e3, 3)),
+        End::Flown(tension) => format!(
+            "the mean tension at the root of the flown fibre, {}{THIN}mN",
+            number_to(tension * 1e3, 3)
+        ),
         End::TakeUp(speed) => format!("a take-up speed of {}{THIN}m/s", number_to(speed, 4)),
     };
     vec![

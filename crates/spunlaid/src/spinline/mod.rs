@@ -9,6 +9,7 @@
 //! ```
 
 mod curtain;
+mod files;
 mod integration;
 mod material;
 mod shooting;

@@ -155,8 +155,13 @@ pub const MEASURES: &[SpinMeasure] = &[
 impl SpinMeasure {
     /// Its value in the unit in which it is shown, as text.
     pub fn shown(&self, solution: &Solution) -> String {
+        /// A smaller force than this part of the one at the die is zero, but for rounding.
+        const ZERO: f64 = 1e-9;
         let value = (self.value)(solution) * self.unit.per_si;
         let residual = self.name.ends_with("_residual");
+        let is_zero =
+            self.name == "force_at_end_n" && solution.force_at_end.abs() < ZERO * solution.force_at_die;
+        let value = if is_zero { 0.0 } else { value };
         crate::numbers::number_to(value, if residual { 1 } else { 4 })
     }
 }

@@ -3,8 +3,8 @@
 use super::SpinResults;
 use super::measures::MEASURES;
 use super::words::MODEL_ERROR;
+use crate::output::in_order::InOrder;
 use crate::output::json_text;
-use crate::output::summary::InOrder;
 use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::case::Case;

@@ -1,6 +1,6 @@
 //! What a solved spinline says, in sentences.
 
-use crate::numbers::{number_to, significant};
+use crate::numbers::{number_to, significant, to_decimals};
 use spunlaid::input::{Change, Influence};
 use spunlaid::spinline::{FreezingCause, Solution};
 use spunlaid::units::Dimension;
@@ -36,8 +36,14 @@ pub fn freezing(solution: &Solution) -> String {
             FreezingCause::Crystallisation => "by crystallisation",
         },
         significant(point.stress * 1e-6, 3),
-        significant(point.cooling_rate, 2)
+        two_digits(point.cooling_rate)
     )
+}
+
+/// `9400` of 9379.2.
+fn two_digits(value: f64) -> String {
+    let magnitude = if value > 0.0 { value.log10().floor() as i32 } else { 0 };
+    to_decimals(value, 1 - magnitude)
 }
 
 /// What a number does to the diameter, in a sentence: `Throughput: 1 % more makes the filament 0.43 % thicker.`

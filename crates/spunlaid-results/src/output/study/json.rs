@@ -1,7 +1,7 @@
 //! `results.json`: the points with their results, and the ranking.
 
 use super::super::folder::Staging;
-use super::super::summary::InOrder;
+use super::super::in_order::InOrder;
 use super::columns::{Value, values};
 use crate::Failure;
 use serde::Serialize;

@@ -1,8 +1,8 @@
 //! `summary.json`: all results of a web.
 
 use crate::figures::SEEN;
+use crate::output::in_order::InOrder;
 use crate::output::spinline::SpinSummary;
-use crate::output::summary::InOrder;
 use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure};
