@@ -21,8 +21,8 @@ struct Shown<'a> {
 }
 
 impl Shown<'_> {
-    fn points(&self, quantity: Quantity, until: f64) -> Vec<(f64, f64)> {
-        let stations = self.solution.stations.iter().filter(|station| station.distance <= until);
+    fn points(&self, quantity: Quantity) -> Vec<(f64, f64)> {
+        let stations = self.solution.stations.iter();
         stations.map(|station| (station.distance * MM, quantity(station))).collect()
     }
 
@@ -63,22 +63,23 @@ fn chart(prefix: &str, name: &str, title: &str, up: Axis) -> Chart {
 }
 
 /// A chart with a quantity of each row, and where the row freezes.
-fn with_rows(
-    chart: Chart,
-    shown: &[Shown<'_>],
-    what: &str,
-    quantity: Quantity,
-    until: f64,
-    labelled: bool,
-) -> Chart {
-    shown.iter().enumerate().fold(chart, |chart, (i, row)| {
+///
+/// * `is_keyed` – whether the chart has a legend
+fn with_rows(chart: Chart, shown: &[Shown<'_>], quantity: Quantity, is_keyed: bool) -> Chart {
+    let points: Vec<_> = shown.iter().map(|row| row.points(quantity)).collect();
+    with_points(chart, shown, &points, is_keyed)
+}
+
+/// The same with points for each row.
+fn with_points(chart: Chart, shown: &[Shown<'_>], points: &[Vec<(f64, f64)>], is_keyed: bool) -> Chart {
+    shown.iter().zip(points).enumerate().fold(chart, |chart, (i, (row, points))| {
         let keyed = |series: Series, is_keyed: bool| if is_keyed { series } else { series.unlabelled() };
-        let line = Series::new(&row.label(what), row.colour).width(2.0);
+        let line = Series::new(&row.label("thread"), row.colour).width(2.0);
         let freezing = Series::new("freezing point", row.colour).named(&row.label("freezing point"));
         let frozen = row.solution.freezing.distance * MM;
         chart
-            .line(keyed(line, labelled), &row.points(quantity, until))
-            .vertical(keyed(freezing.dashed("5 4").width(1.2), labelled && i == 0), frozen)
+            .line(keyed(line, is_keyed), points)
+            .vertical(keyed(freezing.dashed("5 4").width(1.2), is_keyed && i == 0), frozen)
     })
 }
 
@@ -94,11 +95,10 @@ fn about_freezing(shown: &[Shown<'_>]) -> String {
 fn drawing(prefix: &str, shown: &[Shown<'_>]) -> Figure {
     let title = "Speed and diameter of the thread";
     let speed = chart(prefix, "speed", title, Axis::logarithmic("Speed *v* (m/s)").decades(4));
-    let speed = with_rows(speed, shown, "thread", |station| station.speed, f64::INFINITY, true);
+    let speed = with_rows(speed, shown, |station| station.speed, true);
     let speed = with_air(speed, shown, |station| station.air_velocity);
     let diameter = chart(prefix, "diameter", title, Axis::logarithmic("Diameter *d* (µm)"));
-    let diameter =
-        with_rows(diameter, shown, "thread", |station| station.diameter * MICROMETRES, f64::INFINITY, false);
+    let diameter = with_rows(diameter, shown, |station| station.diameter * MICROMETRES, false);
     let caption = format!(
         "Speed and diameter of the thread, averaged over its cross-section, and the velocity of the air along it. {}",
         about_freezing(shown)
@@ -116,15 +116,14 @@ fn with_air(chart: Chart, shown: &[Shown<'_>], quantity: Quantity) -> Chart {
     let dashes = [None, Some("2 3")];
     shown.iter().zip(dashes).fold(chart, |chart, (row, dash)| {
         let series = Series { dash, ..Series::new(&row.label("air"), GREEN) };
-        chart.line(series, &row.points(quantity, f64::INFINITY))
+        chart.line(series, &row.points(quantity))
     })
 }
 
 fn temperature(prefix: &str, shown: &[Shown<'_>]) -> Figure {
     let title = "Temperature of the thread and of the air";
     let chart = chart(prefix, "temperature", title, Axis::linear("Temperature *T* (°C)"));
-    let chart =
-        with_rows(chart, shown, "thread", |station| station.temperature - ZERO_CELSIUS, f64::INFINITY, true);
+    let chart = with_rows(chart, shown, |station| station.temperature - ZERO_CELSIUS, true);
     let chart = with_air(chart, shown, |station| station.air_temperature - ZERO_CELSIUS);
     let caption = format!(
         "Temperature of the thread, averaged over its cross-section, and of the air around it. {}",
@@ -136,9 +135,9 @@ fn temperature(prefix: &str, shown: &[Shown<'_>]) -> Figure {
 fn tension(prefix: &str, shown: &[Shown<'_>]) -> Figure {
     let title = "Tension and stress of the thread";
     let tension = chart(prefix, "tension", title, Axis::linear("Tension *F* (mN)").zero_based());
-    let tension = with_rows(tension, shown, "thread", |station| station.tension * 1e3, f64::INFINITY, true);
+    let tension = with_rows(tension, shown, |station| station.tension * 1e3, true);
     let stress = chart(prefix, "stress", title, Axis::linear("Stress *N*_{1} (MPa)").zero_based());
-    let stress = with_rows(stress, shown, "thread", |station| station.stress * 1e-6, f64::INFINITY, false);
+    let stress = with_rows(stress, shown, |station| station.stress * 1e-6, false);
     let caption = format!(
         "Above, the force in the thread; below, the stress in its cross-section. The stress at the freezing point orients the \
          polymer, and so decides birefringence and modulus. {}",
@@ -152,11 +151,18 @@ fn tension(prefix: &str, shown: &[Shown<'_>]) -> Figure {
     )
 }
 
+/// From the freezing point on it is zero, at once.
 fn strain_rate(prefix: &str, shown: &[Shown<'_>], until: f64) -> Figure {
     let title = "Strain rate of the thread";
     let up = Axis::linear("Strain rate d*v*/d*z* (1/s)").zero_based().in_column("strain_rate_per_s");
     let chart = chart(prefix, "strain_rate", title, up);
-    let chart = with_rows(chart, shown, "thread", |station| station.strain_rate, until, true);
+    let rates = |row: &Shown<'_>| {
+        let frozen = row.solution.freezing.distance * MM;
+        let points = row.points(|station| station.strain_rate).into_iter();
+        points.filter(|(distance, _)| *distance <= frozen).chain([(frozen, 0.0), (until * MM, 0.0)]).collect()
+    };
+    let points: Vec<_> = shown.iter().map(rates).collect();
+    let chart = with_points(chart, shown, &points, true);
     let caption = format!(
         "How fast the thread is stretched, up to a little below the freezing point. {}",
         about_freezing(shown)
@@ -168,7 +174,7 @@ fn transformed(prefix: &str, shown: &[Shown<'_>]) -> Figure {
     let title = "Transformed share of the polymer";
     let up = Axis::linear("Transformed share *θ* (–)").zero_based().in_column("transformed");
     let chart = chart(prefix, "transformed", title, up);
-    let chart = with_rows(chart, shown, "thread", |station| station.transformed, f64::INFINITY, true);
+    let chart = with_rows(chart, shown, |station| station.transformed, true);
     let caption = format!(
         "The share of the crystals that could form which has formed; 1 is the crystallinity that the polymer reaches. {}",
         about_freezing(shown)
