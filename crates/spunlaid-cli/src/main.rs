@@ -27,6 +27,7 @@ fn main() -> ExitCode {
     let done = Failure::catch_panic(|| match arguments.command {
         Command::Run(run) => commands::run(&run),
         Command::Sweep(sweep) => commands::sweep(&sweep),
+        Command::Spin(spin) => commands::spin(&spin),
         Command::Web(web) => commands::web(&web),
         Command::Live(live) => commands::live(&live),
         Command::Reproduce(arguments) => commands::reproduce(&arguments),

@@ -4,7 +4,7 @@
 //! ```text
 //! failure   errors as exceptions        value     values of Python as those of keys
 //! watched   work without the lock of the interpreter, with Ctrl-C and progress
-//! case, run, flight, study, web, record, keys     the classes and functions
+//! case, run, flight, spinline, study, web, record, keys     the classes and functions
 //! ```
 
 // Names such as CaseError are those of Python; units are written in brackets, [m/s].
@@ -26,6 +26,7 @@ mod samples;
 mod state;
 
 mod bundle;
+mod spinline;
 mod study;
 mod table;
 mod web;
@@ -49,6 +50,8 @@ mod _spunlaid {
     use super::results::RunResults;
     #[pymodule_export]
     use super::run::{fly, measures};
+    #[pymodule_export]
+    use super::spinline::{SolvedSpinline, solve_spinline};
     #[pymodule_export]
     use super::state::flown_from;
     #[pymodule_export]

@@ -28,8 +28,20 @@ pub(crate) fn overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, Stri
             Ok(table) if !name.contains('.') => {
                 for (key, value) in table.iter() {
                     let key = format!("{name}.{}", name_of(&key)?);
-                    let text = text_of(&key, kind(&key), &value)?;
-                    all.push((key, text));
+                    match value.cast::<PyDict>() {
+                        // A table within a table, as spinline.material.
+                        Ok(inner) => {
+                            for (own, value) in inner.iter() {
+                                let key = format!("{key}.{}", name_of(&own)?);
+                                let text = text_of(&key, kind(&key), &value)?;
+                                all.push((key, text));
+                            }
+                        }
+                        Err(_) => {
+                            let text = text_of(&key, kind(&key), &value)?;
+                            all.push((key, text));
+                        }
+                    }
                 }
             }
             _ => {

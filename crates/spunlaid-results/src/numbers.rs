@@ -62,7 +62,7 @@ pub fn number(value: f64) -> String {
 }
 
 /// A number to so many digits, with a power of ten where it is far from one; a dash if it is not finite.
-fn number_to(value: f64, digits: i32) -> String {
+pub fn number_to(value: f64, digits: i32) -> String {
     if !value.is_finite() {
         return "–".to_owned();
     }

@@ -10,6 +10,7 @@ Examples:
   spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
   spunlaid live my.toml                             change it while it flies, on a page
   spunlaid sweep my_study.toml                      fly it with many values of some keys
+  spunlaid spin my_line.toml                        from the die to the solid filament: which diameter?
   spunlaid web my_web.toml                          lay a fabric of many such filaments
   spunlaid run results/my --until \"20 s\"             fly it for longer, in the same turbulence
   spunlaid web cases/web.toml                       lay thousands of filaments: how even is the fabric?
@@ -102,6 +103,40 @@ Examples:
   spunlaid sweep cases/studies/web_evenness.toml
   spunlaid sweep cases/studies/velocity.toml --replicates 16       adds replicates to the same
   spunlaid sweep my_study.toml --print-point 7 > point7.toml && spunlaid run point7.toml";
+
+pub(super) const SPIN_HELP: &str = "\
+A spinline is a table of a small text file, or of a case, where it takes the place of feed.speed and
+fibre.diameter:
+
+  [spinline]
+  polymer = \"pp\"                 # pp, pet, pa6, pla, or a file with the constants of yours
+  melt_flow_rate = 35            # g/10 min; or viscosity in [spinline.material]
+  die_temperature = \"230 °C\"
+  hole_diameter = \"0.6 mm\"
+  throughput = \"0.5 g/min\"       # of each hole
+  length = \"1.6 m\"
+  profile = \"air.csv\"            # z_mm, velocity_m_s, cross_velocity_m_s, temperature_c
+  end = \"free\"                   # or take_up_speed = \"3000 m/min\"
+  # rows = 10                    # rows of holes that share the quench air, with
+  # filaments_per_metre_and_row = 250
+  [drag]                         # friction of the air on the thread, as in a case
+  # along = \"matsui\"
+
+`spunlaid keys spinline` explains every key. The results folder holds
+  report.html        for the browser: figures, table, what decides the diameter; works offline
+  summary.json       diameter, line density, speed, freezing point, stress, birefringence, errors
+  spinline.parquet   the thread and the air around it from the die to the end
+  figures/           every figure as SVG, PNG and CSV
+  spinline.toml      the spinline with every default; solving it again gives the same bits
+  case_files/        copies of the files that it names
+
+If no steady state exists, as where the filament is not solid at the end, the message says why and
+what to do, the exit code is 1, and nothing is written.
+
+Examples:
+  spunlaid spin cases/spinline.toml
+  spunlaid spin cases/spinline.toml --set spinline.throughput=\"0.4 g/min\" --out results/less
+  spunlaid spin cases/melt_spinning.toml --json";
 
 pub(super) const WEB_HELP: &str = "\
 A web is a small text file:

@@ -9,7 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use help::{
     ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, REPRODUCE_HELP, RUN_HELP,
-    SWEEP_HELP, WEB_HELP,
+    SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
 use spunlaid::case::{Case, Note};
 use spunlaid::error::Error;
@@ -17,7 +17,7 @@ use spunlaid::input::{Overrides, read_case};
 use spunlaid::units::Dimension;
 use std::path::PathBuf;
 
-/// Simulate fibres in turbulent air: how they swing, how they lie on the belt, how even the web is
+/// Simulate fibres from the die to the web: how the melt is drawn, how fibres swing in turbulent air, how even they lie
 #[derive(Debug, Parser)]
 #[command(name = "spunlaid", version, about, after_help = EXAMPLES, propagate_version = true)]
 pub(crate) struct Arguments {
@@ -34,6 +34,9 @@ pub(crate) enum Command {
     /// Fly a case with many values of its keys, and rank which keys matter
     #[command(after_help = SWEEP_HELP)]
     Sweep(Sweep),
+    /// Solve a spinline, from the hole of the spinneret to the solid filament: diameter, speed, freezing point
+    #[command(after_help = SPIN_HELP)]
+    Spin(Spin),
     /// Lay a web of many filaments: map of its basis weight, how uneven it is, directions
     #[command(after_help = WEB_HELP)]
     Web(Web),
@@ -170,6 +173,28 @@ pub(crate) struct Sweep {
     /// Print the case or the web of point K, counted from 1, and fly nothing
     #[arg(long, value_name = "K")]
     pub(crate) print_point: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Spin {
+    /// File with the table [spinline] (TOML), alone or in a case
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// Folder for the results [default: results/<name of the file>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Set a key of the spinline, as spinline.throughput="0.4 g/min"; can be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
+    pub(crate) set: Vec<(String, String)>,
+    /// No table; warnings and errors are still shown
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Print summary.json instead of the table; without --out, write no files
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace the results in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,7 +1,7 @@
 //! `spunlaid check`: shows a case with all defaults, its mesh, limits and expected cost.
 
 use super::threads;
-use crate::args::Check;
+use crate::args::{CaseSource, Check};
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
@@ -9,19 +9,23 @@ use serde_json::Value as Json;
 use spunlaid::air::{Air, Flow};
 use spunlaid::case::{Case, INSTANT_ON_DISK, Note, StepLimit};
 use spunlaid::ensemble::{FinerPlans, KeepShapes, pace};
-use spunlaid::input::write_case;
+use spunlaid::input::{Overrides, holds_spinline_alone, read_spinline, write_case, write_spinline};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::line::Line;
 use spunlaid::units::Dimension;
 use spunlaid_results::folders::run::POSITIONS;
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::json_text;
+use spunlaid_results::output::spinline::{self, SpinResults, SpinSummary};
 use spunlaid_results::output::summary::{InOrder, resolved};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub(crate) fn check(check: &Check) -> Result<(), Failure> {
+    if holds_spinline_alone(&check.source.case) {
+        return check_spinline(check);
+    }
     let started = Instant::now();
     let (case, notes) = check.source.read(&[])?;
     notes.iter().for_each(say::note);
@@ -49,6 +53,27 @@ pub(crate) fn check(check: &Check) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Checks a file that describes a spinline and no fibre that flies.
+fn check_spinline(check: &Check) -> Result<(), Failure> {
+    let CaseSource { case: path, set } = &check.source;
+    let file = read_spinline(path, Overrides { values: set, word: "--set" })?;
+    file.notes.iter().for_each(say::note);
+    let results = SpinResults::new(&file)?;
+    if check.json {
+        let notes = Note::of_results(&file.notes);
+        say::text(&spinline::Summary::new(&results.rows, &results.influences, &notes).to_json());
+        return Ok(());
+    }
+    say::line("# the spinline with every default");
+    say::text(&write_spinline(&file.spec));
+    say::line("");
+    for line in spinline::text(&results.rows, &[]).lines() {
+        say::line(&format!("# {line}"));
+    }
+    say::line(&format!("# ready: spunlaid spin {}", check.source.words()));
+    Ok(())
+}
+
 /// The same as JSON.
 fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
     #[derive(Serialize)]
@@ -56,6 +81,13 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
         schema_version: u32,
         spunlaid_version: &'static str,
         case: InOrder<InOrder<Json>>,
+        /// Of a fed fibre.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        throughput_kg_s: Option<f64>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        linear_density_kg_m: Option<f64>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        spinline: Option<SpinSummary>,
         elements: usize,
         eddies: usize,
         steps: u64,
@@ -67,6 +99,9 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
         schema_version: 1,
         spunlaid_version: env!("CARGO_PKG_VERSION"),
         case: resolved(case),
+        throughput_kg_s: case.line.map(|line| throughput(case, line)),
+        linear_density_kg_m: case.line.map(|_| linear_density(case)),
+        spinline: SpinSummary::of_case(case),
         elements: case.fibre.elements,
         eddies: case.stations().map_or_else(|| case.eddies().count(), |stations| stations.count),
         steps: case.run.steps,
@@ -137,8 +172,28 @@ const OF_STARTER: [(f64, &str); 5] = [
     (16.0, "the frequency less than 2 % too high, and the amplitude less than 1 %"),
 ];
 
-/// Feed, belt and stations of the air.
+/// Mass per length of the fibre [kg/m].
+fn linear_density(case: &Case) -> f64 {
+    case.fibre.density * case.fibre.cross_section()
+}
+
+/// Mass flow of a fed fibre, which is that of its hole [kg/s].
+fn throughput(case: &Case, line: Line) -> f64 {
+    linear_density(case) * line.feed_speed
+}
+
+/// What comes out of the hole, feed, belt and stations of the air.
 fn fed(case: &Case, line: Line) {
+    say::line(&format!(
+        "#   filaments of {}, {} dtex, fed at {}: {} g/min from each hole",
+        Dimension::Length.pretty_to(case.fibre.diameter, 4),
+        significant(linear_density(case) * 1e7, 3),
+        Dimension::Velocity.pretty_to(line.feed_speed, 4),
+        significant(throughput(case, line) * 6e4, 3),
+    ));
+    if let Some(solution) = case.spinline.as_ref().and_then(|spinline| spinline.solve(case.drag.along).ok()) {
+        say::line(&format!("#   from the spinline: {}", spinline::freezing(&solution)));
+    }
     let length = |metres: f64| Dimension::Length.pretty_to(metres, 3);
     let rest_length = case.fibre.rest_length();
     say::line(&format!(

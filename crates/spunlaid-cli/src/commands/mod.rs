@@ -11,6 +11,7 @@ mod reproduce;
 mod run;
 mod scan;
 mod small;
+mod spin;
 mod sweep;
 mod web;
 
@@ -22,6 +23,7 @@ pub(crate) use live::live;
 pub(crate) use reproduce::reproduce;
 pub(crate) use run::run;
 pub(crate) use small::{completions, new};
+pub(crate) use spin::spin;
 pub(crate) use sweep::sweep;
 pub(crate) use web::web;
 

@@ -17,6 +17,7 @@ mod refusals;
 mod results;
 mod scan;
 mod signals;
+mod spin;
 mod sweep;
 mod sweep_killed;
 mod web;

@@ -32,6 +32,7 @@ from ._spunlaid import Case, Flight, __version__
 
 if TYPE_CHECKING:
     from ._analysis import Analysis, analyse
+    from ._spinline import Spinline, spin
     from ._study import Study, sweep
     from ._web import Web, web
 
@@ -54,6 +55,7 @@ __all__ = [
     "Problem",
     "Run",
     "Shapes",
+    "Spinline",
     "Study",
     "Web",
     "__version__",
@@ -61,6 +63,7 @@ __all__ = [
     "keys",
     "load",
     "run",
+    "spin",
     "sweep",
     "web",
 ]
@@ -68,6 +71,8 @@ __all__ = [
 _LATER = {
     "Analysis": "_analysis",
     "analyse": "_analysis",
+    "Spinline": "_spinline",
+    "spin": "_spinline",
     "Study": "_study",
     "sweep": "_study",
     "Web": "_web",

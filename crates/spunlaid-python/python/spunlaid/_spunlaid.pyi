@@ -12,6 +12,7 @@ __all__ = [
     "Flight",
     "RunResults",
     "LaidWeb",
+    "SolvedSpinline",
     "Study",
     "__version__",
     "analyse",
@@ -22,6 +23,7 @@ __all__ = [
     "lay_web",
     "measures",
     "read_table",
+    "solve_spinline",
 ]
 
 __version__: str
@@ -218,6 +220,24 @@ class LaidWeb:
     def patches(self) -> dict[str, _Floats]: ...
     def save(self, path: str, force: bool) -> None: ...
 
+@final
+class SolvedSpinline:
+    """A solved spinline."""
+
+    @property
+    def summary(self) -> str: ...
+    @property
+    def notes(self) -> list[str]: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def stations(self) -> list[dict[str, _Floats]]: ...
+    def report(self) -> str: ...
+    def save(self, path: str, force: bool) -> None: ...
+
+def solve_spinline(path: str | None, changes: Mapping[str, Any]) -> SolvedSpinline: ...
 def fly(
     case: Case,
     threads: int | None = None,

@@ -1,4 +1,4 @@
-//! The figures of a run, a study, a record and the paper, drawn with `spunlaid-charts`.
+//! The figures of a run, a spinline, a study, a record and the paper, drawn with `spunlaid-charts`.
 
 mod compare;
 #[cfg(test)]
@@ -10,6 +10,9 @@ pub mod record_sample;
 mod run;
 #[cfg(test)]
 pub mod sample;
+mod spinline;
+#[cfg(test)]
+pub mod spinline_sample;
 mod study;
 #[cfg(test)]
 mod tests;
@@ -18,6 +21,7 @@ mod web;
 pub use compare::{CurvePoint, Curves, MOST as MOST_COMPARED, overlaid_figures};
 pub use record::record_figures;
 pub use run::{run_figures, swing_frequency};
+pub use spinline::{SPINLINE, spinline_figures};
 pub use spunlaid::web::uniformity::Unevenness;
 pub use study::{name_of_key, study_figures};
 pub use web::{SEEN, overlaid_webs, scan_figures, web_figures};

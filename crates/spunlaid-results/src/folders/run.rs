@@ -1,9 +1,10 @@
 //! The folder of a run: tables that grow while the fibres fly, and everything that is made of the results.
 
 use crate::Failure;
-use crate::figures::run_figures;
+use crate::figures::{SPINLINE, run_figures, spinline_figures};
 use crate::numbers::{lost_of, significant};
 use crate::output::folder::Staging;
+use crate::output::spinline::{SpinResults, write_stations};
 use crate::output::summary::{Performance, Summary};
 use crate::output::tables::{TableRecorder, Tables};
 use crate::output::{beside, paraview, pictures};
@@ -97,9 +98,14 @@ impl Run<'_> {
     /// # Errors
     /// If a file cannot be written, or the computation is interrupted.
     pub fn write(&self, staging: &Staging<'_>, computing: Computing<'_>) -> Result<(), Failure> {
-        let copied = beside::copy([self.case], &staging.place(beside::CASE_FILES).0)?;
-        let case_toml = write_case(&beside::relocated(self.case, &copied));
+        let copied = beside::copy(self.case.files(), &staging.place(beside::CASE_FILES).0)?;
+        let case_toml = write_case(&self.case.with_files_at(beside::place(&copied)));
         let figures = self.figures(computing)?;
+        let spinline = self.spinline();
+        if let Some((results, _)) = &spinline {
+            write_stations(staging, &[(1, &results.rows)])?;
+        }
+        let all: Vec<&Figure> = spinline.iter().flat_map(|(_, figures)| figures).chain(&figures).collect();
         // Writing a thousand small files waits for the disk, so the figures are drawn at the same time.
         std::thread::scope(|scope| {
             let (case, trajectories) = (self.case, &self.results.trajectories);
@@ -107,10 +113,10 @@ impl Run<'_> {
                 paraview::write(staging, case, trajectories)?;
                 paraview::write_laid(staging, trajectories)
             });
-            pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+            pictures::write(&all, |name, content| staging.write(&format!("figures/{name}"), content))?;
             shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })?;
-        let report = self.page(&case_toml, &figures);
+        let report = self.page(&case_toml, &figures, spinline.as_ref());
         staging.write("case.toml", case_toml)?;
         staging.write("report.html", report)?;
         staging.write("summary.json", self.summary())
@@ -121,14 +127,26 @@ impl Run<'_> {
     /// # Errors
     /// If the computation is interrupted.
     pub fn report(&self, computing: Computing<'_>) -> Result<String, Failure> {
-        Ok(self.page(&write_case(self.case), &self.figures(computing)?))
+        Ok(self.page(&write_case(self.case), &self.figures(computing)?, self.spinline().as_ref()))
     }
 
     fn figures(&self, computing: Computing<'_>) -> Result<Vec<Figure>, Failure> {
         Ok(run_figures(self.case, self.results, &turbulence_spectrum(self.case, computing)?))
     }
 
-    fn page(&self, case_toml: &str, figures: &[Figure]) -> String {
+    /// The spinline from which the fibre is fed, with its figures.
+    fn spinline(&self) -> Option<(SpinResults, Vec<Figure>)> {
+        let results = SpinResults::of_case(self.case)?;
+        let figures = spinline_figures(SPINLINE, &results.rows, &results.influences);
+        Some((results, figures))
+    }
+
+    fn page(
+        &self,
+        case_toml: &str,
+        figures: &[Figure],
+        spinline: Option<&(SpinResults, Vec<Figure>)>,
+    ) -> String {
         report::html(&ReportInput {
             name: self.name,
             case: self.case,
@@ -136,6 +154,7 @@ impl Run<'_> {
             results: self.results,
             checks: self.checks,
             figures,
+            spinline: spinline.map(|(results, figures)| (results, &figures[..])),
             notes: self.notes,
             performance: self.performance,
             version: env!("CARGO_PKG_VERSION"),

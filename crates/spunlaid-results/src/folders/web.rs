@@ -1,16 +1,20 @@
 //! The folder of a web.
 
 use crate::Failure;
-use crate::figures::web_figures;
+use crate::figures::{SPINLINE, spinline_figures, web_figures};
 use crate::numbers::significant;
 use crate::output::folder::Staging;
 use crate::output::pictures;
+use crate::output::spinline::{SpinResults, SpinSummary, write_stations};
 use crate::output::web::{self, Layer, Performance, Summary};
-use crate::report::{WebReport, web_html};
+use crate::report::{LayerSpinline, WebReport, web_html};
+use spunlaid::case::Case;
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::layers::OfLayer;
+use spunlaid::spinline::Solution;
 use spunlaid::surrogate::Residual;
 use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, Together, Web, strands};
+use spunlaid_charts::Figure;
 use std::borrow::Cow;
 
 /// Everything of a web that goes into the files.
@@ -50,11 +54,22 @@ impl WebFolder<'_> {
             None => Cow::Owned(strands(self.web, window, laying)?),
         };
         let figures = web_figures(self.web, self.findings);
+        let spinlines = spinlines(&self.file.spec);
+        let threads: Vec<(usize, &[Solution])> = (spinlines.iter())
+            .map(|spinline| {
+                (spinline.layers.first().map_or(1, |layer| layer + 1), &spinline.results.rows[..])
+            })
+            .collect();
+        if !threads.is_empty() {
+            write_stations(staging, &threads)?;
+        }
+        let all: Vec<&Figure> =
+            figures.iter().chain(spinlines.iter().flat_map(|spinline| &spinline.figures)).collect();
         // The map is packed while the figures are drawn.
         let (files, drawn) = std::thread::scope(|scope| {
             let files = scope.spawn(|| web::write(staging, self.findings, &strands));
             let draw = |name, content: &[u8]| staging.write(&format!("figures/{name}"), content);
-            let drawn = pictures::write(&figures, draw);
+            let drawn = pictures::write(&all, draw);
             (files.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), drawn)
         });
         files.and(drawn)?;
@@ -67,6 +82,7 @@ impl WebFolder<'_> {
             window,
             diameter: self.file.spec.layers.first().map_or(0.0, |layer| layer.diameter),
             figures: &figures,
+            spinlines: &spinlines,
             notes: self.notes,
             toml: &self.file.text,
             performance: self.performance,
@@ -101,9 +117,31 @@ fn rows(spec: &WebSpec, web: &Web, layers: &[OfLayer]) -> Vec<Layer> {
             fit_residual: fit.map(|fit| fit.rms),
             fit_residual_by_chance: fit.and_then(|fit| fit.by_chance),
             lateral_cutoff: spec.lateral_cutoff(i),
+            spinline: layer.source.case().and_then(SpinSummary::of_case),
         }
     };
     spec.layers.iter().zip(&web.layers).enumerate().map(row).collect()
+}
+
+/// The spinlines from which the filaments of the layers come, each with all of its layers.
+fn spinlines(spec: &WebSpec) -> Vec<LayerSpinline> {
+    let mut found: Vec<(&Case, Vec<usize>)> = Vec::new();
+    for (layer, LayerSpec { source, .. }) in spec.layers.iter().enumerate() {
+        let Some(case) = source.case().filter(|case| case.spinline.is_some()) else { continue };
+        let same = |known: &Case| known.spinline == case.spinline && known.drag.along == case.drag.along;
+        match found.iter_mut().find(|(known, _)| same(known)) {
+            Some((_, layers)) => layers.push(layer),
+            None => found.push((case, vec![layer])),
+        }
+    }
+    let solved = |(number, (case, layers)): (usize, (&Case, Vec<usize>))| {
+        let results = SpinResults::of_case(case)?;
+        let prefix = if number == 0 { SPINLINE.to_owned() } else { format!("{SPINLINE}_{}", number + 1) };
+        let figures = spinline_figures(&prefix, &results.rows, &results.influences);
+        let throughput = case.spinline.as_ref()?.throughput;
+        Some(LayerSpinline { layers, throughput, results, figures })
+    };
+    found.into_iter().enumerate().filter_map(solved).collect()
 }
 
 /// How well the surrogate of a layer fits what its fibres have laid.

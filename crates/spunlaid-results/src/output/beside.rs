@@ -1,7 +1,6 @@
-//! Copies the files that a case names into its results folder, so that the case can be run again from there.
+//! Copies the files that a case or a spinline names into its results folder, so that it can be run again from there.
 
 use crate::Failure;
-use spunlaid::case::Case;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,13 +8,16 @@ use std::path::{Path, PathBuf};
 /// The folder for these files in a results folder.
 pub const CASE_FILES: &str = "case_files";
 
-/// Copies the files of cases into `folder`. Returns the path of each, relative to the results folder.
+/// A file with the files that it names, relative to its folder.
+type FileWithParts<'a> = (&'a Path, &'a [PathBuf]);
+
+/// Copies files into `folder`. Returns the path of each, relative to the results folder.
 pub fn copy<'a>(
-    cases: impl IntoIterator<Item = &'a Case>,
+    files: impl IntoIterator<Item = FileWithParts<'a>>,
     folder: &Path,
 ) -> Result<BTreeMap<PathBuf, PathBuf>, Failure> {
     let mut copied = BTreeMap::new();
-    for (file, parts) in cases.into_iter().flat_map(|case| case.air.files()) {
+    for (file, parts) in files {
         if copied.contains_key(file) {
             continue;
         }
@@ -41,10 +43,9 @@ fn copy_file(from: &Path, to: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The case with the paths of the copied files.
-pub fn relocated(case: &Case, copied: &BTreeMap<PathBuf, PathBuf>) -> Case {
-    let place = |file: &Path| copied.get(file).cloned().unwrap_or_else(|| file.to_owned());
-    Case { air: case.air.with_files_at(place), ..case.clone() }
+/// Where a copied file lies; another one stays where it is.
+pub fn place(copied: &BTreeMap<PathBuf, PathBuf>) -> impl Fn(&Path) -> PathBuf {
+    |file| copied.get(file).cloned().unwrap_or_else(|| file.to_owned())
 }
 
 /// The path of the copy in its folder: the name of the file, with a number in front if another file has the same name. A

@@ -2,6 +2,7 @@
 
 use super::beside::CASE_FILES;
 use super::leftovers::{self, Claim};
+use super::spinline::STATIONS;
 use crate::Failure;
 use crate::failure::{holds_results, not_a_folder};
 use std::fs;
@@ -16,6 +17,7 @@ pub const ENTRIES: &[&str] = &[
     "energy.parquet",
     "laid.parquet",
     "laid.vtp",
+    STATIONS,
     "shape.pvd",
     "shape",
     "figures",

@@ -11,6 +11,7 @@ pub mod paraview;
 mod parquet;
 pub mod pictures;
 mod spill;
+pub mod spinline;
 pub mod study;
 pub mod summary;
 pub mod table;

@@ -1,6 +1,7 @@
 //! `summary.json`: all results of a run.
 
 use super::neighbours::NeighboursSummary;
+use super::spinline::SpinSummary;
 use serde::{Serialize, Serializer};
 use serde_json::Value as Json;
 use spunlaid::case::Case;
@@ -21,6 +22,9 @@ pub struct Summary<'a> {
     schema_version: u32,
     spunlaid_version: &'static str,
     case: InOrder<InOrder<Json>>,
+    /// Of a case that is fed from a spinline.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spinline: Option<SpinSummary>,
     elements: usize,
     steps: u64,
     replicates: u64,
@@ -124,7 +128,7 @@ pub struct Performance {
 }
 
 /// An object whose entries keep their order.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct InOrder<T>(pub Vec<(String, T)>);
 
 impl<T: Serialize> Serialize for InOrder<T> {
@@ -150,6 +154,7 @@ impl<'a> Summary<'a> {
             schema_version: SCHEMA_VERSION,
             spunlaid_version: env!("CARGO_PKG_VERSION"),
             case: resolved(case),
+            spinline: SpinSummary::of_case(case),
             elements: case.fibre.elements,
             steps: case.run.steps,
             replicates: case.run.replicates,

@@ -10,6 +10,7 @@ mod frames;
 mod page;
 mod paper;
 mod scan;
+mod spinline;
 mod study;
 mod table;
 #[cfg(test)]
@@ -21,9 +22,11 @@ pub use analysis::{AnalysisReport, analysis_html};
 pub use comparison::{ComparisonReport, comparison_html};
 pub use paper::{PaperReport, paper_html};
 pub use scan::{ScanReport, scan_html};
+pub use spinline::{LayerSpinline, SpinReport, spinline_html};
 pub use study::{StudyReport, study_html};
 pub use web::{WebReport, web_html};
 
+use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
 use askama::Template;
 use spunlaid::case::Case;
@@ -50,6 +53,8 @@ pub struct ReportInput<'a> {
     pub checks: &'a FinerChecks,
     /// The figures, see [`crate::figures::run_figures`].
     pub figures: &'a [Figure],
+    /// The spinline from which the fibre is fed, with its figures.
+    pub spinline: Option<(&'a SpinResults, &'a [Figure])>,
     /// Warnings and remarks for the reader.
     pub notes: &'a [String],
     /// What the run cost.

@@ -1,6 +1,7 @@
 //! The page: the template filled in.
 
 use super::frames;
+use super::spinline::{self, SpinSection};
 use super::table::{self, Group, ReplicateRow};
 use super::words::{self, count};
 use super::{ReportInput, rendered};
@@ -39,6 +40,8 @@ struct RunPage<'a> {
     replicate_heads: Vec<String>,
     replicate_rows: Vec<ReplicateRow>,
     unlisted: usize,
+    /// Of a fibre that comes from a spinline.
+    spinline: Option<SpinSection<'a>>,
     /// Headings with the figures below them.
     sections: Vec<(&'static str, Vec<&'a Figure>)>,
     balance_error: String,
@@ -104,6 +107,7 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
         replicate_heads: table::replicate_heads(results),
         replicate_rows: table::replicate_rows(results, LISTED),
         unlisted: replicates.saturating_sub(LISTED),
+        spinline: input.spinline.map(|(results, figures)| spinline::of_fibre(input.case, results, figures)),
         sections: sections(input.figures),
         balance_error: number(results.number("balance_error").map_or(f64::NAN, Number::value)),
         work_error: results.number("work_error").map(|error| number(error.value())),

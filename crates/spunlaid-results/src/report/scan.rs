@@ -64,6 +64,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         lever_heads: Vec::new(),
         levers: Vec::new(),
         figures: input.figures,
+        spinlines: Vec::new(),
         file: File {
             title: "The scan",
             heads: &[],

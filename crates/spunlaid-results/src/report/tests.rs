@@ -20,6 +20,7 @@ fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml:
         results,
         checks: &FinerChecks::none("the run is too short for it"),
         figures: &figures,
+        spinline: None,
         notes,
         performance: Performance {
             wall_s: 1.0,

@@ -1,6 +1,7 @@
 //! `report.html` of a web: the web on a light table, what makes it uneven, and the figures.
 
 use super::rendered;
+use super::spinline::{self, LayerSpinline, SpinSection};
 use super::words::{count, time};
 use crate::Failure;
 use crate::failure::undrawable;
@@ -43,6 +44,8 @@ pub struct WebReport<'a> {
     pub diameter: f64,
     /// The figures.
     pub figures: &'a [Figure],
+    /// The spinlines from which its filaments come.
+    pub spinlines: &'a [LayerSpinline],
     /// Notes for the reader.
     pub notes: &'a [String],
     /// The web file with every default.
@@ -73,6 +76,7 @@ pub(super) struct WebPage<'a> {
     pub(super) lever_heads: Vec<String>,
     pub(super) levers: Vec<(String, Vec<String>)>,
     pub(super) figures: &'a [Figure],
+    pub(super) spinlines: Vec<SpinSection<'a>>,
     pub(super) file: File<'a>,
     pub(super) cost: String,
     pub(super) version: &'static str,
@@ -151,6 +155,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         lever_heads: findings.patches.iter().map(|patch| millimetres(patch.map.patch)).collect(),
         levers: findings.sensitivities.iter().map(levers).collect(),
         figures: input.figures,
+        spinlines: spinline::of_web(input.web, input.layers, input.spinlines),
         file: File {
             title: "The web file",
             heads: &[

@@ -1,6 +1,7 @@
 //! A case: everything that a run needs, checked and in SI units.
 
 mod check;
+mod files;
 pub mod keys;
 mod memory;
 mod neighbours;

@@ -22,7 +22,7 @@ mod written;
 
 pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
 pub use influence::{Change, Influence};
-pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
+pub use spinline::{SpinFile, holds_spinline_alone, parse_spinline, read_spinline, write_spinline};
 pub use study::{
     MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
     read_changed_study, read_study,
@@ -110,8 +110,7 @@ fn parse_with(
     overrides: &[Overrides<'_>],
 ) -> Result<(Case, Vec<Note>), Error> {
     let mut written = document::read(&keys::CASE, text, name, overrides)?;
-    let flies = ["fibre", "feed", "belt", "air", "run"].iter().any(|table| written.has_table(table));
-    if written.has_table("spinline") && !flies {
+    if spinline::is_spinline_alone(&written) {
         let fault = Fault::new(
             "stands alone in this file, so that no fibre flies",
             "solve the spinline alone, or add [belt], [air] and [run] for the fibre that flies on below it",

@@ -8,7 +8,7 @@ use super::{FORMAT_VERSION, Overrides, document, file, parse_with, write};
 use crate::air::Flow;
 use crate::case::keys::{self, Key};
 use crate::case::{Case, Note};
-use crate::error::{Error, Fault, FileKind, Problem};
+use crate::error::{Error, Fault, FileKind, Place, Problem};
 use crate::field::Hint;
 use crate::spinline::{AirTable, End, Failure, Melt, Solution, SpinSpec, Spinline, Surroundings};
 use crate::units::Dimension;
@@ -71,6 +71,18 @@ pub(super) fn open_spinline(mut written: WrittenValues, files: &DataFiles) -> Re
     Ok(open)
 }
 
+/// Whether a file describes a spinline and no fibre that flies. False if it cannot be read.
+pub fn holds_spinline_alone(path: &Path) -> bool {
+    let Ok(text) = file::read(path, FileKind::Case) else { return false };
+    document::read(&keys::CASE, &text, "", &[]).is_ok_and(|written| is_spinline_alone(&written))
+}
+
+/// Whether a spinline is written, and nothing of a fibre that flies.
+pub(super) fn is_spinline_alone(written: &WrittenValues) -> bool {
+    const OF_FLIGHTS: [&str; 5] = ["fibre", "feed", "belt", "air", "run"];
+    written.has_table("spinline") && !OF_FLIGHTS.into_iter().any(|table| written.has_table(table))
+}
+
 /// Writes a spinline as a file that reads back to the same bits.
 pub fn write_spinline(spec: &SpinSpec) -> String {
     let case = Case::from(spec);
@@ -88,6 +100,12 @@ impl SpinFile {
         notes.extend(case.unusual_in(&TABLES).into_iter().map(|note| written.placed(note)));
         let spinline = case.spinline.unwrap_or(Spinline::UNKNOWN);
         Self { spec: SpinSpec { spinline, drag: case.drag }, notes, written }
+    }
+
+    /// The spinline from which a case is fed; `None` if it has none.
+    pub fn of_case(case: &Case) -> Option<Self> {
+        let (spinline, written) = (case.spinline.clone()?, WrittenValues::new(Place::Code));
+        Some(Self { spec: SpinSpec { spinline, drag: case.drag }, notes: Vec::new(), written })
     }
 
     /// The steady state of each row of the curtain, the quenched side first; one if there is no curtain.

@@ -96,7 +96,7 @@ pub enum Polymer {
 }
 
 /// 0 °C [K].
-pub(crate) const ZERO_CELSIUS: f64 = 273.15;
+pub const ZERO_CELSIUS: f64 = 273.15;
 
 /// What is chosen for the effect of crystals and orientation where no measurement is known.
 const CHOSEN: Crystals = Crystals {

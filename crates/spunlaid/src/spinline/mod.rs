@@ -20,8 +20,7 @@ mod surroundings;
 mod tests;
 mod thread;
 
-pub(crate) use material::ZERO_CELSIUS;
-pub use material::{Crystals, Material, Polymer, PolymerFile};
+pub use material::{Crystals, Material, Polymer, PolymerFile, ZERO_CELSIUS};
 pub use solution::{Freezing, FreezingCause, Solution, Station};
 pub use surroundings::{AirState, AirTable, Surroundings};
 

@@ -8,6 +8,7 @@ pub use map::light_table;
 pub use summary::{Layer, Performance, Summary};
 
 use super::folder::Staging;
+use super::spinline::STATIONS;
 use crate::Failure;
 use spunlaid::web::{Findings, Map, Strand};
 
@@ -18,6 +19,7 @@ pub const ENTRIES: &[&str] = &[
     "map.png",
     "map.parquet",
     "fibres.vtp",
+    STATIONS,
     "figures",
     "report.html",
     "summary.json",

@@ -1,6 +1,7 @@
 //! `summary.json`: all results of a web.
 
 use crate::figures::SEEN;
+use crate::output::spinline::SpinSummary;
 use crate::output::summary::InOrder;
 use serde::Serialize;
 use serde_json::Value as Json;
@@ -55,6 +56,9 @@ pub struct Layer {
     /// Largest lateral wave number of the air that all filaments share, times its length scale; none of filaments in airs of their own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lateral_cutoff: Option<f64>,
+    /// The spinline from which its filaments come, if its case has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spinline: Option<SpinSummary>,
 }
 
 /// The speed of the work. This is the only part that differs when it is repeated.

@@ -1,0 +1,38 @@
+//! `spunlaid spin`: solves a spinline, from the hole of the spinneret to the solid filament.
+
+use super::interrupt::stop_on_ctrl_c;
+use super::stem;
+use crate::args::Spin;
+use crate::failure::Failure;
+use crate::say;
+use spunlaid::case::Note;
+use spunlaid::input::{Overrides, read_spinline};
+use spunlaid_results::folders::spinline::SpinFolder;
+use spunlaid_results::output::folder::Staging;
+use spunlaid_results::output::spinline::{ENTRIES, SpinResults, remarks, text};
+
+pub(crate) fn spin(spin: &Spin) -> Result<(), Failure> {
+    let file = read_spinline(&spin.file, Overrides { values: &spin.set, word: "--set" })?;
+    file.notes.iter().for_each(say::note);
+    let name = stem(&spin.file, "spinline").to_string_lossy().into_owned();
+    let results = SpinResults::new(&file)?;
+    let found = remarks(&results.rows);
+    let notes = [Note::of_results(&file.notes), found.clone()].concat();
+    let written = SpinFolder { name: &name, file: &file, results: &results, notes: &notes };
+    let folder = (spin.out.is_some() || !spin.json).then(|| super::folder(spin.out.as_ref(), &name));
+    if let Some(folder) = &folder {
+        let staging = Staging::new(folder, ENTRIES, spin.force, stop_on_ctrl_c())?;
+        written.write(&staging)?;
+        staging.publish()?;
+    }
+    if spin.json {
+        say::text(&written.summary());
+    } else if !spin.quiet {
+        say::text(&text(&results.rows, &results.influences));
+        found.iter().for_each(|note| say::remark(false, note));
+        if let Some(folder) = folder {
+            say::line(&format!("open {}", folder.join("report.html").display()));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,114 @@
+"""Spinlines: from the hole of the spinneret to the solid filament."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from . import _spunlaid
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+class Spinline:
+    """A spinline in steady state. `spunlaid.spin` returns it; a notebook shows its report.
+
+    Each measure is an attribute, in SI units: `line.final_diameter_m`, `line.freezing["distance_m"]`.
+    """
+
+    def __init__(self, solved: _spunlaid.SolvedSpinline) -> None:
+        self._solved = solved
+        self._measures: dict[str, Any] = json.loads(solved.summary)["spinline"]
+
+    @property
+    def measures(self) -> dict[str, Any]:
+        """All measures, as `spinline` in `summary.json`. Those of a curtain are of the first row, and `rows` has each row."""
+        return self._measures
+
+    @property
+    def stations(self) -> dict[str, NDArray[np.float64]]:
+        """The thread and the air around it from the die to the end, a NumPy array for each column of `spinline.parquet`: `z_m`,
+        `speed_m_s`, `diameter_m`, `temperature_c`, `tension_n`, `stress_pa`, `transformed`, `strain_rate_per_s`, and
+        `air_velocity_m_s`, `air_cross_velocity_m_s`, `air_temperature_c`. Of a curtain those of its first row."""
+        return self._solved.stations[0]
+
+    @property
+    def rows(self) -> list[dict[str, NDArray[np.float64]]]:
+        """The same for each row of the curtain, the quenched side first; one if there is no curtain."""
+        return self._solved.stations
+
+    @property
+    def influences(self) -> list[dict[str, Any]]:
+        """What decides the diameter, the largest first: `key`, `label`, `change`, and what it does to `diameter` and `speed`:
+        d ln d / d ln x where the change is relative, the relative change for 10 K otherwise."""
+        return self._measures["influences"]  # type: ignore[no-any-return]
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What `summary.json` of a results folder holds."""
+        return json.loads(self._solved.summary)  # type: ignore[no-any-return]
+
+    @property
+    def text(self) -> str:
+        """The spinline with every default written out, as a file."""
+        return self._solved.text
+
+    @property
+    def notes(self) -> list[str]:
+        """Notes and warnings."""
+        return self._solved.notes
+
+    def __getattr__(self, name: str) -> Any:
+        measures = self.__dict__.get("_measures", {})
+        if name in measures:
+            return measures[name]
+        raise AttributeError(f"a spinline has no measure {name!r}; it has {', '.join(measures)}")
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self._measures})
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
+        """Writes the folder that `spunlaid spin` writes.
+
+        force: whether results that the folder holds are replaced.
+        """
+        self._solved.save(os.fspath(path), force)
+
+    def report(self) -> str:
+        """The report, one page of HTML that works offline."""
+        return self._solved.report()
+
+    def __repr__(self) -> str:
+        diameter, speed = 1e6 * self._measures["final_diameter_m"], self._measures["final_speed_m_s"]
+        decitex = 1e7 * self._measures["linear_density_kg_m"]
+        return f"<Spinline {self._solved.name}: {diameter:.4g} µm, {decitex:.3g} dtex, {speed:.4g} m/s>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        page = escape(self.report(), quote=True)
+        return f'<iframe srcdoc="{page}" style="width: 100%; height: 720px; border: 1px solid #ccc"></iframe>'
+
+
+def spin(
+    spinline: str | os.PathLike[str] | Mapping[str, Any],
+    *,
+    set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of the program
+) -> Spinline:
+    """Solves a spinline, from the hole of the spinneret to the solid filament: the same bits as `spunlaid spin`.
+
+    spinline: the path of a file with the table `[spinline]`, which may be a case; or a dict of its tables, `{"spinline": {...},
+        "drag": {...}}`, with texts that have a unit, and numbers in SI units. `spunlaid keys spinline` lists the keys
+    set: keys that replace those of the file, `{"spinline.throughput": "0.4 g/min"}`
+    """
+    changes = dict(set or {})
+    path = None
+    if isinstance(spinline, Mapping):
+        changes = {**spinline, **changes}
+    else:
+        path = os.fspath(spinline)
+    return Spinline(_spunlaid.solve_spinline(path, changes))

@@ -1,0 +1,138 @@
+//! What decides the diameter: a bar for each number of the line.
+
+use spunlaid::input::{Change, Influence};
+use spunlaid_charts::{
+    Axis, Figure, Scale, Table,
+    palette::{BLUE, GREY, GRID, INK, VERMILION},
+    signed,
+    svg::{Anchor, Stroke, Svg, Text, plain, width},
+};
+
+const WIDTH: f64 = 720.0;
+const ROW: f64 = 26.0;
+/// Height of a bar [px].
+const BAR: f64 = 15.0;
+/// Room above the bars for the words of the panel, and below them for ticks and label.
+const ABOVE: f64 = 34.0;
+const BELOW: f64 = 58.0;
+const SIZE: f64 = 13.5;
+const SMALL: f64 = 12.5;
+/// Most bars of a panel; the table has all.
+const MOST: usize = 16;
+
+/// The numbers that are changed in one way.
+struct Panel<'a> {
+    title: &'static str,
+    label: &'static str,
+    /// From the number of an influence to that of the axis.
+    factor: f64,
+    decimals: usize,
+    influences: Vec<&'a Influence>,
+}
+
+impl Panel<'_> {
+    fn height(&self) -> f64 {
+        ABOVE + ROW * self.influences.len() as f64 + BELOW
+    }
+}
+
+/// The influences on the diameter, relative changes and those of 10 K apart.
+pub(super) fn figure(prefix: &str, influences: &[Influence]) -> Figure {
+    let changed = |change: Change| -> Vec<&Influence> {
+        influences.iter().filter(|influence| influence.change == change).take(MOST).collect()
+    };
+    let panels = [
+        Panel {
+            title: "1 % more of",
+            label: "Change of the diameter (%)",
+            factor: 1.0,
+            decimals: 2,
+            influences: changed(Change::Relative),
+        },
+        Panel {
+            title: "10 K more of",
+            label: "Change of the diameter (%)",
+            factor: 100.0,
+            decimals: 1,
+            influences: changed(Change::TenKelvin),
+        },
+    ];
+    let panels: Vec<Panel<'_>> = panels.into_iter().filter(|panel| !panel.influences.is_empty()).collect();
+    let title = "What decides the diameter";
+    let names = influences.iter().map(|influence| width(&influence.label, SIZE));
+    let left = names.fold(120.0, f64::max).min(0.55 * WIDTH) + 22.0;
+    let mut svg = Svg::new(WIDTH, panels.iter().map(Panel::height).sum(), title);
+    let mut top = 0.0;
+    for panel in &panels {
+        svg.open_shifted(top);
+        draw(&mut svg, panel, left);
+        svg.close();
+        top += panel.height();
+    }
+    let left_out = influences.len() - panels.iter().map(|panel| panel.influences.len()).sum::<usize>();
+    let others = if left_out > 0 { " Weaker ones are in the numbers of the figure." } else { "" };
+    let caption = format!(
+        "Relative change of the diameter of the cold filament when one number changes and all others stay, by small changes of the \
+         model: d ln d / d ln x, and the change for 10 K. Blue is finer, red is thicker.{others} These are slopes: they hold for \
+         small changes."
+    );
+    let (name, title) = (format!("{prefix}_influences"), title.to_owned());
+    Figure { name, title, caption, svg: svg.finish(), table: table(influences) }
+}
+
+fn draw(svg: &mut Svg, panel: &Panel<'_>, left: f64) {
+    let value = |influence: &Influence| influence.diameter * panel.factor;
+    // Room for the numbers at the ends of the bars.
+    const ROOM: f64 = 52.0;
+    let (inner_left, inner_right) = (left + ROOM, WIDTH - 12.0 - ROOM);
+    let values = panel.influences.iter().map(|influence| value(influence)).chain([0.0]);
+    let scale = Scale::fit(&Axis::linear(panel.label).tight(), values, 5);
+    let bottom = panel.height() - BELOW;
+    let along = |value: f64| inner_left + scale.place(value) * (inner_right - inner_left);
+
+    let heading = Text { size: SIZE, colour: GREY, anchor: Anchor::End, upright: true };
+    svg.text((left - 10.0, ABOVE - 14.0), panel.title, heading);
+    for tick in scale.ticks.iter().filter(|tick| tick.label.is_some()) {
+        let x = along(tick.value);
+        svg.line((x, ABOVE - 4.0), (x, bottom), &Stroke::solid(GRID, 0.8));
+        let style = Text { size: SMALL, colour: INK, anchor: Anchor::Middle, upright: true };
+        svg.text((x, bottom + 19.0), tick.label.as_deref().unwrap_or_default(), style);
+    }
+    svg.line((left, bottom), (WIDTH - 12.0, bottom), &Stroke::solid(INK, 0.9));
+    for (row, influence) in panel.influences.iter().enumerate() {
+        let y = ABOVE + ROW * (row as f64 + 0.5);
+        let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
+        svg.text((left - 10.0, y + 4.5), &influence.label, name);
+        let (from, to, value) = (along(0.0), along(value(influence)), value(influence));
+        let colour = if value < 0.0 { BLUE } else { VERMILION };
+        svg.rectangles(&[((from.min(to), y - 0.5 * BAR), (from.max(to), y + 0.5 * BAR))], colour);
+        let (x, anchor) = if value < 0.0 { (to - 6.0, Anchor::End) } else { (to + 6.0, Anchor::Start) };
+        let style = Text { size: SMALL, colour: INK, anchor, upright: true };
+        let plus = if value > 0.0 { "+" } else { "" };
+        svg.text((x, y + 4.5), &format!("{plus}{}", signed(value, panel.decimals)), style);
+    }
+    svg.line((along(0.0), ABOVE - 4.0), (along(0.0), bottom), &Stroke::solid(GREY, 1.2));
+    let style = Text { size: SIZE, colour: INK, anchor: Anchor::Middle, upright: true };
+    svg.text(((inner_left + inner_right) / 2.0, bottom + 42.0), panel.label, style);
+}
+
+/// All influences, on the diameter and on the speed.
+fn table(influences: &[Influence]) -> Table {
+    let mut table = Table::new([
+        "diameter_dlnd_dlnx",
+        "speed_dlnv_dlnx",
+        "diameter_percent_per_10_k",
+        "speed_percent_per_10_k",
+    ]);
+    for Influence { label, change, diameter, speed, .. } in influences {
+        let nan = f64::NAN;
+        table.add(
+            &plain(label),
+            [match change {
+                Change::Relative => [*diameter, *speed, nan, nan],
+                Change::TenKelvin => [nan, nan, 100.0 * diameter, 100.0 * speed],
+            }],
+        );
+    }
+    table
+}

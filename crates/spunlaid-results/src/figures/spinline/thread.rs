@@ -1,0 +1,177 @@
+//! The thread from the die to the end: speed, diameter, temperature, tension, stress, strain rate, transformed share.
+
+use super::{MICROMETRES, MM};
+use spunlaid::spinline::{Solution, Station, ZERO_CELSIUS};
+use spunlaid_charts::{
+    Axis, Chart, Figure, Series,
+    palette::{BLUE, GREEN, VERMILION},
+};
+
+/// The strain rate is shown to this multiple of the distance at which the thread freezes, because it is zero from there on.
+const BEYOND_FREEZING: f64 = 1.25;
+
+/// A quantity of the thread, in the unit of its axis.
+type Quantity = fn(&Station) -> f64;
+
+/// A row of filaments that is shown: its name, nothing if there is only one, and its colour.
+struct Shown<'a> {
+    name: &'static str,
+    colour: &'static str,
+    solution: &'a Solution,
+}
+
+impl Shown<'_> {
+    fn points(&self, quantity: Quantity, until: f64) -> Vec<(f64, f64)> {
+        let stations = self.solution.stations.iter().filter(|station| station.distance <= until);
+        stations.map(|station| (station.distance * MM, quantity(station))).collect()
+    }
+
+    /// `thread`, or `thread, last row`.
+    fn label(&self, what: &str) -> String {
+        if self.name.is_empty() { what.to_owned() } else { format!("{what}, {}", self.name) }
+    }
+}
+
+/// The figures of a thread; of a curtain those of its first and of its last row.
+pub(super) fn figures(prefix: &str, rows: &[Solution]) -> Vec<Figure> {
+    let shown: Vec<Shown<'_>> = match rows {
+        [] => return Vec::new(),
+        [solution] => vec![Shown { name: "", colour: BLUE, solution }],
+        [first, .., last] => vec![
+            Shown { name: "first row", colour: BLUE, solution: first },
+            Shown { name: "last row", colour: VERMILION, solution: last },
+        ],
+    };
+    let frozen = shown.iter().map(|row| row.solution.freezing.distance).fold(0.0, f64::max);
+    let crystallises = rows.iter().any(|row| row.end().transformed > 0.0);
+    let mut figures = vec![
+        drawing(prefix, &shown),
+        temperature(prefix, &shown),
+        tension(prefix, &shown),
+        strain_rate(prefix, &shown, BEYOND_FREEZING * frozen),
+    ];
+    if crystallises {
+        figures.push(transformed(prefix, &shown));
+    }
+    figures
+}
+
+/// An empty chart over the distance from the die.
+fn chart(prefix: &str, name: &str, title: &str, up: Axis) -> Chart {
+    let along = Axis::linear("Distance from the die (mm)").tight().including(0.0);
+    Chart::new(&format!("{prefix}_{name}"), title, along, up)
+}
+
+/// A chart with a quantity of each row, and where the row freezes.
+fn with_rows(
+    chart: Chart,
+    shown: &[Shown<'_>],
+    what: &str,
+    quantity: Quantity,
+    until: f64,
+    labelled: bool,
+) -> Chart {
+    shown.iter().enumerate().fold(chart, |chart, (i, row)| {
+        let keyed = |series: Series, is_keyed: bool| if is_keyed { series } else { series.unlabelled() };
+        let line = Series::new(&row.label(what), row.colour).width(2.0);
+        let freezing = Series::new("freezing point", row.colour).named(&row.label("freezing point"));
+        let frozen = row.solution.freezing.distance * MM;
+        chart
+            .line(keyed(line, labelled), &row.points(quantity, until))
+            .vertical(keyed(freezing.dashed("5 4").width(1.2), labelled && i == 0), frozen)
+    })
+}
+
+/// The words of a caption that say what frozen means.
+fn about_freezing(shown: &[Shown<'_>]) -> String {
+    let [first, ..] = shown else { return String::new() };
+    let rows = if first.name.is_empty() { "" } else { " of each row" };
+    format!(
+        "The dashed line marks the freezing point{rows}: from there on the filament is solid and keeps its speed."
+    )
+}
+
+fn drawing(prefix: &str, shown: &[Shown<'_>]) -> Figure {
+    let title = "Speed and diameter of the thread";
+    let speed = chart(prefix, "speed", title, Axis::logarithmic("Speed *v* (m/s)").decades(4));
+    let speed = with_rows(speed, shown, "thread", |station| station.speed, f64::INFINITY, true);
+    let speed = with_air(speed, shown, |station| station.air_velocity);
+    let diameter = chart(prefix, "diameter", title, Axis::logarithmic("Diameter *d* (µm)"));
+    let diameter =
+        with_rows(diameter, shown, "thread", |station| station.diameter * MICROMETRES, f64::INFINITY, false);
+    let caption = format!(
+        "Speed and diameter of the thread, averaged over its cross-section, and the velocity of the air along it. {}",
+        about_freezing(shown)
+    );
+    Figure::stacked(
+        &format!("{prefix}_speed_and_diameter"),
+        title,
+        &[&speed.sized(640.0, 340.0), &diameter.sized(640.0, 320.0)],
+        caption,
+    )
+}
+
+/// The air that the rows meet.
+fn with_air(chart: Chart, shown: &[Shown<'_>], quantity: Quantity) -> Chart {
+    let dashes = [None, Some("2 3")];
+    shown.iter().zip(dashes).fold(chart, |chart, (row, dash)| {
+        let series = Series { dash, ..Series::new(&row.label("air"), GREEN) };
+        chart.line(series, &row.points(quantity, f64::INFINITY))
+    })
+}
+
+fn temperature(prefix: &str, shown: &[Shown<'_>]) -> Figure {
+    let title = "Temperature of the thread and of the air";
+    let chart = chart(prefix, "temperature", title, Axis::linear("Temperature *T* (°C)"));
+    let chart =
+        with_rows(chart, shown, "thread", |station| station.temperature - ZERO_CELSIUS, f64::INFINITY, true);
+    let chart = with_air(chart, shown, |station| station.air_temperature - ZERO_CELSIUS);
+    let caption = format!(
+        "Temperature of the thread, averaged over its cross-section, and of the air around it. {}",
+        about_freezing(shown)
+    );
+    Figure::new(&chart, caption)
+}
+
+fn tension(prefix: &str, shown: &[Shown<'_>]) -> Figure {
+    let title = "Tension and stress of the thread";
+    let tension = chart(prefix, "tension", title, Axis::linear("Tension *F* (mN)").zero_based());
+    let tension = with_rows(tension, shown, "thread", |station| station.tension * 1e3, f64::INFINITY, true);
+    let stress = chart(prefix, "stress", title, Axis::linear("Stress *N*_{1} (MPa)").zero_based());
+    let stress = with_rows(stress, shown, "thread", |station| station.stress * 1e-6, f64::INFINITY, false);
+    let caption = format!(
+        "Above, the force in the thread; below, the stress in its cross-section. The stress at the freezing point orients the \
+         polymer, and so decides birefringence and modulus. {}",
+        about_freezing(shown)
+    );
+    Figure::stacked(
+        &format!("{prefix}_tension_and_stress"),
+        title,
+        &[&tension.sized(640.0, 320.0), &stress.sized(640.0, 320.0)],
+        caption,
+    )
+}
+
+fn strain_rate(prefix: &str, shown: &[Shown<'_>], until: f64) -> Figure {
+    let title = "Strain rate of the thread";
+    let up = Axis::linear("Strain rate d*v*/d*z* (1/s)").zero_based().in_column("strain_rate_per_s");
+    let chart = chart(prefix, "strain_rate", title, up);
+    let chart = with_rows(chart, shown, "thread", |station| station.strain_rate, until, true);
+    let caption = format!(
+        "How fast the thread is stretched, up to a little below the freezing point. {}",
+        about_freezing(shown)
+    );
+    Figure::new(&chart, caption)
+}
+
+fn transformed(prefix: &str, shown: &[Shown<'_>]) -> Figure {
+    let title = "Transformed share of the polymer";
+    let up = Axis::linear("Transformed share *θ* (–)").zero_based().in_column("transformed");
+    let chart = chart(prefix, "transformed", title, up);
+    let chart = with_rows(chart, shown, "thread", |station| station.transformed, f64::INFINITY, true);
+    let caption = format!(
+        "The share of the crystals that could form which has formed; 1 is the crystallinity that the polymer reaches. {}",
+        about_freezing(shown)
+    );
+    Figure::new(&chart, caption)
+}

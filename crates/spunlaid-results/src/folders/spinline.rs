@@ -1,0 +1,68 @@
+//! The folder of a spinline.
+
+use crate::Failure;
+use crate::figures::{SPINLINE, spinline_figures};
+use crate::output::folder::Staging;
+use crate::output::spinline::{SpinResults, Summary, write_stations};
+use crate::output::{beside, pictures};
+use crate::report::{SpinReport, spinline_html};
+use spunlaid::input::{SpinFile, write_spinline};
+use spunlaid::spinline::SpinSpec;
+use spunlaid_charts::Figure;
+
+/// Everything of a spinline that goes into the files.
+#[derive(Clone, Copy, Debug)]
+pub struct SpinFolder<'a> {
+    /// What the spinline is called: the name of its file.
+    pub name: &'a str,
+    /// The spinline.
+    pub file: &'a SpinFile,
+    /// Its solution.
+    pub results: &'a SpinResults,
+    /// Notes for the reader.
+    pub notes: &'a [String],
+}
+
+impl SpinFolder<'_> {
+    /// The text of `summary.json`.
+    pub fn summary(&self) -> String {
+        Summary::new(&self.results.rows, &self.results.influences, self.notes).to_json()
+    }
+
+    /// Writes the thread, the figures, the report, the file and the summary.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
+        let SpinSpec { spinline, drag } = &self.file.spec;
+        let copied = beside::copy(spinline.files(), &staging.place(beside::CASE_FILES).0)?;
+        let spinline = spinline.with_files_at(beside::place(&copied));
+        let toml = write_spinline(&SpinSpec { spinline, drag: *drag });
+        write_stations(staging, &[(1, &self.results.rows)])?;
+        let figures = self.figures();
+        pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+        staging.write("report.html", self.page(&toml, &figures))?;
+        staging.write("spinline.toml", toml)?;
+        staging.write("summary.json", self.summary())
+    }
+
+    /// The report as one HTML file.
+    pub fn report(&self) -> String {
+        self.page(&write_spinline(&self.file.spec), &self.figures())
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        spinline_figures(SPINLINE, &self.results.rows, &self.results.influences)
+    }
+
+    fn page(&self, toml: &str, figures: &[Figure]) -> String {
+        spinline_html(&SpinReport {
+            name: self.name,
+            file: self.file,
+            results: self.results,
+            figures,
+            notes: self.notes,
+            toml,
+        })
+    }
+}

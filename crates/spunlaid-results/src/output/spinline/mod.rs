@@ -1,0 +1,48 @@
+//! What leaves a solved spinline: measures, `summary.json`, `spinline.parquet` and the table of the terminal.
+
+mod measures;
+mod stations;
+mod summary;
+mod table;
+mod words;
+
+pub use measures::{MEASURES, SpinMeasure};
+pub use stations::{COLUMNS, STATIONS, write as write_stations};
+pub use summary::{SpinSummary, Summary};
+pub use table::text;
+pub use words::{MODEL_ERROR, freezing, influence, numerical_error, remarks};
+
+use super::beside::CASE_FILES;
+use spunlaid::case::Case;
+use spunlaid::error::Error;
+use spunlaid::input::{Influence, SpinFile};
+use spunlaid::spinline::Solution;
+
+/// The contents of the folder of `spin`. The last entry marks it as complete.
+pub const ENTRIES: &[&str] =
+    &["spinline.toml", CASE_FILES, STATIONS, "figures", "report.html", "summary.json"];
+
+/// A solved spinline, and what decides its diameter.
+#[derive(Clone, Debug)]
+pub struct SpinResults {
+    /// The solution of each row of the curtain, the quenched side first; one if there is no curtain.
+    pub rows: Vec<Solution>,
+    /// The influences on the diameter, the largest first.
+    pub influences: Vec<Influence>,
+}
+
+impl SpinResults {
+    /// Solves a spinline.
+    ///
+    /// # Errors
+    /// If it has no steady state that a line could run in.
+    pub fn new(file: &SpinFile) -> Result<Self, Error> {
+        Ok(Self { rows: file.solve()?, influences: file.influences()? })
+    }
+
+    /// The spinline from which a case is fed, solved again, which takes milliseconds; `None` if the case has none.
+    pub fn of_case(case: &Case) -> Option<Self> {
+        // The case could be read, so its spinline can be solved.
+        Self::new(&SpinFile::of_case(case)?).ok()
+    }
+}

@@ -1,0 +1,105 @@
+//! `summary.json` of a spinline, and the part `spinline` of the summaries of runs and of webs.
+
+use super::SpinResults;
+use super::measures::MEASURES;
+use super::words::MODEL_ERROR;
+use crate::output::json_text;
+use crate::output::summary::InOrder;
+use serde::Serialize;
+use serde_json::Value as Json;
+use spunlaid::case::Case;
+use spunlaid::input::{Change, Influence};
+use spunlaid::spinline::Solution;
+use spunlaid_charts::svg::plain;
+
+/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
+const SCHEMA_VERSION: u32 = 1;
+
+/// The content of `summary.json` of a spinline.
+#[derive(Debug, Serialize)]
+pub struct Summary<'a> {
+    schema_version: u32,
+    spunlaid_version: &'static str,
+    spinline: SpinSummary,
+    notes: &'a [String],
+}
+
+impl<'a> Summary<'a> {
+    /// Gathers everything.
+    pub fn new(rows: &[Solution], influences: &[Influence], notes: &'a [String]) -> Self {
+        let spinline = SpinSummary::new(rows, influences);
+        Self { schema_version: SCHEMA_VERSION, spunlaid_version: env!("CARGO_PKG_VERSION"), spinline, notes }
+    }
+
+    /// The text of the file.
+    pub fn to_json(&self) -> String {
+        json_text(self)
+    }
+}
+
+/// The measures of a spinline. Those of a curtain are of its first row.
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
+pub struct SpinSummary(InOrder<Json>);
+
+impl SpinSummary {
+    /// * `rows` – the solution of each row, the quenched side first
+    pub fn new(rows: &[Solution], influences: &[Influence]) -> Self {
+        let mut entries = rows.first().map_or_else(Vec::new, measured);
+        if rows.len() > 1 {
+            let rows: Vec<Json> = rows.iter().map(|row| object(measured(row))).collect();
+            entries.push(("rows".to_owned(), rows.into()));
+        }
+        let influences: Vec<Json> = influences.iter().map(of_influence).collect();
+        entries.push(("influences".to_owned(), influences.into()));
+        entries.push(("model_error".to_owned(), MODEL_ERROR.into()));
+        Self(InOrder(entries))
+    }
+
+    /// That of the spinline from which a case is fed; `None` if it has none.
+    pub fn of_case(case: &Case) -> Option<Self> {
+        let results = SpinResults::of_case(case)?;
+        Some(Self::new(&results.rows, &results.influences))
+    }
+}
+
+/// An object; serde_json keeps its entries by their names.
+fn object(entries: Vec<(String, Json)>) -> Json {
+    Json::Object(entries.into_iter().collect())
+}
+
+/// The measures of a row, those of a group together.
+fn measured(solution: &Solution) -> Vec<(String, Json)> {
+    let mut entries: Vec<(String, Json)> = Vec::new();
+    let mut put = |name: &str, value: Json| match name.split_once('.') {
+        None => entries.push((name.to_owned(), value)),
+        Some((group, name)) => {
+            if !entries.iter().any(|(known, _)| known == group) {
+                entries.push((group.to_owned(), Json::Object(serde_json::Map::new())));
+            }
+            let members = entries.iter_mut().find(|(known, _)| known == group).map(|(_, members)| members);
+            if let Some(Json::Object(members)) = members {
+                members.insert(name.to_owned(), value);
+            }
+        }
+    };
+    for measure in MEASURES {
+        put(measure.name, (measure.value)(solution).into());
+    }
+    put("freezing.by", solution.freezing.by.name().into());
+    put("second_steady_state", solution.has_second.into());
+    entries
+}
+
+/// An influence: what is changed, how, and what it does.
+fn of_influence(influence: &Influence) -> Json {
+    let Influence { key, label, change, diameter, speed } = influence;
+    let change = match change {
+        Change::Relative => "relative",
+        Change::TenKelvin => "10 K",
+    };
+    let texts = [("key", *key), ("label", &plain(label)), ("change", change)];
+    let texts = texts.map(|(name, text)| (name.to_owned(), Json::from(text)));
+    let numbers = [("diameter", *diameter), ("speed", *speed)];
+    object(texts.into_iter().chain(numbers.map(|(name, number)| (name.to_owned(), number.into()))).collect())
+}

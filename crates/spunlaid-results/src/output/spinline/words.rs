@@ -1,0 +1,67 @@
+//! What a solved spinline says, in sentences.
+
+use crate::numbers::{number_to, significant};
+use spunlaid::input::{Change, Influence};
+use spunlaid::spinline::{FreezingCause, Solution};
+use spunlaid::units::Dimension;
+use spunlaid_charts::svg::plain;
+
+/// What is known of the error of the model.
+pub const MODEL_ERROR: &str = "How far the model is from a real line is not known: no diameter that it gives has been compared with a measured one. \
+     The modulus can be wrong by a factor of two.";
+
+/// How well the equations are solved, in a sentence.
+pub fn numerical_error(rows: &[Solution]) -> String {
+    let largest = |residual: fn(&Solution) -> f64| {
+        number_to(rows.iter().map(|row| residual(row).abs()).fold(0.0, f64::max), 1)
+    };
+    format!(
+        "The equations are solved such that over the whole line the balance of momentum holds to {} of the largest tension and that \
+         of energy to {} of the heat that the air takes.",
+        largest(|row| row.momentum_residual),
+        largest(|row| row.energy_residual)
+    )
+}
+
+/// Where and by what the thread freezes, in a sentence.
+pub fn freezing(solution: &Solution) -> String {
+    let point = solution.freezing;
+    format!(
+        "The thread is drawn {}-fold and freezes {} below the die, at {}, {}, under a stress of {} MPa and while it cools by {} K/s.",
+        significant(solution.draw_ratio(), 3),
+        Dimension::Length.pretty_to(point.distance, 3),
+        Dimension::Temperature.pretty_to(point.temperature, 4),
+        match point.by {
+            FreezingCause::Temperature => "by its temperature",
+            FreezingCause::Crystallisation => "by crystallisation",
+        },
+        significant(point.stress * 1e-6, 3),
+        significant(point.cooling_rate, 2)
+    )
+}
+
+/// What a number does to the diameter, in a sentence: `Throughput: 1 % more makes the filament 0.43 % thicker.`
+pub fn influence(influence: &Influence) -> String {
+    let (change, percent) = match influence.change {
+        Change::Relative => ("1 % more makes", influence.diameter),
+        Change::TenKelvin => ("10 K more make", 100.0 * influence.diameter),
+    };
+    let way = if percent < 0.0 { "finer" } else { "thicker" };
+    let label = plain(influence.label);
+    format!("{label}: {change} the filament {} % {way}.", significant(percent.abs(), 2))
+}
+
+/// What a reader must know of the solution.
+pub fn remarks(rows: &[Solution]) -> Vec<String> {
+    let several: Vec<String> = (rows.iter().enumerate())
+        .filter(|(_, row)| row.has_second)
+        .map(|(i, _)| (i + 1).to_string())
+        .collect();
+    let whose = match rows.len() {
+        0 | 1 => String::new(),
+        _ => format!(" in row {}", several.join(", ")),
+    };
+    let remark =
+        format!("there are two steady states{whose}; the one with the smaller tension at the die is given");
+    (!several.is_empty()).then_some(remark).into_iter().collect()
+}
