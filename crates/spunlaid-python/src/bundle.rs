@@ -8,7 +8,9 @@ use pyo3::prelude::*;
 use spunlaid::case::Case;
 use spunlaid::ensemble::Computing;
 use spunlaid::error::Error;
-use spunlaid::input::{parse_case, parse_web_and_cases, write_case, write_web};
+use spunlaid::input::{
+    parse_case, parse_spinline, parse_web_and_cases, write_case, write_spinline, write_web,
+};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{LaydownSource, WebSpec};
 use spunlaid::observe::MEASURES;
@@ -35,6 +37,7 @@ pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
         let experiment = anywhere(&points[*point].experiment);
         let (text, cases) = match &experiment {
             Experiment::Case(case) => (write_case(case), None),
+            Experiment::Spinline(spec) => (write_spinline(spec), None),
             Experiment::Web(web) => {
                 (write_web(web), Some(flown(web).map(|(layer, case)| (layer, write_case(case))).collect()))
             }
@@ -49,6 +52,7 @@ pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
 fn anywhere(experiment: &Experiment) -> Experiment {
     match experiment {
         Experiment::Case(case) => Experiment::Case(crate::state::absolute(case)),
+        Experiment::Spinline(spec) => Experiment::Spinline(crate::state::absolute_spinline(spec)),
         Experiment::Web(web) => {
             let mut web = web.clone();
             for (number, layer) in web.layers.iter_mut().enumerate() {
@@ -84,6 +88,10 @@ fn flown(web: &WebSpec) -> impl Iterator<Item = (usize, &Case)> {
 /// What was sent, read again.
 fn read(text: &str, cases: &Cases) -> Result<Experiment, Error> {
     let Some(cases) = cases else {
+        // A case has a fibre; a spinline alone has none.
+        if !text.contains("\n[fibre]\n") {
+            return Ok(Experiment::Spinline(parse_spinline(text, "spinline.toml", &[])?.spec));
+        }
         return Ok(Experiment::Case(parse_case(text, "case.toml", &[])?.0));
     };
     let cases: Vec<_> = cases.iter().map(|(layer, text)| (sent(*layer), text.clone())).collect();

@@ -1,6 +1,6 @@
 //! A case file with changes, as one text.
 
-use spunlaid::case::keys::{self, FileKind, Kind};
+use spunlaid::case::keys::{self, Kind};
 use std::collections::BTreeMap;
 use std::path::{Path, absolute};
 use toml::de::{DeTable, DeValue};
@@ -62,10 +62,10 @@ fn is_file(name: &str) -> bool {
     keys::find(name).is_some_and(|key| matches!(key.kind, Kind::File(_)))
 }
 
-/// The full path of a file; a spectrum may also be a name.
+/// The full path of a file; a spectrum or a polymer may also be a name.
 fn full(name: &str, text: &str) -> String {
-    let is_name = keys::find(name).is_some_and(|key| matches!(key.kind, Kind::File(FileKind::Spectrum)))
-        && !text.contains('.');
+    let is_name =
+        keys::find(name).is_some_and(|key| matches!(key.kind, Kind::File(kind) if kind.is_word(text)));
     if is_name { text.to_owned() } else { full_path(text) }
 }
 

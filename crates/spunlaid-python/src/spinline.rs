@@ -71,7 +71,7 @@ impl SolvedSpinline {
     /// The spinline with every default written out, as a file.
     #[getter]
     fn text(&self) -> String {
-        write_spinline(&self.file)
+        write_spinline(&self.file.spec)
     }
 
     /// The thread from the die to the end, for each row of the curtain: the columns of spinline.parquet.

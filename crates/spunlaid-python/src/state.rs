@@ -232,6 +232,15 @@ fn points_of(array: &PyReadonlyArray2<'_, f64>) -> Vec<LaidPoint> {
 
 /// The case with the full paths of its files, so that they are found from any folder.
 pub(crate) fn absolute(case: &spunlaid::case::Case) -> spunlaid::case::Case {
-    let place = |file: &std::path::Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
-    case.with_files_at(place)
+    case.with_files_at(full_path)
+}
+
+/// The spinline with the full paths of its files.
+pub(crate) fn absolute_spinline(spec: &spunlaid::spinline::SpinSpec) -> spunlaid::spinline::SpinSpec {
+    let spinline = spec.spinline.with_files_at(full_path);
+    spunlaid::spinline::SpinSpec { spinline, drag: spec.drag }
+}
+
+fn full_path(file: &std::path::Path) -> std::path::PathBuf {
+    std::path::absolute(file).unwrap_or_else(|_| file.to_owned())
 }

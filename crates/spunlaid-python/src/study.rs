@@ -212,6 +212,7 @@ impl Study {
         let cost = |experiment: &Experiment| match experiment {
             Experiment::Case(case) => case.run.steps as f64 * case.fibre.elements as f64,
             Experiment::Web(_) => f64::INFINITY,
+            Experiment::Spinline(_) => 0.0,
         };
         self.file.study.points.iter().map(|point| cost(&point.experiment)).fold(0.0, f64::max)
     }
@@ -351,6 +352,9 @@ impl Study {
         let found = found.ok_or_else(|| PyIndexError::new_err(format!("there is no point {point}")))?;
         Ok(match &found.experiment {
             Experiment::Case(case) => spunlaid::input::write_case(&crate::state::absolute(case)),
+            Experiment::Spinline(spec) => {
+                spunlaid::input::write_spinline(&crate::state::absolute_spinline(spec))
+            }
             web @ Experiment::Web(_) => write_experiment(web),
         })
     }

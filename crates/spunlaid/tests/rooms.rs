@@ -19,6 +19,7 @@ const ROOMS: &[&[&str]] = &[
     &["fibre", "line"],
     &["field"],
     &["air", "drag"],
+    &["spinline"],
     &["chain"],
     &["energy"],
     &["statistics"],

@@ -66,7 +66,7 @@ fn check_spinline(check: &Check) -> Result<(), Failure> {
         return Ok(());
     }
     say::line("# the spinline with every default");
-    say::text(&write_spinline(&file));
+    say::text(&write_spinline(&file.spec));
     say::line("");
     for line in spinline::text(&results.rows, &[]).lines() {
         say::line(&format!("# {line}"));

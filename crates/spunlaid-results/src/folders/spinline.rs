@@ -7,6 +7,7 @@ use crate::output::spinline::{SpinResults, Summary, write_stations};
 use crate::output::{beside, pictures};
 use crate::report::{SpinReport, spinline_html};
 use spunlaid::input::{SpinFile, write_spinline};
+use spunlaid::spinline::SpinSpec;
 use spunlaid_charts::Figure;
 
 /// Everything of a spinline that goes into the files.
@@ -33,11 +34,10 @@ impl SpinFolder<'_> {
     /// # Errors
     /// If a file cannot be written.
     pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
-        let spinline = &self.file.spinline;
+        let SpinSpec { spinline, drag } = &self.file.spec;
         let copied = beside::copy(spinline.files(), &staging.place(beside::CASE_FILES).0)?;
-        let mut relocated = self.file.clone();
-        relocated.spinline = spinline.with_files_at(beside::place(&copied));
-        let toml = write_spinline(&relocated);
+        let spinline = spinline.with_files_at(beside::place(&copied));
+        let toml = write_spinline(&SpinSpec { spinline, drag: *drag });
         write_stations(staging, &[(1, &self.results.rows)])?;
         let figures = self.figures();
         pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
@@ -48,7 +48,7 @@ impl SpinFolder<'_> {
 
     /// The report as one HTML file.
     pub fn report(&self) -> String {
-        self.page(&write_spinline(self.file), &self.figures())
+        self.page(&write_spinline(&self.file.spec), &self.figures())
     }
 
     fn figures(&self) -> Vec<Figure> {

@@ -8,10 +8,10 @@ use crate::output::folder::Staging;
 use crate::output::leftovers;
 use crate::output::{self};
 use crate::report::{StudyReport, study_html};
-use spunlaid::case::{Case, MOST_REPLICATES};
+use spunlaid::case::MOST_REPLICATES;
 use spunlaid::error::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
-use spunlaid::study::{Header, Journal, JournalState, PointResults, rankings};
+use spunlaid::study::{Experiment, Header, Journal, JournalState, PointResults, rankings};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -195,8 +195,12 @@ impl<'a> StudyFolder<'a> {
 
 /// Copies the files that the case names, and returns the text of the case or web with the paths of the copies.
 fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure> {
-    let cases = file.study.points.iter().filter_map(|point| point.experiment.case());
-    let copied = beside::copy(cases.flat_map(Case::files), &staging.place(CASE_FILES).0)?;
+    let files = file.study.points.iter().flat_map(|point| match &point.experiment {
+        Experiment::Case(case) => case.files(),
+        Experiment::Spinline(spec) => spec.spinline.files(),
+        Experiment::Web(_) => Vec::new(),
+    });
+    let copied = beside::copy(files, &staging.place(CASE_FILES).0)?;
     let folder = file.base_path.parent().unwrap_or(Path::new(""));
     Ok(copied.iter().fold(file.base_text.clone(), |text, (from, to)| {
         let written = from.strip_prefix(folder).unwrap_or(from);

@@ -8,11 +8,12 @@ use std::path::{Path, PathBuf};
 /// The folder for these files in a results folder.
 pub const CASE_FILES: &str = "case_files";
 
-/// Copies files, with those that they name, into `folder`. Returns the path of each, relative to the results folder.
-///
-/// * `files` – [`Case::files`](spunlaid::case::Case::files), or those of a spinline
+/// A file with the files that it names, relative to its folder.
+type FileWithParts<'a> = (&'a Path, &'a [PathBuf]);
+
+/// Copies files into `folder`. Returns the path of each, relative to the results folder.
 pub fn copy<'a>(
-    files: impl IntoIterator<Item = (&'a Path, &'a [PathBuf])>,
+    files: impl IntoIterator<Item = FileWithParts<'a>>,
     folder: &Path,
 ) -> Result<BTreeMap<PathBuf, PathBuf>, Failure> {
     let mut copied = BTreeMap::new();
@@ -42,7 +43,7 @@ fn copy_file(from: &Path, to: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Where the copy of a file is; the file itself, if it was not copied.
+/// Where a copied file lies; another one stays where it is.
 pub fn place(copied: &BTreeMap<PathBuf, PathBuf>) -> impl Fn(&Path) -> PathBuf {
     |file| copied.get(file).cloned().unwrap_or_else(|| file.to_owned())
 }

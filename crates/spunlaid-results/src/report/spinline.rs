@@ -124,7 +124,7 @@ fn headline(solution: &Solution) -> String {
 
 /// What is spun, and where it freezes, in sentences.
 fn summary(file: &SpinFile, rows: &[Solution]) -> String {
-    let spinline = &file.spinline;
+    let spinline = &file.spec.spinline;
     let mut text = format!(
         "{}{THIN}g/min of {} through a hole of {} at {}.",
         significant(spinline.throughput * 6e4, 3),
@@ -243,7 +243,7 @@ fn curtain(rows: &[Solution]) -> Option<String> {
 
 /// What the model is, in a few words each.
 fn methods(file: &SpinFile) -> Vec<(&'static str, String)> {
-    let spinline = &file.spinline;
+    let spinline = &file.spec.spinline;
     let melt = match spinline.law {
         Law::Newtonian => "a Newtonian melt whose viscosity rises as it cools",
         Law::Giesekus => "Giesekus’s law of a viscoelastic melt, with one relaxation time",
@@ -260,11 +260,9 @@ fn methods(file: &SpinFile) -> Vec<(&'static str, String)> {
         ""
     };
     let end = match spinline.end {
-        End::Tension(tension) => format!("a tension of {}{THIN}mN", number_to(tension * 1e3, 3)),
-        End::Flown(tension) => format!(
-            "the mean tension at the root of the flown fibre, {}{THIN}mN",
-            number_to(tension * 1e3, 3)
-        ),
+        End::Tension(tension) | End::Flown(tension) => {
+            format!("a tension of {}{THIN}mN", number_to(tension * 1e3, 3))
+        }
         End::TakeUp(speed) => format!("a take-up speed of {}{THIN}m/s", number_to(speed, 4)),
     };
     vec![
@@ -280,7 +278,7 @@ fn methods(file: &SpinFile) -> Vec<(&'static str, String)> {
             format!(
                 "It drags the thread by the friction law of the case (drag.along = {}), and cools it by the law of Kase and Matsuo for air \
                  along and across it.",
-                file.drag.along.name()
+                file.spec.drag.along.name()
             ),
         ),
         ("The ends", format!("The tension at the die is sought such that the end of the line has {end}.")),

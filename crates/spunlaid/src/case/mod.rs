@@ -1,6 +1,7 @@
 //! A case: everything that a run needs, checked and in SI units.
 
 mod check;
+mod files;
 pub mod keys;
 mod memory;
 mod neighbours;
@@ -28,7 +29,6 @@ use crate::line::Line;
 use crate::spinline::{Solution, Spinline};
 use crate::units::Dimension;
 use crate::vec3::Vec3;
-use std::path::{Path, PathBuf};
 
 /// A fibre, the air it flies in and how the flight is computed.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,19 +115,6 @@ pub struct StepLimit {
 }
 
 impl Case {
-    /// The files that the case names, each with the files that this one names, relative to its folder.
-    pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
-        let of_spinline = self.spinline.iter().flat_map(Spinline::files);
-        self.air.files().into_iter().chain(of_spinline).collect()
-    }
-
-    /// The same case with its files at other paths.
-    #[must_use]
-    pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
-        let spinline = self.spinline.as_ref().map(|spinline| spinline.with_files_at(&place));
-        Self { air: self.air.with_files_at(&place), spinline, ..self.clone() }
-    }
-
     /// Takes diameter, density and feed speed from a solved spinline, and the modulus where the case leaves it out.
     pub fn take_filament(&mut self, filament: &Solution) {
         let Some(spinline) = &self.spinline else { return };

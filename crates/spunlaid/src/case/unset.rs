@@ -5,7 +5,15 @@ use crate::air::Air;
 use crate::chain::schemes::Scheme;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::fibre::{Fibre, Root};
+use crate::spinline::SpinSpec;
 use crate::vec3::Vec3;
+
+impl From<&SpinSpec> for Case {
+    /// A case with nothing but a spinline and its drag laws, whose keys can be read and set.
+    fn from(spec: &SpinSpec) -> Self {
+        Self { spinline: Some(spec.spinline.clone()), drag: spec.drag, ..Self::unset() }
+    }
+}
 
 impl Case {
     /// A case of which nothing is known yet; its keys are set one after another.

@@ -56,6 +56,12 @@ impl Case {
         }
     }
 
+    /// Notes on unusual values of the keys of some tables.
+    pub(crate) fn unusual_in(&self, tables: &[&str]) -> Vec<Note> {
+        let keys = keys::all().iter().filter(|key| tables.contains(&key.table()));
+        keys.filter_map(|key| self.unusual(key)).collect()
+    }
+
     fn unusual(&self, key: &Key) -> Option<Note> {
         let Value::Number(value) = key.get(self)? else { return None };
         let remark = unusual(key.dimension()?, key.usual?, value)?;

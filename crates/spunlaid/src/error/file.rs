@@ -12,6 +12,8 @@ pub enum FileKind {
     Study,
     /// A web.
     Web,
+    /// A spinline.
+    Spinline,
     /// A velocity record.
     Record,
     /// A field of air.
@@ -28,6 +30,7 @@ impl FileKind {
             Self::Case => "case file",
             Self::Study => "study file",
             Self::Web => "file of a web",
+            Self::Spinline => "file of a spinline",
             Self::Record => "velocity record",
             Self::Field => "field of air",
             Self::Table => "table",
@@ -37,7 +40,7 @@ impl FileKind {
 
     const fn formats(self) -> &'static str {
         match self {
-            Self::Case | Self::Study | Self::Web => "UTF-8 text",
+            Self::Case | Self::Study | Self::Web | Self::Spinline => "UTF-8 text",
             Self::Record => "CSV in UTF-8 or Latin-1, or Parquet",
             Self::Field => {
                 "VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of its files (.vtm, .pvtu) or a table (.csv)"
@@ -53,6 +56,7 @@ impl FileKind {
             Self::Case => ("name a case file".to_owned(), "`spunlaid new` writes one"),
             Self::Study => ("name a study file".to_owned(), "`spunlaid help sweep` shows one"),
             Self::Web => ("name the file of a web".to_owned(), "`spunlaid help web` shows one"),
+            Self::Spinline => ("name the file of a spinline".to_owned(), "`spunlaid help spin` shows one"),
             Self::Table => ("a path in a case counts from the folder of the case file".to_owned(), ""),
             Self::Record | Self::Field | Self::Scan => {
                 (format!("name a {}, {}", self.name(), self.formats()), "")

@@ -59,7 +59,7 @@ impl SpinFile {
     /// As [`SpinFile::solve`].
     pub fn influences(&self) -> Result<Vec<Influence>, Error> {
         self.solve()?;
-        let carrier = self.carrier();
+        let carrier = Case::from(&self.spec);
         let mut found = Vec::new();
         let tables = ["spinline", "spinline.material", "drag"];
         for key in tables.into_iter().flat_map(keys::of_table) {
@@ -77,7 +77,7 @@ impl SpinFile {
                 found.extend(change.influence(key.name, key.label, changed));
             }
         }
-        if let Some(table) = self.spinline.air.table() {
+        if let Some(table) = self.spec.spinline.air.table() {
             for (label, change, column) in COLUMNS {
                 let changed = |sign: f64| {
                     let (mut table, mut case) = (table.clone(), carrier.clone());

@@ -31,7 +31,7 @@ pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};
 pub use write::write_case;
 
 use crate::case::{Case, Note, keys};
-use crate::error::{Error, FileKind};
+use crate::error::{Error, Fault, FileKind};
 use crate::study::Experiment;
 use std::path::Path;
 
@@ -109,7 +109,16 @@ fn parse_with(
     name: &str,
     overrides: &[Overrides<'_>],
 ) -> Result<(Case, Vec<Note>), Error> {
-    open::open(document::read(&keys::CASE, text, name, overrides)?, files)?.resolve()
+    let mut written = document::read(&keys::CASE, text, name, overrides)?;
+    if spinline::is_spinline_alone(&written) {
+        let fault = Fault::new(
+            "stands alone in this file, so that no fibre flies",
+            "solve the spinline alone, or add [belt], [air] and [run] for the fibre that flies on below it",
+        );
+        written.reject("[spinline]", fault.option("`spunlaid spin`"));
+        return Err(written.problems.into());
+    }
+    open::open(written, files)?.resolve()
 }
 
 /// Writes what a point of a study repeats, a case or a web, as a file.
@@ -117,6 +126,7 @@ pub fn write_experiment(experiment: &Experiment) -> String {
     match experiment {
         Experiment::Case(case) => write_case(case),
         Experiment::Web(web) => write_web(web),
+        Experiment::Spinline(spec) => write_spinline(spec),
     }
 }
 

@@ -8,26 +8,23 @@ use super::{FORMAT_VERSION, Overrides, document, file, parse_with, write};
 use crate::air::Flow;
 use crate::case::keys::{self, Key};
 use crate::case::{Case, Note};
-use crate::drag::Drag;
 use crate::error::{Error, Fault, FileKind, Place, Problem};
 use crate::field::Hint;
-use crate::spinline::{AirTable, End, Failure, Melt, Solution, Spinline, Surroundings};
+use crate::spinline::{AirTable, End, Failure, Melt, Solution, SpinSpec, Spinline, Surroundings};
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 use std::path::Path;
 
 /// The tables that describe a spinline.
-const TABLES: [&str; 3] = ["spinline", "spinline.material", "drag"];
+pub(super) const TABLES: [&str; 3] = ["spinline", "spinline.material", "drag"];
 /// Looks into a CFD field along the line.
 const LOOKS: usize = 200;
 
 /// A spinline as a file describes it.
 #[derive(Clone, Debug)]
 pub struct SpinFile {
-    /// What is known of the line.
-    pub spinline: Spinline,
-    /// The drag laws; the one along the thread is used.
-    pub drag: Drag,
+    /// The line and the drag laws.
+    pub spec: SpinSpec,
     /// Notes and warnings.
     pub notes: Vec<Note>,
     written: WrittenValues,
@@ -52,36 +49,43 @@ pub fn parse_spinline<'a>(
     overrides: impl Into<Overrides<'a>>,
 ) -> Result<SpinFile, Error> {
     let (files, overrides) = (DataFiles::default(), [overrides.into()]);
-    let mut written = document::read(&keys::CASE, text, name, &overrides)?;
+    let written = document::read(&keys::CASE, text, name, &overrides)?;
+    let mut open = open_spinline(written, &files)?;
+    if open.waits_for_flights() {
+        // Only a whole case has a fibre that can fly.
+        (open.case, open.notes) = parse_with(&files, text, name, &overrides)?;
+    }
+    Ok(SpinFile::of(open))
+}
+
+/// Sets the values of a spinline alone, which is then complete.
+pub(super) fn open_spinline(mut written: WrittenValues, files: &DataFiles) -> Result<Open, Error> {
     if !written.has_table("spinline") {
         let remedy = "describe the line in a table [spinline]; `cases/spinline.toml` is an example";
         written.reject("[spinline]", Fault::new("is missing", remedy));
     }
     let has_field = written.text("spinline.field").is_some_and(|word| word == "true");
     let wanted = |key: &Key| TABLES.contains(&key.table()) || has_field && key.name.starts_with("air.field");
-    let mut open = open_part(written, &files, wanted)?;
-    if open.waits_for_flights() {
-        // Only a whole case has a fibre that can fly.
-        (open.case, open.notes) = parse_with(&files, text, name, &overrides)?;
-    }
+    let mut open = open_part(written, files, wanted)?;
     open.complete_spinline()?;
-    let Open { written, case, notes } = open;
-    let spinline = case.spinline.unwrap_or(Spinline::UNKNOWN);
-    Ok(SpinFile { spinline, drag: case.drag, notes, written })
+    Ok(open)
 }
 
 /// Whether a file describes a spinline and no fibre that flies. False if it cannot be read.
 pub fn holds_spinline_alone(path: &Path) -> bool {
     let Ok(text) = file::read(path, FileKind::Case) else { return false };
-    let alone = |written: WrittenValues| {
-        written.has_table("spinline") && !["fibre", "air"].into_iter().any(|table| written.has_table(table))
-    };
-    document::read(&keys::CASE, &text, "", &[]).is_ok_and(alone)
+    document::read(&keys::CASE, &text, "", &[]).is_ok_and(|written| is_spinline_alone(&written))
+}
+
+/// Whether a spinline is written, and nothing of a fibre that flies.
+pub(super) fn is_spinline_alone(written: &WrittenValues) -> bool {
+    const OF_FLIGHTS: [&str; 5] = ["fibre", "feed", "belt", "air", "run"];
+    written.has_table("spinline") && !OF_FLIGHTS.into_iter().any(|table| written.has_table(table))
 }
 
 /// Writes a spinline as a file that reads back to the same bits.
-pub fn write_spinline(file: &SpinFile) -> String {
-    let case = file.carrier();
+pub fn write_spinline(spec: &SpinSpec) -> String {
+    let case = Case::from(spec);
     let mut text = format!("version = {FORMAT_VERSION}\n");
     for table in TABLES {
         let lines = write::lines(&keys::CASE, table, &case, |_, value| value);
@@ -91,10 +95,17 @@ pub fn write_spinline(file: &SpinFile) -> String {
 }
 
 impl SpinFile {
+    pub(super) fn of(open: Open) -> Self {
+        let Open { written, case, mut notes } = open;
+        notes.extend(case.unusual_in(&TABLES).into_iter().map(|note| written.placed(note)));
+        let spinline = case.spinline.unwrap_or(Spinline::UNKNOWN);
+        Self { spec: SpinSpec { spinline, drag: case.drag }, notes, written }
+    }
+
     /// The spinline from which a case is fed; `None` if it has none.
     pub fn of_case(case: &Case) -> Option<Self> {
         let (spinline, written) = (case.spinline.clone()?, WrittenValues::new(Place::Code));
-        Some(Self { spinline, drag: case.drag, notes: Vec::new(), written })
+        Some(Self { spec: SpinSpec { spinline, drag: case.drag }, notes: Vec::new(), written })
     }
 
     /// The steady state of each row of the curtain, the quenched side first; one if there is no curtain.
@@ -102,15 +113,22 @@ impl SpinFile {
     /// # Errors
     /// If there is none, with the reason, at the key to blame.
     pub fn solve(&self) -> Result<Vec<Solution>, Error> {
-        self.spinline
-            .solve_rows(self.drag.along)
-            .map_err(|failure| vec![placed(&self.written, failure)].into())
+        self.spec
+            .spinline
+            .solve_rows(self.spec.drag.along)
+            .map_err(|failure| rejected(&self.written, &Case::from(&self.spec), failure))
     }
+}
 
-    /// A case with nothing but the spinline, whose keys can be read and set.
-    pub(super) fn carrier(&self) -> Case {
-        Case { spinline: Some(self.spinline.clone()), drag: self.drag, ..Case::unset() }
+/// A failure at the place of the key to blame, with the unusual values that may be why.
+fn rejected(written: &WrittenValues, case: &Case, failure: Failure) -> Error {
+    let mut problems = vec![placed(written, failure)];
+    for slip in case.unusual_in(&TABLES) {
+        if slip.key != problems[0].key {
+            problems.push(written.placed(slip.into()));
+        }
     }
+    problems.into()
 }
 
 /// A failure at the place of the key to blame.
@@ -131,7 +149,7 @@ impl Open {
         self.complete_spinline()?;
         let Some(spinline) = &self.case.spinline else { return Ok(()) };
         let solved = spinline.solve(self.case.drag.along);
-        let filament = solved.map_err(|failure| vec![placed(&self.written, failure)])?;
+        let filament = solved.map_err(|failure| rejected(&self.written, &self.case, failure))?;
         self.case.take_filament(&filament);
         Ok(())
     }

@@ -21,12 +21,14 @@ mod root_tension;
 mod sample;
 mod scan;
 mod spectrum;
+mod spinline;
 mod strain;
 mod web;
 
 pub use laydown::{LAYDOWN, SURROGATE};
 pub use sample::Sample;
 pub use scan::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure};
+pub use spinline::{OF_SPINLINES, SpinlineMeasure};
 pub use web::{Deviation, OF_PATCHES, OF_WEBS, PatchMeasure, WebMeasure};
 
 use crate::case::Case;

@@ -9,7 +9,6 @@
 //! ```
 
 mod curtain;
-mod files;
 mod integration;
 mod material;
 mod shooting;
@@ -26,7 +25,7 @@ pub use solution::{Freezing, FreezingCause, Solution, Station};
 pub use surroundings::{AirState, AirTable, Surroundings};
 
 use crate::air::FromFile;
-use crate::drag::FrictionLaw;
+use crate::drag::{Drag, FrictionLaw};
 use crate::error::Fault;
 
 /// What is known of a spinline.
@@ -70,6 +69,25 @@ pub struct Spinline {
     pub curtain: Option<Curtain>,
     /// Whether Young's modulus of the flown fibre is the estimate; a case that writes the modulus does not want it.
     pub gives_modulus: bool,
+}
+
+/// A spinline and the drag laws, of which the one along the thread is used.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpinSpec {
+    /// What is known of the line.
+    pub spinline: Spinline,
+    /// The drag laws.
+    pub drag: Drag,
+}
+
+impl SpinSpec {
+    /// The steady state of a filament alone in the air.
+    ///
+    /// # Errors
+    /// As [`Spinline::solve`].
+    pub fn solve(&self) -> Result<Solution, Failure> {
+        self.spinline.solve(self.drag.along)
+    }
 }
 
 /// Where the constants of a polymer come from.

@@ -1,7 +1,8 @@
-//! What a point of a study repeats: flights of a case, or webs.
+//! What a point of a study repeats: flights of a case, webs, or a spinline.
 
 use crate::case::{Case, keys};
 use crate::layers::{WEB_KEYS, WebSpec};
+use crate::spinline::SpinSpec;
 
 /// What a point repeats, with its seed.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +13,8 @@ pub enum Experiment {
     Case(Case),
     /// Each replicate is such a web, with a seed of its own.
     Web(WebSpec),
+    /// A spinline. Nothing of it is by chance, so one replicate is enough.
+    Spinline(SpinSpec),
 }
 
 impl From<Case> for Experiment {
@@ -25,7 +28,7 @@ impl Experiment {
     pub const fn case(&self) -> Option<&Case> {
         match self {
             Self::Case(case) => Some(case),
-            Self::Web(_) => None,
+            Self::Web(_) | Self::Spinline(_) => None,
         }
     }
 
@@ -33,7 +36,15 @@ impl Experiment {
     pub const fn web(&self) -> Option<&WebSpec> {
         match self {
             Self::Web(web) => Some(web),
-            Self::Case(_) => None,
+            Self::Case(_) | Self::Spinline(_) => None,
+        }
+    }
+
+    /// The spinline.
+    pub const fn spinline(&self) -> Option<&SpinSpec> {
+        match self {
+            Self::Spinline(spec) => Some(spec),
+            Self::Case(_) | Self::Web(_) => None,
         }
     }
 
@@ -42,6 +53,7 @@ impl Experiment {
         match self {
             Self::Case(case) => case.run.seed,
             Self::Web(web) => web.seed,
+            Self::Spinline(_) => 0,
         }
     }
 
@@ -50,6 +62,7 @@ impl Experiment {
         match self {
             Self::Case(_) => "fibre",
             Self::Web(_) => "web",
+            Self::Spinline(_) => "spinline",
         }
     }
 
@@ -57,6 +70,7 @@ impl Experiment {
     pub(super) fn enter(&self, sum: &mut crc32fast::Hasher) {
         match self {
             Self::Case(case) => enter_keys(sum, case),
+            Self::Spinline(spec) => enter_keys(sum, &Case::from(spec)),
             Self::Web(web) => {
                 for number in 0..web.layers.len() {
                     let alone = web.alone(number);

@@ -1,8 +1,11 @@
-//! The numbers that a study keeps of each replicate: of a fibre, or of a web.
+//! The numbers that a study keeps of each replicate: of a fibre, of a web, or of a spinline.
 
 use crate::ensemble::Trajectory;
 use crate::layers::WebSpec;
-use crate::observe::{Deviation, Figure, MEASURES, Measure, OF_PATCHES, OF_WEBS, PatchMeasure, Unit};
+use crate::observe::{
+    Deviation, Figure, MEASURES, Measure, OF_PATCHES, OF_SPINLINES, OF_WEBS, PatchMeasure, Unit,
+};
+use crate::spinline::Solution;
 use crate::units::shortest;
 use crate::web::{Findings, Web};
 
@@ -62,6 +65,16 @@ impl Quantity {
 /// The quantities of a fibre.
 pub(super) fn of_fibres() -> Vec<Quantity> {
     MEASURES.iter().map(|measure| Quantity::new(measure, "")).collect()
+}
+
+/// The quantities of a spinline.
+pub(super) fn of_spinlines() -> Vec<Quantity> {
+    OF_SPINLINES.iter().map(|declared| Quantity::new(&declared.measure, "")).collect()
+}
+
+/// The numbers of a spinline, in the order of [`of_spinlines`].
+pub(super) fn measured_of_spinline(found: &Solution) -> Measured {
+    OF_SPINLINES.iter().map(|declared| (declared.number)(found)).collect()
 }
 
 /// The sides of the patches of some webs, each once, the smallest first [m].

@@ -1,9 +1,9 @@
 //! Studies: many experiments that differ in a few keys, each repeated several times, and the statistics of the results. An
-//! experiment is a case whose fibres are flown, or a web that is laid.
+//! experiment is a case whose fibres are flown, a web that is laid, or a spinline that is solved.
 //!
 //! ```text
 //! factors → design (rows of values) → points (a whole experiment each) → jobs (one replicate of one point)
-//!   → pack (eight fibres to a flight, across points) or webs (one after another) → journal (a record per replicate)
+//!   → pack (eight fibres to a flight, across points) webs (one after another) or spinlines → journal (a record per replicate)
 //!   → statistics per point → effects
 //! ```
 //!
@@ -20,6 +20,7 @@ mod pack;
 mod rounds;
 mod run;
 mod sobol;
+mod spinlines;
 mod webs;
 
 pub use design::{Design, Factor, Levels, Spacing};
@@ -160,6 +161,7 @@ impl Study {
     pub(crate) fn quantities_of(points: &[Point]) -> Vec<Quantity> {
         match points.first().map(|point| &point.experiment) {
             Some(Experiment::Web(_)) => measures::of_webs(webs(points)),
+            Some(Experiment::Spinline(_)) => measures::of_spinlines(),
             _ => measures::of_fibres(),
         }
     }
@@ -174,7 +176,7 @@ impl Study {
         self.quantities.iter().position(|quantity| quantity.name == name)
     }
 
-    /// What a replicate is called, `fibre` or `web`.
+    /// What a replicate is called, `fibre`, `web` or `spinline`.
     pub fn noun(&self) -> &'static str {
         self.points.first().map_or("fibre", |point| point.experiment.noun())
     }

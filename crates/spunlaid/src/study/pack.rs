@@ -40,6 +40,8 @@ impl Packing {
                 Experiment::Case(case) => {
                     (Ok(Common::of(case)), case.run.steps as f64 * case.fibre.elements as f64)
                 }
+                // Spinlines take milliseconds, so that many make a bundle.
+                Experiment::Spinline(_) => (Err(batch.point / 64), 0.0),
                 // The webs of a point are laid of the same fibres.
                 Experiment::Web(_) => (Err(batch.point), 0.0),
             };
@@ -196,7 +198,7 @@ mod tests {
     fn case_of(point: &mut Point) -> &mut Case {
         match &mut point.experiment {
             Experiment::Case(case) => case,
-            Experiment::Web(_) => panic!("a point of a case"),
+            Experiment::Web(_) | Experiment::Spinline(_) => panic!("a point of a case"),
         }
     }
 

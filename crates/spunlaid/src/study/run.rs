@@ -1,10 +1,10 @@
-//! Makes the missing replicates of a study: flies its fibres or lays its webs.
+//! Makes the missing replicates of a study: flies its fibres, lays its webs or solves its spinlines.
 
 use super::journal::{Journal, unsynced};
 use super::measures::{Landing, Record, measured};
 use super::pack::{Batch, Lost, fly_and_land};
 use super::rounds::Rounds;
-use super::{Point, Study, webs};
+use super::{Point, Study, spinlines, webs};
 use crate::ensemble::{Computing, Keep, Trajectory};
 use crate::error::Error;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -67,6 +67,10 @@ pub fn fly_bundle(
         all.push(record);
         Ok(())
     })?;
+    spinlines::solve(points, bundle, computing, |record| {
+        all.push(record);
+        Ok(())
+    })?;
     let bundle: Vec<Batch> = flights(points, bundle);
     let land = |trajectories, lost| Ok(records(trajectories, lost));
     fly_and_land(points, &bundle, Keep::NUMBERS, computing, land, |records| {
@@ -101,6 +105,10 @@ fn fly_missing(
     let land = |trajectories: Vec<(usize, Trajectory)>, lost: Vec<Lost>| keep(&records(trajectories, lost));
     with_sync(journal, |failed| {
         webs::lay((&study.points, &study.patch_sides()), &batches, computing, &progress.steps, |record| {
+            failed().map_or(Ok(()), Err)?;
+            keep(&[record])
+        })?;
+        spinlines::solve(&study.points, &batches, computing, |record| {
             failed().map_or(Ok(()), Err)?;
             keep(&[record])
         })?;

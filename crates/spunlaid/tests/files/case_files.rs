@@ -13,9 +13,9 @@ use spunlaid::vec3::Vec3;
 use std::fs;
 use std::path::Path;
 
-/// Whether a file of the repository is a web, and not a case.
-fn is_web(path: &Path) -> bool {
-    fs::read_to_string(path).unwrap().contains("\n[web]\n")
+/// Whether a file of the repository is a case, and not a web or a spinline alone.
+fn is_case(path: &Path) -> bool {
+    fs::read_to_string(path).unwrap().contains("\n[run]\n")
 }
 
 #[test]
@@ -23,7 +23,7 @@ fn identical_every_case_of_the_repository() {
     let mut seen = 0;
     for entry in fs::read_dir("../../cases").unwrap() {
         let path = entry.unwrap().path();
-        if path.is_dir() || is_web(&path) {
+        if path.is_dir() || !is_case(&path) {
             continue;
         }
         let (case, notes) = read_case(&path, &[]).unwrap();

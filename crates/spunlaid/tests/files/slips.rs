@@ -28,7 +28,7 @@ fn all_of(said: Result<Vec<String>, Error>) -> String {
 }
 
 /// Cases of every kind, with what makes each key mean something.
-const CASES: [(&str, Set<'static>); 9] = [
+const CASES: [(&str, Set<'static>); 13] = [
     ("starter", &[]),
     ("starter", &[("fibre.diameter", "auto")]),
     ("starter", &[("air.eddies", "convected")]),
@@ -38,6 +38,10 @@ const CASES: [(&str, Set<'static>); 9] = [
     ("profile", &[]),
     ("point_table", &[]),
     ("record", &[("air.record_rate", "2 kHz")]),
+    ("whole_line_fibre", &[]),
+    ("whole_line_fibre", &[("spinline.profile", "auto"), ("spinline.velocity", "70 m/s")]),
+    ("whole_line_fibre", &[("spinline.end", "take-up"), ("spinline.take_up_speed", "40 m/s")]),
+    ("whole_line_fibre", &[("spinline.melt_flow_rate", "auto"), ("spinline.rows", "1")]),
 ];
 
 /// Each quantity, a thousand times above what is usual and a thousand times below, is refused or warned of in every kind of

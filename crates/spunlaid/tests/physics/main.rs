@@ -22,6 +22,7 @@ mod laydown_statistics;
 mod neighbours;
 mod schemes;
 mod slack;
+mod spinline;
 mod statics;
 mod turbulence;
 mod vibrations;

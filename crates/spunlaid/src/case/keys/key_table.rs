@@ -45,9 +45,14 @@ impl<T> KeyTable<T> {
 
     /// The key with this short name, if exactly one table has such a key.
     pub(crate) fn home_of(&self, name: &str) -> Option<&'static Key<T>> {
-        let mut homes = self.rows.iter().filter(|key| key.short() == name);
-        let home = homes.next();
-        if homes.next().is_some() { None } else { home }
+        // The air of a spinline has the names of the air, which are meant more often.
+        let of_spinline = |key: &&Key<T>| key.table().starts_with("spinline");
+        let only = |is_wanted: &dyn Fn(&&Key<T>) -> bool| {
+            let mut homes = self.rows.iter().filter(|key| key.short() == name).filter(is_wanted);
+            let home = homes.next();
+            if homes.next().is_some() { None } else { home }
+        };
+        only(&|key| !of_spinline(key)).or_else(|| only(&of_spinline))
     }
 
     /// The keys of any table that are similar to one written in `table`, the most similar first.

@@ -4,34 +4,60 @@ use super::super::Overrides;
 use super::super::data::DataFiles;
 use super::super::document;
 use super::super::open::{self, Open};
+use super::super::spinline::{self, SpinFile};
 use super::super::written::{WrittenValue, WrittenValues};
 use super::plan::Plan;
 use super::{Base, MadeExperiment, VariedKey, level};
 use crate::case::keys::{self, Value};
 use crate::case::{Note, Remark};
-use crate::error::{Error, Fault, Place, Problem};
-use crate::study::{Experiment, Quantity, Study};
+use crate::error::{Error, Fault, FileKind, Place, Problem};
+use crate::spinline::{SpinSpec, Spinline};
+use crate::study::{Experiment, Point, Quantity, Study};
 
 /// The case as it is written, with the files that it names.
 pub(super) struct CaseBase {
     text: String,
     open: Open,
     files: DataFiles,
+    /// What it is: a case, or a spinline alone.
+    kind: FileKind,
 }
 
 impl CaseBase {
     /// * `name` – of the file, for messages
     /// * `set` – keys that are the same at all points
-    pub(super) fn new(text: String, name: &str, set: &[Overrides<'_>]) -> Result<Self, Error> {
+    /// * `kind` – a case, or a spinline
+    pub(super) fn new(
+        text: String,
+        name: &str,
+        set: &[Overrides<'_>],
+        kind: FileKind,
+    ) -> Result<Self, Error> {
         let files = DataFiles::default();
-        let open = open::open(document::read(&keys::CASE, &text, name, set)?, &files)?;
-        Ok(Self { text, open, files })
+        let written = document::read(&keys::CASE, &text, name, set)?;
+        let open = match kind {
+            FileKind::Spinline => spinline::open_spinline(written, &files)?,
+            _ => open::open(written, &files)?,
+        };
+        Ok(Self { text, open, files, kind })
+    }
+
+    fn open_again(&self, written: WrittenValues) -> Result<Open, Error> {
+        match self.kind {
+            FileKind::Spinline => spinline::open_spinline(written, &self.files),
+            _ => open::open(written, &self.files),
+        }
     }
 }
 
 impl Base for CaseBase {
     fn varied(&self, name: &str) -> Result<VariedKey, String> {
         let key = keys::find(name).filter(|key| key.varies).ok_or_else(|| advice(name))?;
+        if self.kind == FileKind::Spinline && !spinline::TABLES.contains(&key.table()) {
+            return Err(
+                "a study of a spinline varies keys of [spinline], [spinline.material] and [drag]".to_owned()
+            );
+        }
         Ok(VariedKey::new(name.to_owned(), &key.kind))
     }
 
@@ -47,11 +73,21 @@ impl Base for CaseBase {
     }
 
     fn seed_and_replicates(&self) -> (u64, u64) {
-        (self.open.case.run.seed, self.open.case.run.replicates)
+        match self.kind {
+            // Nothing of it is by chance.
+            FileKind::Spinline => (0, 1),
+            _ => (self.open.case.run.seed, self.open.case.run.replicates),
+        }
     }
 
     fn quantities(&self) -> Vec<Quantity> {
-        Study::quantities_of(&[])
+        match self.kind {
+            FileKind::Spinline => {
+                let spec = SpinSpec { spinline: Spinline::UNKNOWN, drag: self.open.case.drag };
+                Study::quantities_of(&[Point { values: Vec::new(), experiment: Experiment::Spinline(spec) }])
+            }
+            _ => Study::quantities_of(&[]),
+        }
     }
 
     fn point(
@@ -78,6 +114,12 @@ impl Base for CaseBase {
             return Err(faults.into());
         }
         let seed = seed.unwrap_or(plan.seed);
+        if self.kind == FileKind::Spinline {
+            let (opened, unneeded) = self.open(written, values);
+            let SpinFile { spec, mut notes, .. } = SpinFile::of(opened?);
+            notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
+            return Ok((Experiment::Spinline(spec), notes));
+        }
         for (name, value) in [("run.seed", seed), ("run.replicates", plan.replicates.at_most)] {
             if let Some(key) = keys::find(name) {
                 let (shown, value) = (Some(value.to_string()), Some(Value::Whole(value)));
@@ -103,7 +145,7 @@ impl CaseBase {
     /// Sets the written values. A word that varies may leave keys of the base case without a meaning, as
     /// another drag law does with the coefficient of the first; these are left out, each with a remark.
     fn open(&self, written: WrittenValues, set: &[(VariedKey, f64)]) -> (Result<Open, Error>, Vec<Note>) {
-        let opened = open::open(written.clone(), &self.files);
+        let opened = self.open_again(written.clone());
         let is_unneeded = |problem: &&Problem| {
             problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
         };
@@ -123,7 +165,7 @@ impl CaseBase {
         }
         let mut fewer = written;
         unneeded.iter().for_each(|note| drop(fewer.remove(&note.key)));
-        (open::open(fewer, &self.files), unneeded)
+        (self.open_again(fewer), unneeded)
     }
 }
 

@@ -49,9 +49,13 @@ pub struct StudyFile {
 }
 
 impl StudyFile {
-    /// The name of the file of what the points vary, in the folder of the study: `case.toml` or `web.toml`.
+    /// The name of the file of what the points vary, in the folder of the study: `case.toml`, `web.toml` or `spinline.toml`.
     pub fn base_name(&self) -> &'static str {
-        if self.study.noun() == "web" { "web.toml" } else { "case.toml" }
+        match self.study.noun() {
+            "web" => "web.toml",
+            "spinline" => "spinline.toml",
+            _ => "case.toml",
+        }
     }
 }
 
@@ -137,7 +141,7 @@ pub fn parse_changed_study(
     let base: Box<dyn Base> = if kind == FileKind::Web {
         Box::new(web::WebBase::new(base_text, base_name.clone(), set_by)?)
     } else {
-        Box::new(base::CaseBase::new(base_text, &base_name, &set_by)?)
+        Box::new(base::CaseBase::new(base_text, &base_name, &set_by, kind)?)
     };
     let plan = reader.plan(&*base, &set, changes);
     let Some(plan) = plan else {

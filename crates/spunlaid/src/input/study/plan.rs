@@ -48,21 +48,26 @@ impl<'a> Reader<'a> {
             self.problems = vec![*problem];
             return None;
         }
-        let (case, web) = (self.entries.remove("case"), self.entries.remove("web"));
-        let (key, entry, kind, wanted) = match (case, web) {
-            (Some(case), Some(_)) => {
-                let fault =
-                    Fault::new("stands beside web", "a study varies a case or a web, so keep one of them");
-                self.reject(&case, "case", fault);
-                return None;
-            }
-            (Some(case), None) => ("case", case, FileKind::Case, "the path of a case file, in quotes"),
-            (None, Some(web)) => ("web", web, FileKind::Web, "the path of the file of a web, in quotes"),
-            (None, None) => {
-                self.missing("case", "case = \"table1.toml\" (the case to vary, beside this file)");
-                return None;
-            }
+        const BASES: [(&str, FileKind, &str); 3] = [
+            ("case", FileKind::Case, "the path of a case file, in quotes"),
+            ("web", FileKind::Web, "the path of the file of a web, in quotes"),
+            ("spinline", FileKind::Spinline, "the path of the file of a spinline, in quotes"),
+        ];
+        let mut named = BASES.into_iter().filter_map(|base| Some((base, self.entries.remove(base.0)?)));
+        let (first, second) = (named.next(), named.next());
+        drop(named);
+        let Some(((key, kind, wanted), entry)) = first else {
+            self.missing("case", "case = \"table1.toml\" (the case to vary, beside this file)");
+            return None;
         };
+        if let Some(((other, ..), _)) = second {
+            let fault = Fault::new(
+                format!("stands beside {other}"),
+                "a study varies a case, a web or a spinline, so keep one of them",
+            );
+            self.reject(&entry, key, fault);
+            return None;
+        }
         let name = entry.value.as_str().map(|name| (name.to_owned(), kind));
         if name.is_none() {
             self.wrong_type(&entry, key, wanted);
@@ -97,7 +102,7 @@ impl<'a> Reader<'a> {
 
     /// Refuses to set what a study takes from elsewhere.
     fn check_set(&mut self, name: &str, entry: &Entry<'_>, base: FileKind) {
-        let Some(key) = keys::find(name).filter(|_| base == FileKind::Case) else {
+        let Some(key) = keys::find(name).filter(|_| base != FileKind::Web) else {
             return;
         };
         if matches!(key.name, "run.replicates" | "run.seed") {

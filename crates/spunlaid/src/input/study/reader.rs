@@ -12,10 +12,11 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 12] = [
     "version",
     "case",
     "web",
+    "spinline",
     "design",
     "points",
     "replicates",
@@ -61,7 +62,9 @@ impl<'a> Reader<'a> {
         for (key, value) in root {
             let (at, name) = (key.span().start, key.into_inner());
             let entry = reader.entry(at, value);
-            if KEYS.contains(&name.as_ref()) {
+            // A study names its spinline; a spinline is a table.
+            let is_table = name == "spinline" && entry.value.is_table();
+            if KEYS.contains(&name.as_ref()) && !is_table {
                 reader.entries.insert(name.into_owned(), entry);
             } else {
                 if TABLES.contains(&name.as_ref()) {
@@ -73,7 +76,7 @@ impl<'a> Reader<'a> {
                         reader.excused.push(key);
                         format!("did you mean {key}?")
                     }
-                    None => format!("the keys are {} and {}", KEYS[..10].join(", "), KEYS[10]),
+                    None => format!("the keys are {} and {}", KEYS[..11].join(", "), KEYS[11]),
                 };
                 reader.reject(&entry, &name, unknown_key(advice));
             }

@@ -5,13 +5,16 @@ use crate::study::{Design, Factor, Levels, Study};
 use crate::units::shortest;
 use std::fmt::Write;
 
-/// Writes a study as TOML; it names `case.toml` or `web.toml`, in the same folder.
+/// Writes a study as TOML; it names `case.toml`, `web.toml` or `spinline.toml`, in the same folder.
 ///
-/// Reading the text with the same case or web gives exactly the same points.
+/// Reading the text with the same file gives exactly the same points.
 ///
 /// * `set` – the keys that are the same at all points, with their values as TOML
 pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
-    let base = if study.noun() == "web" { "web" } else { "case" };
+    let base = match study.noun() {
+        "fibre" => "case",
+        other => other,
+    };
     let mut text = format!("version = {FORMAT_VERSION}\n{base} = \"{base}.toml\"\n");
     // Writing to a text cannot fail.
     let _ = writeln!(text, "design = \"{}\"", study.design.name());

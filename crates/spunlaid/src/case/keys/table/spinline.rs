@@ -325,6 +325,7 @@ pub(super) const KEYS: &[Key] = &[
     .varies(),
     quantity("spinline.emissivity", Dimension::Ratio, NotNegative, of_spinline!(emissivity))
         .value("0.0")
+        .usual(0.01, 1.0)
         .meaning("Emissivity of the thread, from 0, which leaves radiation out, to 1.")
         .label("Emissivity *ε*"),
     key("spinline.dissipation", Kind::Switch, spinline_switch!(dissipation))
@@ -423,9 +424,11 @@ pub(super) const MATERIAL: &[Key] = &[
         .meaning("Elastic modulus G of the melt, for the viscoelastic laws.")
         .label("Modulus of the melt *G*"),
     constant!("mobility", Ratio, NotNegative, mobility)
+        .usual(0.001, 1.0)
         .meaning("Mobility α of the Giesekus law, from 0 to 1.")
         .label("Mobility *α*"),
     constant!("extensibility", Ratio, NotNegative, extensibility)
+        .usual(0.0001, 1.0)
         .meaning("Parameter ε of the Phan-Thien–Tanner laws.")
         .label("Extensibility *ε*"),
     constant!("heat_capacity", HeatCapacity, Positive, heat_capacity)
@@ -433,6 +436,7 @@ pub(super) const MATERIAL: &[Key] = &[
         .meaning("Heat capacity of the melt at 0 °C, extrapolated.")
         .label("Heat capacity *c*_{0}"),
     constant!("heat_capacity_slope", HeatCapacitySlope, Any, heat_capacity_slope)
+        .usual(0.01, 50.0)
         .meaning("Rise of the heat capacity with the temperature.")
         .label("Slope of the heat capacity *c*_{1}"),
     constant!("specific_volume", SpecificVolume, Positive, specific_volume)
@@ -440,6 +444,7 @@ pub(super) const MATERIAL: &[Key] = &[
         .meaning("Specific volume of the melt at 0 °C, extrapolated.")
         .label("Specific volume *a*_{0}"),
     constant!("specific_volume_slope", SpecificVolumeSlope, Any, specific_volume_slope)
+        .usual(1e-08, 1e-05)
         .meaning("Rise of the specific volume with the temperature.")
         .label("Slope of the specific volume *a*_{1}"),
     constant!("stress_optical_coefficient", InversePressure, NotNegative, stress_optical_coefficient)
@@ -447,6 +452,7 @@ pub(super) const MATERIAL: &[Key] = &[
         .meaning("Stress-optical coefficient C of the melt: the birefringence is C times the stress.")
         .label("Stress-optical coefficient"),
     constant!("full_birefringence", Ratio, Positive, full_birefringence)
+        .usual(0.001, 1.0)
         .meaning("Birefringence of the fully oriented polymer.")
         .label("Birefringence of full orientation"),
     constant!("unoriented_modulus", Pressure, Positive, unoriented_modulus)
@@ -462,6 +468,7 @@ pub(super) const MATERIAL: &[Key] = &[
         .meaning("Exponent n of Nakamura's law.")
         .label("Avrami exponent *n*"),
     constant!("crystallisation_rate", Rate, NotNegative, crystals.rate)
+        .usual(0.0001, 100.0)
         .meaning("Largest rate of crystallisation without orientation.")
         .label("Crystallisation rate *K*_{m}"),
     constant!("crystallisation_peak", Temperature, Positive, crystals.peak)
@@ -477,6 +484,7 @@ pub(super) const MATERIAL: &[Key] = &[
         .meaning("Melting temperature, above which nothing crystallises.")
         .label("Melting temperature *T*_{f}"),
     constant!("crystallinity", Ratio, NotNegative, crystals.crystallinity)
+        .usual(0.01, 1.0)
         .meaning("Crystallinity of the fully transformed polymer.")
         .label("Crystallinity *X*_{∞}"),
     constant!("heat_of_fusion", SpecificEnergy, NotNegative, crystals.heat_of_fusion)
@@ -484,18 +492,23 @@ pub(super) const MATERIAL: &[Key] = &[
         .meaning("Heat of fusion of the crystals.")
         .label("Heat of fusion Δ*H*"),
     constant!("orientation_enhancement", Ratio, NotNegative, crystals.orientation_enhancement)
+        .usual(1.0, 100000.0)
         .meaning("Factor C by which orientation speeds crystallisation up, exp(C f²). It was chosen; no measured value is known.")
         .label("Enhancement by orientation *C*"),
     constant!("enhancement_limit", Ratio, Positive, crystals.enhancement_limit)
+        .usual(1.0, 100000000.0)
         .meaning("Largest enhancement by orientation. It was chosen.")
         .label("Largest enhancement *M*"),
     constant!("hardening_factor", Ratio, NotNegative, crystals.hardening_factor)
+        .usual(0.1, 100.0)
         .meaning("Factor a of the viscosity's rise by crystals, exp(a θ^b). It was chosen.")
         .label("Hardening *a*"),
     constant!("hardening_exponent", Ratio, Positive, crystals.hardening_exponent)
+        .usual(0.1, 10.0)
         .meaning("Exponent b of the viscosity's rise by crystals. It was chosen.")
         .label("Exponent of the hardening *b*"),
     constant!("freezing_share", Ratio, Positive, crystals.freezing_share)
+        .usual(0.001, 1.0)
         .meaning("Transformed share at which the thread is solid. It was chosen.")
         .label("Share at freezing *θ*_{s}"),
 ];

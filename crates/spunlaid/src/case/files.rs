@@ -1,0 +1,49 @@
+//! The files that a case names.
+
+use super::Case;
+use crate::air::FromFile;
+use crate::spinline::{PolymerSource, Spinline, Surroundings};
+use std::path::{Path, PathBuf};
+
+impl Case {
+    /// The files that the case was read from, each with the parts that it names, relative to its folder.
+    pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
+        let of_spinline = self.spinline.iter().flat_map(Spinline::files);
+        self.air.files().into_iter().chain(of_spinline).collect()
+    }
+
+    /// The same case with its files at other paths.
+    pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
+        let spinline = self.spinline.as_ref().map(|spinline| spinline.with_files_at(&place));
+        Self { air: self.air.with_files_at(place), spinline, ..self.clone() }
+    }
+}
+
+impl Spinline {
+    /// The files that it was read from, each with the parts that it names: none.
+    pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
+        let mut files = Vec::new();
+        if let PolymerSource::File(file) = &self.polymer {
+            files.push((file.path(), file.parts()));
+        }
+        if let Surroundings::Table(table) = &self.air {
+            files.push((table.path(), table.parts()));
+        }
+        files
+    }
+
+    /// The same spinline with its files at other paths.
+    pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
+        fn moved<T>(file: &mut FromFile<T>, place: impl Fn(&Path) -> PathBuf) {
+            *file = file.moved_to(place(file.path()));
+        }
+        let mut spinline = self.clone();
+        if let PolymerSource::File(file) = &mut spinline.polymer {
+            moved(file, &place);
+        }
+        if let Surroundings::Table(table) = &mut spinline.air {
+            moved(table, &place);
+        }
+        spinline
+    }
+}

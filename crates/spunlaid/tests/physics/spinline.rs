@@ -1,0 +1,102 @@
+//! Spinlines, from the case file to the filament, against values from outside the code.
+
+use spunlaid::input::{SpinFile, parse_spinline, read_spinline, write_spinline};
+use spunlaid::spinline::{Solution, Station};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/spinline_cases")
+}
+
+/// The rows of a table by the first column, each with its cells by the name of the column.
+fn table(name: &str) -> Vec<(String, BTreeMap<String, String>)> {
+    let text = fs::read_to_string(folder().join(name)).unwrap();
+    let mut lines = text.lines();
+    let heads: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row = |line: &str| {
+        let cells = line.split(',').map(str::to_owned);
+        let cells: BTreeMap<_, _> = heads.iter().map(|head| (*head).to_owned()).zip(cells).collect();
+        (cells["name"].clone(), cells)
+    };
+    lines.map(row).collect()
+}
+
+fn read(name: &str) -> SpinFile {
+    read_spinline(&folder().join(format!("{name}.toml")), &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn solve(name: &str) -> Solution {
+    read(name).solve().unwrap_or_else(|error| panic!("{error}")).remove(0)
+}
+
+fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
+    assert!((found / expected - 1.0).abs() < tolerance, "{what}: {found} for {expected}");
+}
+
+/// A value of the thread between its stations, by a cubic through the four around it in the root of the distance. It does not
+/// reach over the freezing point, where the thread has a kink.
+fn between(solution: &Solution, distance: f64, value: impl Fn(&Station) -> f64) -> f64 {
+    let frozen = solution.freezing.distance;
+    let is_melt = distance <= frozen;
+    let of_phase = |station: &&Station| {
+        if is_melt { station.distance <= frozen } else { station.distance >= frozen }
+    };
+    let stations: Vec<&Station> = solution.stations.iter().filter(of_phase).collect();
+    let above = stations.partition_point(|station| station.distance < distance);
+    let first = above.saturating_sub(2).min(stations.len() - 4);
+    let four = &stations[first..first + 4];
+    let s = |station: &Station| station.distance.sqrt();
+    let weight = |i: usize| {
+        let others = (0..4).filter(|j| *j != i);
+        others.map(|j| (distance.sqrt() - s(four[j])) / (s(four[i]) - s(four[j]))).product::<f64>()
+    };
+    (0..4).map(|i| weight(i) * value(four[i])).sum()
+}
+
+#[test]
+fn published_spinlines_of_another_program() {
+    // bench/spinline/reference.py solves the same files by other methods, to 1e-8 or better.
+    let expected = table("expected.csv");
+    assert!(expected.len() >= 40);
+    for (name, row) in expected {
+        let number = |column: &str| row[column].parse::<f64>().unwrap();
+        let found = solve(&name);
+        for (column, value) in [
+            ("final_speed_m_s", found.final_speed),
+            ("final_diameter_m", found.final_diameter),
+            ("linear_density_kg_m", found.linear_density),
+            ("freezing_distance_m", found.freezing.distance),
+            ("freezing_diameter_m", found.freezing.diameter),
+            ("freezing_stress_pa", found.freezing.stress),
+            ("force_at_die_n", found.force_at_die),
+            ("largest_strain_rate_per_s", found.largest_strain_rate),
+            ("birefringence", found.birefringence),
+        ] {
+            close(&format!("{name}: {column}"), value, number(column), 1e-5);
+        }
+        // The place of a flat maximum is known to the root of what its height is.
+        close(
+            &format!("{name}: place"),
+            found.largest_strain_rate_at,
+            number("largest_strain_rate_at_m"),
+            2e-3,
+        );
+        let celsius = |column: &str, kelvin: f64| {
+            let off = kelvin - 273.15 - number(column);
+            assert!(off.abs() < 0.01, "{name}: {column}: {off} K");
+        };
+        celsius("freezing_temperature_c", found.freezing.temperature);
+        celsius("end_temperature_c", found.end().temperature);
+        for i in 1..=3 {
+            let distance = number(&format!("z{i}_m"));
+            let speed = between(&found, distance, |station| station.speed.ln()).exp();
+            close(&format!("{name}: speed at {distance} m"), speed, number(&format!("v{i}_m_s")), 1e-5);
+            celsius(&format!("t{i}_c"), between(&found, distance, |station| station.temperature));
+        }
+        // Both balances, to a hundred times the tolerance of a step.
+        assert!(found.momentum_residual.abs() < 1e-6, "{name}: momentum {}", found.momentum_residual);
+        assert!(found.energy_residual.abs() < 1e-6, "{name}: energy {}", found.energy_residual);
+    }
+}
