@@ -436,18 +436,18 @@ class Spinline:
                 raise Failure("wave: faster than its own elastic wave")
             raise Failure("pull: the air holds the thread back")
         low, high = brackets[0]
-        shots = [self.shoot(math.exp(x), rtol, method) for x in (low, high)]
+        shots = [self.shoot(math.exp(x), 1e-6) for x in (low, high)]
         for _ in range(200):
             if all(shot.fate == "complete" for shot in shots):
                 break
             middle = 0.5 * (low + high)
-            if high - low < 1e-12:
+            if high - low < 1e-10:
                 fates = [shot.fate for shot in shots]
                 if fates == ["slack", "complete"] and shots[1].solid is None:
                     # The tension of a melt can fall to zero at the end, and no further.
                     raise Failure(f"solid: still at {shots[1].end[1] - ZERO:.1f} °C at the end")
                 raise Failure("wave: between two shots" if "wave" in fates else f"jump: from {fates[0]} to {fates[1]}")
-            shot = self.shoot(math.exp(middle), rtol, method)
+            shot = self.shoot(math.exp(middle), 1e-6)
             if self.miss(shot) < 0:
                 low, shots[0] = middle, shot
             else:
