@@ -60,12 +60,22 @@ fn speed_at(solution: &Solution, distance: f64) -> f64 {
     cubic(ends.map(|end| end.speed.ln()), ends.map(slope), gap, share).exp()
 }
 
-/// The temperature at a distance from the die [K], by a straight line in the root of the distance.
+/// The temperature at a distance from the die [K], by the cubic through the four stations around it, in the root of the distance.
+/// It does not reach over the freezing point.
 fn temperature_at(solution: &Solution, distance: f64) -> f64 {
-    let (ends, _) = around(solution, distance);
-    let [low, high] = ends.map(|end| end.distance.sqrt());
-    let share = (distance.sqrt() - low) / (high - low);
-    ends[0].temperature + share * (ends[1].temperature - ends[0].temperature)
+    let frozen = solution.freezing.distance;
+    let is_of_phase = |station: &&Station| {
+        if distance <= frozen { station.distance <= frozen } else { station.distance >= frozen }
+    };
+    let stations: Vec<&Station> = solution.stations.iter().filter(is_of_phase).collect();
+    let above = stations.partition_point(|station| station.distance < distance);
+    let first = above.saturating_sub(2).min(stations.len() - 4);
+    let s: [f64; 4] = std::array::from_fn(|i| stations[first + i].distance.sqrt());
+    let weight = |i: usize| {
+        let others = (0..4).filter(|j| *j != i);
+        others.map(|j| (distance.sqrt() - s[j]) / (s[i] - s[j])).product::<f64>()
+    };
+    (0..4).map(|i| weight(i) * stations[first + i].temperature).sum()
 }
 
 #[test]
