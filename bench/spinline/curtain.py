@@ -3,7 +3,7 @@
     curtain.py FOLDER
 
 The air of every row lives on heights 5 mm apart and on the rows of the profile, linear between them. What a row
-leaves to the next one is (T_a, u) plus (m q, - m f_t / ... ) over ρ_a v_c, ρ_a at the T_a of the row itself. That grows
+leaves to the next one is T_a + m q/(ρ_a v_c c_pa) and u - m f_t/(ρ_a v_c), with ρ_a at the T_a of the row itself. That grows
 without bound where the cross flow ends, so there are two readings, both written down:
 
 - cut: nothing is exchanged where v_c is below 0.45 of its largest value;
