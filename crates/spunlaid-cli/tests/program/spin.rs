@@ -160,7 +160,7 @@ fn json_is_the_summary_and_writes_nothing_unless_asked() {
 fn rejects_spinlines_without_a_steady_state_and_writes_nothing() {
     let desk = desk();
     for (change, message) in [
-        ("spinline.length=50 mm", "at the end of the spinline and freezes at 110 °C"),
+        ("spinline.temperature=150 °C", "at the end of the spinline and freezes at 110 °C"),
         ("spinline.break_stress=1 kPa", "spinline.break_stress"),
         ("spinline.throughput=0 g/min", "spinline.throughput"),
         ("spinline.polymer=pvc", "spinline.polymer"),
@@ -192,7 +192,7 @@ fn check_reads_a_spinline_alone() {
     fs::write(desk.path("printed.toml"), &said).unwrap();
     let json = |name: &str| success(&mut desk.spunlaid(&format!("spin {name} --json")));
     assert_eq!(json("printed.toml"), json("line.toml"));
-    let said = refusal(&mut desk.with("check line.toml", &["spinline.length=50 mm"]), 1);
+    let said = refusal(&mut desk.with("check line.toml", &["spinline.temperature=150 °C"]), 1);
     assert!(said.contains("freezes at 110 °C"), "{said}");
 }
 

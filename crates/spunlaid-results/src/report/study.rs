@@ -101,7 +101,11 @@ pub fn study_html(input: &StudyReport<'_>) -> String {
         unlisted: input.results.len().saturating_sub(LISTED),
         study_toml: input.study_toml,
         base_toml: input.base_toml,
-        base: if study.noun() == "web" { ["web", "web"] } else { ["case", "run"] },
+        base: match study.noun() {
+            "web" => ["web", "web"],
+            "spinline" => ["spinline", "spin"],
+            _ => ["case", "run"],
+        },
         version: input.version,
     };
     rendered(&page)
@@ -111,11 +115,13 @@ fn question(study: &Study) -> String {
     let names: Vec<String> = study.factors.iter().map(|factor| name_of_key(&factor.key)).collect();
     let what = match study.points.first().map(|point| &point.experiment) {
         Some(Experiment::Web(_)) => "evenness of the web",
+        Some(Experiment::Spinline(_)) => "filament of the spinline",
         Some(Experiment::Case(case)) if case.line.is_some() => "laid fibre",
         _ => "fibre’s motion",
     };
     match names.as_slice() {
         [] if study.noun() == "web" => "How even is the web?".to_owned(),
+        [] if study.noun() == "spinline" => "What does the spinline give?".to_owned(),
         [] => "How does the fibre move?".to_owned(),
         [one] => format!("How does the {what} depend on the {one}?"),
         [one, two] => format!("How does the {what} depend on the {one} and the {two}?"),

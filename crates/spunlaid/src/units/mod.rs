@@ -280,7 +280,8 @@ impl Dimension {
             let mut sizes: Vec<(f64, &str)> = (self.units().iter().filter(|unit| unit.pretty))
                 .filter_map(|unit| match unit.scale {
                     Ten(power) => Some((10f64.powi(power), unit.shown)),
-                    Times(_) | Over(_) | Above(_) => None,
+                    Over(divisor) => Some((1.0 / divisor, unit.shown)),
+                    Times(_) | Above(_) => None,
                 })
                 .collect();
             sizes.sort_by(|a, b| b.0.total_cmp(&a.0));

@@ -85,7 +85,7 @@ const MASS_FLOW: &[Unit] = &[
     unit("kg/s", "kg/s", Ten(0)),
     also("g/s", "g/s", Ten(-3)),
     also("kg/h", "kg/h", Over(3600.0)),
-    also("g/min", "g/min", Over(60_000.0)),
+    unit("g/min", "g/min", Over(60_000.0)),
 ];
 const FORCE: &[Unit] = &[
     unit("N", "N", Ten(0)),

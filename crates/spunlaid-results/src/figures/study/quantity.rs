@@ -58,10 +58,11 @@ impl Group {
         }
     }
 
-    /// Whether it is drawn where there is a figure for each key: the motion across the flow, or the unevenness of a web.
+    /// Whether it is drawn where there is a figure for each key: the motion across the flow, the unevenness of a web, or what a
+    /// spinline gives.
     pub(super) fn is_main(&self) -> bool {
         let series: Vec<&str> = self.members.iter().map(|(_, series)| &**series).collect();
-        series == ["*y*", "*z*"] || self.figure.name == "cv"
+        series == ["*y*", "*z*"] || ["cv", "final_diameter", "final_speed"].contains(&self.figure.name)
     }
 
     /// Leaves out results that apply to no point, as the work check does with implicit tension. None if no result is left.
@@ -170,6 +171,7 @@ fn handy(dimension: Dimension, size: f64) -> (f64, &'static str) {
         Dimension::Pressure if size >= 1e9 => (1e-9, "GPa"),
         Dimension::Pressure if size >= 1e6 => (1e-6, "MPa"),
         Dimension::Frequency if size >= 1e4 => (1e-3, "kHz"),
+        Dimension::MassFlow => (6e4, "g/min"),
         other => (1.0, other.si_unit()),
     }
 }
