@@ -266,3 +266,31 @@ fn a_web_that_begins_at_the_die_shows_the_whole_way() {
     }
     assert!(desk.entries("w").contains("spinline.parquet"));
 }
+
+#[test]
+fn a_study_of_a_spinline_continues_and_runs_again_to_the_same_bits() {
+    let desk = desk();
+    let study = "spinline = \"line.toml\"\ndesign = \"grid\"\n[vary]\n\"spinline.throughput\" = [\"0.3 g/min\", \"0.5 g/min\"]\n\
+                 \"spinline.die_temperature\" = [\"220 °C\", \"240 °C\"]\n";
+    fs::write(desk.path("study.toml"), study).unwrap();
+    let said = success(&mut desk.spunlaid("sweep study.toml --out a"));
+    for part in ["Diameter of the filament (µm)", "0.3 g/min", "220 °C", "4 spinlines at 4 points"] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    assert!(desk.entries("a").contains("spinline.toml"));
+    assert!(desk.entries("a/figures").contains("final_diameter_over_spinline_throughput.svg"));
+    // A point is a spinline as it is solved alone.
+    let single = success(&mut desk.with(
+        "spin line.toml --json",
+        &["spinline.throughput=0.3 g/min", "spinline.die_temperature=220 °C"],
+    ));
+    let single: serde_json::Value = serde_json::from_str(&single).unwrap();
+    let results: serde_json::Value = serde_json::from_slice(&desk.read("a/results.json")).unwrap();
+    assert_eq!(
+        results["points"][0]["results"]["final_diameter_m"]["mean"],
+        single["spinline"]["final_diameter_m"]
+    );
+    success(&mut desk.spunlaid("sweep a/study.toml --out b --quiet"));
+    assert!(desk.read("a/results.csv") == desk.read("b/results.csv"));
+    success(&mut desk.spunlaid("sweep study.toml --out a --quiet"));
+}
