@@ -23,7 +23,6 @@ use crate::error::{Error, Fault};
 use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
-use crate::line::Line;
 use crate::threads::try_each;
 use crate::web::{Canvas, LaidWeb, Sheet, Spent, Strand, Together, Window};
 use air::SharedField;
@@ -252,12 +251,5 @@ fn too_many_lost(flown: Flown, filaments: usize) -> Error {
             "{count} of {filaments} filaments were lost, which leaves no web to look at. The first: {reason}"
         ))),
         None => Error::no_fibre(),
-    }
-}
-
-impl Line {
-    /// Length of belt that passes while a length of fibre is fed, over that length [-].
-    fn belt_ratio(&self) -> f64 {
-        self.belt_speed / self.feed_speed
     }
 }

@@ -168,7 +168,7 @@ impl Track {
         let spacing = case.fibre.rest_length();
         let (skip, belt_per_point) = case.line.map_or((0, 0.0), |line| {
             let fed = line.feed_speed * case.run.spin_up();
-            ((fed / spacing).round() as u64, line.belt_speed / line.feed_speed * spacing)
+            ((fed / spacing).round() as u64, line.belt_ratio() * spacing)
         });
         Self { fed: case.line.is_some(), laid: 0, skip, belt_per_point }
     }

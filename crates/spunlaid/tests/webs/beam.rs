@@ -142,8 +142,7 @@ fn found(sheet: &Sheet, laid: LaidWeb, flown: &Flown, filaments: Filaments) -> F
     let curve = |(_, points): &(usize, Vec<LaidPoint>)| -> Vec<[f64; 2]> {
         points.iter().filter(|point| point.fed >= start).map(|point| [point.md, point.cd]).collect()
     };
-    let curves =
-        Curves::new(spacing, line.belt_speed / line.feed_speed, flown.kept.iter().map(curve).collect());
+    let curves = Curves::new(spacing, line.belt_ratio(), flown.kept.iter().map(curve).collect());
     let layer = Layer {
         linear_density: case.fibre.element_mass() / spacing,
         feed_speed: line.feed_speed,
