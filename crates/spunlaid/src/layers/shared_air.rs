@@ -127,7 +127,7 @@ fn beam(spec: &WebSpec, number: usize) -> Result<LayerBeam<'_>, Error> {
     };
     let mut case = Case::clone(case);
     if case.air.lateral == Lateral::Uniform {
-        case.air.lateral = Lateral::ALL[1];
+        case.air.lateral = Lateral::VonKarman { cutoff: Lateral::USUAL_CUTOFF };
     }
     case.run.seed = key(case.run.seed, spec.seed, number as u64);
     let place = |[z, y]: [f64; 2]| Place { y, z };

@@ -64,7 +64,7 @@ impl Plan {
         let correlation =
             |j: usize| next(j).map_or([1.0; 3], |next| shapes[j].overlap(next).map(|part| part * walk));
         let correlations = (0..shapes.len()).map(correlation).collect();
-        let generations = shapes.into_iter().map(Shape::into_generation).collect();
+        let generations = shapes.into_iter().map(|shape| shape.generation).collect();
         Self { way, lattice, repeat_time, generations, correlations, turn: libm::acos(walk) }
     }
 
@@ -155,10 +155,6 @@ impl Shape {
         };
         let harmonics = (0..amplitudes[0].len()).map(harmonic).collect();
         Self { generation: Generation { travel: stage.travel, samples, harmonics }, modes }
-    }
-
-    fn into_generation(self) -> Generation {
-        self.generation
     }
 
     /// Correlation of two shapes with the same random phases, of each component.                    theory.md (81)
