@@ -9,6 +9,7 @@
 //! ```
 
 mod curtain;
+mod equality;
 mod integration;
 mod material;
 mod shooting;

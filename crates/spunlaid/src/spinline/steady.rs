@@ -10,7 +10,7 @@ use crate::error::Fault;
 use crate::units::Dimension;
 
 /// Parts of the line between its stations, which are evenly spaced in the root of the distance.
-const PARTS: usize = 200;
+const PARTS: usize = 400;
 /// Looks at the strain rate in each step.
 const LOOKS: usize = 16;
 
