@@ -15,6 +15,14 @@ pub fn quantities(study: &Study) -> Vec<usize> {
             "noise",
             "orientation_md",
         ],
+        Some(spunlaid::study::Experiment::Spinline(_)) => &[
+            "final_diameter",
+            "final_speed",
+            "freezing_distance",
+            "freezing_stress",
+            "linear_density",
+            "modulus_estimate",
+        ],
         _ => &["amplitude_y", "amplitude_z", "frequency_y", "frequency_z", "mean_x", "strain_99"],
     };
     names.iter().filter_map(|name| study.quantity(name)).collect()
