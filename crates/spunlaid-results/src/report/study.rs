@@ -101,7 +101,11 @@ pub fn study_html(input: &StudyReport<'_>) -> String {
         unlisted: input.results.len().saturating_sub(LISTED),
         study_toml: input.study_toml,
         base_toml: input.base_toml,
-        base: if study.noun() == "web" { ["web", "web"] } else { ["case", "run"] },
+        base: match study.noun() {
+            "web" => ["web", "web"],
+            "spinline" => ["spinline", "spin"],
+            _ => ["case", "run"],
+        },
         version: input.version,
     };
     rendered(&page)
@@ -111,11 +115,13 @@ fn question(study: &Study) -> String {
     let names: Vec<String> = study.factors.iter().map(|factor| name_of_key(&factor.key)).collect();
     let what = match study.points.first().map(|point| &point.experiment) {
         Some(Experiment::Web(_)) => "evenness of the web",
+        Some(Experiment::Spinline(_)) => "filament",
         Some(Experiment::Case(case)) if case.line.is_some() => "laid fibre",
         _ => "fibre’s motion",
     };
     match names.as_slice() {
         [] if study.noun() == "web" => "How even is the web?".to_owned(),
+        [] if study.noun() == "spinline" => "Which filament does the line make?".to_owned(),
         [] => "How does the fibre move?".to_owned(),
         [one] => format!("How does the {what} depend on the {one}?"),
         [one, two] => format!("How does the {what} depend on the {one} and the {two}?"),
@@ -153,8 +159,16 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
     let lost: u64 = results.iter().map(|point| point.lost).sum();
     if lost > 0 {
         text += &format!(
-            " {} lost: the computation diverged, or the fibre did not reach the belt. All means leave them out.",
-            if lost == 1 { "1 fibre was".to_owned() } else { format!("{lost} fibres were") }
+            " {} lost: {}. All means leave them out.",
+            if lost == 1 {
+                format!("1 {} was", study.noun())
+            } else {
+                format!("{lost} {}s were", study.noun())
+            },
+            match study.noun() {
+                "spinline" => "it has no steady state, or its thread is not solid at the end",
+                _ => "the computation diverged, or the fibre did not reach the belt",
+            }
         );
     }
     text
@@ -196,7 +210,10 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
 }
 
 fn phases(study: &Study) -> &'static str {
-    if study.noun() == "web" {
+    if study.noun() == "spinline" {
+        "Nothing of a spinline is by chance, so the numbers have no error bars. How far the model is from a real line is not known: \
+         no diameter that it gives has been compared with a measured one."
+    } else if study.noun() == "web" {
         "Replicate 1 of every point has the same random numbers, and likewise replicate 2 and so on, as far as the \
          keys allow. Errors are those of the scatter of the webs of a point, or of the parts of a single web; \
          where fibres were flown, with the errors by these few fibres and by the surrogate. The flown CV is the \

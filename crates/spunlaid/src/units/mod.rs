@@ -280,7 +280,9 @@ impl Dimension {
             let mut sizes: Vec<(f64, &str)> = (self.units().iter().filter(|unit| unit.pretty))
                 .filter_map(|unit| match unit.scale {
                     Ten(power) => Some((10f64.powi(power), unit.shown)),
-                    Times(_) | Over(_) | Above(_) => None,
+                    Times(size) => Some((size, unit.shown)),
+                    Over(number) => Some((1.0 / number, unit.shown)),
+                    Above(_) => None,
                 })
                 .collect();
             sizes.sort_by(|a, b| b.0.total_cmp(&a.0));

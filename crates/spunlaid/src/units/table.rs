@@ -82,10 +82,10 @@ const TEMPERATURE: &[Unit] = &[unit("K", "K", Ten(0)), unit("°C", "°C", Above(
 const DYNAMIC_VISCOSITY: &[Unit] =
     &[unit("Pa s", "Pa s", Ten(0)), also("Pa·s", "Pa·s", Ten(0)), also("mPa s", "mPa s", Ten(-3))];
 const MASS_FLOW: &[Unit] = &[
-    unit("kg/s", "kg/s", Ten(0)),
+    also("kg/s", "kg/s", Ten(0)),
     also("g/s", "g/s", Ten(-3)),
     also("kg/h", "kg/h", Over(3600.0)),
-    also("g/min", "g/min", Over(60_000.0)),
+    unit("g/min", "g/min", Over(60_000.0)),
 ];
 const FORCE: &[Unit] = &[
     unit("N", "N", Ten(0)),

@@ -39,7 +39,14 @@ const CASES: [(&str, Set<'static>); 13] = [
     ("point_table", &[]),
     ("record", &[("air.record_rate", "2 kHz")]),
     ("whole_line_fibre", &[]),
-    ("whole_line_fibre", &[("spinline.profile", "auto"), ("spinline.velocity", "70 m/s")]),
+    (
+        "whole_line_fibre",
+        &[
+            ("spinline.profile", "auto"),
+            ("spinline.velocity", "70 m/s"),
+            ("spinline.material.freezing_temperature", "160 °C"),
+        ],
+    ),
     ("whole_line_fibre", &[("spinline.end", "take-up"), ("spinline.take_up_speed", "40 m/s")]),
     ("whole_line_fibre", &[("spinline.melt_flow_rate", "auto"), ("spinline.rows", "1")]),
 ];

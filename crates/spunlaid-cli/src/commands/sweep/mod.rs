@@ -43,7 +43,11 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
         outcome.map_err(Failure::from).and_then(|()| write(sweep, &file, &folder, &mut journal, before));
     written.map_err(|failure| match failure {
         Failure::Error(Error::Interrupted) => {
-            let what = if file.study.noun() == "web" { "webs" } else { "fibres" };
+            let what = match file.study.noun() {
+                "web" => "webs",
+                "spinline" => "spinlines",
+                _ => "fibres",
+            };
             Failure::Paused { done, total: file.study.most_fibres(), what }
         }
         other => other,
@@ -63,7 +67,7 @@ fn report_found(sweep: &Sweep, study: &Study, found: &State) {
     match found {
         State::New => {
             let phases = match (study.noun(), study.common_phases) {
-                ("web", _) => "",
+                ("web" | "spinline", _) => "",
                 (_, true) => ", common phases",
                 (_, false) => ", independent phases",
             };
@@ -98,7 +102,7 @@ fn report_found(sweep: &Sweep, study: &Study, found: &State) {
 fn times(study: &Study) -> String {
     let replicates = &study.replicates;
     if replicates.until.is_empty() {
-        plural(replicates.at_most, if study.noun() == "web" { "web" } else { "replicate" })
+        plural(replicates.at_most, if study.noun() == "fibre" { "replicate" } else { study.noun() })
     } else {
         format!("{} to {} replicates", replicates.at_least, replicates.at_most)
     }

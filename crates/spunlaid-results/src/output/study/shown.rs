@@ -7,6 +7,14 @@ use spunlaid::study::{PointResults, Quantity, Study};
 pub fn quantities(study: &Study) -> Vec<usize> {
     let names: &[&str] = match study.points.first().map(|point| &point.experiment) {
         Some(spunlaid::study::Experiment::Web(_)) => return of_webs(study),
+        Some(spunlaid::study::Experiment::Spinline(_)) => &[
+            "final_diameter",
+            "final_speed",
+            "linear_density",
+            "freezing_distance",
+            "freezing_stress",
+            "modulus_estimate",
+        ],
         Some(spunlaid::study::Experiment::Case(case)) if case.line.is_some() => &[
             "sigma_md",
             "sigma_cd",
