@@ -17,8 +17,7 @@ from reference import ZERO, Failure, read
 PLACES = [0.02, 0.05, 0.1]  # Where speed and temperature are told, in parts of the length.
 
 
-def solution(path, rtol, method):
-    line = read(path)
+def solution(line, rtol, method):
     shot = line.solve(rtol, method)
     row = shot.results()
     for i, part in enumerate(PLACES, 1):
@@ -37,9 +36,10 @@ def main(folder):
     expected, failures = [], []
     for path in sorted(folder.glob("*.toml")):
         try:
-            rows = [solution(path, *how) for how in [(1e-12, "DOP853"), (1e-11, "DOP853"), (1e-11, "LSODA")]]
+            line = read(path)
+            rows = [solution(line, *how) for how in [(1e-12, "DOP853"), (1e-11, "DOP853"), (1e-11, "LSODA")]]
         except Failure as failure:
-            failures.append([path.stem, str(failure)])
+            failures.append([path.stem, *str(failure).split(": ", 1)])
             print(path.stem, failure, flush=True)
             continue
         difference = accuracy(rows)
@@ -52,7 +52,7 @@ def main(folder):
         table.writerows(expected)
     with open(folder / "expected_failures.csv", "w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerows([["name", "failure"], *failures])
+        table.writerows([["name", "failure", "detail"], *failures])
 
 
 if __name__ == "__main__":

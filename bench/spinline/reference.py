@@ -144,6 +144,7 @@ class Failure(Exception):
 class Spinline:
     # What the exact checks switch off.
     gravity, inertia, drag, cooling = GRAVITY, 1.0, True, True
+    found = None  # The intervals of the force, once they are known.
 
     def __init__(self, case, folder=Path(".")):
         line = {key: si(value) for key, value in case["spinline"].items()}
@@ -409,33 +410,44 @@ class Spinline:
 
     def brackets(self, count=1, rtol=1e-6):
         """Intervals of ln F₀ with a change of sign, from below."""
-        found, x, step = [], math.log(1e-8), 0.4
+        # With crystallisation a second and a third state can lie close to the first one.
+        found, x, step = [], math.log(1e-8), 0.05 if self.crystallises else 0.4
         before = self.shoot(math.exp(x), rtol)
         self.first = before
-        while len(found) < count and x < math.log(100.0):
+        while len(found) < count and x < math.log(1.0 if self.crystallises else 100.0):
             after = self.shoot(math.exp(x + step), rtol)
             if self.miss(before) * self.miss(after) < 0:
                 found.append((x, x + step))
             x, before = x + step, after
+        self.last = before
         return found
 
     def solve(self, rtol=1e-11, method="DOP853"):
         """The shot that meets the end, after every failure has been looked for."""
         if self.take_up is not None and self.take_up <= self.v0:
-            raise Failure(f"take-up {self.take_up:.4g} m/s is below {self.v0:.4g} m/s")
-        brackets = self.brackets(2 if self.crystallises else 1)
+            raise Failure(f"take-up: {self.take_up:.4g} m/s is below {self.v0:.4g} m/s")
+        if self.found is None:
+            self.found = self.brackets(9 if self.crystallises else 1)
+        brackets = self.found
         if not brackets:
-            raise Failure("pull: " + ("always slack" if self.first.fate == "slack" else "never slack"))
+            if self.last.fate == "complete":
+                raise Failure("wave: no force draws this thread to its end")
+            if self.first.fate == "wave":
+                raise Failure("wave: faster than its own elastic wave")
+            raise Failure("pull: the air holds the thread back")
         low, high = brackets[0]
-        shots = [self.shoot(math.exp(x), rtol, method) for x in (low, high)]
+        shots = [self.shoot(math.exp(x), 1e-6) for x in (low, high)]
         for _ in range(200):
             if all(shot.fate == "complete" for shot in shots):
                 break
             middle = 0.5 * (low + high)
-            if middle in (low, high):
+            if high - low < 1e-10:
                 fates = [shot.fate for shot in shots]
-                raise Failure("wave" if "wave" in fates else f"jump between shots: {fates}")
-            shot = self.shoot(math.exp(middle), rtol, method)
+                if fates == ["slack", "complete"] and shots[1].solid is None:
+                    # The tension of a melt can fall to zero at the end, and no further.
+                    raise Failure(f"solid: still at {shots[1].end[1] - ZERO:.1f} °C at the end")
+                raise Failure("wave: between two shots" if "wave" in fates else f"jump: from {fates[0]} to {fates[1]}")
+            shot = self.shoot(math.exp(middle), 1e-6)
             if self.miss(shot) < 0:
                 low, shots[0] = middle, shot
             else:
@@ -506,6 +518,7 @@ class Shot:
             "largest_strain_rate_per_s": rate,
             "largest_strain_rate_at_m": place,
             "end_temperature_c": self.end[1] - ZERO,
+            "steady_states": self.solutions,
             "birefringence": m["stress_optical_coefficient"] * self.frozen[2],
         }
 

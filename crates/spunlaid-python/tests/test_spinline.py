@@ -72,7 +72,7 @@ def test_constants_of_the_polymer_can_be_given() -> None:
 
 def test_rejects_spinlines_without_a_steady_state() -> None:
     with pytest.raises(spunlaid.CaseError, match="freezes at 110 °C") as caught:
-        spunlaid.spin({"spinline": {**LINE, "length": "50 mm"}})
+        spunlaid.spin({"spinline": {**LINE, "length": "50 mm", "end": "take-up", "take_up_speed": 20.0}})
     assert caught.value.key.startswith("spinline.")
     with pytest.raises(spunlaid.CaseError, match="is missing"):
         spunlaid.spin({})

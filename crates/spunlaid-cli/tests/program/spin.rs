@@ -18,6 +18,10 @@ velocity = "50 m/s"
 cross_velocity = "0.5 m/s"
 "#;
 
+/// Changes with which the filament is not solid at the end.
+const TOO_SHORT: [&str; 3] =
+    ["spinline.end=take-up", "spinline.take_up_speed=20 m/s", "spinline.length=50 mm"];
+
 /// What the folder of a spinline holds, if it names no files.
 const FOLDER: [&str; 5] = ["figures", "report.html", "spinline.parquet", "spinline.toml", "summary.json"];
 
@@ -160,7 +164,6 @@ fn json_is_the_summary_and_writes_nothing_unless_asked() {
 fn rejects_spinlines_without_a_steady_state_and_writes_nothing() {
     let desk = desk();
     for (change, message) in [
-        ("spinline.length=50 mm", "at the end of the spinline and freezes at 110 °C"),
         ("spinline.break_stress=1 kPa", "spinline.break_stress"),
         ("spinline.throughput=0 g/min", "spinline.throughput"),
         ("spinline.polymer=pvc", "spinline.polymer"),
@@ -169,6 +172,8 @@ fn rejects_spinlines_without_a_steady_state_and_writes_nothing() {
         let said = refusal(&mut desk.with("spin line.toml --out r", &[change]), 1);
         assert!(said.contains(message), "{change}: {said}");
     }
+    let said = refusal(&mut desk.with("spin line.toml --out r", &TOO_SHORT), 1);
+    assert!(said.contains("at the end of the spinline and freezes at 110 °C"), "{said}");
     let said = refusal(&mut desk.spunlaid("spin brief.toml"), 1);
     assert!(said.contains("[spinline] is missing"), "{said}");
     let said = refusal(&mut desk.spunlaid("spin nowhere.toml"), 1);
@@ -192,7 +197,7 @@ fn check_reads_a_spinline_alone() {
     fs::write(desk.path("printed.toml"), &said).unwrap();
     let json = |name: &str| success(&mut desk.spunlaid(&format!("spin {name} --json")));
     assert_eq!(json("printed.toml"), json("line.toml"));
-    let said = refusal(&mut desk.with("check line.toml", &["spinline.length=50 mm"]), 1);
+    let said = refusal(&mut desk.with("check line.toml", &TOO_SHORT), 1);
     assert!(said.contains("freezes at 110 °C"), "{said}");
 }
 
@@ -260,4 +265,32 @@ fn a_web_that_begins_at_the_die_shows_the_whole_way() {
         assert!(page.contains(part), "{part}");
     }
     assert!(desk.entries("w").contains("spinline.parquet"));
+}
+
+#[test]
+fn a_study_of_a_spinline_continues_and_runs_again_to_the_same_bits() {
+    let desk = desk();
+    let study = "spinline = \"line.toml\"\ndesign = \"grid\"\n[vary]\n\"spinline.throughput\" = [\"0.3 g/min\", \"0.5 g/min\"]\n\
+                 \"spinline.die_temperature\" = [\"220 °C\", \"240 °C\"]\n";
+    fs::write(desk.path("study.toml"), study).unwrap();
+    let said = success(&mut desk.spunlaid("sweep study.toml --out a"));
+    for part in ["Diameter of the filament (µm)", "0.3 g/min", "220 °C", "4 spinlines at 4 points"] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    assert!(desk.entries("a").contains("spinline.toml"));
+    assert!(desk.entries("a/figures").contains("final_diameter_over_spinline_throughput.svg"));
+    // A point is a spinline as it is solved alone.
+    let single = success(&mut desk.with(
+        "spin line.toml --json",
+        &["spinline.throughput=0.3 g/min", "spinline.die_temperature=220 °C"],
+    ));
+    let single: serde_json::Value = serde_json::from_str(&single).unwrap();
+    let results: serde_json::Value = serde_json::from_slice(&desk.read("a/results.json")).unwrap();
+    assert_eq!(
+        results["points"][0]["results"]["final_diameter_m"]["mean"],
+        single["spinline"]["final_diameter_m"]
+    );
+    success(&mut desk.spunlaid("sweep a/study.toml --out b --quiet"));
+    assert!(desk.read("a/results.csv") == desk.read("b/results.csv"));
+    success(&mut desk.spunlaid("sweep study.toml --out a --quiet"));
 }

@@ -19,7 +19,7 @@ use std::sync::atomic::AtomicBool;
 const JOURNAL: &str = "journal";
 const STUDY: &str = "study.toml";
 /// Files that describe the study.
-const DESCRIPTION: &[&str] = &[CASE_FILES, "case.toml", "web.toml", STUDY];
+const DESCRIPTION: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY];
 /// Files that are made from the journal.
 const MADE: &[&str] =
     &["results.csv", "results.json", "results.parquet", "replicates.parquet", "figures", "report.html"];

@@ -1,12 +1,23 @@
 //! The page holds what it should, safely and small.
 
-use super::{ReportInput, html};
-use crate::figures::{run_figures, sample};
+use super::{ReportInput, SpinReport, html, spinline_html};
+use crate::figures::{SPINLINE, run_figures, sample, spinline_figures};
+use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{FinerChecks, Results};
+use spunlaid::input::parse_spinline;
+
+/// What a run cost.
+const PERFORMANCE: Performance = Performance {
+    wall_s: 1.0,
+    threads: 2,
+    element_steps: 370_000_000,
+    ns_per_element_step: 5.4,
+    instruction_set: "AVX-512",
+};
 
 /// Largest size of a page [bytes].
 const MOST: usize = 6_000_000;
@@ -22,13 +33,7 @@ fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml:
         figures: &figures,
         spinline: None,
         notes,
-        performance: Performance {
-            wall_s: 1.0,
-            threads: 2,
-            element_steps: 370_000_000,
-            ns_per_element_step: 5.4,
-            instruction_set: "AVX-512",
-        },
+        performance: PERFORMANCE,
         version: "0.1.0",
     })
 }
@@ -207,4 +212,83 @@ fn nodes_of_a_fed_fibre_keep_their_numbers() {
     let dz = level(2) - f64::from(number(2 * index as usize + 1));
     // An element of 5 mm on a circle, and the 0.3 mm that the belt runs meanwhile.
     assert!(dy.hypot(dz) < 5.4 && dy.hypot(dz) > 4.0, "{dy}, {dz}");
+}
+
+/// The page of a spinline of polypropylene, with these lines more.
+fn spin_page(lines: &str, name: &str) -> String {
+    let text = format!(
+        "[spinline]\npolymer = \"pp\"\nmelt_flow_rate = 35\ndie_temperature = \"230 °C\"\nhole_diameter = \"0.6 mm\"\n\
+         throughput = \"0.5 g/min\"\nlength = \"1.2 m\"\nvelocity = \"50 m/s\"\ncross_velocity = \"0.5 m/s\"\n{lines}"
+    );
+    let file = parse_spinline(&text, "line.toml", &[]).unwrap();
+    let results = SpinResults::new(&file).unwrap();
+    let figures = spinline_figures(SPINLINE, &results.rows, &results.influences);
+    let (notes, toml) = (&[name.to_owned()], name);
+    spinline_html(&SpinReport { name, file: &file, results: &results, figures: &figures, notes, toml })
+}
+
+#[test]
+fn the_page_of_any_spinline_is_well_formed_and_says_what_is_not_known() {
+    for lines in [
+        "",
+        "crystallisation = true\n",
+        "rows = 3\nfilaments_per_metre_and_row = 100\n",
+        "law = \"giesekus\"\n",
+        "end = \"take-up\"\ntake_up_speed = \"30 m/s\"\nlaw = \"ptt\"\n",
+    ] {
+        let page = spin_page(lines, "line");
+        check_well_formed(&page);
+        assert!(page.len() < 1_000_000, "{} bytes", page.len());
+        assert!(!page.contains("NaN"), "{lines}");
+        assert!(page.contains("<h1>A filament of "), "{lines}");
+        for sentence in
+            ["no diameter that it gives has been compared with a measured one", "wrong by a factor of two"]
+        {
+            assert!(page.contains(sentence), "{lines}: {sentence}");
+        }
+        assert_eq!(page.matches("http").count(), page.matches("http://www.w3.org/2000/svg").count());
+    }
+    assert!(spin_page("crystallisation = true\n", "line").contains("figure-spinline_transformed"));
+    let evil = "</pre><script>alert('x')</script>&\"{{ name }}";
+    let page = spin_page("", evil);
+    assert!(!page.contains("<script>alert") && !page.contains("</pre><script"));
+    check_well_formed(&page);
+}
+
+#[test]
+fn the_report_of_a_run_shows_its_spinline() {
+    let file = parse_spinline(
+        "[spinline]\npolymer = \"pet\"\ndie_temperature = \"290 °C\"\nhole_diameter = \"0.3 mm\"\nthroughput = \"1.5 g/min\"\n\
+         length = \"2 m\"\ncross_velocity = \"0.3 m/s\"\nend = \"take-up\"\ntake_up_speed = \"50 m/s\"\n",
+        "line.toml",
+        &[],
+    )
+    .unwrap();
+    let results = SpinResults::new(&file).unwrap();
+    let figures = spinline_figures(SPINLINE, &results.rows, &results.influences);
+    let mut case = sample::case(4, 50, 2);
+    let flown = sample::results(&case, 0.01);
+    let shown = |case: &Case| {
+        html(&ReportInput {
+            name: "case",
+            case,
+            case_toml: "",
+            results: &flown,
+            checks: &FinerChecks::none("the run is too short for it"),
+            figures: &[],
+            spinline: Some((&results, &figures)),
+            notes: &[],
+            performance: PERFORMANCE,
+            version: "0.1.0",
+        })
+    };
+    let page = shown(&case);
+    check_well_formed(&page);
+    assert!(
+        page.contains("figure-spinline_temperature")
+            && page.contains("A filament of 21.8\u{202f}µm, 5\u{202f}dtex")
+    );
+    assert!(!page.contains("estimate of its Young"));
+    case.fibre.youngs_modulus = results.rows[0].modulus_estimate;
+    assert!(shown(&case).contains("an estimate of its Young"));
 }

@@ -22,17 +22,25 @@ pub(super) fn solve(line: &Spinline, friction: FrictionLaw) -> Result<Vec<Soluti
 
 /// The air behind a row of filaments.                                                               theory.md (99)
 ///
-/// `T_a + m q/(ρ_a v_c c_pa)` and `u − m f_t/(ρ_a v_c)`; where no air crosses the row it stays as it is. Radiation does not warm
-/// the air.
+/// The air goes towards the temperature and the speed of the filaments, and it never goes beyond them, however slowly it crosses
+/// the row. Where no air crosses it stays as it is. Radiation does not warm the air.
 fn behind(row: &Solution, curtain: Curtain) -> AirTable {
     let mut air = AirTable::default();
     for station in &row.stations {
         let crossing = density_at(station.air_temperature) * station.air_cross_velocity;
         let share = if crossing > 0.0 { curtain.filaments_per_metre / crossing } else { 0.0 };
         air.distance.push(station.distance);
-        air.velocity.push(station.air_velocity - share * station.friction);
+        let dragged = towards(-share * station.friction, station.speed - station.air_velocity);
+        air.velocity.push(station.air_velocity + dragged);
         air.cross_velocity.push(station.air_cross_velocity);
-        air.temperature.push(station.air_temperature + share * station.convection / HEAT_CAPACITY_OF_AIR);
+        let change = share * station.convection / HEAT_CAPACITY_OF_AIR;
+        let warmed = towards(change, station.temperature - station.air_temperature);
+        air.temperature.push(station.air_temperature + warmed);
     }
     air
+}
+
+/// A change that ends at a gap: `gap (1 − e^(−change/gap))`, the change itself where it is small.
+fn towards(change: f64, gap: f64) -> f64 {
+    if gap == 0.0 { 0.0 } else { -gap * libm::expm1(-change / gap) }
 }

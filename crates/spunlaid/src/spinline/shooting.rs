@@ -2,12 +2,15 @@
 
 use super::End;
 use super::shot::{Outcome, Shot, shoot};
-use super::thread::{LN_SPEED, TENSION, Thread};
+use super::thread::{LN_SPEED, TEMPERATURE, TENSION, Thread};
 
 /// The tensions between which the one at the die is sought [N].
 const TENSIONS: [f64; 2] = [1e-8, 1e3];
-/// From one tension to the next, `ln F_0` rises by this.
+/// From one tension to the next, `ln F_0` rises by this. With crystallisation there may be several steady states close together.
 const STRIDE: f64 = 0.4;
+const SHORT_STRIDE: f64 = 0.05;
+/// How far `ln F_0` is followed beyond the first steady state.
+const BEYOND: f64 = 2.0;
 /// How closely `ln F_0` is found.
 const CLOSE: f64 = 1e-12;
 
@@ -20,6 +23,8 @@ pub(super) enum Miss {
     Slack,
     /// Between a slack thread and one that is too fast, none reaches the end.
     NoThread,
+    /// The thread is still liquid at the end, at this temperature [K].
+    Liquid(f64),
     /// The melt is too elastic.
     ElasticWave,
 }
@@ -42,44 +47,60 @@ impl Shooting<'_, '_> {
     }
 
     /// By how much the thread misses the end under the tension `exp(x)`: negative if it should be pulled more.
-    fn miss(&self, x: f64) -> (f64, Outcome) {
-        let Some(shot) = self.shot(x) else { return (f64::NEG_INFINITY, Outcome::Slack) };
+    fn miss(&self, x: f64) -> (f64, Option<Miss>) {
+        let Some(shot) = self.shot(x) else { return (f64::NEG_INFINITY, Some(Miss::Slack)) };
+        let reason = match shot.outcome {
+            Outcome::Complete => shot.freezing.is_none().then(|| Miss::Liquid(shot.end[TEMPERATURE])),
+            Outcome::Slack => Some(Miss::Slack),
+            Outcome::RunsAway => Some(Miss::NoThread),
+            Outcome::ElasticWave => Some(Miss::ElasticWave),
+        };
         let miss = match (shot.outcome, self.thread.line.end) {
             (Outcome::Slack, _) => f64::NEG_INFINITY,
             (Outcome::RunsAway | Outcome::ElasticWave, _) => f64::INFINITY,
             (Outcome::Complete, End::Tension(tension) | End::Flown(tension)) => shot.end[TENSION] - tension,
             (Outcome::Complete, End::TakeUp(speed)) => shot.end[LN_SPEED] - libm::log(speed),
         };
-        (miss, shot.outcome)
+        (miss, reason)
     }
 
     /// The first place above `from` at which the miss changes from negative to positive, as two places and their misses.
-    fn bracket(&self, from: f64, to: f64, stride: f64) -> Option<[(f64, f64); 2]> {
+    ///
+    /// # Errors
+    /// If there is none: why the thread misses the end under the largest tension.
+    fn bracket(&self, from: f64, to: f64, stride: f64) -> Result<[(f64, f64); 2], Option<Miss>> {
         let mut before = (from, self.miss(from).0);
+        let mut last = None;
         while before.0 < to {
             let x = before.0 + stride;
-            let next = (x, self.miss(x).0);
-            if before.1 < 0.0 && next.1 >= 0.0 {
-                return Some([before, next]);
+            let (miss, reason) = self.miss(x);
+            if before.1 < 0.0 && miss >= 0.0 {
+                return Ok([before, (x, miss)]);
             }
-            before = next;
+            (before, last) = ((x, miss), reason);
         }
-        None
+        Err(last)
     }
 
     /// Halves the interval until the thread reaches the end from both of its ends.
     fn narrow(&self, [mut low, mut high]: [(f64, f64); 2]) -> Result<[(f64, f64); 2], Miss> {
-        let mut reason = Miss::NoThread;
+        let (mut of_slack, mut of_fast) = (None, None);
         while !(low.1.is_finite() && high.1.is_finite()) {
             let x = 0.5 * (low.0 + high.0);
             if high.0 - low.0 < 1e-13 * x.abs().max(1.0) {
-                return Err(reason);
+                // A thread that gets to the end tells more than one that does not.
+                return Err(match (of_slack, of_fast) {
+                    (Some(liquid @ Miss::Liquid(_)), _) | (_, Some(liquid @ Miss::Liquid(_))) => liquid,
+                    (_, Some(Miss::ElasticWave)) => Miss::ElasticWave,
+                    _ => Miss::NoThread,
+                });
             }
-            let (miss, outcome) = self.miss(x);
-            if outcome == Outcome::ElasticWave {
-                reason = Miss::ElasticWave;
+            let (miss, reason) = self.miss(x);
+            if miss < 0.0 {
+                (low, of_slack) = ((x, miss), reason);
+            } else {
+                (high, of_fast) = ((x, miss), reason);
             }
-            *(if miss < 0.0 { &mut low } else { &mut high }) = (x, miss);
         }
         Ok([low, high])
     }
@@ -94,10 +115,14 @@ pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
     if shooting.miss(least).0 >= 0.0 {
         return Err(Miss::TooMuch);
     }
-    let bracket = shooting.bracket(least, most, STRIDE).ok_or(Miss::Slack)?;
+    let bracket = shooting.bracket(least, most, STRIDE);
+    let mut bracket = bracket.map_err(|last| if last.is_none() { Miss::ElasticWave } else { Miss::Slack })?;
+    if looks_on {
+        bracket = shooting.bracket(least, bracket[1].0, SHORT_STRIDE).unwrap_or(bracket);
+    }
     let x = brent(|x| shooting.miss(x).0, shooting.narrow(bracket)?);
     let shot = shooting.shot(x).filter(|shot| shot.outcome == Outcome::Complete).ok_or(Miss::NoThread)?;
-    let has_second = looks_on && shooting.bracket(x + 1e-3, x + 2.0, 0.1).is_some();
+    let has_second = looks_on && shooting.bracket(x + 1e-3, x + BEYOND, SHORT_STRIDE).is_ok();
     Ok(Hit { tension: libm::exp(x), shot, has_second })
 }
 

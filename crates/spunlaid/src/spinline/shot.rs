@@ -7,7 +7,7 @@ use super::{FreezingCause, Station};
 /// A thread that is faster runs away [m/s].
 const FASTEST: f64 = 2000.0;
 /// Most steps of a shot; it takes some sixty.
-const MOST_STEPS: usize = 20_000;
+const MOST_STEPS: usize = 5_000;
 
 /// How a shot ends.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,7 @@ use crate::error::Fault;
 use crate::units::Dimension;
 
 /// Parts of the line between its stations, which are evenly spaced in the root of the distance.
-const PARTS: usize = 200;
+const PARTS: usize = 400;
 /// Looks at the strain rate in each step.
 const LOOKS: usize = 16;
 
@@ -33,6 +33,7 @@ pub(super) fn solve(line: &Spinline, friction: FrictionLaw, air: &Surroundings) 
 /// Why no tension at the die meets the end of the line.
 fn missed(line: &Spinline, miss: Miss) -> Failure {
     match (miss, line.end) {
+        (Miss::Liquid(temperature), _) => still_liquid(line, temperature),
         (Miss::ElasticWave, _) => Failure::new(
             "spinline.law",
             None,
@@ -68,17 +69,25 @@ fn missed(line: &Spinline, miss: Miss) -> Failure {
     }
 }
 
+/// The thread is not solid at the end of the line.
+fn still_liquid(line: &Spinline, temperature: f64) -> Failure {
+    let celsius = |kelvin: f64| format!("{:.0} °C", kelvin - ZERO_CELSIUS);
+    let (reached, solid) = (celsius(temperature), celsius(line.material.freezing_temperature));
+    let message = format!(
+        "is too short: the polymer is still at {reached} at the end of the spinline and freezes at {solid}"
+    );
+    Failure::new(
+        "spinline.length",
+        Some(line.length),
+        Fault::new(message, "more quench air, or a longer line"),
+    )
+}
+
 /// What a shot says.
 fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
     let (line, shot) = (thread.line, &hit.shot);
     let Some((by, at, cooling_rate)) = shot.freezing else {
-        let celsius = |kelvin: f64| format!("{:.0} °C", kelvin - ZERO_CELSIUS);
-        let (reached, solid) = (celsius(shot.end[TEMPERATURE]), celsius(line.material.freezing_temperature));
-        let message = format!(
-            "is too short: the polymer is still at {reached} at the end of the spinline and freezes at {solid}"
-        );
-        let remedy = "more quench air, or a longer line";
-        return Err(Failure::new("spinline.length", Some(line.length), Fault::new(message, remedy)));
+        return Err(still_liquid(line, shot.end[TEMPERATURE]));
     };
     let freezing = Freezing {
         distance: at.distance,

@@ -48,7 +48,15 @@ const CASES: [(&str, Set<'static>); 13] = [
         ],
     ),
     ("whole_line_fibre", &[("spinline.end", "take-up"), ("spinline.take_up_speed", "40 m/s")]),
-    ("whole_line_fibre", &[("spinline.melt_flow_rate", "auto"), ("spinline.rows", "1")]),
+    (
+        "whole_line_fibre",
+        &[
+            ("spinline.melt_flow_rate", "auto"),
+            ("spinline.material.viscosity", "220 Pa s"),
+            ("spinline.rows", "2"),
+            ("spinline.filaments_per_metre_and_row", "100"),
+        ],
+    ),
 ];
 
 /// Each quantity, a thousand times above what is usual and a thousand times below, is refused or warned of in every kind of

@@ -4,6 +4,7 @@ use crate::figures::with_unit;
 use spunlaid::case::keys;
 use spunlaid::layers::{place_in_web, web_key};
 use spunlaid::observe::{self, Unit};
+use spunlaid::spinline::ZERO_CELSIUS;
 use spunlaid::study;
 use spunlaid::study::{Design, Factor, PointResults, Study};
 use spunlaid::units::Dimension;
@@ -58,10 +59,11 @@ impl Group {
         }
     }
 
-    /// Whether it is drawn where there is a figure for each key: the motion across the flow, or the unevenness of a web.
+    /// Whether it is drawn where there is a figure for each key: the motion across the flow, the unevenness of a web, or what a
+    /// spinline gives.
     pub(super) fn is_main(&self) -> bool {
         let series: Vec<&str> = self.members.iter().map(|(_, series)| &**series).collect();
-        series == ["*y*", "*z*"] || self.figure.name == "cv"
+        series == ["*y*", "*z*"] || ["cv", "final_diameter", "final_speed"].contains(&self.figure.name)
     }
 
     /// Leaves out results that apply to no point, as the work check does with implicit tension. None if no result is left.
@@ -108,7 +110,8 @@ pub fn name_of_key(key: &str) -> String {
 #[derive(Clone, Debug)]
 pub(super) struct Along {
     pub(super) axis: Axis,
-    /// Converts SI units to the units of the axis.
+    /// Where the units of the axis begin, in SI units, and what converts from there.
+    zero: f64,
     scale: f64,
     pub(super) unit: &'static str,
     /// The values of a factor of words, in the order of the axis.
@@ -125,18 +128,21 @@ impl Along {
         if !words.is_empty() {
             let names = words.iter().map(|word| factor.input().pretty(*word));
             let axis = Axis::of_words(&label_of_key(&factor.key), names);
-            return Self { axis, scale: 1.0, unit: "", words };
+            return Self { axis, zero: 0.0, scale: 1.0, unit: "", words };
         }
         let (least, greatest) = factor.ends();
-        let (scale, unit) = handy(factor.dimension, greatest.abs().max(least.abs()));
-        let label = with_unit(&label_of_key(&factor.key), unit);
         let wide = least > 0.0 && greatest / least >= 30.0;
-        let axis = if factor.spacing() == study::Spacing::Logarithmic || wide {
-            Axis::logarithmic(&label)
-        } else {
-            Axis::linear(&label)
+        let is_logarithmic = factor.spacing() == study::Spacing::Logarithmic || wide;
+        let (zero, scale, unit) = match factor.dimension {
+            Dimension::Temperature if !is_logarithmic => (ZERO_CELSIUS, 1.0, "°C"),
+            dimension => {
+                let (scale, unit) = handy(dimension, greatest.abs().max(least.abs()));
+                (0.0, scale, unit)
+            }
         };
-        Self { axis, scale, unit, words }
+        let label = with_unit(&label_of_key(&factor.key), unit);
+        let axis = if is_logarithmic { Axis::logarithmic(&label) } else { Axis::linear(&label) };
+        Self { axis, zero, scale, unit, words }
     }
 
     /// The axis of a factor of a study.
@@ -146,7 +152,10 @@ impl Along {
     }
 
     pub(super) fn place(&self, value: f64) -> f64 {
-        self.words.iter().position(|word| *word == value).map_or(value * self.scale, |place| place as f64)
+        self.words
+            .iter()
+            .position(|word| *word == value)
+            .map_or((value - self.zero) * self.scale, |place| place as f64)
     }
 
     /// Whether the values have an order and a distance, so that a line may join them.
@@ -170,6 +179,7 @@ fn handy(dimension: Dimension, size: f64) -> (f64, &'static str) {
         Dimension::Pressure if size >= 1e9 => (1e-9, "GPa"),
         Dimension::Pressure if size >= 1e6 => (1e-6, "MPa"),
         Dimension::Frequency if size >= 1e4 => (1e-3, "kHz"),
+        Dimension::MassFlow => (6e4, "g/min"),
         other => (1.0, other.si_unit()),
     }
 }

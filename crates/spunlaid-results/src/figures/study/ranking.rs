@@ -71,7 +71,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
     svg.text(((left + right) / 2.0, bottom + 44.0), &label, style);
 
     let mut key = left;
-    for (_, marker, colour, label) in &shown {
+    for (_, marker, colour, label) in shown.iter().filter(|(.., label)| !label.is_empty()) {
         svg.marker((key + 8.0, 18.0), *marker, colour);
         let style = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
         svg.text((key + 20.0, 22.5), label, style);

@@ -7,14 +7,6 @@ use spunlaid::study::{PointResults, Quantity, Study};
 pub fn quantities(study: &Study) -> Vec<usize> {
     let names: &[&str] = match study.points.first().map(|point| &point.experiment) {
         Some(spunlaid::study::Experiment::Web(_)) => return of_webs(study),
-        Some(spunlaid::study::Experiment::Spinline(_)) => &[
-            "final_diameter",
-            "final_speed",
-            "linear_density",
-            "freezing_distance",
-            "freezing_stress",
-            "modulus_estimate",
-        ],
         Some(spunlaid::study::Experiment::Case(case)) if case.line.is_some() => &[
             "sigma_md",
             "sigma_cd",
@@ -22,6 +14,14 @@ pub fn quantities(study: &Study) -> Vec<usize> {
             "half_correlation_length_cd",
             "noise",
             "orientation_md",
+        ],
+        Some(spunlaid::study::Experiment::Spinline(_)) => &[
+            "final_diameter",
+            "final_speed",
+            "freezing_distance",
+            "freezing_stress",
+            "linear_density",
+            "modulus_estimate",
         ],
         _ => &["amplitude_y", "amplitude_z", "frequency_y", "frequency_z", "mean_x", "strain_99"],
     };
