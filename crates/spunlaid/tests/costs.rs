@@ -11,18 +11,20 @@ mod common;
 mod vtk;
 
 use common::*;
-use spunlaid::air::{Air, Eddies, StreamKey, Wind};
+use spunlaid::air::{Air, Eddies, EddyField, EddyModel, Extent, StreamKey, Wind};
 use spunlaid::case::Case;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{Computing, Job, Keep, Results, Trajectory, fly_together};
 use spunlaid::field::Field;
 use spunlaid::flight::Flight;
+use spunlaid::input::read_case;
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::observe::MEASURES;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::f64::consts::PI;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The system's allocator, which counts what each thread asks of it.
@@ -359,4 +361,37 @@ fn a_file_that_unpacks_to_more_than_is_read_is_refused_before_it_is_unpacked() {
     let said = said.expect("it is refused");
     assert!(said.starts_with("bomb.vti:5: U: contains more than 4 GiB"), "{said}");
     assert!(memory.peak < 1 << 20, "{} bytes at once", memory.peak);
+}
+
+/// A field is made block by block, and forgotten likewise.
+#[test]
+fn limit_a_field_of_eddies_takes_the_memory_that_is_told_before() {
+    const LENGTH: f64 = 16e-3;
+    const BLOCKS: u32 = 36;
+    let (spunbond, _) = read_case(Path::new("../../cases/spunbond.toml"), &[]).expect("the case is read");
+    let uniform = |decay_time: f64| Air {
+        eddies: EddyModel::Convected { decay_time },
+        ..Air::uniform(25.0, 0.1, LENGTH, 25.0 / 4.0 / LENGTH)
+    };
+    let independent = Air::uniform(25.0, 0.1, LENGTH, 25.0 / 4.0 / LENGTH);
+    let key = StreamKey { seed: 1, replicate: 0 };
+    for (what, air) in [
+        ("a line", spunbond.air),
+        ("a pattern that ages", uniform(5e-3)),
+        ("a pattern that lasts", uniform(f64::INFINITY)),
+        ("independent eddies", independent),
+    ] {
+        for (y, cutoff) in [(6.0 * LENGTH, 10.3), (12.0 * LENGTH, 6.0)] {
+            let extent = Extent { y, z: 10.0 * LENGTH };
+            let ((), memory) = memory_of(|| {
+                let mut field = EddyField::new(&air, 0.5, extent, cutoff, key);
+                for number in 0..BLOCKS {
+                    let from = f64::from(number) * field.block();
+                    field.make(from..from + field.block(), 1);
+                }
+            });
+            let (found, told) = (memory.peak as f64, EddyField::memory(&air, 0.5, extent, cutoff));
+            assert!((0.75 * told..told).contains(&found), "{what}: {found} of {told}");
+        }
+    }
 }

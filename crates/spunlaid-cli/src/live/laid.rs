@@ -38,7 +38,7 @@ impl LaidStatistics {
     /// No points yet; `None` for fibres of fixed length.
     pub(super) fn new(case: &Case) -> Option<Self> {
         let line = case.line?;
-        let belt_ratio = line.belt_speed / line.feed_speed;
+        let belt_ratio = line.belt_ratio();
         let tracing =
             Tracing { spacing: case.fibre.rest_length(), belt_ratio, skip: 0, reach: line.distance };
         Some(Self { traces: from_fn(|_| Trace::new(tracing)), fitted: (0, Vec::new()) })

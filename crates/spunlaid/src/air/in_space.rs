@@ -102,6 +102,12 @@ impl AirInSpace {
         self.fields = self.fields.map(|_| Field { field: Arc::clone(field), same_as: 0 });
     }
 
+    /// Lets go of what has been made of the fields, so that their owners can forget it.
+    pub(crate) fn release(&mut self) {
+        let unmade = Arc::new(self.fields.of(0).field.unmade());
+        self.give(&unmade);
+    }
+
     /// Share of the time that the elements of a lane's fibre have spent outside of a CFD field's data.
     pub(super) fn outside(&self, lane: usize) -> Option<f64> {
         self.surroundings.as_ref().map(|surroundings| surroundings.outside(lane))

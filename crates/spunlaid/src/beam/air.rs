@@ -58,11 +58,8 @@ impl Beam<'_> {
     fn extent_of_air(&self, sheet: &Sheet) -> Extent {
         let (air, distance) = (&self.case.air, self.case.way_of_air());
         let least = self.case.extent_of_air().y;
-        let [low, high] = [f64::min as fn(f64, f64) -> f64, f64::max].map(|of| {
-            let places = self.places.iter().map(|place| [place.y, place.z]);
-            places.reduce(|a, b| [of(a[0], b[0]), of(a[1], b[1])]).unwrap_or_default()
-        });
-        let [depth, width] = [high[0] - low[0], high[1] - low[1]];
+        let depth = range(self.places.iter().map(|place| place.y));
+        let width = range(self.places.iter().map(|place| place.z));
         let y = (depth + REACH * distance) * widening(air, distance).sqrt();
         let z = match sheet.edges {
             Edges::Periodic => sheet.width,
@@ -70,6 +67,13 @@ impl Beam<'_> {
         };
         Extent { y: y.max(least), z }
     }
+}
+
+/// The largest of some numbers less the smallest.
+fn range(numbers: impl Iterator<Item = f64> + Clone) -> f64 {
+    let smallest = numbers.clone().fold(f64::INFINITY, f64::min);
+    let largest = numbers.fold(f64::NEG_INFINITY, f64::max);
+    (largest - smallest).max(0.0)
 }
 
 /// How many times as wide the mean flow is at the belt as at the inlet. What comes down in the middle of the way has been moved aside by less.

@@ -23,7 +23,6 @@ use crate::error::{Error, Fault};
 use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
-use crate::line::Line;
 use crate::threads::try_each;
 use crate::web::{Canvas, LaidWeb, Sheet, Spent, Strand, Together, Window};
 use air::SharedField;
@@ -157,16 +156,17 @@ impl Beam<'_> {
         let neighbours = pack::neighbours(self.places);
         let packs: Vec<Mutex<Option<Pack>>> = neighbours.iter().map(|_| Mutex::new(None)).collect();
         let locked = |i: usize| packs[i].lock().unwrap_or_else(PoisonError::into_inner);
-        let mut field = air_during(&mut shared, 0..steps, &mut making);
+        let start = air_during(&mut shared, 0..steps, &mut making);
         in_parallel(packs.len(), &|i| {
-            *locked(i) = Some(Pack::new(self, &neighbours[i], by.isa, field.as_ref())?);
+            *locked(i) = Some(Pack::new(self, &neighbours[i], by.isa, start.as_ref())?);
             Ok(Reach::default())
         })?;
+        drop(start);
         let spun_up = line.feed_speed * self.case.run.spin_up();
         let (mut stretch, mut reach) = (Stretch::before(&line, spun_up, window, sheet), Reach::default());
         let mut done = 0;
         while !stretch.is_laid(&reach) {
-            field = air_during(&mut shared, done..done + steps, &mut making);
+            let field = air_during(&mut shared, done..done + steps, &mut making);
             let (now, before) = (&stretch, reach);
             let reaches = in_parallel(packs.len(), &|i| {
                 if by.stop.load(Ordering::Relaxed) {
@@ -252,12 +252,5 @@ fn too_many_lost(flown: Flown, filaments: usize) -> Error {
             "{count} of {filaments} filaments were lost, which leaves no web to look at. The first: {reason}"
         ))),
         None => Error::no_fibre(),
-    }
-}
-
-impl Line {
-    /// Length of belt that passes while a length of fibre is fed, over that length [-].
-    fn belt_ratio(&self) -> f64 {
-        self.belt_speed / self.feed_speed
     }
 }

@@ -74,6 +74,9 @@ impl Pack {
                 self.filaments[lane].lost.get_or_insert(reason);
             }
         }
+        if field.is_some() {
+            self.flight.release_field();
+        }
         let mut reach = Reach { fed: f64::INFINITY, ..Reach::default() };
         for (lane, filament) in self.filaments.iter_mut().enumerate() {
             let points = self.flight.take_laid(lane);

@@ -203,6 +203,13 @@ impl Flight {
         }
     }
 
+    /// Takes back the field that was given. Another one is to be given before the next step.
+    pub(crate) fn release_field(&mut self) {
+        if let Atmosphere::Space(air) = &mut self.air {
+            air.release();
+        }
+    }
+
     /// Points that the fibre in a lane has laid on the belt since the last call, in the order in which they were fed.
     pub fn take_laid(&mut self, lane: usize) -> Vec<LaidPoint> {
         self.chain.laying.as_mut().map_or_else(Vec::new, |laying| std::mem::take(&mut laying.laid[lane]))

@@ -190,7 +190,7 @@ impl FlownFibres {
         let spacing = case.fibre.rest_length();
         // As the measures of a run do, to the same bits.
         let skip = (line.feed_speed * case.run.spin_up() / spacing).round() as u64;
-        let belt_ratio = line.belt_speed / line.feed_speed;
+        let belt_ratio = line.belt_ratio();
         let tracing = Tracing { spacing, belt_ratio, skip, reach: line.distance };
         let (mut numbers, mut unidentified) = ([const { Vec::new() }; 3], None);
         let mut traces = Vec::new();

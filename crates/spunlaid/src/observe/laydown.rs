@@ -236,7 +236,7 @@ impl LaidFibres {
 
 /// Speed of the belt over that of the feed.
 fn belt_ratio(case: &Case) -> f64 {
-    case.line.map_or(0.0, |line| line.belt_speed / line.feed_speed)
+    case.line.map_or(0.0, |line| line.belt_ratio())
 }
 
 /// The laid curve of a fibre, before anything is laid.

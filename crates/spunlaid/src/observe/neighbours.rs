@@ -25,7 +25,7 @@ pub(super) const FED_CD: Declaration = Declaration {
         },
     ],
     applies: |case| fed(case) && !case.neighbours.cd.is_empty(),
-    observer: |flight| Box::new(Companions::of(flight, in_cd)),
+    observer: |flight| Box::new(Companions::new(flight, in_cd)),
 };
 
 pub(super) const FED_MD: Declaration = Declaration {
@@ -44,7 +44,7 @@ pub(super) const FED_MD: Declaration = Declaration {
         },
     ],
     applies: |case| fed(case) && !case.neighbours.md.is_empty(),
-    observer: |flight| Box::new(Companions::of(flight, in_md)),
+    observer: |flight| Box::new(Companions::new(flight, in_md)),
 };
 
 pub(super) const FIXED_CD: Declaration = Declaration {
@@ -53,7 +53,7 @@ pub(super) const FIXED_CD: Declaration = Declaration {
         Measure { name: "neighbours_cd_correlation_z", column: "neighbours_cd_correlation_z", ..IN_Z_OF_CD },
     ],
     applies: |case| fixed(case) && !case.neighbours.cd.is_empty(),
-    observer: |flight| Box::new(Companions::of(flight, in_cd)),
+    observer: |flight| Box::new(Companions::new(flight, in_cd)),
 };
 
 pub(super) const FIXED_MD: Declaration = Declaration {
@@ -72,7 +72,7 @@ pub(super) const FIXED_MD: Declaration = Declaration {
         },
     ],
     applies: |case| fixed(case) && !case.neighbours.md.is_empty(),
-    observer: |flight| Box::new(Companions::of(flight, in_md)),
+    observer: |flight| Box::new(Companions::new(flight, in_md)),
 };
 
 const IN_MD_OF_CD: Measure = Measure {
@@ -164,24 +164,24 @@ struct Track {
 }
 
 impl Track {
-    fn of(case: &Case) -> Self {
+    fn new(case: &Case) -> Self {
         let spacing = case.fibre.rest_length();
         let (skip, belt_per_point) = case.line.map_or((0, 0.0), |line| {
             let fed = line.feed_speed * case.run.spin_up();
-            ((fed / spacing).round() as u64, line.belt_speed / line.feed_speed * spacing)
+            ((fed / spacing).round() as u64, line.belt_ratio() * spacing)
         });
         Self { fed: case.line.is_some(), laid: 0, skip, belt_per_point }
     }
 
     /// The next places after the spin-up [m]: y and z of the free end, or the deviations of laid points from the straight trace
     /// of a fibre that comes down at one place.
-    fn next(&mut self, seen: &Observation<'_>, lane: usize) -> Vec<[f64; 2]> {
+    fn next(&mut self, observation: &Observation<'_>, lane: usize) -> Vec<[f64; 2]> {
         if !self.fed {
-            let end = seen.snapshot.position.last().filter(|_| seen.settled);
+            let end = observation.snapshot.position.last().filter(|_| observation.settled);
             return end.map(|end| [end.y.0[lane], end.z.0[lane]]).into_iter().collect();
         }
         let mut deviations = Vec::new();
-        for point in &seen.laid[lane] {
+        for point in &observation.laid[lane] {
             if self.laid >= self.skip {
                 deviations.push([point.md + self.laid as f64 * self.belt_per_point, point.cd]);
             }
@@ -192,13 +192,14 @@ impl Track {
 }
 
 impl Companions {
-    /// * `wanted` – distances and places of the companions that a case asks for
-    fn of(flight: &Flight, wanted: fn(&Case) -> Vec<(f64, Place)>) -> Self {
+    /// * `companions` – distances and places of the companions that a case asks for
+    fn new(flight: &Flight, companions: fn(&Case) -> Vec<(f64, Place)>) -> Self {
         let jobs: Vec<_> = (0..flight.fibres()).filter_map(|lane| flight.job(lane)).collect();
         let mut pairs = Vec::new();
         for (fibre, job) in jobs.iter().enumerate().filter(|(_, job)| job.place == Place::default()) {
-            for (distance, (_, place)) in wanted(job.case).into_iter().enumerate() {
-                let found = jobs.iter().position(|of| of.replicate == job.replicate && of.place == place);
+            for (distance, (_, place)) in companions(job.case).into_iter().enumerate() {
+                let found =
+                    jobs.iter().position(|other| other.replicate == job.replicate && other.place == place);
                 pairs.extend(found.map(|companion| Pair {
                     lanes: [fibre, companion],
                     distance,
@@ -207,10 +208,10 @@ impl Companions {
                 }));
             }
         }
-        let distances = |case: &Case| wanted(case).into_iter().map(|(distance, _)| distance).collect();
+        let distances = |case: &Case| companions(case).into_iter().map(|(distance, _)| distance).collect();
         Self {
             distances: jobs.iter().map(|job| distances(job.case)).collect(),
-            tracks: jobs.iter().map(|job| Track::of(job.case)).collect(),
+            tracks: jobs.iter().map(|job| Track::new(job.case)).collect(),
             pairs,
         }
     }
@@ -233,9 +234,9 @@ impl Pair {
 }
 
 impl Observer for Companions {
-    fn see(&mut self, seen: &Observation<'_>) {
+    fn see(&mut self, observation: &Observation<'_>) {
         let tracks = self.tracks.iter_mut().enumerate();
-        let next: Vec<_> = tracks.map(|(lane, track)| track.next(seen, lane)).collect();
+        let next: Vec<_> = tracks.map(|(lane, track)| track.next(observation, lane)).collect();
         self.pairs.iter_mut().for_each(|pair| pair.add(&next));
     }
 

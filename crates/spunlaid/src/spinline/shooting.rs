@@ -5,12 +5,12 @@ use super::shot::{Outcome, Shot, shoot};
 use super::thread::{LN_SPEED, TEMPERATURE, TENSION, Thread};
 
 /// The tensions between which the one at the die is sought [N].
-const TENSIONS: [f64; 2] = [1e-8, 1e3];
+const TENSIONS: [f64; 2] = [1e-8, 1e2];
 /// From one tension to the next, `ln F_0` rises by this. With crystallisation there may be several steady states close together.
 const STRIDE: f64 = 0.4;
 const SHORT_STRIDE: f64 = 0.05;
-/// How far `ln F_0` is followed beyond the first steady state.
-const BEYOND: f64 = 2.0;
+/// Up to this tension a second steady state is sought [N].
+const MOST_OF_SECOND: f64 = 1.0;
 /// How closely `ln F_0` is found.
 const CLOSE: f64 = 1e-12;
 
@@ -64,7 +64,7 @@ impl Shooting<'_, '_> {
         (miss, reason)
     }
 
-    /// The first place above `from` at which the miss changes from negative to positive, as two places and their misses.
+    /// The first place above `from` at which the miss changes its sign, as two places and their misses.
     ///
     /// # Errors
     /// If there is none: why the thread misses the end under the largest tension.
@@ -74,7 +74,7 @@ impl Shooting<'_, '_> {
         while before.0 < to {
             let x = before.0 + stride;
             let (miss, reason) = self.miss(x);
-            if before.1 < 0.0 && miss >= 0.0 {
+            if (before.1 < 0.0) != (miss < 0.0) {
                 return Ok([before, (x, miss)]);
             }
             (before, last) = ((x, miss), reason);
@@ -112,8 +112,9 @@ impl Shooting<'_, '_> {
 pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
     let shooting = Shooting { thread };
     let [least, most] = TENSIONS.map(libm::log);
-    if shooting.miss(least).0 >= 0.0 {
-        return Err(Miss::TooMuch);
+    let (miss, reason) = shooting.miss(least);
+    if miss >= 0.0 {
+        return Err(reason.filter(|reason| *reason == Miss::ElasticWave).unwrap_or(Miss::TooMuch));
     }
     let bracket = shooting.bracket(least, most, STRIDE);
     let mut bracket = bracket.map_err(|last| if last.is_none() { Miss::ElasticWave } else { Miss::Slack })?;
@@ -122,7 +123,7 @@ pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
     }
     let x = brent(|x| shooting.miss(x).0, shooting.narrow(bracket)?);
     let shot = shooting.shot(x).filter(|shot| shot.outcome == Outcome::Complete).ok_or(Miss::NoThread)?;
-    let has_second = looks_on && shooting.bracket(x + 1e-3, x + BEYOND, SHORT_STRIDE).is_ok();
+    let has_second = looks_on && shooting.bracket(x + 1e-3, libm::log(MOST_OF_SECOND), SHORT_STRIDE).is_ok();
     Ok(Hit { tension: libm::exp(x), shot, has_second })
 }
 

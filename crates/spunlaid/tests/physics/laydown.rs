@@ -55,7 +55,7 @@ fn invariant_what_was_born_is_on_the_chain_or_laid() {
 fn invariant_the_laid_fibre_follows_the_belt() {
     let case = spunbond(&[("run.duration", "0.4 s")]);
     let line = case.line.unwrap();
-    let ratio = line.belt_speed / line.feed_speed;
+    let ratio = line.belt_ratio();
     for laid in laid_until(&mut flight(&case, 0..8), 0.4) {
         let counted: Vec<_> = laid.iter().filter(|point| point.fed > line.distance).collect();
         let (first, last) = (counted[0], counted[counted.len() - 1]);

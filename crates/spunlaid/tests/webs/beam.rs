@@ -1,5 +1,6 @@
 //! All filaments of a beam, flown together: limits that hold exactly, and nothing that depends on the threads.
 
+use spunlaid::air::Lateral;
 use spunlaid::beam::{Airs, Beam, Flown, Flying};
 use spunlaid::case::Case;
 use spunlaid::error::Error;
@@ -24,7 +25,7 @@ fn case() -> Case {
 }
 
 /// The same in air whose turbulence is the same across the flow or not.
-fn case_in(lateral: &str) -> Case {
+pub(super) fn case_in(lateral: &str) -> Case {
     let set = [
         ("belt.distance", "0.1 m"),
         ("run.duration", "0.1 s"),
@@ -35,18 +36,18 @@ fn case_in(lateral: &str) -> Case {
     read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap().0
 }
 
-fn sheet(columns: usize, rows: usize) -> Sheet {
+pub(super) fn sheet(columns: usize, rows: usize) -> Sheet {
     let [width, length] = [columns, rows].map(|cells| cells as f64 * CELL);
     Sheet { width, length, cell: CELL, patches: Vec::new(), edges: Edges::Periodic }
 }
 
 /// Filaments at an even pitch over the width.
-fn row(sheet: &Sheet, count: usize) -> Vec<Place> {
+pub(super) fn row(sheet: &Sheet, count: usize) -> Vec<Place> {
     let pitch = sheet.width / count as f64;
     (0..count).map(|i| Place { y: 0.0, z: (i as f64 + 0.5) * pitch }).collect()
 }
 
-fn lay_by(
+pub(super) fn lay_by(
     (case, sheet): (&Case, &Sheet),
     places: &[Place],
     airs: Airs,
@@ -65,15 +66,33 @@ fn lay(sheet: &Sheet, places: &[Place], airs: Airs) -> (LaidWeb, Flown) {
     lay_by((&case(), sheet), places, airs, Isa::detect(), 2)
 }
 
-fn cv(map: &Map, side: usize) -> f64 {
+pub(super) fn cv(map: &Map, side: usize) -> f64 {
     unevenness(map, side).unwrap().cv
 }
 
 /// In an air that is the same for all, a row at even pitch has no variation across, only bars along the belt.
 #[test]
 fn analytic_filaments_in_the_same_air_lay_the_same_curve() {
+    // Places are off by a rounding, which moves some quanta of a million to the next cell.
+    rows_lay_bars(&case(), 1e-4);
+}
+
+/// So is a field of eddies without a wave that fits across.
+#[test]
+fn limit_filaments_in_a_field_without_waves_across_lay_the_same_curve() {
+    let set = [("run.duration", "0.1 s"), ("run.spin_up", "40 ms"), ("air.lateral", "von-karman")];
+    let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let (mut case, _) = read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap();
+    case.air.lateral = Lateral::VonKarman { cutoff: 1e-3 };
+    // The field is interpolated in single precision. On the way of half a metre this moves a filament by less than a micrometre; on a
+    // short one, where fast air lays it, the folds make more of it.
+    rows_lay_bars(&case, 0.02);
+}
+
+/// * `most` – that cells beside each other may differ by, over the mean
+fn rows_lay_bars(case: &Case, most: f64) {
     let sheet = sheet(24, 64);
-    let (laid, _) = lay(&sheet, &row(&sheet, 24), Airs::Shared);
+    let (laid, _) = lay_by((case, &sheet), &row(&sheet, 24), Airs::Shared, Isa::detect(), 2);
     let (mut different, mut bars) = (0.0_f64, 0.0_f64);
     let mean = laid.map.total() as f64 / laid.map.cells.len() as f64;
     for row in 0..laid.map.rows {
@@ -83,8 +102,7 @@ fn analytic_filaments_in_the_same_air_lay_the_same_curve() {
             bars = bars.max((f64::from(*cell) / mean - 1.0).abs());
         }
     }
-    // Places are off by a rounding, which moves some quanta of a million to the next cell.
-    assert!(different < 1e-4, "{different}");
+    assert!(different < most, "{different}");
     assert!(bars > 0.1, "{bars}");
 }
 
@@ -142,8 +160,7 @@ fn found(sheet: &Sheet, laid: LaidWeb, flown: &Flown, filaments: Filaments) -> F
     let curve = |(_, points): &(usize, Vec<LaidPoint>)| -> Vec<[f64; 2]> {
         points.iter().filter(|point| point.fed >= start).map(|point| [point.md, point.cd]).collect()
     };
-    let curves =
-        Curves::new(spacing, line.belt_speed / line.feed_speed, flown.kept.iter().map(curve).collect());
+    let curves = Curves::new(spacing, line.belt_ratio(), flown.kept.iter().map(curve).collect());
     let layer = Layer {
         linear_density: case.fibre.element_mass() / spacing,
         feed_speed: line.feed_speed,

@@ -3,6 +3,7 @@
 
 mod beam;
 mod surrogate;
+mod two_filaments;
 mod web;
 mod web_errors;
 mod web_statistics;

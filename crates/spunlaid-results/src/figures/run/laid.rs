@@ -135,7 +135,7 @@ const REACH: f64 = 3.3;
 
 /// Where the fibre comes down about its straight trace, of all replicates whose laid fibre is kept.
 fn footprint(case: &Case, results: &Results) -> Figure {
-    let ratio = case.line.map_or(f64::NAN, |line| line.belt_speed / line.feed_speed);
+    let ratio = case.line.map_or(f64::NAN, |line| line.belt_ratio());
     let curves: Vec<Vec<(f64, f64)>> =
         results.trajectories.iter().map(|trajectory| about_straight_trace(trajectory, ratio)).collect();
     let points: Vec<(f64, f64)> = curves.iter().flatten().copied().collect();

@@ -37,7 +37,7 @@ impl Lattice {
 
     /// Whether a field is the same everywhere across.
     pub(super) fn is_uniform(&self) -> bool {
-        self.largest == 0.0
+        self.most_waves() == [0, 0]
     }
 
     /// The numbers of waves along z that go with a number of waves along y, from `-n` to `n`; none if the latter alone is too

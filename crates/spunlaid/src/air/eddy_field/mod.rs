@@ -71,6 +71,12 @@ impl EddyField {
         }
     }
 
+    /// The same field, of which nothing has been made.
+    #[must_use]
+    pub(crate) fn unmade(&self) -> Self {
+        self.with_key(self.key)
+    }
+
     /// Another field of the same air, with a key of its own.
     #[must_use]
     pub fn with_key(&self, key: StreamKey) -> Self {
@@ -78,7 +84,8 @@ impl EddyField {
         Self { key, tapes, made: 0.0..0.0, ..self.clone() }
     }
 
-    /// The most memory that a field takes [bytes].
+    /// The most memory that a field takes [bytes], if it is made in blocks of time of [`EddyField::block`]. What clones look at lives
+    /// as long as they do.
     ///
     /// * as of [`EddyField::new`]
     pub fn memory(air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
@@ -87,7 +94,7 @@ impl EddyField {
 
     /// A good length of the blocks of time for which the field is made [s].
     pub fn block(&self) -> f64 {
-        self.plan.repeat_time / 8.0
+        self.plan.block()
     }
 
     /// Whether the field can be looked at now.
@@ -99,15 +106,11 @@ impl EddyField {
     /// Makes what is looked at between two times [s], and forgets what lies before them.
     pub fn make(&mut self, times: Range<f64>, threads: usize) {
         let Self { plan, synthesis, key, .. } = self;
-        let last = plan.generations.len() - 1;
         for (j, tape) in self.tapes.iter_mut().enumerate() {
             let (spacing, margin) = (plan.spacing(j), NEEDED as f64);
-            let youngest = plan.generations[j.saturating_sub(1)].travel;
-            let oldest = plan.generations[(j + 1).min(last)].travel;
-            let travels = if plan.way.is_carried() { [youngest, oldest] } else { [0.0, 0.0] };
-            let travels = if last == 0 { [0.0, plan.way.longest_travel()] } else { travels };
-            let first = ((times.start - travels[1]) / spacing - margin).floor() as i64 - BEFORE;
-            let end = ((times.end - travels[0]) / spacing + margin).ceil() as i64 + 1;
+            let [youngest, oldest] = plan.way.travels(j);
+            let first = ((times.start - oldest) / spacing - margin).floor() as i64 - BEFORE;
+            let end = ((times.end - youngest) / spacing + margin).ceil() as i64 + 1;
             tape.extend((&**plan, &**synthesis, *key), j, first..end, threads);
         }
         self.made = times;

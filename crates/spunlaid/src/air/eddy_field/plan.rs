@@ -2,6 +2,7 @@
 
 use super::lattice::{Extent, Lattice, left, samples};
 use super::way::{Stage, WayOfEddies};
+use super::{synthesis, tape};
 use crate::air::{Air, Spectrum};
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -9,6 +10,8 @@ use std::f64::consts::{SQRT_2, TAU};
 const ENERGY_WAVE: f64 = 0.746834;
 /// Fewest harmonics, and fewest of the generation with the lowest cut-off frequency.
 const FEWEST: [f64; 2] = [64.0, 10.0];
+/// Blocks of time in a repeat time.
+const BLOCKS: f64 = 8.0;
 
 /// How a field is made and how it is read.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,7 +67,7 @@ impl Plan {
         let correlation =
             |j: usize| next(j).map_or([1.0; 3], |next| shapes[j].overlap(next).map(|part| part * walk));
         let correlations = (0..shapes.len()).map(correlation).collect();
-        let generations = shapes.into_iter().map(Shape::into_generation).collect();
+        let generations = shapes.into_iter().map(|shape| shape.generation).collect();
         Self { way, lattice, repeat_time, generations, correlations, turn: libm::acos(walk) }
     }
 
@@ -79,16 +82,35 @@ impl Plan {
         self.generations[generation].samples as f64 / self.repeat_time
     }
 
-    /// The most memory that a field takes, with blocks of time of a quarter of the repeat time [bytes].
+    /// A good length of the blocks of time for which a field is made [s].
+    pub(super) fn block(&self) -> f64 {
+        self.repeat_time / BLOCKS
+    }
+
+    /// The most memory that a field takes, made in such blocks [bytes].
     pub(super) fn memory(air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
         let way = WayOfEddies::new(air, distance);
         let (lattice, harmonics) = sizes(&way, extent, cutoff);
         let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
-        let samples: f64 =
-            way.stages.iter().map(|s| 4.0 * harmonics as f64 * s.cutoff_frequency / highest).sum();
-        let [y, z] = lattice.points.map(|points| points as f64);
-        12.0 * y * (z + 3.0) * samples * 1.6
+        let (mut kept, mut making) = (0.0, 0.0_f64);
+        for (j, stage) in way.stages.iter().enumerate() {
+            let of_stage = harmonics as f64 * stage.cutoff_frequency / highest;
+            let samples = samples(of_stage.ceil() as usize);
+            let [youngest, oldest] = way.travels(j);
+            let looked_at =
+                samples as f64 * (1.0 / BLOCKS + (oldest - youngest) * highest / harmonics as f64);
+            kept += tape::memory(&lattice, samples, looked_at) + of_stage * amplitudes_memory(&lattice);
+            making = making
+                .max(synthesis::memory(&lattice, of_stage) + tape::memory_while_joining(&lattice, samples));
+        }
+        kept + making
     }
+}
+
+/// Memory of the amplitudes of a harmonic [bytes].
+fn amplitudes_memory(lattice: &Lattice) -> f64 {
+    let [y, z] = lattice.most_waves().map(|most| (most + 1) as f64);
+    y * z * size_of::<f32>() as f64
 }
 
 /// The lattice and the number of harmonics up to the highest cut-off frequency.
@@ -155,10 +177,6 @@ impl Shape {
         };
         let harmonics = (0..amplitudes[0].len()).map(harmonic).collect();
         Self { generation: Generation { travel: stage.travel, samples, harmonics }, modes }
-    }
-
-    fn into_generation(self) -> Generation {
-        self.generation
     }
 
     /// Correlation of two shapes with the same random phases, of each component.                    theory.md (81)

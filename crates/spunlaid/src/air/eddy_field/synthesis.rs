@@ -123,14 +123,14 @@ impl Synthesis {
         let points_z = lattice.points[1];
         let [unit_y, unit_z] = lattice.wave_number_units();
         let [most_y, most_z] = lattice.most_waves();
-        let columns = 2 * most_y as usize + 1;
+        let (columns, is_alone) = (2 * most_y as usize + 1, lattice.is_uniform());
         let mut modes = [0, 1, 2].map(|_| [0, 1].map(|_| vec![0.0; points_z * columns]));
         for waves_y in -most_y..=most_y {
             let Some(beside) = lattice.waves_beside(waves_y) else { continue };
             let amplitudes = &harmonic.amplitudes[waves_y.unsigned_abs() as usize * (most_z as usize + 1)..];
             for waves_z in -beside..=beside {
                 let k = [harmonic.wave_number, waves_y as f64 * unit_y, waves_z as f64 * unit_z];
-                let projection = projection(k, lattice.is_uniform());
+                let projection = projection(k, is_alone);
                 let amplitude = amplitudes[waves_z.unsigned_abs() as usize];
                 let white = random.next(&self.phases, &self.turns);
                 let at = place(waves_z, points_z) * columns + (waves_y + most_y) as usize;
@@ -174,6 +174,13 @@ impl Synthesis {
     }
 }
 
+/// Memory that two windows with so many harmonics take while they are made [bytes]: the points of each harmonic, complex and of three
+/// components.
+pub(super) fn memory(lattice: &Lattice, harmonics: f64) -> f64 {
+    let [y, z] = lattice.points.map(|points| points as f64);
+    harmonics * y * z * (3 * size_of::<[f32; 2]>()) as f64
+}
+
 /// Some columns of a table, each a signal.
 fn load([re, im]: &Complexes, rows: usize, columns: usize, first: usize, count: usize) -> Vec<Numbers> {
     let row = |row: usize| {
@@ -193,6 +200,7 @@ fn half_turns(samples: usize) -> Vec<[f32; 2]> {
 fn place(waves: i64, points: usize) -> usize {
     if waves < 0 { (points as i64 + waves) as usize } else { waves as usize }
 }
+
 /// Random phases of the modes of one harmonic in a pair of windows, in their order.
 struct Random {
     stream: ChaCha8Rng,

@@ -1,6 +1,7 @@
 //! The samples of one generation, in the order of their labels.
 
 use super::Plan;
+use super::lattice::Lattice;
 use super::synthesis::{Line, Synthesis};
 use crate::air::StreamKey;
 use std::f64::consts::FRAC_PI_2;
@@ -69,6 +70,37 @@ impl Windows {
         let angle = FRAC_PI_2 * (sample as f64 + 0.5) / self.fade as f64;
         [libm::cos(angle) as f32, libm::sin(angle) as f32]
     }
+}
+
+/// The most memory of a tape with windows of so many samples [bytes].
+///
+/// * `looked_at` – samples that are looked at in a block of time
+pub(super) fn memory(lattice: &Lattice, period: usize, looked_at: f64) -> f64 {
+    let windows = Windows::new(period);
+    let block = (2 * windows.hop).div_ceil(BLOCKS) as f64;
+    // A pair of windows is made when less than what is looked at is left of the one before: that and the rest of its block.
+    let left = looked_at + 2.0 * NEEDED as f64 + block;
+    let repeated = ((1.0 + left / block).ceil() + BLOCKS as f64) * REPEATED as f64;
+    let rows = 2.0 * windows.hop as f64 + left + repeated;
+    rows * row_memory(lattice) + memory_of_rest(lattice, period)
+}
+
+/// What more a tape takes while a thread joins a pair of windows to it, line by line [bytes].
+pub(super) fn memory_while_joining(lattice: &Lattice, period: usize) -> f64 {
+    let Windows { fade, hop, .. } = Windows::new(period);
+    let samples = 2 * (2 * hop + fade + REPEATED) + 2 * period;
+    memory_of_rest(lattice, period) + samples as f64 * row_memory(lattice) / lattice.points[0] as f64
+}
+
+/// Memory of what a pair of windows leaves to the next [bytes].
+fn memory_of_rest(lattice: &Lattice, period: usize) -> f64 {
+    (Windows::new(period).fade + REPEATED) as f64 * row_memory(lattice)
+}
+
+/// Memory of a sample of all points [bytes].
+fn row_memory(lattice: &Lattice) -> f64 {
+    let [lines, points] = lattice.points;
+    (lines * (points + REPEATED) * size_of::<[f32; 3]>()) as f64
 }
 
 impl Tape {

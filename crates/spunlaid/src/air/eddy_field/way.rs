@@ -111,6 +111,16 @@ impl WayOfEddies {
         self.passages[PIECES].travel
     }
 
+    /// Travel times of the youngest and the oldest air that is looked at in a generation [s].
+    pub(super) fn travels(&self, generation: usize) -> [f64; 2] {
+        let last = self.stages.len() - 1;
+        match last {
+            0 => [0.0, self.longest_travel()],
+            _ if !self.is_carried() => [0.0, 0.0],
+            _ => [generation.saturating_sub(1), (generation + 1).min(last)].map(|j| self.stages[j].travel),
+        }
+    }
+
     /// The passage of the air at a distance `x` [m] from the inlet.
     #[inline(always)]
     pub(super) fn passage(&self, x: f64) -> Passage {

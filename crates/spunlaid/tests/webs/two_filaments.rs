@@ -1,0 +1,80 @@
+//! The unevenness of a web in one air from what two of its filaments have in common.
+
+use crate::beam::{case_in, cv, lay_by, row, sheet};
+use spunlaid::beam::Airs;
+use spunlaid::flight::LaidPoint;
+use spunlaid::lanes::Isa;
+
+/// Lags along the filament, in elements.
+const LAGS: usize = 60;
+
+/// Mean of `max(0, 1 − |d|/side)/side` over normal distances d: twice the density of the point that is common to two squares.
+///
+/// * `apart` – mean of the distances [m]
+/// * `variance` – of the distances [m²]
+fn overlap(apart: f64, variance: f64, side: f64) -> f64 {
+    let sigma = variance.max(1e-16).sqrt();
+    // The mean of what is above zero.
+    let above = |mean: f64| {
+        let z = mean / sigma;
+        let density = (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt();
+        0.5 * mean * libm::erfc(-z / std::f64::consts::SQRT_2) + sigma * density
+    };
+    (above(apart + side) - 2.0 * above(apart) + above(apart - side)) / (side * side)
+}
+
+/// Filaments whose places are jointly normal: with their correlations C of either direction at a distance across and a fed length,
+/// `CV² = p Σ ∫ dv [T(v, 2σ₁²(1 − C₁)) T(z, 2σ₂²(1 − C₂)) − T(v, 2σ₁²) T(z, 2σ₂²)]` over all neighbours at z and the belt v that
+/// passes meanwhile, with the pitch p and [`overlap`] T.
+#[test]
+fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
+    const COUNT: usize = 64;
+    let (sheet, case) = (sheet(COUNT, 2000), case_in("von-karman"));
+    let (laid, flown) = lay_by((&case, &sheet), &row(&sheet, COUNT), Airs::Shared, Isa::detect(), 2);
+    assert_eq!(flown.kept.len(), COUNT);
+    let (line, spacing) = (case.line.unwrap(), case.fibre.rest_length());
+    let per_point = line.belt_ratio() * spacing;
+    // Places about the straight trace, point by point of each filament.
+    let skip = (line.feed_speed * case.run.spin_up() / spacing).round() as usize;
+    let count = flown.kept.iter().map(|(_, points)| points.len()).min().unwrap();
+    let places = |(_, points): &(usize, Vec<LaidPoint>)| -> Vec<[f64; 2]> {
+        let places = points[skip..count].iter().enumerate();
+        let places: Vec<_> = places.map(|(k, point)| [point.md + k as f64 * per_point, point.cd]).collect();
+        let mean = [0, 1].map(|d| places.iter().map(|place| place[d]).sum::<f64>() / places.len() as f64);
+        places.iter().map(|place| [place[0] - mean[0], place[1] - mean[1]]).collect()
+    };
+    let curves: Vec<Vec<[f64; 2]>> = flown.kept.iter().map(places).collect();
+    let covariance = |neighbour: usize, lag: usize| {
+        let (mut sums, mut pairs) = ([0.0; 2], 0.0);
+        for (i, curve) in curves.iter().enumerate() {
+            let other = &curves[(i + neighbour) % COUNT];
+            for k in (0..curve.len() - lag).step_by(5) {
+                (0..2).for_each(|d| sums[d] += curve[k][d] * other[k + lag][d]);
+                pairs += 1.0;
+            }
+        }
+        sums.map(|sum| sum / pairs)
+    };
+    let variance = covariance(0, 0);
+    let pitch = sheet.width / COUNT as f64;
+    let covariances: Vec<_> = (0..COUNT)
+        .flat_map(|neighbour| (0..LAGS).map(move |lag| (neighbour, lag)))
+        .map(|(neighbour, lag)| (neighbour, lag, covariance(neighbour, lag)))
+        .collect();
+    for side in [10, 20] {
+        let patch = side as f64 * sheet.cell;
+        let sum: f64 = covariances
+            .iter()
+            .map(|(neighbour, lag, covariance)| {
+                // The nearest of them on the ring of the sheet; the belt runs before and after.
+                let z = (*neighbour).min(COUNT - neighbour) as f64 * pitch;
+                let (v, both) = (*lag as f64 * per_point, if *lag == 0 { 1.0 } else { 2.0 });
+                let part = |share: [f64; 2]| overlap(v, share[0], patch) * overlap(z, share[1], patch);
+                let rest = [0, 1].map(|d| 2.0 * (variance[d] - covariance[d]));
+                both * (part(rest) - part(variance.map(|variance| 2.0 * variance)))
+            })
+            .sum();
+        let (expected, found) = ((pitch * per_point * sum).sqrt(), cv(&laid.map, side));
+        assert!((expected / found - 1.0).abs() < 0.05, "{side} mm: {expected} for {found}");
+    }
+}
