@@ -169,13 +169,22 @@ const ROWS: u64 = 8;
 
 /// The file of a spinline is read or refused; what is read writes and reads back to the same bits, and is solved or refused for a
 /// reason. Gives whether it was read.
+///
+/// What stands after a line `--air` is the table of the air along the line.
 pub fn spinline(data: &[u8]) -> bool {
     let text = String::from_utf8_lossy(data);
+    let (text, air) = text.split_once("\n--air\n").unwrap_or((&text, ""));
     // Reading such a line flies fibres, which takes long.
     if text.contains("flown") {
         return false;
     }
-    match parse_spinline(&text, "fuzz.toml", &[]) {
+    let mut set = Vec::new();
+    if !air.is_empty() {
+        let path = std::env::temp_dir().join(format!("spunlaid_fuzz_{}.csv", std::process::id()));
+        std::fs::write(&path, air).expect("a folder for temporary files");
+        set.push(("spinline.profile".to_owned(), path.display().to_string()));
+    }
+    match parse_spinline(text, "fuzz.toml", &set) {
         Ok(file) => {
             file.notes.iter().for_each(|note| assert_sayable(note, 1));
             let written = write_spinline(&file.spec);
