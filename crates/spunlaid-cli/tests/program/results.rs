@@ -145,7 +145,7 @@ fn the_summary_has_the_fields_that_are_promised() {
     assert_eq!(keys(performance), sorted(fields));
     assert_eq!(performance["element_steps"], 3 * 4 * 500);
     let case = &summary["case"];
-    assert_eq!(keys(case), sorted("fibre feed belt air drag neighbours run"));
+    assert_eq!(keys(case), sorted("spinline fibre feed belt air drag neighbours run"));
     assert_eq!(case["fibre"]["diameter_m"], 50e-6);
     assert_eq!(case["fibre"]["element_length_m"], 0.05);
     assert_eq!(case["air"]["velocity_m_s"], 10.0);

@@ -208,9 +208,20 @@ pub fn resolved(case: &Case) -> InOrder<InOrder<Json>> {
             entries.push(("flow".to_owned(), case.air.flow.name().into()));
             entries.push(("records".to_owned(), case.air.records.len().into()));
         }
-        (name.to_owned(), InOrder(entries))
+        entries
     };
-    InOrder(keys::TABLES.map(table).into())
+    let mut tables: Vec<(String, InOrder<Json>)> = Vec::new();
+    for name in keys::TABLES {
+        match (name.split_once('.'), tables.last_mut()) {
+            // A table within the one before it.
+            (Some((_, short)), Some((_, InOrder(entries)))) => {
+                let inner = table(name).into_iter().collect();
+                entries.push((short.to_owned(), Json::Object(inner)));
+            }
+            _ => tables.push((name.to_owned(), InOrder(table(name)))),
+        }
+    }
+    InOrder(tables)
 }
 
 /// A value as JSON. Files are given by their names without folders.

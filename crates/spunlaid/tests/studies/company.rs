@@ -48,7 +48,7 @@ fn pairs(key: &Key, case: &Case) -> Vec<(usize, [String; 2])> {
     let there = key.get(case);
     match key.kind {
         Kind::Quantity(..) => {
-            let (least, greatest) = key.slider.unwrap_or((0.5, 2.0));
+            let (least, greatest) = key.slider.or(key.usual).unwrap_or((0.5, 2.0));
             let middle = 0.5 * (least + greatest);
             let centre = there.as_ref().and_then(Value::number).unwrap_or(middle);
             let at = |share: f64| least + share * (greatest - least);

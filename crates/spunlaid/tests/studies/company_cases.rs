@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use tempfile::TempDir;
 
 /// Cases to start from, of each kind of fibre and air. Between them, every key has a meaning.
-pub const CASES: [(&str, &str); 10] = [
+pub const CASES: [(&str, &str); 13] = [
     ("fixed", FIXED),
     ("fixed, convected", CONVECTED),
     ("fixed, in a profile", PROFILE),
@@ -16,6 +16,9 @@ pub const CASES: [(&str, &str); 10] = [
     ("fed", FED),
     ("fed, sliding in a profile", SLIDING),
     ("fed, in a field", FED_IN_FIELD),
+    ("spun by air", SPUN_BY_AIR),
+    ("spun by air in a table", SPUN_IN_TABLE),
+    ("spun to a take-up speed", TAKEN_UP),
 ];
 
 pub const FIXED: &str = "version = 1
@@ -231,6 +234,75 @@ output_interval = '0.4 ms'
 time_step = '40 µs'
 ";
 
+/// What flies below a spinline, `BELOW` in a case.
+const BELOW: &str = "[fibre]
+element_length = '4 mm'
+root = 'clamped'
+[belt]
+distance = '40 mm'
+speed = '2 m/s'
+[air]
+velocity = '25 m/s'
+turbulence_intensity = 0.1
+length_scale = '16 mm'
+cutoff_frequency = '400 Hz'
+[run]
+duration = '6 ms'
+spin_up = '3 ms'
+output_interval = '0.5 ms'
+time_step = '20 µs'
+";
+
+const SPUN_BY_AIR: &str = "version = 1
+[spinline]
+polymer = 'pp'
+die_temperature = '230 °C'
+hole_diameter = '0.6 mm'
+throughput = '0.5 g/min'
+length = '2 m'
+velocity = '30 m/s'
+cross_velocity = '1 m/s'
+temperature = '20 °C'
+break_stress = '20 MPa'
+end_tension = '0.1 mN'
+emissivity = 0.5
+rows = 2
+filaments_per_metre_and_row = 100
+[spinline.material]
+viscosity = '220 Pa s'
+viscosity_temperature = '230 °C'
+BELOW";
+
+const SPUN_IN_TABLE: &str = "version = 1
+[spinline]
+polymer = 'pp'
+melt_flow_rate = 35
+die_temperature = '230 °C'
+hole_diameter = '0.6 mm'
+throughput = '0.5 g/min'
+length = '1.6 m'
+profile = '../../cases/tables/spinline.csv'
+law = 'giesekus'
+end_tension = '0.1 mN'
+BELOW";
+
+const TAKEN_UP: &str = "version = 1
+[spinline]
+polymer = 'pp'
+melt_flow_rate = 35
+die_temperature = '230 °C'
+hole_diameter = '0.6 mm'
+throughput = '1 g/min'
+length = '2 m'
+velocity = '0 m/s'
+cross_velocity = '0.3 m/s'
+temperature = '20 °C'
+end = 'take-up'
+take_up_speed = '25 m/s'
+law = 'ptt'
+crystallisation = true
+BELOW";
+
 /// A few points of a flow that widens along x, with its turbulence, and the beginning of a record: small, because every study
 /// reads them anew.
 fn files() -> &'static Path {
@@ -256,5 +328,6 @@ fn files() -> &'static Path {
 /// The text of a case with its files.
 pub fn with_files(text: &str) -> String {
     let path = |name: &str| files().join(name).display().to_string();
-    text.replace("DROP", DROP).replace("FIELD", &path("field.csv")).replace("RECORD", &path("record.csv"))
+    let text = text.replace("DROP", DROP).replace("BELOW", BELOW);
+    text.replace("FIELD", &path("field.csv")).replace("RECORD", &path("record.csv"))
 }
