@@ -1,7 +1,7 @@
 //! Spinlines, from the case file to the filament, against values from outside the code.
 
 use spunlaid::input::{SpinFile, parse_spinline, read_spinline, write_spinline};
-use spunlaid::spinline::{Solution, Station};
+use spunlaid::spinline::{AirChange, Curtain, Solution, Station, Surroundings};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
@@ -156,6 +156,27 @@ fn identical_after_writing_and_reading() {
         assert_eq!(write_spinline(&again.spec), text);
         assert_eq!(format!("{:?}", again.spec), format!("{:?}", file.spec), "{name}");
         assert_eq!(again.solve().unwrap(), file.solve().unwrap(), "{name}");
+    }
+}
+
+/// Factors on a table of the air do what a table with such numbers does, and the rows behind the first meet that air once only.
+#[test]
+fn consistent_factors_of_the_air() {
+    let [mut factors, mut numbers] = ["pp_slot", "pp_slot"].map(read);
+    let change = AirChange { velocity_factor: 1.25, cross_velocity_factor: 0.7, temperature_offset: 15.0 };
+    factors.spec.spinline.air_change = change;
+    let mut air = numbers.spec.spinline.air.table().unwrap().clone();
+    air.velocity.iter_mut().for_each(|u| *u *= change.velocity_factor);
+    air.cross_velocity.iter_mut().for_each(|v| *v *= change.cross_velocity_factor);
+    air.temperature.iter_mut().for_each(|t| *t += change.temperature_offset);
+    numbers.spec.spinline.air = Surroundings::Behind(air);
+    for file in [&mut factors, &mut numbers] {
+        file.spec.spinline.curtain = Some(Curtain { rows: 3, filaments_per_metre: 200.0 });
+    }
+    let unchanged = solve("pp_slot").final_diameter;
+    for (row, (a, b)) in factors.solve().unwrap().iter().zip(numbers.solve().unwrap()).enumerate() {
+        close(&format!("row {row}"), a.final_diameter, b.final_diameter, 1e-9);
+        assert!((a.final_diameter / unchanged - 1.0).abs() > 0.01, "row {row}");
     }
 }
 
