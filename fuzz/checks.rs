@@ -1,7 +1,7 @@
 //! What must hold whatever the readers are given: of the fuzzers' inputs, and of their findings in the tests.
 
 use spunlaid::field::{Field, Hint};
-use spunlaid::input::{parse_case, parse_web, starter_case, write_case};
+use spunlaid::input::{parse_case, parse_spinline, parse_web, starter_case, write_case, write_spinline};
 use spunlaid::record::{self, Layout, parse_csv, parse_parquet};
 use spunlaid::scan::{self, Light};
 use std::fmt::Display;
@@ -154,6 +154,60 @@ pub fn web(data: &[u8]) -> bool {
                     assert_eq!(again.text, web.text);
                 }
                 Err(error) => panic!("{error}\n{}", web.text),
+            }
+            true
+        }
+        Err(error) => {
+            assert_sayable(&error, 21);
+            false
+        }
+    }
+}
+
+/// Rows of a curtain that is solved, at most: more of them take long and show nothing new.
+const ROWS: u64 = 8;
+
+/// The file of a spinline is read or refused; what is read writes and reads back to the same bits, and is solved or refused for a
+/// reason. Gives whether it was read.
+///
+/// What stands after a line `--air` is the table of the air along the line.
+pub fn spinline(data: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(data);
+    let (text, air) = text.split_once("\n--air\n").unwrap_or((&text, ""));
+    // Reading such a line flies fibres, which takes long.
+    if text.contains("flown") {
+        return false;
+    }
+    let mut set = Vec::new();
+    if !air.is_empty() {
+        let path = std::env::temp_dir().join(format!("spunlaid_fuzz_{}.csv", std::process::id()));
+        std::fs::write(&path, air).expect("a folder for temporary files");
+        set.push(("spinline.profile".to_owned(), path.display().to_string()));
+    }
+    match parse_spinline(text, "fuzz.toml", &set) {
+        Ok(file) => {
+            file.notes.iter().for_each(|note| assert_sayable(note, 1));
+            let written = write_spinline(&file.spec);
+            match parse_spinline(&written, "written.toml", &[]) {
+                Ok(again) => {
+                    assert_eq!(format!("{:?}", again.spec), format!("{:?}", file.spec), "{written}");
+                    assert_eq!(write_spinline(&again.spec), written);
+                }
+                Err(error) => panic!("{error}\n{written}"),
+            }
+            if file.spec.spinline.curtain.is_some_and(|curtain| curtain.rows > ROWS) {
+                return true;
+            }
+            match file.solve() {
+                Ok(rows) => {
+                    for row in &rows {
+                        let end = [row.final_speed, row.final_diameter, row.linear_density];
+                        assert!(end.into_iter().all(|x| x.is_finite() && x > 0.0), "{end:?}\n{written}");
+                        let distances = row.stations.iter().map(|station| station.distance);
+                        assert!(distances.is_sorted(), "{written}");
+                    }
+                }
+                Err(error) => assert_sayable(&error, 21),
             }
             true
         }

@@ -10,7 +10,6 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::ensemble::Computing;
-use spunlaid::error::FileKind;
 use spunlaid::input::{
     Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text, write_experiment,
 };
@@ -42,16 +41,17 @@ pub(crate) struct Study {
 
 #[pymethods]
 impl Study {
-    /// * study: the path of a study file, or its text with the case (text, name, changes) or the path of the web that it varies
+    /// * study: the path of a study file, or its text with the case (text, name, changes), or with the path of the web or
+    ///   the spinline that it varies
     /// * out: the folder of the journal and the results; without one they stay in memory
     #[new]
-    #[pyo3(signature = (study, case = None, web = None, out = None, force = false, points = None, replicates = None, set = None))]
+    #[pyo3(signature = (study, case = None, path = None, out = None, force = false, points = None, replicates = None, set = None))]
     #[expect(clippy::too_many_arguments, reason = "they are those of spunlaid.sweep")]
     fn new(
         py: Python<'_>,
         study: &Bound<'_, PyAny>,
         case: Option<&Case>,
-        web: Option<PathBuf>,
+        path: Option<PathBuf>,
         out: Option<PathBuf>,
         force: bool,
         points: Option<u64>,
@@ -59,13 +59,13 @@ impl Study {
         set: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let changed = set.map_or_else(|| Ok(Vec::new()), overrides)?;
-        let (name, file) = match (case, web) {
-            (None, Some(web)) => {
+        let (name, file) = match (case, path) {
+            (None, Some(path)) => {
                 let text: String = study.extract()?;
                 let set = Overrides { values: &changed, word: "sweep:" };
                 let changes = StudyChanges { points, replicates, set };
                 let file = guarded(py, || {
-                    let base = |_: &str, _| Ok((read_text(&web, FileKind::Web)?, web.display().to_string()));
+                    let base = |_: &str, kind| Ok((read_text(&path, kind)?, path.display().to_string()));
                     parse_changed_study(&text, "study", &changes, base)
                 })?;
                 ("study".to_owned(), file)

@@ -78,3 +78,10 @@ def test_rejects_spinlines_without_a_steady_state() -> None:
         spunlaid.spin({})
     with pytest.raises(spunlaid.FileError):
         spunlaid.spin("nowhere.toml")
+
+
+def test_a_study_of_a_dict_is_that_of_the_spinlines() -> None:
+    throughputs = [5e-6, 8e-6]
+    study = spunlaid.sweep({"spinline": CASES / "spinline.toml", "vary": {"spinline.throughput": throughputs}})
+    alone = [spunlaid.spin(CASES / "spinline.toml", set={"spinline.throughput": value}) for value in throughputs]
+    assert list(study.mean["final_diameter_m"]) == [line.final_diameter_m for line in alone]

@@ -390,7 +390,7 @@ fn limit_a_field_of_eddies_takes_the_memory_that_is_told_before() {
                     field.make(from..from + field.block(), 1);
                 }
             });
-            let (found, told) = (memory.peak as f64, EddyField::memory(&air, 0.5, extent, cutoff));
+            let (found, told) = (memory.peak as f64, EddyField::memory(1, &air, 0.5, extent, cutoff));
             assert!((0.75 * told..told).contains(&found), "{what}: {found} of {told}");
         }
     }

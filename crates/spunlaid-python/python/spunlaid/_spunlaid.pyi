@@ -162,7 +162,7 @@ class Study:
         cls,
         study: str,
         case: Case | None = None,
-        web: str | None = None,
+        path: str | None = None,
         out: str | None = None,
         force: bool = False,
         points: int | None = None,

@@ -153,8 +153,8 @@ def sweep(
     """Flies a study: the same bits as `spunlaid sweep`, on any machine and any number of them.
 
     study: the path of a study file; or a dict with what such a file says, `{"case": case, "vary": {"air.velocity": [5, 10]},
-        "replicates": 8}`, where `case` is a Case, a dict or the path of a case file, or `web` is the path of the file of a web,
-        numbers are in SI units, and the design
+        "replicates": 8}`, where `case` is a Case, a dict or the path of a case file, or `web` or `spinline` is the path of the
+        file of a web or of a spinline, numbers are in SI units, and the design
         is a grid if it is left out
     client: a client of dask.distributed, whose workers then fly the fibres or lay the webs
     out: the folder for journal, tables, figures and report, as `spunlaid sweep` writes it; a study that was stopped goes
@@ -188,10 +188,11 @@ def _begin(
 ) -> _spunlaid.Study:
     out = None if out is None else os.fspath(out)
     if isinstance(study, Mapping):
-        if "web" in study and "case" not in study:
-            web = os.fspath(study["web"])
-            return _spunlaid.Study(study_toml(study), None, web, out, force, points, replicates, changes)
         if "case" not in study:
+            for name in ("web", "spinline"):
+                if name in study:
+                    path = os.fspath(study[name])
+                    return _spunlaid.Study(study_toml(study), None, path, out, force, points, replicates, changes)
             raise ValueError('a study needs a case: {"case": spunlaid.Case.starter(), "vary": {...}}')
         case = study["case"]
         if isinstance(case, Mapping):

@@ -18,7 +18,7 @@ def study_toml(study: Mapping[str, Any]) -> str:
     lines: list[str] = [] if "design" in study else ['design = "grid"']
     tables: list[str] = []
     for name, value in study.items():
-        if name in ("case", "web"):
+        if name in ("case", "web", "spinline"):
             lines.append(f'{name} = "{name}.toml"')
         elif isinstance(value, Mapping) and name in ("vary", "link", "set"):
             tables.append(f"\n[{name}]")

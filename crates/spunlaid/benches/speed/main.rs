@@ -1,8 +1,8 @@
 //! What a flight costs on this machine, in nanoseconds per element and step of a fibre.
 //!
 //!     cargo bench -p spunlaid                       # all of it, two minutes
-//!     cargo bench -p spunlaid -- kernel threads     # parts: kernel, growth, fed, web, wind, field, ensemble,
-//!                                                   # threads, accuracy
+//!     cargo bench -p spunlaid -- kernel threads     # parts: kernel, growth, fed, web, spinline, wind, field,
+//!                                                   # ensemble, threads, accuracy
 //!
 //! Processor time, the least of many short repetitions taken in turn; absolute figures wander with the
 //! machine's clock, ratios within a run hold. What the figures were, and the least they could be, is in
@@ -20,16 +20,18 @@ mod field;
 mod flights;
 mod kernel;
 mod measure;
+mod spinline;
 mod web;
 mod wind;
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    let parts: [(&str, fn()); 9] = [
+    let parts: [(&str, fn()); 10] = [
         ("kernel", kernel::instruction_sets),
         ("growth", kernel::growth),
         ("fed", fed::against_fixed),
         ("web", web::costs),
+        ("spinline", spinline::costs),
         ("wind", wind::costs),
         ("field", field::costs),
         ("ensemble", ensemble::costs),

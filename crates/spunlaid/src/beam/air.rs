@@ -49,7 +49,9 @@ impl Beam<'_> {
         let (case, extent) = (self.case, self.extent_of_air(sheet));
         match case.air.lateral {
             Lateral::Uniform => 0.0,
-            Lateral::VonKarman { cutoff } => EddyField::memory(&case.air, case.way_of_air(), extent, cutoff),
+            Lateral::VonKarman { cutoff } => {
+                EddyField::memory(1, &case.air, case.way_of_air(), extent, cutoff)
+            }
         }
     }
 

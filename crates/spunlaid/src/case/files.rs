@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 impl Case {
     /// The files that the case was read from, each with the parts that it names, relative to its folder.
     pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
-        let of_spinline = self.spinline.iter().flat_map(Spinline::files);
+        let of_spinline = self.spinline.iter().flat_map(|spinline| spinline.files());
         self.air.files().into_iter().chain(of_spinline).collect()
     }
 
     /// The same case with its files at other paths.
     pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
-        let spinline = self.spinline.as_ref().map(|spinline| spinline.with_files_at(&place));
+        let spinline = self.spinline.as_ref().map(|spinline| Box::new(spinline.with_files_at(&place)));
         Self { air: self.air.with_files_at(place), spinline, ..self.clone() }
     }
 }

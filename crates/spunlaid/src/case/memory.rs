@@ -63,8 +63,8 @@ impl Case {
         let (turbulence, synthesis, field) = match air.field_cutoff() {
             None => (turbulence, synthesis, 0.0),
             Some(cutoff) => {
-                let one = EddyField::memory(air, self.way_of_air(), self.extent_of_air(), cutoff);
-                (0.0, 0.0, one * self.replicates_of_a_flight() as f64)
+                let (fields, extent) = (self.replicates_of_a_flight(), self.extent_of_air());
+                (0.0, 0.0, EddyField::memory(fields, air, self.way_of_air(), extent, cutoff))
             }
         };
         let number_of_instants = (self.run.steps / self.run.output_steps.max(1) + 1) as f64;

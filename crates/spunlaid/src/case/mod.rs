@@ -43,7 +43,7 @@ pub struct Case {
     /// distance to the belt.
     pub line: Option<Line>,
     /// The spinline that gives diameter, density and feed speed; `None` where the case gives them itself.
-    pub spinline: Option<Spinline>,
+    pub spinline: Option<Box<Spinline>>,
     /// Fibres that fly beside each replicate in the same air.
     pub neighbours: Neighbours,
     /// Time, integration and ensemble.

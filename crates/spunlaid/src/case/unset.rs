@@ -11,7 +11,7 @@ use crate::vec3::Vec3;
 impl From<&SpinSpec> for Case {
     /// A case with nothing but a spinline and its drag laws, whose keys can be read and set.
     fn from(spec: &SpinSpec) -> Self {
-        Self { spinline: Some(spec.spinline.clone()), drag: spec.drag, ..Self::unset() }
+        Self { spinline: Some(Box::new(spec.spinline.clone())), drag: spec.drag, ..Self::unset() }
     }
 }
 

@@ -39,7 +39,7 @@ pub(super) fn open_part(
     let (mut case, mut notes) = (Case::unset(), Vec::new());
     let fed = ["feed", "belt", "spinline"].iter().any(|table| written.has_table(table));
     if written.has_table("spinline") {
-        case.spinline = Some(Spinline::UNKNOWN);
+        case.spinline = Some(Box::new(Spinline::UNKNOWN));
     }
     if fed {
         case.line = Some(Line::UNKNOWN);

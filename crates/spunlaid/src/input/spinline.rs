@@ -98,13 +98,13 @@ impl SpinFile {
     pub(super) fn of(open: Open) -> Self {
         let Open { written, case, mut notes } = open;
         notes.extend(case.unusual_in(&TABLES).into_iter().map(|note| written.placed(note)));
-        let spinline = case.spinline.unwrap_or(Spinline::UNKNOWN);
+        let spinline = case.spinline.map_or(Spinline::UNKNOWN, |spinline| *spinline);
         Self { spec: SpinSpec { spinline, drag: case.drag }, notes, written }
     }
 
     /// The spinline from which a case is fed; `None` if it has none.
     pub fn of_case(case: &Case) -> Option<Self> {
-        let (spinline, written) = (case.spinline.clone()?, WrittenValues::new(Place::Code));
+        let (spinline, written) = (case.spinline.as_deref()?.clone(), WrittenValues::new(Place::Code));
         Some(Self { spec: SpinSpec { spinline, drag: case.drag }, notes: Vec::new(), written })
     }
 

@@ -1,5 +1,5 @@
 //! What the fuzzers found, and what they start from, put to the same checks as their inputs. A finding is kept
-//! as a file in `fuzz_findings/case`, `record`, `field`, `scan` or `web`.
+//! as a file in `fuzz_findings/case`, `record`, `field`, `scan`, `web` or `spinline`.
 
 use crate::checks;
 use std::fs;
@@ -57,4 +57,14 @@ fn scans_found_by_the_fuzzer() {
 fn webs_found_by_the_fuzzer() {
     let (read, refused) = replay(checks::web, &["tests/fuzz_findings/web", "../../cases", "tests/bad_webs"]);
     assert!(read >= 1 && refused >= 100, "{read} read, {refused} refused");
+}
+
+/// The fuzzer starts from these files alone, without the tables of air that most of them name; those are refused.
+#[test]
+fn spinlines_found_by_the_fuzzer() {
+    let (read, refused) = replay(
+        checks::spinline,
+        &["tests/fuzz_findings/spinline", "../../cases", "tests/spinline_cases", "tests/bad_cases"],
+    );
+    assert!(read >= 10 && refused >= 50, "{read} read, {refused} refused");
 }

@@ -3,6 +3,7 @@
 use spunlaid::case::keys::{self, Kind, LeftOut, Value};
 use spunlaid::case::{Case, ERROR_TOLERANCE};
 use spunlaid::input::{parse_case, read_case, starter_case};
+use spunlaid::spinline::{Melt, Polymer};
 use std::fs;
 
 fn starter() -> Case {
@@ -158,4 +159,55 @@ fn identical_default_of_the_tolerance() {
     let tolerance = keys::find("run.error_tolerance").unwrap();
     assert_eq!(tolerance.left_out, LeftOut::Value("0.003"));
     assert_eq!("0.003".parse(), Ok(ERROR_TOLERANCE));
+}
+
+/// docs/spinline.md has a row for each constant of a polymer, and its cells, read as a case file is read, are the constants of the
+/// code to the bit.
+#[test]
+fn identical_constants_of_polymers_on_their_page() {
+    const TABLE: &str = "spinline.material";
+    // What the viscosity is of a polymer whose grade decides it.
+    const NONE: &str = "–";
+    let page = fs::read_to_string("../../docs/spinline.md").unwrap();
+    let section = page.split("\n## ").find(|section| section.starts_with("The constants of four polymers\n"));
+    let mut rows = section.unwrap().lines().filter(|line| line.starts_with("| ")).map(|line| {
+        let cells = line.trim_matches('|').split('|').map(str::trim);
+        cells.collect::<Vec<_>>()
+    });
+    let heads = rows.next().unwrap();
+    let polymers = Polymer::ALL.map(Polymer::name);
+    assert_eq!(heads, [&["key"][..], &polymers, &["source"]].concat());
+    let (case, _) = read_case("../../cases/whole_line_fibre.toml".as_ref(), &[]).unwrap();
+    let (mut seen, mut compared) = (Vec::new(), 0);
+    for row in rows {
+        assert_eq!(row.len(), heads.len(), "{row:?}");
+        assert!(!row[heads.len() - 1].is_empty(), "{row:?} has no source");
+        let crystallises = row[0].ends_with("with `crystallisation = true`");
+        let key = keys::named(&format!("{TABLE}.{}", row[0].split('`').nth(1).unwrap())).unwrap();
+        for (polymer, written) in Polymer::ALL.into_iter().zip(&row[1..]) {
+            let mut case = case.clone();
+            let line = case.spinline.as_mut().unwrap();
+            (line.material, line.melt) = (polymer.material(crystallises), Melt::Viscosity);
+            let mut again = case.clone();
+            match key.get(&case) {
+                Some(constant) => {
+                    key.set(&mut again, *written).unwrap_or_else(|problem| panic!("{problem}"));
+                    assert_eq!(
+                        key.get(&again),
+                        Some(constant),
+                        "{} of {}: {written}",
+                        key.name,
+                        polymer.name()
+                    );
+                    compared += 1;
+                }
+                None => assert_eq!(*written, NONE, "{} of {}", key.name, polymer.name()),
+            }
+        }
+        seen.push(key.name);
+    }
+    for key in keys::of_table(TABLE).filter(|key| key.dimension().is_some()) {
+        assert!(seen.contains(&key.name), "{} has no row", key.name);
+    }
+    assert!(compared > 100, "{compared} constants are compared");
 }

@@ -84,12 +84,12 @@ impl EddyField {
         Self { key, tapes, made: 0.0..0.0, ..self.clone() }
     }
 
-    /// The most memory that a field takes [bytes], if it is made in blocks of time of [`EddyField::block`]. What clones look at lives
-    /// as long as they do.
+    /// The most memory that so many fields take [bytes], if one after the other is made in blocks of time of [`EddyField::block`].
+    /// What clones look at lives as long as they do.
     ///
     /// * as of [`EddyField::new`]
-    pub fn memory(air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
-        Plan::memory(air, distance, extent, cutoff)
+    pub fn memory(fields: u64, air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
+        Plan::memory(fields, air, distance, extent, cutoff)
     }
 
     /// A good length of the blocks of time for which the field is made [s].

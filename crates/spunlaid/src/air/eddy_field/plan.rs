@@ -87,8 +87,8 @@ impl Plan {
         self.repeat_time / BLOCKS
     }
 
-    /// The most memory that a field takes, made in such blocks [bytes].
-    pub(super) fn memory(air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
+    /// The most memory that so many fields take, of which one at a time is made in such blocks [bytes].
+    pub(super) fn memory(fields: u64, air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
         let way = WayOfEddies::new(air, distance);
         let (lattice, harmonics) = sizes(&way, extent, cutoff);
         let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
@@ -103,7 +103,7 @@ impl Plan {
             making = making
                 .max(synthesis::memory(&lattice, of_stage) + tape::memory_while_joining(&lattice, samples));
         }
-        kept + making
+        kept * fields as f64 + making
     }
 }
 

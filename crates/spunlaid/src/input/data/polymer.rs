@@ -23,7 +23,7 @@ pub(super) fn read(text: &str, name: &str) -> Result<PolymerFile, FileError> {
     if let Some(first) = written.problems.first() {
         return Err(Box::new(first.clone()));
     }
-    let mut case = Case { spinline: Some(Spinline::UNKNOWN), ..Case::unset() };
+    let mut case = Case { spinline: Some(Box::new(Spinline::UNKNOWN)), ..Case::unset() };
     for (key, said) in written.all() {
         let constant = keys::find(key).filter(|key| key.table() == TABLE);
         let (Some(constant), Some(value)) = (constant, &said.value) else {
@@ -35,7 +35,7 @@ pub(super) fn read(text: &str, name: &str) -> Result<PolymerFile, FileError> {
         };
         constant.apply(&mut case, value).map_err(|what| problem(key, what))?;
     }
-    let line = case.spinline.clone().unwrap_or(Spinline::UNKNOWN);
+    let line = case.spinline.as_deref().cloned().unwrap_or(Spinline::UNKNOWN);
     // What every polymer has: the constants of one that does not crystallise.
     let polymer = Polymer::Pla;
     let usual = Spinline {
@@ -43,7 +43,7 @@ pub(super) fn read(text: &str, name: &str) -> Result<PolymerFile, FileError> {
         polymer: PolymerSource::Known(polymer),
         ..Spinline::UNKNOWN
     };
-    let usual = Case { spinline: Some(usual), ..Case::unset() };
+    let usual = Case { spinline: Some(Box::new(usual)), ..Case::unset() };
     let missing = |key: &'static Key| Some((key, key.get(&usual)?)).filter(|_| key.get(&case).is_none());
     if let Some((key, value)) = keys::of_table(TABLE).find_map(missing) {
         let example = format!("a line like {} = {}", key.short(), toml_value(&key.kind, value));

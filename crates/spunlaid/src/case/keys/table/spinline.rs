@@ -586,7 +586,7 @@ fn known(number: f64) -> Option<Value> {
 
 fn spinline(case: &mut Case) -> Result<&mut Spinline, Fault> {
     let remedy = "leave it out, or describe the spinline";
-    case.spinline.as_mut().ok_or_else(|| Fault::needs("[spinline]", remedy))
+    case.spinline.as_deref_mut().ok_or_else(|| Fault::needs("[spinline]", remedy))
 }
 
 fn curtain(case: &mut Case) -> Result<&mut Curtain, Fault> {

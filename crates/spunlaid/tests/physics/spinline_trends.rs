@@ -1,0 +1,56 @@
+//! Which way a spinline goes when something is changed, where measurements say which way. Their numbers are not compared.
+
+use spunlaid::input::read_spinline;
+use spunlaid::spinline::{FreezingCause, Solution};
+use std::path::Path;
+
+/// A spinline of a file under other settings.
+fn solve(file: &str, set: &[(&str, &str)]) -> Solution {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let line = read_spinline(&path, &set).unwrap_or_else(|error| panic!("{error}"));
+    line.solve().unwrap_or_else(|error| panic!("{error}")).remove(0)
+}
+
+/// Polypropylene crystallises nearer to the die, and hotter, with a faster take-up, a colder die and a lower melt flow rate: F.-M. Lu and
+/// J. E. Spruiell, The influence of resin characteristics on the high speed melt spinning of isotactic polypropylene, part II; the
+/// abstract, with melt flow rates of 12, 35 and 300.
+#[test]
+fn published_trends_of_crystallisation_on_the_line() {
+    let onset = |set: &[(&str, &str)]| {
+        let freezing = solve("tests/spinline_cases/pp_crystal_3000.toml", set).freezing;
+        assert_eq!(freezing.by, FreezingCause::Crystallisation, "{set:?}");
+        (freezing.distance, freezing.temperature)
+    };
+    for (key, values) in [
+        ("spinline.take_up_speed", ["4000 m/min", "3000 m/min", "2000 m/min"]),
+        ("spinline.die_temperature", ["210 °C", "230 °C", "270 °C"]),
+        ("spinline.melt_flow_rate", ["12", "35", "300"]),
+    ] {
+        let onsets = values.map(|value| onset(&[(key, value)]));
+        for pair in onsets.windows(2) {
+            let [(near, hot), (far, cold)] = [pair[0], pair[1]];
+            // A trend, not the tolerance of the solution: by 5 % and 1 K at least.
+            assert!(near < 0.95 * far && hot > cold + 1.0, "{key}: {onsets:?}");
+        }
+    }
+}
+
+/// A spunbond filament of polypropylene is finer with less throughput, a hotter melt, hotter air and a faster suction: B. Zhao,
+/// Investigation of fiber diameter in spunbonding process via mathematical modeling; the abstract.
+#[test]
+fn published_trends_of_the_diameter_in_a_spunbond_line() {
+    let uniform = [("spinline.profile", "auto"), ("spinline.cross_velocity", "0.2 m/s")];
+    let diameter = |set: &[(&str, &str)]| solve("../../cases/spinline.toml", set).final_diameter;
+    let in_uniform_air = |set: &[(&str, &str)]| diameter(&[&uniform[..], set].concat());
+    for diameters in [
+        ["0.4 g/min", "0.5 g/min", "0.6 g/min"].map(|value| diameter(&[("spinline.throughput", value)])),
+        ["240 °C", "230 °C", "220 °C"].map(|value| diameter(&[("spinline.die_temperature", value)])),
+        ["60 m/s", "50 m/s", "40 m/s"].map(|value| in_uniform_air(&[("spinline.velocity", value)])),
+        ["60 °C", "40 °C", "20 °C"]
+            .map(|value| in_uniform_air(&[("spinline.velocity", "40 m/s"), ("spinline.temperature", value)])),
+    ] {
+        // A trend, not the tolerance of the solution: by 3 % at least.
+        assert!(diameters.windows(2).all(|pair| pair[0] < 0.97 * pair[1]), "{diameters:?}");
+    }
+}
