@@ -278,7 +278,7 @@ fn a_study_of_a_spinline_continues_and_runs_again_to_the_same_bits() {
         assert!(said.contains(part), "{part}\n{said}");
     }
     assert!(desk.entries("a").contains("spinline.toml"));
-    assert!(desk.entries("a/figures").contains("final_diameter_over_spinline_throughput.svg"));
+    assert!(desk.entries("a/figures").contains("final_diameter_over_spinline_die_temperature.svg"));
     // A point is a spinline as it is solved alone.
     let single = success(&mut desk.with(
         "spin line.toml --json",

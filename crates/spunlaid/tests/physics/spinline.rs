@@ -180,6 +180,55 @@ fn consistent_factors_of_the_air() {
     }
 }
 
+/// A spinline in a field of air, which ends 0.3 m below the top of the field.
+const IN_A_FIELD: &str = r#"
+version = 1
+
+[spinline]
+polymer = "pp"
+melt_flow_rate = 35
+die_temperature = "230 °C"
+hole_diameter = "0.6 mm"
+throughput = "0.1 g/min"
+length = "0.25 m"
+field = true
+temperature = "25 °C"
+
+[air]
+field = "../../cases/fields/spunbond.vtu"
+field_root = ["0.3 m", "0 m", "0 m"]
+"#;
+
+#[test]
+fn consistent_air_of_a_field_and_of_a_table_with_its_numbers() {
+    let read = |set: &[(&str, &str)]| {
+        let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        parse_spinline(IN_A_FIELD, "field.toml", &set).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let file = read(&[]);
+    assert_eq!(
+        file.notes[0].to_string(),
+        "field.toml:11: spinline.field = true takes the velocity of the air along the spinline from the field, and its temperature, \
+         25 °C everywhere, from spinline.temperature"
+    );
+    let air = file.spec.spinline.air.table().unwrap().clone();
+    // The field slows down from 60 to 10 m/s on half a metre.
+    let [first, last] = [air.velocity[0], *air.velocity.last().unwrap()];
+    assert!(first < 60.0 && first > last && last > 10.0, "{first} {last}");
+    assert!(air.temperature.iter().all(|temperature| *temperature == 298.15));
+    let mut by_table = file.clone();
+    by_table.spec.spinline.air = Surroundings::Behind(air.clone());
+    assert_eq!(by_table.solve().unwrap(), file.solve().unwrap());
+    // What is written gives the same again, with the field.
+    let text = write_spinline(&file.spec);
+    let again = parse_spinline(&text, "again.toml", &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    assert_eq!(again.solve().unwrap(), file.solve().unwrap());
+    assert_eq!(write_spinline(&again.spec), text);
+    // The factor of the air counts here as in flight.
+    let slower = read(&[("air.speed_factor", "0.5")]);
+    assert_eq!(slower.spec.spinline.air.table().unwrap().velocity[0], 0.5 * first);
+}
+
 #[test]
 fn published_rows_of_another_program() {
     // The other program holds the air of the rows on other heights, 5 mm apart: it finds 0.03 % of difference between grids.
