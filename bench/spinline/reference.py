@@ -171,7 +171,9 @@ class Spinline:
             with open(folder / line["profile"]) as file:
                 rows = [[float(cell) for cell in row] for row in list(csv.reader(file))[1:]]
             z, *air = np.array(rows).T
-            self.set_air(z * 1e-3, air[0], air[1], air[2] + ZERO)
+            along, across = (line.get(key, 1.0) for key in ("velocity_factor", "cross_velocity_factor"))
+            warmer = line.get("temperature_offset", 0.0)
+            self.set_air(z * 1e-3, along * air[0], across * air[1], air[2] + ZERO + warmer)
         else:
             constant = [line["velocity"], line["cross_velocity"], line["temperature"]]
             self.set_air(*np.array([[0.0, self.length], *([value] * 2 for value in constant)]))

@@ -237,8 +237,7 @@ pub(crate) fn absolute(case: &spunlaid::case::Case) -> spunlaid::case::Case {
 
 /// The spinline with the full paths of its files.
 pub(crate) fn absolute_spinline(spec: &spunlaid::spinline::SpinSpec) -> spunlaid::spinline::SpinSpec {
-    let spinline = spec.spinline.with_files_at(full_path);
-    spunlaid::spinline::SpinSpec { spinline, drag: spec.drag }
+    spec.with_files_at(full_path)
 }
 
 fn full_path(file: &std::path::Path) -> std::path::PathBuf {

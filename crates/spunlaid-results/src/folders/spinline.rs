@@ -7,7 +7,6 @@ use crate::output::spinline::{SpinResults, Summary, write_stations};
 use crate::output::{beside, pictures};
 use crate::report::{SpinReport, spinline_html};
 use spunlaid::input::{SpinFile, write_spinline};
-use spunlaid::spinline::SpinSpec;
 use spunlaid_charts::Figure;
 
 /// Everything of a spinline that goes into the files.
@@ -34,10 +33,9 @@ impl SpinFolder<'_> {
     /// # Errors
     /// If a file cannot be written.
     pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
-        let SpinSpec { spinline, drag } = &self.file.spec;
-        let copied = beside::copy(spinline.files(), &staging.place(beside::CASE_FILES).0)?;
-        let spinline = spinline.with_files_at(beside::place(&copied));
-        let toml = write_spinline(&SpinSpec { spinline, drag: *drag });
+        let spec = &self.file.spec;
+        let copied = beside::copy(spec.files(), &staging.place(beside::CASE_FILES).0)?;
+        let toml = write_spinline(&spec.with_files_at(beside::place(&copied)));
         write_stations(staging, &[(1, &self.results.rows)])?;
         let figures = self.figures();
         pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;

@@ -197,7 +197,7 @@ impl<'a> StudyFolder<'a> {
 fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure> {
     let files = file.study.points.iter().flat_map(|point| match &point.experiment {
         Experiment::Case(case) => case.files(),
-        Experiment::Spinline(spec) => spec.spinline.files(),
+        Experiment::Spinline(spec) => spec.files(),
         Experiment::Web(_) => Vec::new(),
     });
     let copied = beside::copy(files, &staging.place(CASE_FILES).0)?;

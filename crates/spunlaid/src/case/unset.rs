@@ -9,9 +9,11 @@ use crate::spinline::SpinSpec;
 use crate::vec3::Vec3;
 
 impl From<&SpinSpec> for Case {
-    /// A case with nothing but a spinline and its drag laws, whose keys can be read and set.
+    /// A case with nothing but a spinline, its drag laws and its field of air, whose keys can be read and set.
     fn from(spec: &SpinSpec) -> Self {
-        Self { spinline: Some(Box::new(spec.spinline.clone())), drag: spec.drag, ..Self::unset() }
+        let unset = Self::unset();
+        let air = spec.air.clone().unwrap_or_else(|| unset.air.clone());
+        Self { spinline: Some(Box::new(spec.spinline.clone())), drag: spec.drag, air, ..unset }
     }
 }
 

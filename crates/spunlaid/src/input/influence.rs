@@ -60,7 +60,9 @@ impl SpinFile {
                     key.set(&mut case, change.apply(value, sign)).ok()?;
                     solve(&case).ok()
                 };
-                found.extend(change.influence(key.name, key.label, changed));
+                // A factor on the air stands for the air.
+                let label = key.label.trim_end_matches(", factor").trim_end_matches(", change");
+                found.extend(change.influence(key.name, label, changed));
             }
         }
         found.sort_by(|a, b| b.diameter.abs().total_cmp(&a.diameter.abs()));

@@ -64,11 +64,21 @@ pub(super) fn open_spinline(mut written: WrittenValues, files: &DataFiles) -> Re
         let remedy = "describe the line in a table [spinline]; `cases/spinline.toml` is an example";
         written.reject("[spinline]", Fault::new("is missing", remedy));
     }
-    let has_field = written.text("spinline.field").is_some_and(|word| word == "true");
-    let wanted = |key: &Key| TABLES.contains(&key.table()) || has_field && key.name.starts_with("air.field");
+    let has_field = takes_field(&written);
+    let wanted = |key: &Key| TABLES.contains(&key.table()) || has_field && is_of_field(key.name);
     let mut open = open_part(written, files, wanted)?;
     open.complete_spinline()?;
     Ok(open)
+}
+
+/// Whether the velocity of the air along the line is that of a CFD field.
+fn takes_field(written: &WrittenValues) -> bool {
+    written.text("spinline.field").is_some_and(|word| word == "true")
+}
+
+/// Whether a key says where a CFD field is, or how fast it flows.
+fn is_of_field(key: &str) -> bool {
+    key.starts_with("air.field") || key == "air.speed_factor"
 }
 
 /// Whether a file describes a spinline and no fibre that flies. False if it cannot be read.
@@ -80,7 +90,8 @@ pub fn holds_spinline_alone(path: &Path) -> bool {
 /// Whether a spinline is written, and nothing of a fibre that flies.
 pub(super) fn is_spinline_alone(written: &WrittenValues) -> bool {
     const OF_FLIGHTS: [&str; 5] = ["fibre", "feed", "belt", "air", "run"];
-    written.has_table("spinline") && !OF_FLIGHTS.into_iter().any(|table| written.has_table(table))
+    let is_of_flight = |table| written.has_table(table) && !(table == "air" && takes_field(written));
+    written.has_table("spinline") && !OF_FLIGHTS.into_iter().any(is_of_flight)
 }
 
 /// Writes a spinline as a file that reads back to the same bits.
@@ -91,6 +102,12 @@ pub fn write_spinline(spec: &SpinSpec) -> String {
         let lines = write::lines(&keys::CASE, table, &case, |_, value| value);
         text += &format!("\n[{table}]\n{}", write::in_lines(&lines));
     }
+    if spec.air.is_some() {
+        let mut lines = write::lines(&keys::CASE, "air", &case, |_, value| value);
+        lines
+            .retain(|line| line.split_once(" = ").is_some_and(|(key, _)| is_of_field(&format!("air.{key}"))));
+        text += &format!("\n[air]\n{}", write::in_lines(&lines));
+    }
     text
 }
 
@@ -99,13 +116,17 @@ impl SpinFile {
         let Open { written, case, mut notes } = open;
         notes.extend(case.unusual_in(&TABLES).into_iter().map(|note| written.placed(note)));
         let spinline = case.spinline.map_or(Spinline::UNKNOWN, |spinline| *spinline);
-        Self { spec: SpinSpec { spinline, drag: case.drag }, notes, written }
+        let takes_field = matches!(spinline.air, Surroundings::Field { .. });
+        let air = takes_field.then_some(case.air);
+        Self { spec: SpinSpec { spinline, drag: case.drag, air }, notes, written }
     }
 
     /// The spinline from which a case is fed; `None` if it has none.
     pub fn of_case(case: &Case) -> Option<Self> {
         let (spinline, written) = (case.spinline.as_deref()?.clone(), WrittenValues::new(Place::Code));
-        Some(Self { spec: SpinSpec { spinline, drag: case.drag }, notes: Vec::new(), written })
+        let takes_field = matches!(spinline.air, Surroundings::Field { .. });
+        let air = takes_field.then(|| case.air.clone());
+        Some(Self { spec: SpinSpec { spinline, drag: case.drag, air }, notes: Vec::new(), written })
     }
 
     /// The steady state of each row of the curtain, the quenched side first; one if there is no curtain.

@@ -25,7 +25,7 @@ pub use material::{Crystals, Material, Polymer, PolymerFile, ZERO_CELSIUS};
 pub use solution::{Freezing, FreezingCause, Solution, Station};
 pub use surroundings::{AirChange, AirState, AirTable, Surroundings};
 
-use crate::air::FromFile;
+use crate::air::{Air, FromFile};
 use crate::drag::{Drag, FrictionLaw};
 use crate::error::Fault;
 
@@ -81,6 +81,8 @@ pub struct SpinSpec {
     pub spinline: Spinline,
     /// The drag laws.
     pub drag: Drag,
+    /// The air of the case, if the line takes its velocity from a CFD field.
+    pub air: Option<Air>,
 }
 
 impl SpinSpec {

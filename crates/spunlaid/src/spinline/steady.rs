@@ -70,6 +70,9 @@ fn key_of_air(air: &Surroundings, value: f64, key: &'static str) -> (&'static st
     }
 }
 
+const NO_THREAD: &str =
+    "has no steady state: with any tension at the die the thread is either slack or faster than 2000 m/s";
+
 /// Why no tension at the die meets the end of the line.
 fn missed(thread: &Thread<'_>, miss: Miss) -> Failure {
     let (line, air) = (thread.line, thread.air);
@@ -97,16 +100,12 @@ fn missed(thread: &Thread<'_>, miss: Miss) -> Failure {
             Failure::new("spinline.throughput", Some(line.throughput), Fault::new(message, remedy))
         }
         (Miss::NoThread | Miss::Slack, End::Tension(tension) | End::Flown(tension)) if tension != 0.0 => {
-            let message = "leaves no steady state: with any tension at the die the thread is either slack or faster than \
-                           2000 m/s";
             let remedy = "write \"0 N\" for a free end, or a small tension like \"0.1 mN\"";
-            Failure::new("spinline.end_tension", Some(tension), Fault::new(message, remedy))
+            Failure::new("spinline.end_tension", Some(tension), Fault::new(NO_THREAD, remedy))
         }
         (Miss::NoThread | Miss::Slack, End::TakeUp(speed)) => {
-            let message = "leaves no steady state: with any tension at the die the thread is either slack or faster than \
-                           2000 m/s";
             let remedy = "lower it, heat the die, or write a higher melt flow rate";
-            Failure::new("spinline.take_up_speed", Some(speed), Fault::new(message, remedy))
+            Failure::new("spinline.take_up_speed", Some(speed), Fault::new(NO_THREAD, remedy))
         }
         (Miss::TooMuch | Miss::Slack, _) => {
             let velocity = match air {
@@ -115,16 +114,13 @@ fn missed(thread: &Thread<'_>, miss: Miss) -> Failure {
             };
             let (key, value) = key_of_air(air, velocity, "spinline.velocity");
             let message =
-                "leaves no steady state: the air does not pull, it is slower than the filament everywhere";
+                "has no steady state: the air does not pull, it is slower than the filament everywhere";
             Failure::new(key, value, Fault::new(message, "check the direction and the speed of the air"))
         }
         (Miss::NoThread, _) => Failure::new(
             "spinline.throughput",
             Some(line.throughput),
-            Fault::new(
-                "has no steady state: with any tension at the die the thread is either slack or faster than 2000 m/s",
-                "check the viscosity of the melt, the air and the throughput",
-            ),
+            Fault::new(NO_THREAD, "check the viscosity of the melt, the air and the throughput"),
         ),
     }
 }

@@ -52,7 +52,7 @@ pub(super) struct Thread<'a> {
     pub(super) line: &'a Spinline,
     pub(super) friction: FrictionLaw,
     pub(super) air: &'a Surroundings,
-    air_change: AirChange,
+    pub(super) air_change: AirChange,
     /// Acceleration of gravity [m/s²].
     pub(super) gravity: f64,
     /// `k Nu` [W/(m K)], if it does not follow from the air; exact solutions have a constant one.

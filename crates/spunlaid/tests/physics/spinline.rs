@@ -1,7 +1,7 @@
 //! Spinlines, from the case file to the filament, against values from outside the code.
 
 use spunlaid::input::{SpinFile, parse_spinline, read_spinline, write_spinline};
-use spunlaid::spinline::{Solution, Station};
+use spunlaid::spinline::{AirChange, Curtain, Solution, Station, Surroundings};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
@@ -129,7 +129,7 @@ fn published_spinlines_of_another_program() {
 fn published_failures_of_another_program() {
     // What the message says of each failure that bench/spinline/reference.py finds.
     let words = |failure: &str| match failure {
-        "solid" => "is too short: the polymer is still at",
+        "solid" => "freezes at",
         "pull" => "the air does not pull",
         "take-up" => "the speed of the melt in the hole",
         "break" => "is exceeded",
@@ -157,6 +157,76 @@ fn identical_after_writing_and_reading() {
         assert_eq!(format!("{:?}", again.spec), format!("{:?}", file.spec), "{name}");
         assert_eq!(again.solve().unwrap(), file.solve().unwrap(), "{name}");
     }
+}
+
+/// Factors on a table of the air do what a table with such numbers does, and the rows behind the first meet that air once only.
+#[test]
+fn consistent_factors_of_the_air() {
+    let [mut factors, mut numbers] = ["pp_slot", "pp_slot"].map(read);
+    let change = AirChange { velocity_factor: 1.25, cross_velocity_factor: 0.7, temperature_offset: 15.0 };
+    factors.spec.spinline.air_change = change;
+    let mut air = numbers.spec.spinline.air.table().unwrap().clone();
+    air.velocity.iter_mut().for_each(|u| *u *= change.velocity_factor);
+    air.cross_velocity.iter_mut().for_each(|v| *v *= change.cross_velocity_factor);
+    air.temperature.iter_mut().for_each(|t| *t += change.temperature_offset);
+    numbers.spec.spinline.air = Surroundings::Behind(air);
+    for file in [&mut factors, &mut numbers] {
+        file.spec.spinline.curtain = Some(Curtain { rows: 3, filaments_per_metre: 200.0 });
+    }
+    let unchanged = solve("pp_slot").final_diameter;
+    for (row, (a, b)) in factors.solve().unwrap().iter().zip(numbers.solve().unwrap()).enumerate() {
+        close(&format!("row {row}"), a.final_diameter, b.final_diameter, 1e-9);
+        assert!((a.final_diameter / unchanged - 1.0).abs() > 0.01, "row {row}");
+    }
+}
+
+/// A spinline in a field of air, which ends 0.3 m below the top of the field.
+const IN_A_FIELD: &str = r#"
+version = 1
+
+[spinline]
+polymer = "pp"
+melt_flow_rate = 35
+die_temperature = "230 °C"
+hole_diameter = "0.6 mm"
+throughput = "0.1 g/min"
+length = "0.25 m"
+field = true
+temperature = "25 °C"
+
+[air]
+field = "../../cases/fields/spunbond.vtu"
+field_root = ["0.3 m", "0 m", "0 m"]
+"#;
+
+#[test]
+fn consistent_air_of_a_field_and_of_a_table_with_its_numbers() {
+    let read = |set: &[(&str, &str)]| {
+        let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        parse_spinline(IN_A_FIELD, "field.toml", &set).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let file = read(&[]);
+    assert_eq!(
+        file.notes[0].to_string(),
+        "field.toml:11: spinline.field = true takes the velocity of the air along the spinline from the field, and its temperature, \
+         25 °C everywhere, from spinline.temperature"
+    );
+    let air = file.spec.spinline.air.table().unwrap().clone();
+    // The field slows down from 60 to 10 m/s on half a metre.
+    let [first, last] = [air.velocity[0], *air.velocity.last().unwrap()];
+    assert!(first < 60.0 && first > last && last > 10.0, "{first} {last}");
+    assert!(air.temperature.iter().all(|temperature| *temperature == 298.15));
+    let mut by_table = file.clone();
+    by_table.spec.spinline.air = Surroundings::Behind(air.clone());
+    assert_eq!(by_table.solve().unwrap(), file.solve().unwrap());
+    // What is written gives the same again, with the field.
+    let text = write_spinline(&file.spec);
+    let again = parse_spinline(&text, "again.toml", &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    assert_eq!(again.solve().unwrap(), file.solve().unwrap());
+    assert_eq!(write_spinline(&again.spec), text);
+    // The factor of the air counts here as in flight.
+    let slower = read(&[("air.speed_factor", "0.5")]);
+    assert_eq!(slower.spec.spinline.air.table().unwrap().velocity[0], 0.5 * first);
 }
 
 #[test]

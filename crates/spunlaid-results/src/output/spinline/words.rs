@@ -43,7 +43,7 @@ pub fn filament(case: &Case) -> Vec<String> {
 pub fn freezing(solution: &Solution) -> String {
     let point = solution.freezing;
     format!(
-        "The thread is drawn {}-fold and freezes {} below the die, at {}, {}, under a stress of {} MPa and while it cools by {} K/s.",
+        "The thread is drawn {}-fold and freezes {} below the die, at {}, {}, under a stress of {} MPa and while it cools at {} K/s.",
         significant(solution.draw_ratio(), 3),
         Dimension::Length.pretty_to(point.distance, 3),
         Dimension::Temperature.pretty_to(point.temperature, 4),

@@ -83,7 +83,7 @@ impl Base for CaseBase {
     fn quantities(&self) -> Vec<Quantity> {
         match self.kind {
             FileKind::Spinline => {
-                let spec = SpinSpec { spinline: Spinline::UNKNOWN, drag: self.open.case.drag };
+                let spec = SpinSpec { spinline: Spinline::UNKNOWN, drag: self.open.case.drag, air: None };
                 Study::quantities_of(&[Point { values: Vec::new(), experiment: Experiment::Spinline(spec) }])
             }
             _ => Study::quantities_of(&[]),

@@ -259,7 +259,7 @@ pub(super) const KEYS: &[Key] = &[
     .value("1.0")
     .usual(0.1, 10.0)
     .meaning("Factor on the velocity along the thread of `spinline.profile` or of the field: more or less drawing air.")
-    .label("Air velocity *u*, factor")
+    .label("Air velocity along the thread *u*, factor")
     .slider(0.2, 2.0),
     quantity("spinline.cross_velocity_factor", Dimension::Ratio, NotNegative, of_air_change!(
         cross_velocity_factor,
