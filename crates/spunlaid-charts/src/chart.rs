@@ -30,7 +30,8 @@ impl Series {
     /// A solid line or dots of one colour.
     pub fn new(label: &str, colour: &'static str) -> Self {
         let name = Some(plain(label));
-        Self { label: Some(label.to_owned()), name, full: None, colour, marker: None, width: 1.5, dash: None }
+        let label = (!label.is_empty()).then(|| label.to_owned());
+        Self { label, name, full: None, colour, marker: None, width: 1.5, dash: None }
     }
 
     /// Blue circles, for the first of two quantities.

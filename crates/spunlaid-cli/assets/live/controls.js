@@ -17,7 +17,7 @@ function labelled(element, label) {
   }
 }
 
-const TITLES = { fibre: "Fibre", feed: "Feed", belt: "Belt", air: "Air", drag: "Drag", run: "Computation" };
+const TITLES = { spinline: "Spinline", fibre: "Fibre", feed: "Feed", belt: "Belt", air: "Air", drag: "Drag", run: "Computation" };
 
 class Controls {
   /** `set(key, value)` is called when something is changed. */
@@ -92,11 +92,10 @@ class Controls {
     return name[0].toUpperCase() + name.slice(1);
   }
 
-  /** The value at a notch, with three digits. */
+  /** The value at a notch in SI units; the program rounds it in the unit in which it is shown. */
   value({ low, high, logarithmic }, notch) {
     const share = notch / NOTCHES;
-    const value = logarithmic ? low * (high / low) ** share : low + share * (high - low);
-    return Number(value.toPrecision(3));
+    return logarithmic ? low * (high / low) ** share : low + share * (high - low);
   }
 
   notch({ low, high, logarithmic }, value) {
@@ -116,9 +115,12 @@ class Controls {
     }
   }
 
-  /** Remembers the slider under a pointer: it is not moved by what the program says. */
-  watch() {
+  /** Remembers the slider under a pointer: it is not moved by what the program says. `released` is called when it is let go. */
+  watch(released) {
     this.form.addEventListener("pointerdown", (e) => (this.held = e.target.type === "range" ? e.target : null));
-    addEventListener("pointerup", () => (this.held = null));
+    addEventListener("pointerup", () => {
+      this.held = null;
+      released();
+    });
   }
 }

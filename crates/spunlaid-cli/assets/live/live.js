@@ -9,7 +9,8 @@ const seen = { frames: 0, drawn: 0, latency: [], errors: [] };
 const view = new View(byId("fibre"));
 const plots = new Plots(byId);
 const controls = new Controls(byId("settings"), change);
-controls.watch();
+// A slider that was let go where it was refused goes back.
+controls.watch(() => byId("refused").hidden || controls.show(page.state.values));
 const asked = new Map();
 
 /** Asks for a change and remembers when. */
@@ -41,8 +42,10 @@ const link = new Link({
     const change = asked.get(stamp);
     if (change) change.generation = generation;
     problems([]);
+    refusal([]);
   },
   refused({ problems: all }) {
+    refusal(all);
     edited(byId("text").value !== page.state?.text);
     problems(all);
   },
@@ -83,10 +86,18 @@ function state(told) {
   play.setAttribute("aria-pressed", String(!told.stands));
   const notes = [...(told.trouble ? [`The fibres were lost and have started anew: ${told.trouble}`] : []), ...told.notes];
   byId("remark").textContent = told.remark ? `${told.remark[0].toUpperCase()}${told.remark.slice(1)}.` : "";
+  byId("filament").hidden = told.filament.length === 0;
+  byId("filament").replaceChildren(...told.filament.map(sentence));
   byId("notes").hidden = notes.length === 0;
   byId("notes").replaceChildren(...notes.map((note) => Object.assign(document.createElement("li"), { textContent: note })));
   if (!page.dirty) editor(told.text);
   status();
+}
+
+/** An entry of a list that begins with a capital and ends with a full stop. */
+function sentence(text) {
+  const textContent = `${text[0].toUpperCase()}${text.slice(1)}${text.endsWith(".") ? "" : "."}`;
+  return Object.assign(document.createElement("li"), { textContent });
 }
 
 /** Keeps the numbers and curves of the setting that ends, if they had been taken for a while. */
@@ -198,6 +209,15 @@ function problems(all) {
   editor(null, new Map(all.filter((p) => p.line).map((p) => [p.line, p.text])));
 }
 
+/** Says beside the sliders what cannot be done; what flies stays. */
+function refusal(all) {
+  const box = byId("refused");
+  box.hidden = all.length === 0;
+  const lines = all.map(({ text }) => Object.assign(document.createElement("p"), { textContent: text }));
+  const kept = Object.assign(document.createElement("p"), { textContent: "The setting before flies on." });
+  box.replaceChildren(...lines, kept);
+}
+
 /** Marks a line of the case. */
 function mark(line) {
   const area = byId("text");
@@ -220,11 +240,13 @@ byId("text").addEventListener("scroll", () => (byId("lines").scrollTop = byId("t
 byId("fly").addEventListener("click", () => {
   edited(false);
   problems([]);
+  refusal([]);
   link.ask({ do: "case", text: byId("text").value });
 });
 byId("undo").addEventListener("click", () => {
   edited(false);
   problems([]);
+  refusal([]);
   editor(page.state.text);
 });
 byId("save").addEventListener("click", () => {

@@ -100,8 +100,8 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
         schema_version: 1,
         spunlaid_version: env!("CARGO_PKG_VERSION"),
         case: resolved(case),
-        throughput_kg_s: case.line.map(|line| throughput(case, line)),
-        linear_density_kg_m: case.line.map(|_| linear_density(case)),
+        throughput_kg_s: case.throughput(),
+        linear_density_kg_m: case.line.map(|_| case.linear_density()),
         spinline: SpinSummary::of_case(case),
         elements: case.fibre.elements,
         eddies: case.stations().map_or_else(|| case.eddies().count(), |stations| stations.count),
@@ -173,28 +173,9 @@ const OF_STARTER: [(f64, &str); 5] = [
     (16.0, "the frequency less than 2 % too high, and the amplitude less than 1 %"),
 ];
 
-/// Mass per length of the fibre [kg/m].
-fn linear_density(case: &Case) -> f64 {
-    case.fibre.density * case.fibre.cross_section()
-}
-
-/// Mass flow of a fed fibre, which is that of its hole [kg/s].
-fn throughput(case: &Case, line: Line) -> f64 {
-    linear_density(case) * line.feed_speed
-}
-
 /// What comes out of the hole, feed, belt and stations of the air.
 fn fed(case: &Case, line: Line) {
-    say::line(&format!(
-        "#   filaments of {}, {} dtex, fed at {}: {} g/min from each hole",
-        Dimension::Length.pretty_to(case.fibre.diameter, 4),
-        significant(linear_density(case) * 1e7, 3),
-        Dimension::Velocity.pretty_to(line.feed_speed, 4),
-        significant(throughput(case, line) * 6e4, 3),
-    ));
-    if let Some(solution) = case.spinline.as_ref().and_then(|spinline| spinline.solve(case.drag.along).ok()) {
-        say::line(&format!("#   from the spinline: {}", spinline::freezing(&solution)));
-    }
+    spinline::filament(case).iter().for_each(|sentence| say::line(&format!("#   {sentence}")));
     let length = |metres: f64| Dimension::Length.pretty_to(metres, 3);
     let rest_length = case.fibre.rest_length();
     say::line(&format!(

@@ -6,9 +6,10 @@ use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Key, Kind};
 use spunlaid::error::{Error, Place};
 use spunlaid::input::{LARGEST_FILE, parse_case};
+use spunlaid::units::Dimension;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use toml_edit::{DocumentMut, Item, Value, value};
+use toml_edit::{DocumentMut, Item, TableLike, Value, value};
 
 /// Most memory of a flight [bytes]. A larger one would answer too slowly.
 const MOST_MEMORY: f64 = 256e6;
@@ -87,7 +88,7 @@ impl Document {
     /// Whether the text gives a value for a key of a table.
     pub(super) fn gives(&self, table: &str, key: &str) -> bool {
         let document = self.text.parse::<DocumentMut>();
-        document.is_ok_and(|document| document.get(table).and_then(|table| table.get(key)).is_some())
+        document.is_ok_and(|document| table_of(&document, table).is_some_and(|table| table.contains_key(key)))
     }
 
     /// The same document with another text.
@@ -103,10 +104,12 @@ impl Document {
         let mut document: DocumentMut = self.text.parse().map_err(|error: toml_edit::TomlError| {
             complaint(format!("the case is not valid TOML: {}", error.message()))
         })?;
-        let table = document.entry(key.table()).or_insert(toml_edit::table());
-        let Some(table) = table.as_table_like_mut() else {
-            return Err(complaint(format!("{} is not a table", key.table())));
-        };
+        let mut table: &mut dyn TableLike = document.as_table_mut();
+        for name in key.table().split('.') {
+            let inner = table.entry(name).or_insert(toml_edit::table());
+            let not_a_table = || complaint(format!("{} is not a table", key.table()));
+            table = inner.as_table_like_mut().ok_or_else(not_a_table)?;
+        }
         match (to, table.get_mut(key.short()).and_then(Item::as_value_mut)) {
             (Some(new), Some(old)) => {
                 // The comment at the end of the line stays.
@@ -118,6 +121,19 @@ impl Document {
             (None, _) => drop(table.remove(key.short())),
         }
         Ok(self.with_text(document.to_string()))
+    }
+
+    /// The document with the tension at the end of the spinline that flights have found in place of `flown`, so that a change
+    /// of a key need not wait for flights; `None` if it says nothing of flights.
+    ///
+    /// * `case` – as it was read from this document
+    pub(super) fn with_tension_of_flights(&self, case: &Case) -> Option<Self> {
+        let key = keys::find("spinline.end_tension")?;
+        let document = self.text.parse::<DocumentMut>().ok()?;
+        let written = table_of(&document, key.table())?.get(key.short())?.as_str()?;
+        let tension = key.get(case)?.number()?;
+        (written.trim() == "flown")
+            .then(|| self.with(key, Some(Dimension::Force.exact(tension).into())).ok())?
     }
 
     /// The command that does the same run.
@@ -143,6 +159,7 @@ impl Document {
         }
         for key in keys::all() {
             let words = key.kind.words();
+            // No file is named in a table within a table.
             let item = document.get_mut(key.table()).and_then(Item::as_table_like_mut);
             let Some(old) = item.and_then(|table| table.get_mut(key.short())).and_then(Item::as_value_mut)
             else {
@@ -167,6 +184,12 @@ impl Document {
     }
 }
 
+/// A table of the document, `spinline.material` within `spinline`.
+fn table_of<'d>(document: &'d DocumentMut, name: &str) -> Option<&'d dyn TableLike> {
+    let top: &dyn TableLike = document.as_table();
+    name.split('.').try_fold(top, |table, name| table.get(name)?.as_table_like())
+}
+
 /// The texts of a value or of the list that it is.
 fn for_each_text(value: &mut Value, act: &mut impl FnMut(&mut toml_edit::Formatted<String>)) {
     match value {
@@ -180,7 +203,7 @@ fn for_each_text(value: &mut Value, act: &mut impl FnMut(&mut toml_edit::Formatt
 fn files_of(document: &DocumentMut) -> BTreeSet<String> {
     let mut files = BTreeSet::new();
     for key in keys::all().iter().filter(|key| matches!(key.kind, Kind::File(_))) {
-        let table = document.get(key.table()).and_then(Item::as_table_like);
+        let table = table_of(document, key.table());
         let Some(found) = table.and_then(|table| table.get(key.short())).and_then(Item::as_value) else {
             continue;
         };
@@ -199,7 +222,7 @@ fn differences(old: &str, new: &str) -> Vec<(&'static str, String)> {
         return Vec::new();
     };
     let written = |document: &DocumentMut, key: &Key| {
-        let table = document.get(key.table()).and_then(Item::as_table_like)?;
+        let table = table_of(document, key.table())?;
         let mut found = table.get(key.short())?.as_value()?.clone();
         found.decor_mut().clear();
         Some(found.as_str().map_or_else(|| found.to_string(), str::to_owned))
@@ -271,6 +294,28 @@ mod tests {
         let saved = new.saved("b.toml", new.to_save());
         assert_eq!(saved.command(8), "spunlaid run b.toml --replicates 8");
         assert!(Document::new(CASE.to_owned(), None).command(8).starts_with("save the case first"));
+    }
+
+    #[test]
+    fn keys_of_a_table_within_a_table_are_changed_and_named_in_the_command() {
+        const LINE: &str = "[spinline]\npolymer = \"pp\"\nprofile = \"air.csv\"\n[spinline.material]\nviscosity = \"200 Pa s\" # mine\n";
+        let document = Document::new(LINE.to_owned(), Some(PathBuf::from("cases/x.toml")));
+        let new = document.with(key("spinline.material.viscosity"), Some("180 Pa s".into())).unwrap();
+        let new = new.with(key("spinline.material.mobility"), Some(0.3.into())).unwrap();
+        assert!(new.text().contains("viscosity = \"180 Pa s\" # mine\nmobility = 0.3\n"), "{}", new.text());
+        assert!(
+            new.gives("spinline.material", "mobility") && !document.gives("spinline.material", "mobility")
+        );
+        let command = new.command(8);
+        assert!(
+            command.contains(
+                "--set 'spinline.material.viscosity=180 Pa s' --set spinline.material.mobility=0.3"
+            ),
+            "{command}"
+        );
+        assert!(document.to_save().contains("profile = \"cases/air.csv\""), "{}", document.to_save());
+        let other = document.with_text(LINE.replace("\"pp\"", "\"../secret.toml\""));
+        assert!(other.read().is_err_and(|problems| problems[0].text.contains("may not name other files")));
     }
 
     #[test]

@@ -103,7 +103,8 @@ fn setting(key: &'static Key, value: &Value) -> Option<Setting> {
         Some(Dimension::Ratio) | None => String::new(),
         Some(dimension) => format!(", in {} for example", dimension.si_unit()),
     };
-    let first = matches!(key.left_out, LeftOut::Required(_)) || ["feed", "belt"].contains(&key.table());
+    let first =
+        matches!(key.left_out, LeftOut::Required(_)) || ["spinline", "feed", "belt"].contains(&key.table());
     Some(Setting {
         key: key.name,
         table: key.table(),
@@ -155,11 +156,49 @@ mod tests {
     }
 
     #[test]
+    fn a_fibre_that_begins_at_the_die_has_sliders_of_its_spinline() {
+        const SPINLINE: &str = "[spinline]\npolymer = \"pp\"\nmelt_flow_rate = 35\ndie_temperature = \"230 °C\"\n\
+            hole_diameter = \"0.6 mm\"\nthroughput = \"0.5 g/min\"\nlength = \"1.2 m\"\nvelocity = \"50 m/s\"\n";
+        let fed = starter_case_of_fed();
+        let given = |key: &str| {
+            ["diameter", "density", "youngs_modulus", "speed = \"50"].iter().any(|name| key.starts_with(name))
+        };
+        let kept: Vec<&str> = fed.lines().filter(|line| !given(line)).collect();
+        let text = kept.join("\n").replace("[feed]", SPINLINE);
+        let (case, _) = parse_case(&text, "a.toml", &[]).unwrap();
+        let all = settings(&case);
+        let first: Vec<&str> =
+            all.iter().filter(|s| s.first && s.table == "spinline").map(|s| s.key).collect();
+        assert_eq!(
+            first,
+            [
+                "spinline.melt_flow_rate",
+                "spinline.die_temperature",
+                "spinline.throughput",
+                "spinline.velocity",
+                "spinline.cross_velocity",
+                "spinline.temperature",
+                "spinline.nusselt_factor"
+            ]
+        );
+        // What the spinline gives has none.
+        for key in ["feed.speed", "fibre.diameter", "fibre.density", "fibre.youngs_modulus"] {
+            assert!(!all.iter().any(|setting| setting.key == key), "{key}");
+        }
+        let text = |key: &str| present(&case).into_iter().find(|one| one.key == key).unwrap().text;
+        assert_eq!(
+            (text("spinline.throughput"), text("spinline.die_temperature")),
+            ("0.5 g/min".to_owned(), "230 °C".to_owned())
+        );
+    }
+
+    #[test]
     fn a_fed_fibre_has_feed_and_belt_and_no_length() {
         let (case, _) = parse_case(starter_case_of_fed(), "a.toml", &[]).unwrap();
         let all = settings(&case);
         for (key, is_setting) in [("feed.speed", true), ("belt.speed", true), ("fibre.length", false)] {
             assert_eq!(all.iter().any(|s| s.key == key && s.first), is_setting, "{key}");
         }
+        assert!(!all.iter().any(|setting| setting.table.starts_with("spinline")));
     }
 }

@@ -61,6 +61,82 @@ fn rejects_bad_values_by_key_and_bad_cases_by_line() {
     assert_eq!(page.told("state")["text"], text);
 }
 
+/// What the page says of the filament, the first sentence.
+fn filament(state: &Value) -> String {
+    state["filament"][0].as_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_spinline_is_solved_again_and_the_fibre_flies_with_its_filament() {
+    let live = Live::start(&["whole_line_fibre.toml"]);
+    let mut page = live.page();
+    let settings = page.told("settings");
+    let settings = settings["settings"].as_array().unwrap();
+    let labels: Vec<&str> = settings
+        .iter()
+        .filter(|setting| setting["table"] == "spinline" && setting["first"] == true)
+        .map(|setting| setting["key"].as_str().unwrap().strip_prefix("spinline.").unwrap())
+        .collect();
+    for key in
+        ["throughput", "die_temperature", "velocity_factor", "cross_velocity_factor", "temperature_offset"]
+    {
+        assert!(labels.contains(&key), "{key}: {labels:?}");
+    }
+    let before = page.told("state");
+    assert!(filament(&before).contains(": 0.5 g/min from each hole"), "{before}");
+    let frozen = before["filament"][1].as_str().unwrap();
+    assert!(frozen.contains("below the die, at 110 °C"), "{frozen}");
+
+    // A slider sends a number in SI units, which is rounded in the unit of the key.
+    page.ask(&json!({ "do": "set", "key": "spinline.throughput", "value": 1.3333e-5, "stamp": 1 }));
+    assert_eq!(page.told("applied")["stamp"], 1);
+    let state = page.told("state");
+    assert!(
+        state["text"].as_str().unwrap().contains("throughput = \"0.8 g/min\"                # per hole"),
+        "{state}"
+    );
+    assert!(state["command"].as_str().unwrap().contains("--set 'spinline.throughput=0.8 g/min'"), "{state}");
+    assert!(filament(&state).contains(": 0.8 g/min from each hole"), "{state}");
+    let feed = |state: &Value| state["belt"]["feed"].as_f64().unwrap();
+    assert!((feed(&state) / feed(&before) - 1.0).abs() > 0.05, "{state}");
+    // It is the filament of the same spinline on the command line.
+    let cases = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    let alone = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
+        .args(["spin", "--json", "--set", "spinline.throughput=0.8 g/min"])
+        .arg(cases.join("whole_line_fibre.toml"))
+        .output()
+        .unwrap();
+    let alone: Value = serde_json::from_slice(&alone.stdout).unwrap();
+    assert_eq!(alone["spinline"]["final_speed_m_s"], state["belt"]["feed"]);
+
+    // No steady state: the page says why, and the setting before flies on.
+    let problem = page
+        .refused(&json!({ "do": "set", "key": "spinline.die_temperature", "value": "100 °C", "stamp": 2 }));
+    assert!(
+        problem["text"].as_str().unwrap().starts_with("spinline.die_temperature = \"100 °C\" "),
+        "{problem}"
+    );
+    assert_eq!(problem["line"], 8);
+    let after = page.told("state");
+    assert_eq!((&after["text"], &after["generation"]), (&state["text"], &state["generation"]));
+    let first = page.frame().2;
+    while page.frame().2 <= first {}
+}
+
+#[test]
+fn the_tension_of_flights_is_a_number_on_the_page() {
+    let live = Live::start(&["whole_line_fibre.toml"]);
+    let mut page = live.page();
+    page.ask(&json!({ "do": "set", "key": "spinline.end_tension", "value": "flown", "stamp": 1 }));
+    assert_eq!(page.told("applied")["stamp"], 1);
+    let state = page.told("state");
+    let text = state["text"].as_str().unwrap();
+    let line = text.lines().find(|line| line.starts_with("end_tension")).unwrap();
+    assert!(line.ends_with(" N\"") && !line.contains("flown"), "{line}");
+    // It pulls, so the filament is faster than one with a free end.
+    assert!(state["belt"]["feed"].as_f64().unwrap() > 40.0, "{state}");
+}
+
 #[test]
 fn only_what_is_saved_by_a_plain_name_is_written() {
     let live = Live::start(&["spunbond.toml"]);

@@ -55,6 +55,8 @@ impl Chance {
             "a.b.c",
             "fibre.length",
             "drag.across",
+            "spinline.throughput",
+            "spinline.material.viscosity",
             "run",
             "\\u0000",
         ];

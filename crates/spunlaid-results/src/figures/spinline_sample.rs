@@ -52,12 +52,17 @@ pub fn influences() -> Vec<Influence> {
         speed: -2.0 * diameter,
     };
     vec![
-        one("spinline.profile", "Air velocity along the thread, from 10 m/s", Change::Relative, -0.78),
+        one(
+            "spinline.velocity_factor",
+            "Air velocity along the thread, from 10 m/s",
+            Change::Relative,
+            -0.78,
+        ),
         one("spinline.throughput", "Throughput", Change::Relative, 0.43),
         one("drag.friction_coefficient", "Friction coefficient *β*", Change::Relative, -0.30),
         one("spinline.melt_flow_rate", "Melt flow rate", Change::Relative, -0.27),
         one("spinline.die_temperature", "Die temperature", Change::TenKelvin, -0.057),
-        one("spinline.profile", "Air temperature", Change::TenKelvin, -0.018),
+        one("spinline.temperature_offset", "Air temperature", Change::TenKelvin, -0.018),
         one("spinline.material.freezing_temperature", "Freezing temperature", Change::TenKelvin, 0.006),
         one("spinline.hole_diameter", "Hole diameter", Change::Relative, 0.14),
     ]

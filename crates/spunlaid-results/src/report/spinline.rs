@@ -10,7 +10,7 @@ use crate::output::web::Layer;
 use askama::Template;
 use spunlaid::case::Case;
 use spunlaid::input::SpinFile;
-use spunlaid::spinline::{End, Law, PolymerSource, Solution, ZERO_CELSIUS};
+use spunlaid::spinline::{End, Law, PolymerSource, Solution, Surroundings, ZERO_CELSIUS};
 use spunlaid::web::Web;
 use spunlaid_charts::Figure;
 
@@ -260,10 +260,24 @@ fn methods(file: &SpinFile) -> Vec<(&'static str, String)> {
         ""
     };
     let end = match spinline.end {
+        End::Tension(0.0) => "no tension: it is free".to_owned(),
         End::Tension(tension) | End::Flown(tension) => {
             format!("a tension of {}{THIN}mN", number_to(tension * 1e3, 3))
         }
         End::TakeUp(speed) => format!("a take-up speed of {}{THIN}m/s", number_to(speed, 4)),
+    };
+    let air = match &spinline.air {
+        Surroundings::Uniform(_) => "It is the same along the whole line.".to_owned(),
+        Surroundings::Table(_) => {
+            "Its velocities and its temperature are those of the table of the case, linear between the rows."
+                .to_owned()
+        }
+        Surroundings::Field { temperature, .. } => format!(
+            "Its velocity is that of the CFD field of the case, upstream of the inlet. Its temperature is {} everywhere \
+             (spinline.temperature), because none is read from the field.",
+            celsius(*temperature)
+        ),
+        Surroundings::Behind(_) => String::new(),
     };
     vec![
         (
@@ -276,7 +290,7 @@ fn methods(file: &SpinFile) -> Vec<(&'static str, String)> {
         (
             "The air",
             format!(
-                "It drags the thread by the friction law of the case (drag.along = {}), and cools it by the law of Kase and Matsuo for air \
+                "{air} It drags the thread by the friction law of the case (drag.along = {}), and cools it by the law of Kase and Matsuo for air \
                  along and across it.",
                 file.spec.drag.along.name()
             ),

@@ -45,6 +45,7 @@ struct StudyPage<'a> {
     question: String,
     summary: String,
     phases: &'static str,
+    intervals: &'static str,
     notes: &'a [String],
     ranking_heads: Vec<String>,
     rankings: Vec<RankingRow>,
@@ -87,6 +88,7 @@ pub fn study_html(input: &StudyReport<'_>) -> String {
         question: question(study),
         summary: summary(study, input.results),
         phases: phases(study),
+        intervals: intervals(study),
         notes: input.notes,
         ranking_heads: shown::quantities(study)
             .into_iter()
@@ -207,6 +209,17 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
             words(worst)
         )
     })
+}
+
+/// Where the confidence intervals of the effects come from.
+fn intervals(study: &Study) -> &'static str {
+    if study.noun() == "spinline" {
+        "The intervals come from the scatter of the points about the straight lines. A spinline has no chance in it: they tell how far \
+         straight lines are from the curves."
+    } else {
+        "The intervals come from the differences between replicates; with common phases, each replicate of all points is \
+         compared with the same replicate."
+    }
 }
 
 fn phases(study: &Study) -> &'static str {

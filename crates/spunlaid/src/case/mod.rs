@@ -128,6 +128,16 @@ impl Case {
         }
     }
 
+    /// Mass per length of the fibre [kg/m].
+    pub fn linear_density(&self) -> f64 {
+        self.fibre.density * self.fibre.cross_section()
+    }
+
+    /// Mass flow of a fed fibre, which is that of its hole [kg/s]; `None` if the fibre has a fixed length.
+    pub fn throughput(&self) -> Option<f64> {
+        Some(self.linear_density() * self.line?.feed_speed)
+    }
+
     /// The limits on the time step of an undamped flight with this mesh and the case's scheme.
     pub fn step_limits(&self) -> Vec<StepLimit> {
         let axial = StepLimit { cause: "axial waves", limit: self.fibre.axial_step_limit() };

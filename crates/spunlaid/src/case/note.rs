@@ -70,6 +70,15 @@ pub enum Remark {
         /// Relative change of the speed in the last round [-].
         change: f64,
     },
+    /// The air of a spinline comes from a CFD field, which gives no temperature.
+    #[error(
+        "takes the velocity of the air along the spinline from the field, and its temperature, {} everywhere, from spinline.temperature",
+        Dimension::Temperature.pretty(*temperature)
+    )]
+    AirOfField {
+        /// Temperature of the air [K].
+        temperature: f64,
+    },
     /// A standard error is judged from few replicates.
     #[error(
         "is too few to trust a standard error, so the study often stops before its results are as exact as asked; write 6 \

@@ -223,8 +223,13 @@ impl From<Fault> for Box<Problem> {
 impl From<Box<Problem>> for Fault {
     fn from(problem: Box<Problem>) -> Self {
         // Options of the program are for a file that is named on the command line.
-        let Problem { place, what: Self { message, remedy, .. }, .. } = *problem;
-        Self::new(format!("cannot be used: {place}{message}"), remedy)
+        let Problem { place, key, value, what: Self { message, remedy, .. } } = *problem;
+        let named = match (key.as_str(), value) {
+            ("", _) => String::new(),
+            (key, Some(value)) => format!("{key} = {value} "),
+            (key, None) => format!("{key} "),
+        };
+        Self::new(format!("cannot be used: {place}{named}{message}"), remedy)
     }
 }
 

@@ -1,13 +1,11 @@
 //! What decides the diameter of a filament: every number of a spinline is changed a little.
 
 use super::spinline::SpinFile;
-use crate::air::FromFile;
 use crate::case::Case;
-use crate::case::keys::{self, Key, Value};
+use crate::case::keys::{self, Key, Kind, Sign, Value};
 use crate::error::Error;
-use crate::spinline::{AirTable, Failure, Solution, Surroundings};
+use crate::spinline::{Failure, Solution};
 use crate::units::Dimension;
-use std::sync::Arc;
 
 /// The change of a number, either way.
 const STEP: f64 = 0.02;
@@ -19,7 +17,7 @@ const LEAST: f64 = 5e-4;
 /// What a change of a number does to the filament.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Influence {
-    /// Full name of the key, `spinline.throughput`; for a column of a table, `spinline.profile`.
+    /// Full name of the key, `spinline.throughput`.
     pub key: &'static str,
     /// What is changed, with its symbol: `Throughput of a hole`.
     pub label: &'static str,
@@ -40,15 +38,6 @@ pub enum Change {
     TenKelvin,
 }
 
-/// A number of the air's table: its label, how it changes, and its column.
-type Column = (&'static str, Change, fn(&mut AirTable) -> &mut Vec<f64>);
-
-const COLUMNS: [Column; 3] = [
-    ("Air velocity along the thread *u*", Change::Relative, |table| &mut table.velocity),
-    ("Quench velocity *v*_{c}", Change::Relative, |table| &mut table.cross_velocity),
-    ("Air temperature *T*_{a}", Change::TenKelvin, |table| &mut table.temperature),
-];
-
 impl SpinFile {
     /// What decides the diameter: the influence of each number on the filament of the first row, the largest first. The factor
     /// of the friction law is among them. Numbers without influence are left out.
@@ -63,30 +52,15 @@ impl SpinFile {
         let mut found = Vec::new();
         let tables = ["spinline", "spinline.material", "drag"];
         for key in tables.into_iter().flat_map(keys::of_table) {
-            let (Some(dimension), Some(Value::Number(value))) = (key.dimension(), key.get(&carrier)) else {
-                continue;
-            };
-            let change =
-                if dimension == Dimension::Temperature { Change::TenKelvin } else { Change::Relative };
-            if value != 0.0 && is_physical(key) {
+            let Some(Value::Number(value)) = key.get(&carrier) else { continue };
+            let change = Change::of(key);
+            if (value != 0.0 || change == Change::TenKelvin) && is_physical(key) {
                 let changed = |sign: f64| {
                     let mut case = carrier.clone();
                     key.set(&mut case, change.apply(value, sign)).ok()?;
                     solve(&case).ok()
                 };
                 found.extend(change.influence(key.name, key.label, changed));
-            }
-        }
-        if let Some(table) = self.spec.spinline.air.table() {
-            for (label, change, column) in COLUMNS {
-                let changed = |sign: f64| {
-                    let (mut table, mut case) = (table.clone(), carrier.clone());
-                    column(&mut table).iter_mut().for_each(|value| *value = change.apply(*value, sign));
-                    case.spinline.as_mut()?.air =
-                        Surroundings::Table(FromFile::new(Default::default(), 0, Arc::new(table)));
-                    solve(&case).ok()
-                };
-                found.extend(change.influence("spinline.profile", label, changed));
             }
         }
         found.sort_by(|a, b| b.diameter.abs().total_cmp(&a.diameter.abs()));
@@ -104,6 +78,15 @@ fn solve(case: &Case) -> Result<Option<Solution>, Failure> {
 }
 
 impl Change {
+    /// How a key is changed: a temperature, and a difference of temperatures that may be zero, has no share of its value.
+    fn of(key: &Key) -> Self {
+        match key.kind {
+            Kind::Quantity(Dimension::Temperature, _)
+            | Kind::Quantity(Dimension::TemperatureDifference, Sign::Any) => Self::TenKelvin,
+            _ => Self::Relative,
+        }
+    }
+
     fn apply(self, value: f64, sign: f64) -> f64 {
         match self {
             Self::Relative => value * (1.0 + sign * STEP),

@@ -7,7 +7,7 @@ use super::written::{WrittenValues, sorted};
 use super::{FORMAT_VERSION, Overrides, document, file, parse_with, write};
 use crate::air::Flow;
 use crate::case::keys::{self, Key};
-use crate::case::{Case, Note};
+use crate::case::{Case, Note, Remark};
 use crate::error::{Error, Fault, FileKind, Place, Problem};
 use crate::field::Hint;
 use crate::spinline::{AirTable, End, Failure, Melt, Solution, SpinSpec, Spinline, Surroundings};
@@ -120,14 +120,11 @@ impl SpinFile {
     }
 }
 
-/// A failure at the place of the key to blame, with the unusual values that may be why.
+/// A failure at the place of the key to blame, after the unusual values that may be why.
 fn rejected(written: &WrittenValues, case: &Case, failure: Failure) -> Error {
-    let mut problems = vec![placed(written, failure)];
-    for slip in case.unusual_in(&TABLES) {
-        if slip.key != problems[0].key {
-            problems.push(written.placed(slip.into()));
-        }
-    }
+    let slips = case.unusual_in(&TABLES).into_iter().filter(|slip| slip.key != failure.key);
+    let mut problems: Vec<Problem> = slips.map(|slip| written.placed(slip.into())).collect();
+    problems.push(placed(written, failure));
     problems.into()
 }
 
@@ -156,7 +153,7 @@ impl Open {
 
     /// Checks that everything is known, and looks up the air in a CFD field.
     fn complete_spinline(&mut self) -> Result<(), Error> {
-        let Self { written, case, .. } = self;
+        let Self { written, case, notes } = self;
         let Some(spinline) = &case.spinline else { return Ok(()) };
         if spinline.melt == Melt::Viscosity && spinline.material.viscosity.is_nan() {
             let remedy =
@@ -186,6 +183,9 @@ impl Open {
         if let Surroundings::Field { temperature, .. } = spinline.air {
             match field_along(case, spinline.length, temperature) {
                 Ok(table) => {
+                    let what = Remark::AirOfField { temperature };
+                    let finding = keys::finding("spinline.field", f64::NAN, what);
+                    notes.push(written.placed(Note { value: None, ..finding }));
                     if let Some(line) = &mut case.spinline {
                         line.air = Surroundings::Field { temperature, table };
                     }

@@ -44,7 +44,7 @@ pub(super) fn in_lines(lines: &[String]) -> String {
 }
 
 /// A value as TOML, in SI units.
-fn toml_value(kind: &Kind, value: Value) -> String {
+pub(super) fn toml_value(kind: &Kind, value: Value) -> String {
     let lengths = |lengths: &[f64]| {
         let quoted = |x: &f64| format!("\"{}\"", Dimension::Length.exact(*x));
         format!("[{}]", lengths.iter().map(quoted).collect::<Vec<_>>().join(", "))

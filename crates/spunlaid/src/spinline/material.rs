@@ -4,7 +4,7 @@
 //! and was not checked against its source; docs/spinline.md lists them.
 
 /// The constants of a polymer. Every one of them is a key of a case.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Material {
     /// Specific volume `a_0` of the melt at 0 °C [m³/kg].
     pub specific_volume: f64,
@@ -45,7 +45,7 @@ pub struct Material {
 }
 
 /// The constants of crystallisation: Nakamura's law, with Ziabicki's bell for the rate.            theory.md (94), (95)
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Crystals {
     /// Avrami exponent `n` [-].
     pub avrami_exponent: f64,

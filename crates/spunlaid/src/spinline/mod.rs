@@ -9,6 +9,7 @@
 //! ```
 
 mod curtain;
+mod equality;
 mod integration;
 mod material;
 mod shooting;
@@ -22,7 +23,7 @@ mod thread;
 
 pub use material::{Crystals, Material, Polymer, PolymerFile, ZERO_CELSIUS};
 pub use solution::{Freezing, FreezingCause, Solution, Station};
-pub use surroundings::{AirState, AirTable, Surroundings};
+pub use surroundings::{AirChange, AirState, AirTable, Surroundings};
 
 use crate::air::FromFile;
 use crate::drag::{Drag, FrictionLaw};
@@ -51,6 +52,8 @@ pub struct Spinline {
     pub length: f64,
     /// The air along the line.
     pub air: Surroundings,
+    /// How the air of a table or a field is changed.
+    pub air_change: AirChange,
     /// What is known at the end of the line.
     pub end: End,
     /// How the melt resists stretching.
@@ -173,6 +176,7 @@ impl Spinline {
             cross_velocity: 0.0,
             temperature: 20.0 + ZERO_CELSIUS,
         }),
+        air_change: AirChange::NONE,
         end: End::Tension(0.0),
         law: Law::Newtonian,
         crystallisation: false,

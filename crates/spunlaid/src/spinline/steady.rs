@@ -17,21 +17,62 @@ const LOOKS: usize = 16;
 /// The steady state of a filament in this air.
 pub(super) fn solve(line: &Spinline, friction: FrictionLaw, air: &Surroundings) -> Result<Solution, Failure> {
     let thread = Thread::new(line, friction, air);
-    let die_speed = thread.die_speed();
-    if let End::TakeUp(speed) = line.end
-        && speed < die_speed
-    {
-        let found = Dimension::Velocity.pretty(die_speed);
-        let message = format!("is below {found}, the speed of the melt in the hole");
-        let remedy = "raise the take-up speed, lower spinline.throughput, or widen spinline.hole_diameter";
-        return Err(Failure::new("spinline.take_up_speed", Some(speed), Fault::new(message, remedy)));
+    if let Some(failure) = impossible(&thread) {
+        return Err(failure);
     }
-    let hit = find(&thread, line.crystallisation).map_err(|miss| missed(line, miss))?;
+    let hit = find(&thread, line.crystallisation).map_err(|miss| missed(&thread, miss))?;
     describe(&thread, &hit)
 }
 
+/// Why no thread can run in this line, as far as this is known before it is solved.
+fn impossible(thread: &Thread<'_>) -> Option<Failure> {
+    let line = thread.line;
+    let celsius = |kelvin: f64| Dimension::Temperature.pretty(kelvin);
+    let freezing = line.material.freezing_temperature;
+    if line.die_temperature <= freezing {
+        let message = format!("is not above {}, at which the polymer freezes", celsius(freezing));
+        let remedy = "raise it, or correct spinline.material.freezing_temperature";
+        let value = Some(line.die_temperature);
+        return Some(Failure::new("spinline.die_temperature", value, Fault::new(message, remedy)));
+    }
+    let coldest = thread.coldest_air();
+    if coldest >= freezing && !line.crystallisation {
+        let (key, value) = key_of_air(thread.air, coldest, "spinline.temperature");
+        let message = format!(
+            "leaves the air nowhere colder than {}, and the polymer freezes at {}",
+            celsius(coldest),
+            celsius(freezing)
+        );
+        return Some(Failure::new(key, value, Fault::new(message, "cool the air")));
+    }
+    let die_speed = thread.die_speed();
+    match line.end {
+        End::TakeUp(speed) if speed < die_speed => {
+            let found = Dimension::Velocity.pretty(die_speed);
+            let message = format!("is below {found}, the speed of the melt in the hole");
+            let remedy =
+                "raise the take-up speed, lower spinline.throughput, or widen spinline.hole_diameter";
+            Some(Failure::new("spinline.take_up_speed", Some(speed), Fault::new(message, remedy)))
+        }
+        End::TakeUp(_) | End::Tension(_) | End::Flown(_) => None,
+    }
+}
+
+/// The key that gives the air, and its value if it is a number.
+///
+/// * `value`, `key` – what they are if the air is the same everywhere
+fn key_of_air(air: &Surroundings, value: f64, key: &'static str) -> (&'static str, Option<f64>) {
+    match air {
+        Surroundings::Uniform(_) => (key, Some(value)),
+        Surroundings::Table(_) => ("spinline.profile", None),
+        Surroundings::Field { .. } => ("spinline.field", None),
+        Surroundings::Behind(_) => ("spinline.rows", None),
+    }
+}
+
 /// Why no tension at the die meets the end of the line.
-fn missed(line: &Spinline, miss: Miss) -> Failure {
+fn missed(thread: &Thread<'_>, miss: Miss) -> Failure {
+    let (line, air) = (thread.line, thread.air);
     match (miss, line.end) {
         (Miss::Liquid(temperature), _) => still_liquid(line, temperature),
         (Miss::ElasticWave, _) => Failure::new(
@@ -50,14 +91,33 @@ fn missed(line: &Spinline, miss: Miss) -> Failure {
                 "raise it, or leave out spinline.end, which makes the end free",
             ),
         ),
-        (Miss::TooMuch | Miss::Slack, _) => Failure::new(
-            "spinline.length",
-            Some(line.length),
-            Fault::new(
-                "has no steady state: the air does not pull, it is slower than the filament everywhere",
-                "check the direction and the speed of the air in spinline.profile or spinline.velocity",
-            ),
-        ),
+        _ if !thread.is_computable() => {
+            let message = "leads to numbers that are too large or too small to compute with";
+            let remedy = "check it, and all other values of the line, and their units";
+            Failure::new("spinline.throughput", Some(line.throughput), Fault::new(message, remedy))
+        }
+        (Miss::NoThread | Miss::Slack, End::Tension(tension) | End::Flown(tension)) if tension != 0.0 => {
+            let message = "leaves no steady state: with any tension at the die the thread is either slack or faster than \
+                           2000 m/s";
+            let remedy = "write \"0 N\" for a free end, or a small tension like \"0.1 mN\"";
+            Failure::new("spinline.end_tension", Some(tension), Fault::new(message, remedy))
+        }
+        (Miss::NoThread | Miss::Slack, End::TakeUp(speed)) => {
+            let message = "leaves no steady state: with any tension at the die the thread is either slack or faster than \
+                           2000 m/s";
+            let remedy = "lower it, heat the die, or write a higher melt flow rate";
+            Failure::new("spinline.take_up_speed", Some(speed), Fault::new(message, remedy))
+        }
+        (Miss::TooMuch | Miss::Slack, _) => {
+            let velocity = match air {
+                Surroundings::Uniform(air) => air.velocity,
+                _ => f64::NAN,
+            };
+            let (key, value) = key_of_air(air, velocity, "spinline.velocity");
+            let message =
+                "leaves no steady state: the air does not pull, it is slower than the filament everywhere";
+            Failure::new(key, value, Fault::new(message, "check the direction and the speed of the air"))
+        }
         (Miss::NoThread, _) => Failure::new(
             "spinline.throughput",
             Some(line.throughput),

@@ -31,6 +31,31 @@ pub struct AirState {
     pub temperature: f64,
 }
 
+/// How the air of a table or a field is changed as a whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AirChange {
+    /// Factor on the velocity along the thread [-].
+    pub velocity_factor: f64,
+    /// Factor on the velocity across it [-].
+    pub cross_velocity_factor: f64,
+    /// Added to the temperature [K].
+    pub temperature_offset: f64,
+}
+
+impl AirChange {
+    /// The air stays as it is.
+    pub const NONE: Self = Self { velocity_factor: 1.0, cross_velocity_factor: 1.0, temperature_offset: 0.0 };
+
+    /// The changed air.
+    pub(super) fn of(self, air: AirState) -> AirState {
+        AirState {
+            velocity: self.velocity_factor * air.velocity,
+            cross_velocity: self.cross_velocity_factor * air.cross_velocity,
+            temperature: air.temperature + self.temperature_offset,
+        }
+    }
+}
+
 /// The air as a function of the distance from the die. It is linear between the rows; outside of them it is that of the nearest
 /// row.
 #[derive(Clone, Debug, Default, PartialEq)]

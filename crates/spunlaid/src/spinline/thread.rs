@@ -1,7 +1,7 @@
 //! The thread at a place: how its state changes with the distance from the die.
 
 use super::material::{Crystals, Material};
-use super::{Law, Melt, Spinline, Station, Surroundings};
+use super::{AirChange, Law, Melt, Spinline, Station, Surroundings};
 use crate::air::{density_at, kinematic_viscosity_at};
 use crate::drag::FrictionLaw;
 use std::f64::consts::PI;
@@ -52,6 +52,7 @@ pub(super) struct Thread<'a> {
     pub(super) line: &'a Spinline,
     pub(super) friction: FrictionLaw,
     pub(super) air: &'a Surroundings,
+    air_change: AirChange,
     /// Acceleration of gravity [m/s²].
     pub(super) gravity: f64,
     /// `k Nu` [W/(m K)], if it does not follow from the air; exact solutions have a constant one.
@@ -72,7 +73,32 @@ pub(super) struct Rates {
 
 impl<'a> Thread<'a> {
     pub(super) fn new(line: &'a Spinline, friction: FrictionLaw, air: &'a Surroundings) -> Self {
-        Self { line, friction, air, gravity: GRAVITY, heat_transfer: None, viscosity: line.viscosity() }
+        let air_change = match air {
+            Surroundings::Table(_) | Surroundings::Field { .. } => line.air_change,
+            // Air behind a row comes from air that was changed already.
+            Surroundings::Uniform(_) | Surroundings::Behind(_) => AirChange::NONE,
+        };
+        let viscosity = line.viscosity();
+        Self { line, friction, air, air_change, gravity: GRAVITY, heat_transfer: None, viscosity }
+    }
+
+    /// Whether the rates at the die are finite, under a usual tension.
+    pub(super) fn is_computable(&self) -> bool {
+        const TENSION: f64 = 1e-3;
+        let Some(state) = self.at_die(TENSION) else { return true };
+        let slopes = self.rates(1e-14 * self.line.length, &state, Phase::Melt, &mut 0).slopes;
+        self.die_speed() > 0.0 && slopes.iter().all(|slope| slope.is_finite())
+    }
+
+    /// Lowest temperature of the air [K].
+    pub(super) fn coldest_air(&self) -> f64 {
+        match self.air {
+            Surroundings::Uniform(air) => air.temperature,
+            _ => {
+                let rows = self.air.table().map_or(&[][..], |table| &table.temperature);
+                rows.iter().copied().fold(f64::INFINITY, f64::min) + self.air_change.temperature_offset
+            }
+        }
     }
 
     fn material(&self) -> &Material {
@@ -214,7 +240,7 @@ impl<'a> Thread<'a> {
     pub(super) fn rates(&self, distance: f64, state: &State, phase: Phase, hint: &mut usize) -> Rates {
         let (line, material) = (self.line, self.material());
         let (mass_flow, gravity) = (line.throughput, self.gravity);
-        let air = self.air.at(distance, hint);
+        let air = self.air_change.of(self.air.at(distance, hint));
         let (v, temperature) = (libm::exp(state[LN_SPEED]), state[TEMPERATURE]);
         let density = material.melt_density(temperature);
         let area = mass_flow / (density * v);

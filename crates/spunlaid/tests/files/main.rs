@@ -8,6 +8,7 @@ mod checks;
 #[path = "../messages/mod.rs"]
 mod messages;
 
+mod bad_spinlines;
 mod bad_studies;
 mod bad_webs;
 mod case_files;

@@ -9,6 +9,9 @@ use spunlaid::case::keys::{self, Key, Kind};
 use spunlaid::units::Dimension;
 use std::time::Instant;
 
+/// Digits of a number of a slider, in the unit in which it is shown.
+const DIGITS: usize = 3;
+
 impl Session {
     /// Does what was asked.
     ///
@@ -69,6 +72,7 @@ impl Session {
     fn become_of(&mut self, document: Document) -> Result<(), Answer> {
         let refused = |problems| Answer::Refused { problems };
         let read = document.read().map_err(refused)?;
+        let document = document.with_tension_of_flights(&read.case).unwrap_or(document);
         let since = self.now();
         let anew = self.fibres.become_of(read.case).map_err(|error| refused(complaints(&error)))?;
         (self.document, self.notes, self.trouble) = (document, read.warnings, None);
@@ -99,9 +103,12 @@ impl Session {
 fn toml_of(key: &Key, value: &KeyValue) -> Result<toml_edit::Value, String> {
     match (value, &key.kind) {
         (KeyValue::Number(number), _) if !number.is_finite() => Err("the number is not finite".to_owned()),
-        (KeyValue::Number(number), Kind::Quantity(Dimension::Ratio, _)) => Ok((*number).into()),
+        (KeyValue::Number(number), Kind::Quantity(Dimension::Ratio, _)) => {
+            let rounded = Dimension::Ratio.pretty_to(*number, DIGITS);
+            Ok(rounded.parse().unwrap_or(*number).into())
+        }
         (KeyValue::Number(number), Kind::Quantity(dimension, _)) => {
-            Ok(dimension.pretty_to(*number, 6).into())
+            Ok(dimension.pretty_to(*number, DIGITS).into())
         }
         (KeyValue::Number(number), Kind::Whole(..))
             if number.fract() == 0.0 && (0.0..9e15).contains(number) =>

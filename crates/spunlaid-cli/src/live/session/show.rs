@@ -11,6 +11,7 @@ use spunlaid::chain::schemes::Scheme;
 use spunlaid::fibre::Root;
 use spunlaid::lanes::WIDTH;
 use spunlaid::units::Dimension;
+use spunlaid_results::output::spinline::filament;
 use std::time::Instant;
 
 /// The state of the flight, as pages get it.
@@ -24,6 +25,8 @@ struct State<'a> {
     values: Vec<Present>,
     notes: &'a [String],
     remark: Option<&'a String>,
+    /// What a fed case says of its filament.
+    filament: Vec<String>,
     trouble: &'a Option<String>,
     pace: Pace,
     stands: bool,
@@ -98,6 +101,7 @@ impl Session {
             values: present(case),
             notes: &self.notes,
             remark: self.remark.as_ref().filter(|_| case.run.scheme == Scheme::ImplicitTension),
+            filament: filament(case),
             trouble: &self.trouble,
             pace: self.clock.pace,
             stands: self.stands,

@@ -14,7 +14,12 @@ const COLOURS: [&str; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 const DASHES: [Option<&str>; FAMILY] =
     [None, Some("8 4"), Some("2 3"), Some("8 3 2 3"), Some("14 4"), Some("8 3 2 3 2 3")];
 
-/// The last sentence of a caption: the meaning of the error bars.
+/// The end of a caption: what the points are, and the meaning of the error bars. Nothing of a spinline is by chance.
+pub(super) fn means(study: &Study) -> String {
+    if study.noun() == "spinline" { ".".to_owned() } else { format!(", means over the replicates. {BARS}") }
+}
+
+/// The meaning of the error bars.
 pub(super) const BARS: &str = "The bars show one standard error of the mean over the replicates.";
 
 /// A point of the figure: abscissa, value, error.
@@ -72,7 +77,7 @@ fn over_factor(
         let series = series(group, position);
         chart = if along.is_joined() { drawn(chart, series, &spots) } else { chart.scatter(series, &spots) };
     }
-    let caption = format!("{} {words}, means over the replicates. {BARS}", group.title);
+    let caption = format!("{} {words}{}", group.title, means(study));
     Figure::new(&chart, caption)
 }
 
@@ -120,10 +125,11 @@ pub(super) fn family(
     };
     let distinction = if place.is_joined() { "a colour and a dash" } else { "a colour" };
     let caption = format!(
-        "{} over {}, {distinction} for each value of the {}, means over the replicates.{signs} {BARS}",
+        "{} over {}, {distinction} for each value of the {}{}{signs}",
         group.title,
         name_of_key(key),
         name_of_key(&parameter.key),
+        means(study),
     );
     Figure::new(&chart, caption)
 }

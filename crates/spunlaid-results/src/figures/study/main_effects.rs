@@ -57,7 +57,8 @@ pub(super) fn figure(
     };
     let drawn =
         if left_out { format!(" {DRAWN} of {} points are drawn.", results.len()) } else { String::new() };
-    let caption = format!("{} over {}: {how} {BARS}{drawn}", group.title, name_of_key(&varied.key));
+    let bars = if study.noun() == "spinline" { String::new() } else { format!(" {BARS}") };
+    let caption = format!("{} over {}: {how}{bars}{drawn}", group.title, name_of_key(&varied.key));
     Figure::new(&chart, caption)
 }
 

@@ -101,7 +101,9 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
         .iter()
         .filter(|(ranking, ..)| ranking.explained.is_finite())
         .map(|(ranking, .., label)| {
-            format!("{:.0} % in {}", 100.0 * ranking.explained, label.replace('*', ""))
+            let whose =
+                if label.is_empty() { String::new() } else { format!(" in {}", label.replace('*', "")) };
+            format!("{:.0} %{whose}", 100.0 * ranking.explained)
         })
         .collect();
     let explained = if explained.is_empty() {

@@ -10,7 +10,7 @@ pub use measures::{MEASURES, SpinMeasure};
 pub use stations::{COLUMNS, STATIONS, write as write_stations};
 pub use summary::{SpinSummary, Summary};
 pub use table::text;
-pub use words::{MODEL_ERROR, freezing, influence, numerical_error, remarks};
+pub use words::{MODEL_ERROR, filament, freezing, influence, numerical_error, remarks};
 
 use super::beside::CASE_FILES;
 use spunlaid::case::Case;

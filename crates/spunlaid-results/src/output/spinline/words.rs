@@ -1,6 +1,7 @@
 //! What a solved spinline says, in sentences.
 
 use crate::numbers::{number_to, significant, to_decimals};
+use spunlaid::case::Case;
 use spunlaid::input::{Change, Influence};
 use spunlaid::spinline::{FreezingCause, Solution};
 use spunlaid::units::Dimension;
@@ -21,6 +22,21 @@ pub fn numerical_error(rows: &[Solution]) -> String {
         largest(|row| row.momentum_residual),
         largest(|row| row.energy_residual)
     )
+}
+
+/// What a fed case says of its filament, in sentences: size, speed and throughput, and where it comes from if it has a spinline.
+pub fn filament(case: &Case) -> Vec<String> {
+    let (Some(line), Some(throughput)) = (case.line, case.throughput()) else { return Vec::new() };
+    let fed = format!(
+        "filaments of {}, {} dtex, fed at {}: {} g/min from each hole",
+        Dimension::Length.pretty_to(case.fibre.diameter, 4),
+        significant(case.linear_density() * 1e7, 3),
+        Dimension::Velocity.pretty_to(line.feed_speed, 4),
+        significant(throughput * 6e4, 3),
+    );
+    let solution = case.spinline.as_ref().and_then(|spinline| spinline.solve(case.drag.along).ok());
+    let frozen = solution.map(|solution| format!("from the spinline: {}", freezing(&solution)));
+    [fed].into_iter().chain(frozen).collect()
 }
 
 /// Where and by what the thread freezes, in a sentence.

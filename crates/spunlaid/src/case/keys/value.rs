@@ -167,6 +167,8 @@ pub enum Sign {
     Positive,
     /// Zero or above.
     NotNegative,
+    /// From zero to one.
+    Share,
     /// Any.
     Any,
 }
@@ -261,6 +263,13 @@ impl Kind {
             (Self::Quantity(dimension, sign), Value::Number(value)) => {
                 let quantity = dimension.name();
                 match sign {
+                    Sign::Positive if *dimension == Dimension::Temperature && *value <= 0.0 => {
+                        let remedy = "a temperature above 0 K, which is -273.15 °C, is needed";
+                        Some(Fault::new("is not above absolute zero", remedy))
+                    }
+                    Sign::Share if !(0.0..=1.0).contains(value) => {
+                        Some(Fault::new("is not a share", "a number from 0 to 1 is needed"))
+                    }
                     Sign::Positive if *value <= 0.0 => {
                         Some(Fault::new("is not positive", format!("{quantity} above zero is needed")))
                     }
@@ -343,6 +352,10 @@ impl Kind {
     /// The allowed values in words: `a length above zero`.
     pub fn allowed(&self) -> String {
         match *self {
+            Self::Quantity(Dimension::Temperature, Sign::Positive) => {
+                "a temperature above absolute zero".to_owned()
+            }
+            Self::Quantity(dimension, Sign::Share) => format!("{} from 0 to 1", dimension.name()),
             Self::Quantity(dimension, Sign::Positive) => format!("{} above zero", dimension.name()),
             Self::Quantity(dimension, Sign::NotNegative) => format!("{}, zero or above", dimension.name()),
             Self::Quantity(dimension, Sign::Any) => format!("{}, of either sign", dimension.name()),

@@ -4,6 +4,7 @@ use crate::case::Case;
 use crate::case::keys::{self, Key};
 use crate::error::{Fault, FileError, Finding, Place, Position};
 use crate::input::document;
+use crate::input::write::toml_value;
 use crate::spinline::{Material, Polymer, PolymerFile, PolymerSource, Spinline};
 
 /// The table of the constants.
@@ -43,12 +44,11 @@ pub(super) fn read(text: &str, name: &str) -> Result<PolymerFile, FileError> {
         ..Spinline::UNKNOWN
     };
     let usual = Case { spinline: Some(Box::new(usual)), ..Case::unset() };
-    let is_missing = |key: &&Key| key.get(&usual).is_some() && key.get(&case).is_none();
-    if let Some(key) = keys::of_table(TABLE).find(is_missing) {
-        let what = Fault::new(
-            "is missing",
-            format!("the file of a polymer needs every constant; add {}", key.example()),
-        );
+    let missing = |key: &'static Key| Some((key, key.get(&usual)?)).filter(|_| key.get(&case).is_none());
+    if let Some((key, value)) = keys::of_table(TABLE).find_map(missing) {
+        let example = format!("a line like {} = {}", key.short(), toml_value(&key.kind, value));
+        let what =
+            Fault::new("is missing", format!("the file of a polymer needs every constant; add {example}"));
         return Err(problem(key.name, what));
     }
     let Some(source) = line.source else {

@@ -184,6 +184,13 @@ fn read<const N: usize>(
                 ));
             }
             let zero = wanted.sign == Sign::NotNegative;
+            if wanted.dimension == Dimension::Temperature && value <= 0.0 {
+                let text = excerpt(table.text(index), 40);
+                let remedy = "a temperature above 0 K, which is -273.15 °C, is needed";
+                return Err(
+                    table.blame(index, Fault::new(format!("{text} is not above absolute zero"), remedy))
+                );
+            }
             if wanted.sign != Sign::Any && (value < 0.0 || value == 0.0 && !zero) {
                 let sign = if value < 0.0 { "negative" } else { "zero" };
                 let needed = if zero { "zero or more is needed" } else { "more than zero is needed" };

@@ -3,7 +3,7 @@
 use super::super::row::{
     Access, change, choose, file, key, named, number, quantity, read_with_case, switch, text, whole,
 };
-use super::super::value::Sign::{Any, NotNegative, Positive};
+use super::super::value::Sign::{Any, NotNegative, Positive, Share};
 use super::super::value::{Content, FileKind, Kind, Value};
 use super::super::{FLOWN, Key};
 use crate::case::Case;
@@ -57,6 +57,26 @@ macro_rules! of_air {
                     "spinline.profile or spinline.field",
                     "these give the air; leave it out",
                 )),
+            },
+        }
+    };
+}
+
+/// Access to a change of the air of a table or a field.
+macro_rules! of_air_change {
+    ($field:ident, $pattern:pat, $needed:literal, $instead:literal) => {
+        Access {
+            get: |case| {
+                let line = case.spinline.as_ref()?;
+                matches!(line.air, $pattern).then_some(Value::Number(line.air_change.$field))
+            },
+            set: |case, value| {
+                let line = spinline(case)?;
+                if !matches!(line.air, $pattern) {
+                    return Err(Fault::needs($needed, concat!("change ", $instead)));
+                }
+                line.air_change.$field = number(value)?;
+                Ok(())
             },
         }
     };
@@ -213,8 +233,14 @@ pub(super) const KEYS: &[Key] = &[
         set: |case, value| {
             match &mut spinline(case)?.air {
                 Surroundings::Uniform(air) => air.temperature = number(value)?,
-                Surroundings::Field { temperature, .. } => *temperature = number(value)?,
-                _ => return Err(Fault::excludes("spinline.profile", "the table gives the air; leave it out")),
+                Surroundings::Field { temperature, table } => {
+                    *temperature = number(value)?;
+                    table.temperature.fill(*temperature);
+                }
+                _ => {
+                    let remedy = "the table gives the air; leave it out, or write spinline.temperature_offset";
+                    return Err(Fault::excludes("spinline.profile", remedy));
+                }
             }
             Ok(())
         },
@@ -224,6 +250,39 @@ pub(super) const KEYS: &[Key] = &[
     .meaning("Temperature of the air, if it is the same everywhere.")
     .label("Air temperature *T*_{a}")
     .slider(273.15, 373.15),
+    quantity("spinline.velocity_factor", Dimension::Ratio, NotNegative, of_air_change!(
+        velocity_factor,
+        Surroundings::Table(_) | Surroundings::Field { .. },
+        "spinline.profile or spinline.field",
+        "spinline.velocity"
+    ))
+    .value("1.0")
+    .usual(0.1, 10.0)
+    .meaning("Factor on the velocity along the thread of `spinline.profile` or of the field: more or less drawing air.")
+    .label("Air velocity *u*, factor")
+    .slider(0.2, 2.0),
+    quantity("spinline.cross_velocity_factor", Dimension::Ratio, NotNegative, of_air_change!(
+        cross_velocity_factor,
+        Surroundings::Table(_) | Surroundings::Field { .. },
+        "spinline.profile or spinline.field",
+        "spinline.cross_velocity"
+    ))
+    .value("1.0")
+    .usual(0.1, 10.0)
+    .meaning("Factor on the velocity across the thread of `spinline.profile` or of the field: more or less quench air.")
+    .label("Quench velocity *v*_{c}, factor")
+    .slider(0.2, 3.0),
+    quantity("spinline.temperature_offset", Dimension::TemperatureDifference, Any, of_air_change!(
+        temperature_offset,
+        Surroundings::Table(_),
+        "spinline.profile",
+        "spinline.temperature"
+    ))
+    .value("0 K")
+    .usual(0.1, 200.0)
+    .meaning("Added to the temperatures of `spinline.profile`: warmer or colder air.")
+    .label("Air temperature *T*_{a}, change")
+    .slider(0.0, 60.0),
     choose("spinline.end", || END.to_vec(), Access {
         get: |case| {
             Some(match case.spinline.as_ref()?.end {
@@ -323,7 +382,7 @@ pub(super) const KEYS: &[Key] = &[
     )
     .label("Crystallisation")
     .varies(),
-    quantity("spinline.emissivity", Dimension::Ratio, NotNegative, of_spinline!(emissivity))
+    quantity("spinline.emissivity", Dimension::Ratio, Share, of_spinline!(emissivity))
         .value("0.0")
         .usual(0.01, 1.0)
         .meaning("Emissivity of the thread, from 0, which leaves radiation out, to 1.")
@@ -423,7 +482,7 @@ pub(super) const MATERIAL: &[Key] = &[
         .usual(100.0, 100000000.0)
         .meaning("Elastic modulus G of the melt, for the viscoelastic laws.")
         .label("Modulus of the melt *G*"),
-    constant!("mobility", Ratio, NotNegative, mobility)
+    constant!("mobility", Ratio, Share, mobility)
         .usual(0.001, 1.0)
         .meaning("Mobility α of the Giesekus law, from 0 to 1.")
         .label("Mobility *α*"),
@@ -483,7 +542,7 @@ pub(super) const MATERIAL: &[Key] = &[
         .usual(200.0, 700.0)
         .meaning("Melting temperature, above which nothing crystallises.")
         .label("Melting temperature *T*_{f}"),
-    constant!("crystallinity", Ratio, NotNegative, crystals.crystallinity)
+    constant!("crystallinity", Ratio, Share, crystals.crystallinity)
         .usual(0.01, 1.0)
         .meaning("Crystallinity of the fully transformed polymer.")
         .label("Crystallinity *X*_{∞}"),
@@ -507,7 +566,7 @@ pub(super) const MATERIAL: &[Key] = &[
         .usual(0.1, 10.0)
         .meaning("Exponent b of the viscosity's rise by crystals. It was chosen.")
         .label("Exponent of the hardening *b*"),
-    constant!("freezing_share", Ratio, Positive, crystals.freezing_share)
+    constant!("freezing_share", Ratio, Share, crystals.freezing_share)
         .usual(0.001, 1.0)
         .meaning("Transformed share at which the thread is solid. It was chosen.")
         .label("Share at freezing *θ*_{s}"),
