@@ -4,7 +4,7 @@ use super::Case;
 use crate::air::{EddyField, EddyModel, Wind};
 
 /// Most memory a flight of eight fibres may take [bytes].
-pub const FLIGHT_MEMORY_LIMIT: f64 = 4.0 * (1u64 << 30) as f64;
+pub const FLIGHT_MEMORY_LIMIT: f64 = 8.0 * (1u64 << 30) as f64;
 
 /// Vectors of eight fibres that the chain, its copies for a look ahead and its start keep per node.
 const VECTORS_PER_NODE: f64 = 12.0;

@@ -205,7 +205,7 @@ fn rejects_what_cannot_vary() {
         (vary("'line.belt_speed' = [4]"), "line.belt_speed"),
         (
             format!("case = 'c.toml'\n{}", vary("")),
-            "stands beside web; a study varies a case or a web, so keep one of them",
+            "stands beside web; a study varies a case, a web or a spinline, so keep one of them",
         ),
         ("web = 3\ndesign = 'grid'\n".to_owned(), "the path of the file of a web, in quotes"),
         (
